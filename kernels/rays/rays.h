@@ -106,10 +106,17 @@ static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene,
   for (;;) {
     global const RayNode* n = scene->nodes + at;
     global const float* f = n->low_0;
-    mask_t met_0 = meets_box(p, f[in_x], f[in_y], f[in_z], f[out_x], f[out_y], f[out_z]);
-    mask_t met_1 =
-        meets_box(p, f[in_x + 6], f[in_y + 6], f[in_z + 6], f[out_x + 6], f[out_y + 6], f[out_z + 6]);
-    bool go_0 = any_lane(met_0), go_1 = any_lane(met_1);
+    // Used at once, or the compiler keeps what the second test needs until the first leaf is done.
+    uint met = lane_bits(meets_box(p, f[in_x], f[in_y], f[in_z], f[out_x], f[out_y], f[out_z])) |
+               lane_bits(meets_box(p, f[in_x + 6], f[in_y + 6], f[in_z + 6], f[out_x + 6], f[out_y + 6],
+                                   f[out_z + 6]))
+                   << 16;
+    if (met == 0) {
+      if (height == 0) return hidden;
+      at = stack[--height];
+      continue;
+    }
+    bool go_0 = (met & 0xffffu) != 0, go_1 = met >> 16 != 0;
     if (go_0 && n->count_0 != 0) {
       go_0 = false;
       if (leaf_blocked(scene, p, point, n->child_0, n->count_0, own, live, &hidden, last_blocker))
