@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include "base/embedded.h"
 #include "base/error.h"
 #include "cl/buffers.h"
 #include "cl/transfer.h"
@@ -14,8 +15,8 @@
 namespace lightgrid {
 namespace {
 
-constexpr uint32_t packets_a_work_item = 64;  // they find their last blocker again
-constexpr uint32_t packets_a_group = 4;       // of gpu/occlusion.cl at a time
+constexpr uint32_t packets_a_work_item = 64;  // on a CPU: they try each other's last blocker first
+constexpr uint32_t packets_a_group = 4;       // of gpu/occlusion.cl
 
 template <typename T>
 void upload(ClDevice& device, GrowingBuffer& buffer, const std::vector<T>& values) {
@@ -201,7 +202,8 @@ std::vector<uint32_t> RayScene::occlusion(std::span<const RayPoint> points, std:
                                   uploaded(s.device, std::vector(lights.begin(), lights.end())),
                                   uploaded(s.device, records),
                                   device_buffer(s.device, hidden.size() * sizeof(uint32_t))};
-  const size_t at_once = s.lanes() ? packets_a_work_item : packets_a_work_item * packets_a_group;
+  const uint32_t a_work_item = s.lanes() ? packets_a_work_item : 1;
+  const size_t at_once = s.lanes() ? a_work_item : packets_a_group;
   const size_t items = (packets.size() + at_once - 1) / at_once, group = s.lanes() ? 1 : 16 * packets_a_group;
   kernel.launch(s.device, "rays_occlusion", cl::NDRange(items * group), cl::NDRange(group),
                 arguments() + ClArguments{{"points", on_device[0]},
@@ -209,7 +211,7 @@ std::vector<uint32_t> RayScene::occlusion(std::span<const RayPoint> points, std:
                                           {"lights", on_device[2]},
                                           {"packets", on_device[3]},
                                           {"count", cl_uint(packets.size())},
-                                          {"a_work_item", cl_uint(packets_a_work_item)},
+                                          {"a_work_item", cl_uint(a_work_item)},
                                           {"hidden", on_device[4]}});
   read_buffer(s.device, "rays: occlusion", on_device[4], hidden.data(), hidden.size() * sizeof(uint32_t));
   return hidden;
@@ -232,6 +234,8 @@ ClArguments RayScene::arguments() const {
 }
 
 std::string RayScene::defines() const { return state_->has_masks() ? "-DRAYS_MASKS" : ""; }
+
+std::string RayScene::kernel_text() { return with_includes("kernels/rays/rays.h"); }
 
 size_t RayScene::memory_bytes() const {
   const State& s = *state_;

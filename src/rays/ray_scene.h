@@ -6,7 +6,7 @@
 //   scene.set_instances(instances);               // when they change or move
 //   std::vector<uint32_t> bits = scene.occlusion(points, lights, packets);
 //
-// or in a kernel of the host program's own: kernels/rays/rays.h.
+// or in a kernel of the host program's own: kernel_text().
 //
 // Exact: an answer is that of real arithmetic, unless the segment passes within the rounding of its ends from
 // a triangle's edge or from its end to a triangle. It depends on meshes, instances, light and point alone:
@@ -114,6 +114,8 @@ class RayScene {
   // after each set_... Throw input: there are no instances; masks as occlusion() does.
   ClArguments arguments() const;
   std::string defines() const;
+  // kernels/rays/rays.h with all that it includes, for ProgramCache::kernel_of_source: put before it.
+  static std::string kernel_text();
   size_t memory_bytes() const;  // on the device
 
  private:

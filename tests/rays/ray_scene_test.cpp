@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "base/error.h"
+#include "cl/buffers.h"
+#include "cl/transfer.h"
 #include "rays/ray_scenes.h"
 
 namespace lightgrid {
@@ -137,6 +139,48 @@ TEST(RaysScene, CornersThatAreNotFiniteHideNothingAndAreCounted) {
   const Queries q = queries_of(left, 8, 16, 2);
   EXPECT_EQ(with.occlusion(q.points, q.lights, q.packets),
             scene_of(placed(left), {.origin = glm::dvec3(0)}).occlusion(q.points, q.lights, q.packets));
+}
+
+// Reads triangles by their numbers, and asks for the shadow of each one's first corner moved by 0.5 m.
+constexpr const char* own_kernel = R"(
+kernel void own_kernel(RAYS_ARGUMENTS, double x, double y, double z, global float* corners, global int* hidden) {
+  const RayScene scene = RAYS_SCENE;
+  const uint i = (uint)get_global_id(0);
+  float c[9];
+  rays_triangle(&scene, i, c);
+  for (int k = 0; k < 9; ++k) corners[9 * i + k] = c[k];
+  const RaySource light = {x, y, z, 1};
+  int last_blocker = -1;
+  hidden[i] = rays_hidden(&scene, light, real3(c[0], c[1] - 0.5f, c[2]), 1e-3f, 1, (int)i, &last_blocker);
+})";
+
+TEST(RaysScene, IsReadByKernelsOfOthers) {
+  const Placed p = placed(hard_soups()[0].triangles);
+  RayScene scene = scene_of(p, {.origin = glm::dvec3(1, 2, 3)});
+  const std::vector<Corners> expected = p.relative({1, 2, 3});
+  const size_t count = expected.size();
+  cl::Kernel kernel =
+      rays_programs().kernel_of_source("own_kernel", RayScene::kernel_text() + own_kernel, scene.defines());
+  const cl::Buffer corners = device_buffer(rays_device(), count * 36),
+                   hidden = device_buffer(rays_device(), count * 4);
+  const glm::dvec3 light(0.3, 0.7, -4);
+  const ClArguments arguments =
+      scene.arguments() +
+      ClArguments{{"x", light.x}, {"y", light.y}, {"z", light.z}, {"corners", corners}, {"hidden", hidden}};
+  for (size_t i = 0; i < arguments.size(); ++i)
+    kernel.setArg(cl_uint(i), arguments[i].bytes, arguments[i].value);
+  launch(rays_device(), "own_kernel", kernel, cl::NDRange(count), cl::NullRange);
+  std::vector<Corners> read(count);
+  std::vector<int> bits(count);
+  read_buffer(rays_device(), "corners", corners, read.data(), count * 36);
+  read_buffer(rays_device(), "hidden", hidden, bits.data(), count * 4);
+  EXPECT_EQ(read, expected);
+  Queries q{.lights = {{light, 1}}};
+  for (size_t i = 0; i < count; ++i)
+    q.points.push_back({expected[i][0] - glm::vec3(0, 0.5f, 0), 1e-3f, int(i)});
+  for (uint32_t block = 0; 16 * block < count; ++block) q.packets.push_back({block, 0});
+  const std::vector<uint32_t> packed = scene.occlusion(q.points, q.lights, q.packets);
+  for (size_t i = 0; i < count; ++i) EXPECT_EQ(bits[i], int(packed[i / 16] >> i % 16 & 1)) << i;
 }
 
 TEST(RaysScene, NothingHidesNothing) {
