@@ -22,7 +22,7 @@ struct MaskedSoup {
   SurfaceMaterial material{};
 
   explicit MaskedSoup(uint32_t flags) {
-    Random random(flags + 1);
+    RandomNumbers random(flags + 1);
     for (auto& row : alphas) {
       for (int& a : row) a = random.below(256);
     }

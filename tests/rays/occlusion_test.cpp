@@ -99,7 +99,7 @@ TEST_P(RaysInSoups, LightsThatAreNoFloats) {
     for (glm::vec3& p : c) p += glm::vec3(8192, -8192, 8192);
   }
   Queries q = queries_of(triangles, 12, 40, 19);
-  Random random(20);
+  RandomNumbers random(20);
   for (RayLight& light : q.lights) {
     light = RayLight(8192 + random.between(-2, 2), -8192 + random.between(-2, 2), 8192.1, 1);
   }

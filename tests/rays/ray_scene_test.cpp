@@ -23,7 +23,7 @@ std::string refusal(auto&& call) {
   return "no error";
 }
 
-glm::dmat4 somewhere(Random& random) {
+glm::dmat4 somewhere(RandomNumbers& random) {
   glm::dmat4 m(1);
   for (int k = 0; k < 3; ++k) m[k] = glm::dvec4(random.in_cube(1.5), 0);
   m[3] = glm::dvec4(random.in_cube(2), 1);
@@ -46,7 +46,7 @@ class RaysRefit : public testing::TestWithParam<KernelShape> {
   }
   std::vector<uint32_t> kept() { return scene.occlusion(queries.points, queries.lights, queries.packets); }
 
-  Random random{9};
+  RandomNumbers random{9};
   const RayOptions options{.shape = GetParam(), .origin = glm::dvec3(0)};
   std::vector<Placed> meshes{placed(hard_soups()[0].triangles), placed(hard_soups()[1].triangles),
                              placed({hard_soups()[2].triangles[0]})};

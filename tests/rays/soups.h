@@ -20,9 +20,9 @@ inline ProgramCache& rays_programs() {
 
 using Corners = std::array<glm::vec3, 3>;
 
-class Random {
+class RandomNumbers {
  public:
-  explicit Random(uint32_t seed) : numbers_(seed) {}
+  explicit RandomNumbers(uint32_t seed) : numbers_(seed) {}
   double unit() { return double(numbers_()) / 4294967296.0; }
   double between(double low, double high) { return low + (high - low) * unit(); }
   int below(int count) { return int(unit() * count); }
@@ -55,7 +55,7 @@ inline void add_square(Soup& soup, const glm::dvec3& a, const glm::dvec3& u, con
 // In a cube of 4 m about the origin.
 inline std::vector<Soup> hard_soups() {
   std::vector<Soup> soups;
-  Random random(5);
+  RandomNumbers random(5);
   const auto corner = [&](double half) { return glm::vec3(random.in_cube(half)); };
   Soup plain{"Plain", {}}, slivers{"Slivers", {}}, twins{"DuplicatesAndEmptyOnes", {}},
       pieces{"CoplanarPieces", {}}, junctions{"TJunctions", {}}, tiny{"Tiny", {}};
@@ -98,7 +98,7 @@ struct Queries {
 };
 
 // Sometimes on an edge, at a corner, or a little past one.
-inline glm::dvec3 on_triangle(Random& random, const Corners& c) {
+inline glm::dvec3 on_triangle(RandomNumbers& random, const Corners& c) {
   double u = random.unit(), v = random.unit();
   if (u + v > 1) u = 1 - u, v = 1 - v;
   const int edge = random.below(8);
@@ -113,7 +113,7 @@ inline glm::dvec3 on_triangle(Random& random, const Corners& c) {
 // Every fourth light is a direction; points lie on triangles, or anywhere, or in every other block behind a
 // place on a triangle, as one of the lights sees it.
 inline Queries queries_of(const std::vector<Corners>& triangles, int lights, int blocks, uint32_t seed) {
-  Random random(seed);
+  RandomNumbers random(seed);
   Queries q;
   const auto any_triangle = [&]() -> const Corners& {
     return triangles[random.below(int(triangles.size()))];

@@ -7,7 +7,7 @@ namespace {
 
 // A closed ball of triangles with bumps, `rings` from pole to pole.
 std::vector<Corners> ball(int rings, uint32_t seed) {
-  Random random(seed);
+  RandomNumbers random(seed);
   const int around = 2 * rings;
   std::vector<std::vector<glm::vec3>> at(rings + 1, std::vector<glm::vec3>(around));
   for (int r = 0; r <= rings; ++r) {
@@ -37,7 +37,7 @@ class RaysWatertight : public testing::TestWithParam<KernelShape> {};
 // within rounding of two triangles or more.
 TEST_P(RaysWatertight, NoLightLeavesAClosedBall) {
   const std::vector<Corners> triangles = ball(24, 3);
-  Random random(4);
+  RandomNumbers random(4);
   Queries q;
   for (int i = 0; i < 16; ++i) q.lights.push_back({random.in_cube(i < 4 ? 0 : 0.3), 1});
   for (int l = 0; l < 16; ++l) {
@@ -59,7 +59,7 @@ TEST_P(RaysWatertight, NoLightLeavesAClosedBall) {
 // The same towards a direction: points inside see none, whatever it is.
 TEST_P(RaysWatertight, NoDirectionReachesTheInside) {
   const std::vector<Corners> triangles = ball(24, 5);
-  Random random(6);
+  RandomNumbers random(6);
   Queries q;
   for (int i = 0; i < 64; ++i) {
     const glm::dvec3 d =
@@ -116,7 +116,7 @@ TEST(RaysTree, ChangesNoAnswer) {
 // Past its tip the sides of a needle are so close that rounding lets segments through both. The box of its
 // leaf, which holds other needles too, reaches further than its own.
 TEST(RaysTree, NeedlesEndAtTheirTips) {
-  Random random(8);
+  RandomNumbers random(8);
   std::vector<Corners> needles;
   Queries q;
   for (int i = 0; i < 64; ++i) {
