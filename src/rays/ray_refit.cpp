@@ -20,8 +20,7 @@ void put(ClDevice& device, GrowingBuffer& buffer, const std::vector<T>& values) 
 
 RayRefit::RayRefit(ClDevice& device, ProgramCache& programs, const RayArrays& arrays)
     : device_(device),
-      triangles_kernel_(programs, "rays/refit_triangles", ""),
-      nodes_kernel_(programs, "rays/refit_nodes", ""),
+      programs_(programs),
       places_(arrays.places),
       parents_(arrays.nodes.size(), -1),
       levels_(arrays.nodes.size(), 0),
@@ -94,6 +93,10 @@ void RayRefit::refit(std::span<const size_t> moved, std::span<const RayInstance>
   put(device_, records_, records);
   put(device_, runs_, runs);
   if (!std::ranges::equal(moved, moved_)) find_nodes(records), moved_.assign(moved.begin(), moved.end());
+  if (!triangles_kernel_) {
+    triangles_kernel_ = NamedKernel(programs_, "rays/refit_triangles", "");
+    nodes_kernel_ = NamedKernel(programs_, "rays/refit_nodes", "");
+  }
   triangles_kernel_.launch(device_, "rays_refit_triangles", cl::NDRange(runs.size() * run), cl::NDRange(run),
                            {{"moved", records_.get()},
                             {"runs", runs_.get()},

@@ -11,7 +11,7 @@ namespace lightgrid {
 
 class RayRefit {
  public:
-  // Of a tree as it was built. Uploads the meshes at the first refit.
+  // Of a tree as it was built. Uploads the meshes and builds its kernels at the first refit.
   RayRefit(ClDevice& device, ProgramCache& programs, const RayArrays& arrays);
 
   // The instances of these numbers moved, or their meshes did. Enqueues, and waits for uploads alone.
@@ -31,6 +31,7 @@ class RayRefit {
   void find_nodes(std::span<const RayMoved> moved);
 
   ClDevice& device_;
+  ProgramCache& programs_;
   NamedKernel triangles_kernel_, nodes_kernel_;
   std::vector<uint32_t> places_;       // as RayArrays has them
   std::vector<int> parents_, levels_;  // of nodes; the root's parent is -1

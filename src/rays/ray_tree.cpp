@@ -1,16 +1,12 @@
 #include "rays/ray_tree.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 
 namespace lightgrid {
-
-float RayBox::area() const {
-  const glm::vec3 size = high - low;
-  return size.x < 0 ? 0 : size.x * size.y + size.y * size.z + size.z * size.x;
-}
 
 namespace {
 
@@ -23,12 +19,37 @@ constexpr uint32_t least_in_task = 20000;  // boxes
 
 static_assert(depth_of_halves + 31 < RAY_STACK);
 
-// Boxes order[first] to below order[end] become the node nodes[place] and what follows it. A subtree has
-// fewer nodes than boxes, so each range of boxes has room for its nodes at its own place, and threads share
-// nothing.
+// A box in four lanes, of which the last is spare, with its number.
+struct Item {
+  float low[4], high[4];
+  uint32_t number;
+};
+
+struct Bounds {
+  float low[4], high[4];
+  Bounds() {
+    for (int k = 0; k < 4; ++k) {
+      low[k] = std::numeric_limits<float>::infinity();
+      high[k] = -std::numeric_limits<float>::infinity();
+    }
+  }
+  void add(const float (&l)[4], const float (&h)[4]) {
+    for (int k = 0; k < 4; ++k) low[k] = l[k] < low[k] ? l[k] : low[k];
+    for (int k = 0; k < 4; ++k) high[k] = h[k] > high[k] ? h[k] : high[k];
+  }
+  // Half its surface; 0 where it is empty.
+  float area() const {
+    const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+    return x < 0 ? 0 : x * y + y * z + z * x;
+  }
+};
+
+// Items `first` to below `end` become the node nodes[place] and what follows it. A subtree has fewer nodes
+// than items, so each range of items has room for its nodes at its own place, and threads share nothing.
 struct Task {
   uint32_t first, end, place;
   int depth;
+  uint32_t cut;  // where the range is cut in two
   uint32_t size() const { return end - first; }
 };
 
@@ -37,24 +58,37 @@ struct Split {
   int last_bin = 0;
   float low = 0, scale = 0;
   float cost = std::numeric_limits<float>::infinity();
-  bool takes(const RayBox& b) const { return bin_of(b) <= last_bin; }
-  int bin_of(const RayBox& b) const { return int((b.low[axis] + b.high[axis] - low) * scale); }
 };
+
+int bin_of(const Item& item, int axis, float low, float scale) {
+  return int((item.low[axis] + item.high[axis] - low) * scale);
+}
 
 class Builder {
  public:
-  Builder(const std::vector<RayBox>& boxes, RayTree& tree) : boxes_(boxes), tree_(tree) {}
+  Builder(const std::vector<RayBox>& boxes, RayTree& tree) : items_(boxes.size()), tree_(tree) {
+    for (uint32_t i = 0; i < boxes.size(); ++i) {
+      Item& item = items_[i] = {{}, {}, i};
+      for (int k = 0; k < 3; ++k) item.low[k] = boxes[i].low[k], item.high[k] = boxes[i].high[k];
+    }
+  }
 
   void build() {
-    const uint32_t count = uint32_t(tree_.order.size());
+    const uint32_t count = uint32_t(items_.size());
     tree_.nodes.resize(std::max(count, 1u));
     if (count <= most_in_leaf) {
       RayNode& root = tree_.nodes[0] = RayNode{.count_1 = RAY_NOTHING};
       set_child(root, 0, 0, count, bounds(0, count));
       if (count == 0) root.count_0 = RAY_NOTHING;
-      return;
+    } else {
+      build_nodes(count);
     }
-    std::vector<Task> tasks{{0, count, 0, 0}};
+    for (const Item& item : items_) tree_.order.push_back(item.number);
+  }
+
+ private:
+  void build_nodes(uint32_t count) {
+    std::vector<Task> tasks{{0, count, 0, 0, middle(0, count, 0, bounds(0, count))}};
     for (int level = 0; level < levels_of_tasks; ++level) {
       std::vector<std::vector<Task>> children(tasks.size());
       parallel_for(int(tasks.size()), [&](int i) {
@@ -68,68 +102,71 @@ class Builder {
     compact();
   }
 
- private:
-  RayBox bounds(uint32_t first, uint32_t end) const {
-    RayBox all;
-    for (uint32_t i = first; i < end; ++i) all.add(boxes_[tree_.order[i]]);
+  Bounds bounds(uint32_t first, uint32_t end) const {
+    Bounds all;
+    for (uint32_t i = first; i < end; ++i) all.add(items_[i].low, items_[i].high);
     return all;
   }
 
   Split best_split(uint32_t first, uint32_t end) const {
-    RayBox centers;  // twice the centre
+    Bounds centers;  // twice the centre
     for (uint32_t i = first; i < end; ++i) {
-      const RayBox& b = boxes_[tree_.order[i]];
-      centers.add(b.low + b.high);
+      float c[4];
+      for (int k = 0; k < 4; ++k) c[k] = items_[i].low[k] + items_[i].high[k];
+      centers.add(c, c);
+    }
+    Bounds in_bin[3][bins];
+    uint32_t counts[3][bins] = {};
+    float scale[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const float width = centers.high[axis] - centers.low[axis];
+      scale[axis] = width > 0 ? bins * 0.9999f / width : 0;
+      if (!std::isfinite(scale[axis])) scale[axis] = 0;
+    }
+    for (uint32_t i = first; i < end; ++i) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const int bin = bin_of(items_[i], axis, centers.low[axis], scale[axis]);
+        in_bin[axis][bin].add(items_[i].low, items_[i].high);
+        ++counts[axis][bin];
+      }
     }
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
-      const float width = centers.high[axis] - centers.low[axis];
-      if (!(width > 0)) continue;
-      Split split{.axis = axis, .low = centers.low[axis], .scale = bins * 0.9999f / width};
-      if (!std::isfinite(split.scale)) continue;
-      RayBox in_bin[bins];
-      int counts[bins] = {};
-      for (uint32_t i = first; i < end; ++i) {
-        const RayBox& b = boxes_[tree_.order[i]];
-        const int bin = split.bin_of(b);
-        in_bin[bin].add(b);
-        ++counts[bin];
-      }
       float right_cost[bins];
-      RayBox right, left;
-      int count = 0;
+      Bounds right, left;
+      uint32_t count = 0;
       for (int bin = bins - 1; bin > 0; --bin) {
-        right.add(in_bin[bin]);
-        count += counts[bin];
+        right.add(in_bin[axis][bin].low, in_bin[axis][bin].high);
+        count += counts[axis][bin];
         right_cost[bin] = float(count) * right.area();
       }
       count = 0;
       for (int bin = 0; bin + 1 < bins; ++bin) {
-        left.add(in_bin[bin]);
-        count += counts[bin];
+        left.add(in_bin[axis][bin].low, in_bin[axis][bin].high);
+        count += counts[axis][bin];
         const float cost = float(count) * left.area() + right_cost[bin + 1];
-        if (count == 0 || uint32_t(count) == end - first || !(cost < best.cost)) continue;
-        best = split;
-        best.last_bin = bin, best.cost = cost;
+        if (count != 0 && count != end - first && cost < best.cost)
+          best = {axis, bin, centers.low[axis], scale[axis], cost};
       }
     }
     return best;
   }
 
   // Where the range is cut in two; `first` where it is a leaf.
-  uint32_t middle(uint32_t first, uint32_t end, int depth, const RayBox& box) {
+  uint32_t middle(uint32_t first, uint32_t end, int depth, const Bounds& box) {
     const uint32_t count = end - first, half = first + count / 2;
     if (count == 1) return first;
     if (depth >= depth_of_halves) return count <= most_in_leaf ? first : half;
     const Split best = best_split(first, end);
     if (count <= most_in_leaf && best.cost > (float(count) - step_cost) * box.area()) return first;
     if (best.axis < 0) return count <= most_in_leaf ? first : half;
-    const auto from = tree_.order.begin();
-    return uint32_t(
-        std::partition(from + first, from + end, [&](uint32_t i) { return best.takes(boxes_[i]); }) - from);
+    const auto left = [&](const Item& item) {
+      return bin_of(item, best.axis, best.low, best.scale) <= best.last_bin;
+    };
+    return uint32_t(std::partition(items_.begin() + first, items_.begin() + end, left) - items_.begin());
   }
 
-  void set_child(RayNode& node, int side, uint32_t child, uint32_t count, const RayBox& box) {
+  void set_child(RayNode& node, int side, uint32_t child, uint32_t count, const Bounds& box) {
     for (int k = 0; k < 3; ++k) {
       (side ? node.low_1 : node.low_0)[k] = count || child ? box.low[k] : 0;
       (side ? node.high_1 : node.high_0)[k] = count || child ? box.high[k] : 0;
@@ -140,19 +177,18 @@ class Builder {
 
   // Writes the task's node; what is left to do of its children is appended.
   void split(const Task& t, std::vector<Task>& children) {
-    uint32_t cut = middle(t.first, t.end, t.depth, bounds(t.first, t.end));
-    if (cut == t.first) cut = t.first + t.size() / 2;  // only the root: others were leaves already
     RayNode node{};
     for (int side = 0; side < 2; ++side) {
-      const uint32_t first = side ? cut : t.first, end = side ? t.end : cut;
-      const RayBox box = bounds(first, end);
-      if (end - first <= most_in_leaf && middle(first, end, t.depth + 1, box) == first) {
+      const uint32_t first = side ? t.cut : t.first, end = side ? t.end : t.cut;
+      const Bounds box = bounds(first, end);
+      const uint32_t cut = middle(first, end, t.depth + 1, box);
+      if (cut == first) {
         set_child(node, side, first, end - first, box);
         continue;
       }
-      const uint32_t place = t.place + (side ? cut - t.first : 1);
+      const uint32_t place = t.place + (side ? t.cut - t.first : 1);
       set_child(node, side, place, 0, box);
-      children.push_back({first, end, place, t.depth + 1});
+      children.push_back({first, end, place, t.depth + 1, cut});
     }
     tree_.nodes[t.place] = node;
   }
@@ -188,7 +224,7 @@ class Builder {
     tree_.nodes = std::move(kept);
   }
 
-  const std::vector<RayBox>& boxes_;
+  std::vector<Item> items_;
   RayTree& tree_;
 };
 
@@ -196,8 +232,6 @@ class Builder {
 
 RayTree ray_tree(const std::vector<RayBox>& boxes) {
   RayTree tree;
-  tree.order.resize(boxes.size());
-  std::iota(tree.order.begin(), tree.order.end(), 0u);
   Builder(boxes, tree).build();
   return tree;
 }

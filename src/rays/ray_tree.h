@@ -12,10 +12,7 @@ namespace lightgrid {
 
 struct RayBox {
   glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
-  void add(const RayBox& b) { low = glm::min(low, b.low), high = glm::max(high, b.high); }
   void add(const glm::vec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
-  // Half its surface; 0 where it is empty.
-  float area() const;
 };
 
 struct RayTree {
