@@ -1,16 +1,14 @@
 #include "rays/ray_tree.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "base/parallel.h"
+#include "rays/ray_split.h"
 
 namespace lightgrid {
 
 namespace {
 
-constexpr int bins = 16;
 constexpr int most_in_leaf = 4;
 constexpr float step_cost = 0.7f;    // of a node's boxes, in tests of a triangle
 constexpr int depth_of_halves = 32;  // from there on ranges are halved: 31 levels are left for 2^31 boxes
@@ -18,31 +16,6 @@ constexpr int levels_of_tasks = 6;   // that are split before subtrees are hande
 constexpr uint32_t least_in_task = 20000;  // boxes
 
 static_assert(depth_of_halves + 31 < RAY_STACK);
-
-// A box in four lanes, of which the last is spare, with its number.
-struct Item {
-  float low[4], high[4];
-  uint32_t number;
-};
-
-struct Bounds {
-  float low[4], high[4];
-  Bounds() {
-    for (int k = 0; k < 4; ++k) {
-      low[k] = std::numeric_limits<float>::infinity();
-      high[k] = -std::numeric_limits<float>::infinity();
-    }
-  }
-  void add(const float (&l)[4], const float (&h)[4]) {
-    for (int k = 0; k < 4; ++k) low[k] = l[k] < low[k] ? l[k] : low[k];
-    for (int k = 0; k < 4; ++k) high[k] = h[k] > high[k] ? h[k] : high[k];
-  }
-  // Half its surface; 0 where it is empty.
-  float area() const {
-    const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
-    return x < 0 ? 0 : x * y + y * z + z * x;
-  }
-};
 
 // Items `first` to below `end` become the node nodes[place] and what follows it. A subtree has fewer nodes
 // than items, so each range of items has room for its nodes at its own place, and threads share nothing.
@@ -53,22 +26,11 @@ struct Task {
   uint32_t size() const { return end - first; }
 };
 
-struct Split {
-  int axis = -1;  // below 0: none
-  int last_bin = 0;
-  float low = 0, scale = 0;
-  float cost = std::numeric_limits<float>::infinity();
-};
-
-int bin_of(const Item& item, int axis, float low, float scale) {
-  return int((item.low[axis] + item.high[axis] - low) * scale);
-}
-
 class Builder {
  public:
   Builder(const std::vector<RayBox>& boxes, RayTree& tree) : items_(boxes.size()), tree_(tree) {
     for (uint32_t i = 0; i < boxes.size(); ++i) {
-      Item& item = items_[i] = {{}, {}, i};
+      RayItem& item = items_[i] = {{}, {}, i};
       for (int k = 0; k < 3; ++k) item.low[k] = boxes[i].low[k], item.high[k] = boxes[i].high[k];
     }
   }
@@ -83,7 +45,7 @@ class Builder {
     } else {
       build_nodes(count);
     }
-    for (const Item& item : items_) tree_.order.push_back(item.number);
+    for (const RayItem& item : items_) tree_.order.push_back(item.number);
   }
 
  private:
@@ -102,71 +64,27 @@ class Builder {
     compact();
   }
 
-  Bounds bounds(uint32_t first, uint32_t end) const {
-    Bounds all;
+  RayItemBounds bounds(uint32_t first, uint32_t end) const {
+    RayItemBounds all;
     for (uint32_t i = first; i < end; ++i) all.add(items_[i].low, items_[i].high);
     return all;
   }
 
-  Split best_split(uint32_t first, uint32_t end) const {
-    Bounds centers;  // twice the centre
-    for (uint32_t i = first; i < end; ++i) {
-      float c[4];
-      for (int k = 0; k < 4; ++k) c[k] = items_[i].low[k] + items_[i].high[k];
-      centers.add(c, c);
-    }
-    Bounds in_bin[3][bins];
-    uint32_t counts[3][bins] = {};
-    float scale[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      const float width = centers.high[axis] - centers.low[axis];
-      scale[axis] = width > 0 ? bins * 0.9999f / width : 0;
-      if (!std::isfinite(scale[axis])) scale[axis] = 0;
-    }
-    for (uint32_t i = first; i < end; ++i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const int bin = bin_of(items_[i], axis, centers.low[axis], scale[axis]);
-        in_bin[axis][bin].add(items_[i].low, items_[i].high);
-        ++counts[axis][bin];
-      }
-    }
-    Split best;
-    for (int axis = 0; axis < 3; ++axis) {
-      float right_cost[bins];
-      Bounds right, left;
-      uint32_t count = 0;
-      for (int bin = bins - 1; bin > 0; --bin) {
-        right.add(in_bin[axis][bin].low, in_bin[axis][bin].high);
-        count += counts[axis][bin];
-        right_cost[bin] = float(count) * right.area();
-      }
-      count = 0;
-      for (int bin = 0; bin + 1 < bins; ++bin) {
-        left.add(in_bin[axis][bin].low, in_bin[axis][bin].high);
-        count += counts[axis][bin];
-        const float cost = float(count) * left.area() + right_cost[bin + 1];
-        if (count != 0 && count != end - first && cost < best.cost)
-          best = {axis, bin, centers.low[axis], scale[axis], cost};
-      }
-    }
-    return best;
-  }
-
   // Where the range is cut in two; `first` where it is a leaf.
-  uint32_t middle(uint32_t first, uint32_t end, int depth, const Bounds& box) {
+  uint32_t middle(uint32_t first, uint32_t end, int depth, const RayItemBounds& box) {
     const uint32_t count = end - first, half = first + count / 2;
     if (count == 1) return first;
     if (depth >= depth_of_halves) return count <= most_in_leaf ? first : half;
-    const Split best = best_split(first, end);
+    const RaySplit best = best_ray_split({&items_[first], end - first});
     if (count <= most_in_leaf && best.cost > (float(count) - step_cost) * box.area()) return first;
     if (best.axis < 0) return count <= most_in_leaf ? first : half;
-    const auto left = [&](const Item& item) {
+    const auto left = [&](const RayItem& item) {
       return bin_of(item, best.axis, best.low, best.scale) <= best.last_bin;
     };
     return uint32_t(std::partition(items_.begin() + first, items_.begin() + end, left) - items_.begin());
   }
 
-  void set_child(RayNode& node, int side, uint32_t child, uint32_t count, const Bounds& box) {
+  void set_child(RayNode& node, int side, uint32_t child, uint32_t count, const RayItemBounds& box) {
     for (int k = 0; k < 3; ++k) {
       (side ? node.low_1 : node.low_0)[k] = count || child ? box.low[k] : 0;
       (side ? node.high_1 : node.high_0)[k] = count || child ? box.high[k] : 0;
@@ -180,7 +98,7 @@ class Builder {
     RayNode node{};
     for (int side = 0; side < 2; ++side) {
       const uint32_t first = side ? t.cut : t.first, end = side ? t.end : t.cut;
-      const Bounds box = bounds(first, end);
+      const RayItemBounds box = bounds(first, end);
       const uint32_t cut = middle(first, end, t.depth + 1, box);
       if (cut == first) {
         set_child(node, side, first, end - first, box);
@@ -224,7 +142,7 @@ class Builder {
     tree_.nodes = std::move(kept);
   }
 
-  std::vector<Item> items_;
+  std::vector<RayItem> items_;
   RayTree& tree_;
 };
 
