@@ -1,6 +1,7 @@
 #include "rays/ray_scene.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/embedded.h"
 #include "base/error.h"
@@ -112,14 +113,17 @@ void RayScene::set_instances(std::span<const RayInstance> instances) {
     return a.mesh == b.mesh && a.alpha_material == b.alpha_material && a.casts == b.casts;
   };
   const RayBounds bounds = ray_bounds(instances, s.meshes);
+  // Where something fails on the way, the next call builds anew.
+  s.has_instances = false;
+  const std::vector<RayInstance> before = std::exchange(s.instances, {});
   // A corner that cannot be placed is in no tree, and would have to come back into it.
   if (!s.refit || s.invalid != 0 || !all_are_valid(bounds, s.origin) ||
-      !std::ranges::equal(instances, s.instances, same_triangles)) {
+      !std::ranges::equal(instances, before, same_triangles)) {
     s.build(instances, bounds);
   } else {
     std::vector<size_t> moved;
     for (size_t i = 0; i < instances.size(); ++i) {
-      if (s.changed[instances[i].mesh] || instances[i].world_from_object != s.instances[i].world_from_object)
+      if (s.changed[instances[i].mesh] || instances[i].world_from_object != before[i].world_from_object)
         moved.push_back(i);
     }
     s.extent = ray_extent(bounds, s.origin);

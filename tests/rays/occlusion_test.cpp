@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "rays/ray_scenes.h"
+#include "support/long_tests.h"
 
 namespace lightgrid {
 namespace {
@@ -71,12 +72,15 @@ class RaysInSoups : public testing::TestWithParam<int> {
 };
 
 TEST_P(RaysInSoups, AreExactInBothShapes) {
-  const Placed scene = placed(soup.triangles);
-  const std::vector<Corners> triangles = scene.relative(scene_of(scene).origin());
-  const Queries q = queries_of(triangles, 24, 40, 17);
-  const std::vector<uint32_t> lanes = answers(scene, q);
-  expect_exact(against_oracle(triangles, q, lanes), 0.15);
-  EXPECT_EQ(lanes, answers(scene, q, KernelShape::group));
+  for (uint32_t seed = 0; seed < (long_tests() ? 60 : 1); ++seed) {
+    SCOPED_TRACE(seed);
+    const Placed scene = placed(hard_soups(5 + seed)[GetParam()].triangles);
+    const std::vector<Corners> triangles = scene.relative(scene_of(scene).origin());
+    const Queries q = queries_of(triangles, 24, 40, 17 + seed);
+    const std::vector<uint32_t> lanes = answers(scene, q);
+    expect_exact(against_oracle(triangles, q, lanes), 0.15);
+    EXPECT_EQ(lanes, answers(scene, q, KernelShape::group));
+  }
 }
 
 TEST_P(RaysInSoups, FarFromTheOriginMirroredAndScaled) {

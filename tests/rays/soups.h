@@ -53,9 +53,9 @@ inline void add_square(Soup& soup, const glm::dvec3& a, const glm::dvec3& u, con
 }
 
 // In a cube of 4 m about the origin.
-inline std::vector<Soup> hard_soups() {
+inline std::vector<Soup> hard_soups(uint32_t seed = 5) {
   std::vector<Soup> soups;
-  RandomNumbers random(5);
+  RandomNumbers random(seed);
   const auto corner = [&](double half) { return glm::vec3(random.in_cube(half)); };
   Soup plain{"Plain", {}}, slivers{"Slivers", {}}, twins{"DuplicatesAndEmptyOnes", {}},
       pieces{"CoplanarPieces", {}}, junctions{"TJunctions", {}}, tiny{"Tiny", {}};
