@@ -145,6 +145,10 @@ static inline __attribute__((always_inline)) mask_t meets_triangle(RaySource l, 
   if (!any_lane(live >= 0.0f)) return (mask_t)(0);
   const double bx = t->corners[3] - lx, by = t->corners[4] - ly, bz = t->corners[5] - lz;
   const double cx = t->corners[6] - lx, cy = t->corners[7] - ly, cz = t->corners[8] - lz;
+  // As seen from each corner: where they disagree, a light at a corner or an edge is in the plane but for
+  // rounding.
+  if (point && !((nx * bx + ny * by + nz * bz) * turn > 0 && (nx * cx + ny * cy + nz * cz) * turn > 0))
+    return (mask_t)(0);
   const real u = plane_side(at, edge_plane(l, point, bx, by, bz, cx, cy, cz), turn),
              v = plane_side(at, edge_plane(l, point, cx, cy, cz, ax, ay, az), turn),
              w = plane_side(at, edge_plane(l, point, ax, ay, az, bx, by, bz), turn);

@@ -61,6 +61,21 @@ TEST_P(RaysByHand, OneTriangle) {
   for (size_t i = 0; i < bits.size(); ++i) EXPECT_EQ(bits[i], uint32_t(cases[i].hidden) << i % 16) << i;
 }
 
+// The light is in the plane whichever corner it lies at, though rounding may put it beside the plane that the
+// other two see.
+TEST_P(RaysByHand, ALightAtACornerSeesNothingOfTheTriangle) {
+  RandomNumbers random(14);
+  for (int i = 0; i < 100; ++i) {
+    const Corners c{glm::vec3(random.in_cube(2)), glm::vec3(random.in_cube(2)), glm::vec3(random.in_cube(2))};
+    Queries q;
+    for (int k = 0; k < 3; ++k)
+      q.lights.push_back({glm::dvec3(c[k]), 1}), q.packets.push_back({0, uint32_t(k)});
+    for (int k = 0; k < 16; ++k) q.points.push_back({.position = glm::vec3(random.in_cube(3))});
+    RayScene scene = scene_of(placed({c}), {.shape = GetParam(), .origin = glm::dvec3(0)});
+    EXPECT_EQ(scene.occlusion(q.points, q.lights, q.packets), std::vector<uint32_t>(3)) << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, RaysByHand, testing::Values(KernelShape::lanes, KernelShape::group),
                          [](const auto& info) {
                            return info.param == KernelShape::lanes ? "Lanes" : "Group";

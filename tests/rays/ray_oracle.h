@@ -46,8 +46,9 @@ struct RayOracle {
     for (int k = 0; k < 3; ++k) {
       long double along = 0;
       const long double apart = between_line_and_edge(p, d, corner[k], corner[(k + 1) % 3], &along);
-      const long double off = blur(along);
-      if (apart <= off && along >= point.gap - 1e-4L && along <= last + 1e-6L) return Answer::either;
+      if (apart > blur(along)) continue;
+      if (along >= point.gap - 1e-4L && along <= last + 1e-6L) return Answer::either;
+      inside = inside || (slope != 0 && end_height <= blur(0));  // then to the end's rounding, below
     }
     if (!inside) return Answer::no;
     if (end_height <= blur(0)) return Answer::either;
