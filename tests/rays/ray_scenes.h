@@ -61,6 +61,11 @@ inline std::vector<uint32_t> answers(const Placed& p, const Queries& q,
 
 struct Tally {
   size_t hidden = 0, seen = 0, either = 0, leaked = 0, acned = 0;
+  Tally& operator+=(const Tally& t) {
+    hidden += t.hidden, seen += t.seen, either += t.either;
+    leaked += t.leaked, acned += t.acned;
+    return *this;
+  }
 };
 
 inline Tally against_oracle(const std::vector<Corners>& triangles, const Queries& q,
@@ -82,10 +87,7 @@ inline Tally against_oracle(const std::vector<Corners>& triangles, const Queries
     }
   });
   Tally sum;
-  for (const Tally& t : tallies) {
-    sum.hidden += t.hidden, sum.seen += t.seen, sum.either += t.either;
-    sum.leaked += t.leaked, sum.acned += t.acned;
-  }
+  for (const Tally& t : tallies) sum += t;
   return sum;
 }
 
