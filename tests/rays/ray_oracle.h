@@ -21,13 +21,18 @@ struct RayOracle {
     const Vec p(point.position), corner[] = {Vec(corners[0]), Vec(corners[1]), Vec(corners[2])};
     const bool has_place = light.w != 0;
     const Vec l(light), to_light = has_place ? l - p : l;
+    for (const Vec& c : corner) {
+      if (has_place && l == c) return Answer::no;  // in its plane, exactly
+    }
     const long double distance = length(to_light);
     if (!(distance > 0)) return Answer::no;
     const Vec d = to_light / distance;
     const long double last = has_place ? distance : HUGE_VALL;
     // How far off rounding may put a corner, where it lies `s` from the point.
     const auto blur = [&](long double s) {
-      return band * (has_place ? std::abs(distance - s) : std::max<long double>(1, length(p)));
+      // A light on an edge but for a double's rounding is above the plane, in it, or below.
+      return has_place ? std::max(band * std::abs(distance - s), 1e-12L)
+                       : band * std::max<long double>(1, length(p));
     };
     const Vec n = cross(corner[1] - corner[0], corner[2] - corner[0]);
     const long double size = length(n), slope = size > 0 ? dot(n, d) / size : 0;
