@@ -67,7 +67,8 @@ Subject load_frame(const SceneChoice& o) {
                                                 {"--lights", o.lights >= 0},
                                                 {"--lights-file", !o.lights_file.empty()},
                                                 {"--light-radius", !o.light_radius.empty()},
-                                                {"--ambient", !o.ambient.empty()}};
+                                                {"--ambient", !o.ambient.empty()},
+                                                {"--shadows", !o.shadows.empty()}};
   for (const auto& [option, is_given] : given) {
     if (is_given) throw input_error("{}: {} is a captured frame, which has its own", option, o.scene);
   }

@@ -166,6 +166,16 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
       {"32-bit light indices", plan.index_bits == 32, fmt::format("{} point and spot lights", local.size())});
 }
 
+// After lights.
+void plan_shadows(const Scene& scene, FramePlan& plan) {
+  const auto casts = [&](int light) { return scene.lights[size_t(light)].casts_shadow; };
+  const auto first = std::ranges::find_if(plan.local, casts);
+  plan.light_reaches = plan.shadows = first != plan.local.end();
+  if (plan.shadows) std::ranges::transform(plan.local, std::back_inserter(plan.shadowed), casts);
+  plan.decisions.push_back(
+      {"shadows", plan.shadows, plan.shadows ? light_witness(scene, *first) : "no light casts one"});
+}
+
 // From the near plane to the farthest surface in view.
 void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_m, FramePlan& plan) {
   plan.slices = needs.slices ? plan.settings.slices : 1;
@@ -288,8 +298,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
          plan.world_grid ? light_witness(scene, plan.local[0]) : "no light has a place"});
   }
   plan_slices(view, needs, farthest_m, plan);
-  plan.decisions.push_back(
-      {"shadows", false, "no light casts one: shadows are not part of any technique yet"});
+  plan_shadows(scene, plan);
   if (settings.everything_on) turn_everything_on(plan, needs);
   return plan;
 }

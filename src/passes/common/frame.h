@@ -49,6 +49,17 @@ struct ShadedImage {
                                   // framebuffer is then stale
 };
 
+// What the shadows of a frame took, for results.json.
+struct ShadowFigures {
+  size_t lights = 0;     // whose shadows were found
+  size_t rays = 0;       // traced
+  size_t maps = 0;       // in use, of these
+  size_t drawn = 0;      // drawn in this frame, and
+  size_t kept = 0;       // kept from frames before
+  size_t bytes = 0;      // of bits, maps and certificates
+  size_t undecided = 0;  // pairs that maps left to rays
+};
+
 // A technique's result, for readers of the frame: the image, input of the oracle, memory figures.
 struct Frame {
   ShadedImage image;
@@ -59,7 +70,8 @@ struct Frame {
   std::string built_by;                      // the pass whose result serves many frames, if there is one, and
   std::map<std::string, double> built_with;  // values that it chose, by their keys in results.json
   std::optional<DepthBuffer> depth;  // of techniques that rasterise in OpenCL; else the depth image has it
-  std::optional<TriangleBuffer> triangles;  // of the same techniques
+  std::optional<TriangleBuffer> triangles;      // of the same techniques
+  std::optional<ShadowFigures> shadow_figures;  // where the plan's `shadows` is set
 
   // Bytes of all these, in use.
   size_t light_grid_bytes() const {

@@ -64,6 +64,19 @@ bool has_range(const Document& doc, int light) {
   return value.IsObject() && value.Has("range");
 }
 
+// A node's extras override its light's.
+bool casts_shadow(const Document& doc, int node, int light, const std::string& place) {
+  const auto of_node = doc.shadows.of_node.find(node), of_light = doc.shadows.of_light.find(light);
+  const bool by_node = of_node != doc.shadows.of_node.end();
+  if (!by_node && of_light == doc.shadows.of_light.end()) return false;
+  const std::optional<bool> casts = by_node ? of_node->second : of_light->second;
+  if (!casts) {
+    throw doc.error("{}: extras.casts_shadow{} is neither true, false nor a number", place,
+                    by_node ? "" : fmt::format(" of light {}", light));
+  }
+  return *casts;
+}
+
 }  // namespace
 
 std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes) {
@@ -80,6 +93,7 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
     Light light = read_light(doc, in, has_range(doc, index), label("light", index, in.name));
     light.name = node.name.empty() ? in.name : node.name;
     light.position = glm::dvec3(placed.world_from_node[3]);
+    light.casts_shadow = casts_shadow(doc, placed.node, index, place);
     if (placed.moves) light.node = static_cast<int>(i);
     if (const auto direction = light_direction(placed.world_from_node))
       light.direction = *direction;
