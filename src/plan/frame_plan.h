@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plan/settings.h"
+#include "plan/shadow_plan.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "scene/view_lights.h"
@@ -91,8 +92,9 @@ struct FramePlan {
   // Some point or spot light of the scene casts a shadow: light loops ask whether it reaches a point
   // (shared/light_table.h). The same for every view and time, so that a camera that moves compiles nothing.
   bool light_reaches = false;
-  bool shadows = false;           // shadows of some light must be found in this frame
-  std::vector<uint8_t> shadowed;  // by index into `local`, 1: of this light; empty if `shadows` is false
+  bool shadows = false;              // shadows of some light must be found in this frame
+  std::vector<LightShadow> casting;  // all lights that cast, in scene order
+  std::vector<uint8_t> shadowed;     // by index into `local`, 1: of this light; empty if `shadows` is false
   bool directional = false;
   bool blend = false;          // the blended pass
   bool blend_grid = false;     // a light grid for blended surfaces
