@@ -116,6 +116,9 @@ void compare_counts(const Row& now, const Row& earlier, AgainstResult& result) {
   compare("pairs of a pixel and a light are lost", now.row->at("pairs"), earlier.row->at("pairs"), "lost");
   compare("pairs of a pixel and a light are wrong", now.row->at("pairs"), earlier.row->at("pairs"), "wrong");
   compare("pixels are NaN", *now.row, *earlier.row, "nan_pixels");
+  if (!now.row->at("pairs").contains("leaked") || !earlier.row->at("pairs").contains("leaked")) return;
+  compare("pairs are shaded though hidden", now.row->at("pairs"), earlier.row->at("pairs"), "leaked");
+  compare("pairs are dark though seen", now.row->at("pairs"), earlier.row->at("pairs"), "acned");
 }
 
 AgainstResult compare_results(const json& now, const json& earlier) {

@@ -85,7 +85,13 @@ json to_json(const std::optional<OwnSurfaces>& own) {
 }
 
 json to_json(const PairCounts& pairs) {
-  return {{"listed", pairs.listed}, {"lit", pairs.lit}, {"lost", pairs.lost}, {"wrong", pairs.wrong}};
+  json all = {{"listed", pairs.listed}, {"lit", pairs.lit}, {"lost", pairs.lost}, {"wrong", pairs.wrong}};
+  if (const auto& shadows = pairs.shadows)
+    all.update({{"leaked", shadows->leaked},
+                {"acned", shadows->acned},
+                {"either", shadows->either},
+                {"shadow_pixels", shadows->pixels}});
+  return all;
 }
 
 json to_json(const Spread& times) {

@@ -28,9 +28,19 @@ struct PassResult {
   std::vector<KernelResult> kernels = {};    // of OpenCL passes, by the device's own clock
 };
 
+// Of the same pairs, what the frame's shadows are according to the oracle (docs/oracle.md#seen-and-hidden).
+struct ShadowPairs {
+  uint64_t leaked = 0, acned = 0, either = 0;
+  uint64_t pixels = 0;     // at which they were decided
+  bool says_exact = true;  // the technique and its settings: leaked and acned must be 0
+
+  uint64_t faults() const { return says_exact ? leaked + acned : 0; }
+};
+
 // (pixel, light) pairs over the image. lit: according to the oracle.
 struct PairCounts {
   uint64_t listed = 0, lit = 0, lost = 0, wrong = 0;
+  std::optional<ShadowPairs> shadows = {};  // where some light casts
 };
 
 // This image and the reference's, each compared with the oracle at the same pixels: a sample of the view and

@@ -18,6 +18,7 @@
 #include "session/moving.h"
 #include "session/oracle_sample.h"
 #include "session/runs.h"
+#include "session/shadow_truth.h"
 #include "session/surfaces_in_double.h"
 
 namespace lightgrid {
@@ -102,14 +103,18 @@ struct Measured {
   Reference& reference;
   std::vector<float> depth = read_depth(reference.run());
   ReferenceTriangles triangles = triangles_of(reference.run());
+  ShadowTruth shadows;
   RunResult result = reference.run().result();
   std::optional<FlipExposures> exposures{};
   bool shown = false;             // the report will have the reference's image
   Image every_light_on_own = {};  // surfaces, where rows have such and the reference has OpenGL's; or empty
 };
 
+// Ten million pairs are decided in about ten seconds on two cores.
+constexpr uint64_t most_shadow_pairs = 10'000'000;
+
 Measured measured(Reference& reference, bool flip) {
-  Measured m{reference};
+  Measured m{.reference = reference, .shadows = {reference.run().view().scene, most_shadow_pairs}};
   if (reference.sampled()) return m;
   reference.image = reference.run().take_image();
   if (flip) m.exposures = flip_exposures(reference.image);
@@ -193,16 +198,21 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   RunResult row = is_reference ? m.result : run.result();
   row.own_surfaces = run.frame().triangles.has_value();
   set_errors(row, image, report, m);
+  std::vector<SceneTriangle> own;
   if (row.own_surfaces) {
-    const std::vector<SceneTriangle> own = own_triangles(run);
+    own = own_triangles(run);
     for (size_t i = 0; i < own.size(); ++i) {
       if (own[i] != m.triangles.shown.opaque[i]) m.triangles.contested[i] = true;
     }
     if (!reference.run().frame().triangles && !reference.sampled())
       row.error->silhouettes = silhouette_error(image, own, reference.image, m.triangles.shown);
   }
-  LitPairs pairs = count_listed_pairs(run, run.frame().depth ? read_depth(run) : m.depth);
-  row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
+  const std::vector<float> own_depth = run.frame().depth ? read_depth(run) : std::vector<float>();
+  const std::vector<float>& depth = run.frame().depth ? own_depth : m.depth;
+  const SeenPairs* seen =
+      m.shadows.pairs(run.view(), depth, row.own_surfaces ? own : m.triangles.shown.opaque);
+  LitPairs pairs = count_listed_pairs(run, depth, seen);
+  row.pairs = pair_counts(run, pairs, seen);
   if (run.technique().limited_lists) row.overflow = pairs.lost;
   const Image& every_light =
       row.own_surfaces && !reference.run().frame().triangles ? m.every_light_on_own : reference.image;

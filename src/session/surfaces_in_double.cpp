@@ -105,6 +105,10 @@ std::vector<SceneTriangle> own_triangles(TechniqueRun& run) {
   return triangles;
 }
 
+std::vector<SceneTriangle> shown_triangles(TechniqueRun& run) {
+  return run.frame().triangles ? own_triangles(run) : read_triangles(run.view()).opaque;
+}
+
 SilhouetteError silhouette_error(const Image& image, const std::vector<SceneTriangle>& own,
                                  const Image& reference, const ShownTriangles& shown) {
   const std::vector<bool> left_out = near_blended(shown.blended, {image.width, image.height});

@@ -23,6 +23,9 @@ SurfacesError surfaces_error(const Image& image, const SurfacesInDouble& in_doub
 // The triangle of each pixel in the last frame of a run that has Frame::triangles.
 std::vector<SceneTriangle> own_triangles(TechniqueRun& run);
 
+// The nearest opaque triangle of each pixel in the last frame, whoever drew it.
+std::vector<SceneTriangle> shown_triangles(TechniqueRun& run);
+
 // `own` and `shown`: of each pixel of the image and of the reference. Relative to the reference's brightest
 // channel.
 SilhouetteError silhouette_error(const Image& image, const std::vector<SceneTriangle>& own,

@@ -11,6 +11,7 @@
 #include "gl/bindings.h"
 #include "renderer/shared_grids.h"
 #include "renderer/work.h"
+#include "scene/host_shadows.h"
 #include "scene/listed_lights.h"
 
 namespace lightgrid {
@@ -66,6 +67,7 @@ struct Frame {
   std::optional<ViewGrid> grid;              // of opaque surfaces
   std::optional<ViewGrid> blend_grid;        // of blended ones
   HostLists listed;                          // of opaque surfaces
+  std::function<HostShadows()> shadows;      // reads those that it shaded with, for the oracle; null: none
   size_t list_bytes = 0;                     // of lists of lights in no grid
   std::string built_by;                      // the pass whose result serves many frames, if there is one, and
   std::map<std::string, double> built_with;  // values that it chose, by their keys in results.json
