@@ -2,6 +2,7 @@
 // settings.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "reference/occlusion.h"
@@ -33,6 +34,10 @@ class SeenPairs {
   Sight at(uint32_t pixel, uint32_t light) const;
   bool decided(uint32_t pixel) const { return of_pixel_[pixel].x != undecided; }
   bool has_either(uint32_t pixel) const;
+  // For ShadeSettings. It outlives the result.
+  std::function<bool(uint32_t pixel, uint32_t light)> hidden() const {
+    return [this](uint32_t pixel, uint32_t light) { return at(pixel, light) == Sight::hidden; };
+  }
   uint64_t pixels() const { return pixels_; }
   uint64_t pairs() const { return entries_.size(); }
 

@@ -239,11 +239,11 @@ void hand_over_image(CompareReport& report, Measured& m) {
 
 // Each image and the reference's against surfaces in double, at those of `pixels` where all rows show one
 // triangle.
-void measure_surfaces(CompareReport& report, const Measured& m, std::vector<uint32_t> pixels) {
+void measure_surfaces(CompareReport& report, Measured& m, std::vector<uint32_t> pixels) {
   const Reference& reference = m.reference;
   std::erase_if(pixels, [&](uint32_t pixel) { return m.triangles.contested[pixel]; });
   const SurfacesInDouble in_double =
-      surfaces_in_double(reference.run().view(), m.triangles.shown.opaque, pixels);
+      surfaces_in_double(reference.run().view(), m.triangles.shown.opaque, pixels, &m.shadows);
   const double brightest = brightest_channel(reference.image);
   report.reference_surfaces = surfaces_error(reference.image, in_double, brightest);
   if (!m.every_light_on_own.pixels.empty())
@@ -256,10 +256,10 @@ void measure_surfaces(CompareReport& report, const Measured& m, std::vector<uint
 
 // Compares each image and the reference's with the oracle: at a sample of pixels, which it returns, and where
 // the images differ most, so that no large difference is missed.
-std::vector<uint32_t> measure_against_oracle(CompareReport& report, const Measured& m, size_t samples) {
+std::vector<uint32_t> measure_against_oracle(CompareReport& report, Measured& m, size_t samples) {
   constexpr size_t worst_of_a_row = 100;
   const Reference& reference = m.reference;
-  const SurfaceOracle oracle(reference.run().view(), m.depth);
+  const SurfaceOracle oracle(reference.run().view(), m.depth, &m.shadows);
   std::vector<uint32_t> among = oracle.pixels();
   if (reference.sampled()) {
     const std::vector<uint32_t> sampled = reference.sampled_pixels();
@@ -267,7 +267,7 @@ std::vector<uint32_t> measure_against_oracle(CompareReport& report, const Measur
                   [&](uint32_t pixel) { return !std::binary_search(sampled.begin(), sampled.end(), pixel); });
   }
   const std::vector<uint32_t> sample =
-      sample_pixels(among, affordable_samples(samples, reference.run().view().scene.lights.size()));
+      oracle.decided(sample_pixels(among, affordable_samples(samples, reference.run().view().scene)));
   report.reference_errors = measure_reference_errors(oracle, reference.image, sample);
   std::vector<uint32_t> pixels = sample;
   for (size_t i = 0; i < report.rows.size(); ++i) {
@@ -278,6 +278,7 @@ std::vector<uint32_t> measure_against_oracle(CompareReport& report, const Measur
   }
   std::sort(pixels.begin(), pixels.end());
   pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+  pixels = oracle.decided(std::move(pixels));
   const std::vector<glm::dvec3> radiance = oracle.shade(pixels, true);
   for (size_t i = 0; i < report.rows.size(); ++i) {
     if (report.rows[i].error)
@@ -347,15 +348,15 @@ void measure_rows(CompareReport& report, const Compared& compared, std::vector<C
   }
 }
 
-void measure_errors(CompareReport& report, const Compared& compared, const Measured& m) {
+void measure_errors(CompareReport& report, const Compared& compared, Measured& m) {
   const size_t samples = compared.options.shaded_samples;
   compared.tell(0.9, "oracle: shading");
   // The oracle shades surfaces that OpenGL draws. Without it, what blended surfaces cover is not known.
   if (compared.renderer.gl) {
     measure_surfaces(report, m, measure_against_oracle(report, m, samples));
   } else if (m.reference.run().view().plan.blended.empty()) {
-    const size_t lights = compared.gpu.scene().lights.size();
-    measure_surfaces(report, m, sample_pixels(covered_pixels(m.depth), affordable_samples(samples, lights)));
+    const size_t most = affordable_samples(samples, compared.gpu.scene());
+    measure_surfaces(report, m, sample_pixels(covered_pixels(m.depth), most));
   }
 }
 

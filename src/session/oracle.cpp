@@ -88,7 +88,8 @@ ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Imag
 ReferenceErrors measure_reference_errors(RenderView& v, const Image& every_light,
                                          const std::vector<float>& depth, size_t samples) {
   const SurfaceOracle oracle(v, depth);
-  return measure_reference_errors(oracle, every_light, sample_pixels(oracle.pixels(), samples));
+  return measure_reference_errors(oracle, every_light,
+                                  oracle.decided(sample_pixels(oracle.pixels(), samples)));
 }
 
 }  // namespace lightgrid

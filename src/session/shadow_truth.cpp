@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "reference/lit_set.h"
 #include "reference/position.h"
@@ -95,6 +96,17 @@ const SeenPairs* ShadowTruth::pairs(const RenderView& v, const std::vector<float
       depth, triangles,
       std::make_unique<SeenPairs>(occlusion(), shown, lights, affordable_pixels(shown, lights, most_pairs_))};
   return d.pairs.get();
+}
+
+std::unique_ptr<SeenPairs> ShadowTruth::at_pixels(const RenderView& v, const std::vector<float>& depth,
+                                                  const std::vector<CastingTriangle>& triangles,
+                                                  const std::vector<uint32_t>& pixels, bool in_range) {
+  if (!casts()) return nullptr;
+  std::vector<int> all(scene_.lights.size());
+  std::iota(all.begin(), all.end(), 0);
+  const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, all);
+  return std::make_unique<SeenPairs>(occlusion(), ShownSurfaces{v.view, depth, triangles}, lights, pixels,
+                                     in_range);
 }
 
 void ShadowTruth::moved(bool geometry) {

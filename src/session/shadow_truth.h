@@ -32,6 +32,12 @@ class ShadowTruth {
   const SeenPairs* pairs(const RenderView& v, const std::vector<float>& depth,
                          const std::vector<SceneTriangle>& triangles);
 
+  // Of all lights of the scene, in its order, at `pixels`; in_range: without those that are out of range.
+  // Null if no light casts.
+  std::unique_ptr<SeenPairs> at_pixels(const RenderView& v, const std::vector<float>& depth,
+                                       const std::vector<CastingTriangle>& triangles,
+                                       const std::vector<uint32_t>& pixels, bool in_range = true);
+
   // Another view, and `geometry`: whether instances moved or meshes deformed.
   void moved(bool geometry);
 

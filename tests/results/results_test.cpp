@@ -85,6 +85,14 @@ TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
   EXPECT_EQ(to_json(small_result()), expected);
 }
 
+// A scene without casters has the keys above alone.
+TEST(Results, HoldShadowsOnlyWhereLightsCast) {
+  RunResult result = small_result();
+  result.pairs->shadows = ShadowPairs{.leaked = 1, .acned = 2, .either = 3, .pixels = 4};
+  EXPECT_EQ(to_json(result)["pairs"], json::parse(R"({"listed": 9, "lit": 8, "lost": 7, "wrong": 6,
+    "leaked": 1, "acned": 2, "either": 3, "shadow_pixels": 4})"));
+}
+
 // Of surfaces drawn in OpenCL: not `error`, in which these surfaces are too.
 TEST(Results, JudgeLightOnTheSameSurfaces) {
   RunResult result = small_result();
@@ -134,10 +142,12 @@ TEST(Results, WriteWhatIsNotFiniteAsNull) {
 
 TEST(Results, OfAReportHoldTheDocumentedKeys) {
   const auto value = to_json(synthetic_report(17, 9));
-  EXPECT_EQ(keys_of(value), (std::set<std::string>{"ambient", "exposure", "scene", "size", "devices", "commit", "reference",
-                                                   "reference_errors", "own_surfaces", "covered_pixels", "rows"}));
+  EXPECT_EQ(keys_of(value),
+            (std::set<std::string>{"ambient", "exposure", "scene", "size", "devices", "commit", "reference",
+                                   "reference_errors", "own_surfaces", "covered_pixels", "rows"}));
   EXPECT_EQ(value["size"], json::parse("[17, 9]"));
-  EXPECT_EQ(keys_of(value["reference"]), (std::set<std::string>{"technique", "pixels", "brightest", "surfaces"}));
+  EXPECT_EQ(keys_of(value["reference"]),
+            (std::set<std::string>{"technique", "pixels", "brightest", "surfaces"}));
   EXPECT_EQ(value["reference"]["technique"], "forward");
   EXPECT_EQ(value["reference"]["pixels"], 153);
   EXPECT_EQ(value["reference"]["surfaces"], value["rows"][0]["error"]["surfaces"]);
