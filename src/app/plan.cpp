@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
@@ -16,6 +17,10 @@ struct PlanOptions {
   SceneChoice scene;
   std::string technique = "forward_plus", json;
 };
+
+std::string caster_words(const Scene& scene, int instance) {
+  return fmt::format("reaches node {} \"{}\"", instance, scene.instances[size_t(instance)].name);
+}
 
 int plan(PlanOptions o) {
   take_own_settings(o.technique, o.scene.set);
@@ -34,6 +39,14 @@ int plan(PlanOptions o) {
                                  {"decisions", nlohmann::ordered_json::array()}};
   for (const Decision& d : plan.decisions) {
     json["decisions"].push_back({{"effect", d.effect}, {"needed", d.needed}, {"why", d.why}});
+  }
+  for (const LightShadow& light : plan.casting) {
+    const bool rays = light.need == ShadowNeed::rays;
+    json["shadows"].push_back(
+        {{"light", light.light},
+         {"name", chosen.scene.lights[size_t(light.light)].name},
+         {"rays", rays},
+         {"why", rays ? caster_words(chosen.scene, light.caster) : reason_of(light.need)}});
   }
   write_json(o.json, json.dump(1));
   return 0;

@@ -160,22 +160,6 @@ LightShadow plan_light(const LightBounds& light, int number, const View& view, c
 
 }  // namespace
 
-const char* reason_of(ShadowNeed need) {
-  switch (need) {
-    case ShadowNeed::rays:
-      break;
-    case ShadowNeed::directional:
-      return "directional: no technique finds its shadows yet";
-    case ShadowNeed::no_caster:
-      return "no caster in its range";
-    case ShadowNeed::no_receiver:
-      return "no receiver in view within its range";
-    case ShadowNeed::casters_behind:
-      return "casters only behind all receivers";
-  }
-  return "";
-}
-
 std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view, const LightRanges& ranges,
                                             const std::vector<int>& opaque, const std::vector<int>& blended) {
   std::vector<LightShadow> plans;

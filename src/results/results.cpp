@@ -135,6 +135,13 @@ json to_json(const MovingResult& m) {
       {"scene_bytes_uploaded", m.scene_bytes}};
 }
 
+json to_json(const ShadowResult& s) {
+  json skipped = json::array();
+  for (const auto& light : s.skipped) skipped.push_back({{"light", light.light}, {"why", light.why}});
+  return {{"lights", s.lights}, {"maps", s.maps}, {"drawn", s.drawn},         {"kept", s.kept},
+          {"bytes", s.bytes},   {"rays", s.rays}, {"undecided", s.undecided}, {"skipped", skipped}};
+}
+
 }  // namespace
 
 const char* every_light_on(bool own_surfaces) { return own_surfaces ? "visibility:lights=all" : "forward"; }
@@ -182,6 +189,7 @@ json to_json(const RunResult& result) {
   for (const auto& pass : result.passes) {
     if (pass.name == result.built_by) out["build"] = build_json(pass, result);
   }
+  if (result.shadows) out["shadows"] = to_json(*result.shadows);
   if (result.moving) out["moving"] = to_json(*result.moving);
   if (!result.refused.empty()) out["refused"] = result.refused;
   return out;

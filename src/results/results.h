@@ -112,6 +112,17 @@ struct SkippedEffect {
   std::string effect, why;
 };
 
+// Of the last frame: what its shadows took, and the lights that cast but needed none.
+struct ShadowResult {
+  struct Skipped {
+    int light = 0;  // of the scene
+    std::string why;
+  };
+  size_t lights = 0;                                                         // whose shadows were found
+  size_t maps = 0, drawn = 0, kept = 0, bytes = 0, rays = 0, undecided = 0;  // as in ShadowFigures
+  std::vector<Skipped> skipped;
+};
+
 // Half of a listed light is far more; 8-bit geometry buffers lose less.
 inline constexpr double most_unshaded = 0.01;
 
@@ -138,7 +149,8 @@ struct RunResult {
   std::optional<double> unshaded;
   uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
   std::vector<SkippedEffect> skipped;
-  std::optional<MovingResult> moving;  // absent without a camera path
+  std::optional<ShadowResult> shadows;  // absent if no light casts a shadow
+  std::optional<MovingResult> moving;   // absent without a camera path
 };
 
 // The technique that shades every light at every pixel, on OpenGL's surfaces or on those drawn in OpenCL.

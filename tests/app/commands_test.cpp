@@ -231,6 +231,24 @@ TEST(PlanCommand, TellsWithoutAnyDeviceWhatIsNeededAndWhy) {
   }
 }
 
+TEST(PlanCommand, TellsOfEachLightThatCastsWhetherItsShadowsAreFound) {
+  const std::vector<std::string> no_device = {"OCL_ICD_VENDORS=/nonexistent"};
+  const ProgramRun none = run_program({"plan", "terrain", "--size", "64x36", "--json", "-"}, no_device);
+  ASSERT_EQ(none.status, 0) << none.err;
+  EXPECT_FALSE(nlohmann::json::parse(none.out).contains("shadows"));
+  const ProgramRun run =
+      run_program({"plan", "terrain", "--size", "64x36", "--shadows", "all", "--json", "-"}, no_device);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto shadows = nlohmann::json::parse(run.out)["shadows"];
+  ASSERT_EQ(shadows.size(), 256u);
+  std::map<std::string, int> count;
+  for (const auto& light : shadows) ++count[light["rays"] ? "rays" : light["why"].get<std::string>()];
+  EXPECT_GT(count["rays"], 0);
+  EXPECT_GT(count["no receiver in view within its range"], 0);
+  EXPECT_EQ(count["directional: no technique finds its shadows yet"], 1);
+  EXPECT_EQ(count.size(), 3u);
+}
+
 // Half a turn in the hall: its gates and its glass are then behind the camera.
 TEST(CameraPath, RenderAndCompareSayAlikeWhereThePlanChanged) {
   const TempFolder folder;

@@ -145,6 +145,13 @@ TEST(ShadowPlan, CastersOutOfRangeDoNotCount) {
       << "the range is that of the settings";
 }
 
+TEST(ShadowPlan, ALightWithoutARangeReachesNotEvenWhatIsAroundIt) {
+  Room room;
+  room.put(room.ball, {0, 1, 0});
+  room.lamp({0, 1, 0}, 0);
+  EXPECT_EQ(room.need(), ShadowNeed::no_caster);
+}
+
 TEST(ShadowPlan, RoundingMayMoveACasterIntoRange) {
   Room room;
   room.put(room.pane, {0, 0, 0});
@@ -313,6 +320,19 @@ TEST(ShadowPlan, EachReceiverCounts) {
   EXPECT_EQ(room.need(), ShadowNeed::rays);
 }
 
+// Not a rule, but a bound on the plan's time.
+TEST(ShadowPlan, ManyReceiversAreNotLookedAt) {
+  Room room;
+  for (int i = 0; i < 8; ++i) room.put(room.pane, {0, 0, -0.1 * i - 1});
+  room.put(room.ball, {0, 1, 1.5});
+  const auto need = [&] {
+    return plan_light_shadows(room.scene, room.view, {}, {}, room.plan().blended).at(0).need;
+  };
+  EXPECT_EQ(need(), ShadowNeed::casters_behind);
+  room.put(room.pane, {0, 0, -2});
+  EXPECT_EQ(need(), ShadowNeed::rays);
+}
+
 TEST(ShadowPlan, DirectionalLightsAreToldOf) {
   Room room = over_floor();
   room.scene.lights[0].type = LightType::directional;
@@ -320,6 +340,20 @@ TEST(ShadowPlan, DirectionalLightsAreToldOf) {
   EXPECT_EQ(plan.casting.at(0).need, ShadowNeed::directional);
   EXPECT_FALSE(plan.shadows || plan.light_reaches);
   EXPECT_THAT(plan.decisions.back().why, HasSubstr("directional"));
+}
+
+TEST(ShadowPlan, IsDescribedWithTheFirstLightOfEachKind) {
+  Room room = over_floor();
+  room.put(room.box, {1, 0, 0});
+  EXPECT_THAT(describe(room.plan(), room.scene),
+              HasSubstr("  lights that cast shadows: 1\n"
+                        "         1 rays: light 0 \"lamp\" reaches node 0 \"floor\"\n"));
+  room.lamp({0, 1, 12}).name = "hidden";
+  room.scene.lights.resize(3, room.scene.lights[0]);
+  EXPECT_THAT(describe(room.plan(), room.scene),
+              HasSubstr("         3 no receiver in view within its range: light 0 \"hidden\", …\n"));
+  room.scene.lights.clear();
+  EXPECT_EQ(describe_shadows(room.plan().casting, room.scene), "");
 }
 
 }  // namespace
