@@ -125,6 +125,29 @@ TEST(ShadowPlan, BlendedSurfacesCastNothing) {
   EXPECT_EQ(room.need(), ShadowNeed::rays);
 }
 
+// As the surface of a lamp around its light.
+TEST(ShadowPlan, InstancesThatHideNoLightAreNoCasters) {
+  Room room;
+  room.put(room.pane, {0, 0, 5});
+  room.put(room.ball, {0, 1, 9});  // behind the eye
+  room.lamp({0, 1, 7});
+  EXPECT_NE(room.need(), ShadowNeed::no_caster);
+  room.scene.instances[1].casts_shadow = false;
+  EXPECT_EQ(room.need(), ShadowNeed::no_caster);
+}
+
+// Its own triangles hide a light behind them all the same.
+TEST(ShadowPlan, InstancesThatHideNoLightAreReceivers) {
+  Room room;
+  room.put(room.ball, {0, 1, 2});
+  room.scene.instances[0].casts_shadow = false;
+  EXPECT_EQ(room.need(), ShadowNeed::rays);
+  EXPECT_EQ(room.plan().decisions.back().why,
+            "light 0 \"lamp\" reaches material 0 \"plaster\" on node 0 \"ball\"");
+  room.scene.materials[0].alpha_mode = AlphaMode::blend;
+  EXPECT_EQ(room.need(), ShadowNeed::no_caster);
+}
+
 TEST(ShadowPlan, MaskedSurfacesCast) {
   Room room = over_floor();
   room.put(room.box, {1, 0, 0});
