@@ -1,6 +1,7 @@
 // lightgrid plan SCENE: the effects that this view needs, and why.
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "session/contestants.h"
+#include "session/leaks.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -16,10 +18,27 @@ namespace {
 struct PlanOptions {
   SceneChoice scene;
   std::string technique = "forward_plus", json;
+  bool leaks = false;
 };
 
 std::string caster_words(const Scene& scene, int instance) {
   return fmt::format("reaches node {} \"{}\"", instance, scene.instances[size_t(instance)].name);
+}
+
+nlohmann::ordered_json leaks_json(const Leaks& leaks, const Scene& scene) {
+  nlohmann::ordered_json json = {{"pixels", leaks.pixels},
+                                 {"lit", leaks.lit},
+                                 {"leaked", leaks.leaked},
+                                 {"either", leaks.either},
+                                 {"through", nlohmann::ordered_json::array()}};
+  for (const Leak& leak : leaks.leaks) {
+    json["through"].push_back({{"light", leak.light},
+                               {"name", scene.lights[size_t(leak.light)].name},
+                               {"node", leak.instance},
+                               {"node_name", scene.instances[size_t(leak.instance)].name},
+                               {"pixels", leak.pixels}});
+  }
+  return json;
 }
 
 int plan(PlanOptions o) {
@@ -30,8 +49,12 @@ int plan(PlanOptions o) {
   if (!o.json.empty()) check_output_file("--json", o.json);
   const ChosenScene chosen = load_chosen_scene(o.scene);
   const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
+  std::optional<Leaks> leaks;
+  if (o.leaks) leaks = find_leaks(chosen.scene, chosen.view, settings.ranges);
   if (o.json.empty()) {
     std::fputs(describe(plan, chosen.scene).c_str(), stdout);
+    constexpr size_t most_leaks = 20;
+    if (leaks) std::fputs(describe(*leaks, chosen.scene, most_leaks).c_str(), stdout);
     return 0;
   }
   nlohmann::ordered_json json = {{"scene", chosen.scene.name},
@@ -48,6 +71,7 @@ int plan(PlanOptions o) {
          {"rays", rays},
          {"why", rays ? caster_words(chosen.scene, light.caster) : reason_of(light.need)}});
   }
+  if (leaks) json["leaks"] = leaks_json(*leaks, chosen.scene);
   write_json(o.json, json.dump(1));
   return 0;
 }
@@ -60,6 +84,7 @@ void add_plan(CommandLine& line) {
       line.add("plan", "the effects that this view needs, and why", [o] { return plan(*o); });
   add_scene_options(command, o->scene);
   add_technique_option(command, o->technique, technique_names());
+  command.flag("--leaks", o->leaks, "lists the light that goes through walls, by light and wall");
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 

@@ -249,6 +249,26 @@ TEST(PlanCommand, TellsOfEachLightThatCastsWhetherItsShadowsAreFound) {
   EXPECT_EQ(count.size(), 3u);
 }
 
+TEST(PlanCommand, ListsLightThatGoesThroughWalls) {
+  const std::vector<std::string> no_device = {"OCL_ICD_VENDORS=/nonexistent"};
+  const ProgramRun text = run_program({"plan", "terrain", "--size", "64x36", "--leaks"}, no_device);
+  ASSERT_EQ(text.status, 0) << text.err;
+  const ProgramRun json =
+      run_program({"plan", "terrain", "--size", "64x36", "--leaks", "--json", "-"}, no_device);
+  const auto leaks = nlohmann::json::parse(json.out)["leaks"];
+  EXPECT_GT(leaks["leaked"], 0);
+  uint64_t pixels = 0;
+  for (const auto& leak : leaks["through"]) pixels += leak["pixels"].get<uint64_t>();
+  EXPECT_EQ(leaks["leaked"], pixels);
+  const auto& worst = leaks["through"][0];
+  EXPECT_THAT(text.out, HasSubstr(fmt::format("light {} {} shines through node {} {}: {} pixels\n",
+                                              worst["light"].dump(), worst["name"].dump(), worst["node"].dump(),
+                                              worst["node_name"].dump(), worst["pixels"].dump())));
+  const ProgramRun cast =
+      run_program({"plan", "terrain", "--size", "64x36", "--leaks", "--shadows", "all", "--json", "-"}, no_device);
+  EXPECT_EQ(nlohmann::json::parse(cast.out)["leaks"]["leaked"], 0);
+}
+
 // Half a turn in the hall: its gates and its glass are then behind the camera.
 TEST(CameraPath, RenderAndCompareSayAlikeWhereThePlanChanged) {
   const TempFolder folder;
