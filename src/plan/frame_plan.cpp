@@ -334,7 +334,7 @@ std::string describe(const FramePlan& plan, const Scene& scene) {
                   plan.blended.size(), plan.lights_in_view, scene.lights.size());
   for (const Decision& d : plan.decisions)
     text += fmt::format("  {} {}: {}\n", d.needed ? "yes" : " no", d.effect, d.why);
-  return text;
+  return text + describe_shadows(plan.casting, scene);
 }
 
 }  // namespace lightgrid

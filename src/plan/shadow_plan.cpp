@@ -15,6 +15,7 @@ struct Box {
   dvec3 corners[8];
   dvec3 min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
   int instance = 0;
+  bool blended = false;
   int flat_axis =
       -1;  // of the world: all triangles lie in one plane across it, to the last bit. -1: they may not
 };
@@ -33,11 +34,17 @@ int flat_axis_of(const glm::dmat4& world_from_object, const Aabb& bounds) {
   return -1;
 }
 
+bool is_blended(const Scene& scene, int instance) {
+  const Mesh& mesh = scene.meshes[size_t(scene.instances[size_t(instance)].mesh)];
+  return scene.materials[size_t(mesh.material)].alpha_mode == AlphaMode::blend;
+}
+
 Box box_of(const Scene& scene, int instance) {
   const glm::dmat4& world_from_object = scene.instances[size_t(instance)].world_from_object;
   const Aabb& bounds = scene.meshes[size_t(scene.instances[size_t(instance)].mesh)].bounds;
   Box box;
   box.instance = instance;
+  box.blended = is_blended(scene, instance);
   for (int i = 0; i < 8; ++i) {
     const glm::dvec4 corner(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
                             i & 4 ? bounds.max.z : bounds.min.z, 1);
@@ -50,8 +57,8 @@ Box box_of(const Scene& scene, int instance) {
 
 bool casts(const Scene& scene, int instance) {
   const Mesh& mesh = scene.meshes[size_t(scene.instances[size_t(instance)].mesh)];
-  return !mesh.indices.empty() && !mesh.bounds.empty() &&
-         scene.materials[size_t(mesh.material)].alpha_mode != AlphaMode::blend;
+  return scene.instances[size_t(instance)].casts_shadow && !mesh.indices.empty() && !mesh.bounds.empty() &&
+         !is_blended(scene, instance);
 }
 
 double distance_to(const Box& box, const dvec3& point) {
@@ -137,8 +144,13 @@ LightShadow plan_light(const LightBounds& light, int number, const View& view, c
   if (!may_see_sphere(frustum_of(view), position_view, light.radius_m + reach.slack_m))
     return {number, ShadowNeed::no_receiver};
   const auto in_reach = [&](const Box& box) { return may_reach(reach, box); };
-  const auto caster = std::ranges::find_if(boxes.casters, in_reach);
-  if (caster == boxes.casters.end()) return {number, ShadowNeed::no_caster};
+  // Triangles that hide no light hide those behind them from their own points.
+  const auto hides_itself = [&](const Box& box) { return !box.blended && in_reach(box); };
+  auto caster = std::ranges::find_if(boxes.casters, in_reach);
+  if (caster == boxes.casters.end()) {
+    caster = std::ranges::find_if(boxes.receivers, hides_itself);
+    if (caster == boxes.receivers.end()) return {number, ShadowNeed::no_caster};
+  }
   // Points of receivers that are not flat may be hidden by the receiver itself. Of many, all count as such.
   constexpr size_t most_receivers = 8;
   std::vector<const Box*> receivers, casters;
@@ -159,22 +171,6 @@ LightShadow plan_light(const LightBounds& light, int number, const View& view, c
 }
 
 }  // namespace
-
-const char* reason_of(ShadowNeed need) {
-  switch (need) {
-    case ShadowNeed::rays:
-      break;
-    case ShadowNeed::directional:
-      return "directional: no technique finds its shadows yet";
-    case ShadowNeed::no_caster:
-      return "no caster in its range";
-    case ShadowNeed::no_receiver:
-      return "no receiver in view within its range";
-    case ShadowNeed::casters_behind:
-      return "casters only behind all receivers";
-  }
-  return "";
-}
 
 std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view, const LightRanges& ranges,
                                             const std::vector<int>& opaque, const std::vector<int>& blended) {

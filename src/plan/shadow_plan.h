@@ -8,6 +8,7 @@
 // last millimetre, or by its own triangle, if light and eye lie on different sides of it.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "scene/camera.h"
@@ -31,6 +32,10 @@ struct LightShadow {
   ShadowNeed need = ShadowNeed::rays;
   int caster = -1;  // rays: the first instance that may cast within the light's bounds
 };
+
+// As `lightgrid plan` prints them: a line for each need, with its number of lights and the first of them.
+// Empty if no light casts.
+std::string describe_shadows(const std::vector<LightShadow>& casting, const Scene& scene);
 
 // All lights that cast, in the scene's order. `opaque` (masked ones too) and `blended`: the instances in
 // view.

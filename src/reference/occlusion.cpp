@@ -24,7 +24,8 @@ Occlusion::Occlusion(const Scene& scene) : scene_(scene), masks_(scene) {
   vertex_error_m_ = std::sqrt(3.0) * float_rounding * extent;
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
-    if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend) continue;
+    if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend || !scene.instances[i].casts_shadow)
+      continue;
     for (uint32_t t = 0; t < mesh.indices.size() / 3; ++t) {
       numbers_.push_back({int(i), t});
       corners_.push_back(corners_of(numbers_.back()));

@@ -35,7 +35,8 @@ struct SightAnswer {
   double distance_m = 0;  // from the light to where it does; of a directional light from the receiver
 };
 
-// Opaque and masked triangles of all instances hide lights, from both sides; blended ones do not.
+// Opaque and masked triangles hide lights, from both sides, but those of instances that cast no shadow;
+// blended ones do not.
 class Occlusion {
  public:
   // The scene outlives it, and does not move meanwhile.

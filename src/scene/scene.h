@@ -104,7 +104,8 @@ struct Instance {
   std::string name;  // the node's
   int mesh = 0;
   glm::dmat4 world_from_object{1};
-  int node = -1;  // of the rig, which moves it; -1: static
+  int node = -1;             // of the rig, which moves it; -1: static
+  bool casts_shadow = true;  // false: hides no light, such as the surface of a lamp around its light
 };
 
 enum class LightType { point, spot, directional };

@@ -125,6 +125,29 @@ TEST(ShadowPlan, BlendedSurfacesCastNothing) {
   EXPECT_EQ(room.need(), ShadowNeed::rays);
 }
 
+// As the surface of a lamp around its light.
+TEST(ShadowPlan, InstancesThatHideNoLightAreNoCasters) {
+  Room room;
+  room.put(room.pane, {0, 0, 5});
+  room.put(room.ball, {0, 1, 9});  // behind the eye
+  room.lamp({0, 1, 7});
+  EXPECT_NE(room.need(), ShadowNeed::no_caster);
+  room.scene.instances[1].casts_shadow = false;
+  EXPECT_EQ(room.need(), ShadowNeed::no_caster);
+}
+
+// Its own triangles hide a light behind them all the same.
+TEST(ShadowPlan, InstancesThatHideNoLightAreReceivers) {
+  Room room;
+  room.put(room.ball, {0, 1, 2});
+  room.scene.instances[0].casts_shadow = false;
+  EXPECT_EQ(room.need(), ShadowNeed::rays);
+  EXPECT_EQ(room.plan().decisions.back().why,
+            "light 0 \"lamp\" reaches material 0 \"plaster\" on node 0 \"ball\"");
+  room.scene.materials[0].alpha_mode = AlphaMode::blend;
+  EXPECT_EQ(room.need(), ShadowNeed::no_caster);
+}
+
 TEST(ShadowPlan, MaskedSurfacesCast) {
   Room room = over_floor();
   room.put(room.box, {1, 0, 0});
@@ -143,6 +166,13 @@ TEST(ShadowPlan, CastersOutOfRangeDoNotCount) {
   EXPECT_EQ(room.need(), ShadowNeed::no_caster);
   EXPECT_EQ(room.need({.ranges = {.range = LightRange::infinite}}), ShadowNeed::rays)
       << "the range is that of the settings";
+}
+
+TEST(ShadowPlan, ALightWithoutARangeReachesNotEvenWhatIsAroundIt) {
+  Room room;
+  room.put(room.ball, {0, 1, 0});
+  room.lamp({0, 1, 0}, 0);
+  EXPECT_EQ(room.need(), ShadowNeed::no_caster);
 }
 
 TEST(ShadowPlan, RoundingMayMoveACasterIntoRange) {
@@ -313,6 +343,19 @@ TEST(ShadowPlan, EachReceiverCounts) {
   EXPECT_EQ(room.need(), ShadowNeed::rays);
 }
 
+// Not a rule, but a bound on the plan's time.
+TEST(ShadowPlan, ManyReceiversAreNotLookedAt) {
+  Room room;
+  for (int i = 0; i < 8; ++i) room.put(room.pane, {0, 0, -0.1 * i - 1});
+  room.put(room.ball, {0, 1, 1.5});
+  const auto need = [&] {
+    return plan_light_shadows(room.scene, room.view, {}, {}, room.plan().blended).at(0).need;
+  };
+  EXPECT_EQ(need(), ShadowNeed::casters_behind);
+  room.put(room.pane, {0, 0, -2});
+  EXPECT_EQ(need(), ShadowNeed::rays);
+}
+
 TEST(ShadowPlan, DirectionalLightsAreToldOf) {
   Room room = over_floor();
   room.scene.lights[0].type = LightType::directional;
@@ -320,6 +363,20 @@ TEST(ShadowPlan, DirectionalLightsAreToldOf) {
   EXPECT_EQ(plan.casting.at(0).need, ShadowNeed::directional);
   EXPECT_FALSE(plan.shadows || plan.light_reaches);
   EXPECT_THAT(plan.decisions.back().why, HasSubstr("directional"));
+}
+
+TEST(ShadowPlan, IsDescribedWithTheFirstLightOfEachKind) {
+  Room room = over_floor();
+  room.put(room.box, {1, 0, 0});
+  EXPECT_THAT(describe(room.plan(), room.scene),
+              HasSubstr("  lights that cast shadows: 1\n"
+                        "         1 rays: light 0 \"lamp\" reaches node 0 \"floor\"\n"));
+  room.lamp({0, 1, 12}).name = "hidden";
+  room.scene.lights.resize(3, room.scene.lights[0]);
+  EXPECT_THAT(describe(room.plan(), room.scene),
+              HasSubstr("         3 no receiver in view within its range: light 0 \"hidden\", …\n"));
+  room.scene.lights.clear();
+  EXPECT_EQ(describe_shadows(room.plan().casting, room.scene), "");
 }
 
 }  // namespace

@@ -22,9 +22,10 @@ void leave_out_own(const RTCFilterFunctionNArguments* a) {
   }
 }
 
-bool is_opaque(const Scene& scene, int instance) {
-  return scene.materials[scene.meshes[scene.instances[instance].mesh].material].alpha_mode ==
-         AlphaMode::opaque;
+bool casts(const Scene& scene, int instance) {
+  return scene.instances[size_t(instance)].casts_shadow &&
+         scene.materials[scene.meshes[scene.instances[instance].mesh].material].alpha_mode ==
+             AlphaMode::opaque;
 }
 
 class EmbreeScene {
@@ -35,7 +36,7 @@ class EmbreeScene {
     for (const Instance& instance : scene.instances) {
       const Mesh& mesh = scene.meshes[instance.mesh];
       first_.push_back(vertices_.size() / 3);
-      if (!is_opaque(scene, int(first_.size()) - 1)) continue;
+      if (!casts(scene, int(first_.size()) - 1)) continue;
       for (const uint32_t i : mesh.indices)
         vertices_.push_back(
             relative(glm::dvec3(instance.world_from_object * glm::dvec4(mesh.positions[i], 1))));
@@ -91,7 +92,7 @@ Receiver random_receiver(Random& random, const Scene& scene, const glm::dvec3& l
   for (;;) {
     const int i = int(random.next() % scene.instances.size());
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
-    if (!is_opaque(scene, i)) continue;
+    if (!casts(scene, i)) continue;
     const uint32_t triangle = uint32_t(random.next() % (mesh.indices.size() / 3));
     glm::dvec3 c[3];
     for (int k = 0; k < 3; ++k)
@@ -122,7 +123,7 @@ Disagreements compare_in(const Scene& scene, int pairs) {
     at.position = light;
     const SightAnswer answer = occlusion.sight(at, receiver);
     const Sight sight = answer.sight;
-    if (sight == Sight::hidden && !is_opaque(scene, answer.by.instance)) continue;
+    if (sight == Sight::hidden && !casts(scene, answer.by.instance)) continue;
     const bool hidden = embree.hidden(light, receiver);
     ++(sight == Sight::seen ? d.seen : sight == Sight::hidden ? d.hidden : d.either);
     d.leaked += sight == Sight::hidden && !hidden, d.acned += sight == Sight::seen && hidden;

@@ -67,6 +67,14 @@ TEST(Occlusion, TheOuterEdgeOfAFoldIsInDoubt) {
   EXPECT_EQ(sight_of(occlusion, light_at({-0.1, 4, 0}), {-0.1, 0, 0}), Sight::seen);
 }
 
+TEST(Occlusion, AnInstanceThatCastsNoShadowHidesNothingButWhatIsBehindItsOwnTriangles) {
+  Scene scene = scene_of({ground_mesh(), roof_mesh()});
+  for (Instance& instance : scene.instances) instance.casts_shadow = false;
+  const Occlusion occlusion(scene);
+  EXPECT_EQ(sight_of(occlusion, light_at({1, 4, 0}), {2.9, 0, 0}), Sight::seen);
+  EXPECT_EQ(sight_of(occlusion, light_at({1, -1, 0}), {3, 0, 1}), Sight::hidden);
+}
+
 TEST(Occlusion, TheOwnTriangleHidesALightBehindIt) {
   const Scene scene = scene_of({ground_mesh()});
   const Occlusion occlusion(scene);

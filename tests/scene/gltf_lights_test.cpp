@@ -187,13 +187,22 @@ TEST(GltfLights, extras_of_the_light_or_its_node_say_whether_it_casts_a_shadow) 
   EXPECT_TRUE(casts(none, {{"casts_shadow", 1}})) << "as Blender writes custom properties";
   EXPECT_FALSE(casts(none, {{"casts_shadow", 0.0}}));
   GltfBuilder wrong = with_light({{"type", "point"}, {"extras", {{"casts_shadow", "yes"}}}});
-  EXPECT_THAT(wrong.refusal(),
-              HasSubstr("node 0: extras.casts_shadow of light 0 is neither true, false nor a number"));
+  EXPECT_THAT(wrong.refusal(), HasSubstr("light 0: extras.casts_shadow is neither true, false nor a number"));
   wrong.node()["extras"] = {{"casts_shadow", nullptr}};
   EXPECT_THAT(wrong.refusal(), HasSubstr("node 0: extras.casts_shadow is neither true, false nor a number"));
-  GltfBuilder no_light = GltfBuilder::triangle();
-  no_light.node()["extras"] = {{"casts_shadow", "an application's own"}};
-  EXPECT_EQ(no_light.load().lights.size(), 0u);
+}
+
+TEST(GltfLights, extras_of_a_node_say_whether_its_mesh_hides_lights) {
+  GltfBuilder made = GltfBuilder::triangle();
+  EXPECT_TRUE(made.load().instances.at(0).casts_shadow);
+  made.node()["extras"] = {{"casts_shadow", false}};
+  EXPECT_FALSE(made.load().instances.at(0).casts_shadow);
+  made.node()["extras"] = {{"casts_shadow", "an application's own"}};
+  EXPECT_THAT(made.refusal(), HasSubstr("node 0: extras.casts_shadow is neither true, false nor a number"));
+  made.node().erase("mesh");
+  made.root["nodes"].push_back({{"mesh", 0}});
+  made.root["scenes"][0]["nodes"] = {0, 1};
+  EXPECT_EQ(made.load().instances.size(), 1u) << "a node that has neither may say what it likes";
 }
 
 TEST(GltfLights, what_is_wrong_with_a_light_matters_only_if_a_node_has_it) {

@@ -65,16 +65,13 @@ bool has_range(const Document& doc, int light) {
 }
 
 // A node's extras override its light's.
-bool casts_shadow(const Document& doc, int node, int light, const std::string& place) {
-  const auto of_node = doc.shadows.of_node.find(node), of_light = doc.shadows.of_light.find(light);
-  const bool by_node = of_node != doc.shadows.of_node.end();
-  if (!by_node && of_light == doc.shadows.of_light.end()) return false;
-  const std::optional<bool> casts = by_node ? of_node->second : of_light->second;
-  if (!casts) {
-    throw doc.error("{}: extras.casts_shadow{} is neither true, false nor a number", place,
-                    by_node ? "" : fmt::format(" of light {}", light));
-  }
-  return *casts;
+bool casts_shadow(const Document& doc, int node, int light) {
+  if (const auto of_node = node_casts_shadow(doc, node)) return *of_node;
+  const auto found = doc.shadows.of_light.find(light);
+  if (found == doc.shadows.of_light.end()) return false;
+  if (!found->second)
+    throw doc.error("light {}: extras.casts_shadow is neither true, false nor a number", light);
+  return *found->second;
 }
 
 }  // namespace
@@ -93,7 +90,7 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
     Light light = read_light(doc, in, has_range(doc, index), label("light", index, in.name));
     light.name = node.name.empty() ? in.name : node.name;
     light.position = glm::dvec3(placed.world_from_node[3]);
-    light.casts_shadow = casts_shadow(doc, placed.node, index, place);
+    light.casts_shadow = casts_shadow(doc, placed.node, index);
     if (placed.moves) light.node = static_cast<int>(i);
     if (const auto direction = light_direction(placed.world_from_node))
       light.direction = *direction;
