@@ -62,9 +62,10 @@ Receiver Occlusion::receiver(const View& view, int x, int y, double depth, const
                tan_y =
                    std::max(std::abs(view_y_of_pixel(view, 0)), std::abs(view_y_of_pixel(view, view.height)));
   const double slope = std::max(tan_x, tan_y), away = view.orthographic ? 1 : std::abs(in_view.z);
+  const double depth_m = view.orthographic ? std::max(std::abs(in_view.z), view.far_m) : std::abs(in_view.z);
   const double edges = glm::length(c[1] - c[0]) + glm::length(c[2] - c[0]);
   const double tilt = squared > 0 ? 2 * vertex_error_m_ * edges / std::sqrt(squared) : 1;
-  r.place.error_m = float_rounding * (17 * slope * away + 4 * std::abs(in_view.z) + 7 * glm::length(in_view) +
+  r.place.error_m = float_rounding * (17 * slope * away + 4 * depth_m + 7 * glm::length(in_view) +
                                       glm::length(view.eye - centre_) + 2 * glm::length(shaded - centre_) +
                                       6 * glm::length(shaded - c[0])) +
                     vertex_error_m_ + std::min(tilt, 1.0) * std::abs(off) * std::sqrt(squared);
