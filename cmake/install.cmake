@@ -1,11 +1,11 @@
-# The libraries for other programs: find_package(lightgrid) gives lightgrid::culling and lightgrid::raster. See
+# The libraries for other programs: find_package(lightgrid) gives lightgrid::culling, lightgrid::raster and lightgrid::rays. See
 # docs/library.md.
 #
 #   cmake --install build --component library --prefix DIR
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-set(library_targets lightgrid_base lightgrid_shared lightgrid_cl lightgrid_culling lightgrid_raster)
+set(library_targets lightgrid_base lightgrid_shared lightgrid_cl lightgrid_culling lightgrid_raster lightgrid_rays)
 set(library_root ${PROJECT_BINARY_DIR}/include/library)
 file(MAKE_DIRECTORY ${library_root}/lightgrid)
 foreach(target IN LISTS library_targets)
@@ -34,7 +34,8 @@ set(public_headers
   shared/raster_instance.h shared/slices.h shared/view_params.h
   cl/device.h cl/launch.h cl/error.h cl/opencl.h cl/profiler.h cl/program_cache.h cl/transfer.h
   culling/cull_view.h culling/light_culler.h
-  raster/raster_scene.h raster/raster_view.h)
+  raster/raster_scene.h raster/raster_view.h
+  rays/ray_scene.h)
 foreach(header IN LISTS public_headers)
   cmake_path(GET header PARENT_PATH folder)
   set(installed ${PROJECT_BINARY_DIR}/installed_headers/${header})

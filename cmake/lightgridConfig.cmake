@@ -1,4 +1,4 @@
-# find_package(lightgrid): the targets lightgrid::culling and lightgrid::raster.
+# find_package(lightgrid): the targets lightgrid::culling, lightgrid::raster and lightgrid::rays.
 include(CMakeFindDependencyMacro)
 find_dependency(Threads)
 find_dependency(glm)

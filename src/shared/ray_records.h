@@ -1,0 +1,40 @@
+// The tree that shadow rays walk through, as the host builds it and kernels read it.
+#pragma once
+
+#include "shared/language.h"
+
+#define RAY_STACK 64      // entries: no path from the root down is longer
+#define RAY_MASKED 0x80000000u  // in RayTriangle::number: its material's alpha may let light through
+#define RAY_NOTHING (-1)  // the count of a child that is not there
+
+#if !defined(__OPENCL_VERSION__)
+namespace lightgrid {
+#endif
+
+// A cache line each. All positions are relative to the scene's origin, in metres.
+//
+// Boxes hold a child's triangles exactly: rounding is the ray's own matter (kernels/rays/ray_packet.h).
+typedef struct RayNode {
+  float low_0[3], high_0[3], low_1[3], high_1[3];
+  int child_0, child_1;  // a node, or where count is not 0 the first triangle
+  int count_0, count_1;  // triangles
+} RayNode;
+
+// Three corners, and the normal (second - first) x (third - first) over its greatest component, or 0.
+typedef struct RayTriangle {
+  double normal[3];
+  float corners[9];
+  uint number;
+} RayTriangle;
+
+// An instance that moved, or whose mesh did: columns of world_from_object, the last relative to the origin; its
+// triangles by number, and where its mesh lies in the arrays of all meshes.
+typedef struct RayMoved {
+  double x[3], y[3], z[3], at[3];
+  uint first_triangle, triangles, first_index, first_vertex;
+} RayMoved;
+
+#if !defined(__OPENCL_VERSION__)
+static_assert(sizeof(RayNode) == 64 && sizeof(RayTriangle) == 64);
+}  // namespace lightgrid
+#endif
