@@ -1,0 +1,137 @@
+// A card over a floor, solved by hand: a light at the height h, above the middle of a square card of half side s
+// at the height c, sees the points of the floor outside of a square of half side s h / (h - c). The card is turned,
+// so that no edge follows a row of texels.
+#include "shadow_maps/shadow_maps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/camera.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr double light_height_m = 3, card_height_m = 1, card_half_m = 0.5;
+constexpr double card_turn_rad = 0.3;
+constexpr double shadow_half_m = card_half_m * light_height_m / (light_height_m - card_height_m);
+
+ClDevice& device() {
+  static ClDevice device;
+  return device;
+}
+ProgramCache& programs() {
+  static ProgramCache programs(device());
+  return programs;
+}
+
+glm::vec2 turned(const glm::vec2& p, double angle_rad) {
+  const float c = float(std::cos(angle_rad)), s = float(std::sin(angle_rad));
+  return {c * p.x - s * p.y, s * p.x + c * p.y};
+}
+
+// Two triangles each: the floor (numbers 0 and 1), then the card.
+RayScene card_over_floor() {
+  std::vector<glm::vec3> positions;
+  std::vector<uint32_t> indices;
+  for (const glm::vec2 quad : {glm::vec2(8, 0), glm::vec2(card_half_m, card_height_m)}) {
+    const uint32_t first = uint32_t(positions.size());
+    for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+      const glm::vec2 at = turned(corner * quad.x, quad.y > 0 ? card_turn_rad : 0);
+      positions.push_back({at.x, quad.y, at.y});
+    }
+    for (const uint32_t k : {0, 2, 1, 0, 3, 2}) indices.push_back(first + k);
+  }
+  RayScene rays(device(), programs(), {.origin = glm::dvec3(0)});
+  const RayMesh mesh{positions, indices};
+  const RayInstance instance{};
+  rays.set_meshes({&mesh, 1}), rays.set_instances({&instance, 1});
+  return rays;
+}
+
+Light lamp(LightType type) {
+  Light light;
+  light.type = type;
+  light.position = {0, light_height_m, 0}, light.direction = {0, -1, 0};
+  light.radius_m = 8, light.outer_cone_rad = 1.0f;
+  return light;
+}
+
+View view_from(double distance_m) {
+  return make_view(look_at({0, 0.5, distance_m}, {0, 0, 0}), 640, 480);
+}
+
+struct Wrong {
+  int leaked = 0, acned = 0;
+  double furthest_m = 0;  // from the shadow's edge
+};
+
+// Points of the floor, 3 m each way in steps of 2.7 cm, in the light of one lamp.
+Wrong wrong_points(const Light& light, const ShadowMapOptions& options) {
+  const RayScene rays = card_over_floor();
+  ShadowMaps maps(device(), programs(), options);
+  maps.draw(rays, plan_shadow_atlas({&light, 1}, view_from(5), rays.origin(), 20, options));
+  std::vector<RayPoint> points;
+  for (float x = -3; x < 3; x += 0.027f)
+    for (float z = -3; z < 3; z += 0.027f) points.push_back({.position = {x, 0, z}, .own = x > z ? 0 : 1});
+  points.resize(points.size() / 16 * 16);
+  std::vector<RayPacket> packets;
+  for (uint32_t block = 0; block < points.size() / 16; ++block) packets.push_back({block, 0});
+  const std::vector<uint8_t> taps = maps.look_up(rays, points, packets);
+  const int most = taps_a_side(options.filter) * taps_a_side(options.filter);
+  Wrong wrong;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const glm::vec2 p = turned({points[i].position.x, points[i].position.z}, -card_turn_rad);
+    const double inside = shadow_half_m - std::max(std::abs(p.x), std::abs(p.y));  // metres to the edge
+    const bool leaked = inside > 0 && taps[i] < most, acned = inside < 0 && taps[i] > 0;
+    wrong.leaked += leaked, wrong.acned += acned;
+    if (leaked || acned) wrong.furthest_m = std::max(wrong.furthest_m, std::abs(inside));
+  }
+  return wrong;
+}
+
+class OneCard : public ::testing::TestWithParam<std::tuple<LightType, int, ShadowFilter>> {};
+
+// A texel's centre is at most half a texel away along either side, and each tap of a filter a texel more.
+TEST_P(OneCard, OnlyPointsWithinATexelOfTheEdgeAreWrong) {
+  const auto [type, bits, filter] = GetParam();
+  double last = HUGE_VAL;
+  for (const int size : {64, 256, 1024}) {
+    const ShadowMapOptions options{.size = size, .bits = bits, .filter = filter};
+    const Light light = lamp(type);
+    const ShadowAtlas atlas = plan_shadow_atlas({&light, 1}, view_from(5), glm::dvec3(0), 20, options);
+    const double texel_m = light_height_m * 2 * double(atlas.faces[0].tangent) / size;
+    const Wrong wrong = wrong_points(light, options);
+    EXPECT_LE(wrong.furthest_m, (0.5 + taps_a_side(filter) / 2) * std::sqrt(2) * texel_m * 1.001) << size;
+    EXPECT_LT(wrong.leaked + wrong.acned, last) << size;
+    last = wrong.leaked + wrong.acned;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    ShadowMaps, OneCard,
+    ::testing::Combine(::testing::Values(LightType::point, LightType::spot), ::testing::Values(16, 24, 32),
+                       ::testing::Values(ShadowFilter::none, ShadowFilter::pcf3, ShadowFilter::pcf5)));
+
+TEST(ShadowAtlas, SizesFollowTheShareOfTheScreenAndNoLightIsLeftOut) {
+  std::vector<Light> lights(3, lamp(LightType::point));
+  lights[0].radius_m = 1, lights[1].radius_m = 1, lights[2].radius_m = 1;
+  lights[0].position = {0, 0, 0}, lights[1].position = {0, 0, -15}, lights[2].position = {0, 0, -3000};
+  const View view = view_from(5);
+  const ShadowAtlas atlas = plan_shadow_atlas(lights, view, glm::dvec3(0), 20, {.size = 256});
+  ASSERT_EQ(atlas.faces.size(), 18u);
+  EXPECT_EQ(atlas.faces[0].size, 256u);
+  EXPECT_EQ(atlas.faces[6].size, 64u);   // four times as far
+  EXPECT_EQ(atlas.faces[12].size, 16u);  // the least
+  EXPECT_EQ(atlas.texels, 6u * (256 * 256 + 64 * 64 + 16 * 16));
+
+  const ShadowAtlas halved =
+      plan_shadow_atlas(lights, view, glm::dvec3(0), 20, {.size = 256, .most_bytes = 500'000});
+  EXPECT_EQ(halved.halvings, 1);
+  EXPECT_EQ(halved.faces[0].size, 128u);
+  EXPECT_EQ(halved.faces[6].size, 32u);
+  EXPECT_EQ(halved.faces[12].size, 16u);
+}
+
+}  // namespace
+}  // namespace lightgrid
