@@ -22,7 +22,9 @@ cl::Buffer uploaded(ClDevice& device, const std::vector<T>& values) {
 ShadowMaps::ShadowMaps(ClDevice& device, ProgramCache& programs, const ShadowMapOptions& options)
     : device_(device), programs_(programs), options_(options) {}
 
-NamedKernel& ShadowMaps::kernel(const std::string& name, const std::string& defines) {
+NamedKernel& ShadowMaps::kernel(const std::string& name, const RayScene& rays) {
+  const std::string defines =
+      fmt::format("{} {} -DLANES={}", rays.defines(), this->defines(), device_.info().cpu ? 16 : 1);
   NamedKernel& kernel = kernels_[name + defines];
   if (!kernel) kernel = NamedKernel(programs_, "shadow_maps/" + name, defines);
   return kernel;
@@ -35,28 +37,29 @@ void ShadowMaps::draw(const RayScene& rays, const ShadowAtlas& atlas) {
   faces_.put(device_, "shadow maps: faces", atlas.faces);
   texels_.at_least(device_, atlas.bytes);
   if (atlas.faces.empty()) return;
-  const std::string defines =
-      fmt::format("{} {} -DLANES={}", rays.defines(), this->defines(), device_.info().cpu ? 16 : 1);
-  kernel("draw_faces", defines)
+  kernel("draw_faces", rays)
       .launch(device_, "draw_faces", cl::NDRange(atlas.faces.size()), cl::NDRange(1),
               rays.arguments() + ClArguments{{"faces", faces_.buffer()}, {"texels", texels_.get()}});
 }
 
 std::vector<uint8_t> ShadowMaps::look_up(const RayScene& rays, std::span<const RayPoint> points,
                                          std::span<const RayPacket> packets) {
-  std::vector<std::array<float, 4>> places;
-  std::vector<uint32_t> own;
+  const size_t blocks = (points.size() + 15) / 16;
+  std::vector<float> places(blocks * 64);
+  std::vector<int> own(blocks * 16);
   std::vector<std::array<uint32_t, 4>> records;
-  for (const RayPoint& p : points) {
-    places.push_back({p.position.x, p.position.y, p.position.z, p.gap});
-    own.push_back(uint32_t(p.own));
+  for (size_t i = 0; i < points.size(); ++i) {
+    const RayPoint& p = points[i];
+    float* to = &places[i / 16 * 64 + i % 16];
+    to[0] = p.position.x, to[16] = p.position.y, to[32] = p.position.z, to[48] = p.gap;
+    own[i] = p.own;
   }
   for (const RayPacket& p : packets) records.push_back({p.block, p.light, p.lanes, 0});
   std::vector<uint8_t> taps(packets.size() * 16);
   if (packets.empty()) return taps;
-  const cl::Buffer on_device[] = {uploaded(device_, places), uploaded(device_, own), uploaded(device_, records),
-                                  device_buffer(device_, taps.size())};
-  kernel("look_up", rays.defines() + " " + defines())
+  const cl::Buffer on_device[] = {uploaded(device_, places), uploaded(device_, own),
+                                  uploaded(device_, records), device_buffer(device_, taps.size())};
+  kernel("look_up", rays)
       .launch(device_, "look_up", cl::NDRange(packets.size()), cl::NullRange,
               rays.arguments() + arguments() +
                   ClArguments{{"points", on_device[0]},

@@ -39,7 +39,7 @@ class ShadowMaps {
   UploadedBuffer faces_, lights_;
   GrowingBuffer texels_;
   std::map<std::string, NamedKernel> kernels_;  // by file and defines
-  NamedKernel& kernel(const std::string& name, const std::string& defines);
+  NamedKernel& kernel(const std::string& name, const RayScene& rays);
 };
 
 }  // namespace lightgrid

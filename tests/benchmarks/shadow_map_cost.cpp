@@ -1,12 +1,11 @@
-// What shadow maps cost and how wrong they are, on the OpenCL device that lightgrid would use: a scene's first
-// camera, all its point and spot lights, every pair of a pixel and a light that reaches it. Leaked and acned are
-// counted against exact rays of the same pairs. Times are of kernels, the least of three.
-//   shadow_map_cost SCENE.gltf|hall|street|... [WIDTH HEIGHT]
+// What shadow maps cost and how wrong they are, on the OpenCL device that lightgrid would use: a scene's
+// first camera, all its point and spot lights, every pair of a pixel and a light that reaches it. Leaked and
+// acned are counted against exact rays of the same pairs. Times are of kernels, the least of three.
+//   shadow_map_cost SCENE.gltf|hall|street|... [LIGHTS.json]
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 #include "base/error.h"
 #include "base/timer.h"
@@ -16,6 +15,7 @@
 #include "reference/lit_set.h"
 #include "reference/position.h"
 #include "scene/builtin.h"
+#include "scene/lights_file.h"
 #include "scene/load_gltf.h"
 #include "shadow_maps/shadow_maps.h"
 
@@ -83,8 +83,8 @@ std::vector<Corner> triangles_of(const Scene& scene, const dvec3& origin) {
   return triangles;
 }
 
-// Packets are blocks of 4 x 4 pixels. Lights on the other side of a pixel's triangle than the eye make no pair:
-// they are hidden without a map.
+// Packets are blocks of 4 x 4 pixels. Lights on the other side of a pixel's triangle than the eye make no
+// pair: they are hidden without a map.
 Pairs pairs_of(Device& device, const Scene& scene, const View& view, Geometry& geometry) {
   geometry.view.set_camera({view.grid(), view.clip_from_view, view.view_from_world, view.eye});
   const Visibility image = geometry.view.draw();
@@ -148,9 +148,9 @@ double raster_views_ms(Geometry& geometry, const RayScene& rays, const ShadowAtl
     dvec3 light;
     for (int k = 0; k < 3; ++k) {
       view_from_world[k] = glm::dvec4(f.right[k], f.up[k], -f.ahead[k], 0);
-      light[k] = double(f.light[k]) + rays.origin()[k];
+      light[k] = double(f.from[k]) + rays.origin()[k];
     }
-    clip_from_view[0][0] = clip_from_view[1][1] = 1 / double(f.tangent);
+    clip_from_view[0][0] = clip_from_view[1][1] = 1 / double(f.extent);
     clip_from_view[2][3] = -1, clip_from_view[3][2] = 1e-3 * double(f.range_m);
     geometry.view.set_camera({{int(f.size), int(f.size)}, clip_from_view, view_from_world, light});
     geometry.view.draw();
@@ -158,9 +158,11 @@ double raster_views_ms(Geometry& geometry, const RayScene& rays, const ShadowAtl
   return timer.elapsed_ms() / double(faces);
 }
 
-void measure(const std::string& name, int width, int height) {
+void measure(const std::string& name, const char* lights_file) {
+  constexpr int width = 640, height = 360;
   const BuiltinScene* builtin = find_builtin_scene(name);
-  const Scene scene = builtin ? builtin->make() : load_gltf(name);
+  Scene scene = builtin ? builtin->make() : load_gltf(name);
+  if (lights_file) scene.lights = load_lights_file(lights_file);
   Device device;
   Geometry geometry(device, scene);
   const View view = make_view(choose_camera(scene, "", double(width) / height), width, height);
@@ -173,33 +175,35 @@ void measure(const std::string& name, int width, int height) {
   });
   size_t hidden = 0;
   for (const uint32_t bits : truth) hidden += size_t(__builtin_popcount(bits));
-  fmt::print("{}, {} x {}, {}: {} triangles, {} pairs, {:.1f} % hidden; rays {:.1f} ms\n", name, width, height,
-             device.cl.info().name, geometry.rays.triangles(), pairs.count,
+  fmt::print("{}, {} x {}, {}: {} triangles, {} pairs, {:.1f} % hidden; rays {:.1f} ms\n", name, width,
+             height, device.cl.info().name, geometry.rays.triangles(), pairs.count,
              100.0 * double(hidden) / double(pairs.count), rays_ms);
-  fmt::print("| size | bits | filter | leaked % | acned % | light too much % | too little % | draw ms | look up ms "
-             "| MB | halved |\n");
+  fmt::print(
+      "| size | bits | filter | leaked % | acned % | light too much % | too little % | draw ms | look up ms "
+      "| MB | halved |\n");
   const auto row = [&](const ShadowMapOptions& options) {
     ShadowMaps maps(device.cl, device.programs, options);
-    const ShadowAtlas atlas = plan_shadow_atlas(scene.lights, view, geometry.rays.origin(),
-                                                glm::length(box.max - box.min), options);
+    const ShadowAtlas atlas = plan_shadow_atlas(scene.lights, view, geometry.rays.origin(), box, options);
     const double draw_ms = least_ms(device, "draw_faces", [&] { maps.draw(geometry.rays, atlas); });
     std::vector<uint8_t> taps;
-    const double look_ms = least_ms(
-        device, "look_up", [&] { taps = maps.look_up(geometry.rays, pairs.points, pairs.packets); });
+    const double look_ms =
+        least_ms(device, "look_up", [&] { taps = maps.look_up(geometry.rays, pairs.points, pairs.packets); });
     const int side = taps_a_side(options.filter), most = side * side;
     double leaked = 0, acned = 0, more = 0, less = 0;
     for (size_t p = 0; p < pairs.packets.size(); ++p) {
       for (uint32_t k = 0; k < 16; ++k) {
         if (!(pairs.packets[p].lanes >> k & 1)) continue;
         const int dark = taps[p * 16 + k];
-        if (truth[p] >> k & 1) leaked += dark < most, more += double(most - dark) / most;
-        else acned += dark > 0, less += double(dark) / most;
+        if (truth[p] >> k & 1)
+          leaked += dark < most, more += double(most - dark) / most;
+        else
+          acned += dark > 0, less += double(dark) / most;
       }
     }
     const double percent = 100.0 / double(pairs.count);
     fmt::print("| {} | {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.1f} | {:.1f} | {:.1f} | {} |\n",
-               options.size, options.bits, side, leaked * percent, acned * percent, more * percent, less * percent,
-               draw_ms, look_ms, double(atlas.bytes) * 1e-6, atlas.halvings);
+               options.size, options.bits, side, leaked * percent, acned * percent, more * percent,
+               less * percent, draw_ms, look_ms, double(atlas.bytes) * 1e-6, atlas.halvings);
     std::fflush(stdout);
     return atlas;
   };
@@ -207,8 +211,7 @@ void measure(const std::string& name, int width, int height) {
   for (const int bits : {16, 24}) row({.bits = bits});
   for (const ShadowFilter filter : {ShadowFilter::pcf3, ShadowFilter::pcf5})
     for (const int size : {64, 256, 1024}) row({.size = size, .filter = filter});
-  const ShadowAtlas atlas = plan_shadow_atlas(scene.lights, view, geometry.rays.origin(),
-                                              glm::length(box.max - box.min), {});
+  const ShadowAtlas atlas = plan_shadow_atlas(scene.lights, view, geometry.rays.origin(), box, {});
   device.cl.profiler().time_launches(false);
   fmt::print("a RasterView takes {:.2f} ms a face; {} faces\n",
              raster_views_ms(geometry, geometry.rays, atlas, 100), atlas.faces.size());
@@ -219,9 +222,8 @@ void measure(const std::string& name, int width, int height) {
 
 int main(int count, char** arguments) {
   try {
-    if (count < 2) throw lightgrid::input_error("shadow_map_cost SCENE.gltf|hall|street|... [WIDTH HEIGHT]");
-    const bool sized = count > 3;
-    lightgrid::measure(arguments[1], sized ? std::atoi(arguments[2]) : 640, sized ? std::atoi(arguments[3]) : 360);
+    if (count < 2) throw lightgrid::input_error("shadow_map_cost SCENE.gltf|hall|street|... [LIGHTS.json]");
+    lightgrid::measure(arguments[1], count > 2 ? arguments[2] : nullptr);
   } catch (const lightgrid::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return error.exit_code();
