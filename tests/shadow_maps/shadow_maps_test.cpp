@@ -1,6 +1,7 @@
 // A card over a floor, solved by hand: a light at the height h, above the middle of a square card of half
 // side s at the height c, sees the points of the floor outside of a square of half side s h / (h - c). The
-// card is turned, so that no edge follows a row of texels.
+// card is turned, so that no edge follows a row of texels. The sun's rays are parallel: its shadow is a
+// square of half side s, moved along them.
 #include "shadow_maps/shadow_maps.h"
 
 #include <gtest/gtest.h>
@@ -31,6 +32,14 @@ glm::vec2 turned(const glm::vec2& p, double angle_rad) {
   return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
 
+RayScene scene_of(const std::vector<glm::vec3>& positions, const std::vector<uint32_t>& indices) {
+  RayScene rays(device(), programs(), {.origin = glm::dvec3(0)});
+  const RayMesh mesh{positions, indices};
+  const RayInstance instance{};
+  rays.set_meshes({&mesh, 1}), rays.set_instances({&instance, 1});
+  return rays;
+}
+
 // Two triangles each: the floor (numbers 0 and 1), then the card.
 RayScene card_over_floor() {
   std::vector<glm::vec3> positions;
@@ -43,11 +52,7 @@ RayScene card_over_floor() {
     }
     for (const uint32_t k : {0, 2, 1, 0, 3, 2}) indices.push_back(first + k);
   }
-  RayScene rays(device(), programs(), {.origin = glm::dvec3(0)});
-  const RayMesh mesh{positions, indices};
-  const RayInstance instance{};
-  rays.set_meshes({&mesh, 1}), rays.set_instances({&instance, 1});
-  return rays;
+  return scene_of(positions, indices);
 }
 
 Light lamp(LightType type) {
@@ -130,6 +135,34 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Combine(::testing::Values(LightType::point, LightType::spot, LightType::directional),
                        ::testing::Values(16, 24, 32),
                        ::testing::Values(ShadowFilter::none, ShadowFilter::pcf3, ShadowFilter::pcf5)));
+
+// A step of 16 bits is then 3 cm, and the floor's distances are rounded to either side of it.
+TEST(ShadowMaps, TheFormatsStepIsInTheBias) {
+  Light light = lamp(LightType::point);
+  light.radius_m = 2000;
+  const ShadowMapOptions options{.size = 1024, .bits = 16};
+  const Wrong wrong = wrong_points(light, options);
+  EXPECT_GT(wrong.leaked + wrong.acned, 0);
+  EXPECT_LE(wrong.furthest_m, std::sqrt(0.5) * 2 * light_height_m / options.size * 1.001);
+}
+
+// The wall x = 1 passes beside the light and above it: half of what the faces see of it lies behind them.
+TEST(ShadowMaps, AWallThatCrossesTheLightsPlanesHidesAllBehindIt) {
+  const std::vector<glm::vec3> corners{{-8, 0, -8}, {8, 0, -8}, {8, 0, 8}, {-8, 0, 8},
+                                       {1, 0, -9},  {1, 9, -9}, {1, 9, 9}, {1, 0, 9}};
+  const RayScene rays = scene_of(corners, {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7});
+  const Light light = lamp(LightType::point);
+  const ShadowMapOptions options{.size = 256};
+  ShadowMaps maps(device(), programs(), options);
+  maps.draw(rays, plan_shadow_atlas({&light, 1}, view_from(5), rays.origin(), room, options));
+  const std::vector<RayPoint> points = floor_points();
+  const std::vector<uint8_t> taps = taps_at(maps, rays, points);
+  const double texel_m = 2 * light_height_m / options.size;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const float x = points[i].position.x;
+    if (std::abs(x - 1) > texel_m) ASSERT_EQ(taps[i], x > 1 ? 1 : 0) << x << ' ' << points[i].position.z;
+  }
+}
 
 // A camera that goes forward and turns.
 View view_of_frame(int frame) {
