@@ -1,5 +1,5 @@
-// Draws shadow maps (Williams, "Casting Curved Shadows on Curved Surfaces", SIGGRAPH 1978): for each texel the
-// distance of the nearest triangle that its centre sees. A work-item a face.
+// Draws shadow maps (Williams, "Casting Curved Shadows on Curved Surfaces", SIGGRAPH 1978): for each texel
+// the distance of the nearest triangle that its centre sees. A work-item a face.
 //
 // RAYS_ARGUMENTS  the triangles, in a tree that leaves out what the face does not see
 // faces           ShadowFace each
@@ -8,11 +8,11 @@
 // -DSHADOW_BITS  of a texel (shadow_texels.h)
 // -DLANES        16 texels of a row at once, or 1
 //
-// A triangle covers a texel if its centre's direction r lies on the inner side of the planes through the light
-// and each edge: no clipping, no near plane (Olano, Greer, "Triangle Scan Conversion using 2D Homogeneous
-// Coordinates", 1997). Its distance there is n.a / n.r, of its normal n and a corner a. Swapping the ends of an
-// edge turns all signs, so that neighbours leave no gap. Of a directional light's face the corners' last coordinate
-// is 1 in the edges' planes, which makes them the edges' lines on the image.
+// A triangle covers a texel if its centre's direction r lies on the inner side of the planes through the
+// light and each edge: no clipping, no near plane (Olano, Greer, "Triangle Scan Conversion using 2D
+// Homogeneous Coordinates", 1997). Its distance there is n.a / n.r, of its normal n and a corner a. Swapping
+// the ends of an edge turns all signs, so that neighbours leave no gap. Of a directional light's face the
+// corners' last coordinate is 1 in the edges' planes, which makes them the edges' lines on the image.
 #include "kernels/rays/rays.h"
 #include "kernels/shadow_maps/shadow_texels.h"
 #include "shared/shadow_face.h"
@@ -48,7 +48,8 @@ static inline float3 in_face(const Face* f, global const float* corner) {
   return (float3)(dot(f->right, p), dot(f->up, p), dot(f->ahead, p));
 }
 
-// Whether a box lies out of the light's range, or behind one of the four planes that bound what the face sees.
+// Whether a box lies out of the light's range, or behind one of the four planes that bound what the face
+// sees.
 static bool out_of_face(const Face* f, global const float* low, global const float* high) {
   const float3 a = at3(low) - f->from, b = at3(high) - f->from;
   const float3 off = max(max(a, -b), (float3)(0.0f));
@@ -97,7 +98,8 @@ static void draw_triangle(const RayScene* scene, int place, const Face* f) {
     global Texel* row = f->texels + y * f->size;
     for (int x = left & ~(LANES - 1); x <= right; x += LANES) {
       const real u = first + step * ((float)x + LANE_OFFSETS);
-      const real e0 = p.x * u + (p.y * v + p.z), e1 = q.x * u + (q.y * v + q.z), e2 = r.x * u + (r.y * v + r.z);
+      const real e0 = p.x * u + (p.y * v + p.z), e1 = q.x * u + (q.y * v + q.z),
+                 e2 = r.x * u + (r.y * v + r.z);
       mask_t inside = lane_min(lane_min(e0, e1), e2) >= 0.0f;
       if (!any_lane(inside)) continue;
 #ifdef RAYS_MASKS
@@ -119,7 +121,7 @@ static void draw_triangle(const RayScene* scene, int place, const Face* f) {
 kernel void draw_faces(RAYS_ARGUMENTS, global const ShadowFace* faces, global Texel* texels) {
   const RayScene scene = RAYS_SCENE;
   global const ShadowFace* s = faces + get_global_id(0);
-  const Face f = {at3(s->from), at3(s->right), at3(s->up),       at3(s->ahead),     s->extent,
+  const Face f = {at3(s->from), at3(s->right), at3(s->up),       at3(s->ahead),    s->extent,
                   s->range_m,   (int)s->size,  s->parallel != 0, texels + s->first};
   for (int i = 0; i < f.size * f.size; i += LANES) store_texels((real)(TEXEL_NOTHING), f.texels + i);
   int stack[RAY_STACK], height = 0;

@@ -33,7 +33,8 @@ typedef struct ShadowReceivers {
   real gap;      // metres in front of the point in which nothing hides it
 } ShadowReceivers;
 
-static inline ShadowReceivers shadow_receivers(const RayScene* scene, Real3 at, whole own, real gap, uint live) {
+static inline ShadowReceivers shadow_receivers(const RayScene* scene, Real3 at, whole own, real gap,
+                                               uint live) {
 #if LANES == 16
   float corners[9][16] = {{0}};
   int numbers[16];
@@ -44,7 +45,8 @@ static inline ShadowReceivers shadow_receivers(const RayScene* scene, Real3 at, 
     rays_triangle(scene, (uint)numbers[lane], of);
     for (int k = 0; k < 9; ++k) corners[k][lane] = of[k];
   }
-#define CORNER(k) real3(vload16(0, corners[3 * k]), vload16(0, corners[3 * k + 1]), vload16(0, corners[3 * k + 2]))
+#define CORNER(k) \
+  real3(vload16(0, corners[3 * k]), vload16(0, corners[3 * k + 1]), vload16(0, corners[3 * k + 2]))
 #else
   float corners[9];
   rays_triangle(scene, (uint)own, corners);
@@ -56,7 +58,9 @@ static inline ShadowReceivers shadow_receivers(const RayScene* scene, Real3 at, 
   return r;
 }
 
-static inline real along(global const float* axis, Real3 v) { return axis[0] * v.x + axis[1] * v.y + axis[2] * v.z; }
+static inline real along(global const float* axis, Real3 v) {
+  return axis[0] * v.x + axis[1] * v.y + axis[2] * v.z;
+}
 
 static inline Real3 in_face(global const ShadowFace* f, Real3 p) {
   return real3(p.x - f->from[0], p.y - f->from[1], p.z - f->from[2]);
@@ -121,7 +125,8 @@ static inline whole taps_of_face(const ShadowMaps* maps, global const ShadowFace
   const real in_front = f->parallel ? r->gap : r->gap * p->z / sqrt(p->x * p->x + p->y * p->y + p->z * p->z);
   const float step = 1.0f / p->to_texels, metres = 1.0f / texel_scale(f->range_m);
   const real most = REAL((float)(f->size - 1));
-  const real x = lane_floor(p->u * p->to_texels + p->half_size), y = lane_floor(p->v * p->to_texels + p->half_size);
+  const real x = lane_floor(p->u * p->to_texels + p->half_size),
+             y = lane_floor(p->v * p->to_texels + p->half_size);
   whole hidden = (whole)(0);
   for (int j = -(SHADOW_TAPS / 2); j <= SHADOW_TAPS / 2; ++j) {
     for (int i = -(SHADOW_TAPS / 2); i <= SHADOW_TAPS / 2; ++i) {
@@ -134,7 +139,8 @@ static inline whole taps_of_face(const ShadowMaps* maps, global const ShadowFace
       const real at_plane = turn * (f->parallel ? plane - across : plane) / facing;
       const real expected = facing > 0.0f ? lane_min(at_plane, p->furthest) : p->furthest;
       const real length = f->parallel ? REAL(1.0f) : sqrt(u * u + v * v + 1.0f);
-      const real bias = in_front + texel_step(f->range_m, expected) + rounding * length / lane_max(facing, REAL(0x1p-10f));
+      const real bias =
+          in_front + texel_step(f->range_m, expected) + rounding * length / lane_max(facing, REAL(0x1p-10f));
       const real stored = texels_at(maps->texels + f->first, f->size, TO_WHOLE(tx), TO_WHOLE(ty), live);
       hidden += (stored != TEXEL_NOTHING) & (stored * metres < expected - bias) ? (whole)(1) : (whole)(0);
     }
@@ -142,8 +148,9 @@ static inline whole taps_of_face(const ShadowMaps* maps, global const ShadowFace
   return lanes_of(live) & (p->z > 0.0f) ? hidden : (whole)(0);
 }
 
-// Of the taps, those that see something nearer than the receiver: 0 to SHADOW_TAPS^2 for each lane of `active`.
-// A point takes its face of a cube, or the first cascade that holds all taps; outside of the last it is lit.
+// Of the taps, those that see something nearer than the receiver: 0 to SHADOW_TAPS^2 for each lane of
+// `active`. A point takes its face of a cube, or the first cascade that holds all taps; outside of the last
+// it is lit.
 static inline whole shadow_taps(const ShadowMaps* maps, uint light, const ShadowReceivers* r, mask_t active) {
   const uint2 of = maps->lights[light];
   global const ShadowFace* first = maps->faces + of.x;

@@ -11,7 +11,7 @@
 typedef float Texel;
 #define TEXEL_NOTHING INFINITY
 #define texel_scale(range) 1.0f
-#define texel_step(range, distance) ((distance) * 0x1p-23f)
+#define texel_step(range, distance) ((distance)*0x1p-23f)
 #else
 #define TEXEL_NOTHING ((float)((1 << SHADOW_BITS) - 1))
 #define texel_scale(range) ((TEXEL_NOTHING - 1.0f) / (range))
