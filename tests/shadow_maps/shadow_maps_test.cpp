@@ -160,7 +160,8 @@ TEST(ShadowMaps, AWallThatCrossesTheLightsPlanesHidesAllBehindIt) {
   const double texel_m = 2 * light_height_m / options.size;
   for (size_t i = 0; i < points.size(); ++i) {
     const float x = points[i].position.x;
-    if (std::abs(x - 1) > texel_m) ASSERT_EQ(taps[i], x > 1 ? 1 : 0) << x << ' ' << points[i].position.z;
+    if (std::abs(x - 1) < texel_m) continue;
+    ASSERT_EQ(taps[i], x > 1 ? 1 : 0) << x << ' ' << points[i].position.z;
   }
 }
 
