@@ -26,7 +26,7 @@ struct CastingLights {
 class SeenPairs {
  public:
   // Takes `pixels` (y * width + x each, all covered), and of each the lights that cast and, with `in_range`,
-  // are lit (lit_set.h). Occlusion::sight decides on all cores: 0.3 to 1 million pairs a second and core.
+  // are lit (lit_set.h). Occlusion::sight decides on all cores: 0.2 million pairs a second and core in hall.
   SeenPairs(const Occlusion& occlusion, const ShownSurfaces& shown, const CastingLights& lights,
             const std::vector<uint32_t>& pixels, bool in_range = true);
 

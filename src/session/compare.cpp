@@ -110,7 +110,7 @@ struct Measured {
   Image every_light_on_own = {};  // surfaces, where rows have such and the reference has OpenGL's; or empty
 };
 
-// Ten million pairs are decided in about ten seconds on two cores.
+// They take about 45 seconds of processor time.
 constexpr uint64_t most_shadow_pairs = 10'000'000;
 
 Measured measured(Reference& reference, bool flip) {
