@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "app/commands.h"
-#include "session/contestants.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "base/error.h"
@@ -15,6 +14,7 @@
 #include "bench/rows.h"
 #include "bench/tune.h"
 #include "capture/capture.h"
+#include "session/contestants.h"
 
 namespace lightgrid {
 namespace {
@@ -99,8 +99,9 @@ class SceneFrames {
 bool chooses_scene(const SceneChoice& o) {
   const SceneChoice plain;
   return !o.scene.empty() || !o.camera_path.empty() || !o.camera.empty() || !o.lights_file.empty() ||
-         !o.light_radius.empty() || !o.ambient.empty() || !o.time.empty() || o.lights >= 0 ||
-         o.size != plain.size || o.seed != plain.seed || o.light_motion != plain.light_motion;
+         !o.light_radius.empty() || !o.ambient.empty() || !o.shadows.empty() || !o.time.empty() ||
+         o.lights >= 0 || o.size != plain.size || o.seed != plain.seed ||
+         o.light_motion != plain.light_motion;
 }
 
 // Null: none was chosen.

@@ -72,6 +72,7 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
                             {"seed", s.seed},
                             {"views", o.views}};
   if (!s.ambient.empty()) request["ambient"] = s.ambient;
+  if (!s.shadows.empty()) request["shadows"] = s.shadows;
   if (!s.exposure.empty()) request["exposure"] = s.exposure;
   for (const ChosenPoint& point : points) {
     request["points"].push_back({point.contestant.technique->name,

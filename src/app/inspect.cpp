@@ -17,6 +17,7 @@
 #include "capture/list_accuracy.h"
 #include "inspect/inspect.h"
 #include "session/contestants.h"
+#include "session/frame_shadows.h"
 
 namespace lightgrid {
 namespace {
@@ -57,6 +58,8 @@ struct Subject {
   Settings settings;
   std::string technique;  // the chosen one
   TechniqueNeeds needs{};
+  std::unique_ptr<Renderer> renderer{};     // of `shadows`
+  std::unique_ptr<FrameShadows> shadows{};  // where lights of the scene cast
   const View& view() const { return scene ? scene->view : frame.view; }
 };
 
@@ -67,7 +70,8 @@ Subject load_frame(const SceneChoice& o) {
                                                 {"--lights", o.lights >= 0},
                                                 {"--lights-file", !o.lights_file.empty()},
                                                 {"--light-radius", !o.light_radius.empty()},
-                                                {"--ambient", !o.ambient.empty()}};
+                                                {"--ambient", !o.ambient.empty()},
+                                                {"--shadows", !o.shadows.empty()}};
   for (const auto& [option, is_given] : given) {
     if (is_given) throw input_error("{}: {} is a captured frame, which has its own", option, o.scene);
   }
@@ -92,30 +96,53 @@ struct OpenCl {
 OpenCl open_devices_for(Subject& subject, const InspectOptions& o) {
   subject.technique = o.technique.empty() ? "forward_plus" : o.technique;
   if (subject.scene) {
-    Renderer renderer = open_devices(o.devices, o.technique, subject.settings);
-    const Technique& chosen = technique_or_default(o.technique, renderer);
+    auto renderer = std::make_unique<Renderer>(open_devices(o.devices, o.technique, subject.settings));
+    const Technique& chosen = technique_or_default(o.technique, *renderer);
     subject.frame =
-        capture_frame(renderer, subject.scene->scene, subject.scene->view, subject.settings, chosen);
+        capture_frame(*renderer, subject.scene->scene, subject.scene->view, subject.settings, chosen);
     subject.technique = chosen.name;
+    if (ShadowTruth(subject.scene->scene, 0).casts()) {
+      subject.shadows = std::make_unique<FrameShadows>(*renderer, subject.scene->scene, subject.scene->view,
+                                                       subject.settings, chosen);
+      subject.renderer = std::move(renderer);
+    }
   }
   OpenCl devices{std::make_unique<ClDevice>(o.devices.device), nullptr};
   devices.kernels = std::make_unique<ProgramCache>(*devices.cl);
   return devices;
 }
 
-// Returns 1 if a light was lost.
+// Of the lights that cast and are lit at the pixel. Returns whether one leaks or is dark though seen.
+bool add_shadows(PixelInspection& pixel, const Subject& subject) {
+  bool wrong = false;
+  for (LightVerdict& v : pixel.lights) {
+    if (!v.lit || !subject.frame.lights[size_t(v.light)].casts_shadow) continue;
+    const auto sight = subject.shadows->sight(pixel.x, pixel.y, size_t(v.light));
+    if (!sight) continue;
+    v.shadow = ShadowVerdict{*sight, "", subject.shadows->shaded_as_hidden(pixel.x, pixel.y, v.index)};
+    if (sight->by.instance >= 0)
+      v.shadow->by = subject.scene->scene.instances[size_t(sight->by.instance)].name;
+    wrong |= sight->sight == (v.shadow->shaded_as_hidden ? Sight::seen : Sight::hidden);
+  }
+  return wrong;
+}
+
+// Returns 1 if a light was lost, or its shadow is wrong.
 int inspect_place(const InspectOptions& o, const Subject& subject, FrameCuller& culler, const FrameGrid& grid,
                   const Place& place) {
-  const PixelInspection pixel =
+  PixelInspection pixel =
       inspect_pixel(subject.frame, grid, culler.intervals(), subject.settings, place.x, place.y);
+  const bool wrong = subject.shadows && add_shadows(pixel, subject);
   const int most = o.all ? std::numeric_limits<int>::max() : o.dropped;
   if (!o.json.empty()) write_json(o.json, inspection_json(subject.frame, pixel, grid, most));
   if (o.json != "-") std::fputs(inspection_table(subject.frame, pixel, most).c_str(), stdout);
-  return pixel.lost() ? 1 : 0;
+  return pixel.lost() || wrong ? 1 : 0;
 }
 
 int inspect_image(const InspectOptions& o, const Subject& subject, const FrameGrid& grid) {
-  const InspectionMaps maps = inspection_maps(subject.frame, grid);
+  std::optional<PairShadows> shadows;
+  if (subject.shadows) shadows.emplace(subject.shadows->pairs());
+  const InspectionMaps maps = inspection_maps(subject.frame, grid, shadows ? &*shadows : nullptr);
   write_inspection_maps(o.output, subject.frame, maps);
   const PairCounts& pairs = maps.pairs;
   const auto a_pixel = [&](uint64_t count) {
@@ -129,9 +156,12 @@ int inspect_image(const InspectOptions& o, const Subject& subject, const FrameGr
         "wrong\n",
         a_pixel(pairs.listed), a_pixel(pairs.lit), a_pixel(pairs.listed - (pairs.lit - pairs.lost)),
         pairs.lost, pairs.wrong);
+    if (pairs.shadows)
+      fmt::print("  leaked.png, acned.png: {} pairs leaked, {} acned, {} undecided, at {} pixels\n",
+                 pairs.shadows->leaked, pairs.shadows->acned, pairs.shadows->either, pairs.shadows->pixels);
   }
   if (!o.json.empty() && o.pixel.empty()) write_json(o.json, inspection_json(subject.frame, maps, grid));
-  return pairs.lost || pairs.wrong ? 1 : 0;
+  return pairs.lost || pairs.wrong || (pairs.shadows && pairs.shadows->faults()) ? 1 : 0;
 }
 
 // Compares each combination's lists with one result of the oracle.

@@ -24,6 +24,8 @@ void add_view_options(Subcommand& command, SceneChoice& o) {
   command.option("--lights-file", o.lights_file, "lights as JSON, instead of the scene's own");
   command.option("--light-radius", o.light_radius, "range of scattered lights in metres, MIN,MAX");
   command.option("--ambient", o.ambient, "radiance from all sides instead of the scene's own; 0: none");
+  command.option("--shadows", o.shadows,
+                 "lights that cast shadows: the N most important, all or none (default: as the scene says)");
   command.option("--seed", o.seed, "seed of the scatter");
   command.option("--brdf", o.brdf, "ggx, blinn or lambert: short for --set brdf=…");
   command.option("--time", o.time, "seconds into the animations of the file; not given: at rest");

@@ -1,12 +1,15 @@
 // lightgrid plan SCENE: the effects that this view needs, and why.
 #include <cstdio>
 #include <memory>
+#include <optional>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
 #include "app/options.h"
 #include "session/contestants.h"
+#include "session/leaks.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -15,7 +18,28 @@ namespace {
 struct PlanOptions {
   SceneChoice scene;
   std::string technique = "forward_plus", json;
+  bool leaks = false;
 };
+
+std::string caster_words(const Scene& scene, int instance) {
+  return fmt::format("reaches node {} \"{}\"", instance, scene.instances[size_t(instance)].name);
+}
+
+nlohmann::ordered_json leaks_json(const Leaks& leaks, const Scene& scene) {
+  nlohmann::ordered_json json = {{"pixels", leaks.pixels},
+                                 {"lit", leaks.lit},
+                                 {"leaked", leaks.leaked},
+                                 {"either", leaks.either},
+                                 {"through", nlohmann::ordered_json::array()}};
+  for (const Leak& leak : leaks.leaks) {
+    json["through"].push_back({{"light", leak.light},
+                               {"name", scene.lights[size_t(leak.light)].name},
+                               {"node", leak.instance},
+                               {"node_name", scene.instances[size_t(leak.instance)].name},
+                               {"pixels", leak.pixels}});
+  }
+  return json;
+}
 
 int plan(PlanOptions o) {
   take_own_settings(o.technique, o.scene.set);
@@ -25,8 +49,12 @@ int plan(PlanOptions o) {
   if (!o.json.empty()) check_output_file("--json", o.json);
   const ChosenScene chosen = load_chosen_scene(o.scene);
   const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
+  std::optional<Leaks> leaks;
+  if (o.leaks) leaks = find_leaks(chosen.scene, chosen.view, settings.ranges);
   if (o.json.empty()) {
     std::fputs(describe(plan, chosen.scene).c_str(), stdout);
+    constexpr size_t most_leaks = 20;
+    if (leaks) std::fputs(describe(*leaks, chosen.scene, most_leaks).c_str(), stdout);
     return 0;
   }
   nlohmann::ordered_json json = {{"scene", chosen.scene.name},
@@ -35,6 +63,15 @@ int plan(PlanOptions o) {
   for (const Decision& d : plan.decisions) {
     json["decisions"].push_back({{"effect", d.effect}, {"needed", d.needed}, {"why", d.why}});
   }
+  for (const LightShadow& light : plan.casting) {
+    const bool rays = light.need == ShadowNeed::rays;
+    json["shadows"].push_back(
+        {{"light", light.light},
+         {"name", chosen.scene.lights[size_t(light.light)].name},
+         {"rays", rays},
+         {"why", rays ? caster_words(chosen.scene, light.caster) : reason_of(light.need)}});
+  }
+  if (leaks) json["leaks"] = leaks_json(*leaks, chosen.scene);
   write_json(o.json, json.dump(1));
   return 0;
 }
@@ -47,6 +84,7 @@ void add_plan(CommandLine& line) {
       line.add("plan", "the effects that this view needs, and why", [o] { return plan(*o); });
   add_scene_options(command, o->scene);
   add_technique_option(command, o->technique, technique_names());
+  command.flag("--leaks", o->leaks, "lists the light that goes through walls, by light and wall");
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 

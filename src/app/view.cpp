@@ -30,6 +30,7 @@ std::string scene_words(const ViewOptions& o) {
   if (!s.lights_file.empty()) words += " --lights-file " + shell_word(s.lights_file);
   if (!s.light_radius.empty()) words += " --light-radius " + shell_word(s.light_radius);
   if (!s.ambient.empty()) words += " --ambient " + shell_word(s.ambient);
+  if (!s.shadows.empty()) words += " --shadows " + shell_word(s.shadows);
   if (s.lights >= 0 && s.lights_file.empty() && s.seed != SceneChoice().seed)
     words += fmt::format(" --seed {}", s.seed);
   if (!s.exposure.empty()) words += " --exposure " + s.exposure;

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "capture/frame_culler.h"
+#include "reference/lit_set.h"
+#include "reference/occlusion.h"
 #include "results/results.h"
 
 namespace lightgrid {
@@ -22,6 +24,13 @@ struct TestMargins {
   std::optional<double> pieces;  // the parts of the cell that halfz, halfz-modified and mask32 distinguish
 };
 
+// Of a light that casts, at the pixel.
+struct ShadowVerdict {
+  SightAnswer truth;
+  std::string by;                 // the instance that hides it
+  bool shaded_as_hidden = false;  // by the frame
+};
+
 struct LightVerdict {
   uint32_t index = 0;  // in the lists
   int light = 0;       // in the frame
@@ -31,9 +40,10 @@ struct LightVerdict {
   std::string test;     // among the tests in use: the one that dropped it, or the one with the least margin
   double margin_m = 0;  // of that test
   TestMargins margins;
-  bool touches = false;  // some point of the convex cell may be lit, cone included
-  bool lit = false;      // by the oracle, at this pixel
-  int lit_pixels = 0;    // of the cell
+  bool touches = false;                 // some point of the convex cell may be lit, cone included
+  bool lit = false;                     // by the oracle, at this pixel
+  int lit_pixels = 0;                   // of the cell
+  std::optional<ShadowVerdict> shadow;  // not set by inspect_pixel
 };
 
 struct PixelInspection {
@@ -68,15 +78,18 @@ struct InspectionMaps {
   uint64_t covered = 0;                                 // pixels with a surface
   uint32_t top = 1;                                     // end of the scale of the three maps
   std::vector<uint32_t> listed, false_positives, lost;  // lights per pixel, row 0 at the bottom
+  std::vector<uint32_t> leaked, acned;                  // likewise; empty without shadows
 };
 
-InspectionMaps inspection_maps(const CapturedFrame& frame, const FrameGrid& grid);
+// shadows: of the frame; null: none.
+InspectionMaps inspection_maps(const CapturedFrame& frame, const FrameGrid& grid,
+                               const PairShadows* shadows = nullptr);
 
 // "pairs" as in results.json, and how many pixels show a surface.
 std::string inspection_json(const CapturedFrame& frame, const InspectionMaps& maps, const FrameGrid& grid);
 
-// Writes listed.png, false_positives.png and lost.png; creates the folder if missing. Black is 0; the scale
-// ends at `top`.
+// Writes listed.png, false_positives.png and lost.png, and with shadows leaked.png and acned.png; creates the
+// folder if missing. Black is 0; the scale ends at `top`.
 void write_inspection_maps(const std::filesystem::path& folder, const CapturedFrame& frame,
                            const InspectionMaps& maps);
 

@@ -61,6 +61,37 @@ std::string row_text(const CapturedFrame& frame, const LightVerdict& v, size_t c
       fmt::format("{}/{}", v.lit_pixels, cells_pixels));
 }
 
+const char* name_of(Sight sight) {
+  return sight == Sight::seen ? "seen" : sight == Sight::hidden ? "hidden" : "either";
+}
+
+// "light 3 "lamp": hidden by "column" triangle 12, 1.250 m from the light; the frame shades it: leaked".
+std::string shadow_text(const CapturedFrame& frame, const LightVerdict& v) {
+  const ShadowVerdict& shadow = *v.shadow;
+  const Light& light = frame.lights[v.light];
+  const bool hidden = shadow.truth.sight == Sight::hidden;
+  std::string text = fmt::format("light {} \"{}\": {}", v.light, light.name, name_of(shadow.truth.sight));
+  if (hidden)
+    text += fmt::format(" by \"{}\" triangle {}, {:.3f} m from the {}", shadow.by, shadow.truth.by.triangle,
+                        shadow.truth.distance_m, is_directional(light) ? "surface" : "light");
+  if (shadow.truth.sight == Sight::either) text += ": its answer turns on rounding";
+  const char* fault = hidden && !shadow.shaded_as_hidden ? "; the frame shades it: LEAKED"
+                      : shadow.truth.sight == Sight::seen && shadow.shaded_as_hidden
+                          ? "; the frame hides it: ACNED"
+                          : "";
+  return text + fault + "\n";
+}
+
+json shadow_json(const ShadowVerdict& shadow) {
+  const bool hidden = shadow.truth.sight == Sight::hidden;
+  return {{"sight", name_of(shadow.truth.sight)},
+          {"by", hidden ? json(shadow.by) : json()},
+          {"instance", hidden ? json(shadow.truth.by.instance) : json()},
+          {"triangle", hidden ? json(shadow.truth.by.triangle) : json()},
+          {"away", hidden ? number(shadow.truth.distance_m) : json()},
+          {"shaded_as_hidden", shadow.shaded_as_hidden}};
+}
+
 }  // namespace
 
 std::string inspection_table(const CapturedFrame& frame, const PixelInspection& p, int most_dropped) {
@@ -81,7 +112,11 @@ std::string inspection_table(const CapturedFrame& frame, const PixelInspection& 
       "light", "name", "type", "away m", "radius m", "verdict", "by", "margin m", "interval", "planes",
       "aabb", "exact", "cone", "here", "lit px");
   for (const LightVerdict* v : rows) text += row_text(frame, *v, p.covered_pixels);
-  return text;
+  std::string shadows;
+  for (const LightVerdict* v : rows) {
+    if (v->shadow) shadows += shadow_text(frame, *v);
+  }
+  return shadows.empty() ? text : text + "\n" + shadows;
 }
 
 std::string inspection_json(const CapturedFrame& frame, const PixelInspection& p, const FrameGrid& grid,
@@ -103,6 +138,7 @@ std::string inspection_json(const CapturedFrame& frame, const PixelInspection& p
                       {"touches_cell", v->touches},
                       {"lit", v->lit},
                       {"lit_pixels", v->lit_pixels}});
+    if (v->shadow) lights.back()["shadow"] = shadow_json(*v->shadow);
   }
   const bool empty = !(p.near_m <= p.far_m);
   const json out = {{"scene", frame.name},

@@ -166,6 +166,39 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
       {"32-bit light indices", plan.index_bits == 32, fmt::format("{} point and spot lights", local.size())});
 }
 
+// Shadows of all lights that cast are found: for any view.
+void shadow_all(const Scene& scene, FramePlan& plan) {
+  plan.shadowed.clear();
+  for (const int i : plan.local) plan.shadowed.push_back(scene.lights[size_t(i)].casts_shadow);
+  plan.shadows = plan.light_reaches = std::ranges::count(plan.shadowed, 1) > 0;
+  if (!plan.shadows) plan.shadowed.clear();
+}
+
+// After surfaces and lights.
+void plan_shadows(const Scene& scene, const View& view, PlannedInstances instances, FramePlan& plan) {
+  shadow_all(scene, plan);
+  plan.casting = plan_light_shadows(scene, view, plan.settings.ranges, plan.opaque, plan.blended);
+  if (instances == PlannedInstances::in_view && plan.shadows) {
+    plan.shadows = false;
+    for (const LightShadow& light : plan.casting) {
+      const auto at = std::ranges::lower_bound(plan.local, light.light);
+      if (at == plan.local.end() || *at != light.light) continue;
+      const bool rays = light.need == ShadowNeed::rays;
+      plan.shadowed[size_t(at - plan.local.begin())] = rays;
+      plan.shadows = plan.shadows || rays;
+    }
+    if (!plan.shadows) plan.shadowed.clear();
+  }
+  const auto rays = std::ranges::find(plan.casting, ShadowNeed::rays, &LightShadow::need);
+  plan.decisions.push_back(
+      {"shadows", plan.shadows,
+       rays != plan.casting.end() ? fmt::format("{} reaches {}", light_witness(scene, rays->light),
+                                                instance_witness(scene, rays->caster))
+       : plan.casting.empty()     ? "no light casts one"
+                                  : fmt::format("{}: {}", light_witness(scene, plan.casting[0].light),
+                                                reason_of(plan.casting[0].need))});
+}
+
 // From the near plane to the farthest surface in view.
 void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_m, FramePlan& plan) {
   plan.slices = needs.slices ? plan.settings.slices : 1;
@@ -187,10 +220,11 @@ void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_
                                               : "no light grid"});
 }
 
-void turn_everything_on(FramePlan& plan, const TechniqueNeeds& needs) {
+void turn_everything_on(const Scene& scene, FramePlan& plan, const TechniqueNeeds& needs) {
   plan.light_grid = plan.blend_grid = needs.light_grid;
   plan.world_grid = needs.world_grid;
   plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
+  shadow_all(scene, plan);
   plan.light_reaches = true;
   plan.index_bits = 32;
   plan.features = features_read(feature_all, plan.settings.brdf);
@@ -288,9 +322,8 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
          plan.world_grid ? light_witness(scene, plan.local[0]) : "no light has a place"});
   }
   plan_slices(view, needs, farthest_m, plan);
-  plan.decisions.push_back(
-      {"shadows", false, "no light casts one: shadows are not part of any technique yet"});
-  if (settings.everything_on) turn_everything_on(plan, needs);
+  plan_shadows(scene, view, instances, plan);
+  if (settings.everything_on) turn_everything_on(scene, plan, needs);
   return plan;
 }
 
@@ -301,7 +334,7 @@ std::string describe(const FramePlan& plan, const Scene& scene) {
                   plan.blended.size(), plan.lights_in_view, scene.lights.size());
   for (const Decision& d : plan.decisions)
     text += fmt::format("  {} {}: {}\n", d.needed ? "yes" : " no", d.effect, d.why);
-  return text;
+  return text + describe_shadows(plan.casting, scene);
 }
 
 }  // namespace lightgrid

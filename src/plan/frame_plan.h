@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plan/settings.h"
+#include "plan/shadow_plan.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "scene/view_lights.h"
@@ -88,8 +89,12 @@ struct FramePlan {
   bool world_grid = false;    // lists in cells of the world
   bool local_lights = false;  // at least one point or spot light
   bool spots = false;         // compile cone code
-  // Light loops ask what else keeps a light from a point (shared/light_table.h); no effect needs it yet.
+  // Some point or spot light of the scene casts a shadow: light loops ask whether it reaches a point
+  // (shared/light_table.h). The same for every view and time, so that a camera that moves compiles nothing.
   bool light_reaches = false;
+  bool shadows = false;              // shadows of some light must be found in this frame
+  std::vector<LightShadow> casting;  // all lights that cast, in scene order
+  std::vector<uint8_t> shadowed;     // by index into `local`, 1: of this light; empty if `shadows` is false
   bool directional = false;
   bool blend = false;          // the blended pass
   bool blend_grid = false;     // a light grid for blended surfaces

@@ -13,13 +13,14 @@
 #include "reference/attenuation.h"
 #include "reference/pixel_tiles.h"
 #include "reference/position.h"
+#include "reference/seen_pairs.h"
 
 namespace lightgrid {
 namespace {
 
 // Sums over the pixels of one tile.
 struct Tally {
-  uint64_t listed = 0, lit = 0, lost = 0, wrong = 0;
+  uint64_t listed = 0, lit = 0, lost = 0, wrong = 0, leaked = 0, acned = 0, either = 0;
 };
 
 // The set of lights of the current list. Marks are never cleared: each list has its own mark.
@@ -60,8 +61,24 @@ uint32_t length_of_list(const ListedLights& lists, uint32_t cell) {
   return cell < lists.count.size() ? lists.count[cell] : 0;
 }
 
-Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered,
-                 const std::vector<ViewLight>& lights, const ListedLights& lists, LitPairs& out) {
+// A pair in range, by what hides its light. Returns whether it is lit.
+bool tally_shadow(const PairShadows& shadows, int width, uint32_t pixel, uint32_t light, bool listed,
+                  Tally& tally, LitPairs& out) {
+  if (!shadows.truth.decided(pixel)) return true;
+  const Sight sight = shadows.truth.at(pixel, light);
+  if (sight == Sight::either) ++tally.either;
+  if (sight == Sight::either || !listed) return sight == Sight::seen;
+  const bool hidden =
+      shadows.shaded && hidden_at(*shadows.shaded, int(pixel) % width, int(pixel) / width, light);
+  const bool leaked = sight == Sight::hidden && !hidden, acned = sight == Sight::seen && hidden;
+  tally.leaked += leaked, tally.acned += acned;
+  out.leaked_of_pixel[pixel] += leaked, out.acned_of_pixel[pixel] += acned;
+  return sight == Sight::seen;
+}
+
+Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered, int width,
+                 const std::vector<ViewLight>& lights, const ListedLights& lists, const PairShadows* shadows,
+                 LitPairs& out) {
   std::vector<size_t> order(tile.indices.size());
   std::iota(order.begin(), order.end(), size_t(0));
   const auto cell_at = [&](size_t i) { return cell_of(lists, covered[tile.indices[i]]); };
@@ -81,14 +98,17 @@ Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered,
     for (size_t i = begin; i < end; ++i) out.listed_of_pixel[pixels[i]] = length_of_list(lists, cell);
     for (uint32_t light : tile.lights) {
       uint64_t lit = 0;
+      const bool is_listed = listed.has(light);
       for (size_t i = begin; i < end; ++i) {
-        const bool reaches = is_lit(lights[light], positions[i]);
+        bool reaches = is_lit(lights[light], positions[i]);
+        if (reaches && shadows)
+          reaches = tally_shadow(*shadows, width, pixels[i], light, is_listed, tally, out);
         out.lit_of_pixel[pixels[i]] += reaches;
-        if (!listed.has(light)) out.lost_of_pixel[pixels[i]] += reaches;
+        if (!is_listed) out.lost_of_pixel[pixels[i]] += reaches;
         lit += reaches;
       }
       tally.lit += lit;
-      if (!listed.has(light)) tally.lost += lit;
+      if (!is_listed) tally.lost += lit;
     }
   }
   return tally;
@@ -159,20 +179,22 @@ std::vector<uint32_t> lit_lights(const std::vector<ViewLight>& lights, const glm
 }
 
 LitPairs count_pairs(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights,
-                     const ListedLights& lists) {
+                     const ListedLights& lists, const PairShadows* shadows) {
   assert(depth.size() == view.grid().values());
   assert(lists.cell_of_pixel.empty() || lists.cell_of_pixel.size() == depth.size());
   const std::vector<uint32_t> none(depth.size(), 0);
   LitPairs out{none, none, none};
+  if (shadows) out.leaked_of_pixel = out.acned_of_pixel = none;
   const std::vector<uint32_t> covered = covered_pixels(depth);
   std::mutex adding;
   const auto position_of = [&](uint32_t p) {
     return position_from_depth(view, int(p) % view.width, int(p) / view.width, depth[p]);
   };
   for_each_tile(view.width, covered, position_of, lights, [&](const TileOfPixels& tile) {
-    const Tally tally = tally_tile(tile, covered, lights, lists, out);
+    const Tally tally = tally_tile(tile, covered, view.width, lights, lists, shadows, out);
     std::lock_guard lock(adding);
     out.listed += tally.listed, out.lit += tally.lit, out.lost += tally.lost, out.wrong += tally.wrong;
+    out.leaked += tally.leaked, out.acned += tally.acned, out.either += tally.either;
   });
   return out;
 }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "reference/attenuation.h"
 #include "reference/pixel_tiles.h"
@@ -121,6 +122,15 @@ dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3&
   return back == dvec3(0) ? dvec3(0) : back * light.radiant_intensity * arriving;
 }
 
+std::vector<ViewLight> unhidden(const std::vector<ViewLight>& lights, const std::vector<uint32_t>& among,
+                                uint32_t pixel, const ShadeSettings& settings) {
+  std::vector<ViewLight> seen;
+  for (const uint32_t light : among) {
+    if (!settings.hidden(pixel, light)) seen.push_back(lights[light]);
+  }
+  return seen;
+}
+
 }  // namespace
 
 dvec3 brdf(const Surface& surface, const dvec3& to_eye, const dvec3& to_light, Brdf lobe) {
@@ -173,18 +183,27 @@ std::vector<dvec3> shade_pixels(const View& view, const std::vector<float>& dept
   const auto position_of = [&](uint32_t p) {
     return position_from_depth(view, int(p) % view.width, int(p) / view.width, depth[p]);
   };
+  std::vector<uint32_t> all(settings.hidden ? lights.size() : 0);
+  std::iota(all.begin(), all.end(), 0u);
   // Without a window every light reaches everything, so all lights are used.
   const std::vector<ViewLight> none;
-  for_each_tile(view.width, pixels, position_of, settings.window ? lights : none,
-                [&](const TileOfPixels& tile) {
-                  std::vector<ViewLight> near;
-                  for (const uint32_t light : tile.lights) near.push_back(lights[light]);
-                  for (size_t k = 0; k < tile.indices.size(); ++k) {
-                    const uint32_t index = tile.indices[k];
-                    radiance[index] = shade(surface_at(pixels[index]), tile.positions[k], view.orthographic,
-                                            settings.window ? near : lights, settings);
-                  }
-                });
+  for_each_tile(
+      view.width, pixels, position_of, settings.window ? lights : none, [&](const TileOfPixels& tile) {
+        std::vector<ViewLight> near;
+        for (const uint32_t light : tile.lights) near.push_back(lights[light]);
+        for (size_t k = 0; k < tile.indices.size(); ++k) {
+          const uint32_t index = tile.indices[k];
+          const auto shaded = [&](const std::vector<ViewLight>& by) {
+            return shade(surface_at(pixels[index]), tile.positions[k], view.orthographic, by, settings);
+          };
+          if (settings.hidden) {
+            const auto& among = settings.window ? tile.lights : all;
+            radiance[index] = shaded(unhidden(lights, among, pixels[index], settings));
+          } else {
+            radiance[index] = shaded(settings.window ? near : lights);
+          }
+        }
+      });
   return radiance;
 }
 

@@ -41,6 +41,9 @@ struct ShadeSettings {
   Brdf brdf = Brdf::ggx;
   glm::dvec3 ambient{0};
   bool window = true;  // false: lights reach everything, as if their radius were infinite
+  // shade_pixels leaves out the lights (numbers in `lights`) that it says are hidden at a pixel; empty: none.
+  // Called from several threads.
+  std::function<bool(uint32_t pixel, uint32_t light)> hidden = {};
 };
 
 // Radiance towards the eye, lights added in order. Finite for finite input.

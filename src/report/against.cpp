@@ -31,15 +31,22 @@ const json* reference_of(const json& view) {
   return nullptr;
 }
 
+// Shadows make another picture, and another time.
+std::string casting_words(const json& row) {
+  if (!row.contains("shadows")) return "";
+  const json& shadows = row.at("shadows");
+  return fmt::format(" ({} cast shadows)", shadows.at("lights").get<size_t>() + shadows.at("skipped").size());
+}
+
 // By what makes two rows the same; of equal ones in their order.
 std::map<std::string, Row> rows_of(const json& results) {
   std::map<std::string, Row> rows;
   const auto add = [&](const json& view) {
     for (const json& row : view.at("rows")) {
-      const std::string name =
-          fmt::format("{} {}x{}, {} lights, {}", view.at("scene").get<std::string>(),
-                      view.at("size").at(0).dump(), view.at("size").at(1).dump(),
-                      row.at("lights").at("total").dump(), row.at("technique").get<std::string>());
+      const std::string name = fmt::format("{} {}x{}, {} lights{}, {}", view.at("scene").get<std::string>(),
+                                           view.at("size").at(0).dump(), view.at("size").at(1).dump(),
+                                           row.at("lights").at("total").dump(), casting_words(row),
+                                           row.at("technique").get<std::string>());
       std::string key = name + row.at("settings").dump();
       while (rows.contains(key)) key += "+";
       rows[key] = {&row, &view, name};
@@ -116,6 +123,9 @@ void compare_counts(const Row& now, const Row& earlier, AgainstResult& result) {
   compare("pairs of a pixel and a light are lost", now.row->at("pairs"), earlier.row->at("pairs"), "lost");
   compare("pairs of a pixel and a light are wrong", now.row->at("pairs"), earlier.row->at("pairs"), "wrong");
   compare("pixels are NaN", *now.row, *earlier.row, "nan_pixels");
+  if (!now.row->at("pairs").contains("leaked") || !earlier.row->at("pairs").contains("leaked")) return;
+  compare("pairs are shaded though hidden", now.row->at("pairs"), earlier.row->at("pairs"), "leaked");
+  compare("pairs are dark though seen", now.row->at("pairs"), earlier.row->at("pairs"), "acned");
 }
 
 AgainstResult compare_results(const json& now, const json& earlier) {

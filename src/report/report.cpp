@@ -48,7 +48,7 @@ ReportView finished_view(const fs::path& folder, const CompareReport& report, bo
   return view;
 }
 
-std::vector<CsvColumn> csv_columns() {
+std::vector<CsvColumn> csv_columns(bool shadows) {
   std::vector<CsvColumn> all;
   add_columns(all, {"commit", "cl", "gl", "scene", "size"});
   all.push_back({"lights", "/lights/total"});
@@ -60,6 +60,7 @@ std::vector<CsvColumn> csv_columns() {
   all.push_back({"memory", "/memory_bytes/total"});
   add_columns(all, {"light_grid", "gbuffer"}, "/memory_bytes");
   add_columns(all, {"listed", "lit", "lost", "wrong"}, "/pairs");
+  if (shadows) add_columns(all, {"leaked", "acned", "either", "shadow_pixels"}, "/pairs");
   for (const ErrorMeasure& measure : error_measures()) add_columns(all, {measure.key}, "/error");
   add_columns(all, {"bit_identical"}, "/error");
   add_columns(all, {"nan_pixels", "overflow"});
@@ -153,12 +154,14 @@ nlohmann::json to_json(const std::vector<ReportView>& views) {
 
 std::string results_csv(const std::vector<ReportView>& views) {
   std::vector<nlohmann::json> rows;
+  bool shadows = false;
   for (const ReportView& view : views) {
+    for (const RunResult& row : view.report.rows) shadows |= row.pairs && row.pairs->shadows;
     const auto names = row_names(view.report);
     for (size_t i = 0; i < names.size(); ++i)
       rows.push_back(csv_row(view.report, view.report.rows[i], names[i]));
   }
-  return csv_table(csv_columns(), rows);
+  return csv_table(csv_columns(shadows), rows);
 }
 
 void write_report(const fs::path& folder, const CompareReport& report) {

@@ -86,6 +86,8 @@ inline constexpr double exact_factor = 1.5, exact_floor = 0x1p-22;
 // The same without an oracle, and at pixels that it cannot shade: the greatest difference from the reference.
 inline constexpr double exact_max_rel = 1e-5;
 
+// Leaked and acned pairs, unless the technique says that its shadows are approximate.
+uint64_t shadow_faults(const RunResult& row);
 bool passes_gates(const RunResult& row);  // no lost pairs, no wrong pairs, no NaN, lists shaded; and it ran
 bool is_exact(const ImageError& error);
 // Passes, and its light is exact on its own surfaces (light_error) or was not compared. If every light was

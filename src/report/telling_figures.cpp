@@ -14,12 +14,18 @@ std::string lights_number(double value) {
   return value >= 100 ? short_number(value) : fmt::format("{:.1f}", value);
 }
 
+// "12 leaked and 0 acned pairs".
+std::string shadows_in_words(const ShadowPairs& shadows) {
+  return fmt::format("{} leaked and {} acned pairs", with_commas(shadows.leaked), with_commas(shadows.acned));
+}
+
 // "12 lost pairs and 3 NaN pixels".
 std::string failed_gates(const RunResult& row) {
   std::vector<std::string> failures;
   if (row.pairs && row.pairs->lost)
     failures.push_back(with_commas(row.pairs->lost) + " lost pairs" + why_lost(row));
   if (row.pairs && row.pairs->wrong) failures.push_back(with_commas(row.pairs->wrong) + " wrong pairs");
+  if (shadow_faults(row) > 0) failures.push_back(shadows_in_words(*row.pairs->shadows));
   if (row.nan_pixels) failures.push_back(with_commas(row.nan_pixels) + " NaN pixels");
   return fmt::format("{}", fmt::join(failures, " and "));
 }
@@ -80,6 +86,9 @@ std::string lights_figure(const CompareReport& report, const RunResult& row) {
     const double lit = double(row.pairs->lit) / pixels_with_surfaces(report);
     line += fmt::format(", {} lit, {} lost", lights_number(lit), with_commas(row.pairs->lost));
     if (row.pairs->wrong) line += fmt::format(", {} wrong", with_commas(row.pairs->wrong));
+    if (const auto& shadows = row.pairs->shadows)
+      line += fmt::format("; shadows: {}, {} undecided, at {} pixels", shadows_in_words(*shadows),
+                          with_commas(shadows->either), with_commas(shadows->pixels));
   }
   return line;
 }
@@ -121,8 +130,9 @@ constexpr double most_visible = 1e-4;
 
 bool looks_exact(const RunResult& row) {
   const ImageError* error = light_error(row);
-  const bool faultless = row.refused.empty() && row.nan_pixels == 0 &&
-                         (!row.pairs || (row.pairs->wrong == 0 && row.pairs->lost == row.overflow));
+  const bool faultless =
+      row.refused.empty() && row.nan_pixels == 0 &&
+      (!row.pairs || (row.pairs->wrong == 0 && row.pairs->lost == row.overflow && shadow_faults(row) == 0));
   return faultless &&
          (is_exact(row) || (error && error->displayed && error->displayed->visible <= most_visible));
 }
@@ -194,9 +204,13 @@ const RunResult* fastest(const CompareReport& report, const RowTest& counts) {
   return best;
 }
 
+uint64_t shadow_faults(const RunResult& row) {
+  return row.pairs && row.pairs->shadows ? row.pairs->shadows->faults() : 0;
+}
+
 bool passes_gates(const RunResult& row) {
   return row.refused.empty() && row.nan_pixels == 0 && row.unshaded.value_or(0) <= most_unshaded &&
-         (!row.pairs || (row.pairs->lost == 0 && row.pairs->wrong == 0));
+         (!row.pairs || (row.pairs->lost == 0 && row.pairs->wrong == 0 && shadow_faults(row) == 0));
 }
 
 bool is_exact(const ImageError& error) {

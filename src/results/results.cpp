@@ -84,10 +84,6 @@ json to_json(const std::optional<OwnSurfaces>& own) {
           {"why_not", own->why_not.empty() ? json() : json(own->why_not)}};
 }
 
-json to_json(const PairCounts& pairs) {
-  return {{"listed", pairs.listed}, {"lit", pairs.lit}, {"lost", pairs.lost}, {"wrong", pairs.wrong}};
-}
-
 json to_json(const Spread& times) {
   const bool timed = times.runs > 0;
   return {{"min", timed ? finite_number(times.min) : json()},
@@ -128,14 +124,31 @@ json to_json(const MovingResult& m) {
         {"rmse_rel", finite_number(m.rmse_rel)}}},
       {"temporal",
        {{"max_rel", finite_number(m.temporal_max_rel)}, {"rmse_rel", finite_number(m.temporal_rmse_rel)}}},
-      {"pairs", to_json(m.pairs)},
+      {"pairs", pairs_json(m.pairs)},
       {"nan_pixels", m.nan_pixels},
       {"gl_programs_compiled", m.gl_programs},
       {"cl_programs_built", m.cl_programs},
       {"scene_bytes_uploaded", m.scene_bytes}};
 }
 
+json to_json(const ShadowResult& s) {
+  json skipped = json::array();
+  for (const auto& light : s.skipped) skipped.push_back({{"light", light.light}, {"why", light.why}});
+  return {{"lights", s.lights}, {"maps", s.maps}, {"drawn", s.drawn},         {"kept", s.kept},
+          {"bytes", s.bytes},   {"rays", s.rays}, {"undecided", s.undecided}, {"skipped", skipped}};
+}
+
 }  // namespace
+
+json pairs_json(const PairCounts& pairs) {
+  json all = {{"listed", pairs.listed}, {"lit", pairs.lit}, {"lost", pairs.lost}, {"wrong", pairs.wrong}};
+  if (const auto& shadows = pairs.shadows)
+    all.update({{"leaked", shadows->leaked},
+                {"acned", shadows->acned},
+                {"either", shadows->either},
+                {"shadow_pixels", shadows->pixels}});
+  return all;
+}
 
 const char* every_light_on(bool own_surfaces) { return own_surfaces ? "visibility:lights=all" : "forward"; }
 
@@ -171,7 +184,7 @@ json to_json(const RunResult& result) {
               {"frame_ms", to_json(result.frame_ms)},
               {"passes", passes},
               {"memory_bytes", memory_json(result)},
-              {"pairs", result.pairs ? to_json(*result.pairs) : json()},
+              {"pairs", result.pairs ? pairs_json(*result.pairs) : json()},
               {"error", result.error ? to_json(*result.error) : json()},
               {"same_surfaces", same_surfaces_json(result)},
               {"unshaded", result.unshaded ? json(*result.unshaded) : json()},
@@ -182,6 +195,7 @@ json to_json(const RunResult& result) {
   for (const auto& pass : result.passes) {
     if (pass.name == result.built_by) out["build"] = build_json(pass, result);
   }
+  if (result.shadows) out["shadows"] = to_json(*result.shadows);
   if (result.moving) out["moving"] = to_json(*result.moving);
   if (!result.refused.empty()) out["refused"] = result.refused;
   return out;

@@ -28,9 +28,19 @@ struct PassResult {
   std::vector<KernelResult> kernels = {};    // of OpenCL passes, by the device's own clock
 };
 
+// Of the same pairs, what the frame's shadows are according to the oracle (docs/oracle.md#seen-and-hidden).
+struct ShadowPairs {
+  uint64_t leaked = 0, acned = 0, either = 0;
+  uint64_t pixels = 0;     // at which they were decided
+  bool says_exact = true;  // the technique and its settings: leaked and acned must be 0
+
+  uint64_t faults() const { return says_exact ? leaked + acned : 0; }
+};
+
 // (pixel, light) pairs over the image. lit: according to the oracle.
 struct PairCounts {
   uint64_t listed = 0, lit = 0, lost = 0, wrong = 0;
+  std::optional<ShadowPairs> shadows = {};  // where some light casts
 };
 
 // This image and the reference's, each compared with the oracle at the same pixels: a sample of the view and
@@ -112,6 +122,17 @@ struct SkippedEffect {
   std::string effect, why;
 };
 
+// Of the last frame: what its shadows took, and the lights that cast but needed none.
+struct ShadowResult {
+  struct Skipped {
+    int light = 0;  // of the scene
+    std::string why;
+  };
+  size_t lights = 0;                                                         // whose shadows were found
+  size_t maps = 0, drawn = 0, kept = 0, bytes = 0, rays = 0, undecided = 0;  // as in ShadowFigures
+  std::vector<Skipped> skipped;
+};
+
 // Half of a listed light is far more; 8-bit geometry buffers lose less.
 inline constexpr double most_unshaded = 0.01;
 
@@ -138,7 +159,8 @@ struct RunResult {
   std::optional<double> unshaded;
   uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
   std::vector<SkippedEffect> skipped;
-  std::optional<MovingResult> moving;  // absent without a camera path
+  std::optional<ShadowResult> shadows;  // absent if no light casts a shadow
+  std::optional<MovingResult> moving;   // absent without a camera path
 };
 
 // The technique that shades every light at every pixel, on OpenGL's surfaces or on those drawn in OpenCL.
@@ -154,6 +176,7 @@ nlohmann::json exposure_json(const Exposure& exposure);
 // Settings by the keys of results.json, numbers as numbers.
 nlohmann::json settings_json(const std::map<std::string, std::string>& settings);
 
+nlohmann::json pairs_json(const PairCounts& pairs);
 nlohmann::json to_json(const RunResult& result);
 
 // Two spaces a level and a newline at the end; bytes that are not UTF-8 (possible in a path) become U+FFFD.

@@ -104,6 +104,12 @@ class Fields {
     return has(field) ? checked(field, json_[field], low, high) : absent;
   }
 
+  bool flag(const char* field) const {
+    if (!has(field)) return false;
+    if (!json_[field].is_boolean()) throw error(field, "is not true or false", json_[field].type_name());
+    return json_[field].get<bool>();
+  }
+
   glm::dvec3 vector(const char* field, double low, double high) const {
     if (!has(field)) throw input_error("{}: {} is missing", where_, field);
     const Json& array = json_[field];
@@ -198,6 +204,7 @@ nlohmann::ordered_json to_json(const Light& light) {
   }
   json["color"] = to_json(light.color);
   json["intensity"] = shortest(light.intensity);
+  if (light.casts_shadow) json["casts_shadow"] = true;
   return json;
 }
 
@@ -213,6 +220,7 @@ std::vector<Light> load_lights_file(const std::filesystem::path& path) {
   for (size_t i = 0; i < list.size(); ++i) {
     const Fields fields(path, i, list[i]);
     lights.push_back(fields.has("rgb255") ? redeclipse_light(fields) : plain_light(fields));
+    lights.back().casts_shadow = fields.flag("casts_shadow");
   }
   return lights;
 }

@@ -104,7 +104,8 @@ struct Instance {
   std::string name;  // the node's
   int mesh = 0;
   glm::dmat4 world_from_object{1};
-  int node = -1;  // of the rig, which moves it; -1: static
+  int node = -1;             // of the rig, which moves it; -1: static
+  bool casts_shadow = true;  // false: hides no light, such as the surface of a lamp around its light
 };
 
 enum class LightType { point, spot, directional };
@@ -121,7 +122,8 @@ struct Light {
   float radius_m = std::numeric_limits<float>::infinity();  // infinite: no window, reaches everything
   float inner_cone_rad = 0;                                 // half-angles, 0 <= inner < outer; only spots
   float outer_cone_rad = 0.78539816f;
-  int node = -1;  // of the rig, which moves it; -1: static
+  bool casts_shadow = false;  // opaque and masked surfaces hide it from what lies behind them
+  int node = -1;              // of the rig, which moves it; -1: static
 };
 
 // Both take a Light or a ViewLight. Directional lights have no place: they reach every surface, and are in no

@@ -18,6 +18,7 @@
 #include "session/moving.h"
 #include "session/oracle_sample.h"
 #include "session/runs.h"
+#include "session/shadow_truth.h"
 #include "session/surfaces_in_double.h"
 
 namespace lightgrid {
@@ -102,14 +103,18 @@ struct Measured {
   Reference& reference;
   std::vector<float> depth = read_depth(reference.run());
   ReferenceTriangles triangles = triangles_of(reference.run());
+  ShadowTruth shadows;
   RunResult result = reference.run().result();
   std::optional<FlipExposures> exposures{};
   bool shown = false;             // the report will have the reference's image
   Image every_light_on_own = {};  // surfaces, where rows have such and the reference has OpenGL's; or empty
 };
 
+// They take about 45 seconds of processor time.
+constexpr uint64_t most_shadow_pairs = 10'000'000;
+
 Measured measured(Reference& reference, bool flip) {
-  Measured m{reference};
+  Measured m{.reference = reference, .shadows = {reference.run().view().scene, most_shadow_pairs}};
   if (reference.sampled()) return m;
   reference.image = reference.run().take_image();
   if (flip) m.exposures = flip_exposures(reference.image);
@@ -193,16 +198,21 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   RunResult row = is_reference ? m.result : run.result();
   row.own_surfaces = run.frame().triangles.has_value();
   set_errors(row, image, report, m);
+  std::vector<SceneTriangle> own;
   if (row.own_surfaces) {
-    const std::vector<SceneTriangle> own = own_triangles(run);
+    own = own_triangles(run);
     for (size_t i = 0; i < own.size(); ++i) {
       if (own[i] != m.triangles.shown.opaque[i]) m.triangles.contested[i] = true;
     }
     if (!reference.run().frame().triangles && !reference.sampled())
       row.error->silhouettes = silhouette_error(image, own, reference.image, m.triangles.shown);
   }
-  LitPairs pairs = count_listed_pairs(run, run.frame().depth ? read_depth(run) : m.depth);
-  row.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
+  const std::vector<float> own_depth = run.frame().depth ? read_depth(run) : std::vector<float>();
+  const std::vector<float>& depth = run.frame().depth ? own_depth : m.depth;
+  const SeenPairs* seen =
+      m.shadows.pairs(run.view(), depth, row.own_surfaces ? own : m.triangles.shown.opaque);
+  LitPairs pairs = count_listed_pairs(run, depth, seen);
+  row.pairs = pair_counts(run, pairs, seen);
   if (run.technique().limited_lists) row.overflow = pairs.lost;
   const Image& every_light =
       row.own_surfaces && !reference.run().frame().triangles ? m.every_light_on_own : reference.image;
@@ -229,11 +239,11 @@ void hand_over_image(CompareReport& report, Measured& m) {
 
 // Each image and the reference's against surfaces in double, at those of `pixels` where all rows show one
 // triangle.
-void measure_surfaces(CompareReport& report, const Measured& m, std::vector<uint32_t> pixels) {
+void measure_surfaces(CompareReport& report, Measured& m, std::vector<uint32_t> pixels) {
   const Reference& reference = m.reference;
   std::erase_if(pixels, [&](uint32_t pixel) { return m.triangles.contested[pixel]; });
   const SurfacesInDouble in_double =
-      surfaces_in_double(reference.run().view(), m.triangles.shown.opaque, pixels);
+      surfaces_in_double(reference.run().view(), m.triangles.shown.opaque, pixels, &m.shadows);
   const double brightest = brightest_channel(reference.image);
   report.reference_surfaces = surfaces_error(reference.image, in_double, brightest);
   if (!m.every_light_on_own.pixels.empty())
@@ -246,10 +256,10 @@ void measure_surfaces(CompareReport& report, const Measured& m, std::vector<uint
 
 // Compares each image and the reference's with the oracle: at a sample of pixels, which it returns, and where
 // the images differ most, so that no large difference is missed.
-std::vector<uint32_t> measure_against_oracle(CompareReport& report, const Measured& m, size_t samples) {
+std::vector<uint32_t> measure_against_oracle(CompareReport& report, Measured& m, size_t samples) {
   constexpr size_t worst_of_a_row = 100;
   const Reference& reference = m.reference;
-  const SurfaceOracle oracle(reference.run().view(), m.depth);
+  const SurfaceOracle oracle(reference.run().view(), m.depth, &m.shadows);
   std::vector<uint32_t> among = oracle.pixels();
   if (reference.sampled()) {
     const std::vector<uint32_t> sampled = reference.sampled_pixels();
@@ -257,7 +267,7 @@ std::vector<uint32_t> measure_against_oracle(CompareReport& report, const Measur
                   [&](uint32_t pixel) { return !std::binary_search(sampled.begin(), sampled.end(), pixel); });
   }
   const std::vector<uint32_t> sample =
-      sample_pixels(among, affordable_samples(samples, reference.run().view().scene.lights.size()));
+      oracle.decided(sample_pixels(among, affordable_samples(samples, reference.run().view().scene)));
   report.reference_errors = measure_reference_errors(oracle, reference.image, sample);
   std::vector<uint32_t> pixels = sample;
   for (size_t i = 0; i < report.rows.size(); ++i) {
@@ -268,6 +278,7 @@ std::vector<uint32_t> measure_against_oracle(CompareReport& report, const Measur
   }
   std::sort(pixels.begin(), pixels.end());
   pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+  pixels = oracle.decided(std::move(pixels));
   const std::vector<glm::dvec3> radiance = oracle.shade(pixels, true);
   for (size_t i = 0; i < report.rows.size(); ++i) {
     if (report.rows[i].error)
@@ -337,15 +348,15 @@ void measure_rows(CompareReport& report, const Compared& compared, std::vector<C
   }
 }
 
-void measure_errors(CompareReport& report, const Compared& compared, const Measured& m) {
+void measure_errors(CompareReport& report, const Compared& compared, Measured& m) {
   const size_t samples = compared.options.shaded_samples;
   compared.tell(0.9, "oracle: shading");
   // The oracle shades surfaces that OpenGL draws. Without it, what blended surfaces cover is not known.
   if (compared.renderer.gl) {
     measure_surfaces(report, m, measure_against_oracle(report, m, samples));
   } else if (m.reference.run().view().plan.blended.empty()) {
-    const size_t lights = compared.gpu.scene().lights.size();
-    measure_surfaces(report, m, sample_pixels(covered_pixels(m.depth), affordable_samples(samples, lights)));
+    const size_t most = affordable_samples(samples, compared.gpu.scene());
+    measure_surfaces(report, m, sample_pixels(covered_pixels(m.depth), most));
   }
 }
 

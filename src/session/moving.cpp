@@ -7,6 +7,8 @@
 #include "plan/plan_changes.h"
 #include "results/metrics.h"
 #include "session/oracle.h"
+#include "session/shadow_truth.h"
+#include "session/surfaces_in_double.h"
 
 namespace lightgrid {
 namespace {
@@ -14,7 +16,8 @@ namespace {
 // Everything is built by then.
 constexpr size_t frames_to_settle = 2;
 constexpr size_t frames_before = 2;
-constexpr int resting_frames = 2;  // of each view
+constexpr int resting_frames = 2;                        // of each view
+constexpr uint64_t most_shadow_pairs_a_frame = 200'000;  // that the oracle decides in a frame
 
 // One technique along the path.
 struct Path {
@@ -86,12 +89,21 @@ void add_errors(Path& p, const Image& reference) {
   p.result.nan_pixels += count_nan_pixels(image);
 }
 
-void add_pairs(Path& p) {
-  const LitPairs pairs = count_listed_pairs(*p.run, read_depth(*p.run));
-  p.result.pairs.listed += pairs.listed;
-  p.result.pairs.lit += pairs.lit;
-  p.result.pairs.lost += pairs.lost;
-  p.result.pairs.wrong += pairs.wrong;
+void add_pairs(Path& p, ShadowTruth& shadows) {
+  const std::vector<float> depth = read_depth(*p.run);
+  const SeenPairs* seen =
+      shadows.casts() ? shadows.pairs(p.run->view(), depth, shown_triangles(*p.run)) : nullptr;
+  const PairCounts pairs = pair_counts(*p.run, count_listed_pairs(*p.run, depth, seen), seen);
+  PairCounts& sum = p.result.pairs;
+  sum.listed += pairs.listed;
+  sum.lit += pairs.lit;
+  sum.lost += pairs.lost;
+  sum.wrong += pairs.wrong;
+  if (!pairs.shadows) return;
+  if (!sum.shadows) sum.shadows = ShadowPairs{.says_exact = pairs.shadows->says_exact};
+  for (uint64_t ShadowPairs::*count :
+       {&ShadowPairs::leaked, &ShadowPairs::acned, &ShadowPairs::either, &ShadowPairs::pixels})
+    *sum.shadows.*count += *pairs.shadows.*count;
 }
 
 void finish(Path& p, size_t frames) {
@@ -126,12 +138,14 @@ PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& 
     p.frame_ms.reserve(path.size());
     for (auto* times : {&p.resting_ms, &p.over_resting}) times->reserve(path.size() * resting_frames);
   }
+  ShadowTruth shadows(moving.gpu.scene(), most_shadow_pairs_a_frame);
   PathMemory memory{.frames = std::min<size_t>(100, path.size() / 2)};
   for (size_t frame = 0; frame < path.size(); ++frame) {
     if (frame == memory.frames) memory.bytes = resident_bytes();
     if (progress) progress(double(frame) / double(path.size()));
     const SceneChanges changes = moving.advance ? moving.advance(frame) : SceneChanges();
     moving.gpu.update(changes);
+    shadows.moved(!changes.instances.empty() || !changes.meshes.empty());
     if (reference_runs) {
       reference.look(path[frame], changes);
       reference.run_frame(true);
@@ -139,7 +153,7 @@ PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& 
     for (Path& p : paths) {
       run_one(p, path, changes, frame);
       p.plans.add(p.run->view().plan);
-      add_pairs(p);  // before the next run draws into the images that they share
+      add_pairs(p, shadows);  // before the next run draws into the images that they share
     }
     for (Path& p : paths) add_errors(p, reference.image());
   }

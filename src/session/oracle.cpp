@@ -2,6 +2,7 @@
 
 #include "cl/transfer.h"
 #include "reference/position.h"
+#include "reference/seen_pairs.h"
 #include "results/metrics.h"
 #include "session/oracle_sample.h"
 
@@ -58,8 +59,20 @@ ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
   return listed ? listed(depth) : list_every_light(uint32_t(run.view().plan.local.size()));
 }
 
-LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth) {
-  return count_pairs(run.view().view, depth, local_lights(run.view()), listed_lights(run, depth));
+LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, const SeenPairs* seen) {
+  const RenderView& v = run.view();
+  if (!seen) return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth));
+  std::optional<HostShadows> shaded;
+  if (run.frame().shadows) shaded = run.frame().shadows();
+  const PairShadows shadows{*seen, shaded ? &*shaded : nullptr};
+  return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), &shadows);
+}
+
+PairCounts pair_counts(const TechniqueRun& run, const LitPairs& pairs, const SeenPairs* seen) {
+  PairCounts counts{pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
+  if (seen)
+    counts.shadows = {pairs.leaked, pairs.acned, pairs.either, seen->pixels(), !run.technique().approximate};
+  return counts;
 }
 
 ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Image& every_light,
@@ -75,7 +88,8 @@ ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Imag
 ReferenceErrors measure_reference_errors(RenderView& v, const Image& every_light,
                                          const std::vector<float>& depth, size_t samples) {
   const SurfaceOracle oracle(v, depth);
-  return measure_reference_errors(oracle, every_light, sample_pixels(oracle.pixels(), samples));
+  return measure_reference_errors(oracle, every_light,
+                                  oracle.decided(sample_pixels(oracle.pixels(), samples)));
 }
 
 }  // namespace lightgrid

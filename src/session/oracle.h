@@ -19,12 +19,16 @@ std::vector<float> read_depth(TechniqueRun& run);
 // The point and spot lights in view space, in the order of lists.
 std::vector<ViewLight> local_lights(const RenderView& v);
 
-// The lights that the last frame of a run used on opaque surfaces (Frame::listed), or every point and spot light
-// at every pixel.
+// The lights that the last frame of a run used on opaque surfaces (Frame::listed), or every point and spot
+// light at every pixel.
 ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth);
 
-// Compares those with the lights that reach each pixel.
-LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth);
+// Compares those with the lights that reach each pixel, and the frame's shadows with `seen` (null: none).
+LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth,
+                            const SeenPairs* seen = nullptr);
+
+// The same as figures of a row. seen: as above.
+PairCounts pair_counts(const TechniqueRun& run, const LitPairs& pairs, const SeenPairs* seen);
 
 class SurfaceOracle;
 

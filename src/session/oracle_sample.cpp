@@ -30,19 +30,30 @@ struct Sums {
 
 }  // namespace
 
-SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth)
+SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth, ShadowTruth* shadows)
     : v_(v),
       depth_(depth),
       surfaces_(read_surfaces(v)),
-      lights_(lights_in_view(v.scene, v.view, v.plan.settings.ranges)) {
+      lights_(lights_in_view(v.scene, v.view, v.plan.settings.ranges)),
+      own_shadows_(shadows ? nullptr : std::make_unique<ShadowTruth>(v.scene, 0)),
+      shadows_(shadows ? shadows : own_shadows_.get()) {
+  if (shadows_->casts()) triangles_ = casting_triangles(v.scene, read_triangles(v).opaque);
   for (const uint32_t pixel : covered_pixels(depth)) {
     surfaces_.blended[pixel] ? void(++left_out_) : pixels_.push_back(pixel);
   }
 }
 
+std::vector<uint32_t> SurfaceOracle::decided(std::vector<uint32_t> pixels) const {
+  const std::unique_ptr<SeenPairs> seen = shadows_->at_pixels(v_, depth_, triangles_, pixels);
+  if (seen) std::erase_if(pixels, [&](uint32_t pixel) { return seen->has_either(pixel); });
+  return pixels;
+}
+
 std::vector<glm::dvec3> SurfaceOracle::shade(const std::vector<uint32_t>& pixels, bool window) const {
   const auto surface_at = [&](uint32_t pixel) { return surface_of(surfaces_, pixel); };
-  const ShadeSettings settings{.brdf = v_.plan.settings.brdf, .ambient = v_.scene.ambient, .window = window};
+  ShadeSettings settings{.brdf = v_.plan.settings.brdf, .ambient = v_.scene.ambient, .window = window};
+  const std::unique_ptr<SeenPairs> seen = shadows_->at_pixels(v_, depth_, triangles_, pixels, window);
+  if (seen) settings.hidden = seen->hidden();
   return shade_pixels(v_.view, depth_, surface_at, lights_, settings, pixels);
 }
 
@@ -84,9 +95,11 @@ OracleError oracle_error(const Image& image, const Image& reference, const std::
           relative(of_reference.largest)};
 }
 
-size_t affordable_samples(size_t most, size_t lights) {
-  constexpr size_t most_pairs = 400'000'000;
-  return std::min(most, std::max<size_t>(most_pairs / std::max<size_t>(lights, 1), 100));
+size_t affordable_samples(size_t most, const Scene& scene) {
+  constexpr size_t most_pairs = 400'000'000, most_of_casters = 4'000'000, least = 100;
+  const size_t casters = size_t(std::ranges::count_if(scene.lights, &Light::casts_shadow));
+  return std::min({most, std::max(most_pairs / std::max<size_t>(scene.lights.size(), 1), least),
+                   std::max(most_of_casters / std::max<size_t>(casters, 1), least)});
 }
 
 }  // namespace lightgrid

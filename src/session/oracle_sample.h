@@ -2,6 +2,7 @@
 #pragma once
 
 #include "session/oracle.h"
+#include "session/shadow_truth.h"
 
 namespace lightgrid {
 
@@ -9,13 +10,17 @@ namespace lightgrid {
 // `forward`.
 class SurfaceOracle {
  public:
-  SurfaceOracle(RenderView& v, const std::vector<float>& depth);
+  // shadows: of the view's scene, kept by the caller; null: the oracle finds them itself, where lights cast.
+  SurfaceOracle(RenderView& v, const std::vector<float>& depth, ShadowTruth* shadows = nullptr);
 
   // Pixels with an opaque surface and no blended one, ascending; the oracle can shade only these.
   const std::vector<uint32_t>& pixels() const { return pixels_; }
   uint64_t pixels_left_out() const { return left_out_; }  // blended
 
-  // Radiance at `pixels` from every light; window: with ranges.
+  // Those of `pixels` where no shadow turns on rounding.
+  std::vector<uint32_t> decided(std::vector<uint32_t> pixels) const;
+
+  // Radiance at `pixels` from every light that is not hidden there; window: with ranges.
   std::vector<glm::dvec3> shade(const std::vector<uint32_t>& pixels, bool window) const;
 
  private:
@@ -23,6 +28,9 @@ class SurfaceOracle {
   const std::vector<float>& depth_;
   SurfaceImages surfaces_;
   std::vector<ViewLight> lights_;
+  std::unique_ptr<ShadowTruth> own_shadows_;
+  ShadowTruth* shadows_;
+  std::vector<CastingTriangle> triangles_;  // where lights cast
   std::vector<uint32_t> pixels_;
   uint64_t left_out_ = 0;
 };
@@ -40,7 +48,7 @@ OracleError oracle_error(const Image& image, const Image& reference, const std::
                          const std::vector<glm::dvec3>& radiance);
 
 // How many pixels the oracle shades without ranges, where every light reaches each: `most`, fewer for more
-// than 20,000 lights.
-size_t affordable_samples(size_t most, size_t lights);
+// than 20,000 lights, or 200 that cast.
+size_t affordable_samples(size_t most, const Scene& scene);
 
 }  // namespace lightgrid

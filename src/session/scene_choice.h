@@ -27,6 +27,7 @@ struct SceneChoice {
   std::string lights_file;
   std::string light_radius;
   std::string ambient;  // radiance from all sides; empty: the scene's own
+  std::string shadows;  // lights that cast: a number, all or none; empty: those that the scene says
   uint64_t seed = 1;
   std::string brdf;  // empty: ggx, or from --set
   std::vector<std::string> set;

@@ -11,7 +11,7 @@
 namespace lightgrid {
 
 SurfacesInDouble surfaces_in_double(const RenderView& v, const std::vector<SceneTriangle>& shown,
-                                    const std::vector<uint32_t>& pixels) {
+                                    const std::vector<uint32_t>& pixels, ShadowTruth* shadows) {
   SurfacesInDouble found;
   SceneSurfaces scene(v.scene, v.view);
   std::vector<Surface> surfaces;
@@ -29,10 +29,18 @@ SurfacesInDouble surfaces_in_double(const RenderView& v, const std::vector<Scene
     surfaces.push_back(scene.surface_at(triangle, centre));
     found.pixels.push_back(pixel);
   }
+  ShadeSettings settings{.brdf = v.plan.settings.brdf, .ambient = v.scene.ambient};
+  ShadowTruth own_shadows(v.scene, 0);
+  if (!shadows) shadows = &own_shadows;
+  std::unique_ptr<SeenPairs> seen;
+  if (shadows->casts()) {
+    seen = shadows->at_pixels(v, depth, casting_triangles(v.scene, shown), found.pixels);
+    std::erase_if(found.pixels, [&](uint32_t pixel) { return seen->has_either(pixel); });
+    settings.hidden = seen->hidden();
+  }
   found.radiance = shade_pixels(
       v.view, depth, [&](uint32_t pixel) { return surfaces[place[pixel]]; },
-      lights_in_view(v.scene, v.view, v.plan.settings.ranges),
-      {.brdf = v.plan.settings.brdf, .ambient = v.scene.ambient}, found.pixels);
+      lights_in_view(v.scene, v.view, v.plan.settings.ranges), settings, found.pixels);
   return found;
 }
 
@@ -103,6 +111,10 @@ std::vector<SceneTriangle> own_triangles(TechniqueRun& run) {
     triangles.push_back(scene_triangle(instances[place], &indices[3 * size_t(number - first[place])]));
   }
   return triangles;
+}
+
+std::vector<SceneTriangle> shown_triangles(TechniqueRun& run) {
+  return run.frame().triangles ? own_triangles(run) : read_triangles(run.view()).opaque;
 }
 
 SilhouetteError silhouette_error(const Image& image, const std::vector<SceneTriangle>& own,

@@ -80,6 +80,22 @@ static std::vector<KernelResult> kernel_results(const PassRecord& pass) {
   return results;
 }
 
+static std::optional<ShadowResult> shadow_result(const FramePlan& plan,
+                                                 const std::optional<ShadowFigures>& figures) {
+  if (plan.casting.empty()) return {};
+  ShadowResult result;
+  if (figures) {
+    result.lights = figures->lights, result.maps = figures->maps, result.drawn = figures->drawn;
+    result.kept = figures->kept, result.bytes = figures->bytes, result.rays = figures->rays;
+    result.undecided = figures->undecided;
+  }
+  if (plan.settings.everything_on) return result;
+  for (const LightShadow& light : plan.casting) {
+    if (light.need != ShadowNeed::rays) result.skipped.push_back({light.light, reason_of(light.need)});
+  }
+  return result;
+}
+
 RunResult TechniqueRun::result() const {
   RunResult result;
   result.technique = technique_.name;
@@ -100,6 +116,7 @@ RunResult TechniqueRun::result() const {
   for (const Decision& decision : view_.plan.decisions) {
     if (!decision.needed) result.skipped.push_back({decision.effect, decision.why});
   }
+  result.shadows = shadow_result(view_.plan, frame_.shadow_figures);
   return result;
 }
 

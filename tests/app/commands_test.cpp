@@ -134,8 +134,8 @@ TEST(CompareCommand, WritesAPageImagesAndResults) {
   for (const auto& row : results["rows"]) {
     expect_row(row);
     EXPECT_THAT(keys(row["pairs"]), IsSupersetOf({"listed", "lit", "lost", "wrong"}));
-    EXPECT_THAT(keys(row["error"]),
-                IsSupersetOf({"max_abs", "max_rel", "rmse", "p99", "flip_mean", "bit_identical", "oracle", "surfaces"}));
+    EXPECT_THAT(keys(row["error"]), IsSupersetOf({"max_abs", "max_rel", "rmse", "p99", "flip_mean",
+                                                  "bit_identical", "oracle", "surfaces"}));
     EXPECT_THAT(keys(row["error"]["oracle"]), IsSupersetOf({"max_rel", "rmse_rel", "of_reference_max_rel"}));
     EXPECT_GT(row["error"]["oracle"]["of_reference_max_rel"], 0);
     EXPECT_EQ(row["pairs"]["lost"], 0);
@@ -229,6 +229,45 @@ TEST(PlanCommand, TellsWithoutAnyDeviceWhatIsNeededAndWhy) {
     EXPECT_NE(decision["why"], "");
     EXPECT_THAT(text.out, HasSubstr(decision["why"].get<std::string>()));
   }
+}
+
+TEST(PlanCommand, TellsOfEachLightThatCastsWhetherItsShadowsAreFound) {
+  const std::vector<std::string> no_device = {"OCL_ICD_VENDORS=/nonexistent"};
+  const ProgramRun none = run_program({"plan", "terrain", "--size", "64x36", "--json", "-"}, no_device);
+  ASSERT_EQ(none.status, 0) << none.err;
+  EXPECT_FALSE(nlohmann::json::parse(none.out).contains("shadows"));
+  const ProgramRun run =
+      run_program({"plan", "terrain", "--size", "64x36", "--shadows", "all", "--json", "-"}, no_device);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto shadows = nlohmann::json::parse(run.out)["shadows"];
+  ASSERT_EQ(shadows.size(), 256u);
+  std::map<std::string, int> count;
+  for (const auto& light : shadows) ++count[light["rays"] ? "rays" : light["why"].get<std::string>()];
+  EXPECT_GT(count["rays"], 0);
+  EXPECT_GT(count["no receiver in view within its range"], 0);
+  EXPECT_EQ(count["directional: no technique finds its shadows yet"], 1);
+  EXPECT_EQ(count.size(), 3u);
+}
+
+TEST(PlanCommand, ListsLightThatGoesThroughWalls) {
+  const std::vector<std::string> no_device = {"OCL_ICD_VENDORS=/nonexistent"};
+  const ProgramRun text = run_program({"plan", "terrain", "--size", "64x36", "--leaks"}, no_device);
+  ASSERT_EQ(text.status, 0) << text.err;
+  const ProgramRun json =
+      run_program({"plan", "terrain", "--size", "64x36", "--leaks", "--json", "-"}, no_device);
+  const auto leaks = nlohmann::json::parse(json.out)["leaks"];
+  EXPECT_GT(leaks["leaked"], 0);
+  uint64_t pixels = 0;
+  for (const auto& leak : leaks["through"]) pixels += leak["pixels"].get<uint64_t>();
+  EXPECT_EQ(leaks["leaked"], pixels);
+  const auto& worst = leaks["through"][0];
+  EXPECT_THAT(text.out,
+              HasSubstr(fmt::format("light {} {} shines through node {} {}: {} pixels\n",
+                                    worst["light"].dump(), worst["name"].dump(), worst["node"].dump(),
+                                    worst["node_name"].dump(), worst["pixels"].dump())));
+  const ProgramRun cast = run_program(
+      {"plan", "terrain", "--size", "64x36", "--leaks", "--shadows", "all", "--json", "-"}, no_device);
+  EXPECT_EQ(nlohmann::json::parse(cast.out)["leaks"]["leaked"], 0);
 }
 
 // Half a turn in the hall: its gates and its glass are then behind the camera.

@@ -92,6 +92,19 @@ TEST(Against, ErrorsCountsAndRefusalsAreWorse) {
                           HasSubstr("clustered: was not measured")));
 }
 
+TEST(Against, RowsWithShadowsAreHeldAgainstRowsWithAsMany) {
+  const auto with_shadows = [](int lights, double ms) {
+    json shadowed = row("visibility", ms);
+    shadowed["shadows"] = {{"lights", lights}, {"skipped", json::array({{{"light", 0}, {"why", "dark"}}})}};
+    return results({row("forward", 10), shadowed});
+  };
+  const json plain = results({row("forward", 10), row("visibility", 2)});
+  EXPECT_THAT(against(with_shadows(3, 9), plain).worse, IsEmpty());
+  EXPECT_THAT(against(with_shadows(3, 9), with_shadows(4, 2)).worse, IsEmpty());
+  EXPECT_THAT(against(with_shadows(3, 9), with_shadows(3, 2)).worse,
+              ElementsAre(HasSubstr("7 lights (4 cast shadows), visibility: 9 ms")));
+}
+
 TEST(Against, AFileThatIsNoneIsNamed) {
   const TempFolder folder;
   const auto message = [&](const std::string& text) {

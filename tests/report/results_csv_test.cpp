@@ -32,15 +32,26 @@ TEST(ResultsCsv, HoldALineARowAndView) {
   EXPECT_EQ(table[13].at("scene"), "hall");
 }
 
+TEST(ResultsCsv, HaveColumnsOfShadowsWhereLightsCast) {
+  std::vector<ReportView> views(1);
+  views[0].report = synthetic_view("hall", 8, 8, 60);
+  EXPECT_EQ(csv_table(results_csv(views))[1].count("leaked"), 0u);
+  views[0].report.rows[1].pairs->shadows = ShadowPairs{.leaked = 7, .either = 9};
+  const auto table = csv_table(results_csv(views));
+  EXPECT_EQ(table[1].at("leaked"), "7");
+  EXPECT_EQ(table[1].at("acned"), "0");
+  EXPECT_EQ(table[1].at("either"), "9");
+  EXPECT_EQ(table[0].at("leaked"), "");
+}
+
 TEST(ResultsCsv, LeaveEmptyWhatWasNotMeasured) {
   std::vector<ReportView> views(1);
   views[0].report = synthetic_report(8, 8);
   const auto row = csv_table(results_csv(views)).back();
   EXPECT_EQ(row.at("technique"), "light_prepass");
   EXPECT_EQ(row.at("refused"), "blending rounds <0.5 of a step> here");
-  for (const char* field :
-       {"min_ms", "median_ms", "memory", "listed", "lost", "max_rel", "nan_pixels", "oracle_max_rel",
-        "surfaces_pixels", "surfaces_rmse_rel"}) {
+  for (const char* field : {"min_ms", "median_ms", "memory", "listed", "lost", "max_rel", "nan_pixels",
+                            "oracle_max_rel", "surfaces_pixels", "surfaces_rmse_rel"}) {
     EXPECT_EQ(row.at(field), "") << field;
   }
 }

@@ -219,6 +219,18 @@ TEST(Remarks, SayWhatAFasterTechniqueCosts) {
               HasSubstr("deferred is quicker (100 ms) but has 7 wrong pairs; not exact: its image differs"));
 }
 
+TEST(Remarks, SayWhichShadowsAreWrong) {
+  auto report = with_faster_row(0.2);
+  RunResult& row = report.rows[2];
+  row.pairs->shadows = ShadowPairs{.leaked = 1812, .acned = 3, .either = 5, .pixels = 100};
+  EXPECT_FALSE(passes_gates(row));
+  EXPECT_THAT(remarks(report).back(), HasSubstr("but has 1,812 leaked and 3 acned pairs; not exact"));
+  row.pairs->shadows->says_exact = false;
+  EXPECT_TRUE(passes_gates(row));
+  row.pairs->shadows = ShadowPairs{.either = 5, .pixels = 100};
+  EXPECT_TRUE(passes_gates(row));
+}
+
 TEST(Remarks, SayThatAFailureIsByDesign) {
   auto report = with_faster_row(0.2);
   report.rows[2].pairs->lost = report.rows[2].overflow = 1812;

@@ -85,6 +85,23 @@ TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
   EXPECT_EQ(to_json(small_result()), expected);
 }
 
+// A scene without casters has the keys above alone.
+TEST(Results, HoldShadowsOnlyWhereLightsCast) {
+  RunResult result = small_result();
+  result.pairs->shadows = ShadowPairs{.leaked = 1, .acned = 2, .either = 3, .pixels = 4};
+  EXPECT_EQ(to_json(result)["pairs"], json::parse(R"({"listed": 9, "lit": 8, "lost": 7, "wrong": 6,
+    "leaked": 1, "acned": 2, "either": 3, "shadow_pixels": 4})"));
+}
+
+TEST(Results, ShadowsAreThereIfALightCastsOne) {
+  RunResult result = small_result();
+  EXPECT_FALSE(to_json(result).contains("shadows"));
+  result.shadows = ShadowResult{1, 2, 3, 4, 5, 6, 7, {{8, "no caster in its range"}}};
+  EXPECT_EQ(to_json(result)["shadows"], json::parse(R"({
+    "lights": 1, "maps": 2, "drawn": 3, "kept": 4, "bytes": 5, "rays": 6, "undecided": 7,
+    "skipped": [{"light": 8, "why": "no caster in its range"}]})"));
+}
+
 // Of surfaces drawn in OpenCL: not `error`, in which these surfaces are too.
 TEST(Results, JudgeLightOnTheSameSurfaces) {
   RunResult result = small_result();
@@ -134,10 +151,12 @@ TEST(Results, WriteWhatIsNotFiniteAsNull) {
 
 TEST(Results, OfAReportHoldTheDocumentedKeys) {
   const auto value = to_json(synthetic_report(17, 9));
-  EXPECT_EQ(keys_of(value), (std::set<std::string>{"ambient", "exposure", "scene", "size", "devices", "commit", "reference",
-                                                   "reference_errors", "own_surfaces", "covered_pixels", "rows"}));
+  EXPECT_EQ(keys_of(value),
+            (std::set<std::string>{"ambient", "exposure", "scene", "size", "devices", "commit", "reference",
+                                   "reference_errors", "own_surfaces", "covered_pixels", "rows"}));
   EXPECT_EQ(value["size"], json::parse("[17, 9]"));
-  EXPECT_EQ(keys_of(value["reference"]), (std::set<std::string>{"technique", "pixels", "brightest", "surfaces"}));
+  EXPECT_EQ(keys_of(value["reference"]),
+            (std::set<std::string>{"technique", "pixels", "brightest", "surfaces"}));
   EXPECT_EQ(value["reference"]["technique"], "forward");
   EXPECT_EQ(value["reference"]["pixels"], 153);
   EXPECT_EQ(value["reference"]["surfaces"], value["rows"][0]["error"]["surfaces"]);

@@ -172,6 +172,39 @@ TEST(GltfLights, what_the_extension_forbids_is_refused_by_name) {
   EXPECT_THAT(with_light({{"type", "lamp"}}).refusal(), HasSubstr("light 0: type is \"lamp\""));
 }
 
+TEST(GltfLights, extras_of_the_light_or_its_node_say_whether_it_casts_a_shadow) {
+  const auto casts = [](const json& of_light, const json& of_node) {
+    GltfBuilder made = with_light({{"type", "point"}, {"extras", of_light}});
+    made.node()["extras"] = of_node;
+    return made.load().lights.at(0).casts_shadow;
+  };
+  const json none = json::object(), yes = {{"casts_shadow", true}}, no = {{"casts_shadow", false}};
+  EXPECT_FALSE(casts(none, none));
+  EXPECT_TRUE(casts(yes, none));
+  EXPECT_TRUE(casts(none, yes));
+  EXPECT_TRUE(casts(no, yes)) << "a node overrides its light";
+  EXPECT_FALSE(casts(yes, no)) << "a node overrides its light";
+  EXPECT_TRUE(casts(none, {{"casts_shadow", 1}})) << "as Blender writes custom properties";
+  EXPECT_FALSE(casts(none, {{"casts_shadow", 0.0}}));
+  GltfBuilder wrong = with_light({{"type", "point"}, {"extras", {{"casts_shadow", "yes"}}}});
+  EXPECT_THAT(wrong.refusal(), HasSubstr("light 0: extras.casts_shadow is neither true, false nor a number"));
+  wrong.node()["extras"] = {{"casts_shadow", nullptr}};
+  EXPECT_THAT(wrong.refusal(), HasSubstr("node 0: extras.casts_shadow is neither true, false nor a number"));
+}
+
+TEST(GltfLights, extras_of_a_node_say_whether_its_mesh_hides_lights) {
+  GltfBuilder made = GltfBuilder::triangle();
+  EXPECT_TRUE(made.load().instances.at(0).casts_shadow);
+  made.node()["extras"] = {{"casts_shadow", false}};
+  EXPECT_FALSE(made.load().instances.at(0).casts_shadow);
+  made.node()["extras"] = {{"casts_shadow", "an application's own"}};
+  EXPECT_THAT(made.refusal(), HasSubstr("node 0: extras.casts_shadow is neither true, false nor a number"));
+  made.node().erase("mesh");
+  made.root["nodes"].push_back({{"mesh", 0}});
+  made.root["scenes"][0]["nodes"] = {0, 1};
+  EXPECT_EQ(made.load().instances.size(), 1u) << "a node that has neither may say what it likes";
+}
+
 TEST(GltfLights, what_is_wrong_with_a_light_matters_only_if_a_node_has_it) {
   GltfBuilder made = with_light({{"type", "point"}});
   made.root["extensions"]["KHR_lights_punctual"]["lights"].push_back({{"type", "point"}, {"intensity", -1}});

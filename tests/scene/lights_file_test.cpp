@@ -55,7 +55,8 @@ class LightsFile : public testing::Test {
 TEST_F(LightsFile, EveryFieldIsRead) {
   const Light light = load_one(
       R"("name": "lamp", "type": "spot", "position": [1, 2.5, -3], "direction": [0, -2, 0], "radius": 4,
-         "inner_cone": 0.25, "outer_cone": 0.5, "color": [1, 0.5, 0.25], "intensity": 8, "unknown": {"a": [1]})");
+         "inner_cone": 0.25, "outer_cone": 0.5, "color": [1, 0.5, 0.25], "intensity": 8, "casts_shadow": true,
+         "unknown": {"a": [1]})");
   EXPECT_EQ(light.name, "lamp");
   EXPECT_EQ(light.type, LightType::spot);
   EXPECT_EQ(light.position, glm::dvec3(1, 2.5, -3));
@@ -65,6 +66,7 @@ TEST_F(LightsFile, EveryFieldIsRead) {
   EXPECT_EQ(light.outer_cone_rad, 0.5f);
   EXPECT_EQ(light.color, glm::vec3(1, 0.5f, 0.25f));
   EXPECT_EQ(light.intensity, 8);
+  EXPECT_TRUE(light.casts_shadow);
 }
 
 TEST_F(LightsFile, AbsentFieldsHaveTheirDefaults) {
@@ -73,6 +75,7 @@ TEST_F(LightsFile, AbsentFieldsHaveTheirDefaults) {
   EXPECT_EQ(light.color, glm::vec3(1));
   EXPECT_EQ(light.intensity, 1);
   EXPECT_TRUE(std::isinf(light.radius_m));
+  EXPECT_FALSE(light.casts_shadow);
   EXPECT_TRUE(load(R"({"lights": []})").empty());
 }
 
@@ -83,7 +86,8 @@ TEST_F(LightsFile, RadiusZeroIsALightThatReachesNothing) {
 TEST_F(LightsFile, RedEclipseLightsAreTurnedAndScaled) {
   // (80, 16, 24) map units, z up: 10 m along x, 3 m up, 2 m into the picture. Radius 32 units is 4 m: 4
   // candela.
-  const Light light = load_one(R"("position": [80, 16, 24], "radius": 32, "rgb255": [255, 51, 0])");
+  const Light light = load_one(R"("position": [80, 16, 24], "radius": 32, "rgb255": [255, 51, 0], "casts_shadow": true)");
+  EXPECT_TRUE(light.casts_shadow);
   EXPECT_EQ(light.position, glm::dvec3(10, 3, -2));
   EXPECT_EQ(light.radius_m, 4);
   EXPECT_EQ(light.intensity, 4);
@@ -99,6 +103,7 @@ TEST_F(LightsFile, SavedLightsAreLoadedAsTheyWere) {
   lights[0].position = {0.1, 1e6 + 1.0 / 3, -1e-9};
   lights[0].color = {0.1f, 1e-20f, 3.3333333f};
   lights[0].radius_m = 0.7f;
+  lights[0].casts_shadow = true;
   lights[1].type = LightType::spot;
   lights[1].direction = glm::normalize(glm::vec3(0.3f, -0.7f, 0.11f));
   lights[1].inner_cone_rad = 0.1f;
@@ -119,6 +124,7 @@ TEST_F(LightsFile, SavedLightsAreLoadedAsTheyWere) {
     EXPECT_EQ(loaded[i].radius_m, lights[i].radius_m);
     EXPECT_EQ(loaded[i].inner_cone_rad, lights[i].inner_cone_rad);
     EXPECT_EQ(loaded[i].outer_cone_rad, lights[i].outer_cone_rad);
+    EXPECT_EQ(loaded[i].casts_shadow, lights[i].casts_shadow);
   }
 }
 
@@ -148,6 +154,8 @@ TEST_F(LightsFile, NamesTheLightAndTheField) {
             "light 1: inner_cone -0.1 is below 0");
   EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "radius": 1, "rgb255": [0, 0, 256])"),
             "light 1: rgb255 256 is above 255");
+  EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "casts_shadow": 1)"),
+            "light 1: casts_shadow number is not true or false");
   EXPECT_EQ(refused_light(R"("name": "a\nb", "position": 3)"),
             "light 1 \"a\\nb\": position is not three numbers");
   EXPECT_EQ(refused(R"({"lights": [1]})"), "light 0: is number, not an object");

@@ -11,6 +11,7 @@
 #include "gl/bindings.h"
 #include "renderer/shared_grids.h"
 #include "renderer/work.h"
+#include "scene/host_shadows.h"
 #include "scene/listed_lights.h"
 
 namespace lightgrid {
@@ -49,17 +50,30 @@ struct ShadedImage {
                                   // framebuffer is then stale
 };
 
+// What the shadows of a frame took, for results.json.
+struct ShadowFigures {
+  size_t lights = 0;     // whose shadows were found
+  size_t rays = 0;       // traced
+  size_t maps = 0;       // in use, of these
+  size_t drawn = 0;      // drawn in this frame, and
+  size_t kept = 0;       // kept from frames before
+  size_t bytes = 0;      // of bits, maps and certificates
+  size_t undecided = 0;  // pairs that maps left to rays
+};
+
 // A technique's result, for readers of the frame: the image, input of the oracle, memory figures.
 struct Frame {
   ShadedImage image;
   std::optional<ViewGrid> grid;              // of opaque surfaces
   std::optional<ViewGrid> blend_grid;        // of blended ones
   HostLists listed;                          // of opaque surfaces
+  std::function<HostShadows()> shadows;      // reads those that it shaded with, for the oracle; null: none
   size_t list_bytes = 0;                     // of lists of lights in no grid
   std::string built_by;                      // the pass whose result serves many frames, if there is one, and
   std::map<std::string, double> built_with;  // values that it chose, by their keys in results.json
   std::optional<DepthBuffer> depth;  // of techniques that rasterise in OpenCL; else the depth image has it
-  std::optional<TriangleBuffer> triangles;  // of the same techniques
+  std::optional<TriangleBuffer> triangles;      // of the same techniques
+  std::optional<ShadowFigures> shadow_figures;  // where the plan's `shadows` is set
 
   // Bytes of all these, in use.
   size_t light_grid_bytes() const {

@@ -5,6 +5,8 @@ const VIEWS_ACROSS = 6;  // in one table, so that it fits a sheet of paper
 const failures = (row) => [
   row.pairs?.lost > 0 && `${shortCount(row.pairs.lost)} lost${row.overflow > 0 ? " by design" : ""}`,
   row.pairs?.wrong > 0 && `${shortCount(row.pairs.wrong)} wrong`,
+  row.pairs?.leaked > 0 && `${shortCount(row.pairs.leaked)} leaked`,
+  row.pairs?.acned > 0 && `${shortCount(row.pairs.acned)} acned`,
   row.nan_pixels > 0 && `${shortCount(row.nan_pixels)} NaN`,
 ].filter(Boolean).join(", ");
 

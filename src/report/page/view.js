@@ -77,6 +77,13 @@ const columnsOf = (view) =>
        fails: shadesLess
      },
      {title: 'Wrong pairs', value: (row) => row.pairs?.wrong ?? null, text: wholeNumber, gate: true},
+     ...(view.results.rows.some((row) => row.pairs?.leaked !== undefined) ?
+             [
+               {title: 'Leaked pairs', value: (row) => row.pairs?.leaked ?? null, text: wholeNumber},
+               {title: 'Acned pairs', value: (row) => row.pairs?.acned ?? null, text: wholeNumber},
+               {title: 'Undecided shadows', value: (row) => row.pairs?.either ?? null, text: shortCount}
+             ] :
+             []),
      {title: 'NaN pixels', value: (row) => row.nan_pixels, text: wholeNumber, gate: true},
      ...page.measures.map(
          ({key, title}) => ({title, value: (row) => row.same_surfaces?.[key] ?? null, text: errorNumber})),

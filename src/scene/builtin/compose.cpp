@@ -37,6 +37,11 @@ void add_instance(Scene& scene, const std::string& name, int mesh, const glm::dm
   scene.instances.push_back({name, mesh, world_from_object});
 }
 
+void add_lamp(Scene& scene, const std::string& name, int mesh, const glm::dmat4& world_from_object) {
+  add_instance(scene, name, mesh, world_from_object);
+  scene.instances.back().casts_shadow = false;
+}
+
 TextureSlot repeat_every(int texture, float metres) {
   TextureSlot slot;
   slot.texture = texture;

@@ -17,6 +17,9 @@ int add_material(Scene& scene, const std::string& name, glm::vec3 color, float m
 void add_instance(Scene& scene, const std::string& name, int mesh,
                   const glm::dmat4& world_from_object = glm::dmat4(1));
 
+// The surface of a lamp around its light, which it does not hide.
+void add_lamp(Scene& scene, const std::string& name, int mesh, const glm::dmat4& world_from_object);
+
 // A texture that repeats every `metres`, on texture coordinates in metres.
 TextureSlot repeat_every(int texture, float metres);
 

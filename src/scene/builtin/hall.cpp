@@ -129,7 +129,7 @@ class Hall {
       add_instance(scene_, "chandelier", frame, placed(center));
       for (int i = 0; i < 12; ++i) {
         const glm::vec3 at = center + spokes[i] * 1.15f + glm::vec3(0, 0.25f, 0);
-        add_instance(scene_, "candle", flame, placed(at));
+        add_lamp(scene_, "candle", flame, placed(at));
         add_point(scene_, "chandelier", at, candle, 1.2f, 4);
       }
     }
@@ -142,7 +142,7 @@ class Hall {
       for (const float x : {-1.3f, 1.3f}) {
         const glm::vec3 at(x, 0.38f, 12 - 1.1f * i);
         add_instance(scene_, "candle stand", stand, placed({at.x, 0, at.z}));
-        add_instance(scene_, "candle", flame, placed(at));
+        add_lamp(scene_, "candle", flame, placed(at));
         add_point(scene_, "floor candle", at + glm::vec3(0, 0.08f, 0), glm::mix(candle, rose, i / 30.f), 0.4f,
                   2.2f);
       }
@@ -162,8 +162,7 @@ class Hall {
           const bool to_nave = facing != side;
           const glm::vec3 at(side * column_x_m + facing * 0.62f, 2.75f, z);
           add_instance(scene_, "sconce", holder, placed(at, facing > 0 ? 0 : 180));
-          add_instance(scene_, "sconce lamp", to_nave ? warm_globe : globe,
-                       placed(at + glm::vec3(0, 0.09f, 0)));
+          add_lamp(scene_, "sconce lamp", to_nave ? warm_globe : globe, placed(at + glm::vec3(0, 0.09f, 0)));
           add_point(scene_, "sconce", at + glm::vec3(0, 0.1f, 0), to_nave ? warm : color,
                     to_nave ? 1.1f : 1.3f, 3.2f);
         }
@@ -180,7 +179,7 @@ class Hall {
         const glm::vec3 at(side * 4.8f, 4.3f, bay_z(bay));
         const int globe = add_mesh(scene_, lamp_globe(aisle_lamp(bay, side), 0.1f));
         add_instance(scene_, "lantern", frame, placed(at));
-        add_instance(scene_, "lantern lamp", globe, placed(at));
+        add_lamp(scene_, "lantern lamp", globe, placed(at));
         add_point(scene_, "lantern", at, aisle_color(bay, side), 4.5f, 4);
       }
     }

@@ -76,7 +76,7 @@ class Street {
     const float z = -(i + 0.5f) * lamp_spacing_m - (side > 0 ? lamp_spacing_m / 2 : 0);
     const glm::vec3 lamp(side * (kerb_x_m - 0.6f), 5.6f, z);
     add_instance(scene_, "lamp post", post_, placed({side * (kerb_x_m + 0.5), 0, z}, side > 0 ? 0 : 180));
-    add_instance(scene_, "lamp", lamp_, placed(lamp));
+    add_lamp(scene_, "lamp", lamp_, placed(lamp));
     // Half-angles 30 to 60 degrees; one post in nine is a flood light past 60.
     const bool flood = i % 9 == 4 && side > 0;
     const float outer = flood ? 72.f : 30.f + 30.f * random_.uniform();
@@ -94,8 +94,8 @@ class Street {
     add_instance(scene_, "car", cars_[random_.next() % cars_.size()], matrix);
     add_instance(scene_, "car glass", car_glass_, matrix);
     add_instance(scene_, "car wheels", car_wheels_, matrix);
-    add_instance(scene_, "head lamps", car_heads_, matrix);
-    add_instance(scene_, "tail lamps", car_tails_, matrix);
+    add_lamp(scene_, "head lamps", car_heads_, matrix);
+    add_lamp(scene_, "tail lamps", car_tails_, matrix);
     for (const float across : {-0.6f, 0.6f}) {
       const glm::vec3 nose(float(x) + across, 0.62f, z - side * 2.15f),
           back(float(x) + across, 0.7f, z + side * 2.25f);
@@ -113,7 +113,7 @@ class Street {
         const float t = (bulb + 0.5f) / 9 * 2 - 1;
         const glm::vec3 at(t * front_x_m, garland_height_m(t) - 0.08f, z);
         const int color = (bulb + i) % int(neon.size());
-        add_instance(scene_, "bulb", bulbs_[color], placed(at));
+        add_lamp(scene_, "bulb", bulbs_[color], placed(at));
         add_point(scene_, "bulb", at, neon[color], 1.6f, 4.5f);
       }
     }

@@ -109,7 +109,7 @@ Scene make_terrain() {
     const float radius = random.uniform(6, 11), above = random.uniform(0.9f, 1.8f);
     const glm::vec3 at(x, hills.height(x, z) + above, z);
     const int color = int(random.next() >> 61);
-    add_instance(scene, "lamp", lamps[color], placed(at));
+    add_lamp(scene, "lamp", lamps[color], placed(at));
     add_point(scene, "light " + std::to_string(i), at, colors[color], 4.0f * above * above, radius);
   }
   Light& moon = scene.lights.emplace_back();

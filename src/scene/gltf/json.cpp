@@ -128,6 +128,27 @@ std::vector<ModelEntry> take_models(const Reporter& report, json& root) {
   return out;
 }
 
+std::map<int, std::optional<bool>> casts_shadow_of(const json& owners) {
+  std::map<int, std::optional<bool>> out;
+  const json::json_pointer casts("/extras/casts_shadow");
+  for (size_t i = 0; i < owners.size(); ++i) {
+    if (!owners[i].contains(casts)) continue;
+    const json& value = owners[i][casts];
+    std::optional<bool>& entry = out[int(i)];
+    if (value.is_boolean()) entry = value.get<bool>();
+    if (value.is_number()) entry = value.get<double>() != 0;
+  }
+  return out;
+}
+
+ShadowEntries read_shadows(const json& root) {
+  ShadowEntries out;
+  if (root.contains("nodes")) out.of_node = casts_shadow_of(root["nodes"]);
+  const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+  if (root.contains(lights) && root[lights].is_array()) out.of_light = casts_shadow_of(root[lights]);
+  return out;
+}
+
 constexpr int max_nesting = 64;  // the format itself needs about 10
 
 constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
@@ -294,6 +315,7 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text) {
   }
   PreparedJson out;
   out.models = take_models(report, root);
+  out.shadows = read_shadows(root);
   out.animations = take_animations(report, root);  // before the indices of all the rest are checked
   Tidier(report).tidy_object(root, true);
   out.buffers = take_buffers(report, root);

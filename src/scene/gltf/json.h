@@ -1,6 +1,7 @@
 // Prepares the JSON of a glTF file for tinygltf, which does not check everything.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,12 +46,19 @@ struct ModelEntry {
   std::optional<double> roll_off, k;
 };
 
+// extras.casts_shadow of nodes and of lights, by their index. Empty values are neither booleans nor numbers
+// (as Blender's custom properties may be).
+struct ShadowEntries {
+  std::map<int, std::optional<bool>> of_node, of_light;
+};
+
 struct PreparedJson {
   std::string text;  // for tinygltf: no buffers, images, animations, extras or unsupported extensions
   std::vector<BufferEntry> buffers;
   std::vector<ImageEntry> images;
   std::vector<AnimationEntry> animations;
   std::vector<ModelEntry> models;
+  ShadowEntries shadows;
   // tinygltf rejects indices without a buffer view, which Draco and sparse accessors may have: those
   // accessors get this index, one past the end of the file's own views.
   int absent_view = 0;

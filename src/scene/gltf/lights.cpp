@@ -64,6 +64,16 @@ bool has_range(const Document& doc, int light) {
   return value.IsObject() && value.Has("range");
 }
 
+// A node's extras override its light's.
+bool casts_shadow(const Document& doc, int node, int light) {
+  if (const auto of_node = node_casts_shadow(doc, node)) return *of_node;
+  const auto found = doc.shadows.of_light.find(light);
+  if (found == doc.shadows.of_light.end()) return false;
+  if (!found->second)
+    throw doc.error("light {}: extras.casts_shadow is neither true, false nor a number", light);
+  return *found->second;
+}
+
 }  // namespace
 
 std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes) {
@@ -80,6 +90,7 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
     Light light = read_light(doc, in, has_range(doc, index), label("light", index, in.name));
     light.name = node.name.empty() ? in.name : node.name;
     light.position = glm::dvec3(placed.world_from_node[3]);
+    light.casts_shadow = casts_shadow(doc, placed.node, index);
     if (placed.moves) light.node = static_cast<int>(i);
     if (const auto direction = light_direction(placed.world_from_node))
       light.direction = *direction;

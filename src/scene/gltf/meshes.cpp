@@ -64,6 +64,7 @@ class MeshReader {
     if (node.skin >= 0) checked(doc_, doc_.model.skins, node.skin, place, "skin");
     const Use use{node.mesh, node.skin, default_weights(doc_, node, mesh, place), placed.morphs ? index : -1};
     const std::vector<Drawn>& meshes = meshes_of(use);
+    casts_shadow_ = node_casts_shadow(doc_, placed.node).value_or(true);
     if (const auto copies = read_instances(doc_, placed.node)) return add_copies(index, meshes, *copies);
     for (const Drawn& drawn : meshes)
       add_instance(drawn, node.name, place, placed.world_from_node, placed.moves ? index : -1);
@@ -97,7 +98,8 @@ class MeshReader {
         {.name = name,
          .mesh = drawn.mesh,
          .world_from_object = drawn.in_world ? glm::dmat4(1) : world_of_instance(world_from_node),
-         .node = drawn.in_world ? -1 : node});
+         .node = drawn.in_world ? -1 : node,
+         .casts_shadow = casts_shadow_});
   }
 
   // The copies of a node that moves are children of it in the rig.
@@ -194,6 +196,7 @@ class MeshReader {
   const std::vector<PlacedNode>& nodes_;
   Scene& scene_;
   Rig& rig_;
+  bool casts_shadow_ = true;  // the node whose instances are added
   Budget budget_;
   std::vector<glm::dmat4> world_from_node_;
   std::map<Use, std::vector<Drawn>> drawn_;

@@ -72,6 +72,14 @@ std::string node_label(const Document& doc, int node) {
   return label("node", node, doc.model.nodes[node].name);
 }
 
+std::optional<bool> node_casts_shadow(const Document& doc, int node) {
+  const auto found = doc.shadows.of_node.find(node);
+  if (found == doc.shadows.of_node.end()) return {};
+  if (!found->second)
+    throw doc.error("{}: extras.casts_shadow is neither true, false nor a number", node_label(doc, node));
+  return found->second;
+}
+
 std::vector<RigNode> rig_nodes(const Document& doc, const std::vector<PlacedNode>& nodes) {
   std::vector<RigNode> out;
   for (const PlacedNode& placed : nodes)

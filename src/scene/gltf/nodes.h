@@ -30,6 +30,9 @@ std::vector<RigNode> rig_nodes(const Document& doc, const std::vector<PlacedNode
 
 std::string node_label(const Document& doc, int node);
 
+// extras.casts_shadow of a node, if it has that. An error if it is neither true, false nor a number.
+std::optional<bool> node_casts_shadow(const Document& doc, int node);
+
 // Each copy's place relative to the node, by the node's index in the file; empty if the node is not
 // instanced. Errors: no attributes, attributes of unequal count or of a type that the extension does not
 // have, more than limits.max_instances, a rotation of length 0, a skin.

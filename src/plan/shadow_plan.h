@@ -1,0 +1,45 @@
+// Whose shadows a frame must find: for each light that casts, whether rays are traced for it, or why none
+// are. A light is left out only if no pixel that it lights can be hidden from it: the image then has the same
+// bits as with its rays. From the boxes of whole instances, in double; no triangle is read.
+//
+// A pixel's point P lies on an instance in view, within the frustum and the light's bounds (LightBounds). So
+// do all points between light and P lie within these bounds, since a ball or a cone with its apex at the
+// light holds them, and they are nearer to the light than P. P is hidden by what meets this segment, less its
+// last millimetre, or by its own triangle, if light and eye lie on different sides of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/camera.h"
+#include "scene/view_lights.h"
+
+namespace lightgrid {
+
+enum class ShadowNeed {
+  rays,
+  directional,     // no technique finds the shadows of directional lights yet
+  no_caster,       // no opaque or masked instance of the scene meets the light's bounds
+  no_receiver,     // the bounds are out of view, or no instance in view meets them
+  casters_behind,  // of all receivers: shadow_plan.cpp
+};
+
+// In words. Empty: rays.
+const char* reason_of(ShadowNeed need);
+
+struct LightShadow {
+  int light = 0;  // of the scene
+  ShadowNeed need = ShadowNeed::rays;
+  int caster = -1;  // rays: the first instance that may cast within the light's bounds
+};
+
+// As `lightgrid plan` prints them: a line for each need, with its number of lights and the first of them.
+// Empty if no light casts.
+std::string describe_shadows(const std::vector<LightShadow>& casting, const Scene& scene);
+
+// All lights that cast, in the scene's order. `opaque` (masked ones too) and `blended`: the instances in
+// view.
+std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view, const LightRanges& ranges,
+                                            const std::vector<int>& opaque, const std::vector<int>& blended);
+
+}  // namespace lightgrid

@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plan/shadow_plan.h"
+
+namespace lightgrid {
+
+const char* reason_of(ShadowNeed need) {
+  switch (need) {
+    case ShadowNeed::rays:
+      break;
+    case ShadowNeed::directional:
+      return "directional: no technique finds its shadows yet";
+    case ShadowNeed::no_caster:
+      return "no caster in its range";
+    case ShadowNeed::no_receiver:
+      return "no receiver in view within its range";
+    case ShadowNeed::casters_behind:
+      return "casters only behind all receivers";
+  }
+  return "";
+}
+
+std::string describe_shadows(const std::vector<LightShadow>& casting, const Scene& scene) {
+  std::string text;
+  for (const ShadowNeed need : {ShadowNeed::rays, ShadowNeed::no_caster, ShadowNeed::no_receiver,
+                                ShadowNeed::casters_behind, ShadowNeed::directional}) {
+    const auto count = std::ranges::count(casting, need, &LightShadow::need);
+    if (count == 0) continue;
+    const LightShadow& first = *std::ranges::find(casting, need, &LightShadow::need);
+    text += fmt::format("    {:>6} {}: light {} \"{}\"", count,
+                        need == ShadowNeed::rays ? "rays" : reason_of(need), first.light,
+                        scene.lights[size_t(first.light)].name);
+    if (first.caster >= 0) {
+      text +=
+          fmt::format(" reaches node {} \"{}\"", first.caster, scene.instances[size_t(first.caster)].name);
+    }
+    text += count > 1 ? ", …\n" : "\n";
+  }
+  return text.empty() ? text : fmt::format("  lights that cast shadows: {}\n", casting.size()) + text;
+}
+
+}  // namespace lightgrid

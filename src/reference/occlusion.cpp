@@ -1,0 +1,182 @@
+#include "reference/occlusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "reference/position.h"
+
+namespace lightgrid {
+namespace {
+
+using glm::dvec3;
+
+double greatest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+}  // namespace
+
+Occlusion::Occlusion(const Scene& scene) : scene_(scene), masks_(scene) {
+  const WorldBox box = world_box(scene);
+  if (box.empty()) return;
+  centre_ = (box.min + box.max) * 0.5, diagonal_m_ = glm::length(box.max - box.min);
+  // Three coordinates relative to an origin that is itself rounded.
+  const double extent = greatest(box.max - centre_) + float_rounding * greatest(centre_);
+  vertex_error_m_ = std::sqrt(3.0) * float_rounding * extent;
+  for (size_t i = 0; i < scene.instances.size(); ++i) {
+    const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
+    if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend || !scene.instances[i].casts_shadow)
+      continue;
+    for (uint32_t t = 0; t < mesh.indices.size() / 3; ++t) {
+      numbers_.push_back({int(i), t});
+      corners_.push_back(corners_of(numbers_.back()));
+    }
+  }
+  tree_ = TriangleTree(corners_);
+}
+
+Corners Occlusion::corners_of(const CastingTriangle& t) const {
+  const Instance& instance = scene_.instances[t.instance];
+  const Mesh& mesh = scene_.meshes[instance.mesh];
+  Corners corners;
+  for (size_t k = 0; k < 3; ++k) {
+    const dvec3 p(mesh.positions[mesh.indices[3 * size_t(t.triangle) + k]]);
+    corners[k] = dvec3(instance.world_from_object * glm::dvec4(p, 1));
+  }
+  return corners;
+}
+
+Receiver Occlusion::receiver(const View& view, int x, int y, double depth, const CastingTriangle& own) const {
+  const dvec3 in_view = position_from_depth(view, x, y, depth);
+  const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
+  const dvec3 shaded = view.eye + world_from_view * in_view;
+  const Corners c = corners_of(own);
+  const dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
+  const double squared = glm::dot(normal, normal),
+               off = squared > 0 ? glm::dot(shaded - c[0], normal) / squared : 0;
+  Receiver r{.own = own};
+  r.place.place = shaded - normal * off;
+  // docs/details/oracle.md#shadows: a position in float, its turn to world axes, its way to the plane, and
+  // the plane's tilt.
+  const double tan_x =
+                   std::max(std::abs(view_x_of_pixel(view, 0)), std::abs(view_x_of_pixel(view, view.width))),
+               tan_y =
+                   std::max(std::abs(view_y_of_pixel(view, 0)), std::abs(view_y_of_pixel(view, view.height)));
+  const double slope = std::max(tan_x, tan_y), away = view.orthographic ? 1 : std::abs(in_view.z);
+  const double depth_m = view.orthographic ? std::max(std::abs(in_view.z), view.far_m) : std::abs(in_view.z);
+  const double edges = glm::length(c[1] - c[0]) + glm::length(c[2] - c[0]);
+  const double tilt = squared > 0 ? 2 * vertex_error_m_ * edges / std::sqrt(squared) : 1;
+  r.place.error_m = float_rounding * (17 * slope * away + 4 * depth_m + 7 * glm::length(in_view) +
+                                      glm::length(view.eye - centre_) + 2 * glm::length(shaded - centre_) +
+                                      6 * glm::length(shaded - c[0])) +
+                    vertex_error_m_ + std::min(tilt, 1.0) * std::abs(off) * std::sqrt(squared);
+  r.gap_m = 1e-3 + 0x1p-20 * glm::length(shaded - centre_);
+  if (view.orthographic) {
+    const double far_m = 2 * (diagonal_m_ + glm::length(r.place.place - centre_));
+    r.eye = {r.place.place + world_from_view[2] * far_m, r.place.error_m};
+  } else {
+    r.eye = {view.eye, float_rounding * std::sqrt(3.0) * greatest(view.eye - centre_)};
+  }
+  return r;
+}
+
+// A directional light is a point so far away that all triangles lie before it.
+RoundedPoint Occlusion::source_of(const Light& light, const Receiver& receiver) const {
+  if (!is_directional(light))
+    return {light.position, float_rounding * std::sqrt(3.0) * greatest(light.position - centre_)};
+  const dvec3& place = receiver.place.place;
+  const double far_m = 2 * (diagonal_m_ + glm::length(place - centre_));
+  return {place - glm::normalize(dvec3(light.direction)) * far_m,
+          receiver.place.error_m + float_rounding * far_m};
+}
+
+Occlusion::Met Occlusion::meet(int number, const RoundedPoint& light, const RoundedPoint& end) const {
+  const Corners& corners = corners_[size_t(number)];
+  const RoundedPoint c[3] = {rounded(corners[0]), rounded(corners[1]), rounded(corners[2])};
+  const SignedVolume from = side_of_triangle(c[0], c[1], c[2], light),
+                     to = side_of_triangle(c[0], c[1], c[2], end);
+  if (from.sign() * to.sign() > 0) return {};
+  SignedVolume weights[3];  // of the corner that faces the edge
+  int least = 1, most = -1, unsure = 0;
+  Met met{.light_side = from.sign()};
+  for (int k = 0; k < 3; ++k) {
+    weights[k] = side_of_edge(light, c[(k + 1) % 3], c[(k + 2) % 3], end);
+    const int sign = weights[k].sign();
+    if (sign == 0) ++unsure, met.of_edge = k;
+    least = std::min(least, sign), most = std::max(most, sign);
+  }
+  if (least * most < 0) return {};
+  const bool crosses = from.sign() * to.sign() < 0;
+  if (crosses) met.share = from.value / (from.value - to.value);
+  met.meeting = crosses && unsure == 0 ? Meeting::crossed : Meeting::unsure;
+  if (!crosses || unsure != 1) met.of_edge = -1;
+
+  const double sum = weights[0].value + weights[1].value + weights[2].value,
+               error = weights[0].error + weights[1].error + weights[2].error;
+  dvec3 shares(1.0 / 3), errors(1);
+  if (std::abs(sum) > 2 * error) {
+    for (int k = 0; k < 3; ++k) {
+      shares[k] = weights[k].value / sum;
+      errors[k] = (weights[k].error + std::abs(shares[k]) * error) / (std::abs(sum) - error);
+    }
+  }
+  const CastingTriangle& t = numbers_[size_t(number)];
+  const Cover cover = masks_.at(t.instance, t.triangle, shares, errors);
+  if (cover == Cover::clear) return {};
+  if (cover == Cover::either) met.meeting = Meeting::unsure, met.of_edge = -1;
+  return met;
+}
+
+// Two triangles on either side of a common edge, the only doubt of both: a segment passes through one of
+// them, whichever way their vertices are rounded.
+bool Occlusion::share_an_edge(int a, const Met& met_a, int b, const Met& met_b) const {
+  if (met_a.of_edge < 0 || met_b.of_edge < 0) return false;
+  const auto end = [&](int number, const Met& met, int k) {
+    return corners_[size_t(number)][size_t((met.of_edge + k) % 3)];
+  };
+  const dvec3 a1 = end(a, met_a, 1), a2 = end(a, met_a, 2), b1 = end(b, met_b, 1), b2 = end(b, met_b, 2);
+  if (a1 == b2 && a2 == b1) return met_a.light_side == met_b.light_side;
+  return a1 == b1 && a2 == b2 && met_a.light_side != met_b.light_side;
+}
+
+SightAnswer Occlusion::sight(const Light& light, const Receiver& r, int* last) const {
+  const RoundedPoint source = source_of(light, r);
+  const Corners own = corners_of(r.own);
+  const auto side = [&](const RoundedPoint& p) {
+    return side_of_triangle(rounded(own[0]), rounded(own[1]), rounded(own[2]), p).sign();
+  };
+  const int sides = side(source) * side(r.eye);
+  const dvec3 step = source.place - r.place.place;
+  const double length = glm::length(step);
+  const auto distance_at = [&](double share) {
+    const double from_light = share * (length - r.gap_m);
+    return is_directional(light) ? length - from_light : from_light;
+  };
+  if (sides < 0) return {Sight::hidden, r.own, is_directional(light) ? 0 : length};
+  const SightAnswer unhidden{sides > 0 ? Sight::seen : Sight::either, {}, 0};
+  if (!(length > r.gap_m)) return unhidden;
+  // The end is a share of the way in float: three roundings of it, and two of the difference.
+  const RoundedPoint end{r.place.place + step * (r.gap_m / length),
+                         r.place.error_m + 6 * float_rounding * length};
+  std::optional<SightAnswer> hidden;
+  std::vector<std::pair<int, Met>> unsure;
+  const auto meets = [&](int number) {
+    if (numbers_[size_t(number)] == r.own) return false;
+    const Met met = meet(number, source, end);
+    if (met.meeting == Meeting::none) return false;
+    bool certain = met.meeting == Meeting::crossed;
+    for (const auto& [other, met_other] : unsure) certain |= share_an_edge(number, met, other, met_other);
+    if (met.meeting == Meeting::unsure) unsure.emplace_back(number, met);
+    if (!certain) return false;
+    hidden = {Sight::hidden, numbers_[size_t(number)], distance_at(met.share)};
+    if (last) *last = number;
+    return true;
+  };
+  if (last && *last >= 0 && meets(*last)) return *hidden;
+  unsure.clear();
+  const double reach = vertex_error_m_ + source.error_m + end.error_m + 8 * float_rounding * length;
+  tree_.walk(source.place, end.place, reach, meets);
+  if (hidden) return *hidden;
+  return unsure.empty() ? unhidden : SightAnswer{Sight::either, {}, 0};
+}
+
+}  // namespace lightgrid

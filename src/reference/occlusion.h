@@ -1,0 +1,80 @@
+// Whether a light is seen from a pixel's surface, or which triangle hides it: the oracle of shadows, in
+// double. docs/oracle.md#seen-and-hidden has the contract.
+#pragma once
+
+#include <vector>
+
+#include "reference/mask_cover.h"
+#include "reference/signed_volume.h"
+#include "reference/triangle_tree.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
+
+namespace lightgrid {
+
+// either: the answer turns on the rounding of positions to float.
+enum class Sight { seen, hidden, either };
+
+struct CastingTriangle {
+  int instance = -1;      // of the scene; -1: none
+  uint32_t triangle = 0;  // of its mesh
+  auto operator<=>(const CastingTriangle&) const = default;
+};
+
+// The visible point of a pixel, in the plane of the triangle that it shows.
+struct Receiver {
+  CastingTriangle own;
+  RoundedPoint place;  // world
+  double gap_m = 0;    // the end of a segment that hides nothing
+  RoundedPoint eye;    // world; of an orthographic view far away
+};
+
+struct SightAnswer {
+  Sight sight = Sight::seen;
+  CastingTriangle by;     // of a hidden light: a triangle that hides it
+  double distance_m = 0;  // from the light to where it does; of a directional light from the receiver
+};
+
+// Opaque and masked triangles hide lights, from both sides, but those of instances that cast no shadow;
+// blended ones do not.
+class Occlusion {
+ public:
+  // The scene outlives it, and does not move meanwhile.
+  explicit Occlusion(const Scene& scene);
+
+  // depth: the pixel's value in the depth buffer; own: the triangle that it shows. (x, y): row 0 at the
+  // bottom.
+  Receiver receiver(const View& view, int x, int y, double depth, const CastingTriangle& own) const;
+
+  // last: number of the triangle that hid the last light, tested first, and set. May be called from several
+  // threads.
+  SightAnswer sight(const Light& light, const Receiver& receiver, int* last = nullptr) const;
+
+  double vertex_error_m() const { return vertex_error_m_; }
+
+ private:
+  enum class Meeting { none, crossed, unsure };
+  // How a segment from a light meets a triangle. of_edge: the segment crosses the plane for sure, and all
+  // edges but this one leave no doubt; -1: none such.
+  struct Met {
+    Meeting meeting = Meeting::none;
+    int of_edge = -1;
+    int light_side = 0;  // of the plane
+    double share = 0;    // of the segment, from the light to the plane
+  };
+  Corners corners_of(const CastingTriangle& triangle) const;
+  RoundedPoint rounded(const glm::dvec3& vertex) const { return {vertex, vertex_error_m_}; }
+  RoundedPoint source_of(const Light& light, const Receiver& receiver) const;
+  Met meet(int number, const RoundedPoint& light, const RoundedPoint& end) const;
+  bool share_an_edge(int a, const Met& met_a, int b, const Met& met_b) const;
+
+  const Scene& scene_;
+  MaskCover masks_;
+  glm::dvec3 centre_{0};
+  double diagonal_m_ = 0, vertex_error_m_ = 0;
+  std::vector<CastingTriangle> numbers_;
+  std::vector<Corners> corners_;  // world, by number
+  TriangleTree tree_;
+};
+
+}  // namespace lightgrid

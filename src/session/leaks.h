@@ -1,0 +1,31 @@
+// Light that goes through walls: where lights that cast no shadow light what an opaque surface hides from
+// them. By the oracle of shadows, in double; needs no device.
+#pragma once
+
+#include <string>
+
+#include "scene/camera.h"
+#include "scene/light_ranges.h"
+
+namespace lightgrid {
+
+struct Leak {
+  int light = 0, instance = 0;  // of the scene: the light, and what hides it. Of several, any one
+  uint64_t pixels = 0;          // sampled ones, at which this is so
+};
+
+struct Leaks {
+  uint64_t pixels = 0;  // sampled, with an opaque surface
+  // Pairs of these and a light that casts no shadow, lights them, and is on the side of the surface that the
+  // eye sees. Either: of these, pairs whose answer turns on rounding.
+  uint64_t lit = 0, leaked = 0, either = 0;
+  std::vector<Leak> leaks;  // most pixels first
+};
+
+// About `samples` pixels, evenly spread. Deterministic.
+Leaks find_leaks(const Scene& scene, const View& view, const LightRanges& ranges, int samples = 4096);
+
+// As `lightgrid plan` prints them: the worst `most` in a line each.
+std::string describe(const Leaks& leaks, const Scene& scene, size_t most);
+
+}  // namespace lightgrid

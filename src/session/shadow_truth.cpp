@@ -1,0 +1,117 @@
+#include "session/shadow_truth.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "reference/lit_set.h"
+#include "reference/position.h"
+#include "reference/shading.h"
+
+namespace lightgrid {
+namespace {
+
+// A mesh's triangles in the order of their vertices.
+struct NumberedTriangle {
+  std::array<uint32_t, 3> vertices;
+  uint32_t number;
+  auto operator<=>(const NumberedTriangle&) const = default;
+};
+
+std::vector<NumberedTriangle> numbered(const Mesh& mesh) {
+  std::vector<NumberedTriangle> all;
+  for (uint32_t t = 0; t < mesh.indices.size() / 3; ++t)
+    all.push_back({scene_triangle(0, &mesh.indices[3 * size_t(t)]).vertices, t});
+  std::ranges::sort(all);
+  return all;
+}
+
+// At most as many of the covered pixels as have `most` pairs of lights that cast, by an estimate.
+std::vector<uint32_t> affordable_pixels(const ShownSurfaces& shown, const CastingLights& lights,
+                                        uint64_t most) {
+  constexpr size_t estimated = 4096;
+  const std::vector<uint32_t> covered = covered_pixels(shown.depth),
+                              sample = sample_pixels(covered, estimated);
+  std::vector<float> depth(shown.depth.size());
+  for (const uint32_t p : sample) depth[p] = shown.depth[p];
+  std::vector<ViewLight> casting;
+  for (size_t i = 0; i < lights.casting.size(); ++i) {
+    if (lights.casting[i]) casting.push_back(lights.in_view[i]);
+  }
+  const uint64_t pairs = count_pairs(shown.view, depth, casting, list_every_light(0)).lit;
+  if (pairs * covered.size() <= most * sample.size()) return covered;
+  return sample_pixels(covered, std::max<size_t>(1, size_t(most * sample.size() / pairs)));
+}
+
+}  // namespace
+
+std::vector<CastingTriangle> casting_triangles(const Scene& scene, const std::vector<SceneTriangle>& shown) {
+  std::map<int, std::vector<NumberedTriangle>> of_mesh;
+  std::vector<CastingTriangle> found;
+  for (const SceneTriangle& triangle : shown) {
+    found.emplace_back();
+    if (triangle.instance < 0) continue;
+    const int mesh = scene.instances[size_t(triangle.instance)].mesh;
+    const auto [of, added] = of_mesh.try_emplace(mesh);
+    if (added) of->second = numbered(scene.meshes[size_t(mesh)]);
+    const auto at = std::ranges::lower_bound(of->second, NumberedTriangle{triangle.vertices, 0});
+    if (at != of->second.end() && at->vertices == triangle.vertices)
+      found.back() = {triangle.instance, at->number};
+  }
+  return found;
+}
+
+CastingLights casting_lights(const Scene& scene, const View& view, const LightRanges& ranges,
+                             const std::vector<int>& places) {
+  CastingLights lights{lights_in_view(scene, view, ranges, places), {}};
+  for (const int i : places) {
+    const Light& light = scene.lights[size_t(i)];
+    lights.casting.push_back(light.casts_shadow && !is_directional(light) ? &light : nullptr);
+  }
+  return lights;
+}
+
+bool ShadowTruth::casts() const {
+  return std::ranges::any_of(scene_.lights,
+                             [](const Light& l) { return l.casts_shadow && !is_directional(l); });
+}
+
+const Occlusion& ShadowTruth::occlusion() {
+  if (!occlusion_) occlusion_ = std::make_unique<Occlusion>(scene_);
+  return *occlusion_;
+}
+
+const SeenPairs* ShadowTruth::pairs(const RenderView& v, const std::vector<float>& depth,
+                                    const std::vector<SceneTriangle>& triangles) {
+  if (!casts()) return nullptr;
+  for (const Decided& d : decided_) {
+    if (d.pairs && d.depth == depth && d.triangles == triangles) return d.pairs.get();
+  }
+  const std::vector<CastingTriangle> casting = casting_triangles(scene_, triangles);
+  const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, v.plan.local);
+  const ShownSurfaces shown{v.view, depth, casting};
+  Decided& d = decided_[next_];
+  next_ = 1 - next_;
+  d = {
+      depth, triangles,
+      std::make_unique<SeenPairs>(occlusion(), shown, lights, affordable_pixels(shown, lights, most_pairs_))};
+  return d.pairs.get();
+}
+
+std::unique_ptr<SeenPairs> ShadowTruth::at_pixels(const RenderView& v, const std::vector<float>& depth,
+                                                  const std::vector<CastingTriangle>& triangles,
+                                                  const std::vector<uint32_t>& pixels, bool in_range) {
+  if (!casts()) return nullptr;
+  std::vector<int> all(scene_.lights.size());
+  std::iota(all.begin(), all.end(), 0);
+  const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, all);
+  return std::make_unique<SeenPairs>(occlusion(), ShownSurfaces{v.view, depth, triangles}, lights, pixels,
+                                     in_range);
+}
+
+void ShadowTruth::moved(bool geometry) {
+  for (Decided& d : decided_) d = {};
+  if (geometry) occlusion_.reset();
+}
+
+}  // namespace lightgrid

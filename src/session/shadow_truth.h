@@ -1,0 +1,57 @@
+// The oracle of shadows for the surfaces that runs show.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "passes/read_outs.h"
+#include "reference/seen_pairs.h"
+#include "renderer/render_view.h"
+
+namespace lightgrid {
+
+// The same triangles by their numbers in their meshes, the first of several that connect the same vertices.
+std::vector<CastingTriangle> casting_triangles(const Scene& scene, const std::vector<SceneTriangle>& shown);
+
+// The lights at `places` of the scene in the view, and those of them that cast. Shadows of directional lights
+// are found by no technique yet, and are not counted.
+CastingLights casting_lights(const Scene& scene, const View& view, const LightRanges& ranges,
+                             const std::vector<int>& places);
+
+// Decides pairs once for all runs that show the same surfaces of a view. A scene whose lights cast nothing
+// costs nothing.
+class ShadowTruth {
+ public:
+  // most_pairs: in each view; of more, an even sample of the pixels is taken. The scene outlives it.
+  ShadowTruth(const Scene& scene, uint64_t most_pairs) : scene_(scene), most_pairs_(most_pairs) {}
+
+  bool casts() const;  // some point or spot light of the scene
+  const Occlusion& occlusion();
+
+  // Null if no light casts; until the next call but one. triangles: the nearest opaque one of each pixel.
+  const SeenPairs* pairs(const RenderView& v, const std::vector<float>& depth,
+                         const std::vector<SceneTriangle>& triangles);
+
+  // Of all lights of the scene, in its order, at `pixels`; in_range: without those that are out of range.
+  // Null if no light casts.
+  std::unique_ptr<SeenPairs> at_pixels(const RenderView& v, const std::vector<float>& depth,
+                                       const std::vector<CastingTriangle>& triangles,
+                                       const std::vector<uint32_t>& pixels, bool in_range = true);
+
+  // Another view, and `geometry`: whether instances moved or meshes deformed.
+  void moved(bool geometry);
+
+ private:
+  struct Decided {
+    std::vector<float> depth;
+    std::vector<SceneTriangle> triangles;
+    std::unique_ptr<SeenPairs> pairs;
+  };
+  const Scene& scene_;
+  uint64_t most_pairs_;
+  std::unique_ptr<Occlusion> occlusion_;
+  Decided decided_[2];  // OpenGL's surfaces, and those drawn in OpenCL
+  int next_ = 0;
+};
+
+}  // namespace lightgrid

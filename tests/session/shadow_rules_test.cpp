@@ -1,0 +1,39 @@
+// The oracle of shadows finds no light hidden that the plan leaves out.
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "plan/frame_plan.h"
+#include "session/leaks.h"
+#include "support/random_rooms.h"
+
+namespace lightgrid {
+namespace {
+
+TEST(ShadowRules, TheOracleFindsNoPairHiddenOfALightThatIsLeftOut) {
+  Random random(2030);
+  std::map<ShadowNeed, int> lights;
+  uint64_t lit = 0, leaked_with_rays = 0;
+  for (int i = 0; i < 600; ++i) {
+    const RandomRoom room = random_room(random, 48, 32, i % 5 == 0 ? 1e5 : 0);
+    const FramePlan plan = plan_frame(room.scene, room.view, {}, {});
+    Scene left_out = room.scene, with_rays = room.scene;
+    for (const LightShadow& light : plan.casting) {
+      ++lights[light.need];
+      Scene& of = light.need == ShadowNeed::rays ? with_rays : left_out;
+      of.lights[size_t(light.light)].casts_shadow = false;
+    }
+    const Leaks leaks = find_leaks(left_out, room.view, {});
+    lit += leaks.lit;
+    EXPECT_EQ(leaks.leaked, 0u) << "scene " << i << ": " << describe(leaks, room.scene, 3);
+    leaked_with_rays += find_leaks(with_rays, room.view, {}).leaked;
+  }
+  EXPECT_GT(lit, 10'000u) << "of lights that are left out";
+  EXPECT_GT(leaked_with_rays, 5'000u);
+  for (const ShadowNeed need :
+       {ShadowNeed::rays, ShadowNeed::no_caster, ShadowNeed::no_receiver, ShadowNeed::casters_behind})
+    EXPECT_GT(lights[need], 300) << reason_of(need);
+}
+
+}  // namespace
+}  // namespace lightgrid
