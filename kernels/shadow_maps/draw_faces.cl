@@ -113,7 +113,8 @@ static void draw_triangle(const RayScene* scene, int place, const Face* f) {
       value = floor(value + 0.5f);
 #endif
       const real old = load_texels(row + x);
-      store_texels(inside & (distance <= f->range) & (value < old) ? value : old, row + x);
+      inside &= (distance <= f->range) & (value < old);
+      store_texels(inside ? value : old, row + x);
     }
   }
 }

@@ -142,10 +142,12 @@ static inline whole taps_of_face(const ShadowMaps* maps, global const ShadowFace
       const real bias =
           in_front + texel_step(f->range_m, expected) + rounding * length / lane_max(facing, REAL(0x1p-10f));
       const real stored = texels_at(maps->texels + f->first, f->size, TO_WHOLE(tx), TO_WHOLE(ty), live);
-      hidden += (stored != TEXEL_NOTHING) & (stored * metres < expected - bias) ? (whole)(1) : (whole)(0);
+      const mask_t nearer = (stored != TEXEL_NOTHING) & (stored * metres < expected - bias);
+      hidden += nearer ? (whole)(1) : (whole)(0);
     }
   }
-  return lanes_of(live) & (p->z > 0.0f) ? hidden : (whole)(0);
+  const mask_t asked = lanes_of(live) & (p->z > 0.0f);
+  return asked ? hidden : (whole)(0);
 }
 
 // Of the taps, those that see something nearer than the receiver: 0 to SHADOW_TAPS^2 for each lane of

@@ -105,8 +105,12 @@ void measure(const std::string& name, size_t lights) {
       hidden += size_t(__builtin_popcount(bits));
     for (const ClProfiler::Row& row : device.profiler().collect()) least = std::min(least, row.ms);
   }
-  fmt::print("  {} rays from {} lights, {:.0f} % hidden: {:.2f} ms\n", q.points.size(), q.lights.size(),
-             100.0 * double(hidden) / double(q.points.size()), least);
+  if (q.points.empty()) {
+    fmt::print("  no rays: the scene has no point or spot light near a triangle\n");
+  } else {
+    fmt::print("  {} rays from {} lights, {:.0f} % hidden: {:.2f} ms\n", q.points.size(), q.lights.size(),
+               100.0 * double(hidden) / double(q.points.size()), least);
+  }
   for (const bool all : {false, true}) {
     double refit = HUGE_VAL;
     for (int run = 0; run < 8; ++run) {
