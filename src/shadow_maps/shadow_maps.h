@@ -2,7 +2,7 @@
 // acnes at the edges of shadows by about a texel (docs/shadow_maps.md). Exact: rays/ray_scene.h.
 //
 //   ShadowMaps maps(device, programs, options);
-//   maps.draw(rays, plan_shadow_atlas(lights, view, rays.origin(), far_m, options));  // when anything moves
+//   maps.draw(rays, plan_shadow_atlas(lights, view, rays.origin(), box, options));  // when anything moves
 //
 // Errors are of type Error alone, as ray_scene.h has them.
 #pragma once
@@ -23,7 +23,8 @@ class ShadowMaps {
   void draw(const RayScene& rays, const ShadowAtlas& atlas);
 
   // How many of the taps are hidden, for 16 points a packet. Each point's `own` is the triangle that it lies
-  // on. Waits for the queue. For tests: kernels include kernels/shadow_maps/shadow_maps.h.
+  // on. Waits for the queue. Throws input: a packet whose block or light does not exist. For tests: kernels
+  // include kernels/shadow_maps/shadow_maps.h.
   std::vector<uint8_t> look_up(const RayScene& rays, std::span<const RayPoint> points,
                                std::span<const RayPacket> packets);
 
@@ -38,6 +39,7 @@ class ShadowMaps {
   ShadowMapOptions options_;
   UploadedBuffer faces_, lights_;
   GrowingBuffer texels_;
+  size_t light_count_ = 0;  // of the atlas that was drawn
   std::map<std::string, NamedKernel> kernels_;  // by file and defines
   NamedKernel& kernel(const std::string& name, const RayScene& rays);
 };
