@@ -12,8 +12,7 @@
 #include <set>
 #include <sstream>
 
-#include "support/paths.h"
-#include "support/run_command.h"
+#include "support/installed_library.h"
 #include "support/temp_folder.h"
 
 // The example's own view, depths and lights.
@@ -26,8 +25,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-bool has_tool(const std::string& name) { return run_command("command -v " + name).status == 0; }
 
 // Lights whose sphere contains the surface at the centre of one of the tile's pixels.
 std::set<uint32_t> lights_of_tile(const std::vector<CullLight>& lights, const std::vector<float>& depth,
@@ -59,19 +56,9 @@ std::vector<uint32_t> numbers_after(const std::string& text, const std::string& 
 TEST(Library, InstalledIsFoundByCMakeAndCullsInTheExampleWithoutOpenGl) {
   if (!has_tool(LIGHTGRID_CMAKE)) GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
   const TempFolder temp;
-  const std::string prefix = temp.path / "prefix", build = temp.path / "build";
-  const auto must = [](const std::string& command) {
-    const CommandOutcome outcome = run_command(command + " 2>&1");
-    EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.output;
-    return outcome.output;
-  };
-  must(fmt::format("{} --install {} --component library --prefix {}", LIGHTGRID_CMAKE, LIGHTGRID_BUILD_DIR,
-                   prefix));
-  must(fmt::format("{} -S {}/docs/examples/cull_depth -B {} -DCMAKE_PREFIX_PATH={}", LIGHTGRID_CONFIGURE,
-                   source_folder, build, prefix));
-  must(fmt::format("{} --build {}", LIGHTGRID_CMAKE, build));
+  const std::string example = built_example("cull_depth", temp.path);
   if (HasFailure()) return;
-  const std::string out = must(build + "/cull_depth");
+  const std::string out = must_run(example);
 
   EXPECT_THAT(out, HasSubstr("80 x 45 tiles, "));
   const std::vector<CullLight> lights = make_lights(500);
@@ -96,7 +83,7 @@ TEST(Library, InstalledIsFoundByCMakeAndCullsInTheExampleWithoutOpenGl) {
   EXPECT_LE(std::stoul(numbers[2]), 2 * pairs);
 
   if (!has_tool("ldd")) GTEST_SKIP() << "there is no ldd to ask what the example links";
-  const std::string libraries = must("ldd " + build + "/cull_depth");
+  const std::string libraries = must_run("ldd " + example);
   EXPECT_THAT(libraries, HasSubstr("libOpenCL"));
   for (const char* name :
        {"libGL", "libEGL", "libOSMesa", "libglapi", "libX11", "libpng", "libspdlog", "libdraco"}) {

@@ -1,12 +1,10 @@
 // The rasteriser as others use it: installed, found by CMake, linked into the example of docs/examples, run.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <glm/glm.hpp>
 
-#include "support/paths.h"
-#include "support/run_command.h"
+#include "support/installed_library.h"
 #include "support/temp_folder.h"
 
 // The example's own view and boxes.
@@ -46,20 +44,9 @@ char letter_at(int x, int y) {
 }
 
 TEST(RasterLibrary, InstalledIsFoundByCMakeAndDrawsInTheExample) {
-  if (run_command("command -v " LIGHTGRID_CMAKE).status != 0)
-    GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
+  if (!has_tool(LIGHTGRID_CMAKE)) GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
   const TempFolder temp;
-  const std::string prefix = temp.path / "prefix", build = temp.path / "build";
-  const auto must = [](const std::string& command) {
-    const CommandOutcome outcome = run_command(command + " 2>&1");
-    EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.output;
-    return outcome.output;
-  };
-  must(fmt::format("{} --install {} --component library --prefix {}", LIGHTGRID_CMAKE, LIGHTGRID_BUILD_DIR,
-                   prefix));
-  must(fmt::format("{} -S {}/docs/examples/draw_boxes -B {} -DCMAKE_PREFIX_PATH={}", LIGHTGRID_CONFIGURE,
-                   source_folder, build, prefix));
-  must(fmt::format("{} --build {}", LIGHTGRID_CMAKE, build));
+  const std::string example = built_example("draw_boxes", temp.path);
   if (HasFailure()) return;
   std::string expected;
   for (int y = height - 1; y >= 0; --y) {
@@ -68,7 +55,7 @@ TEST(RasterLibrary, InstalledIsFoundByCMakeAndDrawsInTheExample) {
   }
   EXPECT_GT(std::count(expected.begin(), expected.end(), 'a'), 50);
   EXPECT_GT(std::count(expected.begin(), expected.end(), 'b'), 50);
-  EXPECT_EQ(must(build + "/draw_boxes"), expected);
+  EXPECT_EQ(must_run(example), expected);
 }
 
 }  // namespace

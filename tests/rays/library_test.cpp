@@ -1,11 +1,9 @@
 // Shadow rays as others use them: installed, found by CMake, linked into the example of docs/examples, run.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 
-#include "support/paths.h"
-#include "support/run_command.h"
+#include "support/installed_library.h"
 #include "support/temp_folder.h"
 
 // The example's own floor, boxes and lights.
@@ -33,20 +31,9 @@ bool boxes_hide(const glm::dvec3& point, const glm::dvec3& way) {
 }
 
 TEST(RaysLibrary, InstalledIsFoundByCMakeAndCastsShadowsInTheExample) {
-  if (run_command("command -v " LIGHTGRID_CMAKE).status != 0)
-    GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
+  if (!has_tool(LIGHTGRID_CMAKE)) GTEST_SKIP() << "there is no cmake at " << LIGHTGRID_CMAKE;
   const TempFolder temp;
-  const std::string prefix = temp.path / "prefix", build = temp.path / "build";
-  const auto must = [](const std::string& command) {
-    const CommandOutcome outcome = run_command(command + " 2>&1");
-    EXPECT_EQ(outcome.status, 0) << command << "\n" << outcome.output;
-    return outcome.output;
-  };
-  must(fmt::format("{} --install {} --component library --prefix {}", LIGHTGRID_CMAKE, LIGHTGRID_BUILD_DIR,
-                   prefix));
-  must(fmt::format("{} -S {}/docs/examples/cast_shadows -B {} -DCMAKE_PREFIX_PATH={}", LIGHTGRID_CONFIGURE,
-                   source_folder, build, prefix));
-  must(fmt::format("{} --build {}", LIGHTGRID_CMAKE, build));
+  const std::string example = built_example("cast_shadows", temp.path);
   if (HasFailure()) return;
   std::string expected;
   for (int z = 0; z < height; ++z) {
@@ -59,7 +46,7 @@ TEST(RaysLibrary, InstalledIsFoundByCMakeAndCastsShadowsInTheExample) {
   }
   for (const char letter : {'#', 'l', 's', '.'})
     EXPECT_GT(std::count(expected.begin(), expected.end(), letter), 20) << letter << " in\n" << expected;
-  EXPECT_EQ(must(build + "/cast_shadows"), expected);
+  EXPECT_EQ(must_run(example), expected);
 }
 
 }  // namespace
