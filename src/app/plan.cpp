@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
@@ -20,10 +19,6 @@ struct PlanOptions {
   std::string technique = "forward_plus", json;
   bool leaks = false;
 };
-
-std::string caster_words(const Scene& scene, int instance) {
-  return fmt::format("reaches node {} \"{}\"", instance, scene.instances[size_t(instance)].name);
-}
 
 nlohmann::ordered_json leaks_json(const Leaks& leaks, const Scene& scene) {
   nlohmann::ordered_json json = {{"pixels", leaks.pixels},
@@ -64,12 +59,10 @@ int plan(PlanOptions o) {
     json["decisions"].push_back({{"effect", d.effect}, {"needed", d.needed}, {"why", d.why}});
   }
   for (const LightShadow& light : plan.casting) {
-    const bool rays = light.need == ShadowNeed::rays;
-    json["shadows"].push_back(
-        {{"light", light.light},
-         {"name", chosen.scene.lights[size_t(light.light)].name},
-         {"rays", rays},
-         {"why", rays ? caster_words(chosen.scene, light.caster) : reason_of(light.need)}});
+    json["shadows"].push_back({{"light", light.light},
+                               {"name", chosen.scene.lights[size_t(light.light)].name},
+                               {"rays", light.need == ShadowNeed::rays},
+                               {"why", words_of(light, chosen.scene)}});
   }
   if (leaks) json["leaks"] = leaks_json(*leaks, chosen.scene);
   write_json(o.json, json.dump(1));

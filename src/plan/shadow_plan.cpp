@@ -113,8 +113,7 @@ bool overlap(const dvec3& min, const dvec3& max, const Box& box) {
 
 // Whether nothing hides any point of a flat receiver: light and eye are on one side of it, and each caster is
 // below its plane, or out of the box around it and the light.
-//   A ray to the plane ends gap_m before it, hence at least gap_m times the sine of its slope above it. If
-//   that
+// A ray to the plane ends gap_m before it, hence at least gap_m times the sine of its slope above it. If that
 // is more than rounding moves casters and the ray's end, then the receiver's own triangles do not meet the
 // ray, nor does what lies in the plane or below it. Floats relative to the scene's middle err by less than
 // 2^-21.

@@ -24,7 +24,7 @@ enum class ShadowNeed {
   casters_behind,  // of all receivers: shadow_plan.cpp
 };
 
-// In words. Empty: rays.
+// Why no rays are traced. Empty: they are.
 const char* reason_of(ShadowNeed need);
 
 struct LightShadow {
@@ -32,6 +32,9 @@ struct LightShadow {
   ShadowNeed need = ShadowNeed::rays;
   int caster = -1;  // rays: the first instance that may cast within the light's bounds
 };
+
+// `reaches node 3 "wall"`, or the reason.
+std::string words_of(const LightShadow& light, const Scene& scene);
 
 // As `lightgrid plan` prints them: a line for each need, with its number of lights and the first of them.
 // Empty if no light casts.

@@ -22,6 +22,11 @@ const char* reason_of(ShadowNeed need) {
   return "";
 }
 
+std::string words_of(const LightShadow& light, const Scene& scene) {
+  if (light.need != ShadowNeed::rays) return reason_of(light.need);
+  return fmt::format("reaches node {} \"{}\"", light.caster, scene.instances[size_t(light.caster)].name);
+}
+
 std::string describe_shadows(const std::vector<LightShadow>& casting, const Scene& scene) {
   std::string text;
   for (const ShadowNeed need : {ShadowNeed::rays, ShadowNeed::no_caster, ShadowNeed::no_receiver,
@@ -32,10 +37,7 @@ std::string describe_shadows(const std::vector<LightShadow>& casting, const Scen
     text += fmt::format("    {:>6} {}: light {} \"{}\"", count,
                         need == ShadowNeed::rays ? "rays" : reason_of(need), first.light,
                         scene.lights[size_t(first.light)].name);
-    if (first.caster >= 0) {
-      text +=
-          fmt::format(" reaches node {} \"{}\"", first.caster, scene.instances[size_t(first.caster)].name);
-    }
+    if (need == ShadowNeed::rays) text += " " + words_of(first, scene);
     text += count > 1 ? ", …\n" : "\n";
   }
   return text.empty() ? text : fmt::format("  lights that cast shadows: {}\n", casting.size()) + text;

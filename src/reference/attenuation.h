@@ -27,8 +27,8 @@ inline double cos_from_axis(const ViewLight& light, const glm::dvec3& offset, do
 double attenuation(const ViewLight& light, const glm::dvec3& position, bool window);
 
 // The share of a light that reaches a point of an instance besides that, 0 to 1: the oracle of light_reaches
-// in shared/light_table.h. Shadows turn on the triangle that a pixel shows:
-// count_pairs and shade_pixels take them from the oracle of shadows (seen_pairs.h), not from here.
+// in shared/light_table.h. Shadows are not part of it, since they depend on the triangle that a pixel shows:
+// count_pairs and shade_pixels take them from the oracle of shadows (seen_pairs.h).
 inline double light_reaches(const ViewLight&, const glm::dvec3& /*position*/, uint32_t /*instance*/) {
   return 1;
 }

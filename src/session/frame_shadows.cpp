@@ -14,7 +14,7 @@ FrameShadows::FrameShadows(Renderer& renderer, const Scene& scene, const View& v
 }
 
 std::optional<SightAnswer> FrameShadows::sight(int x, int y, size_t light) {
-  const RenderView& v = run_.view();
+  const Seen& v = run_.view();
   const size_t pixel = v.view.grid().index(x, y);
   const CastingTriangle own = casting_triangles(v.scene, {shown_[pixel]}).front();
   if (own.instance < 0) return {};

@@ -50,7 +50,7 @@ std::vector<float> read_depth(TechniqueRun& run) {
   return depth;
 }
 
-std::vector<ViewLight> local_lights(const RenderView& v) {
+std::vector<ViewLight> local_lights(const Seen& v) {
   return lights_in_view(v.scene, v.view, v.plan.settings.ranges, v.plan.local);
 }
 
@@ -60,7 +60,7 @@ ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
 }
 
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, const SeenPairs* seen) {
-  const RenderView& v = run.view();
+  const Seen& v = run.view();
   if (!seen) return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth));
   std::optional<HostShadows> shaded;
   if (run.frame().shadows) shaded = run.frame().shadows();

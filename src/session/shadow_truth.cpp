@@ -81,7 +81,7 @@ const Occlusion& ShadowTruth::occlusion() {
   return *occlusion_;
 }
 
-const SeenPairs* ShadowTruth::pairs(const RenderView& v, const std::vector<float>& depth,
+const SeenPairs* ShadowTruth::pairs(const Seen& v, const std::vector<float>& depth,
                                     const std::vector<SceneTriangle>& triangles) {
   if (!casts()) return nullptr;
   for (const Decided& d : decided_) {
@@ -98,7 +98,7 @@ const SeenPairs* ShadowTruth::pairs(const RenderView& v, const std::vector<float
   return d.pairs.get();
 }
 
-std::unique_ptr<SeenPairs> ShadowTruth::at_pixels(const RenderView& v, const std::vector<float>& depth,
+std::unique_ptr<SeenPairs> ShadowTruth::at_pixels(const Seen& v, const std::vector<float>& depth,
                                                   const std::vector<CastingTriangle>& triangles,
                                                   const std::vector<uint32_t>& pixels, bool in_range) {
   if (!casts()) return nullptr;

@@ -6,7 +6,7 @@
 
 #include "passes/read_outs.h"
 #include "reference/seen_pairs.h"
-#include "renderer/render_view.h"
+#include "renderer/work.h"
 
 namespace lightgrid {
 
@@ -29,12 +29,12 @@ class ShadowTruth {
   const Occlusion& occlusion();
 
   // Null if no light casts; until the next call but one. triangles: the nearest opaque one of each pixel.
-  const SeenPairs* pairs(const RenderView& v, const std::vector<float>& depth,
+  const SeenPairs* pairs(const Seen& v, const std::vector<float>& depth,
                          const std::vector<SceneTriangle>& triangles);
 
   // Of all lights of the scene, in its order, at `pixels`; in_range: without those that are out of range.
   // Null if no light casts.
-  std::unique_ptr<SeenPairs> at_pixels(const RenderView& v, const std::vector<float>& depth,
+  std::unique_ptr<SeenPairs> at_pixels(const Seen& v, const std::vector<float>& depth,
                                        const std::vector<CastingTriangle>& triangles,
                                        const std::vector<uint32_t>& pixels, bool in_range = true);
 

@@ -9,9 +9,8 @@ namespace lightgrid {
 
 // A square image of distances along `ahead`, by coordinates along right, up and ahead that begin at `from`.
 // Texel (x, y) has its centre at u = ((x + 0.5) 2 / size - 1) extent, and v likewise from y. A light at a
-// point
-// (`from`) sees there what lies along u right + v up + ahead; a directional one, whose rays are parallel,
-// what lies behind u right + v up.
+// point (`from`) sees there what lies along u right + v up + ahead; a directional one, whose rays are
+// parallel, what lies behind u right + v up.
 typedef struct ShadowFace {
   float from[3];                    // relative to the origin of the RayScene that is drawn, metres
   float right[3], up[3], ahead[3];  // unit; right x up = -ahead
