@@ -19,6 +19,9 @@ static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal
   const mask_t reached = (arrival.attenuation > REAL(0.0f)) & (dot3(normal, arrival.to_light) > REAL(0.0f));
   if (!any_lane(lit & reached)) return sum;
   arrival.attenuation = arrival.attenuation * light_reaches(light, position, NO_INSTANCE);
+#ifdef SHADOWS
+  if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
+#endif
   return add_terms(sum, light_terms(normal, to_viewer, arrival, light, REAL(exponent)));
 }
 

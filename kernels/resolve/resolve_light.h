@@ -8,7 +8,7 @@
 // -DVOXEL_EXACT  of a list, as many lights a pixel are shaded by themselves, those that matter most, and only
 //                the rest comes from the volume
 // -DWORLD_GRID   lists are those of the world grid: a pixel takes that of the cell around its position
-// -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSPECULAR, -DSKIN, -DMINNAERT
+// -DSHADOWS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSPECULAR, -DSKIN, -DMINNAERT
 //                as kernels/resolve/shade_pixels.h says
 #pragma once
 
@@ -51,7 +51,7 @@
   { RESOLVE_SCENE_LIST(GIVEN).half_size = (float2)(0.5f * (float)view->width, 0.5f * (float)view->height) }
 #define RESOLVE_LIGHTS                                                                             \
   {                                                                                                \
-    .lights = {GIVEN_LIGHTS light_bins},      \
+    .lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS}, \
     .directional = directional, .list = light_indices, .cells = cells, .slice_edges = slice_edges, \
     SOURCE_LIST(GIVEN)                                                                             \
   }

@@ -10,6 +10,7 @@
 // -DCLEARCOAT  some surface has a coat: shared/brdf.h
 // -DSPECULAR  some surface has a specular reflectance of its own: shared/brdf.h
 // -DSKIN, -DMINNAERT  some surface has that model: shared/material_models.h
+// -DSHADOWS   some light casts a shadow: shared/shadow_bits.h
 #pragma once
 
 #include "kernels/resolve/gbuffer.h"
@@ -27,11 +28,27 @@ typedef ushort index_t;
 typedef struct Lights {
   LIGHT_TABLE(LIGHT_ARRAY)
   global const uint* bins;
+#ifdef SHADOWS
+  global const uint2* shadow_tiles;
+  global const uint* shadow_bits;
+  ShadowsHere shadows;
+#endif
 } Lights;
+
+// Before a loop over lights: the pixels that it is for, by the first of them.
+static inline void light_pixels(Lights* lights, uint x, uint y, constant ViewParams* view) {
+#ifdef SHADOWS
+  lights->shadows =
+      shadows_here(lights->shadow_tiles, lights->shadow_bits, x, y, view->width, view->light_count);
+#endif
+}
 
 static inline PunctualLight light_at(const Lights* lights, uint index) {
   PunctualLight light;
   LIGHT_TABLE(LIGHT_ELEMENT)
+#ifdef SHADOWS
+  light.index = index, light.shadows = &lights->shadows;
+#endif
   return light;
 }
 
@@ -67,7 +84,7 @@ static inline mask_t in_range(Real3 position, PunctualLight light) {
   return dot3(d, d) * light.position.w < REAL(1.0f);
 }
 
-// A light that reaches none of the lit pixels, or that none of them faces, would add exact zeros. Few of a
+// A light that reaches none of the lit pixels, or that none of them faces or sees, would add exact zeros. Few of a
 // list's lights reach a given block of pixels, so the cheaper test comes first.
 static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uint index,
                                const Lights* lights) {
@@ -85,6 +102,9 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
   const mask_t reached = (arrival.attenuation > REAL(0.0f)) & facing;
   if (!any_lane(lit & reached)) return sum;
   arrival.attenuation = arrival.attenuation * light_reaches(light, p->position, NO_INSTANCE);
+#ifdef SHADOWS
+  if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
+#endif
   return add3(sum, radiance_of(*p, arrival, light));
 }
 

@@ -5,7 +5,6 @@
 // -DVOXEL_BITS  16 or 32: bits of a stored value (default 32)
 // -DSPOTS       some light has a cone
 // -DWINDOW_SMOOTH, -DWINDOW_NONE, -DLEAST_FALLOFF  shared/punctual_light.h
-// -DLIGHT_REACHES  shared/light_table.h
 // -DVOXELS_LOG  shared/voxel_volume.h
 #pragma once
 
@@ -160,14 +159,6 @@ static inline VoxelArrival voxel_arrival(Real3 position, float3 place, Real3 d, 
   if (cone.s4 != 0.0f) a.attenuation = a.attenuation * voxel_cone(cone, d, inverse_squared, a.inverse, slice);
 #endif
   a.attenuation = squared < REAL(reach.squared) ? a.attenuation : REAL(0.0f);
-#ifdef LIGHT_REACHES
-  PunctualLight light;
-  light.position = (float4)(place, reach.inverse_squared), light.color = color;
-#ifdef SPOTS
-  light.cone = (float4)(-cone.s012, cone.s3);
-#endif
-  a.attenuation = a.attenuation * light_reaches(light, position, NO_INSTANCE);
-#endif
   return a;
 }
 

@@ -6,6 +6,9 @@ LIGHT_TABLE(LIGHT_TEXTURE)
 PunctualLight light_at(int index) {
   PunctualLight light;
   LIGHT_TABLE(LIGHT_TEXEL)
+#ifdef SHADOWS
+  light.index = index;
+#endif
   return light;
 }
 

@@ -24,6 +24,7 @@ namespace lightgrid {
 // After them the arrays of LIGHT_TABLE.
 #define LIGHTGRID_LIGHT_SAMPLERS(UNIT, SHARE) \
   UNIT(directional_lights) \
+  UNIT(shadow_tiles) UNIT(shadow_bits) \
   /* which lights a pixel reads: one source a program */ \
   UNIT(grid_cells) UNIT(grid_indices) UNIT(grid_masks) UNIT(light_z_bins) UNIT(voxel_irradiance) UNIT(voxel_directions) \
   SHARE(world_cells, grid_cells) UNIT(world_indices) UNIT(world_buckets) UNIT(world_keys) \
@@ -34,6 +35,7 @@ namespace lightgrid {
   SHARE(image, gbuffer_normal_roughness_metallic) \
   SHARE(indices, gbuffer_normal_roughness_metallic) \
   SHARE(given_depth, gbuffer_normal_roughness_metallic) \
+  SHARE(triangle_numbers, gbuffer_normal_roughness_metallic) \
   SHARE(left_image, gbuffer_normal_roughness_metallic) UNIT(right_image)
 
 #define LIGHTGRID_UNIFORM_BLOCKS(BLOCK) \

@@ -67,7 +67,7 @@ LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const No
   const auto [items, group] = over_pixels(work, s.kernels.lanes, 16, 16);
   kernel.launch(*work.renderer.cl, "fill_light_buffer", items, group,
                 ClArguments{{"normals", normals.image->cl_buffer()}, {"depth", depth.values}} +
-                    table.columns() +
+                    work.light_arguments() +
                     ClArguments{{"cells", lights.in_cl->cells},
                                 {"indices", lights.in_cl->indices},
                                 {"light_bins", lights.in_cl->z_bins},

@@ -212,9 +212,7 @@ class TriangleTarget {
   explicit TriangleTarget(Work& work)
       : work_(work),
         texture_(make_texture_2d(GL_RG32UI, work.grid().width, work.grid().height)),
-        framebuffer_(make_framebuffer({texture_.name()}, work.targets.depth())),
-        program_(work.programs({"shaders/scene.vert", "shaders/triangles.frag", {}}).of(0)),
-        first_triangle_(glGetUniformLocation(program_.name, "first_triangle")) {}
+        framebuffer_(make_framebuffer({texture_.name()}, work.targets.depth())) {}
 
   std::vector<glm::uvec2> drawn(const DrawList& list, GLenum depth_test) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
@@ -225,7 +223,7 @@ class TriangleTarget {
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(depth_test);
-    for (const DrawItem& item : list) draw(item);
+    draw_triangles(work_, list, {}, [](int instance) { return uint32_t(instance); });
     std::vector<glm::uvec2> found(work_.grid().values());
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     glReadPixels(0, 0, work_.view.width, work_.view.height, GL_RG_INTEGER, GL_UNSIGNED_INT, found.data());
@@ -235,24 +233,9 @@ class TriangleTarget {
   static constexpr GLuint none = 0xffffffffu;
 
  private:
-  void draw(const DrawItem& item) {
-    InstanceDrawer drawer(work_, DrawStreams::all);
-    drawer.bind(item.instance, program_);
-    glUniform1ui(program_.object, GLuint(item.instance));
-    // gl_PrimitiveID counts from 0 in each range.
-    for (size_t i = 0; i < item.ranges.counts.size(); ++i) {
-      const void* offset = item.ranges.offsets[i];
-      glUniform1ui(first_triangle_, GLuint(reinterpret_cast<size_t>(offset) / (3 * sizeof(uint32_t))));
-      glDrawElementsBaseVertex(GL_TRIANGLES, item.ranges.counts[i], GL_UNSIGNED_INT, offset,
-                               item.ranges.base_vertices[i]);
-    }
-  }
-
   Work& work_;
   GlTexture texture_;
   GlFramebuffer framebuffer_;
-  const SceneProgram& program_;
-  GLint first_triangle_;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "base/image.h"
 #include "passes/common/frame.h"
 #include "scene/listed_lights.h"
+#include "scene/triangle_numbers.h"
 #include "shared/slices.h"
 
 namespace lightgrid {
@@ -80,16 +81,13 @@ SurfaceImages read_gbuffer_surfaces(Work& work);
 // can be compared.
 struct SceneTriangle {
   int instance = -1;  // of the scene; -1: nothing
-  // Numbers in its mesh, rotated so that the least one is first: which side faces front stays the same.
-  std::array<uint32_t, 3> vertices{};
+  TriangleVertices vertices{};  // in its mesh
   auto operator<=>(const SceneTriangle&) const = default;
 };
 
 // corners: three indices of the mesh.
 inline SceneTriangle scene_triangle(int instance, const uint32_t* corners) {
-  SceneTriangle triangle{instance, {corners[0], corners[1], corners[2]}};
-  std::ranges::rotate(triangle.vertices, std::ranges::min_element(triangle.vertices));
-  return triangle;
+  return {instance, triangle_vertices(corners)};
 }
 
 struct ShownTriangles {

@@ -66,7 +66,7 @@ class Resolver : public PassCache {
                        {"materials", s.materials()},
                        {"texels_4", s.texels_4()},
                        {"texels_8", s.texels_8()}} +
-           lights.columns() + ClArguments{{"directional", lights.directional.buffer()}} +
+           work.light_arguments() + ClArguments{{"directional", lights.directional.buffer()}} +
            source_arguments(loop) +
            ClArguments{{"bin_edges", lights.bin_edges.buffer()},
                        {"slice_edges", lights.slice_edges.buffer()},

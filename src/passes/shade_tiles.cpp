@@ -106,7 +106,7 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
                           {"specular", gbuffer.in_cl(gbuffer_specular)},
                           {"models", s.models.buffer()},
                           {"depth", depth.values}} +
-                  table.columns() +
+                  work.light_arguments() +
                   ClArguments{{"cells", lights.in_cl->cells},
                               {"indices", lights.in_cl->indices},
                               {"light_bins", lights.in_cl->z_bins},

@@ -2,6 +2,7 @@
 
 #include "passes/depth_bounds.h"
 #include "passes/depth_prepass.h"
+#include "passes/find_shadows.h"
 #include "passes/resolve.h"
 #include "passes/shade_forward.h"
 
@@ -11,14 +12,22 @@ Surfaces find_surfaces(RenderView& v, bool depth_in_cl) {
   if (v.plan.opengl) return surfaces_of(v, depth_prepass(v), depth_in_cl);
   Surfaces surfaces{.visible = rasterize(v, v.caches)};
   surfaces.depth = surfaces.visible->depth();
+  find_shadows(v, surfaces);
   return surfaces;
 }
 
 Surfaces surfaces_of(RenderView& v, const DepthImage& image, bool depth_in_cl) {
   Surfaces surfaces{.image = image};
   if (depth_in_cl) depth_of(v, surfaces);
+  find_shadows(v, surfaces);
   surfaces.drawn = visible_surfaces(v, distances_of(v, surfaces));
   return surfaces;
+}
+
+void find_shadows(RenderView& v, Surfaces& surfaces) {
+  if (!v.plan.light_reaches) return;
+  find_shadows(v, v.caches.shadow_bits, surfaces.visible ? &*surfaces.visible : nullptr,
+               v.plan.shadows ? depth_of(v, surfaces) : DepthBuffer());
 }
 
 const DepthBuffer& depth_of(RenderView& v, Surfaces& surfaces) {

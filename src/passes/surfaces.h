@@ -25,6 +25,9 @@ Surfaces find_surfaces(RenderView& v, bool depth_in_cl = false);
 // The surfaces of a depth image that a pass has drawn.
 Surfaces surfaces_of(RenderView& v, const DepthImage& image, bool depth_in_cl = false);
 
+// For surfaces that neither of these returned, before they are shaded.
+void find_shadows(RenderView& v, Surfaces& surfaces);
+
 // Each is made at its first use in the frame.
 const DepthBuffer& depth_of(RenderView& v, Surfaces& surfaces);
 const DepthBounds& bounds_of(RenderView& v, Surfaces& surfaces);

@@ -175,8 +175,9 @@ void shadow_all(const Scene& scene, FramePlan& plan) {
 }
 
 // After surfaces and lights.
-void plan_shadows(const Scene& scene, const View& view, PlannedInstances instances, FramePlan& plan) {
-  shadow_all(scene, plan);
+void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& needs,
+                  PlannedInstances instances, FramePlan& plan) {
+  if (needs.shadows) shadow_all(scene, plan);
   plan.casting = plan_light_shadows(scene, view, plan.settings.ranges, plan.opaque, plan.blended);
   if (instances == PlannedInstances::in_view && plan.shadows) {
     plan.shadows = false;
@@ -192,9 +193,11 @@ void plan_shadows(const Scene& scene, const View& view, PlannedInstances instanc
   const auto rays = std::ranges::find(plan.casting, ShadowNeed::rays, &LightShadow::need);
   plan.decisions.push_back(
       {"shadows", plan.shadows,
-       rays != plan.casting.end() ? fmt::format("{} reaches {}", light_witness(scene, rays->light),
-                                                instance_witness(scene, rays->caster))
-       : plan.casting.empty()     ? "no light casts one"
+       plan.casting.empty() ? "no light casts one"
+       : !needs.shadows     ? needs.no_shadows
+       : rays != plan.casting.end()
+           ? fmt::format("{} reaches {}", light_witness(scene, rays->light),
+                         instance_witness(scene, rays->caster))
                                   : fmt::format("{}: {}", light_witness(scene, plan.casting[0].light),
                                                 reason_of(plan.casting[0].need))});
 }
@@ -224,8 +227,7 @@ void turn_everything_on(const Scene& scene, FramePlan& plan, const TechniqueNeed
   plan.light_grid = plan.blend_grid = needs.light_grid;
   plan.world_grid = needs.world_grid;
   plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
-  shadow_all(scene, plan);
-  plan.light_reaches = true;
+  if (needs.shadows) shadow_all(scene, plan), plan.light_reaches = true;
   plan.index_bits = 32;
   plan.features = features_read(feature_all, plan.settings.brdf);
   plan.clearcoat = plan.features & feature_clearcoat;
@@ -322,7 +324,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
          plan.world_grid ? light_witness(scene, plan.local[0]) : "no light has a place"});
   }
   plan_slices(view, needs, farthest_m, plan);
-  plan_shadows(scene, view, instances, plan);
+  plan_shadows(scene, view, needs, instances, plan);
   if (settings.everything_on) turn_everything_on(scene, plan, needs);
   return plan;
 }

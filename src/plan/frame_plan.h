@@ -67,11 +67,13 @@ struct TechniqueNeeds {
   bool opengl = true;               // draws with OpenGL; false: OpenCL alone
   bool chosen_raster = false;       // draws with OpenGL, or with the setting raster=opencl without
   bool world_grid = false;          // light lists in cells of the world
+  bool shadows = true;              // light loops ask for shadows
   // Changes these, and the plan's settings, by the technique's own settings. Null: nothing changes.
   void (*adapt)(TechniqueNeeds& needs, Settings& settings) = nullptr;
   // Why the plan has none of them, if it is not the view.
   const char* no_light_grid = "the technique reads none";
   const char* no_slices = "the technique uses none";
+  const char* no_shadows = "";
 };
 
 // Whether a technique with these settings draws with OpenGL.

@@ -9,6 +9,7 @@
 #include "renderer/upload/scene_surfaces.h"
 #include "renderer/upload/texel_chain.h"
 #include "scene/rig.h"
+#include "scene/triangle_numbers.h"
 
 namespace lightgrid {
 namespace {
@@ -245,6 +246,24 @@ GLuint GlScene::model_records() {
     model_records_ = make_buffer(records.size() * sizeof records[0], records.data());
   }
   return model_records_.name();
+}
+
+GLuint GlScene::triangle_numbers() {
+  if (triangle_numbers_texture_) return triangle_numbers_texture_.name();
+  const std::vector<uint32_t> indices = read_indices();
+  std::vector<uint32_t> numbers(indices.size() / 3);
+  for (size_t i = 0; i < meshes_.size(); ++i) {
+    const auto& clusters = meshes_[i].clusters;
+    if (clusters.empty()) continue;
+    const TriangleNumbers of_mesh(scene_.meshes[i]);
+    const size_t end = clusters.back().first_index + clusters.back().index_count;
+    for (size_t at = clusters.front().first_index; at < end; at += 3)
+      numbers[at / 3] = of_mesh.find(triangle_vertices(&indices[at])).value();
+  }
+  triangle_numbers_ = make_buffer(numbers.size() * sizeof numbers[0], numbers.data());
+  triangle_numbers_texture_ = make_buffer_texture(GL_R32UI, triangle_numbers_.name());
+  renderer_.note_scene_bytes(numbers.size() * sizeof numbers[0]);
+  return triangle_numbers_texture_.name();
 }
 
 void GlScene::upload_texture(int index) {

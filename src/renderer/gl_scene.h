@@ -59,6 +59,10 @@ class GlScene {
   std::vector<uint32_t> read_indices()
       const;  // of all triangles in order, without the reversed ones, each of its mesh
 
+  // A buffer texture: of each triangle of read_indices(), its number in its mesh, the first of several that
+  // connect the same vertices. Made at the first call.
+  GLuint triangle_numbers();
+
   size_t geometry_bytes() const { return geometry_bytes_; }  // without reversed triangles
   size_t reversed_triangle_bytes() const { return reversed_triangle_bytes_; }
   size_t texture_bytes() const { return texture_bytes_; }
@@ -77,6 +81,8 @@ class GlScene {
   GLuint stream_of_[6] = {};                        // by attribute location; 0: no material reads it
   std::map<int, std::vector<uint32_t>> deforming_;  // meshes that deform: their indices, cluster by cluster
   GlBuffer indices_, materials_, model_records_;
+  GlBuffer triangle_numbers_;
+  GlTexture triangle_numbers_texture_;
   GlBuffer absent_;  // zeros, then -1s, for streams that no mesh has
   GlVertexArray positions_only_, all_streams_;
   size_t material_stride_ = 0;

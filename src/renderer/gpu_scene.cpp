@@ -20,10 +20,34 @@ void set_raster_meshes(const Scene& scene, RasterScene& raster) {
   raster.set_meshes(meshes);
 }
 
+AlphaMode alpha_mode_of(const Scene& scene, const Instance& instance) {
+  return scene.materials[scene.meshes[instance.mesh].material].alpha_mode;
+}
+
 bool shows_masks(const Scene& scene) {
-  return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
-    return scene.materials[scene.meshes[instance.mesh].material].alpha_mode == AlphaMode::mask;
-  });
+  return std::ranges::any_of(
+      scene.instances, [&](const Instance& i) { return alpha_mode_of(scene, i) == AlphaMode::mask; });
+}
+
+void set_ray_meshes(const Scene& scene, RayScene& rays) {
+  const std::vector<bool> shown = shown_meshes(scene);
+  std::vector<RayMesh> meshes;
+  for (size_t i = 0; i < shown.size(); ++i) {
+    const Mesh& mesh = scene.meshes[i];
+    meshes.push_back(shown[i] ? RayMesh{mesh.positions, mesh.indices} : RayMesh{});
+  }
+  rays.set_meshes(meshes);
+}
+
+void set_ray_instances(const Scene& scene, RayScene& rays) {
+  std::vector<RayInstance> instances;
+  for (const Instance& instance : scene.instances) {
+    const AlphaMode mode = alpha_mode_of(scene, instance);
+    instances.push_back({instance.mesh, instance.world_from_object,
+                         mode == AlphaMode::mask ? scene.meshes[instance.mesh].material : -1,
+                         instance.casts_shadow && mode != AlphaMode::blend});
+  }
+  rays.set_instances(instances);
 }
 
 }  // namespace
@@ -59,6 +83,21 @@ std::shared_ptr<RasterScene> GpuScene::in_raster(TexelLayout layout) {
     in_raster_version_ = shape_version_, in_raster_has_masks_ = shows_masks(scene_);
   }
   if (in_raster_has_masks_) {
+    const ClScene& scene = in_cl(layout);
+    held->set_masks({scene.vertices(), scene.materials(), scene.alphas()});
+  }
+  return held;
+}
+
+std::shared_ptr<RayScene> GpuScene::in_rays(TexelLayout layout) {
+  std::shared_ptr<RayScene> held = in_rays_.lock();
+  const bool made = !held;
+  if (made) in_rays_ = held = std::make_shared<RayScene>(*renderer_.cl, *renderer_.kernels);
+  const bool reshaped = made || in_rays_shape_ != shape_version_;
+  if (reshaped) set_ray_meshes(scene_, *held);
+  if (reshaped || in_rays_instances_ != instances_version_) set_ray_instances(scene_, *held);
+  in_rays_shape_ = shape_version_, in_rays_instances_ = instances_version_;
+  if (reshaped && shows_masks(scene_)) {
     const ClScene& scene = in_cl(layout);
     held->set_masks({scene.vertices(), scene.materials(), scene.alphas()});
   }

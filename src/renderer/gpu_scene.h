@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "raster/raster_scene.h"
+#include "rays/ray_scene.h"
 #include "renderer/cl_scene.h"
 #include "renderer/gl_scene.h"
 #include "renderer/shared_grids.h"
@@ -35,6 +36,11 @@ class GpuScene {
   // from in_cl(layout), which are alike in each layout. One for all views; freed with the last that holds it.
   std::shared_ptr<RasterScene> in_raster(TexelLayout layout);
 
+  // The same scene for shadow rays, triangles by instance in scene order. Blended ones hide no light, nor do
+  // instances that cast no shadow. Refitted where it moved. Throws Error(machine) if the device has no
+  // doubles.
+  std::shared_ptr<RayScene> in_rays(TexelLayout layout);
+
   // The light lists of world_grid with these settings, shared by all views that hold them; not yet built.
   std::shared_ptr<SharedWorldGrid> world_grid(Renderer& renderer, const WorldGridKey& key);
 
@@ -54,6 +60,8 @@ class GpuScene {
   std::weak_ptr<RasterScene> in_raster_;
   int in_raster_version_ = 0;  // shape_version() of its meshes
   bool in_raster_has_masks_ = false;
+  std::weak_ptr<RayScene> in_rays_;
+  int in_rays_shape_ = 0, in_rays_instances_ = 0;  // shape_version() and instances_version() of what it holds
   std::vector<std::pair<WorldGridKey, std::weak_ptr<SharedWorldGrid>>> world_grids_;
   int shape_version_ = 0, instances_version_ = 0, lights_version_ = 0;
   std::deque<std::vector<int>> changed_lights_;  // of the last updates that moved any

@@ -88,6 +88,7 @@ void RenderView::release() {
 void RenderView::drop_caches() {
   caches.clear();
   cl_lights_.reset();
+  shadows = {};
   culler_.reset();
   for (auto& grid : grids_) grid.reset();
 }
@@ -146,7 +147,7 @@ SharedGridStorage& RenderView::grid_storage(bool blended) {
 }
 
 size_t RenderView::memory_bytes() const {
-  size_t bytes = targets.bytes() + lights.light_bytes() + caches.memory_bytes();
+  size_t bytes = targets.bytes() + lights.light_bytes() + shadows.bytes() + caches.memory_bytes();
   bytes += cl_lights_ ? cl_lights_->memory_bytes() : 0;
   if (plan.opengl) bytes += gpu.in_gl().geometry_bytes() + gpu.in_gl().texture_bytes();
   if (plan.opengl && plan.reversed_triangles) bytes += gpu.in_gl().reversed_triangle_bytes();

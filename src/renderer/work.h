@@ -50,10 +50,13 @@ struct Work : Seen {
 
   // Binds the view's uniform blocks, and point, spot and directional lights as the shaders read them
   // (shared/punctual_light.h).
-  void bind_lights() const { lights.bind(); }
+  void bind_lights() const { lights.bind(), shadows.bind(); }
   GlLights lights;
   // The same for kernels: uploaded by the first call after look().
   const ClLights& cl_lights();
+  // LIGHT_ARGUMENTS (shared/light_table.h).
+  ClArguments light_arguments();
+  ShadowMemory shadows;
 
   // Memory that OpenCL and OpenGL share, for `bytes` a sample and spare ones, by name (Targets::buffer).
   SharedBuffer& shared_pixels(const std::string& name, size_t bytes, TargetUse use = TargetUse::image);
@@ -108,6 +111,7 @@ struct PassCaches {
   Cached<class ObjectLights> object_lights, blended_object_lights;  // passes/find_object_lights.h
   Cached<class VoxelBuffers> voxels;                                // passes/build_voxels.cpp
   Cached<class ViewOfWorldGrid> world_grid;                         // passes/build_world_grid.cpp
+  Cached<class ShadowBits> shadow_bits;                             // passes/find_shadows.cpp
 
   void follow(Work& work);
   void upload(Work& work);  // of those that upload while the device draws triangles
@@ -115,7 +119,7 @@ struct PassCaches {
   size_t memory_bytes() const;
 
  private:
-  std::array<std::unique_ptr<PassCache>*, 11> all();
+  std::array<std::unique_ptr<PassCache>*, 12> all();
 };
 
 }  // namespace lightgrid

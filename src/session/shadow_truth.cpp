@@ -7,24 +7,10 @@
 #include "reference/lit_set.h"
 #include "reference/position.h"
 #include "reference/shading.h"
+#include "scene/triangle_numbers.h"
 
 namespace lightgrid {
 namespace {
-
-// A mesh's triangles in the order of their vertices.
-struct NumberedTriangle {
-  std::array<uint32_t, 3> vertices;
-  uint32_t number;
-  auto operator<=>(const NumberedTriangle&) const = default;
-};
-
-std::vector<NumberedTriangle> numbered(const Mesh& mesh) {
-  std::vector<NumberedTriangle> all;
-  for (uint32_t t = 0; t < mesh.indices.size() / 3; ++t)
-    all.push_back({scene_triangle(0, &mesh.indices[3 * size_t(t)]).vertices, t});
-  std::ranges::sort(all);
-  return all;
-}
 
 // At most as many of the covered pixels as have `most` pairs of lights that cast, by an estimate.
 std::vector<uint32_t> affordable_pixels(const ShownSurfaces& shown, const CastingLights& lights,
@@ -46,17 +32,14 @@ std::vector<uint32_t> affordable_pixels(const ShownSurfaces& shown, const Castin
 }  // namespace
 
 std::vector<CastingTriangle> casting_triangles(const Scene& scene, const std::vector<SceneTriangle>& shown) {
-  std::map<int, std::vector<NumberedTriangle>> of_mesh;
+  std::map<int, TriangleNumbers> of_mesh;
   std::vector<CastingTriangle> found;
   for (const SceneTriangle& triangle : shown) {
     found.emplace_back();
     if (triangle.instance < 0) continue;
     const int mesh = scene.instances[size_t(triangle.instance)].mesh;
-    const auto [of, added] = of_mesh.try_emplace(mesh);
-    if (added) of->second = numbered(scene.meshes[size_t(mesh)]);
-    const auto at = std::ranges::lower_bound(of->second, NumberedTriangle{triangle.vertices, 0});
-    if (at != of->second.end() && at->vertices == triangle.vertices)
-      found.back() = {triangle.instance, at->number};
+    const TriangleNumbers& numbers = of_mesh.try_emplace(mesh, scene.meshes[size_t(mesh)]).first->second;
+    if (const auto number = numbers.find(triangle.vertices)) found.back() = {triangle.instance, *number};
   }
   return found;
 }

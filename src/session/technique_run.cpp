@@ -4,6 +4,7 @@
 
 #include "gl/bindings.h"
 #include "gl/gl.h"
+#include "passes/find_shadows.h"
 #include "passes/read_back.h"
 #include "results/metrics.h"
 
@@ -33,6 +34,7 @@ void TechniqueRun::draw_frame() {
   const bool opengl = view_.renderer.gl != nullptr;
   if (opengl) reset_gl_state();
   frame_ = technique_.render(view_);
+  tell_shadows(view_, view_.caches.shadow_bits, frame_);
   if (opengl) check_gl(technique_.name);
 }
 
@@ -80,14 +82,14 @@ static std::vector<KernelResult> kernel_results(const PassRecord& pass) {
   return results;
 }
 
-static std::optional<ShadowResult> shadow_result(const FramePlan& plan,
-                                                 const std::optional<ShadowFigures>& figures) {
+static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Frame& frame) {
   if (plan.casting.empty()) return {};
   ShadowResult result;
-  if (figures) {
-    result.lights = figures->lights, result.maps = figures->maps, result.drawn = figures->drawn;
-    result.kept = figures->kept, result.bytes = figures->bytes, result.rays = figures->rays;
-    result.undecided = figures->undecided;
+  if (frame.shadow_figures) {
+    const ShadowFigures figures = frame.shadow_figures();
+    result.lights = figures.lights, result.maps = figures.maps, result.drawn = figures.drawn;
+    result.kept = figures.kept, result.bytes = figures.bytes, result.rays = figures.rays;
+    result.undecided = figures.undecided;
   }
   if (plan.settings.everything_on) return result;
   for (const LightShadow& light : plan.casting) {
@@ -116,7 +118,7 @@ RunResult TechniqueRun::result() const {
   for (const Decision& decision : view_.plan.decisions) {
     if (!decision.needed) result.skipped.push_back({decision.effect, decision.why});
   }
-  result.shadows = shadow_result(view_.plan, frame_.shadow_figures);
+  result.shadows = shadow_result(view_.plan, frame_);
   return result;
 }
 

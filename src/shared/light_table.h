@@ -2,10 +2,13 @@
 // of FramePlan::local. A row of LIGHT_TABLE is all that shaders, kernels and uploads know of a column; the
 // function of its member's name in renderer/light_table.cpp makes its values.
 //   SPOTS: at least one light has a cone.
-//   LIGHT_REACHES: the frame plan names an effect that asks light_reaches.
+//   SHADOWS: some light of the scene casts a shadow (FramePlan::light_reaches).
 #pragma once
 
 #include "shared/real.h"
+#ifdef SHADOWS
+#include "shared/shadow_bits.h"
+#endif
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
 namespace lightgrid {
@@ -28,21 +31,38 @@ namespace lightgrid {
   ROW(IF_LIGHTS, Float4, color, light_colors, samplerBuffer)       \
   ROW(IF_SPOTS, Float4, cone, light_cones, samplerBuffer)
 
+// With shadows a light knows its index, and in OpenCL the shadows at the pixels that read it.
+#if !defined(SHADOWS)
+#define SHADOW_MEMBERS
+#elif defined(__OPENCL_VERSION__)
+#define SHADOW_MEMBERS \
+  uint index;          \
+  const ShadowsHere* shadows;
+#else
+#define SHADOW_MEMBERS Whole index;
+#endif
+
 #define LIGHT_MEMBER(condition, type, member, array, texels) condition(type member;)
-SHARED_STRUCT(PunctualLight){LIGHT_TABLE(LIGHT_MEMBER)};
+SHARED_STRUCT(PunctualLight){LIGHT_TABLE(LIGHT_MEMBER) SHADOW_MEMBERS};
 
 // The end of every light loop: how much of a light reaches a point of an instance, 0 to 1, besides what
-// distance and cone let through. Nothing keeps a light from a point yet: groups, shadows and cookies will
-// answer here, and in reference/attenuation.h. The plan says whether an effect asks
-// (FramePlan::light_reaches); without one the factor is the constant 1, which compiles to nothing.
-//   point: along the axes of light.position. Those are the view's, but a voxel light buffer's where one is
-//   filled. instance: the scene's index. NO_INSTANCE in every loop until an effect needs it. Forward shaders
-//   then get it with each draw, resolve kernels from triangle_instance, both by way of ShadingPoint; the
-//   geometry buffer has no room for it yet, and light_prepass and voxel light buffers light points of no
-//   instance.
+// distance and cone let through. Shadows answer here, at the pixel that is shaded; groups and cookies will,
+// and in reference/attenuation.h. The plan says whether an effect asks (FramePlan::light_reaches); without
+// one the factor is the constant 1, which compiles to nothing. BLEND: blended surfaces receive no shadows
+// yet.
+//   point: along the axes of light.position, which are the view's. instance: the scene's index. NO_INSTANCE
+//   in every loop until an effect needs it. Forward shaders then get it with each draw, resolve kernels from
+//   triangle_instance, both by way of ShadingPoint; the geometry buffer has no room for it yet, and
+//   light_prepass lights points of no instance.
 #define NO_INSTANCE WHOLE(0)
-#if defined(LIGHT_REACHES)
-SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole instance) { return REAL(1.0f); }
+#if defined(SHADOWS) && !defined(BLEND) && defined(LIGHTGRID_GLSL)
+SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole instance) {
+  return seen_share(light.index, uvec2(gl_FragCoord.xy));
+}
+#elif defined(SHADOWS) && !defined(BLEND) && defined(__OPENCL_VERSION__)
+SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole instance) {
+  return seen_share(light.shadows, light.index);
+}
 #elif defined(LIGHTGRID_GLSL) || defined(__OPENCL_VERSION__)
 #define light_reaches(light, point, instance) REAL(1.0f)
 #else
@@ -54,10 +74,14 @@ inline real light_reaches(const PunctualLight&, const Real3&, Whole) { return 1;
 #define LIGHT_TEXEL(condition, type, member, array, texels) \
   condition(light.member = type(texelFetch(array, index));)
 #elif defined(__OPENCL_VERSION__)
-// Arguments of a kernel, before others; those without their condition are not read. Then the same as members
-// of a struct, and as their first values.
+// Arguments of a kernel, before others; those without their condition are not read, and shadows not there.
+// Then the same as members of a struct, and as their first values.
 #define LIGHT_ARGUMENT(condition, type, member, array, texels) global const type *array,
-#define LIGHT_ARGUMENTS LIGHT_TABLE(LIGHT_ARGUMENT)
+#ifndef SHADOWS
+#define SHADOW_ARGUMENTS
+#define GIVEN_SHADOWS
+#endif
+#define LIGHT_ARGUMENTS LIGHT_TABLE(LIGHT_ARGUMENT) SHADOW_ARGUMENTS
 #define LIGHT_ARRAY(condition, type, member, array, texels) global const type* array;
 #define LIGHT_GIVEN(condition, type, member, array, texels) array,
 #define GIVEN_LIGHTS LIGHT_TABLE(LIGHT_GIVEN)

@@ -69,7 +69,6 @@ SHARED_FUNCTION Arrival arrival_at_sample(Real3 at, PunctualLight light VOXEL_AR
         arrival.attenuation * (angular * angular) * ((1.0f - cos_outer) / ((1.0f - cos_outer) + 0.5f * q));
   }
 #endif
-  arrival.attenuation = arrival.attenuation * light_reaches(light, at, NO_INSTANCE);
   return arrival;
 }
 

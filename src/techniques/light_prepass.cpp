@@ -22,6 +22,8 @@ static const OwnSetting<PrepassLights> prepass_lights{
 
 static Frame from_volumes(RenderView& v) {
   const NormalImage normals = fill_normals(v);
+  Surfaces surfaces{.image = normals.depth};
+  find_shadows(v, surfaces);
   const LightBuffer lights = draw_light_buffer(v, v.caches.light_volumes, normals);
   const ShadedImage image = shade_forward(v, v.opaque, from_light_buffer(v, lights));
   shade_blended(v, image, find_blended_object_lights(v, v.caches.blended_object_lights));

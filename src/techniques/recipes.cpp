@@ -20,6 +20,7 @@ GBuffer fill(RenderView& v, std::optional<Surfaces>& surfaces) {
   if (!surfaces) {
     const GBuffer gbuffer = fill_gbuffer(v, base_lighting_of(v));
     surfaces = Surfaces{.image = gbuffer.depth_image};
+    find_shadows(v, *surfaces);
     return gbuffer;
   }
   if (!surfaces->visible) return fill_gbuffer(v, surfaces->drawn, base_lighting_of(v));

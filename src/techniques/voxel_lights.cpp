@@ -22,6 +22,7 @@ static Frame render(RenderView& v) {
       build_voxels(v, v.caches.voxels, distances, surfaces.visible ? surfaces.depth : DepthBuffer());
   const LightSource lights = from_voxels(v, v.caches.voxels, voxels, exact ? &*exact : nullptr);
   frame.listed = exact ? exact->listed : lights.listed;
+  frame.lights_in_volume = true;
   frame.image = shade(v, surfaces, lights);
   blend(v, surfaces, exact_blended ? from_voxels(v, v.caches.voxels, voxels, &*exact_blended) : lights,
         frame.image);
@@ -29,8 +30,9 @@ static Frame render(RenderView& v) {
 }
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
-  if (settings.voxel_lights_exact == 0)
-    needs.light_grid = false, needs.no_light_grid = "voxel-lights-exact=0";
+  if (settings.voxel_lights_exact != 0) return;
+  needs.light_grid = false, needs.no_light_grid = "voxel-lights-exact=0";
+  needs.shadows = false, needs.no_shadows = "lights are added up where no pixel asks for one";
 }
 
 extern const Technique voxel_lights{

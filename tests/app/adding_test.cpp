@@ -250,13 +250,14 @@ TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
       {"src/plan/frame_plan.cpp", {"answers"}},
       // radiance_from, with which shaders/lights and voxel-lights-exact end.
       {"src/shared/punctual_light.h", {"arrives", "asks"}},
-      {"src/shared/voxel_exact.h", {"arrives", "asks"}},
+      // The volume of voxel_lights has no shadows, nor has what is taken out of it.
+      {"src/shared/voxel_exact.h", {"arrives"}},
       {"shaders/deferred_light.frag", {"arrives", "asks"}},
       {"shaders/light_buffer.frag", {"arrives", "asks"}},
       {"kernels/resolve/shade_pixels.h", {"arrives", "asks"}},
       {"kernels/resolve/light_buffer.h", {"arrives", "asks"}},
-      {"kernels/voxels/voxel_light.h", {"arrives", "asks"}},
-      {"kernels/voxels/gpu/build_voxels.cl", {"arrives"}},  // voxel_arrival asks
+      {"kernels/voxels/voxel_light.h", {"arrives"}},
+      {"kernels/voxels/gpu/build_voxels.cl", {"arrives"}},
       {"src/reference/shading.cpp", {"arrives", "asks"}},
       {"src/reference/light_sums.cpp", {"arrives", "asks"}},
       {"src/reference/lit_set.cpp", {"asks"}},

@@ -8,6 +8,7 @@
 // image       in and out: RGBA a pixel, linear, row 0 at the bottom
 // -DTILE      of the light grid, pixels a side, a multiple of 8 (default 16)
 // -DORTHOGRAPHIC, and what kernels/resolve/resolve.h and resolve_light.h name
+#define BLEND  // shared/light_table.h
 #define FUSED  // shared/real.h
 #define LANES 16
 #include "kernels/common/image_blocks.h"

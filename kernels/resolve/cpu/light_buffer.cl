@@ -81,7 +81,7 @@ kernel void light_buffer(global const normal_t* normals, global const float* dep
                          float inverse_scale, constant ViewParams* view) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const uint2 range = cells[tile_y * view->tiles_x + tile_x];
-  const Lights lights = {GIVEN_LIGHTS light_bins};
+  Lights lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS};
   const uint x_end = min(tile_x * TILE + TILE, width), y_end = min(tile_y * TILE + TILE, height);
   for (uint y = tile_y * TILE; y < y_end; y += 4) {
     for (uint x = tile_x * TILE; x < x_end; x += 4) {
@@ -91,6 +91,7 @@ kernel void light_buffer(global const normal_t* normals, global const float* dep
       if (range.y > 0 && any_lane(lit)) {
         const Real3 position = position_of_pixel((float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
                                                  lit ? depths : REAL(1.0f), view);
+        light_pixels(&lights, x, y, view);
         t = terms_of_list(position, normals_of_block(normals, x, y, width, height), lit, indices + range.x,
                           range.y, bins_of_pixels(depths, lit, bin_edges), &lights, exponent);
       }

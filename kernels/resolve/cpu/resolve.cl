@@ -29,6 +29,7 @@ kernel void resolve(global const uint* triangles, global const float* depths, RE
         Surface s = {0};
         add_materials(&s, a, &scene, covered);
         const real depth = block_depths(&walk, depths, x, y);
+        light_pixels(&lights.lights, x, y, view);
         const Real3 shown = radiance(a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,
                                      covered, &lights, bin_edges, view);
         color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);

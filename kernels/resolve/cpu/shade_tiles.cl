@@ -18,9 +18,6 @@
 //
 // Buffers may be read 16 pixels past their end.
 #define LANES 16
-#include "kernels/common/pack.h"
-#include "kernels/resolve/shade_pixels.h"
-
 #ifndef TILE
 #define TILE 16
 #endif
@@ -29,10 +26,15 @@
 #if TILE == 8
 #define HALF_DX 0u
 #define HALF_DY 1u
+#define SHADOW_ACROSS 8
 #else
 #define HALF_DX 8u
 #define HALF_DY 0u
+#define SHADOW_ACROSS 16
 #endif
+
+#include "kernels/common/pack.h"
+#include "kernels/resolve/shade_pixels.h"
 
 static inline float8 pixel_offsets(void) { return (float8)(0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f); }
 
@@ -75,7 +77,7 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
 #ifdef BASE_LIGHTING
   if (range.y == 0) return;
 #endif
-  const Lights lights = {GIVEN_LIGHTS light_bins};
+  Lights lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS};
   const uint x_end = min(tile_x * TILE + TILE, view->width), y_end = min(tile_y * TILE + TILE, view->height);
   for (uint y = tile_y * TILE; y < y_end; y += 1 + HALF_DY) {
     for (uint x = tile_x * TILE; x < x_end; x += 8 + HALF_DX) {
@@ -103,6 +105,7 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
       p = coated_point(p, load_texels(coats + 4 * at, coats + 4 * at2));
 #endif
       const PixelBins bins = bins_of_pixels(depths, lit, bin_edges);
+      light_pixels(&lights, x, y, view);
       const Real3 sum = light_sum(&p, lit, indices + range.x, range.y, bins, &lights, view);
       const real r = lit ? sum.x : REAL(background.x), g = lit ? sum.y : REAL(background.y);
       const real b = lit ? sum.z : REAL(background.z);

@@ -1,5 +1,6 @@
 // Blended surfaces laid over an image in drawing order, for GPUs: a work-item a pixel, record after record of
 // its tile. As resolve/cpu/blend.cl, with the same arguments.
+#define BLEND  // shared/light_table.h
 #define FUSED  // shared/real.h
 #define LANES 1
 #include "kernels/raster/raster_blocks.h"

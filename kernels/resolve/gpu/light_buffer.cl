@@ -23,11 +23,12 @@ kernel void light_buffer(global const normal_t* normals, global const float* dep
   if (x >= view->width || y >= view->height) return;
   const size_t at = (size_t)y * view->width + x;
   const uint2 range = cells[cell_of_pixel(x, y, view->tile_size, view->tiles_x)];
-  const Lights lights = {GIVEN_LIGHTS light_bins};
+  Lights lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS};
   const mask_t lit = depth[at] > 0.0f;
   LightTerms t = no_terms();
   if (lit && range.y > 0) {
     const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
+    light_pixels(&lights, x, y, view);
     t = terms_of_list(position, normal_at(normals, at), lit, indices + range.x, range.y,
                       bins_of_pixels(depth[at], lit, bin_edges), &lights, exponent);
   }

@@ -21,6 +21,7 @@ kernel void resolve(global const uint* triangles, global const float* depths, RE
     add_triangle(&a, &scene, triangle, 1, (float)(x & ~3u), (float)(y & ~3u), (float)(x & 3u),
                  (float)(y & 3u));
     add_material(&s, &a, &scene, (uint)a.material, 1);
+    light_pixels(&lights.lights, x, y, view);
     const Real3 shown =
         radiance(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depths[at], 1, &lights, bin_edges, view);
     color = (float4)(shown.x, shown.y, shown.z, 1.0f);

@@ -19,7 +19,7 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
   const bool lit = depth[at] > 0.0f && color.w > 0.0f;
   Real3 sum = real3(background.x, background.y, background.z);
   if (lit) {
-    const Lights lights = {GIVEN_LIGHTS light_bins};
+    Lights lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS};
     const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
     const Real3 to_viewer = direction_to_viewer(position);
     ShadingPoint p = point_of_texels(position, to_viewer, normal, color);
@@ -32,6 +32,7 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
 #ifdef CLEARCOAT
     p = coated_point(p, load_texel(coats + 4 * at));
 #endif
+    light_pixels(&lights, x, y, view);
     sum = light_sum(&p, lit, indices + range.x, range.y, bins_of_pixels(depth[at], lit, bin_edges), &lights,
                     view);
   }

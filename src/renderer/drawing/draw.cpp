@@ -54,6 +54,25 @@ void draw_list(Work& work, const DrawList& list, DrawStreams streams, SceneProgr
   }
 }
 
+void draw_triangles(Work& work, const DrawList& list, const std::vector<std::string>& defines,
+                    const std::function<uint32_t(int instance)>& first) {
+  const SceneProgram& program =
+      work.programs({"shaders/scene.vert", "shaders/triangles.frag", defines}).of(0);
+  const GLint first_triangle = glGetUniformLocation(program.name, "first_triangle");
+  InstanceDrawer drawer(work, DrawStreams::all);
+  for (const DrawItem& item : list) {
+    drawer.bind(item.instance, program);
+    glUniform1ui(program.object, first(item.instance));
+    // gl_PrimitiveID counts from 0 in each range.
+    for (size_t i = 0; i < item.ranges.counts.size(); ++i) {
+      const void* offset = item.ranges.offsets[i];
+      glUniform1ui(first_triangle, GLuint(reinterpret_cast<size_t>(offset) / (3 * sizeof(uint32_t))));
+      glDrawElementsBaseVertex(GL_TRIANGLES, item.ranges.counts[i], GL_UNSIGNED_INT, offset,
+                               item.ranges.base_vertices[i]);
+    }
+  }
+}
+
 void draw_screen(const GlProgram& program) {
   const GlVertexArray nothing = make_vertex_array();
   glBindVertexArray(nothing.name());

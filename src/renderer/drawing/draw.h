@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
 #include "gl/gl.h"
 #include "renderer/work.h"
@@ -30,6 +31,11 @@ class InstanceDrawer {
 
 // Draws a list with a program for each instance's features.
 void draw_list(Work& work, const DrawList& list, DrawStreams streams, ScenePrograms& programs);
+
+// Draws a list with shaders/triangles.frag. first: of an instance, the number that the shader adds to those of
+// its triangles with -DRAY_NUMBERS, else the instance's own.
+void draw_triangles(Work& work, const DrawList& list, const std::vector<std::string>& defines,
+                    const std::function<uint32_t(int instance)>& first);
 
 // A triangle that covers the image (shaders/screen.vert).
 void draw_screen(const GlProgram& program);

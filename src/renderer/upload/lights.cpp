@@ -90,7 +90,6 @@ LightTable light_table(const Seen& seen) {
 std::vector<const char*> light_table_defines(const FramePlan& plan) {
   std::vector<const char*> defines;
   if (plan.spots) defines.push_back("SPOTS");
-  if (plan.light_reaches) defines.push_back("LIGHT_REACHES");
   const LightRanges& ranges = plan.settings.ranges;
   if (window_of(ranges) == RangeWindow::smooth) defines.push_back("WINDOW_SMOOTH");
   if (window_of(ranges) == RangeWindow::none) defines.push_back("WINDOW_NONE");
@@ -187,6 +186,16 @@ ClArguments ClLights::columns() const {
   return arguments;
 }
 
+void ShadowMemory::bind() const {
+  if (tiles.texture) bind_texture(Sampler::shadow_tiles, tiles.texture.name());
+  if (bits.texture) bind_texture(Sampler::shadow_bits, bits.texture.name());
+}
+
+ClArguments ShadowMemory::arguments() {
+  return {{"shadow_tiles", tiles.buffer ? tiles.buffer->cl_buffer() : cl::Buffer()},
+          {"shadow_bits", bits.buffer ? bits.buffer->cl_buffer() : cl::Buffer()}};
+}
+
 std::string light_defines(const Seen& seen, bool lanes, Brdf brdf) {
   std::string defines;
   if (lanes) defines += fmt::format(" -DTILE={}", seen.plan.settings.tile);
@@ -194,6 +203,7 @@ std::string light_defines(const Seen& seen, bool lanes, Brdf brdf) {
   if (seen.plan.index_bits == 32) defines += " -DINDEX_32";
   if (seen.plan.z_bins > 1) defines += " -DZ_BINS";
   for (const char* define : light_table_defines(seen.plan)) defines += fmt::format(" -D{}", define);
+  if (seen.plan.light_reaches) defines += " -DSHADOWS";
   if (brdf == Brdf::blinn) defines += " -DBLINN";
   if (brdf == Brdf::lambert) defines += " -DLAMBERT";
   if (seen.view.orthographic) defines += " -DORTHOGRAPHIC";

@@ -10,6 +10,7 @@
 #include "gl/bindings.h"
 #include "gl/objects.h"
 #include "plan/frame_plan.h"
+#include "renderer/shared_grids.h"
 #include "shared/light_table.h"
 #include "shared/view_params.h"
 
@@ -54,13 +55,23 @@ class ClLights {
   void upload(ClDevice& device, const Seen& seen);
   size_t memory_bytes() const;
 
-  // LIGHT_ARGUMENTS (shared/light_table.h).
+  // The light table's part of LIGHT_ARGUMENTS.
   ClArguments columns() const;
 
   UploadedBuffer directional, view, bin_edges, slice_edges;  // shared/slices.h
 
  private:
   UploadedBuffer columns_[light_column_count];
+};
+
+// A frame's shadows, which passes/find_shadows.h fills. Only where the plan's `light_reaches` is set.
+struct ShadowMemory {
+  SharedTexture tiles, bits;  // shared/shadow_bits.h
+
+  void bind() const;
+  // SHADOW_ARGUMENTS.
+  ClArguments arguments();
+  size_t bytes() const { return tiles.bytes() + bits.bytes(); }
 };
 
 // The -D names that light loops in OpenCL take for a view and its plan (kernels/resolve/shade_pixels.h).

@@ -1,0 +1,51 @@
+// Which lights are hidden from which pixels, for CPUs: a work-item takes a tile, and of each of its lights
+// block after block of 4 x 4 pixels, whose 16 rays share the light as their origin.
+//
+// SHADOW_PASS_ARGUMENTS  kernels/shadows/receivers.h
+#define LANES 16
+#include "kernels/common/pack.h"
+#include "kernels/common/image_blocks.h"
+#include "kernels/shadows/receivers.h"
+
+kernel void find_shadows(SHADOW_PASS_ARGUMENTS) {
+  const RayScene scene = RAYS_SCENE;
+  const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
+  const uint tile = tile_y * (uint)get_global_size(0) + tile_x;
+  const uint2 range = cells[tile];
+  global uint2* listed = tiles + (size_t)tile * shadow_view->words;
+  for (uint i = 0; i < shadow_view->words; ++i) listed[i] = (uint2)(0);
+  uint traced = 0;
+  if (range.y != 0) {
+    Receivers receivers[16];
+    uint used = 0;  // blocks with a surface
+    for (uint block = 0; block < 16; ++block) {
+      const uint x = tile_x * SHADOW_TILE + block % 4 * 4, y = tile_y * SHADOW_TILE + block / 4 * 4;
+      if (x >= width || y >= height) continue;
+      const uint16 triangle = load_block(triangles, x, y, width, height);
+      const int16 inside = (LANE_INDEX & 3) < (int16)((int)(width - x)) & (LANE_INDEX >> 2) < (int16)((int)(height - y));
+      const mask_t covered = inside & (triangle != (uint16)(NO_TRIANGLE));
+      if (!any_lane(covered)) continue;
+      const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
+      receivers[block] = receivers_at(
+          &scene, triangle, covered, (float)x + 0.5f + convert_float16(LANE_INDEX & 3),
+          (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, triangle_instance, number_offsets, shadow_view, view);
+      used |= 1u << block;
+    }
+    int last_blocker = -1;
+    for (uint i = range.x; i < range.x + range.y; ++i) {
+      const uint index = indices[i];
+      uint words[SHADOW_WORDS] = {0};
+      for (uint left = used; left != 0; left &= left - 1) {
+        const uint block = lowest_bit(left);
+        const uint hidden = lane_bits(
+            hidden_from(&scene, receivers + block, lights + index, shadow_view, &traced, &last_blocker));
+        words[block / 2] |= hidden << 16 * (block & 1u);
+      }
+      vstore8(vload8(0, words), i, bits);
+      global uint2* here = listed + index / 32;
+      if (here->x == 0) here->y = i;
+      here->x |= 1u << (index & 31u);
+    }
+  }
+  rays[tile] = traced;
+}

@@ -1,0 +1,19 @@
+// The shadows of a frame, after its depth is known and before it is shaded: which lights are hidden from
+// which pixels, by rays (rays/ray_scene.h). Every technique's loop reads them (shared/shadow_bits.h).
+#pragma once
+
+#include "passes/common/frame.h"
+#include "passes/rasterize.h"
+
+namespace lightgrid {
+
+// For light loops of this frame. `visible`: of OpenCL's rasteriser; null: OpenGL drew the depth image, and
+// draws its triangles' numbers here. depth: of the same surfaces, read only where the plan's `shadows` is
+// set. Throws Error(machine) if the device has no doubles, or an OpenGL cannot read as many bytes.
+void find_shadows(Work& work, Cached<ShadowBits>& cache, const VisibilityBuffer* visible,
+                  const DepthBuffer& depth);
+
+// Puts the frame's shadows and their figures into it, where light loops read any.
+void tell_shadows(Work& work, Cached<ShadowBits>& cache, Frame& frame);
+
+}  // namespace lightgrid

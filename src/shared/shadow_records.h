@@ -1,0 +1,33 @@
+// What kernels/shadows/ reads of a view and of the lights whose shadows it finds. Positions are relative to
+// the origin of the rays' scene (rays/ray_scene.h), metres.
+#pragma once
+
+#include "shared/language.h"
+
+#if !defined(__OPENCL_VERSION__)
+namespace lightgrid {
+#endif
+
+// A light of FramePlan::local. Listed pairs out of its reach get no ray: `least_squared` is more than the
+// square of its range, and the cone wider than its own, by what shading may round
+// (passes/find_shadows.cpp).
+typedef struct ShadowLight {
+  double x, y, z, w;  // RaySource of kernels/rays/ray_packet.h
+  float axis_x, axis_y, axis_z, cos_outer;
+  float reach_squared;
+  float slack;  // metres
+  float padding[2];
+} ShadowLight;
+
+typedef struct ShadowView {
+  double eye_x, eye_y, eye_z, eye_w;  // w 0: the direction to the eye, in an orthographic view
+  float world_from_view[9];           // rows
+  float from_x, from_y, from_z;       // the eye, to which positions in view space are relative
+  uint words;                         // pairs of words a tile: a bit a light (shared/shadow_bits.h)
+  uint padding[3];
+} ShadowView;
+
+#if !defined(__OPENCL_VERSION__)
+static_assert(sizeof(ShadowLight) == 64 && sizeof(ShadowView) == 96);
+}  // namespace lightgrid
+#endif
