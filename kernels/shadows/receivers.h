@@ -23,7 +23,7 @@ typedef ushort index_t;
 //                    with -DNUMBERED
 // depths             reversed, a pixel each
 // cells, indices     lists of lights in tiles (shared/light_grid.h)
-// tiles, bits        out: shared/shadow_bits.h
+// tiles, bits        out: shared/shadow_bits.h. On GPUs tiles are zeros before
 // rays               out: how many were traced, a tile
 #define SHADOW_PASS_ARGUMENTS                                                                               \
   RAYS_ARGUMENTS, global const uint *triangles, global const uint *triangle_instance,                       \

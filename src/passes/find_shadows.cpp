@@ -2,6 +2,7 @@
 // for each pixel and listed light that may shade it. docs/shadows.md has the contract.
 #include "passes/find_shadows.h"
 
+#include <fmt/format.h>
 #include <numeric>
 
 #include "base/error.h"
@@ -19,6 +20,9 @@ namespace {
 constexpr size_t groups_a_tile = 4;
 
 constexpr size_t least_bytes = 64;  // of a buffer
+
+// Words of an entry, as SHADOW_WORDS of kernels has them.
+size_t entry_words(const FramePlan& plan) { return plan.shadow_bytes ? 64 : SHADOW_WORDS; }
 
 size_t tiles_across(int pixels) { return (size_t(pixels) + SHADOW_TILE - 1) / SHADOW_TILE; }
 
@@ -67,6 +71,15 @@ ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
   return v;
 }
 
+// Set where more than half of a light is hidden.
+std::vector<uint32_t> bits_of_bytes(const std::vector<uint32_t>& values) {
+  std::vector<uint32_t> bits(values.size() / 8);
+  for (size_t i = 0; i < 4 * values.size(); ++i) {
+    if ((values[i / 4] >> (i % 4 * 8) & 255) > 127) bits[i / 32] |= 1u << (i % 32);
+  }
+  return bits;
+}
+
 }  // namespace
 
 class ShadowBits : public PassCache {
@@ -100,11 +113,12 @@ class ShadowBits : public PassCache {
     grid_ = culler_->cull(bounds.opaque, storage_);
     const size_t tiles = size_t(grid_.cells_x) * size_t(grid_.cells_y), bytes = tile_bytes(work);
     const size_t bit_bytes =
-        std::max<size_t>(least_bytes, grid_.index_count * SHADOW_WORDS * sizeof(uint32_t));
+        std::max<size_t>(least_bytes, grid_.index_count * entry_words(work.plan) * sizeof(uint32_t));
     const cl::Buffer& listed = at_least(work, work.shadows.tiles, bytes, GL_RG32UI);
     const cl::Buffer& bits = at_least(work, work.shadows.bits, bit_bytes, GL_R32UI);
     parts_ = tiles * (kernels_.lanes ? 1 : groups_a_tile);
     const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
+    if (!kernels_.lanes) fill_buffer(device, "clearing shadows", listed, 0, bytes);
     const cl::NDRange lanes(size_t(grid_.cells_x), size_t(grid_.cells_y));
     const cl::NDRange groups(tiles * SHADOW_TILE * SHADOW_TILE, groups_a_tile);
     kernels_.of("find_shadows")
@@ -141,9 +155,10 @@ class ShadowBits : public PassCache {
     }
     HostGrid grid = read_grid(device, grid_, storage_);
     shadows.cells = std::move(grid.cells), shadows.indices = std::move(grid.indices);
-    shadows.bits.resize(shadows.indices.size() * SHADOW_WORDS);
-    read_buffer(device, "reading shadows", work.shadows.bits.buffer->cl_buffer(), shadows.bits.data(),
-                shadows.bits.size() * sizeof(uint32_t));
+    std::vector<uint32_t> values(shadows.indices.size() * entry_words(work.plan));
+    read_buffer(device, "reading shadows", work.shadows.bits.buffer->cl_buffer(), values.data(),
+                values.size() * sizeof(uint32_t));
+    shadows.bits = work.plan.shadow_bytes ? bits_of_bytes(values) : std::move(values);
     return shadows;
   }
 
@@ -185,6 +200,7 @@ class ShadowBits : public PassCache {
   void prepare(Work& work, const VisibilityBuffer* visible) {
     const RayScene& rays = scene(work);
     std::string defines = rays.defines();
+    for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
     if (!visible) defines += " -DNUMBERED";
     if (work.plan.index_bits == 32) defines += " -DINDEX_32";
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";

@@ -97,6 +97,7 @@ struct FramePlan {
   bool shadows = false;              // shadows of some light must be found in this frame
   std::vector<LightShadow> casting;  // all lights that cast, in scene order
   std::vector<uint8_t> shadowed;     // by index into `local`, 1: of this light; empty if `shadows` is false
+  bool shadow_bytes = false;         // a share of a light may be hidden: a byte a pixel and light, not a bit
   bool directional = false;
   bool blend = false;          // the blended pass
   bool blend_grid = false;     // a light grid for blended surfaces

@@ -10,7 +10,7 @@
 namespace lightgrid {
 
 // Lists of lights in tiles of 16 x 16 pixels, and eight words of `bits` an entry. A bit is set where the
-// light is hidden at that pixel: bit (y % 4) * 4 + x % 4 of block (y / 4) * 4 + x / 4, x and y from the
+// light, or more than half of it, is hidden at that pixel: bit (y % 4) * 4 + x % 4 of block (y / 4) * 4 + x / 4, x and y from the
 // tile's lower left pixel; block b is the low half of word b / 2 for even b, else the high one.
 struct HostShadows {
   static constexpr int side = 16, words = 8;

@@ -7,6 +7,17 @@
 #include "kernels/common/image_blocks.h"
 #include "kernels/shadows/receivers.h"
 
+// Of a block's pixels, into an entry of zeros.
+#ifdef SHADOW_BYTES
+static inline void store_shadows(global uint* entry, uint block, mask_t hidden) {
+  vstore16(convert_uchar16(hidden & 255), block, (global uchar*)entry);
+}
+#else
+static inline void store_shadows(global uint* entry, uint block, mask_t hidden) {
+  entry[block / 2] |= lane_bits(hidden) << 16 * (block & 1u);
+}
+#endif
+
 kernel void find_shadows(SHADOW_PASS_ARGUMENTS) {
   const RayScene scene = RAYS_SCENE;
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
@@ -34,14 +45,14 @@ kernel void find_shadows(SHADOW_PASS_ARGUMENTS) {
     int last_blocker = -1;
     for (uint i = range.x; i < range.x + range.y; ++i) {
       const uint index = indices[i];
-      uint words[SHADOW_WORDS] = {0};
+      global uint* entry = bits + (size_t)i * SHADOW_WORDS;
+      for (uint word = 0; word < SHADOW_WORDS; word += 8) vstore8((uint8)(0), 0, entry + word);
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
-        const uint hidden = lane_bits(
-            hidden_from(&scene, receivers + block, lights + index, shadow_view, &traced, &last_blocker));
-        words[block / 2] |= hidden << 16 * (block & 1u);
+        const mask_t hidden =
+            hidden_from(&scene, receivers + block, lights + index, shadow_view, &traced, &last_blocker);
+        store_shadows(entry, block, hidden);
       }
-      vstore8(vload8(0, words), i, bits);
       global uint2* here = listed + index / 32;
       if (here->x == 0) here->y = i;
       here->x |= 1u << (index & 31u);

@@ -18,8 +18,6 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   const uint2 range = cells[tile];
   if (part == 0) {
     global uint2* listed = tiles + (size_t)tile * shadow_view->words;
-    for (uint i = item; i < shadow_view->words; i += GROUP) listed[i] = (uint2)(0);
-    barrier(CLK_GLOBAL_MEM_FENCE);
     for (uint i = range.x + item; i < range.x + range.y; i += GROUP) {
       const uint index = indices[i];
       atomic_or((global volatile uint*)(listed + index / 32), 1u << (index & 31u));
@@ -36,12 +34,19 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   int last_blocker = -1;
   if (item == 0) traced_here = 0;
   for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
+    global uint* entry = bits + (size_t)i * SHADOW_WORDS;
+#ifdef SHADOW_BYTES
+    const mask_t hidden =
+        hidden_from(&scene, &r, lights + indices[i], shadow_view, &traced, &last_blocker);
+    ((global uchar*)entry)[item] = hidden ? 255 : 0;
+#else
     if (item < SHADOW_WORDS) words[turn][item] = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
     if (hidden_from(&scene, &r, lights + indices[i], shadow_view, &traced, &last_blocker))
       atomic_or(&words[turn][item / 32], 1u << (item & 31u));
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (item < SHADOW_WORDS) bits[(size_t)i * SHADOW_WORDS + item] = words[turn][item];
+    if (item < SHADOW_WORDS) entry[item] = words[turn][item];
+#endif
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   atomic_add(&traced_here, traced);

@@ -26,7 +26,7 @@ GlLightLoop light_loop(const Seen& seen) {
   GlLightLoop loop = base_lighting(seen);
   if (seen.plan.local_lights) loop.defines.emplace_back("LIGHTS");
   for (const char* define : light_table_defines(seen.plan)) loop.defines.emplace_back(define);
-  if (seen.plan.light_reaches) loop.defines.emplace_back("SHADOWS");
+  for (const char* define : shadow_defines(seen.plan)) loop.defines.emplace_back(define);
   if (seen.plan.local.size() > longest_plain_loop) loop.defines.emplace_back("LONG_LOOPS");
   return loop;
 }

@@ -97,6 +97,13 @@ std::vector<const char*> light_table_defines(const FramePlan& plan) {
   return defines;
 }
 
+std::vector<const char*> shadow_defines(const FramePlan& plan) {
+  std::vector<const char*> defines;
+  if (plan.light_reaches) defines.push_back("SHADOWS");
+  if (plan.light_reaches && plan.shadow_bytes) defines.push_back("SHADOW_BYTES");
+  return defines;
+}
+
 bool GlLights::Sized::put(size_t size, const void* data) {
   if (buffer && bytes == size) {
     if (size > 0) glNamedBufferSubData(buffer.name(), 0, GLsizeiptr(size), data);
@@ -203,7 +210,7 @@ std::string light_defines(const Seen& seen, bool lanes, Brdf brdf) {
   if (seen.plan.index_bits == 32) defines += " -DINDEX_32";
   if (seen.plan.z_bins > 1) defines += " -DZ_BINS";
   for (const char* define : light_table_defines(seen.plan)) defines += fmt::format(" -D{}", define);
-  if (seen.plan.light_reaches) defines += " -DSHADOWS";
+  for (const char* define : shadow_defines(seen.plan)) defines += fmt::format(" -D{}", define);
   if (brdf == Brdf::blinn) defines += " -DBLINN";
   if (brdf == Brdf::lambert) defines += " -DLAMBERT";
   if (seen.view.orthographic) defines += " -DORTHOGRAPHIC";

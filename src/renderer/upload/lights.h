@@ -26,6 +26,10 @@ inline constexpr size_t light_column_count = 0 LIGHT_TABLE(LIGHT_COLUMN_COUNT);
 // (shared/punctual_light.h).
 std::vector<const char*> light_table_defines(const FramePlan& plan);
 
+// The defines with which light loops read a frame's shadows, and find_shadows writes them
+// (shared/shadow_bits.h). None where the plan's `light_reaches` is not set.
+std::vector<const char*> shadow_defines(const FramePlan& plan);
+
 // Uniform blocks and buffer textures, as OpenGL's shaders read them.
 class GlLights {
  public:
