@@ -17,11 +17,12 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
              y = tile / across * SHADOW_TILE + block / 4 * 4 + item % 16 / 4;
   const uint2 range = cells[tile];
   if (part == 0) {
-    global uint2* listed = tiles + (size_t)tile * shadow_view->words;
+    // Words, since a compiler may write both of a uint2 where one is set.
+    global uint* listed = (global uint*)(tiles + (size_t)tile * shadow_view->words);
     for (uint i = range.x + item; i < range.x + range.y; i += GROUP) {
       const uint index = indices[i];
-      atomic_or((global volatile uint*)(listed + index / 32), 1u << (index & 31u));
-      if (i == range.x || indices[i - 1] / 32 != index / 32) listed[index / 32].y = i;
+      atomic_or((global volatile uint*)(listed + index / 32 * 2), 1u << (index & 31u));
+      if (i == range.x || indices[i - 1] / 32 != index / 32) listed[index / 32 * 2 + 1] = i;
     }
   }
   const bool inside = x < width && y < height;
