@@ -8,6 +8,7 @@
 
 #include "shaders/common/surface.glsl"
 #include "shaders/common/position.glsl"
+#include "shared/shadow_bits.h"
 #include "shared/brdf.h"
 #include "shaders/common/point_of_surface.glsl"
 #ifdef LIGHTS

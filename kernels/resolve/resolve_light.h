@@ -2,6 +2,7 @@
 // lights, in the order of forward's shader (shaders/forward.frag).
 //
 // -DDIRECTIONAL  there are directional lights
+// -DDIRECTIONAL_SHADOWS  some of them casts a shadow
 // -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
 // -DLIGHTS_VOXELS  point and spot lights come from a voxel light buffer
 //                  (kernels/voxels/voxel_lookup.h), not from lists
@@ -210,7 +211,10 @@ static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const Res
 #ifdef DIRECTIONAL
   for (uint i = 0; i < view->directional_count; ++i) {
     const float4 to_light = l->directional[2 * i], light = l->directional[2 * i + 1];
-    const Real3 back = reflected(*p, real3(REAL(to_light.x), REAL(to_light.y), REAL(to_light.z)));
+    Real3 back = reflected(*p, real3(REAL(to_light.x), REAL(to_light.y), REAL(to_light.z)));
+#if defined(DIRECTIONAL_SHADOWS) && !defined(BLEND)
+    back = scale3(back, seen_share(&l->lights.shadows, view->light_count + i));
+#endif
     sum = add3(sum, real3(back.x * light.x, back.y * light.y, back.z * light.z));
   }
 #endif

@@ -39,7 +39,8 @@ typedef struct Lights {
 static inline void light_pixels(Lights* lights, uint x, uint y, constant ViewParams* view) {
 #ifdef SHADOWS
   lights->shadows =
-      shadows_here(lights->shadow_tiles, lights->shadow_bits, x, y, view->width, view->light_count);
+      shadows_here(lights->shadow_tiles, lights->shadow_bits, x, y, view->width,
+                   view->light_count + view->directional_count);
 #endif
 }
 

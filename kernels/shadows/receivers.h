@@ -127,8 +127,10 @@ static inline mask_t may_shade(const Receivers* r, global const ShadowLight* l) 
 static inline mask_t turned_away(const RayScene* scene, const Receivers* r, global const ShadowLight* l,
                                  mask_t of, constant ShadowView* v) {
   const real x = (float)l->x, y = (float)l->y, z = (float)l->z;
-  const real distance = fma(z - r->at.z, r->normal.z, fma(y - r->at.y, r->normal.y, (x - r->at.x) * r->normal.x));
-  const real slack = r->slack + 0x1p-20f * (fabs(x) + fabs(y) + fabs(z));
+  const real w = (float)l->w;
+  const Real3 to = real3(fma(-w, r->at.x, x), fma(-w, r->at.y, y), fma(-w, r->at.z, z));
+  const real distance = fma(to.z, r->normal.z, fma(to.y, r->normal.y, to.x * r->normal.x));
+  const real slack = w * r->slack + 0x1p-20f * (fabs(x) + fabs(y) + fabs(z));
   mask_t away = of & (distance < -slack);
   const mask_t unsure = of & (fabs(distance) <= slack);
   for (uint left = lane_bits(unsure); left != 0; left &= left - 1) {
@@ -139,7 +141,7 @@ static inline mask_t turned_away(const RayScene* scene, const Receivers* r, glob
     const int number = r->own;
 #endif
     global const RayTriangle* t = scene->triangles + scene->places[number];
-    const double light = plane_distance(t, l->x, l->y, l->z, 1),
+    const double light = plane_distance(t, l->x, l->y, l->z, l->w),
                  eye = plane_distance(t, v->eye_x, v->eye_y, v->eye_z, v->eye_w);
     if ((light < 0 && eye > 0) || (light > 0 && eye < 0)) away |= lanes_of(1u << lane);
   }

@@ -24,18 +24,25 @@ constexpr size_t least_bytes = 64;  // of a buffer
 // Words of an entry, as SHADOW_WORDS of kernels has them.
 size_t entry_words(const FramePlan& plan) { return plan.shadow_bytes ? 64 : SHADOW_WORDS; }
 
+// Local and directional.
+size_t lights_of(const FramePlan& plan) { return plan.local.size() + plan.directional_lights.size(); }
+
+size_t tile_words(const FramePlan& plan) { return (lights_of(plan) + 31) / 32; }
+
 size_t tiles_across(int pixels) { return (size_t(pixels) + SHADOW_TILE - 1) / SHADOW_TILE; }
 
 CullerOptions options_of_shadows(const FramePlan& plan) {
   CullerOptions options = culler_options(plan);
   options.cull_test = default_cull_test, options.depth_bounds = DepthBoundsMode::minmax;
-  options.tile = SHADOW_TILE, options.blend = false, options.lists = GridLists::lists;
+  options.tile = SHADOW_TILE, options.blend = false, options.index_bits = 0, options.lists = GridLists::lists;
   return options;
 }
 
-// Those without shadows are listed nowhere.
+// In the order of FramePlan::shadowed. Those without shadows are listed nowhere, directional ones in every
+// tile that shows a surface.
 std::vector<CullLight> shadowed_lights(const Seen& seen) {
   std::vector<CullLight> lights = cull_lights_of(seen.scene, seen.plan.local, seen.plan.settings.ranges);
+  lights.resize(lights_of(seen.plan), CullLight{.position = seen.view.eye});
   for (size_t i = 0; i < lights.size(); ++i) {
     if (!seen.plan.shadowed[i]) lights[i].radius_m = -1;
   }
@@ -57,6 +64,12 @@ ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dv
   return s;
 }
 
+ShadowLight shadow_light(const Light& directional) {
+  const glm::dvec3 to_light = -glm::normalize(glm::dvec3(directional.direction));
+  constexpr float everywhere = std::numeric_limits<float>::infinity();
+  return {to_light.x, to_light.y, to_light.z, 0, 0, 0, 0, -1, everywhere, 0, {}};
+}
+
 ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
   const View& view = seen.view;
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
@@ -67,7 +80,7 @@ ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
     for (int column = 0; column < 3; ++column)
       v.world_from_view[3 * row + column] = float(world_from_view[column][row]);
   }
-  v.words = uint((seen.plan.local.size() + 31) / 32);
+  v.words = uint(tile_words(seen.plan));
   return v;
 }
 
@@ -176,7 +189,7 @@ class ShadowBits : public PassCache {
  private:
   size_t tile_bytes(const Seen& seen) const {
     return std::max<size_t>(least_bytes, tiles_across(seen.grid().width) * tiles_across(seen.grid().height) *
-                                    ((seen.plan.local.size() + 31) / 32) * sizeof(cl_uint2));
+                                    tile_words(seen.plan) * sizeof(cl_uint2));
   }
 
   cl::Buffer& at_least(Work& work, SharedTexture& shared, size_t bytes, GLenum format) {
@@ -202,7 +215,7 @@ class ShadowBits : public PassCache {
     std::string defines = rays.defines();
     for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
     if (!visible) defines += " -DNUMBERED";
-    if (work.plan.index_bits == 32) defines += " -DINDEX_32";
+    if (lights_of(work.plan) > 65536) defines += " -DINDEX_32";
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
     if (kernels_.lanes && work.plan.settings.portable) defines += " -DPORTABLE";
     kernels_.use(defines);
@@ -213,7 +226,10 @@ class ShadowBits : public PassCache {
     culler_->set_lights(lights);
     culler_->set_view(cull_view(work.view));
     std::vector<ShadowLight> records;
-    for (const CullLight& light : lights) records.push_back(shadow_light(light, work.view, rays.origin()));
+    for (size_t i = 0; i < work.plan.local.size(); ++i)
+      records.push_back(shadow_light(lights[i], work.view, rays.origin()));
+    for (const int i : work.plan.directional_lights)
+      records.push_back(shadow_light(work.scene.lights[size_t(i)]));
     lights_.put(device, "uploading lights of shadows", records);
     view_.put(device, "uploading the view of shadows",
               std::vector<ShadowView>{shadow_view(work, rays.origin())});

@@ -168,10 +168,21 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
 
 // Shadows of all lights that cast are found: for any view.
 void shadow_all(const Scene& scene, FramePlan& plan) {
+  const auto casts = [&](int i) { return scene.lights[size_t(i)].casts_shadow; };
   plan.shadowed.clear();
-  for (const int i : plan.local) plan.shadowed.push_back(scene.lights[size_t(i)].casts_shadow);
+  for (const auto* lights : {&plan.local, &plan.directional_lights})
+    for (const int i : *lights) plan.shadowed.push_back(casts(i));
   plan.shadows = plan.light_reaches = std::ranges::count(plan.shadowed, 1) > 0;
+  plan.directional_shadows = std::ranges::any_of(plan.directional_lights, casts);
   if (!plan.shadows) plan.shadowed.clear();
+}
+
+// By index into FramePlan::shadowed.
+size_t place_of_light(const FramePlan& plan, int light) {
+  const auto at = std::ranges::lower_bound(plan.local, light);
+  if (at != plan.local.end() && *at == light) return size_t(at - plan.local.begin());
+  const auto directional = std::ranges::lower_bound(plan.directional_lights, light);
+  return plan.local.size() + size_t(directional - plan.directional_lights.begin());
 }
 
 // After surfaces and lights.
@@ -182,10 +193,8 @@ void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& ne
   if (instances == PlannedInstances::in_view && plan.shadows) {
     plan.shadows = false;
     for (const LightShadow& light : plan.casting) {
-      const auto at = std::ranges::lower_bound(plan.local, light.light);
-      if (at == plan.local.end() || *at != light.light) continue;
       const bool rays = light.need == ShadowNeed::rays;
-      plan.shadowed[size_t(at - plan.local.begin())] = rays;
+      plan.shadowed[place_of_light(plan, light.light)] = rays;
       plan.shadows = plan.shadows || rays;
     }
     if (!plan.shadows) plan.shadowed.clear();

@@ -91,12 +91,14 @@ struct FramePlan {
   bool world_grid = false;    // lists in cells of the world
   bool local_lights = false;  // at least one point or spot light
   bool spots = false;         // compile cone code
-  // Some point or spot light of the scene casts a shadow: light loops ask whether it reaches a point
+  // Some light of the scene casts a shadow: light loops ask whether it reaches a point
   // (shared/light_table.h). The same for every view and time, so that a camera that moves compiles nothing.
   bool light_reaches = false;
   bool shadows = false;              // shadows of some light must be found in this frame
   std::vector<LightShadow> casting;  // all lights that cast, in scene order
-  std::vector<uint8_t> shadowed;     // by index into `local`, 1: of this light; empty if `shadows` is false
+  // By index into `local` and then into `directional_lights`, 1: of this light. Empty if `shadows` is false.
+  std::vector<uint8_t> shadowed;
+  bool directional_shadows = false;  // as light_reaches, of directional lights alone
   bool shadow_bytes = false;         // a share of a light may be hidden: a byte a pixel and light, not a bit
   bool directional = false;
   bool blend = false;          // the blended pass

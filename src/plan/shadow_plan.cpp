@@ -135,6 +135,23 @@ bool nothing_hides(const Box& receiver, const Reach& reach, const dvec3& eye, do
   });
 }
 
+// Of all that may cast, or of receivers, whose triangles hide those behind them from their own points.
+template <typename InReach>
+const Box* first_caster(const Boxes& boxes, const InReach& in_reach) {
+  const auto caster = std::ranges::find_if(boxes.casters, in_reach);
+  if (caster != boxes.casters.end()) return &*caster;
+  const auto receiver = std::ranges::find_if(
+      boxes.receivers, [&](const Box& box) { return !box.blended && in_reach(box); });
+  return receiver == boxes.receivers.end() ? nullptr : &*receiver;
+}
+
+LightShadow plan_directional_light(int number, const Boxes& boxes) {
+  const Box* caster = first_caster(boxes, [](const Box&) { return true; });
+  if (!caster) return {number, ShadowNeed::no_caster};
+  if (boxes.receivers.empty()) return {number, ShadowNeed::no_receiver};
+  return {number, ShadowNeed::rays, caster->instance};
+}
+
 LightShadow plan_light(const LightBounds& light, int number, const View& view, const Boxes& boxes) {
   // Positions are floats relative to the eye or to the scene's middle. What is computed with them together
   // errs by less than 2^-19 of the distances.
@@ -143,13 +160,8 @@ LightShadow plan_light(const LightBounds& light, int number, const View& view, c
   if (!may_see_sphere(frustum_of(view), position_view, light.radius_m + reach.slack_m))
     return {number, ShadowNeed::no_receiver};
   const auto in_reach = [&](const Box& box) { return may_reach(reach, box); };
-  // Triangles that hide no light hide those behind them from their own points.
-  const auto hides_itself = [&](const Box& box) { return !box.blended && in_reach(box); };
-  auto caster = std::ranges::find_if(boxes.casters, in_reach);
-  if (caster == boxes.casters.end()) {
-    caster = std::ranges::find_if(boxes.receivers, hides_itself);
-    if (caster == boxes.receivers.end()) return {number, ShadowNeed::no_caster};
-  }
+  const Box* caster = first_caster(boxes, in_reach);
+  if (!caster) return {number, ShadowNeed::no_caster};
   // Points of receivers that are not flat may be hidden by the receiver itself. Of many, all count as such.
   constexpr size_t most_receivers = 8;
   std::vector<const Box*> receivers, casters;
@@ -180,7 +192,7 @@ std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view
     const Light& light = scene.lights[size_t(i)];
     if (!light.casts_shadow) continue;
     plans.push_back(is_directional(light)
-                        ? LightShadow{i, ShadowNeed::directional}
+                        ? plan_directional_light(i, boxes)
                         : plan_light(bounds_of(light, range_of(light, size_t(i), ranges)), i, view, boxes));
   }
   return plans;

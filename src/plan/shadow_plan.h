@@ -18,7 +18,6 @@ namespace lightgrid {
 
 enum class ShadowNeed {
   rays,
-  directional,     // no technique finds the shadows of directional lights yet
   no_caster,       // no opaque or masked instance of the scene meets the light's bounds
   no_receiver,     // the bounds are out of view, or no instance in view meets them
   casters_behind,  // of all receivers: shadow_plan.cpp

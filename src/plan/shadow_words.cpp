@@ -10,8 +10,6 @@ const char* reason_of(ShadowNeed need) {
   switch (need) {
     case ShadowNeed::rays:
       break;
-    case ShadowNeed::directional:
-      return "directional: no technique finds its shadows yet";
     case ShadowNeed::no_caster:
       return "no caster in its range";
     case ShadowNeed::no_receiver:
@@ -30,7 +28,7 @@ std::string words_of(const LightShadow& light, const Scene& scene) {
 std::string describe_shadows(const std::vector<LightShadow>& casting, const Scene& scene) {
   std::string text;
   for (const ShadowNeed need : {ShadowNeed::rays, ShadowNeed::no_caster, ShadowNeed::no_receiver,
-                                ShadowNeed::casters_behind, ShadowNeed::directional}) {
+                                ShadowNeed::casters_behind}) {
     const auto count = std::ranges::count(casting, need, &LightShadow::need);
     if (count == 0) continue;
     const LightShadow& first = *std::ranges::find(casting, need, &LightShadow::need);

@@ -49,14 +49,13 @@ CastingLights casting_lights(const Scene& scene, const View& view, const LightRa
   CastingLights lights{lights_in_view(scene, view, ranges, places), {}};
   for (const int i : places) {
     const Light& light = scene.lights[size_t(i)];
-    lights.casting.push_back(light.casts_shadow && !is_directional(light) ? &light : nullptr);
+    lights.casting.push_back(light.casts_shadow ? &light : nullptr);
   }
   return lights;
 }
 
 bool ShadowTruth::casts() const {
-  return std::ranges::any_of(scene_.lights,
-                             [](const Light& l) { return l.casts_shadow && !is_directional(l); });
+  return std::ranges::any_of(scene_.lights, &Light::casts_shadow);
 }
 
 const Occlusion& ShadowTruth::occlusion() {

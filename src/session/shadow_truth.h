@@ -13,8 +13,7 @@ namespace lightgrid {
 // The same triangles by their numbers in their meshes, the first of several that connect the same vertices.
 std::vector<CastingTriangle> casting_triangles(const Scene& scene, const std::vector<SceneTriangle>& shown);
 
-// The lights at `places` of the scene in the view, and those of them that cast. Shadows of directional lights
-// are found by no technique yet, and are not counted.
+// The lights at `places` of the scene in the view, and those of them that cast.
 CastingLights casting_lights(const Scene& scene, const View& view, const LightRanges& ranges,
                              const std::vector<int>& places);
 
@@ -25,10 +24,10 @@ class ShadowTruth {
   // most_pairs: in each view; of more, an even sample of the pixels is taken. The scene outlives it.
   ShadowTruth(const Scene& scene, uint64_t most_pairs) : scene_(scene), most_pairs_(most_pairs) {}
 
-  bool casts() const;  // some point or spot light of the scene
+  bool casts() const;  // some light of the scene
   const Occlusion& occlusion();
 
-  // Null if no light casts; until the next call but one. triangles: the nearest opaque one of each pixel.
+  // Of point and spot lights, as lists have them. Null if no light casts; until the next call but one. triangles: the nearest opaque one of each pixel.
   const SeenPairs* pairs(const Seen& v, const std::vector<float>& depth,
                          const std::vector<SceneTriangle>& triangles);
 

@@ -7,7 +7,7 @@
 // SHADOW_WORDS words. In a tile, blocks of 4 x 4 pixels are numbered x fastest, and so are the pixels of a
 // block: the values of an entry follow in this order, the lowest bits of a word first.
 //
-// A light that is not listed is hidden nowhere in the tile.
+// A light that is not listed is hidden nowhere in the tile. Directional lights follow point and spot lights.
 #pragma once
 
 #include "shared/real.h"
@@ -19,14 +19,14 @@
 #define SHADOW_WORDS 8
 #endif
 
-#if defined(LIGHTGRID_GLSL)
+#if defined(LIGHTGRID_GLSL) && defined(SHADOWS)
 
 uniform usamplerBuffer shadow_tiles;  // pairs of words
 uniform usamplerBuffer shadow_bits;   // entries
 
 // The share of a light that is seen from a pixel.
 float seen_share(int light, uvec2 pixel) {
-  uint words = (view.light_count + 31u) / 32u;
+  uint words = (view.light_count + view.directional_count + 31u) / 32u;
   uint across = (view.width + uint(SHADOW_TILE) - 1u) / uint(SHADOW_TILE);
   uvec2 tile = pixel / uint(SHADOW_TILE), at = pixel % uint(SHADOW_TILE);
   uvec2 listed = texelFetch(shadow_tiles, int((tile.y * across + tile.x) * words + uint(light) / 32u)).xy;

@@ -1,18 +1,15 @@
 // Surfaces into a geometry buffer, then the lights one after the other, each on the pixels that its volume
 // covers.
-#include "passes/fill_gbuffer.h"
 #include "passes/find_object_lights.h"
 #include "passes/shade_forward.h"
 #include "passes/shade_light_volumes.h"
-#include "passes/surfaces.h"
-#include "techniques/technique.h"
+#include "techniques/recipes.h"
 
 namespace lightgrid {
 
 static Frame render(RenderView& v) {
-  const GBuffer gbuffer = fill_gbuffer(v);
-  Surfaces surfaces{.image = gbuffer.depth_image};
-  find_shadows(v, surfaces);
+  std::optional<Surfaces> surfaces;
+  const GBuffer gbuffer = fill_gbuffer(v, surfaces);
   shade_light_volumes(v, v.caches.light_volumes, gbuffer);
   shade_blended(v, gbuffer.image, find_blended_object_lights(v, v.caches.blended_object_lights));
   return {.image = gbuffer.image, .listed = listed_of_light_volumes(v, v.caches.light_volumes)};

@@ -16,7 +16,10 @@ BaseLighting base_lighting_of(const RenderView& v) {
   return v.plan.light_grid && !v.plan.base_lighting ? BaseLighting::in_light_pass : BaseLighting::in_image;
 }
 
-GBuffer fill(RenderView& v, std::optional<Surfaces>& surfaces) {
+}  // namespace
+
+GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces) {
+  if (!surfaces && v.plan.directional_shadows) surfaces = find_surfaces(v);
   if (!surfaces) {
     const GBuffer gbuffer = fill_gbuffer(v, base_lighting_of(v));
     surfaces = Surfaces{.image = gbuffer.depth_image};
@@ -28,8 +31,6 @@ GBuffer fill(RenderView& v, std::optional<Surfaces>& surfaces) {
   gbuffer.in_cl = resolve_gbuffer(v, v.caches.resolver, *surfaces->visible, base_lighting_of(v));
   return gbuffer;
 }
-
-}  // namespace
 
 Frame shade_from_light_grid(RenderView& v) {
   Surfaces surfaces = find_surfaces(v);
@@ -62,7 +63,7 @@ Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
   // If no light has a position, nothing adds to a geometry buffer. OpenGL fills it all the same, for its
   // image.
   if (!v.plan.light_grid && !v.plan.opengl) return shade_every_light(v, *surfaces);
-  const GBuffer gbuffer = fill(v, surfaces);
+  const GBuffer gbuffer = fill_gbuffer(v, surfaces);
   Frame frame = frame_of(*surfaces);
   if (!v.plan.light_grid) {
     frame.image = gbuffer.image;

@@ -79,7 +79,7 @@ TEST(ShadowPlan, ACasterBetweenLightAndReceiverTakesRays) {
   EXPECT_EQ(plan.decisions.back().why, "light 0 \"lamp\" reaches material 0 \"plaster\" on node 0 \"floor\"");
 }
 
-TEST(ShadowPlan, LightsAreMarkedByTheirPlaceAmongPointAndSpotLights) {
+TEST(ShadowPlan, LightsAreMarkedByTheirPlaceAmongPointAndSpotLightsThenDirectionalOnes) {
   Room room = over_floor();
   room.put(room.box, {1, 0, 0});
   Light sun;
@@ -90,12 +90,12 @@ TEST(ShadowPlan, LightsAreMarkedByTheirPlaceAmongPointAndSpotLights) {
   far.position.z = 100;
   room.scene.lights = {sun, dark, far, sun, lamp};
   const FramePlan plan = room.plan();
-  EXPECT_THAT(plan.shadowed, ElementsAre(0, 0, 1));
+  EXPECT_THAT(plan.shadowed, ElementsAre(0, 0, 1, 1, 1));
   std::vector<std::pair<int, ShadowNeed>> casting;
   for (const LightShadow& light : plan.casting) casting.emplace_back(light.light, light.need);
   EXPECT_THAT(casting,
-              ElementsAre(std::pair(0, ShadowNeed::directional), std::pair(2, ShadowNeed::no_receiver),
-                          std::pair(3, ShadowNeed::directional), std::pair(4, ShadowNeed::rays)));
+              ElementsAre(std::pair(0, ShadowNeed::rays), std::pair(2, ShadowNeed::no_receiver),
+                          std::pair(3, ShadowNeed::rays), std::pair(4, ShadowNeed::rays)));
 }
 
 // Programs are for every view of a scene: what this view needs must not decide what is compiled.
@@ -356,13 +356,18 @@ TEST(ShadowPlan, ManyReceiversAreNotLookedAt) {
   EXPECT_EQ(need(), ShadowNeed::rays);
 }
 
-TEST(ShadowPlan, DirectionalLightsAreToldOf) {
+TEST(ShadowPlan, DirectionalLightsNeedACasterAndAReceiver) {
   Room room = over_floor();
   room.scene.lights[0].type = LightType::directional;
-  const FramePlan plan = room.plan();
-  EXPECT_EQ(plan.casting.at(0).need, ShadowNeed::directional);
-  EXPECT_FALSE(plan.shadows || plan.light_reaches);
-  EXPECT_THAT(plan.decisions.back().why, HasSubstr("directional"));
+  FramePlan plan = room.plan();
+  EXPECT_EQ(plan.casting.at(0).need, ShadowNeed::rays) << "the floor hides its own back";
+  EXPECT_TRUE(plan.shadows && plan.light_reaches && plan.directional_shadows);
+  room.view = make_view(look_at({0, 2, 8}, {0, 2, 20}), 64, 64);
+  plan = room.plan();
+  EXPECT_EQ(plan.casting.at(0).need, ShadowNeed::no_receiver);
+  EXPECT_TRUE(!plan.shadows && plan.light_reaches && plan.directional_shadows);
+  room.scene.instances.clear();
+  EXPECT_EQ(room.plan().casting.at(0).need, ShadowNeed::no_caster);
 }
 
 TEST(ShadowPlan, IsDescribedWithTheFirstLightOfEachKind) {

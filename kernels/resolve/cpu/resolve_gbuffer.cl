@@ -50,7 +50,7 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
                             global channel_t* coats, global channel_t* specular, global float* image) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const ResolveScene scene = RESOLVE_SCENE;
-  const ResolveLights lights = RESOLVE_LIGHTS;
+  ResolveLights lights = RESOLVE_LIGHTS;
   BlockWalk walk = walk_tile(&scene, triangles, tile_x, tile_y, width, height);
   for (uint y = walk.y0; y < walk.y_end; y += 4) {
     for (uint x = walk.x0; x < walk.x_end; x += 4) {
@@ -75,6 +75,7 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
 #endif
       if (!image) continue;
       const real depth = block_depths(&walk, depths, x, y);
+      light_pixels(&lights.lights, x, y, view);
       const ShadingPoint p =
           resolved_point(a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth, covered, view);
       const Real3 shown = base_light(&p, &s, &lights, view);

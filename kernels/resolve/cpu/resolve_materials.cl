@@ -43,7 +43,7 @@ kernel void resolve_materials(global const uint* triangles, global const float* 
                               float reference, global float* image) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const ResolveScene scene = RESOLVE_SCENE;
-  const ResolveLights lights = RESOLVE_LIGHTS;
+  ResolveLights lights = RESOLVE_LIGHTS;
   const LightBufferParams of = {REAL(exponent), REAL(reference)};
   BlockWalk walk = walk_tile(&scene, triangles, tile_x, tile_y, width, height);
   for (uint y = walk.y0; y < walk.y_end; y += 4) {
@@ -56,6 +56,7 @@ kernel void resolve_materials(global const uint* triangles, global const float* 
         add_materials(&s, a, &scene, covered);
         const real depth = block_depths(&walk, depths, x, y);
         const LightTerms sums = sums_of_block(first, second, scale, x, y, width, height);
+        light_pixels(&lights.lights, x, y, view);
         const Real3 shown = radiance_of_sums(a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
                                              depth, covered, sums, of, &lights, view);
         color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);

@@ -27,7 +27,7 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
   float4 shown = background;
   if (triangle != SURFACE_NONE) {
     const ResolveScene scene = RESOLVE_SCENE;
-    const ResolveLights lights = RESOLVE_LIGHTS;
+    ResolveLights lights = RESOLVE_LIGHTS;
     Attributes a = {0};
     Surface s = {0};
     add_triangle(&a, &scene, triangle, 1, (float)(x & ~3u), (float)(y & ~3u), (float)(x & 3u),
@@ -42,6 +42,7 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
     reflectance = texels_of_specular(s.f0, s.f90, 1);
 #endif
     if (image) {
+      light_pixels(&lights.lights, x, y, view);
       const ShadingPoint p = resolved_point(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depths[at], 1, view);
       const Real3 base = base_light(&p, &s, &lights, view);
       shown = (float4)(base.x, base.y, base.z, 1.0f);

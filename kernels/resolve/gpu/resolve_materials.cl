@@ -15,7 +15,7 @@ kernel void resolve_materials(global const uint* triangles, global const float* 
   float4 color = background;
   if (triangle != SURFACE_NONE) {
     const ResolveScene scene = RESOLVE_SCENE;
-    const ResolveLights lights = RESOLVE_LIGHTS;
+    ResolveLights lights = RESOLVE_LIGHTS;
     Attributes a = {0};
     Surface s = {0};
     add_triangle(&a, &scene, triangle, 1, (float)(x & ~3u), (float)(y & ~3u), (float)(x & 3u),
@@ -29,6 +29,7 @@ kernel void resolve_materials(global const uint* triangles, global const float* 
     sums.weight = u.x, sums.rim = u.y;
 #endif
     const LightBufferParams of = {exponent, reference};
+    light_pixels(&lights.lights, x, y, view);
     const Real3 shown =
         radiance_of_sums(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depths[at], 1, sums, of, &lights, view);
     color = (float4)(shown.x, shown.y, shown.z, 1.0f);

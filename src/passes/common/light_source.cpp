@@ -19,6 +19,7 @@ GlLightLoop base_lighting(const Seen& seen) {
   if (seen.plan.settings.brdf == Brdf::blinn) loop.defines.emplace_back("BLINN");
   if (seen.plan.settings.brdf == Brdf::lambert) loop.defines.emplace_back("LAMBERT");
   if (seen.plan.directional) loop.defines.emplace_back("DIRECTIONAL");
+  for (const char* define : shadow_defines(seen.plan)) loop.defines.emplace_back(define);
   return loop;
 }
 
@@ -26,7 +27,6 @@ GlLightLoop light_loop(const Seen& seen) {
   GlLightLoop loop = base_lighting(seen);
   if (seen.plan.local_lights) loop.defines.emplace_back("LIGHTS");
   for (const char* define : light_table_defines(seen.plan)) loop.defines.emplace_back(define);
-  for (const char* define : shadow_defines(seen.plan)) loop.defines.emplace_back(define);
   if (seen.plan.local.size() > longest_plain_loop) loop.defines.emplace_back("LONG_LOOPS");
   return loop;
 }

@@ -100,6 +100,7 @@ std::vector<const char*> light_table_defines(const FramePlan& plan) {
 std::vector<const char*> shadow_defines(const FramePlan& plan) {
   std::vector<const char*> defines;
   if (plan.light_reaches) defines.push_back("SHADOWS");
+  if (plan.directional_shadows) defines.push_back("DIRECTIONAL_SHADOWS");
   if (plan.light_reaches && plan.shadow_bytes) defines.push_back("SHADOW_BYTES");
   return defines;
 }
