@@ -11,13 +11,15 @@ namespace lightgrid {
 TriangleTree::TriangleTree(const std::vector<Corners>& triangles) : order_(triangles.size()) {
   if (triangles.empty()) return;
   std::iota(order_.begin(), order_.end(), 0);
+  for (const auto& [a, b, c] : triangles)
+    boxes_.push_back({glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)});
   nodes_.push_back({.first = 0, .count = int(triangles.size())});
   for (size_t at = 0; at < nodes_.size(); ++at) {
     const int first = nodes_[at].first, count = nodes_[at].count;
     WorldBox box{glm::dvec3(1e300), glm::dvec3(-1e300)};
     for (int i = first; i < first + count; ++i) {
-      for (const glm::dvec3& p : triangles[size_t(order_[size_t(i)])])
-        box.min = glm::min(box.min, p), box.max = glm::max(box.max, p);
+      const WorldBox& of = boxes_[size_t(order_[size_t(i)])];
+      box.min = glm::min(box.min, of.min), box.max = glm::max(box.max, of.max);
     }
     nodes_[at].box = box;
     if (count <= most_in_leaf) continue;

@@ -15,8 +15,8 @@ class TriangleTree {
   TriangleTree() = default;
   explicit TriangleTree(const std::vector<Corners>& triangles);
 
-  // Calls visit(index) for each triangle whose leaf's box, grown by `reach` on all sides, meets the segment
-  // from `from` to `to`, until it returns true. The order depends on nothing but the arguments.
+  // Calls visit(index) for each triangle whose box, grown by `reach` on all sides, meets the segment from
+  // `from` to `to`, until it returns true. The order depends on nothing but the arguments.
   template <typename Visit>
   void walk(const glm::dvec3& from, const glm::dvec3& to, double reach, const Visit& visit) const {
     if (nodes_.empty()) return;
@@ -30,7 +30,8 @@ class TriangleTree {
         continue;
       }
       for (int i = 0; i < node.count; ++i) {
-        if (visit(order_[size_t(node.first + i)])) return;
+        const int triangle = order_[size_t(node.first + i)];
+        if (meets(boxes_[size_t(triangle)], from, to, reach) && visit(triangle)) return;
       }
     }
   }
@@ -45,6 +46,7 @@ class TriangleTree {
 
   std::vector<Node> nodes_;
   std::vector<int> order_;
+  std::vector<WorldBox> boxes_;  // of triangles
 };
 
 }  // namespace lightgrid
