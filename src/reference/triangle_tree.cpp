@@ -50,4 +50,38 @@ bool TriangleTree::meets(const WorldBox& box, const glm::dvec3& from, const glm:
          across.z <= half.x * size.y + half.y * size.x;
 }
 
+// Rounding in double is far below `reach`, which is more than a rounding in float.
+TriangleTree::Shaft::Shaft(const glm::dvec3& from, const WorldBox& to, double reach)
+    : around_{glm::min(from, to.min) - reach, glm::max(from, to.max) + reach} {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    for (int corner = 0; corner < 4; ++corner) {
+      const double x = (corner & 1 ? to.max : to.min)[i] - from[i],
+                   y = (corner & 2 ? to.max : to.min)[j] - from[j], length = std::hypot(x, y);
+      if (!(length > reach)) continue;
+      for (const double turn : {1.0, -1.0}) {
+        const Plane p{i, j, -y / length * turn, x / length * turn, 0};
+        const double farthest = std::max(p.x * (to.min[i] - from[i]), p.x * (to.max[i] - from[i])) +
+                                std::max(p.y * (to.min[j] - from[j]), p.y * (to.max[j] - from[j]));
+        if (farthest > 1e-12 * length || count_ == int(planes_.size())) continue;
+        planes_[size_t(count_)] = p;
+        planes_[size_t(count_++)].d = p.x * from[i] + p.y * from[j] + reach * (std::abs(p.x) + std::abs(p.y));
+      }
+    }
+  }
+}
+
+bool TriangleTree::Shaft::meets(const WorldBox& box) const {
+  for (int k = 0; k < 3; ++k) {
+    if (box.min[k] > around_.max[k] || box.max[k] < around_.min[k]) return false;
+  }
+  for (int k = 0; k < count_; ++k) {
+    const Plane& p = planes_[size_t(k)];
+    const double nearest =
+        std::min(p.x * box.min[p.i], p.x * box.max[p.i]) + std::min(p.y * box.min[p.j], p.y * box.max[p.j]);
+    if (nearest > p.d) return false;
+  }
+  return true;
+}
+
 }  // namespace lightgrid
