@@ -38,7 +38,7 @@ std::vector<CullLight> shadowed_lights(const Seen& seen) {
   return lights;
 }
 
-// Positions in view space are floats; they are turned to world axes, rounded again, and moved to a plane.
+// Positions in view space are floats; they are turned to world axes and rounded again.
 // Shading computes with other roundings of them. Points in range are no further from the eye and from the
 // origin than the light and its range, and all of these errors together are below 2^-19 of that.
 ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin) {

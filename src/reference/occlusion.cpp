@@ -106,8 +106,8 @@ Occlusion::Met Occlusion::meet(int number, const RoundedPoint& light, const Roun
     const int sign = weights[k].sign();
     if (sign == 0) ++unsure, met.of_edge = k;
     least = std::min(least, sign), most = std::max(most, sign);
+    if (least * most < 0) return {};
   }
-  if (least * most < 0) return {};
   const bool crosses = from.sign() * to.sign() < 0;
   if (crosses) met.share = from.value / (from.value - to.value);
   met.meeting = crosses && unsure == 0 ? Meeting::crossed : Meeting::unsure;
@@ -206,17 +206,25 @@ void Occlusion::sights(const Light& light, std::span<const Receiver* const> rece
                        std::span<SightAnswer> answers, int* last) const {
   std::optional<std::vector<int>> around;
   const auto look_around = [&] {
-    WorldBox ends{dvec3(1e300), dvec3(-1e300)};
+    WorldBox box{dvec3(1e300), dvec3(-1e300)};
+    std::vector<RoundedPoint> ends;
+    RoundedPoint source;
     double reach = 0;
     for (const Receiver* r : receivers) {
-      const RoundedPoint source = source_of(light, *r), end = end_of(source, *r);
-      // Shorter segments have no end before the light.
-      for (const dvec3& p : {end.place, r->place.place})
-        ends.min = glm::min(ends.min, p), ends.max = glm::max(ends.max, p);
-      reach = std::max(reach, reach_of(source, end));
+      source = source_of(light, *r);
+      if (!(glm::length(source.place - r->place.place) > r->gap_m)) continue;
+      ends.push_back(end_of(source, *r));
+      box.min = glm::min(box.min, ends.back().place), box.max = glm::max(box.max, ends.back().place);
+      reach = std::max(reach, reach_of(source, ends.back()));
     }
+    // All ends as one that is known to within their distance: what it passes by, they do.
+    RoundedPoint all{(box.min + box.max) * 0.5, 0};
+    for (const RoundedPoint& end : ends)
+      all.error_m = std::max(all.error_m, glm::length(end.place - all.place) + end.error_m);
     around.emplace();
-    tree_.walk_shaft(light.position, ends, reach, [&](int triangle) { around->push_back(triangle); });
+    tree_.walk_shaft(source.place, box, reach, [&](int triangle) {
+      if (meet(triangle, source, all).meeting != Meeting::none) around->push_back(triangle);
+    });
   };
   CastingTriangle known;
   Corners own;

@@ -226,7 +226,7 @@ View random_shadow_view(const ShadowTriangles& triangles, Random& random) {
 }
 
 HuntedScene hunted_scene(const ShadowHuntClass& hunted, uint64_t seed) {
-  Random random(seed);
+  Random random(Random::mix(seed));
   HuntedScene made{empty_shadow_scene(), {}};
   const ShadowTriangles triangles = hunted.make(made.scene, random);
   add_lamps(made.scene, triangles, random);
@@ -273,7 +273,7 @@ class ShadowHunt {
     for (uint64_t i = 0; part_done() < 1; ++i) {
       const size_t at = i % classes_.size();
       if (options_.progress) options_.progress(std::min(part_done(), 0.999), classes_[at].name);
-      look(classes_[at], report_.classes[at], Random::mix(Random::mix(options_.seed) + i));
+      look(classes_[at], report_.classes[at], options_.seed + i);
     }
     if (options_.progress) options_.progress(1, "done");
     report_.seconds = timer_.elapsed_ms() / 1000;
@@ -300,7 +300,7 @@ class ShadowHunt {
 
   // Whether all is right.
   bool compare(ShadowHuntTally& tally, const HuntedScene& made, uint64_t seed) {
-    Random random(Random::mix(seed));
+    Random random(seed);
     Settings settings;
     settings.everything_on = random.next() % 4 == 0, settings.portable = random.next() % 4 == 0;
     const std::vector<ShadowImage> images = engine_.shadows(made.scene, made.views, settings);

@@ -28,8 +28,9 @@ struct ShadowHuntReport {
   bool failed() const;
 };
 
-// Reads minutes, contacts (decided pairs here), seed, filter and progress. Throws as hunt() does. With
-// `contacts` the report depends on the seed alone, except for its times.
+// Reads minutes, contacts (decided pairs here), seed, filter and progress. Scene i has the seed `seed` + i: a
+// hunt of its class alone for one contact begins with it. Throws as hunt() does. With `contacts` the report
+// depends on the seed alone, except for its times.
 ShadowHuntReport hunt_shadows(CullEngine& engine, const HuntOptions& options);
 
 nlohmann::ordered_json to_json(const ShadowHuntReport& report);
