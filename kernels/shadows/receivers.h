@@ -23,7 +23,7 @@ typedef ushort index_t;
 //                    with -DNUMBERED
 // depths             reversed, a pixel each
 // cells, indices     lists of lights in tiles (shared/light_grid.h)
-// tiles, bits        out: shared/shadow_bits.h. On GPUs tiles are zeros before
+// tiles, bits        out: shared/shadow_bits.h
 // rays               out: how many were traced, a tile
 #define SHADOW_PASS_ARGUMENTS                                                                               \
   RAYS_ARGUMENTS, global const uint *triangles, global const uint *triangle_instance,                       \
@@ -34,7 +34,8 @@ typedef ushort index_t;
 #define NO_TRIANGLE 0xffffffffu
 
 typedef struct Receivers {
-  Real3 at;
+  Real3 shaded;  // where shading asks for range and cone; up to the rasteriser's snapping beside the plane
+  Real3 at;      // in the plane
   real gap;      // metres before it in which nothing hides it
   whole own;     // the triangle's number; below 0: none
   Real3 normal;  // of its plane, towards the eye; 0: the eye is in the plane
@@ -96,12 +97,13 @@ static inline Receivers receivers_at(const RayScene* scene, triangles_t triangle
   r.at.x = fma(p.z, REAL(m[2]), fma(p.y, REAL(m[1]), p.x * m[0])) + v->from_x;
   r.at.y = fma(p.z, REAL(m[5]), fma(p.y, REAL(m[4]), p.x * m[3])) + v->from_y;
   r.at.z = fma(p.z, REAL(m[8]), fma(p.y, REAL(m[7]), p.x * m[6])) + v->from_z;
+  r.shaded = r.at;
   r.gap = fma(REAL(0x1p-20f), sqrt(fma(r.at.z, r.at.z, fma(r.at.y, r.at.y, r.at.x * r.at.x))), REAL(1e-3f));
   r.own = (whole)(-1), r.normal = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f)), r.slack = REAL(0.0f);
 #if LANES == 16
   for (uint left = lane_bits(covered); left != 0;) {
     const uint one = ((const uint*)&triangle)[lowest_bit(left)];
-    const mask_t here = triangle == (uint16)(one);
+    const mask_t here = covered & (triangle == (uint16)(one));
     left &= ~lane_bits(here);
     add_plane(&r, scene, ray_number(one, triangle_instance, number_offsets), here, v);
   }
@@ -113,7 +115,8 @@ static inline Receivers receivers_at(const RayScene* scene, triangles_t triangle
 
 // Lanes that the light may shade, in its range and its cone.
 static inline mask_t may_shade(const Receivers* r, global const ShadowLight* l) {
-  const Real3 d = real3(from_double(r->at.x, l->x), from_double(r->at.y, l->y), from_double(r->at.z, l->z));
+  const Real3 p = r->shaded;
+  const Real3 d = real3(from_double(p.x, l->x), from_double(p.y, l->y), from_double(p.z, l->z));
   const real squared = fma(d.z, d.z, fma(d.y, d.y, d.x * d.x));
   mask_t reached = (r->own >= (whole)(0)) & (squared <= REAL(l->reach_squared));
   if (l->cos_outer > -1.0f) {

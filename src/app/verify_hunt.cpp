@@ -8,7 +8,7 @@
 #include "app/progress.h"
 #include "base/error.h"
 #include "base/text.h"
-#include "verify/hunt.h"
+#include "verify/hunt_shadows.h"
 
 namespace lightgrid {
 namespace {
@@ -39,11 +39,37 @@ void print(const verify::HuntReport& report) {
   for (const std::string& folder : report.saved) fmt::print("saved {}\n", folder);
 }
 
+void print(const verify::ShadowHuntReport& report) {
+  const auto row = [](const verify::ShadowHuntTally& t) {
+    const verify::ShadowPairs& p = t.pairs;
+    fmt::print("  {:<13} {:>12} {:>12} {:>10} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9.2f}  {}\n", t.name,
+               p.decided(), p.hidden, p.either, p.leaked, p.acned, t.views, t.refused, t.shapes_differ,
+               t.seconds > 0 ? double(p.decided()) / t.seconds / 1e6 : 0, p.why.empty() ? t.refusal : p.why);
+  };
+  fmt::print("{}, seed {}\n", report.device, report.seed);
+  fmt::print("  {:<13} {:>12} {:>12} {:>10} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9}\n", "class", "pairs",
+             "hidden", "either", "leaked", "acned", "views", "refused", "differ", "M pairs/s");
+  for (const verify::ShadowHuntTally& tally : report.classes) row(tally);
+  row(report.total());
+  for (const verify::ShadowHuntTally& tally : report.classes) {
+    for (const uint64_t seed : tally.failed) fmt::print("failed: {} {}\n", tally.name, seed);
+  }
+}
+
+template <typename Report>
+int tell(const Report& report, const std::string& json) {
+  if (!json.empty()) write_json(json, verify::to_json(report).dump(1) + "\n");
+  if (json != "-") print(report);
+  return report.failed() ? 1 : 0;
+}
+
 }  // namespace
 
 void add_hunt_options(Subcommand& command, HuntCommand& o) {
   command.option("--hunt", o.minutes,
                  "instead, minutes of random views with lights that barely reach a pixel, on one device");
+  command.flag("--shadows", o.shadows,
+               "with --hunt: of random scenes instead, each pair of a pixel and a light that casts a shadow");
   command.option("--contacts", o.contacts,
                  "with --hunt: ends after this many contacts instead of a time; 0: by time");
   command.option("--seed", o.seed, "with --hunt: seed of its random numbers");
@@ -60,10 +86,9 @@ int run_hunt(const HuntCommand& o, verify::CullEngine& engine, const std::string
                               .few_settings = o.contacts > 0 && o.contacts < short_hunt,
                               .save = o.save,
                               .progress = progress_bar()};
-  const verify::HuntReport report = verify::hunt(engine, options);
-  if (!json.empty()) write_json(json, verify::to_json(report).dump(1) + "\n");
-  if (json != "-") print(report);
-  return report.failed() ? 1 : 0;
+  if (!o.shadows) return tell(verify::hunt(engine, options), json);
+  if (!o.save.empty()) throw input_error("verify: --save {} cannot be combined with --shadows", o.save);
+  return tell(verify::hunt_shadows(engine, options), json);
 }
 
 }  // namespace lightgrid

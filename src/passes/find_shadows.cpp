@@ -49,7 +49,7 @@ std::vector<CullLight> shadowed_lights(const Seen& seen) {
   return lights;
 }
 
-// Positions in view space are floats; they are turned to world axes, rounded again, and moved to a plane.
+// Positions in view space are floats; they are turned to world axes and rounded again.
 // Shading computes with other roundings of them. Points in range are no further from the eye and from the
 // origin than the light and its range, and all of these errors together are below 2^-19 of that.
 ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin) {
@@ -131,7 +131,6 @@ class ShadowBits : public PassCache {
     const cl::Buffer& bits = at_least(work, work.shadows.bits, bit_bytes, GL_R32UI);
     parts_ = tiles * (kernels_.lanes ? 1 : groups_a_tile);
     const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
-    if (!kernels_.lanes) fill_buffer(device, "clearing shadows", listed, 0, bytes);
     const cl::NDRange lanes(size_t(grid_.cells_x), size_t(grid_.cells_y));
     const cl::NDRange groups(tiles * SHADOW_TILE * SHADOW_TILE, groups_a_tile);
     kernels_.of("find_shadows")

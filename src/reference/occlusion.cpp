@@ -27,8 +27,11 @@ Occlusion::Occlusion(const Scene& scene) : scene_(scene), masks_(scene) {
     if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend || !scene.instances[i].casts_shadow)
       continue;
     for (uint32_t t = 0; t < mesh.indices.size() / 3; ++t) {
+      const Corners c = corners_of({int(i), t});
+      // Equal corners stay equal when they are rounded, and nothing meets a triangle without area.
+      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
       numbers_.push_back({int(i), t});
-      corners_.push_back(corners_of(numbers_.back()));
+      corners_.push_back(c);
     }
   }
   tree_ = TriangleTree(corners_);
@@ -103,8 +106,8 @@ Occlusion::Met Occlusion::meet(int number, const RoundedPoint& light, const Roun
     const int sign = weights[k].sign();
     if (sign == 0) ++unsure, met.of_edge = k;
     least = std::min(least, sign), most = std::max(most, sign);
+    if (least * most < 0) return {};
   }
-  if (least * most < 0) return {};
   const bool crosses = from.sign() * to.sign() < 0;
   if (crosses) met.share = from.value / (from.value - to.value);
   met.meeting = crosses && unsure == 0 ? Meeting::crossed : Meeting::unsure;
@@ -138,15 +141,31 @@ bool Occlusion::share_an_edge(int a, const Met& met_a, int b, const Met& met_b) 
   return a1 == b1 && a2 == b2 && met_a.light_side != met_b.light_side;
 }
 
-SightAnswer Occlusion::sight(const Light& light, const Receiver& r, int* last) const {
+// It is a share of the way in float: three roundings of that, and two of the difference.
+RoundedPoint Occlusion::end_of(const RoundedPoint& source, const Receiver& r) const {
+  const dvec3 step = source.place - r.place.place;
+  const double length = glm::length(step);
+  return {r.place.place + step * (r.gap_m / length), r.place.error_m + 6 * float_rounding * length};
+}
+
+// How near a triangle's box must be to a segment. A float method may leave a triangle to its box, which it
+// may enlarge (docs/details/oracle.md#shadows).
+double Occlusion::reach_of(const RoundedPoint& source, const RoundedPoint& end) const {
+  return vertex_error_m_ + source.error_m + end.error_m +
+         float_rounding *
+             (32 * glm::length(source.place - end.place) + 8 * glm::length(source.place - centre_));
+}
+
+// near(source, end, reach, visit) calls visit for all triangles within reach, until it returns true.
+template <typename Near>
+SightAnswer Occlusion::sight_of(const Light& light, const Receiver& r, const Corners& own, int* last,
+                                const Near& near) const {
   const RoundedPoint source = source_of(light, r);
-  const Corners own = corners_of(r.own);
   const auto side = [&](const RoundedPoint& p) {
     return side_of_triangle(rounded(own[0]), rounded(own[1]), rounded(own[2]), p).sign();
   };
   const int sides = side(source) * side(r.eye);
-  const dvec3 step = source.place - r.place.place;
-  const double length = glm::length(step);
+  const double length = glm::length(source.place - r.place.place);
   const auto distance_at = [&](double share) {
     const double from_light = share * (length - r.gap_m);
     return is_directional(light) ? length - from_light : from_light;
@@ -154,9 +173,7 @@ SightAnswer Occlusion::sight(const Light& light, const Receiver& r, int* last) c
   if (sides < 0) return {Sight::hidden, r.own, is_directional(light) ? 0 : length};
   const SightAnswer unhidden{sides > 0 ? Sight::seen : Sight::either, {}, 0};
   if (!(length > r.gap_m)) return unhidden;
-  // The end is a share of the way in float: three roundings of it, and two of the difference.
-  const RoundedPoint end{r.place.place + step * (r.gap_m / length),
-                         r.place.error_m + 6 * float_rounding * length};
+  const RoundedPoint end = end_of(source, r);
   std::optional<SightAnswer> hidden;
   std::vector<std::pair<int, Met>> unsure;
   const auto meets = [&](int number) {
@@ -173,10 +190,56 @@ SightAnswer Occlusion::sight(const Light& light, const Receiver& r, int* last) c
   };
   if (last && *last >= 0 && meets(*last)) return *hidden;
   unsure.clear();
-  const double reach = vertex_error_m_ + source.error_m + end.error_m + 8 * float_rounding * length;
-  tree_.walk(source.place, end.place, reach, meets);
+  near(source, end, reach_of(source, end), meets);
   if (hidden) return *hidden;
   return unsure.empty() ? unhidden : SightAnswer{Sight::either, {}, 0};
+}
+
+SightAnswer Occlusion::sight(const Light& light, const Receiver& r, int* last) const {
+  return sight_of(light, r, corners_of(r.own), last,
+                  [&](const RoundedPoint& from, const RoundedPoint& to, double reach, const auto& visit) {
+                    tree_.walk(from.place, to.place, reach, visit);
+                  });
+}
+
+void Occlusion::sights(const Light& light, std::span<const Receiver* const> receivers,
+                       std::span<SightAnswer> answers, int* last) const {
+  std::optional<std::vector<int>> around;
+  const auto look_around = [&] {
+    WorldBox box{dvec3(1e300), dvec3(-1e300)};
+    std::vector<RoundedPoint> ends;
+    RoundedPoint source;
+    double reach = 0;
+    for (const Receiver* r : receivers) {
+      source = source_of(light, *r);
+      if (!(glm::length(source.place - r->place.place) > r->gap_m)) continue;
+      ends.push_back(end_of(source, *r));
+      box.min = glm::min(box.min, ends.back().place), box.max = glm::max(box.max, ends.back().place);
+      reach = std::max(reach, reach_of(source, ends.back()));
+    }
+    // All ends as one that is known to within their distance: what it passes by, they do.
+    RoundedPoint all{(box.min + box.max) * 0.5, 0};
+    for (const RoundedPoint& end : ends)
+      all.error_m = std::max(all.error_m, glm::length(end.place - all.place) + end.error_m);
+    around.emplace();
+    tree_.walk_shaft(source.place, box, reach, [&](int triangle) {
+      if (meet(triangle, source, all).meeting != Meeting::none) around->push_back(triangle);
+    });
+  };
+  CastingTriangle known;
+  Corners own;
+  for (size_t i = 0; i < receivers.size(); ++i) {
+    const Receiver& r = *receivers[i];
+    if (r.own != known) own = corners_of(r.own), known = r.own;
+    answers[i] =
+        sight_of(light, r, own, last,
+                 [&](const RoundedPoint& from, const RoundedPoint& to, double reach, const auto& visit) {
+                   if (!around) look_around();
+                   for (const int triangle : *around) {
+                     if (tree_.is_near(triangle, from.place, to.place, reach) && visit(triangle)) return;
+                   }
+                 });
+  }
 }
 
 }  // namespace lightgrid

@@ -2,6 +2,7 @@
 // double. docs/oracle.md#seen-and-hidden has the contract.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "reference/mask_cover.h"
@@ -50,6 +51,11 @@ class Occlusion {
   // threads.
   SightAnswer sight(const Light& light, const Receiver& receiver, int* last = nullptr) const;
 
+  // The same answers for receivers beside each other. The triangles around all of their segments are looked
+  // for once, if one is not hidden by `last`. light: not a directional one.
+  void sights(const Light& light, std::span<const Receiver* const> receivers, std::span<SightAnswer> answers,
+              int* last) const;
+
   double vertex_error_m() const { return vertex_error_m_; }
 
  private:
@@ -64,6 +70,11 @@ class Occlusion {
   };
   Corners corners_of(const CastingTriangle& triangle) const;
   RoundedPoint rounded(const glm::dvec3& vertex) const { return {vertex, vertex_error_m_}; }
+  RoundedPoint end_of(const RoundedPoint& source, const Receiver& receiver) const;
+  double reach_of(const RoundedPoint& source, const RoundedPoint& end) const;
+  template <typename Near>
+  SightAnswer sight_of(const Light& light, const Receiver& receiver, const Corners& own, int* last,
+                       const Near& near) const;
   RoundedPoint source_of(const Light& light, const Receiver& receiver) const;
   Met meet(int number, const RoundedPoint& light, const RoundedPoint& end) const;
   bool share_an_edge(int a, const Met& met_a, int b, const Met& met_b) const;

@@ -28,7 +28,7 @@ SignedVolume side_of_triangle(const RoundedPoint& a, const RoundedPoint& b, cons
                               const RoundedPoint& point) {
   SignedVolume v = volume_of(a, b, c, point);
   v.error += of_test * glm::length(b.place - a.place) * glm::length(c.place - a.place) *
-             glm::length(point.place - a.place);
+             (glm::length(point.place - a.place) + point.error_m);
   return v;
 }
 
@@ -36,7 +36,7 @@ SignedVolume side_of_edge(const RoundedPoint& light, const RoundedPoint& a, cons
                           const RoundedPoint& point) {
   SignedVolume v = volume_of(light, a, b, point);
   const dvec3 normal = glm::cross(a.place - light.place, b.place - light.place);
-  v.error += of_test * glm::length(normal) * glm::length(point.place - light.place);
+  v.error += of_test * glm::length(normal) * (glm::length(point.place - light.place) + point.error_m);
   return v;
 }
 

@@ -15,8 +15,8 @@ class TriangleTree {
   TriangleTree() = default;
   explicit TriangleTree(const std::vector<Corners>& triangles);
 
-  // Calls visit(index) for each triangle whose leaf's box, grown by `reach` on all sides, meets the segment
-  // from `from` to `to`, until it returns true. The order depends on nothing but the arguments.
+  // Calls visit(index) for each triangle whose box, grown by `reach` on all sides, meets the segment from
+  // `from` to `to`, until it returns true. The order depends on nothing but the arguments.
   template <typename Visit>
   void walk(const glm::dvec3& from, const glm::dvec3& to, double reach, const Visit& visit) const {
     if (nodes_.empty()) return;
@@ -30,12 +30,54 @@ class TriangleTree {
         continue;
       }
       for (int i = 0; i < node.count; ++i) {
-        if (visit(order_[size_t(node.first + i)])) return;
+        const int triangle = order_[size_t(node.first + i)];
+        if (meets(boxes_[size_t(triangle)], from, to, reach) && visit(triangle)) return;
       }
     }
   }
 
+  // Calls visit(index) for triangles, among them all whose boxes, grown by `reach`, meet a segment from
+  // `from` to any point of the box `to`.
+  template <typename Visit>
+  void walk_shaft(const glm::dvec3& from, const WorldBox& to, double reach, const Visit& visit) const {
+    if (nodes_.empty()) return;
+    const Shaft shaft(from, to, reach);
+    int stack[depth_limit], height = 0;
+    stack[height++] = 0;
+    while (height > 0) {
+      const Node& node = nodes_[size_t(stack[--height])];
+      if (!shaft.meets(node.box)) continue;
+      if (node.count == 0) stack[height++] = node.first + 1, stack[height++] = node.first;
+      for (int i = 0; i < node.count; ++i) {
+        const int triangle = order_[size_t(node.first + i)];
+        if (shaft.meets(boxes_[size_t(triangle)])) visit(triangle);
+      }
+    }
+  }
+
+  // Whether the box of a triangle, grown by `reach`, meets the segment.
+  bool is_near(int triangle, const glm::dvec3& from, const glm::dvec3& to, double reach) const {
+    return meets(boxes_[size_t(triangle)], from, to, reach);
+  }
+
  private:
+  // All segments from a point to a box: a box around them, and planes along two axes' plane that pass the
+  // point and touch the box (Haines, Wallace, "Shaft Culling for Efficient Ray-Traced Radiosity", 1991).
+  class Shaft {
+   public:
+    Shaft(const glm::dvec3& from, const WorldBox& to, double reach);
+    bool meets(const WorldBox& box) const;
+
+   private:
+    struct Plane {
+      int i, j;        // axes
+      double x, y, d;  // outside: x p[i] + y p[j] > d
+    };
+    WorldBox around_;
+    std::array<Plane, 6> planes_;
+    int count_ = 0;
+  };
+
   static constexpr int depth_limit = 64, most_in_leaf = 4;
   struct Node {
     WorldBox box{};
@@ -45,6 +87,7 @@ class TriangleTree {
 
   std::vector<Node> nodes_;
   std::vector<int> order_;
+  std::vector<WorldBox> boxes_;  // of triangles
 };
 
 }  // namespace lightgrid

@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <map>
 #include <tuple>
 
 #include "cl/transfer.h"
 #include "culling/cull_pipeline.h"
 #include "culling/light_culler.h"
+#include "passes/find_shadows.h"
+#include "passes/surfaces.h"
 #include "verify/engine.h"
 
 namespace lightgrid::verify {
@@ -20,10 +23,32 @@ std::string name_of_device(const std::string& substring) {
   return name(chosen);
 }
 
+// The triangle of each pixel, from their numbers: those of the instances one after the other.
+std::vector<CastingTriangle> triangles_of(const Scene& scene, const TriangleBuffer& buffer,
+                                          const std::vector<uint32_t>& numbers) {
+  std::vector<uint32_t> first;  // by place in buffer.instances
+  uint32_t count = 0;
+  for (const int i : buffer.instances) {
+    first.push_back(count);
+    count += uint32_t(scene.meshes[size_t(scene.instances[size_t(i)].mesh)].indices.size() / 3);
+  }
+  std::vector<CastingTriangle> triangles(numbers.size());
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers[i] >= count) continue;
+    const size_t place = size_t(std::ranges::upper_bound(first, numbers[i]) - first.begin()) - 1;
+    triangles[i] = {buffer.instances[place], numbers[i] - first[place]};
+  }
+  return triangles;
+}
+
 class DeviceEngine : public CullEngine {
  public:
   explicit DeviceEngine(const std::string& substring)
-      : device_(substring), programs_(device_), storage_(device_), name_(name_of_device(substring)) {}
+      : substring_(substring),
+        device_(substring),
+        programs_(device_),
+        storage_(device_),
+        name_(name_of_device(substring)) {}
 
   std::string name() const override { return name_; }
   bool is_the_library() const override { return true; }
@@ -85,6 +110,27 @@ class DeviceEngine : public CullEngine {
     return image;
   }
 
+  std::vector<ShadowImage> shadows(const Scene& scene, std::span<const View> views,
+                                   const Settings& settings) override {
+    if (!renderer_) renderer_ = std::make_unique<Renderer>(substring_, GlBackend::none);
+    GpuScene gpu(*renderer_, scene);
+    RenderView v(*renderer_, gpu, views.front(), settings, {.opengl = false});
+    std::vector<ShadowImage> images;
+    for (const View& view : views) {
+      if (!images.empty()) v.look(view);
+      Frame frame = frame_of(find_surfaces(v));
+      tell_shadows(v, v.caches.shadow_bits, frame);
+      ShadowImage& image = images.emplace_back();
+      image.lights = v.plan.local, image.shadows = frame.shadows();
+      std::vector<uint32_t> numbers(v.grid().values());
+      image.depths.resize(numbers.size());
+      read_buffer(*renderer_->cl, "triangles", frame.triangles->numbers, numbers.data(), numbers.size() * 4);
+      read_buffer(*renderer_->cl, "depths", frame.depth->values, image.depths.data(), numbers.size() * 4);
+      image.triangles = triangles_of(scene, *frame.triangles, numbers);
+    }
+    return images;
+  }
+
  private:
   HostGrid grid_of(LightCuller& culler, const TileBounds& bounds) {
     return read_grid(device_, culler.cull(bounds, storage_), storage_);
@@ -128,6 +174,8 @@ class DeviceEngine : public CullEngine {
     return blend ? bounds.blend : bounds.opaque;
   }
 
+  const std::string substring_;
+  std::unique_ptr<Renderer> renderer_;  // of shadows: made at first use
   ClDevice device_;
   ProgramCache programs_;
   ClGridStorage storage_;

@@ -9,7 +9,10 @@
 #include <vector>
 
 #include "culling/light_culler.h"
+#include "plan/settings.h"
 #include "raster/raster_view.h"
+#include "reference/occlusion.h"
+#include "scene/host_shadows.h"
 
 namespace lightgrid::verify {
 
@@ -48,6 +51,14 @@ struct RasterImage {
   uint64_t invalid_triangles = 0;
 };
 
+// What a frame's light loops read where lights cast shadows, and the surfaces that they shade.
+struct ShadowImage {
+  std::vector<float> depths;               // a pixel, row 0 at the bottom; 0 for background
+  std::vector<CastingTriangle> triangles;  // the nearest opaque one
+  std::vector<int> lights;                 // of the scene, by their indices in lists
+  HostShadows shadows;
+};
+
 // A cull from depth with all of its inputs, for the float twin.
 struct KernelRun {
   CullInputs inputs;
@@ -83,6 +94,12 @@ class CullEngine {
 
   // Nothing from an engine that only culls.
   virtual std::optional<RasterImage> rasterize(const RasterOptions&, const RasterInput&) { return {}; }
+
+  // An image for each view, by one renderer that moves from view to view. Nothing from an engine that only
+  // culls. Some light of the scene has to cast.
+  virtual std::vector<ShadowImage> shadows(const Scene&, std::span<const View>, const Settings&) {
+    return {};
+  }
 };
 
 // The library on the OpenCL device whose "platform name" contains `substring`. Keeps its cullers: cases of

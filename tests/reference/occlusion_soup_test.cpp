@@ -149,6 +149,35 @@ Count check_soup(unsigned seed) {
   return count;
 }
 
+// Within 1 mm to 1 m of a place on the first triangle.
+TEST(OcclusionSoup, ReceiversBesideEachOtherGetTheSameAnswersTogether) {
+  int seen = 0, hidden = 0, either = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    Random random(seed);
+    const Scene scene = scene_of({mesh_of(random_triangles(random, 60))});
+    const Occlusion occlusion(scene);
+    int last = -1;
+    for (int i = 0; i < 200; ++i) {
+      const Pair pair = random_pair(random, scene, i % 4);
+      std::vector<Receiver> receivers(16, pair.receiver);
+      const double apart = std::pow(10.0, -i % 4);
+      for (Receiver& r : receivers) r.place.place += any_direction(random) * apart * double(random.uniform());
+      std::vector<const Receiver*> pointers;
+      for (const Receiver& r : receivers) pointers.push_back(&r);
+      std::vector<SightAnswer> answers(16);
+      occlusion.sights(pair.light, pointers, answers, &last);
+      for (size_t k = 0; k < 16; ++k) {
+        const Sight alone = occlusion.sight(pair.light, receivers[k]).sight;
+        EXPECT_EQ(answers[k].sight, alone) << "soup " << seed << " block " << i << " receiver " << k;
+        ++(alone == Sight::seen ? seen : alone == Sight::hidden ? hidden : either);
+      }
+    }
+  }
+  EXPECT_GT(seen, 3000);
+  EXPECT_GT(hidden, 3000);
+  EXPECT_GT(either, 300);
+}
+
 TEST(OcclusionSoup, WhatIsCertainStaysSoHoweverPositionsAreRounded) {
   Count all;
   for (unsigned seed = 1; seed <= 12; ++seed) {

@@ -24,7 +24,7 @@ TEST(SignedVolume, MovesByTheAreaOfTheFaceThatFacesAMovedPoint) {
   const auto error = [&](double o, double a, double b, double c) {
     return side_of_edge({{0, 0, 0}, o * e}, {{2, 0, 0}, a * e}, {{0, 3, 0}, b * e}, {{0, 0, 4}, c * e})
                .error -
-           of_float * 6 * 4;
+           of_float * 6 * (4 + c * e);
   };
   EXPECT_NEAR(error(0, 0, 0, 0), 0, 1e-20);
   EXPECT_NEAR(error(0, 1, 0, 0), e * 12, 1e-15);

@@ -16,14 +16,17 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   const uint block = item / 16, x = tile % across * SHADOW_TILE + block % 4 * 4 + item % 4,
              y = tile / across * SHADOW_TILE + block / 4 * 4 + item % 16 / 4;
   const uint2 range = cells[tile];
-  if (part == 0) {
-    // Words, since a compiler may write both of a uint2 where one is set.
-    global uint* listed = (global uint*)(tiles + (size_t)tile * shadow_view->words);
-    for (uint i = range.x + item; i < range.x + range.y; i += GROUP) {
-      const uint index = indices[i];
-      atomic_or((global volatile uint*)(listed + index / 32 * 2), 1u << (index & 31u));
-      if (i == range.x || indices[i - 1] / 32 != index / 32) listed[index / 32 * 2 + 1] = i;
-    }
+  // The first part lists the lights. Not in a branch: PoCL 3.1 writes out of bounds after a barrier in one. In
+  // words, since a compiler may write both of a uint2 where one is set.
+  global uint* listed = (global uint*)(tiles + (size_t)tile * shadow_view->words);
+  const uint words_here = part == 0 ? 2 * shadow_view->words : 0, lights_here = part == 0 ? range.y : 0;
+  for (uint i = item; i < words_here; i += GROUP) listed[i] = 0;
+  barrier(CLK_GLOBAL_MEM_FENCE);
+  for (uint i = range.x + item; i < range.x + lights_here; i += GROUP) {
+    const uint index = indices[i];
+    atomic_or((global volatile uint*)(listed + index / 32 * 2), 1u << (index & 31u));
+    if (i == range.x || indices[i - 1] / 32 != index / 32) listed[index / 32 * 2 + 1] = i;
+  }
   }
   const bool inside = x < width && y < height;
   const size_t at = inside ? (size_t)y * width + x : 0;

@@ -1,0 +1,134 @@
+#include "verify/shadow_pairs.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "reference/lit_set.h"
+#include "reference/position.h"
+#include "scene/view_lights.h"
+
+namespace lightgrid::verify {
+namespace {
+
+// A tile of the image, and what the oracle needs to know of its pixels.
+struct TileReceivers {
+  std::vector<int> x, y;
+  std::vector<glm::dvec3> positions;  // view space
+  std::vector<Receiver> receivers;
+};
+
+TileReceivers receivers_of(const Occlusion& occlusion, const View& view, const ShadowImage& image, int tile_x,
+                           int tile_y) {
+  constexpr int side = HostShadows::side;
+  TileReceivers tile;
+  for (int i = 0; i < side * side; ++i) {  // in blocks of 4 x 4
+    const int x = tile_x * side + i / 16 % 4 * 4 + i % 4, y = tile_y * side + i / 64 * 4 + i / 4 % 4;
+    if (x >= view.width || y >= view.height) continue;
+    const size_t pixel = view.grid().index(x, y);
+    if (image.triangles[pixel].instance < 0) continue;
+    const double depth = image.depths[pixel];
+    tile.x.push_back(x), tile.y.push_back(y);
+    tile.positions.push_back(position_from_depth(view, x, y, depth));
+    tile.receivers.push_back(occlusion.receiver(view, x, y, depth, image.triangles[pixel]));
+  }
+  return tile;
+}
+
+void check_lists(const Scene& scene, const ShadowImage& image) {
+  const std::string wrong = malformed_lists(image.shadows.cells, image.shadows.indices, image.lights.size());
+  if (!wrong.empty()) throw input_error("shadows: {}", wrong);
+  for (const uint32_t light : image.shadows.indices) {
+    if (!scene.lights[size_t(image.lights[light])].casts_shadow)
+      throw input_error("shadows: light {} casts none, but is listed", image.lights[light]);
+  }
+}
+
+constexpr size_t block = 16;  // of a tile's pixels: what the oracle looks at together
+
+struct TileLight {
+  const Light& light;
+  int number;  // of the scene
+  const ViewLight& in_view;
+  uint32_t index;  // in lists
+};
+
+std::string words_of(const TileLight& l, const TileReceivers& tile, size_t i, const SightAnswer& answer,
+                     const char* fault) {
+  const glm::dvec3& p = tile.receivers[i].place.place;
+  const CastingTriangle &own = tile.receivers[i].own, &by = answer.by;
+  std::string words = fmt::format(
+      "light {} at {:.9g} {:.9g} {:.9g} {} at pixel {},{} on instance {} triangle {} at "
+      "{:.9g} {:.9g} {:.9g}",
+      l.number, l.light.position.x, l.light.position.y, l.light.position.z, fault, tile.x[i], tile.y[i],
+      own.instance, own.triangle, p.x, p.y, p.z);
+  if (by.instance >= 0)
+    words += fmt::format(", hidden by instance {} triangle {} after {:.9g} m", by.instance, by.triangle,
+                         answer.distance_m);
+  return words;
+}
+
+// A block of a tile's pixels.
+void add_block(ShadowPairs& pairs, const Occlusion& occlusion, const ShadowImage& image,
+               const TileReceivers& tile, const TileLight& l, size_t begin, int* last) {
+  size_t pixels[block], count = 0;
+  const Receiver* receivers[block];
+  SightAnswer answers[block];
+  for (size_t k = begin; k < std::min(begin + block, tile.x.size()); ++k) {
+    if (is_lit(l.in_view, tile.positions[k])) pixels[count] = k, receivers[count++] = &tile.receivers[k];
+  }
+  occlusion.sights(l.light, {receivers, count}, answers, last);
+  for (size_t i = 0; i < count; ++i) {
+    const size_t k = pixels[i];
+    if (answers[i].sight == Sight::either) {
+      ++pairs.either;
+      continue;
+    }
+    const bool hidden = answers[i].sight == Sight::hidden;
+    ++(hidden ? pairs.hidden : pairs.seen);
+    if (hidden_at(image.shadows, tile.x[k], tile.y[k], l.index) == hidden) continue;
+    ++(hidden ? pairs.leaked : pairs.acned);
+    if (pairs.why.empty())
+      pairs.why = words_of(l, tile, k, answers[i], hidden ? "leaks" : "is dark, though seen,");
+  }
+}
+
+}  // namespace
+
+ShadowPairs& ShadowPairs::operator+=(const ShadowPairs& more) {
+  seen += more.seen, hidden += more.hidden, either += more.either;
+  leaked += more.leaked, acned += more.acned;
+  if (why.empty()) why = more.why;
+  return *this;
+}
+
+ShadowPairs count_shadow_pairs(const Scene& scene, const Occlusion& occlusion, const View& view,
+                               const ShadowImage& image) {
+  check_lists(scene, image);
+  const std::vector<ViewLight> lights = lights_in_view(scene, view, {}, image.lights);
+  const int tiles_x = image.shadows.tiles_x, tiles = int(image.shadows.cells.size());
+  std::vector<ShadowPairs> of_tile(static_cast<size_t>(tiles));
+  parallel_for(tiles, [&](int t) {
+    ShadowPairs& pairs = of_tile[size_t(t)];
+    const TileReceivers tile = receivers_of(occlusion, view, image, t % tiles_x, t / tiles_x);
+    for (size_t i = 0; i < lights.size(); ++i) {
+      const Light& light = scene.lights[size_t(image.lights[i])];
+      if (!light.casts_shadow) continue;
+      const TileLight here{light, image.lights[i], lights[i], uint32_t(i)};
+      int last = -1;
+      for (size_t k = 0; k < tile.x.size(); k += block)
+        add_block(pairs, occlusion, image, tile, here, k, &last);
+    }
+  });
+  ShadowPairs sum;
+  for (const ShadowPairs& pairs : of_tile) sum += pairs;
+  return sum;
+}
+
+const char* difference(const ShadowImage& a, const ShadowImage& b) {
+  if (a.triangles != b.triangles || a.depths != b.depths) return "surfaces";
+  if (a.shadows.cells != b.shadows.cells || a.shadows.indices != b.shadows.indices) return "lists";
+  return a.shadows.bits != b.shadows.bits ? "bits" : "";
+}
+
+}  // namespace lightgrid::verify
