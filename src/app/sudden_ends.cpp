@@ -19,7 +19,8 @@ namespace {
 
 constexpr uint64_t full_below_bytes = 4 << 20;  // the files of one kernel take less
 constexpr size_t spare_bytes = 64 << 20;        // no crash is for lack of memory while these can be had
-constexpr int faults[] = {SIGSEGV, SIGBUS};
+// SIGABRT: of the C library's own abort(), as where a driver without memory frees twice (OSMesa).
+constexpr int faults[] = {SIGSEGV, SIGBUS, SIGABRT};
 
 // The handlers read this. They call only what a signal handler may.
 struct Ends {

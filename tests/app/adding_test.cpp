@@ -221,15 +221,14 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
   }
   EXPECT_THAT(all, testing::IsSupersetOf({"position", "color", "cone"}));
   // All that names the newest column. The others are read by every light loop.
-  for (const char* text : {"light.cone.", "light.cone = (float4)"}) texts["cone"].push_back(text);
+  texts["cone"].push_back("light.cone.");
   const Naming expected = {
       {"src/shared/light_table.h", all},
       {"src/renderer/upload/lights.cpp", all},
-      // Readers: the range alone; a cone's part in what arrives, also at samples of voxel light buffers.
+      // Readers: the range alone; a cone's part in what arrives.
       {"shaders/lights/blocks.glsl", {"position"}},
       {"src/shared/punctual_light.h", {"cone"}},
       {"src/shared/voxel_exact.h", {"cone"}},
-      {"kernels/voxels/voxel_light.h", {"cone"}},
       // A record of the culler's own, from LightBounds.
       {"kernels/culling/gpu/cull_lights.cl", {"cone"}},
   };

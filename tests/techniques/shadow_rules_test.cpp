@@ -1,0 +1,271 @@
+// What the plan's rules leave out of the shadows' work (plan/shadow_plan.h): the picture has the same bits as
+// with all of it, and what is left out costs no pass, ray or memory.
+#include <gmock/gmock.h>
+
+#include "scene/shadow_casters.h"
+#include "support/random_rooms.h"
+#include "techniques/observed_run.h"
+#include "techniques/shadow_stage.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAreArray;
+using testing::HasSubstr;
+using testing::Not;
+
+// Until the next look(): rays for every light that casts, whatever the rules say.
+void trace_all(TechniqueRun& run) {
+  FramePlan& plan = run.view().plan;
+  plan.shadowed.clear();
+  for (const int i : plan.local) plan.shadowed.push_back(run.view().scene.lights[size_t(i)].casts_shadow);
+  plan.shadows = true;
+}
+
+// A view of a scene with the rules, and the same with all rays.
+struct Ruled {
+  GpuScene gpu;
+  TechniqueRun ruled, full;
+
+  Ruled(const Scene& scene, const View& view, const char* technique)
+      : gpu(test_devices(), scene),
+        ruled(test_devices(), gpu, view, {}, find_technique(technique)),
+        full(test_devices(), gpu, view, {}, find_technique(technique)) {}
+
+  void draw() {
+    trace_all(full);
+    ruled.run_frame(), full.run_frame();
+  }
+  size_t rays(const TechniqueRun& run) { return run.frame().shadow_figures().rays; }
+};
+
+// Rooms with lights that each rule leaves out, and cameras that turn away and back.
+TEST(ShadowRulesPicture, HasTheBitsOfAllRays) {
+  Random random(77);
+  std::map<ShadowNeed, size_t> lights;
+  size_t ruled = 0, full = 0, views = 0, left_out = 0;
+  for (int i = 0; i < 24; ++i) {
+    const RandomRoom room = random_room(random, 45, 31, i % 6 == 0 ? 1e5 : 0);
+    for (const char* technique : {"forward_plus", "visibility"}) {
+      Ruled both(room.scene, room.view, technique);
+      View view = room.view;
+      for (int step = 0; step < 4; ++step) {
+        SCOPED_TRACE(fmt::format("scene {}, {}, step {}", i, technique, step));
+        both.draw();
+        EXPECT_TRUE(identical(both.ruled.image(), both.full.image()));
+        for (const LightShadow& light : both.ruled.view().plan.casting) ++lights[light.need];
+        ruled += both.rays(both.ruled), full += both.rays(both.full);
+        ++views, left_out += !both.ruled.view().plan.shadows;
+        view.eye += double(random.uniform(0, 1)) * any_direction(random);
+        both.ruled.look(view), both.full.look(view);
+      }
+    }
+  }
+  EXPECT_LT(ruled, full);
+  EXPECT_GT(ruled, full / 2);
+  EXPECT_GT(left_out, views / 50) << "views without a ray";
+  for (const ShadowNeed need :
+       {ShadowNeed::rays, ShadowNeed::no_caster, ShadowNeed::no_receiver, ShadowNeed::casters_behind})
+    EXPECT_GT(lights[need], 200u) << reason_of(need);
+}
+
+// A lamp that casts over a floor that goes past the eye, and a pane of glass before it.
+Scene lamp_over_floor(glm::vec3 lamp, float radius_m) {
+  SmallScene s = small_scene(false);
+  Scene& scene = s.scene;
+  scene.instances.clear();
+  Mesh floor;
+  shapes::add_quad(floor, {-5, -1, 5}, {10, 0, 0}, {0, 0, -10});
+  add_instance(scene, "floor", add_mesh(scene, shapes::finished(std::move(floor), "floor", s.wall_material)));
+  effect("blend").add(s);
+  add_point(scene, "lamp", lamp, {1, 1, 1}, 2, radius_m).casts_shadow = true;
+  return scene;
+}
+
+// Out of view.
+Scene with_ball(Scene scene, const glm::dvec3& position) {
+  add_instance(scene, "ball", 1, placed(position));
+  return scene;
+}
+
+struct RuleCase {
+  const char* name;
+  Scene (*scene)();
+  ShadowNeed need;
+};
+
+// A scene for each rule, whose lights all fall under it.
+const RuleCase rule_cases[] = {
+    {"OnlyGlassInRange",
+     [] {
+       return lamp_over_floor({-0.5f, 0, -1.5f}, 0.8f);
+     },
+     ShadowNeed::no_caster},
+    {"OutOfView",
+     [] {
+       return lamp_over_floor({0, -0.5f, 3}, 2);
+     },
+     ShadowNeed::no_receiver},
+    {"NothingInViewInRange",
+     [] {
+       return with_ball(lamp_over_floor({0, 0.4f, -0.4f}, 0.9f), {0, 1.5, 0.1});
+     },
+     ShadowNeed::no_receiver},
+    {"TheFloorAlone",
+     [] {
+       return lamp_over_floor({1.5f, -0.2f, -3.2f}, 1.2f);
+     },
+     ShadowNeed::casters_behind},
+    {"BelowTheFloor",
+     [] {
+       return with_ball(lamp_over_floor({0.8f, -0.5f, -1}, 1.6f), {1, -1.8, 0.3});
+     },
+     ShadowNeed::casters_behind},
+};
+
+struct ShadowRule : testing::TestWithParam<RuleCase> {};
+
+// What a run shows of its shadows' work.
+struct ShadowWork {
+  std::set<std::string> passes, programs;
+  ShadowFigures figures;
+  size_t memory = 0;
+};
+
+ShadowWork work_of_shadows(TechniqueRun& run) {
+  ShadowWork work;
+  run.view().renderer.note_programs(&work.programs);
+  run.view().timer.enabled = true;
+  run.run_frame();
+  run.view().timer.enabled = false;
+  run.view().renderer.note_programs(nullptr);
+  for (const PassRecord& pass : run.view().timer.records()) work.passes.insert(pass.name);
+  if (run.frame().shadow_figures) work.figures = run.frame().shadow_figures();
+  work.memory = run.view().memory_bytes();
+  return work;
+}
+
+TEST_P(ShadowRule, LeavesOutAllWorkAndNoBit) {
+  const Scene scene = GetParam().scene();
+  Scene bare = scene;
+  for (Light& light : bare.lights) light.casts_shadow = false;
+  const View view = small_view(45, 31);
+  for (const char* technique : {"forward_plus", "visibility"}) {
+    SCOPED_TRACE(technique);
+    Ruled both(scene, view, technique);
+    ASSERT_EQ(both.ruled.view().plan.casting.at(0).need, GetParam().need);
+    const ShadowWork ruled = work_of_shadows(both.ruled);
+    trace_all(both.full);
+    const ShadowWork full = work_of_shadows(both.full);
+    EXPECT_TRUE(identical(both.ruled.image(), both.full.image()));
+    EXPECT_THAT(full.passes, Contains("find_shadows"));
+    EXPECT_THAT(full.programs, Contains(HasSubstr("shadows/")));
+    EXPECT_THAT(ruled.passes, Not(Contains("find_shadows")));
+    EXPECT_THAT(ruled.passes, Not(Contains("triangle_numbers")));
+    EXPECT_THAT(ruled.programs, Not(Contains(HasSubstr("shadows/"))));
+    EXPECT_EQ(ruled.figures.lights + ruled.figures.rays, 0u);
+    // The table of tiles, in which nothing is listed; not the scene of rays, nor lists or bits.
+    TechniqueRun without(test_devices(), bare, view, {}, find_technique(technique));
+    EXPECT_EQ(ruled.memory, work_of_shadows(without).memory + both.ruled.view().shadows.bytes());
+    EXPECT_EQ(ruled.figures.bytes, both.ruled.view().shadows.bytes());
+    EXPECT_LT(ruled.figures.bytes, 4096u);
+    EXPECT_GT(full.memory, ruled.memory + 1000);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, ShadowRule, testing::ValuesIn(rule_cases),
+                         [](const auto& info) { return info.param.name; });
+
+// Where no light casts.
+
+// The passes of each technique, in a scene with glass, masks, point and spot lights and a sun.
+const std::map<std::string, std::vector<std::string>> recorded_passes = {
+    {"forward_plus",
+     {"depth_prepass", "depth_to_cl", "depth_bounds", "tile_distances", "cull_lights", "grid_to_gl",
+      "shade_forward", "cull_lights_for_blended", "shade_blended", "read_back"}},
+    {"light_prepass",
+     {"fill_normals", "depth_to_cl", "depth_bounds", "tile_distances", "normals_to_cl", "cull_lights",
+      "fill_light_buffer", "light_buffer_to_gl", "shade_forward", "cull_lights_for_blended", "grid_to_gl",
+      "shade_blended", "read_back"}},
+    {"visibility",
+     {"rasterize", "depth_bounds", "cull_lights", "resolve", "cull_lights_for_blended", "list_blended",
+      "blend_resolved", "read_back"}},
+    {"forward",
+     {"depth_prepass", "depth_to_cl", "depth_bounds", "tile_distances", "shade_forward", "shade_blended",
+      "read_back"}},
+    {"forward_multipass",
+     {"depth_prepass", "depth_to_cl", "depth_bounds", "tile_distances", "find_object_lights", "shade_objects",
+      "find_blended_object_lights", "shade_blended", "read_back"}},
+    {"forward_zprepass",
+     {"depth_prepass", "depth_to_cl", "depth_bounds", "tile_distances", "find_object_lights", "shade_objects",
+      "find_blended_object_lights", "shade_blended", "read_back"}},
+    {"clustered",
+     {"depth_prepass", "depth_to_cl", "depth_bounds", "tile_distances", "cull_lights", "grid_to_gl",
+      "shade_forward", "cull_lights_for_blended", "shade_blended", "read_back"}},
+    {"forward_plus_compute",
+     {"depth_prepass", "depth_to_cl", "depth_bounds", "tile_distances", "fill_gbuffer", "cull_lights",
+      "gbuffer_to_cl", "shade_tiles", "image_to_gl", "cull_lights_for_blended", "grid_to_gl", "shade_blended",
+      "read_back"}},
+    {"deferred",
+     {"fill_gbuffer", "shade_light_volumes", "find_blended_object_lights", "shade_blended", "read_back"}},
+    {"deferred_tiled",
+     {"fill_gbuffer", "depth_to_cl", "depth_bounds", "cull_lights", "gbuffer_to_cl", "shade_tiles",
+      "image_to_gl", "cull_lights_for_blended", "grid_to_gl", "shade_blended", "read_back"}},
+    {"lidr",
+     {"depth_prepass", "depth_to_cl", "depth_bounds", "tile_distances", "light_volumes", "light_index",
+      "shade_forward", "find_blended_object_lights", "shade_blended", "read_back"}},
+    {"voxel_lights",
+     {"depth_prepass", "depth_to_cl", "depth_bounds", "tile_distances", "place_voxels", "build_voxels",
+      "voxels_to_gl", "shade_forward", "shade_blended", "read_back"}},
+    {"world_grid",
+     {"depth_prepass", "depth_to_cl", "depth_bounds", "tile_distances", "build_world_grid", "grid_to_gl",
+      "shade_forward", "shade_blended", "read_back"}},
+};
+
+Scene scene_without_shadows() {
+  SmallScene s = small_scene();
+  for (const char* name : {"blend", "mask", "spot", "directional"}) effect(name).add(s);
+  return s.scene;
+}
+
+struct NoShadows : testing::TestWithParam<const Technique*> {};
+
+TEST_P(NoShadows, CostNothing) {
+  const Technique& technique = *GetParam();
+  const View view = small_view(33, 19);
+  Scene scene = scene_without_shadows();
+  {
+    TechniqueRun run(test_devices(), scene, view, {}, technique);
+    run.view().timer.enabled = true;
+    run.run_frame();
+    std::vector<std::string> passes;
+    for (const PassRecord& pass : run.view().timer.records()) passes.push_back(pass.name);
+    EXPECT_THAT(passes, ElementsAreArray(recorded_passes.at(technique.name)));
+    EXPECT_FALSE(run.frame().shadows || run.frame().shadow_figures || run.result().shadows);
+    EXPECT_EQ(run.view().shadows.bytes(), 0u);
+  }
+  const Observed none = observe(test_devices(), scene, view, technique, {});
+  EXPECT_THAT(none.at("programs"), Not(HasSubstr("SHADOW")));
+  EXPECT_THAT(none.at("programs"), Not(HasSubstr("shadows/")));
+  scene.lights.back().casts_shadow = true;
+  EXPECT_EQ(observe(test_devices(), scene, view, technique, {}), none)
+      << "shadows of directional lights are not found";
+  for (Light& light : scene.lights) light.casts_shadow = true;
+  if (technique.name != std::string("voxel_lights")) {
+    const Observed all = observe(test_devices(), scene, view, technique, {});
+    EXPECT_THAT(all.at("programs"), HasSubstr("SHADOWS"));
+    EXPECT_TRUE(all.contains("pass find_shadows"));
+    EXPECT_NE(all.at("memory"), none.at("memory"));
+  } else {
+    EXPECT_EQ(observe(test_devices(), scene, view, technique, {}), none) << "it has none";
+  }
+  choose_shadow_casters(scene, 0);
+  EXPECT_EQ(observe(test_devices(), scene, view, technique, {}), none) << "--shadows none";
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, NoShadows, testing::ValuesIn(techniques()),
+                         [](const auto& info) { return std::string(info.param->name); });
+
+}  // namespace
+}  // namespace lightgrid
