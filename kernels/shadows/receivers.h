@@ -101,7 +101,7 @@ static inline Receivers receivers_at(const RayScene* scene, triangles_t triangle
 #if LANES == 16
   for (uint left = lane_bits(covered); left != 0;) {
     const uint one = ((const uint*)&triangle)[lowest_bit(left)];
-    const mask_t here = triangle == (uint16)(one);
+    const mask_t here = covered & (triangle == (uint16)(one));
     left &= ~lane_bits(here);
     add_plane(&r, scene, ray_number(one, triangle_instance, number_offsets), here, v);
   }
