@@ -38,6 +38,13 @@ inline Scene shadowed_scene() {
   add_instance(scene, "sliver", flag_mesh,
                placed({-0.2, 0.9, -3.6}, -20) * glm::scale(glm::dmat4(1), glm::dvec3(2, 0.01, 1)));
   add_lamp(scene, "bulb", s.ball, placed(scene.lights[0].position, 0, 0.15));
+  // Seen from behind, where they are not drawn: 2 mm before the wall one hides light, half a millimetre
+  // before it one does not.
+  Mesh card = wall_mesh({0, 0, -4}, 0.25f, add_material(scene, "card", {1, 1, 1}, 0, 1), "card");
+  for (size_t i = 0; i < card.indices.size(); i += 3) std::swap(card.indices[i], card.indices[i + 1]);
+  const int card_mesh = add_mesh(scene, std::move(card));
+  add_instance(scene, "card", card_mesh, placed({-0.7, -0.9, 0.002}));
+  add_instance(scene, "card", card_mesh, placed({-1.3, -0.9, 0.0005}));
   add_instance(scene, "pane", add_mesh(scene, wall_mesh({0.9f, -0.7f, -2}, 0.25f, glass, "pane")));
   return scene;
 }

@@ -163,9 +163,10 @@ TEST(ShadowPicture, OfVoxelLightsHasNone) {
   EXPECT_GT(pictures.pairs(run).leaked, 1000u);
 }
 
-// A run of the small scene. settings: KEY=VALUE each.
-std::unique_ptr<TechniqueRun> shadowed_run(const char* technique, const std::vector<std::string>& settings) {
-  Pictures& pictures = pictures_of("small");
+// settings: KEY=VALUE each.
+std::unique_ptr<TechniqueRun> shadowed_run(const char* technique, const std::vector<std::string>& settings,
+                                           const char* scene = "small") {
+  Pictures& pictures = pictures_of(scene);
   Settings chosen;
   for (const std::string& setting : settings) apply_setting(chosen, setting);
   auto run = std::make_unique<TechniqueRun>(test_devices(), pictures.gpu, pictures.view, chosen,
@@ -202,6 +203,14 @@ TEST(ShadowBits, AreReadAlikeByAPixelAWorkItem) {
               1e-8)
         << technique;
   }
+}
+
+// Hundreds of lights take several words a tile.
+TEST(ShadowBits, OfHundredsOfLightsAreTheSameInBothFormsOfTheKernel) {
+  EXPECT_TRUE(same_bits(shadows_of(*shadowed_run("visibility", {"kernel-shape=group"}, "hall")),
+                        shadows_of(pictures_of("hall").visibility)));
+  EXPECT_TRUE(identical(shadowed_run("visibility", {"kernel-shape=group"}, "hall")->image(),
+                        pictures_of("hall").visibility.image()));
 }
 
 // And as many rays.
