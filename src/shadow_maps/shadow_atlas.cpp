@@ -66,7 +66,7 @@ void set(float (&to)[3], const dvec3& v) {
 ShadowFace towards(const dvec3& ahead, double extent, int size, const ShadowMapOptions& options) {
   const dvec3 aside = std::abs(ahead.y) > 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
   const dvec3 right = glm::normalize(glm::cross(ahead, aside));
-  const int border = taps_a_side(options.filter) / 2;
+  const int border = options.taps / 2;
   ShadowFace face{};
   set(face.right, right), set(face.up, glm::cross(right, ahead)), set(face.ahead, ahead);
   face.extent = float(extent * size / (size - 2 * border));
@@ -75,10 +75,6 @@ ShadowFace towards(const dvec3& ahead, double extent, int size, const ShadowMapO
 }
 
 }  // namespace shadow_face
-
-int taps_a_side(ShadowFilter filter) {
-  return filter == ShadowFilter::none ? 1 : filter == ShadowFilter::pcf3 ? 3 : 5;
-}
 
 ShadowAtlas plan_shadow_atlas(std::span<const Light> lights, const View& view, const dvec3& origin,
                               const WorldBox& box, const ShadowMapOptions& options) {
