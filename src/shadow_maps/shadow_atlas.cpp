@@ -22,6 +22,10 @@ size_t faces_in(const Light& light, const ShadowMapOptions& options) {
   return is_directional(light) ? size_t(options.cascades) : has_one_face(light) ? 1 : 6;
 }
 
+double farthest_m(const WorldBox& box, const dvec3& point) {
+  return glm::length(glm::max(glm::abs(box.min - point), glm::abs(box.max - point)));
+}
+
 // Of the view that the sphere of the light's range covers; 1 from inside.
 double share_of_screen(const Light& light, const View& view, double far_m) {
   const double range = range_or(light, far_m);
@@ -107,7 +111,7 @@ ShadowAtlas plan_shadow_atlas(std::span<const Light> lights, const View& view, c
     for (ShadowFace& face : faces) {
       if (!is_directional(light)) {
         shadow_face::set(face.from, light.position - origin);
-        face.range_m = float(range_or(light, far_m));
+        face.range_m = float(range_or(light, farthest_m(box, light.position)));
       }
       face.first = uint(atlas.texels);
       atlas.texels += size_t(face.size) * face.size;

@@ -40,7 +40,8 @@ struct ShadowAtlas {
 // (2006), has the splits.
 //
 // origin: of the RayScene. box: of all that casts or receives. radius_m of the lights is their range; where
-// it is infinite, the box's diagonal stands for it.
+// it is infinite, its face reaches the box's farthest corner, and its size is that of a range of the box's
+// diagonal.
 ShadowAtlas plan_shadow_atlas(std::span<const Light> lights, const View& view, const glm::dvec3& origin,
                               const WorldBox& box, const ShadowMapOptions& options);
 
