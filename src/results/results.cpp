@@ -134,8 +134,10 @@ json to_json(const MovingResult& m) {
 json to_json(const ShadowResult& s) {
   json skipped = json::array();
   for (const auto& light : s.skipped) skipped.push_back({{"light", light.light}, {"why", light.why}});
-  return {{"lights", s.lights}, {"maps", s.maps}, {"halvings", s.halvings}, {"drawn", s.drawn},
-          {"kept", s.kept},     {"bytes", s.bytes}, {"rays", s.rays}, {"undecided", s.undecided}, {"skipped", skipped}};
+  json out = {{"lights", s.lights}, {"maps", s.maps}, {"drawn", s.drawn},         {"kept", s.kept},
+              {"bytes", s.bytes},   {"rays", s.rays}, {"undecided", s.undecided}, {"skipped", skipped}};
+  if (s.maps > 0) out["halvings"] = s.halvings;
+  return out;
 }
 
 }  // namespace
