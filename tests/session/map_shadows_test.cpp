@@ -6,6 +6,7 @@
 #include "session/compare.h"
 #include "session/oracle.h"
 #include "session/shadow_truth.h"
+#include "session/surfaces_in_double.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
 
@@ -64,7 +65,7 @@ TEST_P(MapShadows, AreFewWrongAndFewerInLargerMaps) {
   }
 }
 
-TEST_P(MapShadows, HaveTheSameBitsInBothKernelShapes) {
+TEST(MapShadowBits, AreTheSameInBothKernelShapes) {
   const SmallScene s = shadowed_scene_of_maps();
   for (const char* bits : {"16", "32"}) {
     for (const char* filter : {"none", "pcf5"}) {
