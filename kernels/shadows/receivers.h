@@ -1,11 +1,15 @@
 // Where LANES pixels ask for shadows: the point that a pixel shades, moved onto the plane of its own triangle,
 // and on which side of that plane the eye is.
 //
+// -DSHADOW_MAP    what shadow maps need to know of the triangle is kept (kernels/shadow_maps/shadow_maps.h)
 // -DNUMBERED      triangles come by the rays' numbers, else by the rasteriser's
 // -DORTHOGRAPHIC  shared/pixel_position.h
 #pragma once
 
 #include "kernels/rays/rays.h"
+#ifdef SHADOW_MAP
+#include "kernels/shadow_maps/shadow_maps.h"
+#endif
 #include "shared/light_grid.h"
 #include "shared/pixel_position.h"
 #include "shared/shadow_bits.h"
@@ -40,6 +44,9 @@ typedef struct Receivers {
   whole own;     // the triangle's number; below 0: none
   Real3 normal;  // of its plane, towards the eye; 0: the eye is in the plane
   real slack;    // what rounds a distance along it, without the light's part
+#ifdef SHADOW_MAP
+  ShadowReceivers for_maps;
+#endif
 } Receivers;
 
 static inline uint ray_number(uint triangle, global const uint* triangle_instance,
@@ -110,6 +117,10 @@ static inline Receivers receivers_at(const RayScene* scene, triangles_t triangle
 #else
   if (covered) add_plane(&r, scene, ray_number(triangle, triangle_instance, number_offsets), 1, v);
 #endif
+#ifdef SHADOW_MAP
+  const uint live = lane_bits(r.own >= (whole)(0));
+  if (live != 0) r.for_maps = shadow_receivers(scene, r.at, r.own, r.gap, live);
+#endif
   return r;
 }
 
@@ -149,15 +160,4 @@ static inline mask_t turned_away(const RayScene* scene, const Receivers* r, glob
     if ((light < 0 && eye > 0) || (light > 0 && eye < 0)) away |= lanes_of(1u << lane);
   }
   return away;
-}
-
-// Lanes from which the light is hidden. *traced is increased by the number of rays.
-static inline mask_t hidden_from(const RayScene* scene, const Receivers* r, global const ShadowLight* l,
-                                 constant ShadowView* v, uint* traced, int* last_blocker) {
-  const mask_t reached = may_shade(r, l);
-  if (!any_lane(reached)) return (mask_t)(0);
-  const mask_t away = turned_away(scene, r, l, reached, v), active = reached & ~away;
-  const RaySource source = {l->x, l->y, l->z, l->w};
-  *traced += popcount(lane_bits(active));
-  return away | rays_hidden(scene, source, r->at, r->gap, active, r->own, last_blocker);
 }

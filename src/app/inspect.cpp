@@ -112,7 +112,12 @@ OpenCl open_devices_for(Subject& subject, const InspectOptions& o) {
   return devices;
 }
 
-// Of the lights that cast and are lit at the pixel. Returns whether one leaks or is dark though seen.
+bool says_exact(const Subject& subject) {
+  return !is_approximate(find_technique(subject.technique), subject.settings);
+}
+
+// Of the lights that cast and are lit at the pixel. Returns whether one leaks or is dark though seen, where
+// none may.
 bool add_shadows(PixelInspection& pixel, const Subject& subject) {
   bool wrong = false;
   for (LightVerdict& v : pixel.lights) {
@@ -124,7 +129,7 @@ bool add_shadows(PixelInspection& pixel, const Subject& subject) {
       v.shadow->by = subject.scene->scene.instances[size_t(sight->by.instance)].name;
     wrong |= sight->sight == (v.shadow->shaded_as_hidden ? Sight::seen : Sight::hidden);
   }
-  return wrong;
+  return wrong && says_exact(subject);
 }
 
 // Returns 1 if a light was lost, or its shadow is wrong.
@@ -142,7 +147,8 @@ int inspect_place(const InspectOptions& o, const Subject& subject, FrameCuller& 
 int inspect_image(const InspectOptions& o, const Subject& subject, const FrameGrid& grid) {
   std::optional<PairShadows> shadows;
   if (subject.shadows) shadows.emplace(subject.shadows->pairs());
-  const InspectionMaps maps = inspection_maps(subject.frame, grid, shadows ? &*shadows : nullptr);
+  InspectionMaps maps = inspection_maps(subject.frame, grid, shadows ? &*shadows : nullptr);
+  if (maps.pairs.shadows) maps.pairs.shadows->says_exact = says_exact(subject);
   write_inspection_maps(o.output, subject.frame, maps);
   const PairCounts& pairs = maps.pairs;
   const auto a_pixel = [&](uint64_t count) {

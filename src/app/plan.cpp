@@ -59,9 +59,11 @@ int plan(PlanOptions o) {
     json["decisions"].push_back({{"effect", d.effect}, {"needed", d.needed}, {"why", d.why}});
   }
   for (const LightShadow& light : plan.casting) {
+    const bool needed = light.need == ShadowNeed::rays, by_maps = settings.shadows == ShadowMethod::map;
     json["shadows"].push_back({{"light", light.light},
                                {"name", chosen.scene.lights[size_t(light.light)].name},
-                               {"rays", light.need == ShadowNeed::rays},
+                               {"rays", needed && !by_maps},
+                               {"map", needed && by_maps},
                                {"why", words_of(light, chosen.scene)}});
   }
   if (leaks) json["leaks"] = leaks_json(*leaks, chosen.scene);

@@ -1,5 +1,6 @@
 // Lists of lights in tiles, by the culler, of those lights alone whose shadows the plan calls for; then a ray
-// for each pixel and listed light that may shade it. docs/shadows.md has the contract.
+// for each pixel and listed light that may shade it, or with shadows=map a look at the light's shadow map.
+// docs/shadows.md has the contract.
 #include "passes/find_shadows.h"
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 
 #include "base/error.h"
 #include "cl/transfer.h"
+#include "passes/common/view_shadow_maps.h"
 #include "renderer/drawing/draw.h"
 #include "renderer/upload/culler_input.h"
 #include "renderer/upload/lights.h"
@@ -106,6 +108,7 @@ class ShadowBits : public PassCache {
                    grid_.index_bytes;
     if (scene_) bytes += scene_->memory_bytes();
     if (culler_) bytes += culler_->memory_bytes();
+    if (maps_) bytes += maps_->memory_bytes();
     return bytes;
   }
 
@@ -131,12 +134,13 @@ class ShadowBits : public PassCache {
     const cl::Buffer& bits = at_least(work, work.shadows.bits, bit_bytes, GL_R32UI);
     parts_ = tiles * (kernels_.lanes ? 1 : groups_a_tile);
     const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
+    if (maps_) maps_->draw(*scene_);
     const cl::NDRange lanes(size_t(grid_.cells_x), size_t(grid_.cells_y));
     const cl::NDRange groups(tiles * SHADOW_TILE * SHADOW_TILE, groups_a_tile);
     kernels_.of("find_shadows")
         .launch(device, "find_shadows", kernels_.lanes ? lanes : groups,
                 kernels_.lanes ? cl::NDRange(1, 1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
-                scene_->arguments() +
+                (maps_ ? maps_->arguments() : ClArguments()) + scene_->arguments() +
                     ClArguments{{"triangles", numbers},
                                 {"triangle_instance", visible ? visible->raster.triangle_instance : cl::Buffer()},
                                 {"number_offsets", visible ? offsets_.buffer() : cl::Buffer()},
@@ -181,6 +185,10 @@ class ShadowBits : public PassCache {
     f.lights = size_t(std::ranges::count(work.plan.shadowed, 1));
     std::vector<uint32_t> rays(parts_);
     read_buffer(*work.renderer.cl, "counting rays", rays_.get(), rays.data(), rays.size() * sizeof rays[0]);
+    if (maps_) {
+      f.maps = f.drawn = f.lights, f.halvings = maps_->atlas().halvings;
+      f.bytes += maps_->atlas().bytes;
+    }
     f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
     return f;
   }
@@ -217,6 +225,11 @@ class ShadowBits : public PassCache {
     if (lights_of(work.plan) > 65536) defines += " -DINDEX_32";
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
     if (kernels_.lanes && work.plan.settings.portable) defines += " -DPORTABLE";
+    if (work.plan.settings.shadows == ShadowMethod::map) {
+      if (!maps_) maps_.emplace(work);
+      if (!followed_) maps_->look(work, rays.origin());
+      defines += maps_->defines();
+    }
     kernels_.use(defines);
     if (followed_) return;
     ClDevice& device = *work.renderer.cl;
@@ -247,6 +260,7 @@ class ShadowBits : public PassCache {
   PassKernels kernels_;
   std::shared_ptr<RayScene> scene_;
   std::optional<LightCuller> culler_;
+  std::optional<ViewShadowMaps> maps_;
   ClGridStorage storage_;
   UploadedBuffer lights_, view_, offsets_;
   GrowingBuffer rays_;

@@ -334,6 +334,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   }
   plan_slices(view, needs, farthest_m, plan);
   plan_shadows(scene, view, needs, instances, plan);
+  plan.shadow_bytes = settings.shadows == ShadowMethod::map && settings.shadow_taps > 1;
   if (settings.everything_on) turn_everything_on(scene, plan, needs);
   return plan;
 }
@@ -345,7 +346,8 @@ std::string describe(const FramePlan& plan, const Scene& scene) {
                   plan.blended.size(), plan.lights_in_view, scene.lights.size());
   for (const Decision& d : plan.decisions)
     text += fmt::format("  {} {}: {}\n", d.needed ? "yes" : " no", d.effect, d.why);
-  return text + describe_shadows(plan.casting, scene);
+  const bool by_maps = plan.settings.shadows == ShadowMethod::map;
+  return text + describe_shadows(plan.casting, scene, by_maps ? "maps" : "rays");
 }
 
 }  // namespace lightgrid

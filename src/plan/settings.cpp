@@ -209,6 +209,15 @@ std::vector<Setting>& all_settings() {
        "over its own radius; auto: chosen by the lights' number and radii",
        named(&Settings::world_cell,
              {{"auto", std::nullopt}, {"1", 1.0}, {"2", 2.0}, {"0.5", 0.5}, {"0.25", 0.25}})},
+      {"shadows", "shadows by exact rays, or from shadow maps, which are an approximation",
+       named(&Settings::shadows, {{"exact", ShadowMethod::exact}, {"map", ShadowMethod::map}})},
+      {"shadow-size",
+       "texels a side of a shadow map's faces, of the light with the largest share of the screen",
+       numbers(&Settings::shadow_size, {"256", "16", "32", "64", "128", "512", "1024", "2048"})},
+      {"shadow-bits", "of a shadow map's texel: 32 is float",
+       numbers(&Settings::shadow_bits, {"32", "16", "24"})},
+      {"shadow-filter", "texels that a pixel asks: its own, or the mean of 3 x 3 or 5 x 5",
+       named(&Settings::shadow_taps, {{"none", 1}, {"pcf3", 3}, {"pcf5", 5}})},
       {"portable", "plain OpenCL C, without builtins that only some CPUs have",
        named(&Settings::portable, {{"off", false}, {"on", true}})},
       {"group-size", "work-items that cull a block of 4 x 4 tiles, in the group shape",
@@ -275,6 +284,11 @@ bool same_model(const Settings& a, const Settings& b) { return a.brdf == b.brdf 
 Settings with_model(Settings settings, const Settings& model) {
   settings.brdf = model.brdf;
   settings.ranges = model.ranges;
+  return settings;
+}
+
+Settings with_exact_shadows(Settings settings) {
+  settings.shadows = ShadowMethod::exact;
   return settings;
 }
 

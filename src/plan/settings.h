@@ -34,6 +34,9 @@ enum class RasterApi { opengl, opencl };
 enum class TexelLayout { packed, packed_8, separate };
 enum class ShadedLights { grid, all };
 
+// How shadows are found: exactly, or from shadow maps (docs/shadow_maps.md), whose pictures are approximate.
+enum class ShadowMethod { exact, map };
+
 // Light pre-pass (docs/techniques/light_prepass.md): the specular term that the light buffer keeps, and the
 // format of the image of normals.
 enum class PrepassSpecular { plain, fifth_term, luminance, bent };
@@ -86,6 +89,10 @@ struct Settings {
   bool voxel_reuse = false;    // a volume in which nothing changed is not filled again
   WorldGridShape world_grid = WorldGridShape::cubes;
   std::optional<double> world_cell;  // a cell's edge over the radius of lights; none: what suits the lights
+  ShadowMethod shadows = ShadowMethod::exact;
+  int shadow_size = 256;  // texels a side of the largest face of a shadow map: 16 to 2048
+  int shadow_bits = 32;   // of a texel: 16, 24 or 32
+  int shadow_taps = 1;    // texels a side that a pixel asks: 1, 3 or 5
   bool portable = false;             // kernels without the builtins of one kind of CPU
   int group_size = 0;  // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   // Every effect's code and buffers, called for or not: what a plan is tested against.
@@ -126,6 +133,9 @@ const std::vector<std::string>& model_settings();
 bool same_model(const Settings& a, const Settings& b);
 // `settings` with the values that `model` has for those.
 Settings with_model(Settings settings, const Settings& model);
+
+// With shadows found exactly: of a reference.
+Settings with_exact_shadows(Settings settings);
 
 // Settings that change no result; `lightgrid bench --tune` tries them.
 const std::vector<std::string>& tunable_settings();

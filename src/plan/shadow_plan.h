@@ -36,8 +36,9 @@ struct LightShadow {
 std::string words_of(const LightShadow& light, const Scene& scene);
 
 // As `lightgrid plan` prints them: a line for each need, with its number of lights and the first of them.
-// Empty if no light casts.
-std::string describe_shadows(const std::vector<LightShadow>& casting, const Scene& scene);
+// found_by: "rays" or "maps". Empty if no light casts.
+std::string describe_shadows(const std::vector<LightShadow>& casting, const Scene& scene,
+                             const char* found_by = "rays");
 
 // All lights that cast, in the scene's order. `opaque` (masked ones too) and `blended`: the instances in
 // view.

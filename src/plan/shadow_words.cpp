@@ -25,7 +25,8 @@ std::string words_of(const LightShadow& light, const Scene& scene) {
   return fmt::format("reaches node {} \"{}\"", light.caster, scene.instances[size_t(light.caster)].name);
 }
 
-std::string describe_shadows(const std::vector<LightShadow>& casting, const Scene& scene) {
+std::string describe_shadows(const std::vector<LightShadow>& casting, const Scene& scene,
+                             const char* found_by) {
   std::string text;
   for (const ShadowNeed need : {ShadowNeed::rays, ShadowNeed::no_caster, ShadowNeed::no_receiver,
                                 ShadowNeed::casters_behind}) {
@@ -33,7 +34,7 @@ std::string describe_shadows(const std::vector<LightShadow>& casting, const Scen
     if (count == 0) continue;
     const LightShadow& first = *std::ranges::find(casting, need, &LightShadow::need);
     text += fmt::format("    {:>6} {}: light {} \"{}\"", count,
-                        need == ShadowNeed::rays ? "rays" : reason_of(need), first.light,
+                        need == ShadowNeed::rays ? found_by : reason_of(need), first.light,
                         scene.lights[size_t(first.light)].name);
     if (need == ShadowNeed::rays) text += " " + words_of(first, scene);
     text += count > 1 ? ", …\n" : "\n";

@@ -134,8 +134,10 @@ json to_json(const MovingResult& m) {
 json to_json(const ShadowResult& s) {
   json skipped = json::array();
   for (const auto& light : s.skipped) skipped.push_back({{"light", light.light}, {"why", light.why}});
-  return {{"lights", s.lights}, {"maps", s.maps}, {"drawn", s.drawn},         {"kept", s.kept},
-          {"bytes", s.bytes},   {"rays", s.rays}, {"undecided", s.undecided}, {"skipped", skipped}};
+  json out = {{"lights", s.lights}, {"maps", s.maps}, {"drawn", s.drawn},         {"kept", s.kept},
+              {"bytes", s.bytes},   {"rays", s.rays}, {"undecided", s.undecided}, {"skipped", skipped}};
+  if (s.maps > 0) out["halvings"] = s.halvings;
+  return out;
 }
 
 }  // namespace
@@ -205,6 +207,8 @@ const RunResult* reference_row(const CompareReport& report) {
   const size_t colon = report.reference.find(':'), equals = report.reference.find('=');
   const auto is_reference = [&](const RunResult& row) {
     if (row.technique != report.reference.substr(0, colon)) return false;
+    const auto shadows = row.settings.find("shadows");
+    if (shadows != row.settings.end() && shadows->second != "exact") return false;
     if (colon == std::string::npos) return true;
     const auto setting = row.settings.find(report.reference.substr(colon + 1, equals - colon - 1));
     return setting != row.settings.end() && setting->second == report.reference.substr(equals + 1);

@@ -216,7 +216,7 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   if (run.technique().limited_lists) row.overflow = pairs.lost;
   const Image& every_light =
       row.own_surfaces && !reference.run().frame().triangles ? m.every_light_on_own : reference.image;
-  if (pairs.lost == 0 && !run.technique().approximate && !reference.sampled() && !every_light.pixels.empty())
+  if (pairs.lost == 0 && !run.approximate() && !reference.sampled() && !every_light.pixels.empty())
     row.unshaded = missing_light(image, every_light);
   Image taken = run.take_image();
   if (!is_reference && !(m.shown && row.error->bit_identical)) report.images[place] = std::move(taken);

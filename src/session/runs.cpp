@@ -7,10 +7,10 @@
 namespace lightgrid {
 namespace {
 
-// A run for the reference alone, with the settings that all contestants share.
+// A run for the reference alone, with the settings that all contestants share but their shadows.
 std::unique_ptr<TechniqueRun> make_own_run(const Compared& c) {
   Settings common =
-      c.contestants.empty() ? Settings{} : c.contestants.front().settings;  // above all the BRDF
+      c.contestants.empty() ? Settings{} : with_exact_shadows(c.contestants.front().settings);
   if (c.every_light.chosen_lights) common.lights = ShadedLights::all;
   return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, common, *c.every_light.technique);
 }
@@ -32,7 +32,8 @@ EveryLight every_light_technique(const Renderer& renderer) {
 
 std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& c, Settings settings) {
   settings.lights = ShadedLights::all;
-  return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, settings, find_technique("visibility"));
+  return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, with_exact_shadows(settings),
+                                        find_technique("visibility"));
 }
 
 std::vector<ContestantRun> make_entries(const Compared& c) {

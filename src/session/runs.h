@@ -21,7 +21,8 @@ struct EveryLight {
 
   bool is(const Technique& other, const Settings& settings) const {
     return other.name == std::string(technique->name) &&
-           (!chosen_lights || settings.lights == ShadedLights::all);
+           (!chosen_lights || settings.lights == ShadedLights::all) &&
+           settings.shadows == ShadowMethod::exact;
   }
   std::string name() const { return technique->name + std::string(chosen_lights ? ":lights=all" : ""); }
 };

@@ -89,7 +89,7 @@ static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Fr
     const ShadowFigures figures = frame.shadow_figures();
     result.lights = figures.lights, result.maps = figures.maps, result.drawn = figures.drawn;
     result.kept = figures.kept, result.bytes = figures.bytes, result.rays = figures.rays;
-    result.undecided = figures.undecided;
+    result.undecided = figures.undecided, result.halvings = figures.halvings;
   }
   if (plan.settings.everything_on) return result;
   for (const LightShadow& light : plan.casting) {

@@ -52,6 +52,7 @@ class TechniqueRun {
   RenderView& view() { return view_; }
   const Frame& frame() const { return frame_; }  // the last one
   const Technique& technique() const { return technique_; }
+  bool approximate() const { return is_approximate(technique_, view_.plan.settings); }
   const std::vector<double>& frame_ms() const { return frame_ms_; }  // of recorded frames, in order
 
   // All but `pairs` and `error`, which need the oracle and the reference image.

@@ -22,6 +22,10 @@ size_t faces_in(const Light& light, const ShadowMapOptions& options) {
   return is_directional(light) ? size_t(options.cascades) : has_one_face(light) ? 1 : 6;
 }
 
+double farthest_m(const WorldBox& box, const dvec3& point) {
+  return glm::length(glm::max(glm::abs(box.min - point), glm::abs(box.max - point)));
+}
+
 // Of the view that the sphere of the light's range covers; 1 from inside.
 double share_of_screen(const Light& light, const View& view, double far_m) {
   const double range = range_or(light, far_m);
@@ -66,7 +70,7 @@ void set(float (&to)[3], const dvec3& v) {
 ShadowFace towards(const dvec3& ahead, double extent, int size, const ShadowMapOptions& options) {
   const dvec3 aside = std::abs(ahead.y) > 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
   const dvec3 right = glm::normalize(glm::cross(ahead, aside));
-  const int border = taps_a_side(options.filter) / 2;
+  const int border = options.taps / 2;
   ShadowFace face{};
   set(face.right, right), set(face.up, glm::cross(right, ahead)), set(face.ahead, ahead);
   face.extent = float(extent * size / (size - 2 * border));
@@ -75,10 +79,6 @@ ShadowFace towards(const dvec3& ahead, double extent, int size, const ShadowMapO
 }
 
 }  // namespace shadow_face
-
-int taps_a_side(ShadowFilter filter) {
-  return filter == ShadowFilter::none ? 1 : filter == ShadowFilter::pcf3 ? 3 : 5;
-}
 
 ShadowAtlas plan_shadow_atlas(std::span<const Light> lights, const View& view, const dvec3& origin,
                               const WorldBox& box, const ShadowMapOptions& options) {
@@ -111,7 +111,7 @@ ShadowAtlas plan_shadow_atlas(std::span<const Light> lights, const View& view, c
     for (ShadowFace& face : faces) {
       if (!is_directional(light)) {
         shadow_face::set(face.from, light.position - origin);
-        face.range_m = float(range_or(light, far_m));
+        face.range_m = float(range_or(light, farthest_m(box, light.position)));
       }
       face.first = uint(atlas.texels);
       atlas.texels += size_t(face.size) * face.size;

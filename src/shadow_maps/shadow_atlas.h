@@ -10,19 +10,15 @@
 
 namespace lightgrid {
 
-enum class ShadowFilter { none, pcf3, pcf5 };
-
 struct ShadowMapOptions {
   int size = 256;  // texels a side of a face of the light with the largest share of the screen; a power of 2
   int bits = 32;   // of a texel: 16, 24 (which take 4 bytes) or 32 (float)
-  ShadowFilter filter = ShadowFilter::none;
+  int taps = 1;    // texels a side that a point asks: 1, or 3 or 5 with a filter
   int cascades = 4;  // of a directional light: 1 to 4
   size_t most_bytes = size_t(256) << 20;
 };
 
 constexpr int least_shadow_size = 16;
-
-int taps_a_side(ShadowFilter filter);  // 1, 3 or 5
 
 struct ShadowAtlas {
   std::vector<ShadowFace> faces;
@@ -44,7 +40,8 @@ struct ShadowAtlas {
 // (2006), has the splits.
 //
 // origin: of the RayScene. box: of all that casts or receives. radius_m of the lights is their range; where
-// it is infinite, the box's diagonal stands for it.
+// it is infinite, its face reaches the box's farthest corner, and its size is that of a range of the box's
+// diagonal.
 ShadowAtlas plan_shadow_atlas(std::span<const Light> lights, const View& view, const glm::dvec3& origin,
                               const WorldBox& box, const ShadowMapOptions& options);
 
@@ -53,7 +50,7 @@ std::vector<ShadowFace> cascades_of(const Light& light, const View& view, const 
                                     const WorldBox& box, int size, const ShadowMapOptions& options);
 
 namespace shadow_face {
-// Looks along `ahead`; `extent` is without the border of the option's filter.
+// Looks along `ahead`; `extent` is without the border that the option's taps reach into.
 ShadowFace towards(const glm::dvec3& ahead, double extent, int size, const ShadowMapOptions& options);
 void set(float (&to)[3], const glm::dvec3& v);
 }  // namespace shadow_face

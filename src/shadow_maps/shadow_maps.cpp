@@ -60,7 +60,7 @@ ClArguments ShadowMaps::arguments() const {
 }
 
 std::string ShadowMaps::defines() const {
-  return fmt::format("-DSHADOW_BITS={} -DSHADOW_TAPS={}", options_.bits, taps_a_side(options_.filter));
+  return fmt::format("-DSHADOW_BITS={} -DSHADOW_TAPS={}", options_.bits, options_.taps);
 }
 
 size_t ShadowMaps::memory_bytes() const { return faces_.bytes() + lights_.bytes() + texels_.bytes(); }

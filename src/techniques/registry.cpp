@@ -16,12 +16,14 @@ bool holds(const std::vector<const char*>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-// A range's settings are shown only with a range that reads them.
+// A range's settings are shown only with a range that reads them, a shadow map's only with one.
 bool has_effect(const Settings& settings, const std::string& key) {
   const LightRange range = settings.ranges.range;
   if (key == "cutoff") return range == LightRange::cutoff;
   if (key == "alpha" || key == "light-seed") return range == LightRange::stochastic;
   if (key == "window") return range == LightRange::scene || range == LightRange::cutoff;
+  if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
+    return settings.shadows == ShadowMethod::map;
   return true;
 }
 
@@ -58,7 +60,8 @@ const std::vector<const char*>& common_settings() {
     for (const std::string& key : model_settings()) {
       if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
     }
-    all.push_back("everything-on");
+    for (const char* key : {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "everything-on"})
+      all.push_back(key);
     return all;
   }();
   return keys;

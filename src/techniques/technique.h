@@ -33,6 +33,11 @@ inline bool own_surfaces(const Technique& technique, const Settings& settings) {
   return !draws_with_opengl(technique.needs, settings);
 }
 
+// Whether with these settings its picture is not forward's, by nature, or its shadows are no exact ones.
+inline bool is_approximate(const Technique& technique, const Settings& settings) {
+  return technique.approximate || settings.shadows != ShadowMethod::exact;
+}
+
 const std::vector<const Technique*>& techniques();
 
 // Keys of the settings that every technique reads.

@@ -188,7 +188,7 @@ void measure(const std::string& name, const char* lights_file) {
     std::vector<uint8_t> taps;
     const double look_ms =
         least_ms(device, "look_up", [&] { taps = maps.look_up(geometry.rays, pairs.points, pairs.packets); });
-    const int side = taps_a_side(options.filter), most = side * side;
+    const int side = options.taps, most = side * side;
     double leaked = 0, acned = 0, more = 0, less = 0;
     for (size_t p = 0; p < pairs.packets.size(); ++p) {
       for (uint32_t k = 0; k < 16; ++k) {
@@ -209,8 +209,8 @@ void measure(const std::string& name, const char* lights_file) {
   };
   for (const int size : {64, 128, 256, 512, 1024}) row({.size = size});
   for (const int bits : {16, 24}) row({.bits = bits});
-  for (const ShadowFilter filter : {ShadowFilter::pcf3, ShadowFilter::pcf5})
-    for (const int size : {64, 256, 1024}) row({.size = size, .filter = filter});
+  for (const int taps : {3, 5})
+    for (const int size : {64, 256, 1024}) row({.size = size, .taps = taps});
   const ShadowAtlas atlas = plan_shadow_atlas(scene.lights, view, geometry.rays.origin(), box, {});
   device.cl.profiler().time_launches(false);
   fmt::print("a RasterView takes {:.2f} ms a face; {} faces\n",

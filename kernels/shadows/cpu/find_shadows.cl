@@ -1,31 +1,32 @@
 // Which lights are hidden from which pixels, for CPUs: a work-item takes a tile, and of each of its lights
 // block after block of 4 x 4 pixels, whose 16 rays share the light as their origin.
 //
+// WAY_ARGUMENTS          kernels/shadows/ways.h
 // SHADOW_PASS_ARGUMENTS  kernels/shadows/receivers.h
 #define LANES 16
 #include "kernels/common/pack.h"
 #include "kernels/common/image_blocks.h"
-#include "kernels/shadows/receivers.h"
+#include "kernels/shadows/ways.h"
 
 // Of a block's pixels, into an entry of zeros.
 #ifdef SHADOW_BYTES
-static inline void store_shadows(global uint* entry, uint block, mask_t hidden) {
-  vstore16(convert_uchar16(hidden & 255), block, (global uchar*)entry);
+static inline void store_shadows(global uint* entry, uint block, whole hidden) {
+  vstore16(convert_uchar16(hidden), block, (global uchar*)entry);
 }
 #else
-static inline void store_shadows(global uint* entry, uint block, mask_t hidden) {
-  entry[block / 2] |= lane_bits(hidden) << 16 * (block & 1u);
+static inline void store_shadows(global uint* entry, uint block, whole hidden) {
+  entry[block / 2] |= lane_bits(hidden != 0) << 16 * (block & 1u);
 }
 #endif
 
-kernel void find_shadows(SHADOW_PASS_ARGUMENTS) {
+kernel void find_shadows(WAY_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
   const RayScene scene = RAYS_SCENE;
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const uint tile = tile_y * (uint)get_global_size(0) + tile_x;
   const uint2 range = cells[tile];
   global uint2* listed = tiles + (size_t)tile * shadow_view->words;
   for (uint i = 0; i < shadow_view->words; ++i) listed[i] = (uint2)(0);
-  uint traced = 0;
+  Way way = WAY;
   if (range.y != 0) {
     Receivers receivers[16];
     uint used = 0;  // blocks with a surface
@@ -42,21 +43,19 @@ kernel void find_shadows(SHADOW_PASS_ARGUMENTS) {
           (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, triangle_instance, number_offsets, shadow_view, view);
       used |= 1u << block;
     }
-    int last_blocker = -1;
     for (uint i = range.x; i < range.x + range.y; ++i) {
       const uint index = indices[i];
       global uint* entry = bits + (size_t)i * SHADOW_WORDS;
       for (uint word = 0; word < SHADOW_WORDS; word += 8) vstore8((uint8)(0), 0, entry + word);
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
-        const mask_t hidden =
-            hidden_from(&scene, receivers + block, lights + index, shadow_view, &traced, &last_blocker);
-        store_shadows(entry, block, hidden);
+        store_shadows(entry, block,
+                      hidden_share(&way, &scene, receivers + block, index, lights, shadow_view));
       }
       global uint2* here = listed + index / 32;
       if (here->x == 0) here->y = i;
       here->x |= 1u << (index & 31u);
     }
   }
-  rays[tile] = traced;
+  rays[tile] = rays_of_way(&way);
 }

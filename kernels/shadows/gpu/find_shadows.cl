@@ -1,11 +1,11 @@
 // Which lights are hidden from which pixels, for GPUs: a work-group takes a tile and some of its lights, a
 // work-item a pixel. Bytes as kernels/shadows/cpu/find_shadows.cl has them, from the same arguments.
 #define LANES 1
-#include "kernels/shadows/receivers.h"
+#include "kernels/shadows/ways.h"
 
 #define GROUP (SHADOW_TILE * SHADOW_TILE)
 
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHADOW_PASS_ARGUMENTS) {
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(WAY_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
   local volatile uint words[2][SHADOW_WORDS];
   local volatile uint traced_here;
   const RayScene scene = RAYS_SCENE;
@@ -34,26 +34,24 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   const Receivers r =
       receivers_at(&scene, triangle, triangle != NO_TRIANGLE, (float)x + 0.5f, (float)y + 0.5f, depths[at],
                    triangle_instance, number_offsets, shadow_view, view);
-  uint traced = 0, turn = 0;
-  int last_blocker = -1;
+  uint turn = 0;
+  Way way = WAY;
   if (item == 0) traced_here = 0;
   for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
     global uint* entry = bits + (size_t)i * SHADOW_WORDS;
 #ifdef SHADOW_BYTES
-    const mask_t hidden =
-        hidden_from(&scene, &r, lights + indices[i], shadow_view, &traced, &last_blocker);
-    ((global uchar*)entry)[item] = hidden ? 255 : 0;
+    ((global uchar*)entry)[item] = (uchar)hidden_share(&way, &scene, &r, indices[i], lights, shadow_view);
 #else
     if (item < SHADOW_WORDS) words[turn][item] = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (hidden_from(&scene, &r, lights + indices[i], shadow_view, &traced, &last_blocker))
+    if (hidden_share(&way, &scene, &r, indices[i], lights, shadow_view) != 0)
       atomic_or(&words[turn][item / 32], 1u << (item & 31u));
     barrier(CLK_LOCAL_MEM_FENCE);
     if (item < SHADOW_WORDS) entry[item] = words[turn][item];
 #endif
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  atomic_add(&traced_here, traced);
+  atomic_add(&traced_here, rays_of_way(&way));
   barrier(CLK_LOCAL_MEM_FENCE);
   if (item == 0) rays[tile * parts + part] = traced_here;
 }

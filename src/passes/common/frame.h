@@ -59,6 +59,7 @@ struct ShadowFigures {
   size_t kept = 0;       // kept from frames before
   size_t bytes = 0;      // of bits, maps and certificates
   size_t undecided = 0;  // pairs that maps left to rays
+  int halvings = 0;      // of the sizes of all maps, to fit into their bound of memory
 };
 
 // A technique's result, for readers of the frame: the image, input of the oracle, memory figures.

@@ -1,0 +1,48 @@
+// How a light's shadow is found at LANES pixels: a ray each, or with -DSHADOW_MAP the texels of its map.
+//
+// -DSHADOW_BYTES  of a light a share may be hidden (shared/shadow_bits.h)
+#pragma once
+
+#include "kernels/shadows/receivers.h"
+
+#ifdef SHADOW_MAP
+#define WAY_ARGUMENTS SHADOW_MAPS_ARGUMENTS,
+#define WAY SHADOW_MAPS
+typedef ShadowMaps Way;
+
+// Of its texels around the lanes' points, those that see something nearer, in 255ths of all.
+static inline whole hidden_by_way(Way* maps, const RayScene* scene, const Receivers* r, uint light,
+                                  global const ShadowLight* l, mask_t active) {
+  const float share = 255.0f / (SHADOW_TAPS * SHADOW_TAPS);
+  return TO_WHOLE(TO_REAL(shadow_taps(maps, light, &r->for_maps, active)) * share + 0.5f);
+}
+#define rays_of_way(w) 0
+#else
+#define WAY_ARGUMENTS
+#define WAY \
+  { 0, -1 }
+typedef struct Way {
+  uint traced;
+  int last_blocker;
+} Way;
+
+static inline whole hidden_by_way(Way* rays, const RayScene* scene, const Receivers* r, uint light,
+                                  global const ShadowLight* l, mask_t active) {
+  const RaySource source = {l->x, l->y, l->z, l->w};
+  rays->traced += popcount(lane_bits(active));
+  return rays_hidden(scene, source, r->at, r->gap, active, r->own, &rays->last_blocker) ? (whole)(255)
+                                                                                        : (whole)(0);
+}
+#define rays_of_way(w) ((w)->traced)
+#endif
+
+// The share of each light that is hidden from the lanes, times 255: 0 or 255 without SHADOW_BYTES.
+static inline whole hidden_share(Way* way, const RayScene* scene, const Receivers* r, uint light,
+                                 global const ShadowLight* lights, constant ShadowView* v) {
+  global const ShadowLight* l = lights + light;
+  const mask_t reached = may_shade(r, l);
+  if (!any_lane(reached)) return (whole)(0);
+  const mask_t away = turned_away(scene, r, l, reached, v);
+  const whole hidden = hidden_by_way(way, scene, r, light, l, reached & ~away);
+  return away ? (whole)(255) : hidden;
+}
