@@ -171,6 +171,7 @@ void shadow_all(const Scene& scene, FramePlan& plan) {
   plan.shadowed.clear();
   for (const int i : plan.local) plan.shadowed.push_back(scene.lights[size_t(i)].casts_shadow);
   plan.shadows = plan.light_reaches = std::ranges::count(plan.shadowed, 1) > 0;
+  plan.shadow_bytes = plan.settings.soft_shadows();
   if (!plan.shadows) plan.shadowed.clear();
 }
 
@@ -178,7 +179,8 @@ void shadow_all(const Scene& scene, FramePlan& plan) {
 void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& needs,
                   PlannedInstances instances, FramePlan& plan) {
   if (needs.shadows) shadow_all(scene, plan);
-  plan.casting = plan_light_shadows(scene, view, plan.settings.ranges, plan.opaque, plan.blended);
+  plan.casting = plan_light_shadows(scene, view, plan.settings.ranges, plan.opaque, plan.blended,
+                                    plan.settings.soft_shadows() ? plan.settings.shadow_source_m : 0);
   if (instances == PlannedInstances::in_view && plan.shadows) {
     plan.shadows = false;
     for (const LightShadow& light : plan.casting) {

@@ -209,6 +209,12 @@ std::vector<Setting>& all_settings() {
        "over its own radius; auto: chosen by the lights' number and radii",
        named(&Settings::world_cell,
              {{"auto", std::nullopt}, {"1", 1.0}, {"2", 2.0}, {"0.5", 0.5}, {"0.25", 0.25}})},
+      {"shadow-rays",
+       "rays for each pixel and light that casts a shadow: one to its centre, or so many to a sphere around it, "
+       "for soft shadows",
+       numbers(&Settings::shadow_rays, {"1", "4", "16", "64", "256"})},
+      {"shadow-source", "radius of these spheres in metres",
+       numbers(&Settings::shadow_source_m, {"0.05", "0", "0.01", "0.02", "0.1", "0.2", "0.5"})},
       {"portable", "plain OpenCL C, without builtins that only some CPUs have",
        named(&Settings::portable, {{"off", false}, {"on", true}})},
       {"group-size", "work-items that cull a block of 4 x 4 tiles, in the group shape",

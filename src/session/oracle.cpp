@@ -71,7 +71,8 @@ LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, 
 PairCounts pair_counts(const TechniqueRun& run, const LitPairs& pairs, const SeenPairs* seen) {
   PairCounts counts{pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
   if (seen)
-    counts.shadows = {pairs.leaked, pairs.acned, pairs.either, seen->pixels(), !run.technique().approximate};
+    counts.shadows = {pairs.leaked, pairs.acned, pairs.either, seen->pixels(),
+                      !run.technique().approximate && !run.view().plan.shadow_bytes};
   return counts;
 }
 

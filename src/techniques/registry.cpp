@@ -22,6 +22,7 @@ bool has_effect(const Settings& settings, const std::string& key) {
   if (key == "cutoff") return range == LightRange::cutoff;
   if (key == "alpha" || key == "light-seed") return range == LightRange::stochastic;
   if (key == "window") return range == LightRange::scene || range == LightRange::cutoff;
+  if (key == "shadow-source") return settings.shadow_rays > 1;
   return true;
 }
 
@@ -58,7 +59,7 @@ const std::vector<const char*>& common_settings() {
     for (const std::string& key : model_settings()) {
       if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
     }
-    all.push_back("everything-on");
+    all.insert(all.end(), {"shadow-rays", "shadow-source", "everything-on"});
     return all;
   }();
   return keys;

@@ -1,15 +1,19 @@
 // Which lights are hidden from which pixels, for CPUs: a work-item takes a tile, and of each of its lights
 // block after block of 4 x 4 pixels, whose 16 rays share the light as their origin.
 //
+// -DSHADOW_RAYS          of a sphere light: kernels/shadows/soft_shadows.h
 // SHADOW_PASS_ARGUMENTS  kernels/shadows/receivers.h
 #define LANES 16
 #include "kernels/common/pack.h"
 #include "kernels/common/image_blocks.h"
 #include "kernels/shadows/receivers.h"
+#ifdef SHADOW_RAYS
+#include "kernels/shadows/soft_shadows.h"
+#endif
 
 // Of a block's pixels, into an entry of zeros.
 #ifdef SHADOW_BYTES
-static inline void store_shadows(global uint* entry, uint block, mask_t hidden) {
+static inline void store_shadows(global uint* entry, uint block, whole hidden) {
   vstore16(convert_uchar16(hidden & 255), block, (global uchar*)entry);
 }
 #else
@@ -49,8 +53,14 @@ kernel void find_shadows(SHADOW_PASS_ARGUMENTS) {
       for (uint word = 0; word < SHADOW_WORDS; word += 8) vstore8((uint8)(0), 0, entry + word);
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
+#ifdef SHADOW_RAYS
+        const whole hidden = hidden_share(&scene, receivers + block, lights + index,
+                                          tile_x * SHADOW_TILE + block % 4 * 4, tile_y * SHADOW_TILE + block / 4 * 4,
+                                          index, &traced, &last_blocker);
+#else
         const mask_t hidden =
             hidden_from(&scene, receivers + block, lights + index, shadow_view, &traced, &last_blocker);
+#endif
         store_shadows(entry, block, hidden);
       }
       global uint2* here = listed + index / 32;

@@ -2,6 +2,9 @@
 // work-item a pixel. Bytes as kernels/shadows/cpu/find_shadows.cl has them, from the same arguments.
 #define LANES 1
 #include "kernels/shadows/receivers.h"
+#ifdef SHADOW_RAYS
+#include "kernels/shadows/soft_shadows.h"
+#endif
 
 #define GROUP (SHADOW_TILE * SHADOW_TILE)
 
@@ -35,7 +38,11 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   if (item == 0) traced_here = 0;
   for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
     global uint* entry = bits + (size_t)i * SHADOW_WORDS;
-#ifdef SHADOW_BYTES
+#ifdef SHADOW_RAYS
+    const uint light = indices[i];
+    ((global uchar*)entry)[item] =
+        (uchar)hidden_share(&scene, &r, lights + light, x, y, light, &traced, &last_blocker);
+#elif defined(SHADOW_BYTES)
     const mask_t hidden =
         hidden_from(&scene, &r, lights + indices[i], shadow_view, &traced, &last_blocker);
     ((global uchar*)entry)[item] = hidden ? 255 : 0;
