@@ -34,6 +34,8 @@ const std::vector<Assignments>& contexts() {
       {"prepass-specular=fifth-term"},
       {"voxel-lights-exact=1"},
       {"voxel-lights-exact=1", "kernel-shape=group"},
+      {"shadow-rays=4"},
+      {"voxel-lights-exact=1", "shadow-rays=4"},
   };
   return all;
 }
@@ -53,11 +55,12 @@ std::vector<Assignments> contexts_of(const Technique& technique) {
   return own;
 }
 
-// A mask, glass, clearcoat, textures, point and spot lights and a sun.
+// A mask, glass, clearcoat, textures, point and spot lights, one of which casts a shadow, and a sun.
 const Scene& observed_scene() {
   static const Scene scene = [] {
     SmallScene s = small_scene();
     for (const char* name : {"blend", "mask", "spot", "directional"}) effect(name).add(s);
+    s.scene.lights[2].casts_shadow = true;
     return s.scene;
   }();
   return scene;
