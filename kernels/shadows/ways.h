@@ -1,4 +1,5 @@
-// How a light's shadow is found at LANES pixels: a ray each, or with -DSHADOW_MAP the texels of its map.
+// How a light's shadow is found at LANES pixels: a ray each, with -DSHADOW_RAYS many to its sphere, or with
+// -DSHADOW_MAP the texels of its map.
 //
 // -DSHADOW_BYTES  of a light a share may be hidden (shared/shadow_bits.h)
 #pragma once
@@ -34,12 +35,19 @@ static inline whole hidden_by_way(Way* rays, const RayScene* scene, const Receiv
                                                                                         : (whole)(0);
 }
 #define rays_of_way(w) ((w)->traced)
+#ifdef SHADOW_RAYS
+#include "kernels/shadows/soft_shadows.h"
+#endif
 #endif
 
-// The share of each light that is hidden from the lanes, times 255: 0 or 255 without SHADOW_BYTES.
+// The share of each light that is hidden from the lanes, times 255: 0 or 255 without SHADOW_BYTES. x, y: the
+// first lane's pixel.
 static inline whole hidden_share(Way* way, const RayScene* scene, const Receivers* r, uint light,
-                                 global const ShadowLight* lights, constant ShadowView* v) {
+                                 global const ShadowLight* lights, constant ShadowView* v, uint x, uint y) {
   global const ShadowLight* l = lights + light;
+#ifdef SHADOW_RAYS
+  if (l->w != 0) return soft_share(scene, r, l, x, y, light, &way->traced, &way->last_blocker);
+#endif
   const mask_t reached = may_shade(r, l);
   if (!any_lane(reached)) return (whole)(0);
   const mask_t away = turned_away(scene, r, l, reached, v);

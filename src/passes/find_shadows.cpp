@@ -54,10 +54,11 @@ std::vector<CullLight> shadowed_lights(const Seen& seen) {
 // Positions in view space are floats; they are turned to world axes and rounded again.
 // Shading computes with other roundings of them. Points in range are no further from the eye and from the
 // origin than the light and its range, and all of these errors together are below 2^-19 of that.
-ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin) {
+ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin,
+                         double source_m) {
   const glm::dvec3 at = light.position - origin;
   ShadowLight s{at.x, at.y, at.z, 1, float(light.direction.x), float(light.direction.y),
-                float(light.direction.z), float(light.cos_outer), 0, 0, {}};
+                float(light.direction.z), float(light.cos_outer), 0, 0, float(source_m), 0};
   if (light.cos_outer < -1) s.cos_outer = -1;
   const double slack = 0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
   const double reach = light.radius_m * (1 + 1e-5) + slack;
@@ -87,10 +88,10 @@ ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
 }
 
 // Set where more than half of a light is hidden.
-std::vector<uint32_t> bits_of_bytes(const std::vector<uint32_t>& values) {
-  std::vector<uint32_t> bits(values.size() / 8);
-  for (size_t i = 0; i < 4 * values.size(); ++i) {
-    if ((values[i / 4] >> (i % 4 * 8) & 255) > 127) bits[i / 32] |= 1u << (i % 32);
+std::vector<uint32_t> bits_of_bytes(const std::vector<uint8_t>& shares) {
+  std::vector<uint32_t> bits(shares.size() / 32);
+  for (size_t i = 0; i < shares.size(); ++i) {
+    if (shares[i] > 127) bits[i / 32] |= 1u << (i % 32);
   }
   return bits;
 }
@@ -171,10 +172,15 @@ class ShadowBits : public PassCache {
     }
     HostGrid grid = read_grid(device, grid_, storage_);
     shadows.cells = std::move(grid.cells), shadows.indices = std::move(grid.indices);
-    std::vector<uint32_t> values(shadows.indices.size() * entry_words(work.plan));
-    read_buffer(device, "reading shadows", work.shadows.bits.buffer->cl_buffer(), values.data(),
-                values.size() * sizeof(uint32_t));
-    shadows.bits = work.plan.shadow_bytes ? bits_of_bytes(values) : std::move(values);
+    const auto read = [&](auto& values) {
+      values.resize(shadows.indices.size() * entry_words(work.plan) * sizeof(uint32_t) / sizeof values[0]);
+      read_buffer(device, "reading shadows", work.shadows.bits.buffer->cl_buffer(), values.data(),
+                  values.size() * sizeof values[0]);
+    };
+    if (work.plan.shadow_bytes)
+      read(shadows.shares), shadows.bits = bits_of_bytes(shadows.shares);
+    else
+      read(shadows.bits);
     return shadows;
   }
 
@@ -221,6 +227,8 @@ class ShadowBits : public PassCache {
     const RayScene& rays = scene(work);
     std::string defines = rays.defines();
     for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
+    const Settings& settings = work.plan.settings;
+    if (settings.soft_shadows()) defines += fmt::format(" -DSHADOW_RAYS={}", settings.shadow_rays);
     if (!visible) defines += " -DNUMBERED";
     if (lights_of(work.plan) > 65536) defines += " -DINDEX_32";
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
@@ -239,7 +247,7 @@ class ShadowBits : public PassCache {
     culler_->set_view(cull_view(work.view));
     std::vector<ShadowLight> records;
     for (size_t i = 0; i < work.plan.local.size(); ++i)
-      records.push_back(shadow_light(lights[i], work.view, rays.origin()));
+      records.push_back(shadow_light(lights[i], work.view, rays.origin(), settings.shadow_source_m));
     for (const int i : work.plan.directional_lights)
       records.push_back(shadow_light(work.scene.lights[size_t(i)]));
     lights_.put(device, "uploading lights of shadows", records);

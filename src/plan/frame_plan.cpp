@@ -189,7 +189,8 @@ size_t place_of_light(const FramePlan& plan, int light) {
 void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& needs,
                   PlannedInstances instances, FramePlan& plan) {
   if (needs.shadows) shadow_all(scene, plan);
-  plan.casting = plan_light_shadows(scene, view, plan.settings.ranges, plan.opaque, plan.blended);
+  plan.casting = plan_light_shadows(scene, view, plan.settings.ranges, plan.opaque, plan.blended,
+                                    plan.settings.soft_shadows() ? plan.settings.shadow_source_m : 0);
   if (instances == PlannedInstances::in_view && plan.shadows) {
     plan.shadows = false;
     for (const LightShadow& light : plan.casting) {
@@ -334,7 +335,8 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   }
   plan_slices(view, needs, farthest_m, plan);
   plan_shadows(scene, view, needs, instances, plan);
-  plan.shadow_bytes = settings.shadows == ShadowMethod::map && settings.shadow_taps > 1;
+  plan.shadow_bytes = settings.soft_shadows() ||
+                      (settings.shadows == ShadowMethod::map && settings.shadow_taps > 1);
   if (settings.everything_on) turn_everything_on(scene, plan, needs);
   return plan;
 }

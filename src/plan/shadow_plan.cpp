@@ -69,10 +69,11 @@ double farthest_from(const Box& box, const dvec3& point) {
   return glm::length(glm::max(glm::abs(box.min - point), glm::abs(box.max - point)));
 }
 
-// A light's bounds, grown by what rounding may move positions.
+// A light's bounds, grown by what rounding may move positions, and by the sphere's radius: segments to a
+// sphere's points are no further than that from those to its centre.
 struct Reach {
   LightBounds light;
-  double slack_m = 0;
+  double slack_m = 0, source_m = 0;
 };
 
 bool may_reach(const Reach& reach, const Box& box) {
@@ -123,7 +124,7 @@ bool nothing_hides(const Box& receiver, const Reach& reach, const dvec3& eye, do
   const int axis = receiver.flat_axis;
   const dvec3& light = reach.light.position;
   const double across_m = diameter_m * 0x1p-21, plane = receiver.min[axis];
-  const double up = light[axis] > plane ? 1 : -1, height_m = up * (light[axis] - plane);
+  const double up = light[axis] > plane ? 1 : -1, height_m = up * (light[axis] - plane) - reach.source_m;
   const double farthest_m = std::min(reach.light.radius_m, farthest_from(receiver, light)) + reach.slack_m;
   if (!(height_m * gap_m > 4 * across_m * farthest_m)) return false;
   if (!(up * (eye[axis] - plane) > reach.slack_m)) return false;
@@ -152,10 +153,12 @@ LightShadow plan_directional_light(int number, const Boxes& boxes) {
   return {number, ShadowNeed::rays, caster->instance};
 }
 
-LightShadow plan_light(const LightBounds& light, int number, const View& view, const Boxes& boxes) {
+LightShadow plan_light(const LightBounds& light, int number, const View& view, const Boxes& boxes,
+                       double source_m) {
   // Positions are floats relative to the eye or to the scene's middle. What is computed with them together
   // errs by less than 2^-19 of the distances.
-  const Reach reach{light, (boxes.diameter_m + glm::length(light.position - view.eye)) * 0x1p-19};
+  const double rounding_m = (boxes.diameter_m + glm::length(light.position - view.eye)) * 0x1p-19;
+  const Reach reach{light, rounding_m + source_m, source_m};
   const dvec3 position_view = glm::dmat3(view.view_from_world) * (light.position - view.eye);
   if (!may_see_sphere(frustum_of(view), position_view, light.radius_m + reach.slack_m))
     return {number, ShadowNeed::no_receiver};
@@ -184,7 +187,8 @@ LightShadow plan_light(const LightBounds& light, int number, const View& view, c
 }  // namespace
 
 std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view, const LightRanges& ranges,
-                                            const std::vector<int>& opaque, const std::vector<int>& blended) {
+                                            const std::vector<int>& opaque, const std::vector<int>& blended,
+                                            double source_m) {
   std::vector<LightShadow> plans;
   if (std::ranges::none_of(scene.lights, &Light::casts_shadow)) return plans;
   const Boxes boxes = boxes_of(scene, view, opaque, blended);
@@ -193,7 +197,8 @@ std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view
     if (!light.casts_shadow) continue;
     plans.push_back(is_directional(light)
                         ? plan_directional_light(i, boxes)
-                        : plan_light(bounds_of(light, range_of(light, size_t(i), ranges)), i, view, boxes));
+                        : plan_light(bounds_of(light, range_of(light, size_t(i), ranges)), i, view, boxes,
+                                     source_m));
   }
   return plans;
 }

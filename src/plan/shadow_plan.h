@@ -41,8 +41,9 @@ std::string describe_shadows(const std::vector<LightShadow>& casting, const Scen
                              const char* found_by = "rays");
 
 // All lights that cast, in the scene's order. `opaque` (masked ones too) and `blended`: the instances in
-// view.
+// view. source_m: lights are spheres of this radius, and what hides any part of one counts.
 std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view, const LightRanges& ranges,
-                                            const std::vector<int>& opaque, const std::vector<int>& blended);
+                                            const std::vector<int>& opaque, const std::vector<int>& blended,
+                                            double source_m = 0);
 
 }  // namespace lightgrid

@@ -50,6 +50,7 @@ class TechniqueRun {
   Image take_image() { return std::exchange(image_, {}); }    // image() is empty until the next run_frame()
   void reuse(Image&& memory) { image_ = std::move(memory); }  // for the next frame's image
   RenderView& view() { return view_; }
+  const RenderView& view() const { return view_; }
   const Frame& frame() const { return frame_; }  // the last one
   const Technique& technique() const { return technique_; }
   bool approximate() const { return is_approximate(technique_, view_.plan.settings); }

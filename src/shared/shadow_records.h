@@ -15,8 +15,9 @@ typedef struct ShadowLight {
   double x, y, z, w;  // RaySource of kernels/rays/ray_packet.h
   float axis_x, axis_y, axis_z, cos_outer;
   float reach_squared;
-  float slack;  // metres
-  float padding[2];
+  float slack;     // metres
+  float source_m;  // the sphere's radius
+  float padding;
 } ShadowLight;
 
 typedef struct ShadowView {

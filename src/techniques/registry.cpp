@@ -24,6 +24,7 @@ bool has_effect(const Settings& settings, const std::string& key) {
   if (key == "window") return range == LightRange::scene || range == LightRange::cutoff;
   if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
     return settings.shadows == ShadowMethod::map;
+  if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
   return true;
 }
 
@@ -60,7 +61,8 @@ const std::vector<const char*>& common_settings() {
     for (const std::string& key : model_settings()) {
       if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
     }
-    for (const char* key : {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "everything-on"})
+    for (const char* key : {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays",
+                            "shadow-source", "everything-on"})
       all.push_back(key);
     return all;
   }();

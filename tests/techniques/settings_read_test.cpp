@@ -35,7 +35,9 @@ const std::vector<Assignments>& contexts() {
       {"voxel-lights-exact=1"},
       {"voxel-lights-exact=1", "kernel-shape=group"},
       {"shadows=map"},
+      {"shadow-rays=4"},
       {"voxel-lights-exact=1", "shadows=map"},
+      {"voxel-lights-exact=1", "shadow-rays=4"},
   };
   return all;
 }

@@ -50,7 +50,8 @@ kernel void find_shadows(WAY_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
         store_shadows(entry, block,
-                      hidden_share(&way, &scene, receivers + block, index, lights, shadow_view));
+                      hidden_share(&way, &scene, receivers + block, index, lights, shadow_view,
+                                   tile_x * SHADOW_TILE + block % 4 * 4, tile_y * SHADOW_TILE + block / 4 * 4));
       }
       global uint2* here = listed + index / 32;
       if (here->x == 0) here->y = i;

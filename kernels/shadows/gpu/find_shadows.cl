@@ -40,11 +40,12 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(WAY_
   for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
     global uint* entry = bits + (size_t)i * SHADOW_WORDS;
 #ifdef SHADOW_BYTES
-    ((global uchar*)entry)[item] = (uchar)hidden_share(&way, &scene, &r, indices[i], lights, shadow_view);
+    ((global uchar*)entry)[item] =
+        (uchar)hidden_share(&way, &scene, &r, indices[i], lights, shadow_view, x, y);
 #else
     if (item < SHADOW_WORDS) words[turn][item] = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (hidden_share(&way, &scene, &r, indices[i], lights, shadow_view) != 0)
+    if (hidden_share(&way, &scene, &r, indices[i], lights, shadow_view, x, y) != 0)
       atomic_or(&words[turn][item / 32], 1u << (item & 31u));
     barrier(CLK_LOCAL_MEM_FENCE);
     if (item < SHADOW_WORDS) entry[item] = words[turn][item];

@@ -11,17 +11,18 @@ ViewShadowMaps::ViewShadowMaps(Work& work)
 
 void ViewShadowMaps::look(const Work& work, const glm::dvec3& origin) {
   const FramePlan& plan = work.plan;
+  std::vector<size_t> numbers(plan.local.begin(), plan.local.end());
+  numbers.insert(numbers.end(), plan.directional_lights.begin(), plan.directional_lights.end());
   std::vector<Light> lights;
-  for (size_t i = 0; i < plan.local.size(); ++i) {
+  for (size_t i = 0; i < numbers.size(); ++i) {
     if (!plan.shadowed[i]) continue;
-    const size_t number = size_t(plan.local[i]);
-    Light& light = lights.emplace_back(work.scene.lights[number]);
-    light.radius_m = float(range_of(light, number, plan.settings.ranges));
+    Light& light = lights.emplace_back(work.scene.lights[numbers[i]]);
+    light.radius_m = float(range_of(light, numbers[i], plan.settings.ranges));
   }
   atlas_ = plan_shadow_atlas(lights, work.view, origin, world_box(work.scene), options_);
-  // By number in FramePlan::local; those without shadows have no face, and no kernel asks for them.
-  std::vector<std::array<uint32_t, 2>> by_number(plan.local.size());
-  for (size_t i = 0, next = 0; i < plan.local.size(); ++i)
+  // In the order of FramePlan::shadowed; those without shadows have no face, and no kernel asks for them.
+  std::vector<std::array<uint32_t, 2>> by_number(numbers.size());
+  for (size_t i = 0, next = 0; i < numbers.size(); ++i)
     if (plan.shadowed[i]) by_number[i] = atlas_.lights[next++];
   atlas_.lights = std::move(by_number);
 }

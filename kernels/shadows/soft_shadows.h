@@ -1,0 +1,137 @@
+// The share of a sphere light that is hidden from a pixel, by SHADOW_RAYS rays (4 to 256).
+//
+// The light is the disc of its radius around its centre that faces the pixel's point. Samples lie on Vogel's
+// spiral, sample i at the radius sqrt((i + u) / K) and i golden angles further round: one in each of K rings
+// of equal area (H. Vogel, "A better way to construct the sunflower head", 1979). The hash of pixel and light
+// turns the spiral and chooses u. Each place of the disc is then as likely as any other, and the share's mean
+// over pixels has no bias.
+//
+// Roles are exchanged: the packet's origin is the pixel's point, and its lanes are samples of the light. They
+// make one narrow cone, and every pixel has a pattern of its own. Only rounding to nearest is used, so that all
+// forms and devices give the same bytes.
+#pragma once
+
+#include "kernels/shadows/receivers.h"
+
+#define GOLDEN_ANGLE 0x9e3779b9u  // of 2^32, a whole turn, from the other side
+
+// One lane of Receivers.
+typedef struct SoftReceiver {
+  float x, y, z, gap;
+  float normal_x, normal_y, normal_z;  // unit, or 0
+  int own;
+} SoftReceiver;
+
+static inline uint mixed(uint h) {  // C. Wellons, "Prospecting for hash functions", 2018: lowbias32
+  h = (h ^ h >> 16) * 0x7feb352du;
+  h = (h ^ h >> 15) * 0x846ca68bu;
+  return h ^ h >> 16;
+}
+
+static inline float dot_of(float ax, float ay, float az, float bx, float by, float bz) {
+  return fma(az, bz, fma(ay, by, ax * bx));
+}
+
+// sin(pi x) for x from -1/2 to 1/2: Taylor's series, to within 4e-6.
+static inline real sine_of_half_turns(real x) {
+  const real s = x * x;
+  return x * fma(fma(fma(fma(REAL(0.082145887f), s, REAL(-0.59926453f)), s, REAL(2.5501640f)), s, REAL(-5.1677128f)),
+                 s, REAL(3.1415927f));
+}
+
+// Samples first .. first + LANES - 1 on the unit disc, and of these those that there are.
+static inline mask_t disc_samples(uint first, uint turned, float u, real* x, real* y) {
+#if LANES == 16
+  const whole i = LANE_INDEX + (int)first;
+  const whole turn = as_int16(as_uint16(i) * GOLDEN_ANGLE + turned);
+#else
+  const whole i = (int)first, turn = (int)(first * GOLDEN_ANGLE + turned);
+#endif
+  const real t = TO_REAL(turn) * 0x1p-32f, away = fabs(t);  // turns, from -1/2 to 1/2
+  const real r = sqrt((TO_REAL(i) + u) * (1.0f / SHADOW_RAYS));
+  const real sine = sine_of_half_turns(0.5f - fabs(2.0f * away - 0.5f));
+  *x = r * sine_of_half_turns(0.5f - 2.0f * away);
+  *y = r * (t < 0.0f ? -sine : sine);
+  return i < (whole)(SHADOW_RAYS);
+}
+
+// Of the samples, how many are hidden. `seed`: of pixel and light.
+static inline uint hidden_samples(const RayScene* scene, const SoftReceiver* r, global const ShadowLight* l,
+                                  uint seed, uint* traced, int* last_blocker) {
+  const float x = (float)(l->x - r->x), y = (float)(l->y - r->y), z = (float)(l->z - r->z);
+  const float distance = sqrt(dot_of(x, y, z, x, y, z)), radius = l->source_m;
+  if (!(distance > r->gap)) return 0;
+  // The disc's axes: T. Duff et al., "Building an orthonormal basis, revisited", JCGT 2017.
+  const float nx = x / distance, ny = y / distance, nz = z / distance, sign = nz < 0 ? -1.0f : 1.0f;
+  const float a = -1.0f / (sign + nz), b = nx * ny * a;
+  const float ax = fma(sign * nx * nx, a, 1.0f), ay = sign * b, az = -sign * nx;
+  const float bx = b, by = fma(ny * ny, a, sign), bz = -ny;
+  // Above the plane of the pixel's triangle: the light's centre, and what its axes add.
+  const float height = dot_of(r->normal_x, r->normal_y, r->normal_z, x, y, z);
+  const float height_a = dot_of(r->normal_x, r->normal_y, r->normal_z, ax, ay, az) * radius,
+              height_b = dot_of(r->normal_x, r->normal_y, r->normal_z, bx, by, bz) * radius;
+  // Rays begin a gap before the point, on the way to the light or, where it is low, to a place as high as
+  // the highest sample: below none of the rays, and above the triangles beside the pixel's in one plane.
+  const float raised = height < radius ? radius - height : 0.0f;
+  const float tx = fma(raised, r->normal_x, x), ty = fma(raised, r->normal_y, y), tz = fma(raised, r->normal_z, z);
+  const float step = r->gap / sqrt(dot_of(tx, ty, tz, tx, ty, tz));
+  const RaySource origin = {(double)r->x + step * tx, (double)r->y + step * ty, (double)r->z + step * tz, 1};
+  const float lx = (float)l->x, ly = (float)l->y, lz = (float)l->z;
+  const uint turned = mixed(seed);
+  const float u = (float)(mixed(turned ^ 0x68bc21ebu) >> 8) * 0x1p-24f;
+  uint hidden = 0;
+  for (uint first = 0; first < SHADOW_RAYS; first += LANES) {
+    real p, q;
+    const mask_t used = disc_samples(first, turned, u, &p, &q);
+    const mask_t away = used & (fma(q, REAL(height_b), fma(p, REAL(height_a), REAL(height))) < 0.0f),
+                 active = used & ~away;
+    p *= radius, q *= radius;
+    const Real3 to = real3(fma(q, REAL(bx), fma(p, REAL(ax), REAL(lx))), fma(q, REAL(by), fma(p, REAL(ay), REAL(ly))),
+                           fma(q, REAL(bz), fma(p, REAL(az), REAL(lz))));
+    *traced += popcount(lane_bits(active));
+    hidden += popcount(lane_bits(
+        away | rays_hidden(scene, origin, to, REAL(0.0f), active, (whole)(r->own), last_blocker)));
+  }
+  return hidden;
+}
+
+static inline SoftReceiver soft_receiver(const Receivers* r, uint lane) {
+#if LANES == 16
+#define LANE_OF(v) ((const float*)&(v))[lane]
+  const int own = ((const int*)&r->own)[lane];
+#else
+#define LANE_OF(v) (v)
+  const int own = r->own;
+#endif
+  const float x = LANE_OF(r->normal.x), y = LANE_OF(r->normal.y), z = LANE_OF(r->normal.z);
+  const float length = sqrt(dot_of(x, y, z, x, y, z)), inverse = length > 0.0f ? 1.0f / length : 0.0f;
+  const SoftReceiver s = {LANE_OF(r->at.x), LANE_OF(r->at.y), LANE_OF(r->at.z), LANE_OF(r->gap),
+                          x * inverse, y * inverse, z * inverse, own};
+  return s;
+#undef LANE_OF
+}
+
+// 0 to 255: the share of the light that is hidden from each lane. x, y: the pixel of lane 0; others as in
+// shared/shadow_bits.h.
+static inline whole soft_share(const RayScene* scene, const Receivers* r, global const ShadowLight* l, uint x,
+                                 uint y, uint light, uint* traced, int* last_blocker) {
+  uint left = lane_bits(may_shade(r, l));
+#if LANES == 16
+  whole shares = (whole)(0);
+#else
+  whole shares = 0;
+#endif
+  for (; left != 0; left &= left - 1) {
+    const uint lane = lowest_bit(left);
+    const SoftReceiver one = soft_receiver(r, lane);
+    const uint seed = mixed((x + (lane & 3u)) << 16 | (y + (lane >> 2))) + light * GOLDEN_ANGLE;
+    const uint hidden = hidden_samples(scene, &one, l, seed, traced, last_blocker);
+    const int share = (int)((hidden * 255u + SHADOW_RAYS / 2) / SHADOW_RAYS);
+#if LANES == 16
+    ((int*)&shares)[lane] = share;
+#else
+    shares = share;
+#endif
+  }
+  return shares;
+}

@@ -1,0 +1,152 @@
+// Soft shadows of the pass against 1,024 rays a pair in double.
+#include "reference/soft_occlusion.h"
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "reference/position.h"
+#include "session/oracle.h"
+#include "session/oracle_sample.h"
+#include "session/shadow_truth.h"
+#include "session/surfaces_in_double.h"
+#include "support/devices.h"
+#include "support/small_scene.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr double source_m = 0.2;
+
+// The ball stands between most lamps and a part of the wall.
+Scene soft_scene() {
+  SmallScene s = small_scene();
+  for (Light& light : s.scene.lights) light.casts_shadow = true, light.radius_m = 4;
+  return s.scene;
+}
+
+Settings settings_of(const std::vector<std::string>& assignments) {
+  Settings settings;
+  apply_setting(settings, "shadow-source=0.2");
+  for (const std::string& assignment : assignments) apply_setting(settings, assignment);
+  return settings;
+}
+
+struct Shaded {
+  Shaded(const Scene& scene, const char* technique, const std::vector<std::string>& settings)
+      : run(software_devices(), scene, small_view(131, 77), settings_of(settings), find_technique(technique)) {
+    run.run_frame();
+    shadows = run.frame().shadows();
+  }
+  TechniqueRun run;
+  HostShadows shadows;
+};
+
+struct Pair {
+  int x = 0, y = 0;
+  uint32_t light = 0;
+  Receiver receiver{};
+  double truth = 0;
+};
+
+// The pairs of a light in range, at an even sample of the pixels.
+std::vector<Pair> sampled_pairs(TechniqueRun& run, const Scene& scene, size_t pixels) {
+  const View& view = run.view().view;
+  const std::vector<float> depth = read_depth(run);
+  const std::vector<CastingTriangle> shown = casting_triangles(scene, shown_triangles(run));
+  const std::vector<ViewLight> lights = local_lights(run.view());
+  const Occlusion occlusion(scene);
+  std::vector<Pair> pairs;
+  for (const uint32_t pixel : sample_pixels(covered_pixels(depth), pixels)) {
+    const int x = int(pixel) % view.width, y = int(pixel) / view.width;
+    if (shown[pixel].instance < 0) continue;
+    const glm::dvec3 position = position_from_depth(view, x, y, double(depth[pixel]));
+    const Receiver receiver = occlusion.receiver(view, x, y, double(depth[pixel]), shown[pixel]);
+    for (uint32_t light = 0; light < lights.size(); ++light) {
+      if (is_lit(lights[light], position)) pairs.push_back({x, y, light, receiver});
+    }
+  }
+  parallel_for(int(pairs.size()), [&](int i) {
+    Random random{uint64_t(i)};
+    Pair& pair = pairs[size_t(i)];
+    pair.truth = hidden_share(occlusion, scene.lights[pair.light], pair.receiver, source_m, 32, random).share;
+  });
+  return pairs;
+}
+
+struct Errors {
+  double mean = 0, rms = 0;
+  size_t count = 0;
+  double standard_error() const { return rms / std::sqrt(double(count)); }
+};
+
+// Of penumbrae.
+Errors errors_of(const HostShadows& shadows, const std::vector<Pair>& pairs) {
+  Errors e;
+  for (const Pair& pair : pairs) {
+    if (!(pair.truth > 0 && pair.truth < 1)) continue;
+    const double error = hidden_share_at(shadows, pair.x, pair.y, pair.light) - pair.truth;
+    e.mean += error, e.rms += error * error, ++e.count;
+  }
+  e.mean /= double(e.count), e.rms = std::sqrt(e.rms / double(e.count));
+  return e;
+}
+
+TEST(SoftShadows, ErrorFallsWithTheRaysAndHasNoBias) {
+  const Scene scene = soft_scene();
+  std::vector<Pair> pairs;
+  double last_rms = 1;
+  for (const char* rays : {"4", "16", "64", "256"}) {
+    Shaded shaded(scene, "visibility", {std::string("shadow-rays=") + rays});
+    if (pairs.empty()) pairs = sampled_pairs(shaded.run, scene, 600);
+    const Errors e = errors_of(shaded.shadows, pairs);
+    ASSERT_GT(e.count, 700u);
+    std::printf("%s rays: %zu pairs in penumbrae of %zu, mean %.5f (standard error %.5f), RMS %.5f\n", rays, e.count,
+                pairs.size(), e.mean, e.standard_error(), e.rms);
+    EXPECT_LT(std::abs(e.mean), 3 * e.standard_error()) << rays;
+    // Of random samples the quotient of two rows is a half.
+    EXPECT_LT(e.rms, 0.5 * last_rms) << rays;
+    last_rms = e.rms;
+    size_t wrong = 0;
+    for (const Pair& pair : pairs) {
+      const double share = hidden_share_at(shaded.shadows, pair.x, pair.y, pair.light);
+      wrong += (pair.truth == 0 && share > 0.25) || (pair.truth == 1 && share < 0.75);
+    }
+    EXPECT_EQ(wrong, 0u) << "of pairs that are wholly seen or hidden";
+  }
+}
+
+TEST(SoftShadows, AllKernelShapesGiveTheSameBytes) {
+  const Scene scene = soft_scene();
+  for (const char* rays : {"shadow-rays=4", "shadow-rays=64"}) {
+    const Shaded lanes(scene, "visibility", {rays, "kernel-shape=lanes"}),
+        group(scene, "visibility", {rays, "kernel-shape=group"}),
+        portable(scene, "visibility", {rays, "kernel-shape=lanes", "portable=on"});
+    EXPECT_GT(std::ranges::count_if(lanes.shadows.shares, [](uint8_t s) { return s > 0 && s < 255; }), 1000);
+    EXPECT_EQ(lanes.shadows.shares, group.shadows.shares) << rays;
+    EXPECT_EQ(lanes.shadows.shares, portable.shadows.shares) << rays;
+  }
+}
+
+TEST(SoftShadows, LoopsOfOpenGlReadTheSameShares) {
+  const Scene scene = soft_scene();
+  const Shaded forward(scene, "forward", {"shadow-rays=16"}), plus(scene, "forward_plus", {"shadow-rays=16"}),
+      hard(scene, "forward", {});
+  EXPECT_EQ(forward.shadows.shares, plus.shadows.shares);
+  EXPECT_EQ(forward.run.image().pixels, plus.run.image().pixels);
+  EXPECT_NE(forward.run.image().pixels, hard.run.image().pixels);
+}
+
+TEST(SoftShadows, APointHasHardShadows) {
+  const Scene scene = soft_scene();
+  for (const char* technique : {"forward", "visibility"}) {
+    const Shaded hard(scene, technique, {"shadow-rays=1"}),
+        point(scene, technique, {"shadow-rays=16", "shadow-source=0"});
+    EXPECT_TRUE(hard.shadows.shares.empty());
+    EXPECT_TRUE(point.shadows.shares.empty());
+    EXPECT_EQ(hard.shadows.bits, point.shadows.bits);
+    EXPECT_EQ(hard.run.image().pixels, point.run.image().pixels);
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid
