@@ -6,10 +6,12 @@
 
 #include "base/error.h"
 #include "cl/transfer.h"
+#include "passes/shadows/certificates.h"
 #include "renderer/drawing/draw.h"
 #include "renderer/upload/culler_input.h"
 #include "renderer/upload/lights.h"
 #include "shared/shadow_bits.h"
+#include "shared/shadow_certificates.h"
 #include "shared/shadow_records.h"
 
 namespace lightgrid {
@@ -30,8 +32,7 @@ CullerOptions options_of_shadows(const FramePlan& plan) {
 }
 
 // Those without shadows are listed nowhere.
-std::vector<CullLight> shadowed_lights(const Seen& seen) {
-  std::vector<CullLight> lights = cull_lights_of(seen.scene, seen.plan.local, seen.plan.settings.ranges);
+std::vector<CullLight> shadowed_lights(const Seen& seen, std::vector<CullLight> lights) {
   for (size_t i = 0; i < lights.size(); ++i) {
     if (!seen.plan.shadowed[i]) lights[i].radius_m = -1;
   }
@@ -44,7 +45,7 @@ std::vector<CullLight> shadowed_lights(const Seen& seen) {
 ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin) {
   const glm::dvec3 at = light.position - origin;
   ShadowLight s{at.x, at.y, at.z, 1, float(light.direction.x), float(light.direction.y),
-                float(light.direction.z), float(light.cos_outer), 0, 0, {}};
+                float(light.direction.z), float(light.cos_outer), 0, 0, float(light.radius_m), 0};
   if (light.cos_outer < -1) s.cos_outer = -1;
   const double slack = 0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
   const double reach = light.radius_m * (1 + 1e-5) + slack;
@@ -58,12 +59,14 @@ ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
   const glm::dvec3 from = view.eye - origin, eye = view.orthographic ? world_from_view[2] : from;
   ShadowView v{eye.x, eye.y, eye.z, view.orthographic ? 0.0 : 1.0, {}, float(from.x), float(from.y),
-               float(from.z), 0, {}};
+               float(from.z), 0, 0, {}};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
       v.world_from_view[3 * row + column] = float(world_from_view[column][row]);
   }
   v.words = uint((seen.plan.local.size() + 31) / 32);
+  const double piece = PIECE_PIXELS * 2 / (view.clip_from_view[1][1] * view.height);
+  v.piece_scale = float(piece * piece);
   return v;
 }
 
@@ -79,6 +82,7 @@ class ShadowBits : public PassCache {
     size_t bytes = lights_.bytes() + view_.bytes() + offsets_.bytes() + rays_.bytes() + grid_.cell_bytes +
                    grid_.index_bytes;
     if (scene_) bytes += scene_->memory_bytes();
+    if (certificates_) bytes += certificates_->memory_bytes();
     if (culler_) bytes += culler_->memory_bytes();
     return bytes;
   }
@@ -122,7 +126,8 @@ class ShadowBits : public PassCache {
                                 {"view", work.cl_lights().view.buffer()},
                                 {"tiles", listed},
                                 {"bits", bits},
-                                {"rays", rays}});
+                                {"rays", rays}} +
+                    (certificates_ ? certificates_->arguments(device, parts_) : ClArguments{}));
     hand_over(work, bytes, bit_bytes);
   }
 
@@ -155,6 +160,10 @@ class ShadowBits : public PassCache {
     std::vector<uint32_t> rays(parts_);
     read_buffer(*work.renderer.cl, "counting rays", rays_.get(), rays.data(), rays.size() * sizeof rays[0]);
     f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
+    if (certificates_) {
+      f.kept = certificates_->decided(*work.renderer.cl);
+      f.bytes += certificates_->table_bytes();
+    }
     return f;
   }
 
@@ -189,15 +198,26 @@ class ShadowBits : public PassCache {
     if (work.plan.index_bits == 32) defines += " -DINDEX_32";
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
     if (kernels_.lanes && work.plan.settings.portable) defines += " -DPORTABLE";
+    const size_t kept_bytes = kernels_.lanes ? ShadowCertificates::bytes_of(work.plan.settings) : 0;
+    if (kept_bytes != 0) defines += " -DKEPT";
     kernels_.use(defines);
     if (followed_) return;
     ClDevice& device = *work.renderer.cl;
     if (!culler_) culler_.emplace(device, *work.renderer.kernels, options_of_shadows(work.plan));
-    const std::vector<CullLight> lights = shadowed_lights(work);
+    const std::vector<CullLight> all_lights =
+        cull_lights_of(work.scene, work.plan.local, work.plan.settings.ranges);
+    const std::vector<CullLight> lights = shadowed_lights(work, all_lights);
+    if (kept_bytes != 0) {
+      if (!certificates_) certificates_.emplace(device, kept_bytes);
+      certificates_->follow(work, rays, all_lights);
+    }
     culler_->set_lights(lights);
     culler_->set_view(cull_view(work.view));
     std::vector<ShadowLight> records;
-    for (const CullLight& light : lights) records.push_back(shadow_light(light, work.view, rays.origin()));
+    for (const CullLight& light : lights) {
+      records.push_back(shadow_light(light, work.view, rays.origin()));
+      if (certificates_) records.back().stamp = certificates_->stamp(records.size() - 1);
+    }
     lights_.put(device, "uploading lights of shadows", records);
     view_.put(device, "uploading the view of shadows",
               std::vector<ShadowView>{shadow_view(work, rays.origin())});
@@ -216,6 +236,7 @@ class ShadowBits : public PassCache {
   PassKernels kernels_;
   std::shared_ptr<RayScene> scene_;
   std::optional<LightCuller> culler_;
+  std::optional<ShadowCertificates> certificates_;
   ClGridStorage storage_;
   UploadedBuffer lights_, view_, offsets_;
   GrowingBuffer rays_;

@@ -16,7 +16,8 @@ typedef struct ShadowLight {
   float axis_x, axis_y, axis_z, cos_outer;
   float reach_squared;
   float slack;  // metres
-  float padding[2];
+  float range;  // metres
+  uint stamp;   // of certificates: another one after the light, or what it may reach, moved
 } ShadowLight;
 
 typedef struct ShadowView {
@@ -24,7 +25,8 @@ typedef struct ShadowView {
   float world_from_view[9];           // rows
   float from_x, from_y, from_z;       // the eye, to which positions in view space are relative
   uint words;                         // pairs of words a tile: a bit a light (shared/shadow_bits.h)
-  uint padding[3];
+  float piece_scale;                  // (PIECE_PIXELS pixels)^2 at the distance 1 m; orthographic: at any
+  uint padding[2];
 } ShadowView;
 
 #if !defined(__OPENCL_VERSION__)

@@ -2,12 +2,20 @@
 // block after block of 4 x 4 pixels, whose 16 rays share the light as their origin.
 //
 // SHADOW_PASS_ARGUMENTS  kernels/shadows/receivers.h
+// -DKEPT                 certificates decide what they can (kernels/shadows/certificates.h)
+// decided                out, with -DKEPT: pairs of a pixel and a listed light that took no ray, a tile
 #define LANES 16
 #include "kernels/common/pack.h"
 #include "kernels/common/image_blocks.h"
 #include "kernels/shadows/receivers.h"
+#ifdef KEPT
+#include "kernels/shadows/cpu/tile_pieces.h"
+#define ALL_ARGUMENTS SHADOW_PASS_ARGUMENTS, CERTIFICATE_ARGUMENTS
+#else
+#define ALL_ARGUMENTS SHADOW_PASS_ARGUMENTS
+#endif
 
-kernel void find_shadows(SHADOW_PASS_ARGUMENTS) {
+kernel void find_shadows(ALL_ARGUMENTS) {
   const RayScene scene = RAYS_SCENE;
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const uint tile = tile_y * (uint)get_global_size(0) + tile_x;
@@ -15,6 +23,12 @@ kernel void find_shadows(SHADOW_PASS_ARGUMENTS) {
   global uint2* listed = tiles + (size_t)tile * shadow_view->words;
   for (uint i = 0; i < shadow_view->words; ++i) listed[i] = (uint2)(0);
   uint traced = 0;
+#ifdef KEPT
+  const Certificates kept = CERTIFICATES;
+  TilePieces pieces;
+  pieces.count = 0;
+  uint without_ray = 0;
+#endif
   if (range.y != 0) {
     Receivers receivers[16];
     uint used = 0;  // blocks with a surface
@@ -30,15 +44,31 @@ kernel void find_shadows(SHADOW_PASS_ARGUMENTS) {
           &scene, triangle, covered, (float)x + 0.5f + convert_float16(LANE_INDEX & 3),
           (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, triangle_instance, number_offsets, shadow_view, view);
       used |= 1u << block;
+#ifdef KEPT
+      add_pieces(&pieces, &scene, receivers + block, block, shadow_view);
+#endif
     }
+#ifdef KEPT
+    drop_small_pieces(&pieces);
+#endif
     int last_blocker = -1;
     for (uint i = range.x; i < range.x + range.y; ++i) {
       const uint index = indices[i];
       uint words[SHADOW_WORDS] = {0};
+#ifdef KEPT
+      ushort others[16];
+      hidden_by_certificates(&scene, &pieces, receivers, lights + index, index, &kept, words, others, &without_ray);
+#endif
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
+#ifdef KEPT
+        if (others[block] == 0) continue;
+        const mask_t of = lanes_of((uint)others[block]);
+#else
+        const mask_t of = (mask_t)(-1);
+#endif
         const uint hidden = lane_bits(
-            hidden_from(&scene, receivers + block, lights + index, shadow_view, &traced, &last_blocker));
+            hidden_from(&scene, receivers + block, lights + index, of, shadow_view, &traced, &last_blocker));
         words[block / 2] |= hidden << 16 * (block & 1u);
       }
       vstore8(vload8(0, words), i, bits);
@@ -48,4 +78,7 @@ kernel void find_shadows(SHADOW_PASS_ARGUMENTS) {
     }
   }
   rays[tile] = traced;
+#ifdef KEPT
+  decided[tile] = without_ray;
+#endif
 }
