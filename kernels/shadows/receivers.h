@@ -146,10 +146,10 @@ static inline mask_t turned_away(const RayScene* scene, const Receivers* r, glob
   return away;
 }
 
-// Lanes of `of` from which the light is hidden. *traced is increased by the number of rays.
+// Lanes from which the light is hidden. *traced is increased by the number of rays.
 static inline mask_t hidden_from(const RayScene* scene, const Receivers* r, global const ShadowLight* l,
-                                 mask_t of, constant ShadowView* v, uint* traced, int* last_blocker) {
-  const mask_t reached = of & may_shade(r, l);
+                                 constant ShadowView* v, uint* traced, int* last_blocker) {
+  const mask_t reached = may_shade(r, l);
   if (!any_lane(reached)) return (mask_t)(0);
   const mask_t away = turned_away(scene, r, l, reached, v), active = reached & ~away;
   const RaySource source = {l->x, l->y, l->z, l->w};

@@ -27,6 +27,7 @@ kernel void find_shadows(ALL_ARGUMENTS) {
   const Certificates kept = CERTIFICATES;
   TilePieces pieces;
   pieces.count = 0;
+  for (uint w = 0; w < SHADOW_WORDS; ++w) pieces.others[w] = 0;
   uint without_ray = 0;
 #endif
   if (range.y != 0) {
@@ -49,28 +50,26 @@ kernel void find_shadows(ALL_ARGUMENTS) {
 #endif
     }
 #ifdef KEPT
-    drop_small_pieces(&pieces);
+    drop_small_pieces(&pieces, 0, pieces.others);
+    pieces.count_at_first = pieces.count;
 #endif
     int last_blocker = -1;
     for (uint i = range.x; i < range.x + range.y; ++i) {
       const uint index = indices[i];
       uint words[SHADOW_WORDS] = {0};
 #ifdef KEPT
-      ushort others[16];
-      hidden_by_certificates(&scene, &pieces, receivers, lights + index, index, &kept, words, others, &without_ray);
-#endif
+      uint others[SHADOW_WORDS];
+      hidden_by_certificates(&scene, &pieces, receivers, lights + index, index,
+                             indices[min(i + 1, range.x + range.y - 1)], &kept, shadow_view, words, others, &without_ray);
+      hidden_by_rays(&scene, receivers, others, lights + index, shadow_view, words, &traced, &last_blocker);
+#else
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
-#ifdef KEPT
-        if (others[block] == 0) continue;
-        const mask_t of = lanes_of((uint)others[block]);
-#else
-        const mask_t of = (mask_t)(-1);
-#endif
         const uint hidden = lane_bits(
-            hidden_from(&scene, receivers + block, lights + index, of, shadow_view, &traced, &last_blocker));
+            hidden_from(&scene, receivers + block, lights + index, shadow_view, &traced, &last_blocker));
         words[block / 2] |= hidden << 16 * (block & 1u);
       }
+#endif
       vstore8(vload8(0, words), i, bits);
       global uint2* here = listed + index / 32;
       if (here->x == 0) here->y = i;

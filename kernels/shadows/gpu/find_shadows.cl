@@ -38,7 +38,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
     if (item < SHADOW_WORDS) words[turn][item] = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (hidden_from(&scene, &r, lights + indices[i], 1, shadow_view, &traced, &last_blocker))
+    if (hidden_from(&scene, &r, lights + indices[i], shadow_view, &traced, &last_blocker))
       atomic_or(&words[turn][item / 32], 1u << (item & 31u));
     barrier(CLK_LOCAL_MEM_FENCE);
     if (item < SHADOW_WORDS) bits[(size_t)i * SHADOW_WORDS + item] = words[turn][item];
