@@ -17,7 +17,8 @@
 #include "kernels/shadows/receivers.h"
 
 // Of a cell's edge.
-#define EDGE 0x1p-7f
+#define EDGE 0x1p-8f
+#define INNER 0x1p-9f
 #define MOST_SEEN 24  // triangles that may hide a point, after which nothing more is tried
 
 typedef struct Polygon {
@@ -88,7 +89,7 @@ static void polygon_of(Polygon* polygon, global const RayTriangle* t, const Piec
     const double du = ((double)b[u] - a[u]) * turn, dv = ((double)b[v] - a[v]) * turn;
     const double size = (du < 0 ? -du : du) + (dv < 0 ? -dv : dv);
     f[u] = -dv, f[v] = du, f[k] = 0;
-    clip(polygon, f[0], f[1], f[2], dv * a[u] - du * a[v] - out * size);
+    clip(polygon, f[0], f[1], f[2], dv * a[u] - du * a[v] - (double)INNER * edge * size);
   }
 }
 

@@ -96,7 +96,7 @@ void measure(const std::string& name, const char* lights_file, size_t most_light
   if (std::getenv("ONLY")) return;
   table(fmt::format("{} {} x {}, {}, {} lights, camera at rest", name, width, height, renderer.cl->info().name, scene.lights.size()).c_str());
   const std::vector<View> turn = camera_path(scene, view, "turn:180");
-  for (size_t frame = 0; frame < 40; ++frame) {
+  for (size_t frame = 0; frame < 20; ++frame) {
     for (Contestant& c : all) {
       c.run->look(turn[frame]);
       const double ms = pass_ms(*c.run);

@@ -4,7 +4,7 @@
 #include "kernels/shadows/certificates.h"
 
 #define MOST_PIECES 128
-#define LEAST_PIXELS 6u   // of a piece in a tile: fewer take rays
+#define LEAST_PIXELS 4u   // of a piece in a tile: fewer take rays
 #define SPLIT_PIXELS 24u  // of a piece that is not decided: with more, its eight parts are tried
 
 typedef struct TilePiece {
@@ -43,7 +43,7 @@ static inline mask_t in_piece(const Receivers* r, global const RayTriangle* t, c
     const float du = (b[u] - a[u]) * turn, dv = (b[v] - a[v]) * turn;
     const real x = at_u - a[u], y = at_v - a[v];
     const real inside = y * du - x * dv, slack = 0x1p-21f * (fabs(y) * fabs(du) + fabs(x) * fabs(dv));
-    in &= inside - slack >= 1.25f * EDGE * edge * (fabs(du) + fabs(dv));
+    in &= inside - slack >= 1.25f * INNER * edge * (fabs(du) + fabs(dv));
   }
   return in;
 }
