@@ -18,7 +18,6 @@
 
 // Of a cell's edge.
 #define EDGE 0x1p-8f
-#define INNER 0x1p-9f
 #define MOST_SEEN 24  // triangles that may hide a point, after which nothing more is tried
 
 typedef struct Polygon {
@@ -66,6 +65,9 @@ static inline float off_plane(global const RayTriangle* t, const Piece* piece) {
                      fabs(z - t->corners[2]) + 16.0f * edge);
 }
 
+// How far within the triangle's edges its points are, so that neighbours at an edge do not count as hiding them.
+static inline float inner_edge(global const RayTriangle* t, const Piece* piece) { return 8.0f * off_plane(t, piece); }
+
 // Of a triangle: the plane's part in the cell, cut by the edges; all of them EDGE further out.
 static void polygon_of(Polygon* polygon, global const RayTriangle* t, const Piece* piece) {
   const double edge = edge_of_piece(piece->exponent), out = (double)EDGE * edge;
@@ -89,7 +91,7 @@ static void polygon_of(Polygon* polygon, global const RayTriangle* t, const Piec
     const double du = ((double)b[u] - a[u]) * turn, dv = ((double)b[v] - a[v]) * turn;
     const double size = (du < 0 ? -du : du) + (dv < 0 ? -dv : dv);
     f[u] = -dv, f[v] = du, f[k] = 0;
-    clip(polygon, f[0], f[1], f[2], dv * a[u] - du * a[v] - (double)INNER * edge * size);
+    clip(polygon, f[0], f[1], f[2], dv * a[u] - du * a[v] - inner_edge(t, piece) * size);
   }
 }
 
@@ -184,6 +186,10 @@ static inline bool shaft_meets(const Shaft* s, float low_x, float low_y, float l
   return !any_lane(least > s->bound);
 }
 
+static inline float size_in(const Shaft* s, RayPlane p) {
+  return fabs((float)p.x) * s->extent[0] + fabs((float)p.y) * s->extent[1] + fabs((float)p.z) * s->extent[2];
+}
+
 // A dot product at each corner: above 0 (1), below 0 (-1) or on both sides (0) for every point of the piece,
 // as rays round it.
 static int side_of_corners(const Shaft* s, RayPlane plane, double turn) {
@@ -195,22 +201,42 @@ static int side_of_corners(const Shaft* s, RayPlane plane, double turn) {
   return !any_lane(side < slack) ? 1 : !any_lane(side > -slack) ? -1 : 0;
 }
 
+// Whether all corners of a triangle lie beyond a plane of the shaft. With d from the light to a point, weights u,
+// v, w of the corners a, b, c, and a plane's normal N: det (N·d) = u (N·a) + v (N·b) + w (N·c). Of a triangle
+// that is met, no weight is below 0 by more than rounding, and their sum is at least det, less the share `short_of`
+// of it. N·d is then at least this much.
+static bool corners_beyond(const Shaft* s, const double a[3], const double b[3], const double c[3],
+                           const RayPlane planes[3], float det, float short_of) {
+  const Real3 n = add3(s->above, s->below);
+  const real of_a = n.x * (float)a[0] + n.y * (float)a[1] + n.z * (float)a[2],
+             of_b = n.x * (float)b[0] + n.y * (float)b[1] + n.z * (float)b[2],
+             of_c = n.x * (float)c[0] + n.y * (float)c[1] + n.z * (float)c[2];
+  float rounded = 0.0f;
+  for (int i = 0; i < 3; ++i) rounded = max(rounded, size_in(s, planes[i]));
+  const real least = lane_min(lane_min(of_a, of_b), of_c),
+             most = lane_max(lane_max(fabs(of_a), fabs(of_b)), fabs(of_c));
+  const real at_least =
+      least * (1.0f - short_of) - most * (3.0f * (0x1p-19f * rounded + 1e-30f) / det + 0x1p-20f);
+  return det > 0.0f && any_lane(at_least > s->bound);
+}
+
 enum ShaftHit { MISSES, MAY_HIDE, HIDES_ALL };
 
 // As meets_from_point and ray_hides have it, for all points of the piece.
 static int hit_of(const Shaft* s, global const ShadowLight* l, global const RayTriangle* t) {
-  global const float* c = t->corners;
-  if (!shaft_meets(s, least_of_3(c[0], c[3], c[6]), least_of_3(c[1], c[4], c[7]), least_of_3(c[2], c[5], c[8]),
-                   greatest_of_3(c[0], c[3], c[6]), greatest_of_3(c[1], c[4], c[7]),
-                   greatest_of_3(c[2], c[5], c[8])))
+  global const float* p = t->corners;
+  if (!shaft_meets(s, least_of_3(p[0], p[3], p[6]), least_of_3(p[1], p[4], p[7]), least_of_3(p[2], p[5], p[8]),
+                   greatest_of_3(p[0], p[3], p[6]), greatest_of_3(p[1], p[4], p[7]),
+                   greatest_of_3(p[2], p[5], p[8])))
     return MISSES;
   const double nx = t->normal[0], ny = t->normal[1], nz = t->normal[2];
-  const double ax = c[0] - l->x, ay = c[1] - l->y, az = c[2] - l->z, bx = c[3] - l->x, by = c[4] - l->y,
-               bz = c[5] - l->z, cx = c[6] - l->x, cy = c[7] - l->y, cz = c[8] - l->z;
-  const double distance = nx * ax + ny * ay + nz * az;
+  const double a[3] = {p[0] - l->x, p[1] - l->y, p[2] - l->z}, b[3] = {p[3] - l->x, p[4] - l->y, p[5] - l->z},
+               c[3] = {p[6] - l->x, p[7] - l->y, p[8] - l->z};
+  const double distance = nx * a[0] + ny * a[1] + nz * a[2];
   if (!(distance > 0 || distance < 0)) return MISSES;
   const double turn = distance < 0 ? -1 : 1;
-  if (!((nx * bx + ny * by + nz * bz) * turn > 0 && (nx * cx + ny * cy + nz * cz) * turn > 0)) return MISSES;
+  if (!((nx * b[0] + ny * b[1] + nz * b[2]) * turn > 0 && (nx * c[0] + ny * c[1] + nz * c[2]) * turn > 0))
+    return MISSES;
   const float px = (float)(nx * turn), py = (float)(ny * turn), pz = (float)(nz * turn),
               plane = (float)(distance * turn), size = fabs(px) + fabs(py) + fabs(pz);
   const real past = ray_side(s->corners, px, py, pz, 0.0f);
@@ -221,15 +247,18 @@ static int hit_of(const Shaft* s, global const ShadowLight* l, global const RayT
   // Segments end a gap before their points, which is at least this much of the way across the plane.
   if (most - plane < s->gap_low * max(least, 0.0f) / s->farthest) return MISSES;
   const RaySource source = {l->x, l->y, l->z, 1};
-  const int u = side_of_corners(s, edge_plane(source, true, bx, by, bz, cx, cy, cz), turn);
-  if (u < 0) return MISSES;
-  const int v = side_of_corners(s, edge_plane(source, true, cx, cy, cz, ax, ay, az), turn);
-  if (v < 0) return MISSES;
-  const int w = side_of_corners(s, edge_plane(source, true, ax, ay, az, bx, by, bz), turn);
-  if (w < 0) return MISSES;
-  const bool all = u > 0 && v > 0 && w > 0 && least - plane > s->gap_high * size &&
-                   s->nearest > 2.0f * s->gap_high && !(t->number & RAY_MASKED);
-  return all ? HIDES_ALL : MAY_HIDE;
+  const RayPlane planes[3] = {edge_plane(source, true, b[0], b[1], b[2], c[0], c[1], c[2]),
+                              edge_plane(source, true, c[0], c[1], c[2], a[0], a[1], a[2]),
+                              edge_plane(source, true, a[0], a[1], a[2], b[0], b[1], b[2])};
+  bool all = least - plane > s->gap_high * size && s->nearest > 2.0f * s->gap_high && !(t->number & RAY_MASKED);
+  for (int i = 0; i < 3; ++i) {
+    const int side = side_of_corners(s, planes[i], turn);
+    if (side < 0) return MISSES;
+    all = all && side > 0;
+  }
+  if (all) return HIDES_ALL;
+  const float det = (float)((planes[0].x * a[0] + planes[0].y * a[1] + planes[0].z * a[2]) * turn);
+  return corners_beyond(s, a, b, c, planes, det, slack / plane) ? MISSES : MAY_HIDE;
 }
 
 // Walks the tree for the triangles that may hide a point. Returns the certificate's kind.

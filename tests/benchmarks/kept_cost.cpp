@@ -83,7 +83,7 @@ void measure(const std::string& name, const char* lights_file, size_t most_light
     }
   };
   for (Contestant& c : all) c.run->prepare();
-  for (int frame = 0; frame < (std::getenv("ONLY") ? 40 : 12); ++frame) {
+  for (int frame = 0; frame < (std::getenv("ONLY") ? 40 : 8); ++frame) {
     for (Contestant& c : all) {
       if (std::getenv("ONLY") && frame > 0 && c.name != std::getenv("ONLY")) { c.ms.push_back(1); continue; }
       c.run->look(view);
@@ -96,7 +96,7 @@ void measure(const std::string& name, const char* lights_file, size_t most_light
   if (std::getenv("ONLY")) return;
   table(fmt::format("{} {} x {}, {}, {} lights, camera at rest", name, width, height, renderer.cl->info().name, scene.lights.size()).c_str());
   const std::vector<View> turn = camera_path(scene, view, "turn:180");
-  for (size_t frame = 0; frame < 20; ++frame) {
+  for (size_t frame = 0; frame < 6; ++frame) {
     for (Contestant& c : all) {
       c.run->look(turn[frame]);
       const double ms = pass_ms(*c.run);

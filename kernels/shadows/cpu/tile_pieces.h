@@ -43,7 +43,7 @@ static inline mask_t in_piece(const Receivers* r, global const RayTriangle* t, c
     const float du = (b[u] - a[u]) * turn, dv = (b[v] - a[v]) * turn;
     const real x = at_u - a[u], y = at_v - a[v];
     const real inside = y * du - x * dv, slack = 0x1p-21f * (fabs(y) * fabs(du) + fabs(x) * fabs(dv));
-    in &= inside - slack >= 1.25f * INNER * edge * (fabs(du) + fabs(dv));
+    in &= inside - slack >= 1.25f * inner_edge(t, piece) * (fabs(du) + fabs(dv));
   }
   return in;
 }
