@@ -164,7 +164,9 @@ static __attribute__((noinline)) mask_t hidden_by_few(const RayScene* scene, con
                       (p.down & 4 ? down_z : ~down_z);
     left &= ~live;
     p.end = lanes_of(live) ? end : REAL(-1.0f);
-    for (uint i = 0; i < count; ++i) ray_met(scene, &p, true, places[i], r->own, &hidden);
+    for (uint i = 0; i < count; ++i) {
+      if (ray_met(scene, &p, true, places[i], r->own, &hidden) && (lane_bits(hidden) & live) == live) break;
+    }
   }
   return hidden;
 }
