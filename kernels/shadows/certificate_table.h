@@ -61,9 +61,8 @@ static inline uint find_certificate(const Certificates* c, global ShadowCertific
   return CERTIFICATE_NONE;
 }
 
-// Where a slot of the set is empty or was not used of late.
-static inline void keep_certificate(const Certificates* c, global ShadowCertificate* set, const Piece* piece,
-                                    uint stamp, uint state, const int places[CERTIFICATE_PLACES]) {
+// A slot of the set that is empty or was not used of late, for keep_certificate. Null: there is none.
+static inline volatile global ShadowCertificate* claim_slot(const Certificates* c, global ShadowCertificate* set) {
   volatile global ShadowCertificate* slot = 0;
   uint before = 0, unused = 1;  // steps of time: more than this
   for (uint i = 0; i < CERTIFICATE_SET; ++i) {
@@ -72,9 +71,15 @@ static inline void keep_certificate(const Certificates* c, global ShadowCertific
     const uint age = kind == CERTIFICATE_NONE ? 0xffffffffu : c->time - set[i].used;
     if (age > unused) slot = set + i, before = now, unused = age;
   }
-  if (!slot) return;
-  const uint version = (before & (0u - CERTIFICATE_VERSION)) + CERTIFICATE_VERSION;
-  if (atomic_cmpxchg(&slot->state, before, version | CERTIFICATE_BUSY) != before) return;
+  if (!slot) return 0;
+  const uint busy = ((before & (0u - CERTIFICATE_VERSION)) + CERTIFICATE_VERSION) | CERTIFICATE_BUSY;
+  return atomic_cmpxchg(&slot->state, before, busy) == before ? slot : 0;
+}
+
+static inline void keep_certificate(const Certificates* c, volatile global ShadowCertificate* slot,
+                                    const Piece* piece, uint stamp, uint state,
+                                    const int places[CERTIFICATE_PLACES]) {
+  const uint version = slot->state & (0u - CERTIFICATE_VERSION);
   mem_fence(CLK_GLOBAL_MEM_FENCE);
   slot->stamp = stamp, slot->triangle = piece->triangle, slot->exponent = piece->exponent;
   slot->x = piece->x, slot->y = piece->y, slot->z = piece->z, slot->used = c->time;

@@ -1,14 +1,14 @@
 // What is known of a light and a piece of a triangle for as long as nothing moves: whether some point of the
 // piece can be hidden from the light, and by which triangles (kernels/shadows/certificates.h). They lie in a
-// table of sets of slots, which kernels fill and read at once.
+// table, which kernels fill and read at once.
 #pragma once
 
 #include "shared/language.h"
 
 #define CERTIFICATE_PLACES 8
-#define CERTIFICATE_SET 4   // slots that a key may lie in
+#define CERTIFICATE_SET 4   // slots in a row that a key may lie in
 #define CERTIFICATE_FARTHEST 1.25f  // times the light's range: no piece with a certificate is further away
-#define PIECE_PIXELS 32.0f  // no cell is larger on the screen, and most are larger than half of this
+#define PIECE_PIXELS 64.0f  // no cell is larger on the screen, and most are larger than half of this
 
 // The low byte of `state`; above it flags, then a version that each writer of the slot counts up.
 #define CERTIFICATE_NONE 0

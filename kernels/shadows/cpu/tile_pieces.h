@@ -196,8 +196,14 @@ static void hidden_by_certificates(const RayScene* scene, TilePieces* pieces, co
     global ShadowCertificate* set = set_of(certificates, p->hash, light);
     uint state = find_certificate(certificates, set, &p->piece, l->stamp, places);
     if (state == CERTIFICATE_NONE) {
+      // One that could not be kept costs more than rays.
+      volatile global ShadowCertificate* slot = claim_slot(certificates, set);
+      if (!slot) {
+        for (uint w = 0; w < SHADOW_WORDS; ++w) left[w] |= p->words[w];
+        continue;
+      }
       state = make_certificate(scene, &p->piece, l, places);
-      keep_certificate(certificates, set, &p->piece, l->stamp, state, places);
+      keep_certificate(certificates, slot, &p->piece, l->stamp, state, places);
     }
     const uint kind = state & CERTIFICATE_KIND, side = state >> CERTIFICATE_SIDE_SHIFT & 3u;
     const bool away = (side == 0 && p->eye == 2) || (side == 2 && p->eye == 0);
