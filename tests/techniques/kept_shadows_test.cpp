@@ -17,6 +17,7 @@ using glm::dvec3;
 struct MovingRoom {
   Scene scene;
   dvec3 offset;
+  bool orthographic = false;
   int cloth_mesh, ball, box, mirrored, hedge, cloth;
 
   explicit MovingRoom(const dvec3& at) : offset(at) {
@@ -62,7 +63,9 @@ struct MovingRoom {
 
   View view(double turn, int width, int height) const {
     const dvec3 eye = offset + dvec3(3 * std::sin(turn), 1.7, 3.6 * std::cos(turn) + 0.4);
-    return make_view(look_at(eye, offset + dvec3(0, 0.8, -1)), width, height);
+    Camera camera = look_at(eye, offset + dvec3(0, 0.8, -1));
+    if (orthographic) camera.orthographic = true, camera.half_width_m = 4, camera.half_height_m = 2.4, camera.far_m = 20;
+    return make_view(camera, width, height);
   }
 
   // What moves in a frame; in some frames nothing does.
@@ -98,30 +101,35 @@ struct MovingRoom {
   }
 };
 
-Settings kept(const char* bytes) {
-  Settings settings;
-  apply_setting(settings, std::string("shadow-kept=") + bytes);
-  return settings;
-}
+struct Case {
+  const char *technique = "visibility", *bytes = "16M", *portable = "off";
+  dvec3 offset{0};
+  bool orthographic = false;
+  int frames = 20, width = 200, height = 120;
+};
 
 struct Sum {
   size_t rays = 0, rays_without = 0, kept = 0, hidden = 0;
 };
 
 // Frame by frame against a run without certificates.
-Sum expect_same_bits(Renderer& devices, const char* technique, const dvec3& offset, const char* bytes, int frames,
-                     int width, int height) {
-  MovingRoom room(offset);
+Sum expect_same_bits(Renderer& devices, const Case& c) {
+  MovingRoom room(c.offset);
+  room.orthographic = c.orthographic;
   GpuScene gpu(devices, room.scene);
-  TechniqueRun with(devices, gpu, room.view(0, width, height), kept(bytes), find_technique(technique));
-  TechniqueRun without(devices, gpu, room.view(0, width, height), {}, find_technique(technique));
+  Settings settings;
+  apply_setting(settings, std::string("portable=") + c.portable);
+  const View start = room.view(0, c.width, c.height);
+  TechniqueRun without(devices, gpu, start, settings, find_technique(c.technique));
+  apply_setting(settings, std::string("shadow-kept=") + c.bytes);
+  TechniqueRun with(devices, gpu, start, settings, find_technique(c.technique));
   Sum sum;
   double turn = 0;
-  for (int frame = 0; frame < frames; ++frame) {
+  for (int frame = 0; frame < c.frames; ++frame) {
     const SceneChanges changes = room.move(frame);
     if (!changes.empty()) gpu.update(changes);
     if (frame % 3 != 0) turn += 0.02;
-    const View view = room.view(turn, width, height);
+    const View view = room.view(turn, c.width, c.height);
     for (TechniqueRun* run : {&without, &with}) run->look(view, changes), run->run_frame();
     const HostShadows truth = without.frame().shadows(), bits = with.frame().shadows();
     EXPECT_EQ(bits.cells, truth.cells) << "frame " << frame;
@@ -134,28 +142,40 @@ Sum expect_same_bits(Renderer& devices, const char* technique, const dvec3& offs
     for (const uint32_t word : truth.bits) sum.hidden += size_t(__builtin_popcount(word));
     if (testing::Test::HasFailure()) break;
   }
-  EXPECT_GT(sum.hidden, size_t(frames) * 100);
+  EXPECT_GT(sum.hidden, size_t(c.frames) * 100);
   return sum;
 }
 
 TEST(KeptShadows, AreThoseOfRaysWhateverMoves) {
-  const Sum sum = expect_same_bits(opencl_devices(), "visibility", {0, 0, 0}, "16M", 300, 200, 120);
+  const Sum sum = expect_same_bits(opencl_devices(), {.frames = 300});
   // Without certificates in use this test would show nothing.
   EXPECT_LT(2 * sum.rays, sum.rays_without);
   EXPECT_GT(sum.kept, sum.rays);
 }
 
 TEST(KeptShadows, AreThoseOfRaysFarFromTheOrigin) {
-  const Sum sum = expect_same_bits(opencl_devices(), "visibility", {1e5, 300, -2e5}, "16M", 60, 200, 120);
+  const Sum sum = expect_same_bits(opencl_devices(), {.offset = {1e5, 300, -2e5}, .frames = 60});
   EXPECT_LT(sum.rays, sum.rays_without);
 }
 
 TEST(KeptShadows, AreThoseOfRaysWhereTheTableIsFull) {
-  expect_same_bits(opencl_devices(), "visibility", {0, 0, 0}, "1M", 40, 640, 360);
+  const Sum small = expect_same_bits(opencl_devices(), {.bytes = "1M", .frames = 40, .width = 640, .height = 360});
+  const Sum large = expect_same_bits(opencl_devices(), {.bytes = "64M", .frames = 40, .width = 640, .height = 360});
+  EXPECT_LT(small.kept, large.kept);
 }
 
 TEST(KeptShadows, AreThoseOfRaysOnSurfacesOfOpenGl) {
-  const Sum sum = expect_same_bits(software_devices(), "deferred", {0, 0, 0}, "16M", 30, 200, 120);
+  const Sum sum = expect_same_bits(software_devices(), {.technique = "deferred"});
+  EXPECT_LT(sum.rays, sum.rays_without);
+}
+
+TEST(KeptShadows, AreThoseOfRaysInParallelViews) {
+  const Sum sum = expect_same_bits(opencl_devices(), {.orthographic = true});
+  EXPECT_LT(sum.rays, sum.rays_without);
+}
+
+TEST(KeptShadows, AreThoseOfRaysInPlainOpenClC) {
+  const Sum sum = expect_same_bits(opencl_devices(), {.portable = "on"});
   EXPECT_LT(sum.rays, sum.rays_without);
 }
 
