@@ -321,17 +321,15 @@ static __attribute__((noinline)) uint make_certificate(const RayScene* scene, co
                                                        global const ShadowLight* l,
                                                        int places[CERTIFICATE_PLACES]) {
   global const RayTriangle* t = scene->triangles + scene->places[piece->triangle];
-  const double light = plane_distance(t, l->x, l->y, l->z, 1);
-  const uint side = (light > 0 ? 2u : light < 0 ? 0u : 1u) << CERTIFICATE_SIDE_SHIFT;
   Polygon polygon;
   polygon_of(&polygon, t, piece);
-  if (polygon.count < 3) return CERTIFICATE_UNDECIDED | side;
+  if (polygon.count < 3) return CERTIFICATE_UNDECIDED;
   Shaft shaft;
   set_shaft(&shaft, scene, t, piece, &polygon, l);
   // Only so far are casters that move noticed (passes/shadows/certificates.cpp); no product overflows.
   if (!(shaft.farthest <= CERTIFICATE_FARTHEST * l->range) || !(shaft.sum < 0x1p40f))
-    return CERTIFICATE_UNDECIDED | side;
+    return CERTIFICATE_UNDECIDED;
   uint found = 0;
   const uint kind = find_hiding(scene, &shaft, l, piece->triangle, places, &found);
-  return kind | found << CERTIFICATE_COUNT_SHIFT | side | (all_reached(&shaft, l) ? CERTIFICATE_REACHED : 0);
+  return kind | found << CERTIFICATE_COUNT_SHIFT | (all_reached(&shaft, l) ? CERTIFICATE_REACHED : 0);
 }

@@ -20,7 +20,6 @@
 #define CERTIFICATE_KIND 7u
 #define CERTIFICATE_COUNT_SHIFT 3    // 4 bits: places
 #define CERTIFICATE_REACHED 128u     // all of it is in the light's range and cone
-#define CERTIFICATE_SIDE_SHIFT 8     // 2 bits: the light's side of the triangle's plane, plus 1
 #define CERTIFICATE_VERSION 0x10000u
 
 #if !defined(__OPENCL_VERSION__)

@@ -46,7 +46,7 @@ kernel void find_shadows(ALL_ARGUMENTS) {
           (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, triangle_instance, number_offsets, shadow_view, view);
       used |= 1u << block;
 #ifdef KEPT
-      add_pieces(&pieces, &scene, receivers + block, block, shadow_view);
+      add_pieces(&pieces, &scene, receivers + block, block, range.y, shadow_view);
 #endif
     }
 #ifdef KEPT

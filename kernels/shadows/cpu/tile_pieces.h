@@ -5,13 +5,15 @@
 
 #define MOST_PIECES 128
 #define LEAST_PIXELS 4u   // of a piece in a tile: fewer take rays
+#define LEAST_LIGHTS 2u   // of a tile, else grouping its pixels costs more than rays
 #define SPLIT_PIXELS 24u  // of a piece that is not decided: with more, its eight parts are tried
 
 typedef struct TilePiece {
   Piece piece;
   uint hash;
   float x, y, z, radius;  // a ball around its points
-  uint eye;             // the eye's side of the plane, plus 1
+  global const RayTriangle* plane;
+  uint eye;  // the eye's side of it, plus 1
   uint pixels;
   uint blocks;                 // that show it
   uint words[SHADOW_WORDS];    // its pixels, as an entry has them
@@ -62,8 +64,8 @@ static TilePiece* piece_of(TilePieces* pieces, uint first, const RayScene* scene
   made->piece = *p, made->hash = hash_of_piece(p);
   made->x = (p->x + 0.5f) * edge, made->y = (p->y + 0.5f) * edge, made->z = (p->z + 0.5f) * edge;
   made->radius = 0.9f * edge;
-  const double eye =
-      plane_distance(scene->triangles + scene->places[p->triangle], v->eye_x, v->eye_y, v->eye_z, v->eye_w);
+  made->plane = scene->triangles + scene->places[p->triangle];
+  const double eye = plane_distance(made->plane, v->eye_x, v->eye_y, v->eye_z, v->eye_w);
   made->eye = eye > 0 ? 2 : eye < 0 ? 0 : 1;
   made->pixels = 0, made->blocks = 0, made->parts = NOT_SPLIT;
   for (uint i = 0; i < SHADOW_WORDS; ++i) made->words[i] = made->rest[i] = 0;
@@ -99,9 +101,14 @@ static uint add_lanes(TilePieces* pieces, uint first, const RayScene* scene, con
   return lanes & ~taken;
 }
 
-// Of a block of pixels. Cells are PIECE_PIXELS at most where the eye sees them.
-static void add_pieces(TilePieces* pieces, const RayScene* scene, const Receivers* r, uint block,
+// Of a block of pixels, of which all take rays where the tile has few `lights`. Cells are PIECE_PIXELS at most where the eye sees them.
+static void add_pieces(TilePieces* pieces, const RayScene* scene, const Receivers* r, uint block, uint lights,
                        constant ShadowView* v) {
+  const uint covered = lane_bits(r->own >= (whole)(0));
+  if (lights < LEAST_LIGHTS) {
+    pieces->others[block / 2] |= covered << 16 * (block & 1u);
+    return;
+  }
 #ifdef ORTHOGRAPHIC
   const real squared = REAL(v->piece_scale);
 #else
@@ -109,7 +116,7 @@ static void add_pieces(TilePieces* pieces, const RayScene* scene, const Receiver
   const real squared = fma(d.z, d.z, fma(d.y, d.y, d.x * d.x)) * v->piece_scale;
 #endif
   const whole exponent = max(min(((as_int16(squared) >> 23) - 127) >> 1, (whole)(30)), (whole)(-30));
-  const uint rest = add_lanes(pieces, 0, scene, r, lane_bits(r->own >= (whole)(0)), exponent, block, v);
+  const uint rest = add_lanes(pieces, 0, scene, r, covered, exponent, block, v);
   pieces->others[block / 2] |= rest << 16 * (block & 1u);
 }
 
@@ -192,6 +199,16 @@ static void hidden_by_certificates(const RayScene* scene, TilePieces* pieces, co
     TilePiece* p = pieces->of + at;
     const float dx = p->x - x, dy = p->y - y, dz = p->z - z, far = reach + p->radius;
     if (dx * dx + dy * dy + dz * dz > far * far * 1.00001f) continue;
+    const double side = plane_distance(p->plane, l->x, l->y, l->z, 1);
+    if ((side < 0 && p->eye == 2) || (side > 0 && p->eye == 0)) {  // they see its other side than the light
+      *decided += p->pixels;
+      for (uint blocks = p->blocks; blocks != 0; blocks &= blocks - 1) {
+        const uint block = lowest_bit(blocks);
+        const uint hidden = lanes_of_block(p->words, block) & lane_bits(may_shade(receivers + block, l));
+        words[block / 2] |= hidden << 16 * (block & 1u);
+      }
+      continue;
+    }
     int places[CERTIFICATE_PLACES];
     global ShadowCertificate* set = set_of(certificates, p->hash, light);
     uint state = find_certificate(certificates, set, &p->piece, l->stamp, places);
@@ -205,9 +222,8 @@ static void hidden_by_certificates(const RayScene* scene, TilePieces* pieces, co
       state = make_certificate(scene, &p->piece, l, places);
       keep_certificate(certificates, slot, &p->piece, l->stamp, state, places);
     }
-    const uint kind = state & CERTIFICATE_KIND, side = state >> CERTIFICATE_SIDE_SHIFT & 3u;
-    const bool away = (side == 0 && p->eye == 2) || (side == 2 && p->eye == 0);
-    if (!away && kind == CERTIFICATE_UNDECIDED) {
+    const uint kind = state & CERTIFICATE_KIND;
+    if (kind == CERTIFICATE_UNDECIDED) {
       if (p->parts == NOT_SPLIT && p->pixels >= SPLIT_PIXELS && pieces->count + 8 <= MOST_PIECES)
         split_piece(pieces, at, scene, receivers, v);
       if (p->parts == NOT_SPLIT) {
@@ -219,8 +235,8 @@ static void hidden_by_certificates(const RayScene* scene, TilePieces* pieces, co
       continue;
     }
     *decided += p->pixels;
-    if (!away && kind == CERTIFICATE_FREE) continue;
-    const bool whole_piece = away || kind == CERTIFICATE_HIDDEN, reached = state & CERTIFICATE_REACHED;
+    if (kind == CERTIFICATE_FREE) continue;
+    const bool whole_piece = kind == CERTIFICATE_HIDDEN, reached = state & CERTIFICATE_REACHED;
     if (whole_piece && reached) {
       for (uint w = 0; w < SHADOW_WORDS; ++w) words[w] |= p->words[w];
       continue;
