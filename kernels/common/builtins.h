@@ -89,9 +89,11 @@ DECLARE() DECLARE(2) DECLARE(3) DECLARE(4) DECLARE(8) DECLARE(16)
 #define IN(space, T) \
   BUILTIN T atomic_add(volatile space T*, T); BUILTIN T atomic_min(volatile space T*, T); \
   BUILTIN T atomic_max(volatile space T*, T); BUILTIN T atomic_or(volatile space T*, T); \
-  BUILTIN T atomic_inc(volatile space T*);
+  BUILTIN T atomic_inc(volatile space T*); BUILTIN T atomic_cmpxchg(volatile space T*, T, T);
 IN(__global, int) IN(__global, uint) IN(__local, int) IN(__local, uint)
 #undef IN
+BUILTIN void mem_fence(cl_mem_fence_flags);
+BUILTIN void read_mem_fence(cl_mem_fence_flags);
 #ifdef cl_khr_int64_extended_atomics
 BUILTIN ulong atom_max(volatile __global ulong*, ulong);
 BUILTIN ulong atom_max(volatile __local ulong*, ulong);

@@ -9,10 +9,12 @@
 #include "base/error.h"
 #include "cl/transfer.h"
 #include "passes/common/view_shadow_maps.h"
+#include "passes/shadows/certificates.h"
 #include "renderer/drawing/draw.h"
 #include "renderer/upload/culler_input.h"
 #include "renderer/upload/lights.h"
 #include "shared/shadow_bits.h"
+#include "shared/shadow_certificates.h"
 #include "shared/shadow_records.h"
 
 namespace lightgrid {
@@ -40,11 +42,15 @@ CullerOptions options_of_shadows(const FramePlan& plan) {
   return options;
 }
 
-// In the order of FramePlan::shadowed. Those without shadows are listed nowhere, directional ones in every
-// tile that shows a surface.
-std::vector<CullLight> shadowed_lights(const Seen& seen) {
+// In the order of FramePlan::shadowed, as shining: directional ones everywhere.
+std::vector<CullLight> all_lights_of(const Seen& seen) {
   std::vector<CullLight> lights = cull_lights_of(seen.scene, seen.plan.local, seen.plan.settings.ranges);
   lights.resize(lights_of(seen.plan), CullLight{.position = seen.view.eye});
+  return lights;
+}
+
+// Those without shadows are listed nowhere, directional ones in every tile that shows a surface.
+std::vector<CullLight> shadowed_lights(const Seen& seen, std::vector<CullLight> lights) {
   for (size_t i = 0; i < lights.size(); ++i) {
     if (!seen.plan.shadowed[i]) lights[i].radius_m = -1;
   }
@@ -58,7 +64,8 @@ ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dv
                          double source_m) {
   const glm::dvec3 at = light.position - origin;
   ShadowLight s{at.x, at.y, at.z, 1, float(light.direction.x), float(light.direction.y),
-                float(light.direction.z), float(light.cos_outer), 0, 0, float(source_m), 0};
+                float(light.direction.z), float(light.cos_outer), 0, 0, float(light.radius_m), float(source_m), 0,
+                0};
   if (light.cos_outer < -1) s.cos_outer = -1;
   const double slack = 0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
   const double reach = light.radius_m * (1 + 1e-5) + slack;
@@ -78,12 +85,14 @@ ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
   const glm::dvec3 from = view.eye - origin, eye = view.orthographic ? world_from_view[2] : from;
   ShadowView v{eye.x, eye.y, eye.z, view.orthographic ? 0.0 : 1.0, {}, float(from.x), float(from.y),
-               float(from.z), 0, {}};
+               float(from.z), 0, 0, {}};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
       v.world_from_view[3 * row + column] = float(world_from_view[column][row]);
   }
   v.words = uint(tile_words(seen.plan));
+  const double piece = PIECE_PIXELS * 2 / (view.clip_from_view[1][1] * view.height);
+  v.piece_scale = float(piece * piece);
   return v;
 }
 
@@ -108,6 +117,7 @@ class ShadowBits : public PassCache {
     size_t bytes = lights_.bytes() + view_.bytes() + offsets_.bytes() + rays_.bytes() + grid_.cell_bytes +
                    grid_.index_bytes;
     if (scene_) bytes += scene_->memory_bytes();
+    if (certificates_) bytes += certificates_->memory_bytes();
     if (culler_) bytes += culler_->memory_bytes();
     if (maps_) bytes += maps_->memory_bytes();
     return bytes;
@@ -153,7 +163,8 @@ class ShadowBits : public PassCache {
                                 {"view", work.cl_lights().view.buffer()},
                                 {"tiles", listed},
                                 {"bits", bits},
-                                {"rays", rays}});
+                                {"rays", rays}} +
+                    (certificates_ ? certificates_->arguments(device, parts_) : ClArguments{}));
     hand_over(work, bytes, bit_bytes);
   }
 
@@ -196,6 +207,10 @@ class ShadowBits : public PassCache {
       f.bytes += maps_->atlas().bytes;
     }
     f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
+    if (certificates_) {
+      f.kept = certificates_->decided(*work.renderer.cl);
+      f.bytes += certificates_->table_bytes();
+    }
     return f;
   }
 
@@ -233,16 +248,24 @@ class ShadowBits : public PassCache {
     if (lights_of(work.plan) > 65536) defines += " -DINDEX_32";
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
     if (kernels_.lanes && work.plan.settings.portable) defines += " -DPORTABLE";
-    if (work.plan.settings.shadows == ShadowMethod::map) {
+    if (settings.shadows == ShadowMethod::map) {
       if (!maps_) maps_.emplace(work);
       if (!followed_) maps_->look(work, rays.origin());
       defines += maps_->defines();
     }
+    const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact && !settings.soft_shadows();
+    const size_t kept_bytes = keeps ? ShadowCertificates::bytes_of(settings) : 0;
+    if (kept_bytes != 0) defines += " -DKEPT";
     kernels_.use(defines);
     if (followed_) return;
     ClDevice& device = *work.renderer.cl;
     if (!culler_) culler_.emplace(device, *work.renderer.kernels, options_of_shadows(work.plan));
-    const std::vector<CullLight> lights = shadowed_lights(work);
+    const std::vector<CullLight> all_lights = all_lights_of(work);
+    const std::vector<CullLight> lights = shadowed_lights(work, all_lights);
+    if (kept_bytes != 0) {
+      if (!certificates_) certificates_.emplace(device, kept_bytes);
+      certificates_->follow(work, rays, all_lights);
+    }
     culler_->set_lights(lights);
     culler_->set_view(cull_view(work.view));
     std::vector<ShadowLight> records;
@@ -250,6 +273,7 @@ class ShadowBits : public PassCache {
       records.push_back(shadow_light(lights[i], work.view, rays.origin(), settings.shadow_source_m));
     for (const int i : work.plan.directional_lights)
       records.push_back(shadow_light(work.scene.lights[size_t(i)]));
+    for (size_t i = 0; certificates_ && i < records.size(); ++i) records[i].stamp = certificates_->stamp(i);
     lights_.put(device, "uploading lights of shadows", records);
     view_.put(device, "uploading the view of shadows",
               std::vector<ShadowView>{shadow_view(work, rays.origin())});
@@ -269,6 +293,7 @@ class ShadowBits : public PassCache {
   std::shared_ptr<RayScene> scene_;
   std::optional<LightCuller> culler_;
   std::optional<ViewShadowMaps> maps_;
+  std::optional<ShadowCertificates> certificates_;
   ClGridStorage storage_;
   UploadedBuffer lights_, view_, offsets_;
   GrowingBuffer rays_;

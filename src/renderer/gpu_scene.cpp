@@ -56,6 +56,8 @@ void GpuScene::update(const SceneChanges& changes) {
   if (in_gl_) in_gl_->update(changes);
   for (const auto& [layout, scene] : in_cl_) scene->update(changes);
   shape_version_ += changes.meshes.empty() ? 0 : 1;
+  if (!changes.meshes.empty()) mesh_versions_.resize(scene_.meshes.size());
+  for (const int mesh : changes.meshes) ++mesh_versions_[size_t(mesh)];
   instances_version_ += changes.instances.empty() ? 0 : 1;
   if (changes.lights.empty()) return;
   ++lights_version_;

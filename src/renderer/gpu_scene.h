@@ -48,6 +48,9 @@ class GpuScene {
   int shape_version() const { return shape_version_; }
   int instances_version() const { return instances_version_; }
   int lights_version() const { return lights_version_; }
+  int mesh_version(int mesh) const {
+    return size_t(mesh) < mesh_versions_.size() ? mesh_versions_[size_t(mesh)] : 0;
+  }
   // Lights of the scene, ascending, that changed after lights_version() was `version`. Nothing if that is too
   // long ago.
   std::optional<std::vector<int>> lights_changed_since(int version) const;
@@ -64,6 +67,7 @@ class GpuScene {
   int in_rays_shape_ = 0, in_rays_instances_ = 0;  // shape_version() and instances_version() of what it holds
   std::vector<std::pair<WorldGridKey, std::weak_ptr<SharedWorldGrid>>> world_grids_;
   int shape_version_ = 0, instances_version_ = 0, lights_version_ = 0;
+  std::vector<int> mesh_versions_;  // updates that deformed each; of the first ones
   std::deque<std::vector<int>> changed_lights_;  // of the last updates that moved any
 };
 

@@ -16,8 +16,10 @@ typedef struct ShadowLight {
   float axis_x, axis_y, axis_z, cos_outer;
   float reach_squared;
   float slack;     // metres
+  float range;     // metres
   float source_m;  // the sphere's radius
-  float padding;
+  uint stamp;      // of certificates: another one after the light, or what it may reach, moved
+  uint padding;
 } ShadowLight;
 
 typedef struct ShadowView {
@@ -25,10 +27,11 @@ typedef struct ShadowView {
   float world_from_view[9];           // rows
   float from_x, from_y, from_z;       // the eye, to which positions in view space are relative
   uint words;                         // pairs of words a tile: a bit a light (shared/shadow_bits.h)
-  uint padding[3];
+  float piece_scale;                  // (PIECE_PIXELS pixels)^2 at the distance 1 m; orthographic: at any
+  uint padding[2];
 } ShadowView;
 
 #if !defined(__OPENCL_VERSION__)
-static_assert(sizeof(ShadowLight) == 64 && sizeof(ShadowView) == 96);
+static_assert(sizeof(ShadowLight) == 72 && sizeof(ShadowView) == 96);
 }  // namespace lightgrid
 #endif

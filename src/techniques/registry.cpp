@@ -16,7 +16,7 @@ bool holds(const std::vector<const char*>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-// A range's settings are shown only with a range that reads them, a shadow map's only with one.
+// Settings are shown only where something reads them: of a range with one that does, and so of shadows.
 bool has_effect(const Settings& settings, const std::string& key) {
   const LightRange range = settings.ranges.range;
   if (key == "cutoff") return range == LightRange::cutoff;
@@ -25,6 +25,7 @@ bool has_effect(const Settings& settings, const std::string& key) {
   if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
     return settings.shadows == ShadowMethod::map;
   if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
+  if (key == "shadow-kept") return settings.given.contains(key);
   return true;
 }
 
@@ -62,7 +63,7 @@ const std::vector<const char*>& common_settings() {
       if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
     }
     for (const char* key : {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays",
-                            "shadow-source", "everything-on"})
+                            "shadow-source", "shadow-kept", "everything-on"})
       all.push_back(key);
     return all;
   }();

@@ -3,10 +3,18 @@
 //
 // WAY_ARGUMENTS          kernels/shadows/ways.h
 // SHADOW_PASS_ARGUMENTS  kernels/shadows/receivers.h
+// -DKEPT                 certificates decide what they can (kernels/shadows/certificates.h)
+// decided                out, with -DKEPT: pairs of a pixel and a listed light that took no ray, a tile
 #define LANES 16
 #include "kernels/common/pack.h"
 #include "kernels/common/image_blocks.h"
 #include "kernels/shadows/ways.h"
+#ifdef KEPT
+#include "kernels/shadows/cpu/tile_pieces.h"
+#define ALL_ARGUMENTS SHADOW_PASS_ARGUMENTS, CERTIFICATE_ARGUMENTS
+#else
+#define ALL_ARGUMENTS WAY_ARGUMENTS SHADOW_PASS_ARGUMENTS
+#endif
 
 // Of a block's pixels, into an entry of zeros.
 #ifdef SHADOW_BYTES
@@ -19,7 +27,7 @@ static inline void store_shadows(global uint* entry, uint block, whole hidden) {
 }
 #endif
 
-kernel void find_shadows(WAY_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
+kernel void find_shadows(ALL_ARGUMENTS) {
   const RayScene scene = RAYS_SCENE;
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const uint tile = tile_y * (uint)get_global_size(0) + tile_x;
@@ -27,6 +35,13 @@ kernel void find_shadows(WAY_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
   global uint2* listed = tiles + (size_t)tile * shadow_view->words;
   for (uint i = 0; i < shadow_view->words; ++i) listed[i] = (uint2)(0);
   Way way = WAY;
+#ifdef KEPT
+  const Certificates kept = CERTIFICATES;
+  TilePieces pieces;
+  pieces.count = 0;
+  for (uint w = 0; w < SHADOW_WORDS; ++w) pieces.others[w] = 0;
+  uint without_ray = 0;
+#endif
   if (range.y != 0) {
     Receivers receivers[16];
     uint used = 0;  // blocks with a surface
@@ -42,10 +57,26 @@ kernel void find_shadows(WAY_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
           &scene, triangle, covered, (float)x + 0.5f + convert_float16(LANE_INDEX & 3),
           (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, triangle_instance, number_offsets, shadow_view, view);
       used |= 1u << block;
+#ifdef KEPT
+      add_pieces(&pieces, &scene, receivers + block, block, range.y, shadow_view);
+#endif
     }
+#ifdef KEPT
+    drop_small_pieces(&pieces, 0, pieces.others);
+    pieces.count_at_first = pieces.count;
+#endif
     for (uint i = range.x; i < range.x + range.y; ++i) {
       const uint index = indices[i];
       global uint* entry = bits + (size_t)i * SHADOW_WORDS;
+#ifdef KEPT
+      uint words[SHADOW_WORDS] = {0}, others[SHADOW_WORDS];
+      hidden_by_certificates(&scene, &pieces, receivers, lights + index, index,
+                             indices[min(i + 1, range.x + range.y - 1)], &kept, shadow_view, words, others,
+                             &without_ray);
+      hidden_by_rays(&scene, receivers, others, lights + index, shadow_view, words, &way.traced,
+                     &way.last_blocker);
+      vstore8(vload8(0, words), 0, entry);
+#else
       for (uint word = 0; word < SHADOW_WORDS; word += 8) vstore8((uint8)(0), 0, entry + word);
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
@@ -53,10 +84,14 @@ kernel void find_shadows(WAY_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
                       hidden_share(&way, &scene, receivers + block, index, lights, shadow_view,
                                    tile_x * SHADOW_TILE + block % 4 * 4, tile_y * SHADOW_TILE + block / 4 * 4));
       }
+#endif
       global uint2* here = listed + index / 32;
       if (here->x == 0) here->y = i;
       here->x |= 1u << (index & 31u);
     }
   }
   rays[tile] = rays_of_way(&way);
+#ifdef KEPT
+  decided[tile] = without_ray;
+#endif
 }

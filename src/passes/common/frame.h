@@ -56,7 +56,7 @@ struct ShadowFigures {
   size_t rays = 0;       // traced
   size_t maps = 0;       // in use, of these
   size_t drawn = 0;      // drawn in this frame, and
-  size_t kept = 0;       // kept from frames before
+  size_t kept = 0;       // kept from frames before; with certificates the pairs that they decide
   size_t bytes = 0;      // of bits, maps and certificates
   size_t undecided = 0;  // pairs that maps left to rays
   int halvings = 0;      // of the sizes of all maps, to fit into their bound of memory

@@ -1,0 +1,105 @@
+#include "passes/shadows/certificates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "cl/transfer.h"
+#include "shared/shadow_certificates.h"
+
+namespace lightgrid {
+
+static const OwnSetting<size_t> shadow_kept{
+    "shadow-kept", "portable",
+    "memory for what is kept of shadows while nothing moves, which then need fewer rays; of CPUs only",
+    {{"off", 0}, {"1M", 1 << 20}, {"4M", 4 << 20}, {"16M", 16 << 20}, {"64M", 64 << 20}, {"256M", 256 << 20}}};
+
+namespace {
+
+constexpr uint32_t frames_a_step = 4;  // of the time by which slots age
+
+bool same(const CullLight& a, const CullLight& b) {
+  return a.position == b.position && a.radius_m == b.radius_m && a.direction == b.direction &&
+         a.cos_outer == b.cos_outer;
+}
+
+WorldBox box_of(const Mesh& mesh, const glm::dmat4& world_from_object) {
+  WorldBox box{glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
+  if (mesh.bounds.empty()) return box;
+  for (int i = 0; i < 8; ++i) {
+    const glm::dvec4 corner(i & 1 ? mesh.bounds.max.x : mesh.bounds.min.x,
+                            i & 2 ? mesh.bounds.max.y : mesh.bounds.min.y,
+                            i & 4 ? mesh.bounds.max.z : mesh.bounds.min.z, 1);
+    const glm::dvec3 at(world_from_object * corner);
+    box.min = glm::min(box.min, at), box.max = glm::max(box.max, at);
+  }
+  return box;
+}
+
+// Whether a certificate of the light may depend on what the box holds. The polygons of pieces are within
+// CERTIFICATE_FARTHEST times the range, and so is all between them and the light; slack: rounding of
+// positions to float.
+bool may_reach(const CullLight& light, const WorldBox& box, const glm::dvec3& origin) {
+  if (box.empty()) return false;
+  const double farthest = glm::length(glm::max(glm::abs(box.min - origin), glm::abs(box.max - origin)));
+  const double slack = 1e-5 * (farthest + glm::length(light.position - origin));
+  const glm::dvec3 nearest = glm::clamp(light.position, box.min, box.max);
+  return !(glm::length(light.position - nearest) >
+           1.001 * double(CERTIFICATE_FARTHEST) * light.radius_m + slack);
+}
+
+}  // namespace
+
+size_t ShadowCertificates::bytes_of(const Settings& settings) { return shadow_kept.of(settings); }
+
+ShadowCertificates::ShadowCertificates(ClDevice& device, size_t bytes) : table_(device_buffer(device, bytes)) {
+  fill_buffer(device, "clearing certificates", table_, CERTIFICATE_NONE, bytes);
+}
+
+// A light that moved, or whose range or cone changed, has none of its certificates any more. Nor has one with
+// an instance in its reach, before or after it moved or its mesh deformed, as a caster or as a receiver.
+void ShadowCertificates::follow(Work& work, const RayScene& rays, const std::vector<CullLight>& all_lights) {
+  const Scene& scene = work.scene;
+  bool all = rays.builds() != builds_ || instances_.size() != scene.instances.size();
+  if (last_stamp_ > 0xffffffffu - all_lights.size() - 1) {
+    fill_buffer(*work.renderer.cl, "clearing certificates", table_, CERTIFICATE_NONE, table_bytes());
+    last_stamp_ = 0, all = true;
+  }
+  builds_ = rays.builds();
+  std::vector<WorldBox> moved;
+  instances_.resize(scene.instances.size(), {glm::dmat4(0), -1, {}});
+  for (size_t i = 0; i < instances_.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    Placed& before = instances_[i];
+    const int version = work.gpu.mesh_version(instance.mesh);
+    if (before.world_from_object == instance.world_from_object && before.mesh_version == version) continue;
+    const Placed after{instance.world_from_object, version,
+                       box_of(scene.meshes[size_t(instance.mesh)], instance.world_from_object)};
+    if (!all) moved.push_back(before.box), moved.push_back(after.box);
+    before = after;
+  }
+  const size_t known = std::min(lights_.size(), all_lights.size());
+  stamps_.resize(all_lights.size());
+  for (size_t i = 0; i < all_lights.size(); ++i) {
+    const auto reaches = [&](const WorldBox& box) { return may_reach(all_lights[i], box, rays.origin()); };
+    if (all || i >= known || !same(lights_[i], all_lights[i]) || std::ranges::any_of(moved, reaches)) renew(i);
+  }
+  lights_ = all_lights;
+}
+
+ClArguments ShadowCertificates::arguments(ClDevice& device, size_t parts) {
+  parts_ = parts;
+  const auto sets = cl_uint(table_bytes() / (CERTIFICATE_SET * sizeof(ShadowCertificate)));
+  return {{"certificates", table_},
+          {"certificate_sets", sets},
+          {"certificate_time", cl_uint(frames_++ / frames_a_step)},
+          {"decided", decided_.at_least(device, parts * sizeof(uint32_t))}};
+}
+
+size_t ShadowCertificates::decided(ClDevice& device) const {
+  std::vector<uint32_t> counts(parts_);
+  read_buffer(device, "counting decided pairs", decided_.get(), counts.data(), counts.size() * sizeof counts[0]);
+  return std::accumulate(counts.begin(), counts.end(), size_t(0));
+}
+
+}  // namespace lightgrid
