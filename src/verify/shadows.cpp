@@ -527,31 +527,32 @@ void edges_of_cones(Check& c) {
 }
 
 // Where the eye is close to a plane, the rasteriser's snapping moves positions off it by a part of a pixel:
-// 0.3 mm here. Below each pixel's place lies a lamp whose range ends at it, 0.2 mm before it or behind it,
-// above it a spot that ends there.
+// 0.3 mm here. On the floor's other side than the eye lie, for many pixels, a lamp whose range ends at the
+// pixel's place, 0.3 mm before it or behind it, and a spot whose cone ends there.
 void beside_their_plane(Check& c) {
   Scene scene = empty_shadow_scene();
-  add_triangles(scene, quad_of({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}, 3, 5));
-  add_triangles(scene, box_of({-0.5f, 0, -0.5f}, {0.5f, 0.3f, 0.5f}));
-  const View view = shadow_view({3.2, 0.05, 3.4}, {-1, 0.02, -1.2}, 48, 36, 2.3);
+  add_triangles(scene, box_of({-0.25f, -2.25f, -0.25f}, {0.25f, 1, 0.25f}));
+  add_triangles(scene, quad_of({-4, -2.25f, 4}, {8, 0, 0}, {0, 0, -8}, 3, 2));
+  const View view = shadow_view({-1.284856, -2.3538504, -3.4913974}, {0, -1.387, -0.25}, 160, 90, 2.346);
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
-  for (int y = 0; y < view.height; ++y) {
-    for (int x = 0; x < view.width; ++x) {
+  for (int y = 0; y < view.height; y += 3) {
+    for (int x = 0; x < view.width; x += 7) {
       const dvec3 way =
           world_from_view * dvec3((2 * (x + 0.5) / view.width - 1) / view.clip_from_view[0][0],
                                   (2 * (y + 0.5) / view.height - 1) / view.clip_from_view[1][1], -1);
-      const dvec3 foot = view.eye - way * (view.eye.y / way.y);
-      if (way.y >= 0 || std::max(std::abs(foot.x), std::abs(foot.z)) > 4) continue;
+      const dvec3 foot = view.eye - way * ((view.eye.y + 2.25) / way.y);
+      if (way.y <= 0 || std::max(std::abs(foot.x), std::abs(foot.z)) > 4) continue;
       const double height = x % 2 ? 0.5 : 50 + 30 * (x % 7), ends[] = {0, -3e-4, 3e-4};
-      add_lamp(scene, foot - dvec3(0, height, 0), float(height + ends[(x + y) % 3]));
-      const dvec3 above = foot + dvec3(0.2, 0.7, -0.1);
-      add_spot_lamp(scene, above, foot + dvec3(0.3, 0, 0.4), 0.1f, 3);
+      add_lamp(scene, foot + dvec3(0, height, 0), float(height + ends[(x + y) % 3]));
+      const dvec3 beside = foot + dvec3(-0.2, 0.7, 0.1);
+      add_spot_lamp(scene, beside, foot + dvec3(0.3, 0, 0.4), 0.1f, 3);
       Light& spot = scene.lights.back();
       spot.outer_cone_rad =
-          float(std::acos(glm::dot(glm::normalize(foot - above), glm::normalize(dvec3(spot.direction)))));
+          float(std::acos(glm::dot(glm::normalize(foot - beside), glm::normalize(dvec3(spot.direction)))));
       spot.inner_cone_rad = spot.outer_cone_rad / 2;
     }
   }
+  for (int i = 0; i < 20; ++i) add_lamp(scene, {3 - 0.3 * i, -2.6, 2.5 - 0.25 * i});
   shadows(c, scene, {view});
 }
 
