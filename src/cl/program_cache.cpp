@@ -90,7 +90,8 @@ cl::Kernel ProgramCache::kernel(const std::string& file, const std::string& defi
   if (asked_) asked_->insert(file + ' ' + defines);
   const bool declared = may_declare_builtins(device_.info());
   return kernel_of(file + ' ' + defines, file, declared ? "-D_OPENCL_H_ " + defines : defines, [&] {
-    const std::string text = with_includes("kernels/" + file + ".cl");
+    std::string text = with_includes("kernels/" + file + ".cl");
+    if (alter_) text = alter_(std::move(text));
     return declared ? with_includes("kernels/common/builtins.h") + text : text;
   });
 }

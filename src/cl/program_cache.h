@@ -39,6 +39,10 @@ class ProgramCache {
   };
   const Counts& counts() const { return counts_; }
 
+  // Changes the text of each embedded kernel before it is built, from now on. For tests, which plant faults.
+  using Alter = std::function<std::string(std::string text)>;
+  void alter(Alter alter) { alter_ = std::move(alter); }
+
   // From now on the set receives the file and the defines of each embedded kernel in use; null: no longer.
   void note_kernels(std::set<std::string>* asked) { asked_ = asked; }
 
@@ -55,6 +59,7 @@ class ProgramCache {
   std::map<std::string, cl::Program> programs_;
   Counts counts_;
   std::set<std::string>* asked_ = nullptr;
+  Alter alter_;
 };
 
 }  // namespace lightgrid

@@ -43,8 +43,9 @@ std::vector<CastingTriangle> triangles_of(const Scene& scene, const TriangleBuff
 
 class DeviceEngine : public CullEngine {
  public:
-  explicit DeviceEngine(const std::string& substring)
+  DeviceEngine(const std::string& substring, ProgramCache::Alter alter)
       : substring_(substring),
+        alter_(std::move(alter)),
         device_(substring),
         programs_(device_),
         storage_(device_),
@@ -112,7 +113,10 @@ class DeviceEngine : public CullEngine {
 
   std::vector<ShadowImage> shadows(const Scene& scene, std::span<const View> views,
                                    const Settings& settings) override {
-    if (!renderer_) renderer_ = std::make_unique<Renderer>(substring_, GlBackend::none);
+    if (!renderer_) {
+      renderer_ = std::make_unique<Renderer>(substring_, GlBackend::none);
+      renderer_->kernels->alter(alter_);
+    }
     GpuScene gpu(*renderer_, scene);
     RenderView v(*renderer_, gpu, views.front(), settings, {.opengl = false});
     std::vector<ShadowImage> images;
@@ -175,6 +179,7 @@ class DeviceEngine : public CullEngine {
   }
 
   const std::string substring_;
+  const ProgramCache::Alter alter_;
   std::unique_ptr<Renderer> renderer_;  // of shadows: made at first use
   ClDevice device_;
   ProgramCache programs_;
@@ -186,8 +191,8 @@ class DeviceEngine : public CullEngine {
 
 }  // namespace
 
-std::unique_ptr<CullEngine> device_engine(const std::string& substring) {
-  return std::make_unique<DeviceEngine>(substring);
+std::unique_ptr<CullEngine> device_engine(const std::string& substring, ProgramCache::Alter alter) {
+  return std::make_unique<DeviceEngine>(substring, std::move(alter));
 }
 
 }  // namespace lightgrid::verify

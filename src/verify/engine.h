@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cl/program_cache.h"
 #include "culling/light_culler.h"
 #include "plan/settings.h"
 #include "raster/raster_view.h"
@@ -103,7 +104,8 @@ class CullEngine {
 };
 
 // The library on the OpenCL device whose "platform name" contains `substring`. Keeps its cullers: cases of
-// all kinds reuse the same ones, as frames do.
-std::unique_ptr<CullEngine> device_engine(const std::string& substring);
+// all kinds reuse the same ones, as frames do. alter: changes the kernels that shadows() runs
+// (cl/program_cache.h).
+std::unique_ptr<CullEngine> device_engine(const std::string& substring, ProgramCache::Alter alter = {});
 
 }  // namespace lightgrid::verify

@@ -88,14 +88,27 @@ std::vector<View> of_the_soup() {
           shadow_view({-3, 3, -2}, {0, -1, 0})};
 }
 
-// A wide floor of a few triangles and a ball's worth of small ones, with lamps a hair above it.
+// The scene and its view turned about the origin.
+void turn(Scene& scene, std::vector<View>& views, const dmat4& turn) {
+  for (Instance& instance : scene.instances) instance.world_from_object = turn * instance.world_from_object;
+  for (Light& light : scene.lights) light.position = glm::dmat3(turn) * light.position;
+  for (View& view : views) {
+    view.view_from_world = view.view_from_world * glm::transpose(turn);
+    view.eye = glm::dmat3(turn) * view.eye;
+  }
+}
+
+// Lamps down to a hair above a wide floor of two triangles. Also where its normal is rounded.
 void grazing(Check& c) {
   Scene scene = furnished_floor(1);
-  for (int i = 0; i < 12; ++i) {
-    const double angle = i * std::numbers::pi / 6, height = std::exp2(-i);
+  for (int i = 0; i < 28; ++i) {
+    const double angle = i * std::numbers::pi / 14, height = std::exp2(-0.5 * i);
     add_lamp(scene, {3.5 * std::cos(angle), height, 3.5 * std::sin(angle)});
   }
-  shadows(c, scene, {of_the_floor(96, 64), shadow_view({3.9, 0.05, 3.9}, {0, 0, 0}, 96, 64)});
+  std::vector<View> views = {of_the_floor(96, 64), shadow_view({3.9, 0.05, 3.9}, {0, 0, 0}, 96, 64)};
+  shadows(c, scene, views);
+  turn(scene, views, glm::rotate(dmat4(1), 0.7, glm::normalize(dvec3(1, 2, 3))));
+  shadows(c, scene, views);
 }
 
 void lights_behind_the_eye(Check& c) {
@@ -513,6 +526,36 @@ void edges_of_cones(Check& c) {
   shadows(c, scene, {of_the_floor(96, 64)});
 }
 
+// Where the eye is close to a plane, the rasteriser's snapping moves positions off it by a part of a pixel:
+// 0.3 mm here. On the floor's other side than the eye lie, for many pixels, a lamp whose range ends at the
+// pixel's place, 0.3 mm before it or behind it, and a spot whose cone ends there.
+void beside_their_plane(Check& c) {
+  Scene scene = empty_shadow_scene();
+  add_triangles(scene, box_of({-0.25f, -2.25f, -0.25f}, {0.25f, 1, 0.25f}));
+  add_triangles(scene, quad_of({-4, -2.25f, 4}, {8, 0, 0}, {0, 0, -8}, 3, 2));
+  const View view = shadow_view({-1.284856, -2.3538504, -3.4913974}, {0, -1.387, -0.25}, 160, 90, 2.346);
+  const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
+  for (int y = 0; y < view.height; y += 3) {
+    for (int x = 0; x < view.width; x += 7) {
+      const dvec3 way =
+          world_from_view * dvec3((2 * (x + 0.5) / view.width - 1) / view.clip_from_view[0][0],
+                                  (2 * (y + 0.5) / view.height - 1) / view.clip_from_view[1][1], -1);
+      const dvec3 foot = view.eye - way * ((view.eye.y + 2.25) / way.y);
+      if (way.y <= 0 || std::max(std::abs(foot.x), std::abs(foot.z)) > 4) continue;
+      const double height = x % 2 ? 0.5 : 50 + 30 * (x % 7), ends[] = {0, -3e-4, 3e-4};
+      add_lamp(scene, foot + dvec3(0, height, 0), float(height + ends[(x + y) % 3]));
+      const dvec3 beside = foot + dvec3(-0.2, 0.7, 0.1);
+      add_spot_lamp(scene, beside, foot + dvec3(0.3, 0, 0.4), 0.1f, 3);
+      Light& spot = scene.lights.back();
+      spot.outer_cone_rad =
+          float(std::acos(glm::dot(glm::normalize(foot - beside), glm::normalize(dvec3(spot.direction)))));
+      spot.inner_cone_rad = spot.outer_cone_rad / 2;
+    }
+  }
+  for (int i = 0; i < 20; ++i) add_lamp(scene, {3 - 0.3 * i, -2.6, 2.5 - 0.25 * i});
+  shadows(c, scene, {view});
+}
+
 }  // namespace
 
 std::vector<CaseRun> shadow_cases() {
@@ -524,7 +567,7 @@ std::vector<CaseRun> shadow_cases() {
                mirrored_instances, scaled_and_sheared_instances, masked_foliage, what_does_not_hide,
                without_area, seen_from_behind, at_the_own_plane, in_orthographic_views, standard_far_planes,
                narrow_and_wide_views, shadows_in_32_bits, long_lists, around_32_lights, cut_tiles,
-               sky_between, edges_of_cones);
+               sky_between, edges_of_cones, beside_their_plane);
 }
 
 }  // namespace lightgrid::verify

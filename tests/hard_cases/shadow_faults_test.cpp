@@ -1,0 +1,125 @@
+// The hard cases of shadows and their hunt distinguish right from wrong: each fault, planted into the text of
+// the kernels, is caught by the cases for it, and by the hunt.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "verify/hunt_shadows.h"
+#include "verify/run.h"
+
+namespace lightgrid::verify {
+namespace {
+
+struct ShadowFault {
+  const char *name, *right, *wrong;  // a part of the kernels, and what stands there instead
+  std::vector<std::string> by;       // cases
+  const char* hunted = nullptr;      // the class of the hunt that finds it soon, from this seed on
+  uint64_t seed = 1;
+};
+
+std::vector<ShadowFault> shadow_faults() {
+  return {
+      {"own_triangle_hides",
+       "& (own != (whole)((int)(t->number & ~RAY_MASKED)))",
+       "",
+       {"grazing"},
+       "coplanar"},
+      {"no_gap",
+       "p->end = 1.0f - gap / sqrt",
+       "p->end = 1.0f - 0.0f * gap / sqrt",
+       {"within_the_gap"},
+       "rooms"},
+      {"never_turned_away",
+       "const mask_t away = turned_away(scene, r, l, reached, v)",
+       "const mask_t away = (mask_t)(0)",
+       {"seen_from_behind", "at_the_own_plane", "far_by_1e5_m"},
+       "terraces"},
+      {"edges_of_none",
+       "return lane_min(lane_min(u, v), lane_min(w, live)) >= 0.0f;",
+       "return lane_min(lane_min(u, v), lane_min(w, live)) > 0.0f;",
+       {"through_shared_edges"}},
+      {"two_bits_swapped",
+       "hidden << 16 * (block & 1u)",
+       "((hidden & ~3u) | (hidden & 1u) << 1 | (hidden >> 1 & 1u)) << 16 * (block & 1u)",
+       {"inside_closed_boxes", "sky_between"},
+       "rooms"},
+      {"blocks_swapped",
+       "hidden << 16 * (block & 1u)",
+       "hidden << 16 * (~block & 1u)",
+       {"shadows_of_slivers", "long_lists"}},
+      {"cone_asked_in_the_plane",
+       "const Real3 p = r->shaded;",
+       "const Real3 p = r->at;",
+       {},
+       "foliage",
+       15839785061582574786u},
+      {"range_too_short",
+       "squared <= REAL(l->reach_squared)",
+       "squared <= REAL(0.98f * l->reach_squared)",
+       {"ranges_that_end_there"},
+       "rooms"},
+      {"masks_ignored",
+       "if (t->number & RAY_MASKED && any_lane(met)) {",
+       "if (0) {\n",
+       {"masked_foliage"},
+       "foliage"},
+      {"pixels_past_the_edge",
+       "const mask_t here = covered & (triangle ==",
+       "const mask_t here = (triangle ==",
+       {"cut_tiles"}},
+      {"sixteen_bit_indices", "typedef uint index_t;", "typedef ushort index_t;", {"shadows_in_32_bits"}},
+  };
+}
+
+// *planted: in how many kernels.
+std::unique_ptr<CullEngine> faulty_engine(const ShadowFault& fault, int* planted) {
+  return device_engine("", [fault, planted](std::string text) {
+    const size_t at = text.find(fault.right);
+    if (at == text.npos) return text;
+    ++*planted;
+    return text.replace(at, std::string_view(fault.right).size(), fault.wrong);
+  });
+}
+
+struct FaultyShadows : testing::TestWithParam<ShadowFault> {};
+
+TEST_P(FaultyShadows, Fail) {
+  const ShadowFault& fault = GetParam();
+  int planted = 0;
+  const auto engine = faulty_engine(fault, &planted);
+  for (const std::string& name : fault.by) {
+    const auto chosen = chosen_cases("^shadows/" + name + "$");
+    ASSERT_EQ(chosen.size(), 1u) << name;
+    const Outcome outcome = run_case(*chosen[0], *engine, 0);
+    EXPECT_EQ(outcome.verdict, Verdict::fail) << name;
+  }
+  if (fault.hunted) {
+    const ShadowHuntReport report = hunt_shadows(
+        *engine, {.contacts = 300'000, .seed = fault.seed, .filter = std::string("^") + fault.hunted + "$"});
+    EXPECT_GT(report.total().pairs.wrong(), 0u);
+    EXPECT_FALSE(report.total().failed.empty());
+  }
+  EXPECT_GT(planted, 0) << "no kernel has this text";
+}
+
+TEST(HuntOfShadows, FindsNothingWrongAndCountsTheSameForTheSameSeed) {
+  const auto engine = device_engine("");
+  const HuntOptions options{.contacts = 1'000'000, .seed = 5, .filter = "rooms|boxes|foliage|far_soups"};
+  auto first = to_json(hunt_shadows(*engine, options)), second = to_json(hunt_shadows(*engine, options));
+  for (auto* json : {&first, &second}) {
+    json->erase("seconds");
+    for (auto& tally : (*json)["classes"]) tally.erase("seconds");
+  }
+  EXPECT_EQ(first, second);
+  EXPECT_GE(first["pairs"], 1'000'000);
+  EXPECT_GT(first["hidden"], 10'000);
+  EXPECT_EQ(first["leaked"], 0);
+  EXPECT_EQ(first["acned"], 0);
+  EXPECT_TRUE(first["failed_seeds"].empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Verify, FaultyShadows, testing::ValuesIn(shadow_faults()),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace lightgrid::verify
