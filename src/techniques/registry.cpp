@@ -16,13 +16,16 @@ bool holds(const std::vector<const char*>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
+// Read by every technique that finds shadows, where a light casts one.
+bool is_of_shadows(const std::string& key) { return key == "shadow-kept"; }
+
 // A range's settings are shown only with a range that reads them, and those of shadows where they are given.
 bool has_effect(const Settings& settings, const std::string& key) {
   const LightRange range = settings.ranges.range;
   if (key == "cutoff") return range == LightRange::cutoff;
   if (key == "alpha" || key == "light-seed") return range == LightRange::stochastic;
   if (key == "window") return range == LightRange::scene || range == LightRange::cutoff;
-  if (key == "shadow-kept") return settings.given.contains(key);
+  if (is_of_shadows(key)) return settings.given.contains(key);
   return true;
 }
 
@@ -59,7 +62,6 @@ const std::vector<const char*>& common_settings() {
     for (const std::string& key : model_settings()) {
       if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
     }
-    all.push_back("shadow-kept");
     all.push_back("everything-on");
     return all;
   }();
@@ -67,7 +69,8 @@ const std::vector<const char*>& common_settings() {
 }
 
 bool reads_setting(const Technique& technique, const std::string& key) {
-  return holds(common_settings(), key) || holds(technique.settings, key);
+  return holds(common_settings(), key) || holds(technique.settings, key) ||
+         (technique.needs.shadows && is_of_shadows(key));
 }
 
 std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings) {

@@ -52,7 +52,8 @@ void measure(const std::string& name, const char* lights_file, size_t most_light
   for (const std::string& size : sizes) {
     Settings settings;
     apply_setting(settings, "shadow-kept=" + size);
-    all.push_back({size, std::make_unique<TechniqueRun>(renderer, gpu, view, settings, find_technique("visibility"))});
+    all.push_back(
+        {size, std::make_unique<TechniqueRun>(renderer, gpu, view, settings, find_technique("visibility"))});
   }
   const auto same_bits = [&] {
     const HostShadows truth = all[0].run->frame().shadows();
@@ -67,8 +68,10 @@ void measure(const std::string& name, const char* lights_file, size_t most_light
       std::ranges::sort(c.ms);
       const ShadowFigures f = c.run->frame().shadow_figures();
       const double median = c.ms[c.ms.size() / 2];
-      fmt::print("  {:>5}: first {:7.1f} ms, least {:7.1f}, median {:7.1f} ({:.2f}); {} rays, {} pairs kept, {:.1f} MB\n",
-                 c.name, c.first, c.ms.front(), median, median / base, f.rays, f.kept, double(f.bytes) / 1e6);
+      fmt::print(
+          "  {:>5}: first {:7.1f} ms, least {:7.1f}, median {:7.1f} ({:.2f}); {} rays, {} pairs kept, {:.1f} "
+          "MB\n",
+          c.name, c.first, c.ms.front(), median, median / base, f.rays, f.kept, double(f.bytes) / 1e6);
       c.ms.clear();
     }
   };
@@ -81,7 +84,9 @@ void measure(const std::string& name, const char* lights_file, size_t most_light
     }
     if (frame % 6 == 0) same_bits();
   }
-  table(fmt::format("{} {} x {}, {}, {} lights, camera at rest", name, width, height, renderer.cl->info().name, scene.lights.size()).c_str());
+  table(fmt::format("{} {} x {}, {}, {} lights, camera at rest", name, width, height,
+                    renderer.cl->info().name, scene.lights.size())
+            .c_str());
   const std::vector<View> turn = camera_path(scene, view, "turn:180");
   for (size_t frame = 0; frame < 20; ++frame) {
     for (Contestant& c : all) {
@@ -98,7 +103,8 @@ void measure(const std::string& name, const char* lights_file, size_t most_light
 
 int main(int count, char** arguments) {
   try {
-    if (count < 2) throw lightgrid::input_error("kept_cost SCENE.gltf|hall|street|... [LIGHTS.json [NUMBER]]");
+    if (count < 2)
+      throw lightgrid::input_error("kept_cost SCENE.gltf|hall|street|... [LIGHTS.json [NUMBER]]");
     lightgrid::measure(arguments[1], count > 2 ? arguments[2] : nullptr,
                        count > 3 ? size_t(std::stoul(arguments[3])) : size_t(-1), {"off", "64M"});
   } catch (const lightgrid::Error& error) {
