@@ -2,21 +2,22 @@
 // are kept while nothing moves (passes/shadows/certificates.h); answers are those of rays to the bit.
 //
 // A piece is the part of a triangle in a cell of the world's grid. The points that belong to it are those
-// that add_pieces lets in: floats, near the triangle's plane and within EDGE of its edges. `polygon_of` holds
-// them all. A triangle is left out only if the ray's own arithmetic (kernels/rays/) misses it from every such
+// that in_piece (cpu/tile_pieces.h) lets in: floats, near the triangle's plane and a little inside its edges.
+// polygon_of holds them all. A triangle is left out only if the ray's own arithmetic (kernels/rays/) misses it from every such
 // point, all of that arithmetic's roundings counted in:
 // - Its box, or one around it, lies beyond a plane that all segments from the light to the polygon are on one
 //   side of. The test of boxes meets nothing further than 2^-19 of the segment's length from the segment,
 //   plus 2^-21 of the light's coordinates.
 // - One of the four dot products of the triangle's test is negative at each corner of the polygon, hence in
 //   it, by more than 2^-19 of the products' absolute sum.
+// - All its corners lie beyond such a plane (corners_beyond).
 // A triangle hides the whole piece if all four are positive by as much.
 #pragma once
 
 #include "kernels/shadows/certificate_table.h"
 #include "kernels/shadows/receivers.h"
 
-// Of a cell's edge.
+// Of a cell's edge: how much wider the polygon's cell is.
 #define EDGE 0x1p-8f
 #define MOST_SEEN 24  // triangles that may hide a point, after which nothing more is tried
 
@@ -71,7 +72,7 @@ static inline float inner_edge(global const RayTriangle* t, const Piece* piece) 
   return 8.0f * off_plane(t, piece);
 }
 
-// Of a triangle: the plane's part in the cell, cut by the edges; all of them EDGE further out.
+// Of a triangle: the plane's part in the cell, whose sides are EDGE further out, cut by the edges, moved in.
 static void polygon_of(Polygon* polygon, global const RayTriangle* t, const Piece* piece) {
   const double edge = edge_of_piece(piece->exponent), out = (double)EDGE * edge;
   const double low[3] = {piece->x * edge - out, piece->y * edge - out, piece->z * edge - out};
