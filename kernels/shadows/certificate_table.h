@@ -62,7 +62,8 @@ static inline uint find_certificate(const Certificates* c, global ShadowCertific
 }
 
 // A slot of the set that is empty or was not used of late, for keep_certificate. Null: there is none.
-static inline volatile global ShadowCertificate* claim_slot(const Certificates* c, global ShadowCertificate* set) {
+static inline volatile global ShadowCertificate* claim_slot(const Certificates* c,
+                                                            global ShadowCertificate* set) {
   volatile global ShadowCertificate* slot = 0;
   uint before = 0, unused = 1;  // steps of time: more than this
   for (uint i = 0; i < CERTIFICATE_SET; ++i) {

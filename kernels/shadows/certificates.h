@@ -2,21 +2,23 @@
 // are kept while nothing moves (passes/shadows/certificates.h); answers are those of rays to the bit.
 //
 // A piece is the part of a triangle in a cell of the world's grid. The points that belong to it are those
-// that add_pieces lets in: floats, near the triangle's plane and within EDGE of its edges. `polygon_of` holds
-// them all. A triangle is left out only if the ray's own arithmetic (kernels/rays/) misses it from every such
+// that in_piece (cpu/tile_pieces.h) lets in: floats, near the triangle's plane and a little inside its edges.
+// polygon_of holds them all. A triangle is left out only if the ray's own arithmetic (kernels/rays/) misses it
+// from every such
 // point, all of that arithmetic's roundings counted in:
 // - Its box, or one around it, lies beyond a plane that all segments from the light to the polygon are on one
 //   side of. The test of boxes meets nothing further than 2^-19 of the segment's length from the segment,
 //   plus 2^-21 of the light's coordinates.
 // - One of the four dot products of the triangle's test is negative at each corner of the polygon, hence in
 //   it, by more than 2^-19 of the products' absolute sum.
+// - All its corners lie beyond such a plane (corners_beyond).
 // A triangle hides the whole piece if all four are positive by as much.
 #pragma once
 
 #include "kernels/shadows/certificate_table.h"
 #include "kernels/shadows/receivers.h"
 
-// Of a cell's edge.
+// Of a cell's edge: how much wider the polygon's cell is.
 #define EDGE 0x1p-8f
 #define MOST_SEEN 24  // triangles that may hide a point, after which nothing more is tried
 
@@ -65,10 +67,13 @@ static inline float off_plane(global const RayTriangle* t, const Piece* piece) {
                      fabs(z - t->corners[2]) + 16.0f * edge);
 }
 
-// How far within the triangle's edges its points are, so that neighbours at an edge do not count as hiding them.
-static inline float inner_edge(global const RayTriangle* t, const Piece* piece) { return 8.0f * off_plane(t, piece); }
+// How far within the triangle's edges its points are, so that neighbours at an edge do not count as hiding
+// them.
+static inline float inner_edge(global const RayTriangle* t, const Piece* piece) {
+  return 8.0f * off_plane(t, piece);
+}
 
-// Of a triangle: the plane's part in the cell, cut by the edges; all of them EDGE further out.
+// Of a triangle: the plane's part in the cell, whose sides are EDGE further out, cut by the edges, moved in.
 static void polygon_of(Polygon* polygon, global const RayTriangle* t, const Piece* piece) {
   const double edge = edge_of_piece(piece->exponent), out = (double)EDGE * edge;
   const double low[3] = {piece->x * edge - out, piece->y * edge - out, piece->z * edge - out};
@@ -97,15 +102,15 @@ static void polygon_of(Polygon* polygon, global const RayTriangle* t, const Piec
 
 // All segments from the light to a polygon.
 typedef struct Shaft {
-  Real3 corners;                 // relative to the light; the first one again where there are fewer
-  Real3 above, below;            // positive and negative parts of planes' normals, of size 1: |x| + |y| + |z|
-  real bound;                    // no point of a segment is above this, by as much as boxes may be met
-  float x, y, z;                 // the light
-  float extent[3];               // of the segments along each axis
-  float nearest, farthest;       // lengths of segments, at least and at most
-  float gap_low, gap_high;       // what they end before, at least and at most
-  float off;                     // how far a point may be from the polygon
-  float sum;                     // of the greatest coordinates
+  Real3 corners;            // relative to the light; the first one again where there are fewer
+  Real3 above, below;       // positive and negative parts of planes' normals, of size 1: |x| + |y| + |z|
+  real bound;               // no point of a segment is above this, by as much as boxes may be met
+  float x, y, z;            // the light
+  float extent[3];          // of the segments along each axis
+  float nearest, farthest;  // lengths of segments, at least and at most
+  float gap_low, gap_high;  // what they end before, at least and at most
+  float off;                // how far a point may be from the polygon
+  float sum;                // of the greatest coordinates
 } Shaft;
 
 static inline float greatest_of(real v) {
@@ -133,8 +138,8 @@ static void set_shaft(Shaft* s, const RayScene* scene, global const RayTriangle*
   s->extent[0] = greatest_of(fabs(s->corners.x)) + s->off;
   s->extent[1] = greatest_of(fabs(s->corners.y)) + s->off;
   s->extent[2] = greatest_of(fabs(s->corners.z)) + s->off;
-  const real squared = fma(s->corners.x, s->corners.x,
-                           fma(s->corners.y, s->corners.y, s->corners.z * s->corners.z));
+  const real squared =
+      fma(s->corners.x, s->corners.x, fma(s->corners.y, s->corners.y, s->corners.z * s->corners.z));
   s->farthest = sqrt(greatest_of(squared)) * 1.000001f + 2.0f * s->off;
   const float box_x = max(max(least_of(s->corners.x), -greatest_of(s->corners.x)), 0.0f),
               box_y = max(max(least_of(s->corners.y), -greatest_of(s->corners.y)), 0.0f),
@@ -177,12 +182,11 @@ static void set_shaft(Shaft* s, const RayScene* scene, global const RayTriangle*
 // Whether some segment may meet the box.
 static inline bool shaft_meets(const Shaft* s, float low_x, float low_y, float low_z, float high_x,
                                float high_y, float high_z) {
-  const real least =
-      fma(s->above.x, REAL(low_x - s->x),
-          fma(s->above.y, REAL(low_y - s->y),
-              fma(s->above.z, REAL(low_z - s->z),
-                  fma(s->below.x, REAL(high_x - s->x),
-                      fma(s->below.y, REAL(high_y - s->y), s->below.z * (high_z - s->z))))));
+  const real least = fma(s->above.x, REAL(low_x - s->x),
+                         fma(s->above.y, REAL(low_y - s->y),
+                             fma(s->above.z, REAL(low_z - s->z),
+                                 fma(s->below.x, REAL(high_x - s->x),
+                                     fma(s->below.y, REAL(high_y - s->y), s->below.z * (high_z - s->z))))));
   return !any_lane(least > s->bound);
 }
 
@@ -201,10 +205,10 @@ static int side_of_corners(const Shaft* s, RayPlane plane, double turn) {
   return !any_lane(side < slack) ? 1 : !any_lane(side > -slack) ? -1 : 0;
 }
 
-// Whether all corners of a triangle lie beyond a plane of the shaft. With d from the light to a point, weights u,
-// v, w of the corners a, b, c, and a plane's normal N: det (N·d) = u (N·a) + v (N·b) + w (N·c). Of a triangle
-// that is met, no weight is below 0 by more than rounding, and their sum is at least det, less the share `short_of`
-// of it. N·d is then at least this much.
+// Whether all corners of a triangle lie beyond a plane of the shaft. With d from the light to a point,
+// weights u, v, w of the corners a, b, c, and a plane's normal N: det (N·d) = u (N·a) + v (N·b) + w (N·c). Of
+// a triangle that is met, no weight is below 0 by more than rounding, and their sum is at least det, less the
+// share `short_of` of it. N·d is then at least this much.
 static bool corners_beyond(const Shaft* s, const double a[3], const double b[3], const double c[3],
                            const RayPlane planes[3], float det, float short_of) {
   const Real3 n = add3(s->above, s->below);
@@ -225,9 +229,9 @@ enum ShaftHit { MISSES, MAY_HIDE, HIDES_ALL };
 // As meets_from_point and ray_hides have it, for all points of the piece.
 static int hit_of(const Shaft* s, global const ShadowLight* l, global const RayTriangle* t) {
   global const float* p = t->corners;
-  if (!shaft_meets(s, least_of_3(p[0], p[3], p[6]), least_of_3(p[1], p[4], p[7]), least_of_3(p[2], p[5], p[8]),
-                   greatest_of_3(p[0], p[3], p[6]), greatest_of_3(p[1], p[4], p[7]),
-                   greatest_of_3(p[2], p[5], p[8])))
+  if (!shaft_meets(s, least_of_3(p[0], p[3], p[6]), least_of_3(p[1], p[4], p[7]),
+                   least_of_3(p[2], p[5], p[8]), greatest_of_3(p[0], p[3], p[6]),
+                   greatest_of_3(p[1], p[4], p[7]), greatest_of_3(p[2], p[5], p[8])))
     return MISSES;
   const double nx = t->normal[0], ny = t->normal[1], nz = t->normal[2];
   const double a[3] = {p[0] - l->x, p[1] - l->y, p[2] - l->z}, b[3] = {p[3] - l->x, p[4] - l->y, p[5] - l->z},
@@ -240,9 +244,9 @@ static int hit_of(const Shaft* s, global const ShadowLight* l, global const RayT
   const float px = (float)(nx * turn), py = (float)(ny * turn), pz = (float)(nz * turn),
               plane = (float)(distance * turn), size = fabs(px) + fabs(py) + fabs(pz);
   const real past = ray_side(s->corners, px, py, pz, 0.0f);
-  const float slack = 0x1p-19f * (fabs(px) * s->extent[0] + fabs(py) * s->extent[1] +
-                                  fabs(pz) * s->extent[2] + plane) +
-                      size * s->off + 1e-30f;
+  const float slack =
+      0x1p-19f * (fabs(px) * s->extent[0] + fabs(py) * s->extent[1] + fabs(pz) * s->extent[2] + plane) +
+      size * s->off + 1e-30f;
   const float least = least_of(past) - slack, most = greatest_of(past) + slack;
   // Segments end a gap before their points, which is at least this much of the way across the plane.
   if (most - plane < s->gap_low * max(least, 0.0f) / s->farthest) return MISSES;
@@ -250,7 +254,8 @@ static int hit_of(const Shaft* s, global const ShadowLight* l, global const RayT
   const RayPlane planes[3] = {edge_plane(source, true, b[0], b[1], b[2], c[0], c[1], c[2]),
                               edge_plane(source, true, c[0], c[1], c[2], a[0], a[1], a[2]),
                               edge_plane(source, true, a[0], a[1], a[2], b[0], b[1], b[2])};
-  bool all = least - plane > s->gap_high * size && s->nearest > 2.0f * s->gap_high && !(t->number & RAY_MASKED);
+  bool all =
+      least - plane > s->gap_high * size && s->nearest > 2.0f * s->gap_high && !(t->number & RAY_MASKED);
   for (int i = 0; i < 3; ++i) {
     const int side = side_of_corners(s, planes[i], turn);
     if (side < 0) return MISSES;
@@ -301,7 +306,9 @@ static uint find_hiding(const RayScene* scene, const Shaft* s, global const Shad
     }
   }
   *found = min(count, (uint)CERTIFICATE_PLACES);
-  return count == 0 ? CERTIFICATE_FREE : count <= CERTIFICATE_PLACES ? CERTIFICATE_FEW : CERTIFICATE_UNDECIDED;
+  return count == 0                    ? CERTIFICATE_FREE
+         : count <= CERTIFICATE_PLACES ? CERTIFICATE_FEW
+                                       : CERTIFICATE_UNDECIDED;
 }
 
 // Whether may_shade lets in every point for any view: ranges are no smaller there.

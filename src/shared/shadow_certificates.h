@@ -6,9 +6,9 @@
 #include "shared/language.h"
 
 #define CERTIFICATE_PLACES 8
-#define CERTIFICATE_SET 4   // slots in a row that a key may lie in
+#define CERTIFICATE_SET 4           // slots in a row that a key may lie in
 #define CERTIFICATE_FARTHEST 1.25f  // times the light's range: no piece with a certificate is further away
-#define PIECE_PIXELS 64.0f  // no cell is larger on the screen, and most are larger than half of this
+#define PIECE_PIXELS 64.0f          // no cell is larger on the screen, and most are larger than half of this
 
 // The low byte of `state`; above it flags, then a version that each writer of the slot counts up.
 #define CERTIFICATE_NONE 0
@@ -18,8 +18,8 @@
 #define CERTIFICATE_FEW 4        // nothing hides any of it but these places
 #define CERTIFICATE_UNDECIDED 5  // there may be more
 #define CERTIFICATE_KIND 7u
-#define CERTIFICATE_COUNT_SHIFT 3    // 4 bits: places
-#define CERTIFICATE_REACHED 128u     // all of it is in the light's range and cone
+#define CERTIFICATE_COUNT_SHIFT 3  // 4 bits: places
+#define CERTIFICATE_REACHED 128u   // all of it is in the light's range and cone
 #define CERTIFICATE_VERSION 0x10000u
 
 #if !defined(__OPENCL_VERSION__)
@@ -33,7 +33,7 @@ typedef struct ShadowCertificate {
   uint triangle;  // its number
   int x, y, z;    // cell of the world's grid whose cells are 2^exponent metres a side
   int exponent;
-  uint used;      // when it was last
+  uint used;  // when it was last
   int places[CERTIFICATE_PLACES];
 } ShadowCertificate;
 

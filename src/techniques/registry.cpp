@@ -16,7 +16,10 @@ bool holds(const std::vector<const char*>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-// Settings are shown only where something reads them: of a range with one that does, and so of shadows.
+// Read by every technique that finds shadows, where a light casts one; it changes no bit.
+bool is_of_shadows(const std::string& key) { return key == "shadow-kept"; }
+
+// A range's settings are shown only with a range that reads them, and those of shadows where they are given.
 bool has_effect(const Settings& settings, const std::string& key) {
   const LightRange range = settings.ranges.range;
   if (key == "cutoff") return range == LightRange::cutoff;
@@ -25,7 +28,7 @@ bool has_effect(const Settings& settings, const std::string& key) {
   if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
     return settings.shadows == ShadowMethod::map;
   if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
-  if (key == "shadow-kept") return settings.given.contains(key);
+  if (is_of_shadows(key)) return settings.given.contains(key);
   return true;
 }
 
@@ -63,7 +66,7 @@ const std::vector<const char*>& common_settings() {
       if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
     }
     for (const char* key : {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays",
-                            "shadow-source", "shadow-kept", "everything-on"})
+                            "shadow-source", "everything-on"})
       all.push_back(key);
     return all;
   }();
@@ -71,7 +74,8 @@ const std::vector<const char*>& common_settings() {
 }
 
 bool reads_setting(const Technique& technique, const std::string& key) {
-  return holds(common_settings(), key) || holds(technique.settings, key);
+  return holds(common_settings(), key) || holds(technique.settings, key) ||
+         (technique.needs.shadows && is_of_shadows(key));
 }
 
 std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings) {

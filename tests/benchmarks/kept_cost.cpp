@@ -1,7 +1,7 @@
 // What certificates of shadows save, on the OpenCL device that lightgrid would use: the technique visibility
 // with all lights of a scene casting, the pass find_shadows with and without them frame by frame in turn.
 // Where the camera turns, pieces come into view all the time. Says whether both found the same bits.
-//   kept_cost SCENE.gltf|hall|street|... [LIGHTS.json [NUMBER]] [-- SIZE...]
+//   kept_cost SCENE.gltf|hall|street|... [LIGHTS.json [NUMBER]]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,21 +21,12 @@ namespace {
 
 constexpr int width = 1280, height = 720;
 
-struct Taken {
-  double ms = 0, first_ms = 0;
-  ShadowFigures figures;
-};
-
 double pass_ms(TechniqueRun& run) {
   run.view().timer.enabled = true;
   run.draw_frame();
   double ms = 0;
   for (const PassRecord& pass : run.view().timer.records())
-    if (pass.name == "find_shadows") {
-      ms = pass.ms.back();
-      if (std::getenv("KERNELS")) for (const KernelTime& k : pass.kernels.back()) fmt::print("{} {:.2f}; ", k.name, k.ms);
-      if (std::getenv("KERNELS")) fmt::print(" pass {:.2f}\n", ms);
-    }
+    if (pass.name == "find_shadows") ms = pass.ms.back();
   run.view().timer.enabled = false;
   return ms;
 }
@@ -44,7 +35,7 @@ struct Contestant {
   std::string name;
   std::unique_ptr<TechniqueRun> run;
   std::vector<double> ms{};
-  double sum = 0, first = 0;
+  double first = 0;
 };
 
 void measure(const std::string& name, const char* lights_file, size_t most_lights,
@@ -61,7 +52,8 @@ void measure(const std::string& name, const char* lights_file, size_t most_light
   for (const std::string& size : sizes) {
     Settings settings;
     apply_setting(settings, "shadow-kept=" + size);
-    all.push_back({size, std::make_unique<TechniqueRun>(renderer, gpu, view, settings, find_technique("visibility"))});
+    all.push_back(
+        {size, std::make_unique<TechniqueRun>(renderer, gpu, view, settings, find_technique("visibility"))});
   }
   const auto same_bits = [&] {
     const HostShadows truth = all[0].run->frame().shadows();
@@ -75,32 +67,31 @@ void measure(const std::string& name, const char* lights_file, size_t most_light
     for (Contestant& c : all) {
       std::ranges::sort(c.ms);
       const ShadowFigures f = c.run->frame().shadow_figures();
-      fmt::print("  {:>5}: first {:7.1f} ms, least {:7.1f}, median {:7.1f} ({:.2f}), mean {:7.1f}; {} rays, {} pairs kept, {:.1f} MB\n",
-                 c.name, c.first, c.ms.front(), c.ms[c.ms.size() / 2],
-                 c.ms[c.ms.size() / 2] / base, c.sum / double(c.ms.size()), f.rays,
-                 f.kept, double(f.bytes) / 1e6);
-      c.ms.clear(), c.sum = 0;
+      const double median = c.ms[c.ms.size() / 2];
+      fmt::print(
+          "  {:>5}: first {:7.1f} ms, least {:7.1f}, median {:7.1f} ({:.2f}); {} rays, {} pairs kept, {:.1f} "
+          "MB\n",
+          c.name, c.first, c.ms.front(), median, median / base, f.rays, f.kept, double(f.bytes) / 1e6);
+      c.ms.clear();
     }
   };
   for (Contestant& c : all) c.run->prepare();
-  for (int frame = 0; frame < (std::getenv("ONLY") ? 40 : 8); ++frame) {
+  for (int frame = 0; frame < 12; ++frame) {
     for (Contestant& c : all) {
-      if (std::getenv("ONLY") && frame > 0 && c.name != std::getenv("ONLY")) { c.ms.push_back(1); continue; }
       c.run->look(view);
       const double ms = pass_ms(*c.run);
-      if (frame == 0) c.first = ms;
-      else c.ms.push_back(ms), c.sum += ms;
+      frame == 0 ? void(c.first = ms) : c.ms.push_back(ms);
     }
     if (frame % 6 == 0) same_bits();
   }
-  if (std::getenv("ONLY")) return;
-  table(fmt::format("{} {} x {}, {}, {} lights, camera at rest", name, width, height, renderer.cl->info().name, scene.lights.size()).c_str());
+  table(fmt::format("{} {} x {}, {}, {} lights, camera at rest", name, width, height,
+                    renderer.cl->info().name, scene.lights.size())
+            .c_str());
   const std::vector<View> turn = camera_path(scene, view, "turn:180");
-  for (size_t frame = 0; frame < 6; ++frame) {
+  for (size_t frame = 0; frame < 20; ++frame) {
     for (Contestant& c : all) {
       c.run->look(turn[frame]);
-      const double ms = pass_ms(*c.run);
-      c.ms.push_back(ms), c.sum += ms;
+      c.ms.push_back(pass_ms(*c.run));
     }
     if (frame % 10 == 9) same_bits();
   }
@@ -112,7 +103,8 @@ void measure(const std::string& name, const char* lights_file, size_t most_light
 
 int main(int count, char** arguments) {
   try {
-    if (count < 2) throw lightgrid::input_error("kept_cost SCENE.gltf|hall|street|... [LIGHTS.json [NUMBER]]");
+    if (count < 2)
+      throw lightgrid::input_error("kept_cost SCENE.gltf|hall|street|... [LIGHTS.json [NUMBER]]");
     lightgrid::measure(arguments[1], count > 2 ? arguments[2] : nullptr,
                        count > 3 ? size_t(std::stoul(arguments[3])) : size_t(-1), {"off", "64M"});
   } catch (const lightgrid::Error& error) {

@@ -12,8 +12,9 @@ namespace {
 
 using glm::dvec3;
 
-// A room with a floor of many triangles, walls of two each, balls, a box, a mirrored and stretched ball, a hedge of
-// masked leaves and a cloth; ten lights, two of them spots. All of it lies `offset` from the world's origin.
+// A room with a floor of many triangles, walls of two each, balls, a box, a mirrored and stretched ball, a
+// hedge of masked leaves and a cloth; ten lights, two of them spots. All of it lies `offset` from the world's
+// origin.
 struct MovingRoom {
   Scene scene;
   dvec3 offset;
@@ -25,7 +26,8 @@ struct MovingRoom {
               leaf = add_material(scene, "leaf", {0.3f, 0.7f, 0.2f}, 0, 0.9f);
     scene.materials[size_t(leaf)].alpha_mode = AlphaMode::mask;
     scene.materials[size_t(leaf)].base_color_map.texture = add_speckles(scene, true);
-    const auto place = [&](const char* name, int mesh, dvec3 position, dvec3 scale = dvec3(1), double degrees = 0) {
+    const auto place = [&](const char* name, int mesh, dvec3 position, dvec3 scale = dvec3(1),
+                           double degrees = 0) {
       glm::dmat4 m = glm::translate(glm::dmat4(1), offset + position);
       m = glm::rotate(m, glm::radians(degrees), dvec3(0.3, 0.9, 0.1));
       add_instance(scene, name, mesh, glm::scale(m, scale));
@@ -64,7 +66,8 @@ struct MovingRoom {
   View view(double turn, int width, int height) const {
     const dvec3 eye = offset + dvec3(3 * std::sin(turn), 1.7, 3.6 * std::cos(turn) + 0.4);
     Camera camera = look_at(eye, offset + dvec3(0, 0.8, -1));
-    if (orthographic) camera.orthographic = true, camera.half_width_m = 4, camera.half_height_m = 2.4, camera.far_m = 20;
+    if (orthographic)
+      camera.orthographic = true, camera.half_width_m = 4, camera.half_height_m = 2.4, camera.far_m = 20;
     return make_view(camera, width, height);
   }
 
@@ -74,7 +77,8 @@ struct MovingRoom {
     const double t = frame * 0.1;
     const auto turn = [&](int instance, double degrees, dvec3 by) {
       glm::dmat4& m = scene.instances[size_t(instance)].world_from_object;
-      m = glm::translate(glm::dmat4(1), by) * m * glm::rotate(glm::dmat4(1), glm::radians(degrees), dvec3(0, 1, 0));
+      m = glm::translate(glm::dmat4(1), by) * m *
+          glm::rotate(glm::dmat4(1), glm::radians(degrees), dvec3(0, 1, 0));
       changes.instances.push_back(instance);
     };
     if (frame % 7 == 3) turn(ball, 5, {0.1 * std::cos(t), 0, 0.05 * std::sin(t)});
@@ -159,8 +163,10 @@ TEST(KeptShadows, AreThoseOfRaysFarFromTheOrigin) {
 }
 
 TEST(KeptShadows, AreThoseOfRaysWhereTheTableIsFull) {
-  const Sum small = expect_same_bits(opencl_devices(), {.bytes = "1M", .frames = 40, .width = 640, .height = 360});
-  const Sum large = expect_same_bits(opencl_devices(), {.bytes = "64M", .frames = 40, .width = 640, .height = 360});
+  const Sum small =
+      expect_same_bits(opencl_devices(), {.bytes = "1M", .frames = 40, .width = 640, .height = 360});
+  const Sum large =
+      expect_same_bits(opencl_devices(), {.bytes = "64M", .frames = 40, .width = 640, .height = 360});
   EXPECT_LT(small.kept, large.kept);
 }
 

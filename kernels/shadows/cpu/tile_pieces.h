@@ -15,10 +15,10 @@ typedef struct TilePiece {
   global const RayTriangle* plane;
   uint eye;  // the eye's side of it, plus 1
   uint pixels;
-  uint blocks;                 // that show it
-  uint words[SHADOW_WORDS];    // its pixels, as an entry has them
-  uint rest[SHADOW_WORDS];     // those in none of its parts
-  uint parts, first_part;      // parts: NOT_SPLIT at first
+  uint blocks;               // that show it
+  uint words[SHADOW_WORDS];  // its pixels, as an entry has them
+  uint rest[SHADOW_WORDS];   // those in none of its parts
+  uint parts, first_part;    // parts: NOT_SPLIT at first
 } TilePiece;
 
 #define NOT_SPLIT 0xffffffffu
@@ -27,7 +27,7 @@ typedef struct TilePieces {
   TilePiece of[MOST_PIECES];
   uint count;
   uint others[SHADOW_WORDS];  // pixels in no piece
-  uint count_at_first;  // pieces that are no parts of others
+  uint count_at_first;        // pieces that are no parts of others
 } TilePieces;
 
 // Lanes whose points belong to a piece: near its plane and its triangle, with all that these tests round.
@@ -36,8 +36,12 @@ static inline mask_t in_piece(const Receivers* r, global const RayTriangle* t, c
   if (!(off <= EDGE / 4 * edge)) return (mask_t)(0);
   mask_t in = r->slack <= off * 0.9999f;
   const int k = greatest_axis(t);
-  const real at_u = k == 0 ? r->at.y : k == 1 ? r->at.z : r->at.x,
-             at_v = k == 0 ? r->at.z : k == 1 ? r->at.x : r->at.y;
+  const real at_u = k == 0   ? r->at.y
+                    : k == 1 ? r->at.z
+                             : r->at.x,
+             at_v = k == 0   ? r->at.z
+                    : k == 1 ? r->at.x
+                             : r->at.y;
   const int u = (k + 1) % 3, v = (k + 2) % 3;
   const float turn = t->normal[k] < 0 ? -1.0f : 1.0f;
   for (uint i = 0; i < 3; ++i) {
@@ -55,7 +59,8 @@ static TilePiece* piece_of(TilePieces* pieces, uint first, const RayScene* scene
                            constant ShadowView* v) {
   for (uint i = pieces->count; i-- > first;) {
     const Piece* q = &pieces->of[i].piece;
-    if (q->triangle == p->triangle && q->x == p->x && q->y == p->y && q->z == p->z && q->exponent == p->exponent)
+    if (q->triangle == p->triangle && q->x == p->x && q->y == p->y && q->z == p->z &&
+        q->exponent == p->exponent)
       return pieces->of + i;
   }
   if (pieces->count == MOST_PIECES) return 0;
@@ -86,11 +91,11 @@ static uint add_lanes(TilePieces* pieces, uint first, const RayScene* scene, con
                          (int)((const float*)&y)[lane], (int)((const float*)&z)[lane],
                          ((const int*)&exponent)[lane]};
     const mask_t here = (r->own == (whole)((int)piece.triangle)) & (exponent == (whole)(piece.exponent)) &
-                        (x == REAL((float)piece.x)) & (y == REAL((float)piece.y)) & (z == REAL((float)piece.z));
+                        (x == REAL((float)piece.x)) & (y == REAL((float)piece.y)) &
+                        (z == REAL((float)piece.z));
     const uint same = lane_bits(here) & left;
     left &= ~same;
-    const uint in =
-        same & lane_bits(in_piece(r, scene->triangles + scene->places[piece.triangle], &piece));
+    const uint in = same & lane_bits(in_piece(r, scene->triangles + scene->places[piece.triangle], &piece));
     if (in == 0) continue;
     TilePiece* of = piece_of(pieces, first, scene, &piece, v);
     if (!of) continue;
@@ -101,7 +106,8 @@ static uint add_lanes(TilePieces* pieces, uint first, const RayScene* scene, con
   return lanes & ~taken;
 }
 
-// Of a block of pixels, of which all take rays where the tile has few `lights`. Cells are PIECE_PIXELS at most where the eye sees them.
+// Of a block of pixels, of which all take rays where the tile has few `lights`. Cells are PIECE_PIXELS at
+// most where the eye sees them.
 static void add_pieces(TilePieces* pieces, const RayScene* scene, const Receivers* r, uint block, uint lights,
                        constant ShadowView* v) {
   const uint covered = lane_bits(r->own >= (whole)(0));
@@ -181,9 +187,9 @@ static __attribute__((noinline)) mask_t hidden_by_few(const RayScene* scene, con
 // Adds the pixels that are hidden from the light by what certificates say. `left`: pixels that take rays.
 // *decided is increased by the number of the others that are not out of range.
 static void hidden_by_certificates(const RayScene* scene, TilePieces* pieces, const Receivers* receivers,
-                                   global const ShadowLight* l, uint light, uint next, const Certificates* certificates,
-                                   constant ShadowView* v, uint words[SHADOW_WORDS], uint left[SHADOW_WORDS],
-                                   uint* decided) {
+                                   global const ShadowLight* l, uint light, uint next,
+                                   const Certificates* certificates, constant ShadowView* v,
+                                   uint words[SHADOW_WORDS], uint left[SHADOW_WORDS], uint* decided) {
   for (uint w = 0; w < SHADOW_WORDS; ++w) left[w] = pieces->others[w];
   if (l->w == 0) {  // a directional light
     for (uint i = 0; i < pieces->count_at_first; ++i)
@@ -271,8 +277,9 @@ static inline void trace_queue(const RayScene* scene, RayQueue* q, global const 
                                uint words[SHADOW_WORDS], int* last_blocker) {
   const RaySource source = {l->x, l->y, l->z, l->w};
   const mask_t active = LANE_INDEX < (int16)((int)q->count);
-  uint hidden = lane_bits(rays_hidden(scene, source, real3(vload16(0, q->x), vload16(0, q->y), vload16(0, q->z)),
-                                      vload16(0, q->gap), active, vload16(0, q->own), last_blocker));
+  uint hidden =
+      lane_bits(rays_hidden(scene, source, real3(vload16(0, q->x), vload16(0, q->y), vload16(0, q->z)),
+                            vload16(0, q->gap), active, vload16(0, q->own), last_blocker));
   for (; hidden != 0; hidden &= hidden - 1) {
     const uint pixel = q->pixel[lowest_bit(hidden)];
     words[pixel / 32] |= 1u << (pixel & 31u);

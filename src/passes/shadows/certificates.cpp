@@ -10,9 +10,15 @@
 namespace lightgrid {
 
 static const OwnSetting<size_t> shadow_kept{
-    "shadow-kept", "portable",
+    "shadow-kept",
+    "portable",
     "memory for what is kept of shadows while nothing moves, which then need fewer rays; of CPUs only",
-    {{"off", 0}, {"1M", 1 << 20}, {"4M", 4 << 20}, {"16M", 16 << 20}, {"64M", 64 << 20}, {"256M", 256 << 20}}};
+    {{"off", 0},
+     {"1M", 1 << 20},
+     {"4M", 4 << 20},
+     {"16M", 16 << 20},
+     {"64M", 64 << 20},
+     {"256M", 256 << 20}}};
 
 namespace {
 
@@ -52,7 +58,8 @@ bool may_reach(const CullLight& light, const WorldBox& box, const glm::dvec3& or
 
 size_t ShadowCertificates::bytes_of(const Settings& settings) { return shadow_kept.of(settings); }
 
-ShadowCertificates::ShadowCertificates(ClDevice& device, size_t bytes) : table_(device_buffer(device, bytes)) {
+ShadowCertificates::ShadowCertificates(ClDevice& device, size_t bytes)
+    : table_(device_buffer(device, bytes)) {
   fill_buffer(device, "clearing certificates", table_, CERTIFICATE_NONE, bytes);
 }
 
@@ -82,7 +89,8 @@ void ShadowCertificates::follow(Work& work, const RayScene& rays, const std::vec
   stamps_.resize(all_lights.size());
   for (size_t i = 0; i < all_lights.size(); ++i) {
     const auto reaches = [&](const WorldBox& box) { return may_reach(all_lights[i], box, rays.origin()); };
-    if (all || i >= known || !same(lights_[i], all_lights[i]) || std::ranges::any_of(moved, reaches)) renew(i);
+    if (all || i >= known || !same(lights_[i], all_lights[i]) || std::ranges::any_of(moved, reaches))
+      renew(i);
   }
   lights_ = all_lights;
 }
@@ -98,7 +106,8 @@ ClArguments ShadowCertificates::arguments(ClDevice& device, size_t parts) {
 
 size_t ShadowCertificates::decided(ClDevice& device) const {
   std::vector<uint32_t> counts(parts_);
-  read_buffer(device, "counting decided pairs", decided_.get(), counts.data(), counts.size() * sizeof counts[0]);
+  read_buffer(device, "counting decided pairs", decided_.get(), counts.data(),
+              counts.size() * sizeof counts[0]);
   return std::accumulate(counts.begin(), counts.end(), size_t(0));
 }
 
