@@ -93,7 +93,7 @@ struct Settings {
   int shadow_size = 256;  // texels a side of the largest face of a shadow map: 16 to 2048
   int shadow_bits = 32;   // of a texel: 16, 24 or 32
   int shadow_taps = 1;    // texels a side that a pixel asks: 1, 3 or 5
-  bool portable = false;             // kernels without the builtins of one kind of CPU
+  bool portable = false;  // kernels without the builtins of one kind of CPU
   int group_size = 0;  // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   // Every effect's code and buffers, called for or not: what a plan is tested against.
   bool everything_on = false;
