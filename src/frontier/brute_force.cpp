@@ -37,7 +37,7 @@ const Image& BruteForce::picture(const Settings& settings) {
 }
 
 Image BruteForce::draw(const Settings& settings) {
-  Settings meaning = with_model(common_, settings);
+  Settings meaning = with_exact_shadows(with_model(common_, settings));
   meaning.lights = ShadedLights::all;
   TechniqueRun run(renderer_, gpu_, view_, meaning, technique_, pool_);
   run.run_frame(true);

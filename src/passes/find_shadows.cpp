@@ -67,7 +67,8 @@ ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dv
                 float(light.direction.z), float(light.cos_outer), 0, 0, float(light.radius_m), float(source_m), 0,
                 0};
   if (light.cos_outer < -1) s.cos_outer = -1;
-  const double slack = 0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
+  const double slack =
+      0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
   const double reach = light.radius_m * (1 + 1e-5) + slack;
   s.reach_squared = float(std::min(reach * reach, double(std::numeric_limits<float>::infinity())));
   s.slack = float(std::min(slack, double(std::numeric_limits<float>::max())));
@@ -133,7 +134,8 @@ class ShadowBits : public PassCache {
     hand_over(work, bytes, least_bytes);
   }
 
-  void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth, const cl::Buffer& numbers) {
+  void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth,
+            const cl::Buffer& numbers) {
     ClDevice& device = *work.renderer.cl;
     prepare(work, visible);
     const DepthBounds bounds = culler_->depth_bounds({depth.values});

@@ -21,7 +21,7 @@ struct Choice {
 
 struct Setting {
   std::string key, meaning;
-  std::vector<Choice> choices;  // the default first
+  std::vector<Choice> choices;            // the default first
   double LightRanges::*number = nullptr;  // any of least_number … most_number besides
 };
 

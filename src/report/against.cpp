@@ -23,10 +23,12 @@ struct Row {
   std::string name;  // "hall 1280x720, 237 lights, visibility"
 };
 
+bool has_exact_shadows(const json& row) { return row.at("settings").value("shadows", "exact") == "exact"; }
+
 const json* reference_of(const json& view) {
   const std::string name = view.at("reference").at("technique");
   for (const json& row : view.at("rows")) {
-    if (row.at("technique") == name && !row.contains("refused")) return &row;
+    if (row.at("technique") == name && !row.contains("refused") && has_exact_shadows(row)) return &row;
   }
   return nullptr;
 }
@@ -47,7 +49,9 @@ std::map<std::string, Row> rows_of(const json& results) {
                                            view.at("size").at(0).dump(), view.at("size").at(1).dump(),
                                            row.at("lights").at("total").dump(), casting_words(row),
                                            row.at("technique").get<std::string>());
-      std::string key = name + row.at("settings").dump();
+      json settings = row.at("settings");
+      if (has_exact_shadows(row)) settings.erase("shadows");  // earlier results do not have this setting
+      std::string key = name + settings.dump();
       while (rows.contains(key)) key += "+";
       rows[key] = {&row, &view, name};
     }

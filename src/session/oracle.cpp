@@ -70,8 +70,7 @@ LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, 
 
 PairCounts pair_counts(const TechniqueRun& run, const LitPairs& pairs, const SeenPairs* seen) {
   PairCounts counts{pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
-  if (seen)
-    counts.shadows = {pairs.leaked, pairs.acned, pairs.either, seen->pixels(), !run.approximate()};
+  if (seen) counts.shadows = {pairs.leaked, pairs.acned, pairs.either, seen->pixels(), !run.approximate()};
   return counts;
 }
 

@@ -9,8 +9,7 @@ namespace {
 
 // A run for the reference alone, with the settings that all contestants share but their shadows.
 std::unique_ptr<TechniqueRun> make_own_run(const Compared& c) {
-  Settings common =
-      c.contestants.empty() ? Settings{} : with_exact_shadows(c.contestants.front().settings);
+  Settings common = c.contestants.empty() ? Settings{} : with_exact_shadows(c.contestants.front().settings);
   if (c.every_light.chosen_lights) common.lights = ShadedLights::all;
   return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, common, *c.every_light.technique);
 }

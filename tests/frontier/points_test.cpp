@@ -51,6 +51,14 @@ TEST(FrontierPoints, VaryOneKeyAtATimeInTechniquesThatReadIt) {
                           "forward_plus:cull-test=aabb,tile=8", "forward_plus:tile=8,z-bins=16"));
 }
 
+TEST(FrontierPoints, VaryWhatShadowMapsHave) {
+  EXPECT_THAT(
+      labels(chosen_points({"visibility", "visibility:shadows=map"},
+                           {"shadow-size=64,512", "shadow-filter=pcf3"}, {}, true)),
+      ElementsAre("visibility", "visibility:shadows=map", "visibility:shadows=map,shadow-size=64",
+                  "visibility:shadows=map,shadow-size=512", "visibility:shadows=map,shadow-filter=pcf3"));
+}
+
 TEST(FrontierPoints, AverageFramesOfRandomRanges) {
   const auto points = chosen_points({"visibility:range=stochastic"}, {"frames=1,16"}, {}, true);
   EXPECT_THAT(labels(points),

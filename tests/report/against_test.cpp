@@ -105,6 +105,16 @@ TEST(Against, RowsWithShadowsAreHeldAgainstRowsWithAsMany) {
               ElementsAre(HasSubstr("7 lights (4 cast shadows), visibility: 9 ms")));
 }
 
+TEST(Against, RowsWithExactShadowsAreThoseOfBeforeThereWasTheSetting) {
+  const json before = results({row("forward", 10), row("visibility", 2)});
+  json maps = row("forward", 30), forward = row("forward", 10), slower = row("visibility", 4);
+  maps["settings"]["shadows"] = "map";
+  forward["settings"]["shadows"] = slower["settings"]["shadows"] = "exact";
+  EXPECT_THAT(against(results({maps, forward, slower}), before).worse,
+              ElementsAre(HasSubstr("lights, visibility: 4 ms (3.8 to 4.2), earlier 2")))
+      << "in ratios to the reference, which has exact shadows";
+}
+
 TEST(Against, AFileThatIsNoneIsNamed) {
   const TempFolder folder;
   const auto message = [&](const std::string& text) {

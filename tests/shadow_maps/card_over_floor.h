@@ -79,7 +79,8 @@ inline double inside_m(const Light& light, const glm::vec3& point) {
 inline std::vector<RayPoint> floor_points() {
   std::vector<RayPoint> points;
   for (float x = -4.49f; x < 4.5f; x += 0.03f)
-    for (float z = -4.49f; z < 4.5f; z += 0.03f) points.push_back({.position = {x, 0, z}, .own = x > z ? 0 : 1});
+    for (float z = -4.49f; z < 4.5f; z += 0.03f)
+      points.push_back({.position = {x, 0, z}, .own = x > z ? 0 : 1});
   points.resize(points.size() / 16 * 16);
   return points;
 }
