@@ -171,7 +171,7 @@ void shadow_all(const Scene& scene, FramePlan& plan) {
   plan.shadowed.clear();
   for (const int i : plan.local) plan.shadowed.push_back(scene.lights[size_t(i)].casts_shadow);
   plan.shadows = plan.light_reaches = std::ranges::count(plan.shadowed, 1) > 0;
-  plan.shadow_bytes = plan.settings.soft_shadows();
+  plan.shadow_bytes = plan.settings.soft_shadows() || plan.settings.shadow_pick > 0;
   if (!plan.shadows) plan.shadowed.clear();
 }
 

@@ -17,7 +17,7 @@ typedef struct ShadowLight {
   float reach_squared;
   float slack;     // metres
   float source_m;  // the sphere's radius
-  float padding;
+  float luminance;
 } ShadowLight;
 
 typedef struct ShadowView {

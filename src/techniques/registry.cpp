@@ -59,7 +59,7 @@ const std::vector<const char*>& common_settings() {
     for (const std::string& key : model_settings()) {
       if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
     }
-    all.insert(all.end(), {"shadow-rays", "shadow-source", "everything-on"});
+    all.insert(all.end(), {"shadow-rays", "shadow-source", "shadow-pick", "everything-on"});
     return all;
   }();
   return keys;

@@ -2,13 +2,17 @@
 // block after block of 4 x 4 pixels, whose 16 rays share the light as their origin.
 //
 // -DSHADOW_RAYS          of a sphere light: kernels/shadows/soft_shadows.h
+// -DSHADOW_PICK          rays of a pixel: kernels/shadows/picked_shadows.h
 // SHADOW_PASS_ARGUMENTS  kernels/shadows/receivers.h
 #define LANES 16
 #include "kernels/common/pack.h"
 #include "kernels/common/image_blocks.h"
 #include "kernels/shadows/receivers.h"
-#ifdef SHADOW_RAYS
+#if defined(SHADOW_RAYS) || defined(SHADOW_PICK)
 #include "kernels/shadows/soft_shadows.h"
+#endif
+#ifdef SHADOW_PICK
+#include "kernels/shadows/picked_shadows.h"
 #endif
 
 // Of a block's pixels, into an entry of zeros.
@@ -47,13 +51,24 @@ kernel void find_shadows(SHADOW_PASS_ARGUMENTS) {
       used |= 1u << block;
     }
     int last_blocker = -1;
+#ifdef SHADOW_PICK
+    whole shares[16];
+    for (uint left = used; left != 0; left &= left - 1) {
+      const uint block = lowest_bit(left);
+      shares[block] = picked_share(&scene, receivers + block, lights, indices, range,
+                                   tile_x * SHADOW_TILE + block % 4 * 4, tile_y * SHADOW_TILE + block / 4 * 4,
+                                   &traced, &last_blocker);
+    }
+#endif
     for (uint i = range.x; i < range.x + range.y; ++i) {
       const uint index = indices[i];
       global uint* entry = bits + (size_t)i * SHADOW_WORDS;
       for (uint word = 0; word < SHADOW_WORDS; word += 8) vstore8((uint8)(0), 0, entry + word);
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
-#ifdef SHADOW_RAYS
+#if defined(SHADOW_PICK)
+        const whole hidden = picked_or_away(&scene, receivers + block, lights + index, shares[block], shadow_view);
+#elif defined(SHADOW_RAYS)
         const whole hidden = hidden_share(&scene, receivers + block, lights + index,
                                           tile_x * SHADOW_TILE + block % 4 * 4, tile_y * SHADOW_TILE + block / 4 * 4,
                                           index, &traced, &last_blocker);

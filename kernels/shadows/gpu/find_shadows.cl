@@ -2,8 +2,11 @@
 // work-item a pixel. Bytes as kernels/shadows/cpu/find_shadows.cl has them, from the same arguments.
 #define LANES 1
 #include "kernels/shadows/receivers.h"
-#ifdef SHADOW_RAYS
+#if defined(SHADOW_RAYS) || defined(SHADOW_PICK)
 #include "kernels/shadows/soft_shadows.h"
+#endif
+#ifdef SHADOW_PICK
+#include "kernels/shadows/picked_shadows.h"
 #endif
 
 #define GROUP (SHADOW_TILE * SHADOW_TILE)
@@ -36,9 +39,15 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   uint traced = 0, turn = 0;
   int last_blocker = -1;
   if (item == 0) traced_here = 0;
+#ifdef SHADOW_PICK  // one part a tile
+  const whole share = picked_share(&scene, &r, lights, indices, range, x, y, &traced, &last_blocker);
+#endif
   for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
     global uint* entry = bits + (size_t)i * SHADOW_WORDS;
-#ifdef SHADOW_RAYS
+#if defined(SHADOW_PICK)
+    ((global uchar*)entry)[item] =
+        (uchar)picked_or_away(&scene, &r, lights + indices[i], share, shadow_view);
+#elif defined(SHADOW_RAYS)
     const uint light = indices[i];
     ((global uchar*)entry)[item] =
         (uchar)hidden_share(&scene, &r, lights + light, x, y, light, &traced, &last_blocker);
