@@ -1,7 +1,7 @@
-// One estimate, for each pixel, of the share of its shadowed light that is hidden: by SHADOW_PICK rays (1, 4 or 16)
-// in all, to lights drawn from its tile's list, each as likely as it is bright there. Light loops then multiply the
-// unshadowed sum by one share, so that there is noise in shadows alone: the ratio estimator of E. Heitz, S. Hill,
-// M. McGuire, "Combining analytic direct illumination and stochastic shadows", I3D 2018.
+// One estimate, for each pixel, of the share of its shadowed light that is hidden: by SHADOW_PICK rays (1, 4
+// or 16) in all, to lights drawn from its tile's list, each as likely as it is bright there. Light loops then
+// multiply the unshadowed sum by one share, so that there is noise in shadows alone: the ratio estimator of
+// E. Heitz, S. Hill, M. McGuire, "Combining analytic direct illumination and stochastic shadows", I3D 2018.
 //
 // Roles are exchanged as in soft_shadows.h: the lanes of a packet are the rays of one pixel.
 #pragma once
@@ -15,7 +15,8 @@ static inline real estimated_light(const Receivers* r, global const ShadowLight*
   const real squared = lane_max(fma(d.z, d.z, fma(d.y, d.y, d.x * d.x)), REAL(1e-6f));
   const real inverse = 1.0f / sqrt(squared), part = squared * (1.0f / l->reach_squared);
   const real facing = -fma(d.z, r->normal.z, fma(d.y, r->normal.y, d.x * r->normal.x)) * inverse;
-  real light = lane_max(facing, REAL(0.0f)) * lane_max(fma(-part, part, REAL(1.0f)), REAL(0.0f)) * inverse * inverse;
+  real light =
+      lane_max(facing, REAL(0.0f)) * lane_max(fma(-part, part, REAL(1.0f)), REAL(0.0f)) * inverse * inverse;
   if (l->cos_outer > -1.0f) {
     const real along = fma(d.z, REAL(l->axis_z), fma(d.y, REAL(l->axis_y), d.x * l->axis_x)) * inverse;
     const real inside = lane_max((along - l->cos_outer) / (1.0f - l->cos_outer), REAL(0.0f));
@@ -38,9 +39,11 @@ static inline mask_t pick_lights(const Receivers* r, global const ShadowLight* l
   for (uint i = range.x; i < range.x + range.y; ++i) {
     const uint index = indices[i];
     before += estimated_light(r, lights + index);
-    for (uint left = lane_bits((before > next) & (count < (whole)(SHADOW_PICK))); left != 0; left &= left - 1) {
+    for (uint left = lane_bits((before > next) & (count < (whole)(SHADOW_PICK))); left != 0;
+         left &= left - 1) {
       const uint lane = lowest_bit(left);
-      const float end = ((const float*)&before)[lane], wide = ((const float*)&step)[lane], at = ((const float*)&u)[lane];
+      const float end = ((const float*)&before)[lane], wide = ((const float*)&step)[lane],
+                  at = ((const float*)&u)[lane];
       int n = ((const int*)&count)[lane];
       do picks[lane * SHADOW_PICK + n++] = index;
       while (n < SHADOW_PICK && end > ((float)n + at) * wide);
@@ -51,8 +54,9 @@ static inline mask_t pick_lights(const Receivers* r, global const ShadowLight* l
 }
 
 // Of a pixel's rays, how many are hidden.
-static inline uint hidden_picks(const RayScene* scene, const SoftReceiver* r, global const ShadowLight* lights,
-                                const uint* picks, uint seed, uint* traced, int* last_blocker) {
+static inline uint hidden_picks(const RayScene* scene, const SoftReceiver* r,
+                                global const ShadowLight* lights, const uint* picks, uint seed, uint* traced,
+                                int* last_blocker) {
   // A gap off the surface: the rays have no common direction.
   const RaySource origin = {(double)r->x + r->gap * r->normal_x, (double)r->y + r->gap * r->normal_y,
                             (double)r->z + r->gap * r->normal_z, 1};
@@ -74,16 +78,19 @@ static inline uint hidden_picks(const RayScene* scene, const SoftReceiver* r, gl
     disc_samples((i + (int)(mixed(turned) >> 8)) & (SHADOW_PICK - 1), SHADOW_PICK, turned, u, &p, &q);
     p *= radius, q *= radius;
     const real squared = fma(z, z, fma(y, y, x * x)), inverse = 1.0f / sqrt(squared);
-    const real nx = x * inverse, ny = y * inverse, nz = z * inverse, sign = nz < 0.0f ? REAL(-1.0f) : REAL(1.0f);
+    const real nx = x * inverse, ny = y * inverse, nz = z * inverse,
+               sign = nz < 0.0f ? REAL(-1.0f) : REAL(1.0f);
     const real a = -1.0f / (sign + nz), b = nx * ny * a;
-    const Real3 off = real3(fma(q, b, p * fma(sign * nx * nx, a, REAL(1.0f))), fma(q, fma(ny * ny, a, sign), p * sign * b),
-                            -fma(q, ny, p * sign * nx));
-    const real height = fma(z + off.z, REAL(r->normal_z), fma(y + off.y, REAL(r->normal_y), (x + off.x) * r->normal_x));
-    const mask_t used = (i < (whole)(SHADOW_PICK)) & (squared > r->gap * r->gap), away = used & (height < 0.0f),
-                 active = used & ~away;
+    const Real3 off = real3(fma(q, b, p * fma(sign * nx * nx, a, REAL(1.0f))),
+                            fma(q, fma(ny * ny, a, sign), p * sign * b), -fma(q, ny, p * sign * nx));
+    const real height =
+        fma(z + off.z, REAL(r->normal_z), fma(y + off.y, REAL(r->normal_y), (x + off.x) * r->normal_x));
+    const mask_t used = (i < (whole)(SHADOW_PICK)) & (squared > r->gap * r->gap),
+                 away = used & (height < 0.0f), active = used & ~away;
     *traced += popcount(lane_bits(active));
-    hidden += popcount(lane_bits(away | rays_hidden(scene, origin, real3(at_x + off.x, at_y + off.y, at_z + off.z),
-                                                    REAL(0.0f), active, (whole)(r->own), last_blocker)));
+    hidden +=
+        popcount(lane_bits(away | rays_hidden(scene, origin, real3(at_x + off.x, at_y + off.y, at_z + off.z),
+                                              REAL(0.0f), active, (whole)(r->own), last_blocker)));
   }
   return hidden;
 }
@@ -94,11 +101,12 @@ static inline whole picked_share(const RayScene* scene, const Receivers* r, glob
                                  int* last_blocker) {
   uint picks[LANES * SHADOW_PICK];
   whole shares = (whole)(0);
-  for (uint left = lane_bits(pick_lights(r, lights, indices, range, x, y, picks)); left != 0; left &= left - 1) {
+  for (uint left = lane_bits(pick_lights(r, lights, indices, range, x, y, picks)); left != 0;
+       left &= left - 1) {
     const uint lane = lowest_bit(left);
     const SoftReceiver one = soft_receiver(r, lane);
-    const uint hidden = hidden_picks(scene, &one, lights, picks + lane * SHADOW_PICK, hash_of_pixel(x, y, lane), traced,
-                                     last_blocker);
+    const uint hidden = hidden_picks(scene, &one, lights, picks + lane * SHADOW_PICK,
+                                     hash_of_pixel(x, y, lane), traced, last_blocker);
     ((int*)&shares)[lane] = byte_of(hidden, SHADOW_PICK);
   }
   return shares;

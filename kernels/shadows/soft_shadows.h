@@ -7,8 +7,8 @@
 // over pixels has no bias.
 //
 // Roles are exchanged: the packet's origin is the pixel's point, and its lanes are samples of the light. They
-// make one narrow cone, and every pixel has a pattern of its own. Only rounding to nearest is used, so that all
-// forms and devices give the same bytes.
+// make one narrow cone, and every pixel has a pattern of its own. Only rounding to nearest is used, so that
+// all forms and devices give the same bytes.
 #pragma once
 
 #include "kernels/shadows/receivers.h"
@@ -39,7 +39,8 @@ static inline float dot_of(float ax, float ay, float az, float bx, float by, flo
 // sin(pi x) for x from -1/2 to 1/2: Taylor's series, to within 4e-6.
 static inline real sine_of_half_turns(real x) {
   const real s = x * x;
-  return x * fma(fma(fma(fma(REAL(0.082145887f), s, REAL(-0.59926453f)), s, REAL(2.5501640f)), s, REAL(-5.1677128f)),
+  return x * fma(fma(fma(fma(REAL(0.082145887f), s, REAL(-0.59926453f)), s, REAL(2.5501640f)), s,
+                     REAL(-5.1677128f)),
                  s, REAL(3.1415927f));
 }
 
@@ -86,7 +87,8 @@ static inline uint hidden_samples(const RayScene* scene, const SoftReceiver* r, 
   // Rays begin a gap before the point, on the way to the light or, where it is low, to a place as high as
   // the highest sample: below none of the rays, and above the triangles beside the pixel's in one plane.
   const float raised = height < radius ? radius - height : 0.0f;
-  const float tx = fma(raised, r->normal_x, x), ty = fma(raised, r->normal_y, y), tz = fma(raised, r->normal_z, z);
+  const float tx = fma(raised, r->normal_x, x), ty = fma(raised, r->normal_y, y),
+              tz = fma(raised, r->normal_z, z);
   const float step = r->gap / sqrt(dot_of(tx, ty, tz, tx, ty, tz));
   const RaySource origin = {(double)r->x + step * tx, (double)r->y + step * ty, (double)r->z + step * tz, 1};
   const float lx = (float)l->x, ly = (float)l->y, lz = (float)l->z;
@@ -101,11 +103,12 @@ static inline uint hidden_samples(const RayScene* scene, const SoftReceiver* r, 
     const mask_t away = used & (fma(q, REAL(height_b), fma(p, REAL(height_a), REAL(height))) < 0.0f),
                  active = used & ~away;
     p *= radius, q *= radius;
-    const Real3 to = real3(fma(q, REAL(bx), fma(p, REAL(ax), REAL(lx))), fma(q, REAL(by), fma(p, REAL(ay), REAL(ly))),
-                           fma(q, REAL(bz), fma(p, REAL(az), REAL(lz))));
+    const Real3 to =
+        real3(fma(q, REAL(bx), fma(p, REAL(ax), REAL(lx))), fma(q, REAL(by), fma(p, REAL(ay), REAL(ly))),
+              fma(q, REAL(bz), fma(p, REAL(az), REAL(lz))));
     *traced += popcount(lane_bits(active));
-    hidden += popcount(lane_bits(
-        away | rays_hidden(scene, origin, to, REAL(0.0f), active, (whole)(r->own), last_blocker)));
+    hidden += popcount(
+        lane_bits(away | rays_hidden(scene, origin, to, REAL(0.0f), active, (whole)(r->own), last_blocker)));
   }
   return hidden;
 }
@@ -115,7 +118,7 @@ static inline SoftReceiver soft_receiver(const Receivers* r, uint lane) {
   const float x = LANE_OF(r->normal.x), y = LANE_OF(r->normal.y), z = LANE_OF(r->normal.z);
   const float length = sqrt(dot_of(x, y, z, x, y, z)), inverse = length > 0.0f ? 1.0f / length : 0.0f;
   const SoftReceiver s = {LANE_OF(r->at.x), LANE_OF(r->at.y), LANE_OF(r->at.z), LANE_OF(r->gap),
-                          x * inverse, y * inverse, z * inverse, ((const int*)&r->own)[lane]};
+                          x * inverse,      y * inverse,      z * inverse,      ((const int*)&r->own)[lane]};
   return s;
 #undef LANE_OF
 }
@@ -130,8 +133,8 @@ static inline int byte_of(uint hidden, uint rays) { return (int)((hidden * 255u 
 
 // 0 to 255: the share of the light that is hidden from each lane. x, y: the pixel of lane 0; others as in
 // shared/shadow_bits.h.
-static inline whole hidden_share(const RayScene* scene, const Receivers* r, global const ShadowLight* l, uint x,
-                                 uint y, uint light, uint* traced, int* last_blocker) {
+static inline whole hidden_share(const RayScene* scene, const Receivers* r, global const ShadowLight* l,
+                                 uint x, uint y, uint light, uint* traced, int* last_blocker) {
   uint left = lane_bits(may_shade(r, l));
   whole shares = (whole)(0);
   for (; left != 0; left &= left - 1) {

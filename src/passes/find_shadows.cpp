@@ -48,7 +48,7 @@ std::vector<CullLight> shadowed_lights(const Seen& seen) {
 ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin) {
   const glm::dvec3 at = light.position - origin;
   ShadowLight s{at.x, at.y, at.z, 1, float(light.direction.x), float(light.direction.y),
-                float(light.direction.z), float(light.cos_outer), 0, 0, 0, 0};
+                float(light.direction.z), float(light.cos_outer)};
   if (light.cos_outer < -1) s.cos_outer = -1;
   const double slack = 0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
   const double reach = light.radius_m * (1 + 1e-5) + slack;

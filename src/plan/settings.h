@@ -86,10 +86,11 @@ struct Settings {
   bool voxel_reuse = false;    // a volume in which nothing changed is not filled again
   WorldGridShape world_grid = WorldGridShape::cubes;
   std::optional<double> world_cell;  // a cell's edge over the radius of lights; none: what suits the lights
-  // Sphere lights: rays for each pixel and light, 1 (to the centre), 4, 16, 64 or 256, and the spheres' radius.
+  // Sphere lights: rays for each pixel and light, 1 (to the centre), 4, 16, 64 or 256, and the spheres'
+  // radius.
   int shadow_rays = 1;
   double shadow_source_m = 0.05;
-  int shadow_pick = 0;  // rays for each pixel to all its lights: 1, 4 or 16; 0: to each light
+  int shadow_pick = 0;               // rays for each pixel to all its lights: 1, 4 or 16; 0: to each light
   bool portable = false;             // kernels without the builtins of one kind of CPU
   int group_size = 0;  // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   // Every effect's code and buffers, called for or not: what a plan is tested against.

@@ -183,9 +183,9 @@ std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view
   for (int i = 0; i < int(scene.lights.size()); ++i) {
     const Light& light = scene.lights[size_t(i)];
     if (!light.casts_shadow) continue;
-    plans.push_back(is_directional(light)
-                        ? LightShadow{i, ShadowNeed::directional}
-                        : plan_light(bounds_of(light, range_of(light, size_t(i), ranges)), i, view, boxes, source_m));
+    plans.push_back(is_directional(light) ? LightShadow{i, ShadowNeed::directional}
+                                          : plan_light(bounds_of(light, range_of(light, size_t(i), ranges)),
+                                                       i, view, boxes, source_m));
   }
   return plans;
 }

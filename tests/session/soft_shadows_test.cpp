@@ -33,7 +33,8 @@ Settings settings_of(const std::vector<std::string>& assignments) {
 
 struct Shaded {
   Shaded(const Scene& scene, const char* technique, const std::vector<std::string>& settings)
-      : run(software_devices(), scene, small_view(131, 77), settings_of(settings), find_technique(technique)) {
+      : run(software_devices(), scene, small_view(131, 77), settings_of(settings),
+            find_technique(technique)) {
     run.run_frame();
     shadows = run.frame().shadows();
   }
@@ -100,8 +101,8 @@ TEST(SoftShadows, ErrorFallsWithTheRaysAndHasNoBias) {
     if (pairs.empty()) pairs = sampled_pairs(shaded.run, scene, 600);
     const Errors e = errors_of(shaded.shadows, pairs);
     ASSERT_GT(e.count, 700u);
-    std::printf("%s rays: %zu pairs in penumbrae of %zu, mean %.5f (standard error %.5f), RMS %.5f\n", rays, e.count,
-                pairs.size(), e.mean, e.standard_error(), e.rms);
+    std::printf("%s rays: %zu pairs in penumbrae of %zu, mean %.5f (standard error %.5f), RMS %.5f\n", rays,
+                e.count, pairs.size(), e.mean, e.standard_error(), e.rms);
     EXPECT_LT(std::abs(e.mean), 3 * e.standard_error()) << rays;
     // Of random samples the quotient of two rows is a half.
     EXPECT_LT(e.rms, 0.5 * last_rms) << rays;
@@ -192,10 +193,11 @@ std::vector<PickedPixel> picked_pixels(TechniqueRun& run, const Scene& scene, si
       const glm::dvec3 to = light.position - receiver.place.place;
       const double d = glm::length(to), part = std::pow(d / double(light.radius_m), 4);
       const double luminance = glm::dot(glm::dvec3(light.color), glm::dvec3(0.2126, 0.7152, 0.0722));
-      const double adds = luminance * double(light.intensity) * std::max(0.0, glm::dot(to, normal)) / (d * d * d) *
-                          std::max(0.0, 1 - part);
+      const double adds = luminance * double(light.intensity) * std::max(0.0, glm::dot(to, normal)) /
+                          (d * d * d) * std::max(0.0, 1 - part);
       if (adds == 0) continue;
-      const double share = hidden_share(occlusion, light, receiver, soft ? source_m : 0, soft ? 16 : 1, random).share;
+      const double share =
+          hidden_share(occlusion, light, receiver, soft ? source_m : 0, soft ? 16 : 1, random).share;
       sum += adds, hidden += adds * share;
       if (adds > most) most = adds, p.brightest = i;
     }
@@ -214,7 +216,8 @@ TEST(PickedShadows, MeanIsTheHiddenRatioAndNoiseFallsWithTheRays) {
     double last_rms = 1;
     for (const char* rays : {"1", "4", "16"}) {
       Shaded shaded(scene, "visibility", {sphere, std::string("shadow-pick=") + rays});
-      if (pixels.empty()) pixels = picked_pixels(shaded.run, scene, 4000, sphere[12] == '1' && sphere[13] == '6');
+      if (pixels.empty())
+        pixels = picked_pixels(shaded.run, scene, 4000, sphere[12] == '1' && sphere[13] == '6');
       Errors e;
       for (const PickedPixel& p : pixels) {
         const double error = hidden_share_at(shaded.shadows, p.x, p.y, p.brightest) - p.ratio;
@@ -222,8 +225,8 @@ TEST(PickedShadows, MeanIsTheHiddenRatioAndNoiseFallsWithTheRays) {
       }
       e.mean /= double(e.count), e.rms = std::sqrt(e.rms / double(e.count));
       ASSERT_GT(e.count, 1000u);
-      std::printf("%s, %s rays a pixel: %zu pixels, mean %.5f (standard error %.5f), RMS %.5f\n", sphere, rays, e.count,
-                  e.mean, e.standard_error(), e.rms);
+      std::printf("%s, %s rays a pixel: %zu pixels, mean %.5f (standard error %.5f), RMS %.5f\n", sphere,
+                  rays, e.count, e.mean, e.standard_error(), e.rms);
       EXPECT_LT(std::abs(e.mean), 3 * e.standard_error()) << rays;
       EXPECT_LT(e.rms, 0.55 * last_rms) << rays;
       last_rms = e.rms;

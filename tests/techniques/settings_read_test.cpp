@@ -76,7 +76,8 @@ const Observed& seen_of(const Technique& technique, const Assignments& settings,
   auto& seen = by_technique[shadows][technique.name];
   const auto found = seen.find(settings);
   if (found != seen.end()) return found->second;
-  return seen[settings] = observe(test_devices(), observed_scene(shadows), small_view(33, 19), technique, settings);
+  return seen[settings] =
+             observe(test_devices(), observed_scene(shadows), small_view(33, 19), technique, settings);
 }
 
 // The facts that differ, one of which may be that a run was refused.
@@ -132,7 +133,8 @@ bool shows(const Technique& technique, const SettingHelp& setting) {
   for (size_t i = 1; i < setting.values.size(); ++i) {
     for (const Assignments& context : contexts_of(technique)) {
       if (holds_key(context, setting.key)) continue;
-      const Observed& seen = seen_of(technique, with(context, {setting.key + "=" + setting.values[i]}), shadows);
+      const Observed& seen =
+          seen_of(technique, with(context, {setting.key + "=" + setting.values[i]}), shadows);
       if (!seen.contains("refused") && seen != seen_of(technique, context, shadows)) return true;
     }
   }

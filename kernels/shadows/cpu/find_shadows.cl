@@ -67,11 +67,12 @@ kernel void find_shadows(SHADOW_PASS_ARGUMENTS) {
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
 #if defined(SHADOW_PICK)
-        const whole hidden = picked_or_away(&scene, receivers + block, lights + index, shares[block], shadow_view);
+        const whole hidden =
+            picked_or_away(&scene, receivers + block, lights + index, shares[block], shadow_view);
 #elif defined(SHADOW_RAYS)
-        const whole hidden = hidden_share(&scene, receivers + block, lights + index,
-                                          tile_x * SHADOW_TILE + block % 4 * 4, tile_y * SHADOW_TILE + block / 4 * 4,
-                                          index, &traced, &last_blocker);
+        const whole hidden =
+            hidden_share(&scene, receivers + block, lights + index, tile_x * SHADOW_TILE + block % 4 * 4,
+                         tile_y * SHADOW_TILE + block / 4 * 4, index, &traced, &last_blocker);
 #else
         const mask_t hidden =
             hidden_from(&scene, receivers + block, lights + index, shadow_view, &traced, &last_blocker);

@@ -45,8 +45,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
     global uint* entry = bits + (size_t)i * SHADOW_WORDS;
 #if defined(SHADOW_PICK)
-    ((global uchar*)entry)[item] =
-        (uchar)picked_or_away(&scene, &r, lights + indices[i], share, shadow_view);
+    ((global uchar*)entry)[item] = (uchar)picked_or_away(&scene, &r, lights + indices[i], share, shadow_view);
 #elif defined(SHADOW_RAYS)
     const uint light = indices[i];
     ((global uchar*)entry)[item] =
