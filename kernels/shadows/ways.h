@@ -1,5 +1,5 @@
-// How a light's shadow is found at LANES pixels: a ray each, with -DSHADOW_RAYS many to its sphere, or with
-// -DSHADOW_MAP the texels of its map.
+// How a light's shadow is found at LANES pixels: a ray each, with -DSHADOW_RAYS many to its sphere, with
+// -DSHADOW_PICK some for all lights together, or with -DSHADOW_MAP the texels of its map.
 //
 // -DSHADOW_BYTES  of a light a share may be hidden (shared/shadow_bits.h)
 #pragma once
@@ -21,10 +21,13 @@ static inline whole hidden_by_way(Way* maps, const RayScene* scene, const Receiv
 #else
 #define WAY_ARGUMENTS
 #define WAY \
-  { 0, -1 }
+  { .last_blocker = -1 }
 typedef struct Way {
   uint traced;
   int last_blocker;
+#ifdef SHADOW_PICK
+  whole picked[LANES];  // of each block of a tile: 255ths of its lights together
+#endif
 } Way;
 
 static inline whole hidden_by_way(Way* rays, const RayScene* scene, const Receivers* r, uint light,
@@ -35,17 +38,22 @@ static inline whole hidden_by_way(Way* rays, const RayScene* scene, const Receiv
                                                                                         : (whole)(0);
 }
 #define rays_of_way(w) ((w)->traced)
-#ifdef SHADOW_RAYS
+#ifdef SHADOW_PICK
+#include "kernels/shadows/picked_shadows.h"
+#elif defined(SHADOW_RAYS)
 #include "kernels/shadows/soft_shadows.h"
 #endif
 #endif
 
-// The share of each light that is hidden from the lanes, times 255: 0 or 255 without SHADOW_BYTES. x, y: the
-// first lane's pixel.
-static inline whole hidden_share(Way* way, const RayScene* scene, const Receivers* r, uint light,
+// The share of each light that is hidden from the lanes, times 255: 0 or 255 without SHADOW_BYTES. block: of
+// the lanes in their tile, 0 for a single one. x, y: the first lane's pixel. Directional lights take one ray
+// each.
+static inline whole hidden_share(Way* way, const RayScene* scene, const Receivers* r, uint block, uint light,
                                  global const ShadowLight* lights, constant ShadowView* v, uint x, uint y) {
   global const ShadowLight* l = lights + light;
-#ifdef SHADOW_RAYS
+#if defined(SHADOW_PICK)
+  if (l->w != 0) return picked_or_away(scene, r, l, way->picked[block], v);
+#elif defined(SHADOW_RAYS)
   if (l->w != 0) return soft_share(scene, r, l, x, y, light, &way->traced, &way->last_blocker);
 #endif
   const mask_t reached = may_shade(r, l);

@@ -60,12 +60,10 @@ std::vector<CullLight> shadowed_lights(const Seen& seen, std::vector<CullLight> 
 // Positions in view space are floats; they are turned to world axes and rounded again.
 // Shading computes with other roundings of them. Points in range are no further from the eye and from the
 // origin than the light and its range, and all of these errors together are below 2^-19 of that.
-ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin,
-                         double source_m) {
+ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin) {
   const glm::dvec3 at = light.position - origin;
   ShadowLight s{at.x, at.y, at.z, 1, float(light.direction.x), float(light.direction.y),
-                float(light.direction.z), float(light.cos_outer), 0, 0, float(light.radius_m), float(source_m), 0,
-                0};
+                float(light.direction.z), float(light.cos_outer), 0, 0, float(light.radius_m)};
   if (light.cos_outer < -1) s.cos_outer = -1;
   const double slack =
       0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
@@ -145,11 +143,13 @@ class ShadowBits : public PassCache {
         std::max<size_t>(least_bytes, grid_.index_count * entry_words(work.plan) * sizeof(uint32_t));
     const cl::Buffer& listed = at_least(work, work.shadows.tiles, bytes, GL_RG32UI);
     const cl::Buffer& bits = at_least(work, work.shadows.bits, bit_bytes, GL_R32UI);
-    parts_ = tiles * (kernels_.lanes ? 1 : groups_a_tile);
+    // Drawn lights serve all lights of a tile.
+    const size_t groups_here = kernels_.lanes || work.plan.settings.picks_shadows() ? 1 : groups_a_tile;
+    parts_ = tiles * groups_here;
     const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
     if (maps_) maps_->draw(*scene_);
     const cl::NDRange lanes(size_t(grid_.cells_x), size_t(grid_.cells_y));
-    const cl::NDRange groups(tiles * SHADOW_TILE * SHADOW_TILE, groups_a_tile);
+    const cl::NDRange groups(tiles * SHADOW_TILE * SHADOW_TILE, groups_here);
     kernels_.of("find_shadows")
         .launch(device, "find_shadows", kernels_.lanes ? lanes : groups,
                 kernels_.lanes ? cl::NDRange(1, 1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
@@ -246,6 +246,7 @@ class ShadowBits : public PassCache {
     for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
     const Settings& settings = work.plan.settings;
     if (settings.soft_shadows()) defines += fmt::format(" -DSHADOW_RAYS={}", settings.shadow_rays);
+    if (settings.picks_shadows()) defines += fmt::format(" -DSHADOW_PICK={}", settings.shadow_pick);
     if (!visible) defines += " -DNUMBERED";
     if (lights_of(work.plan) > 65536) defines += " -DINDEX_32";
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
@@ -255,7 +256,8 @@ class ShadowBits : public PassCache {
       if (!followed_) maps_->look(work, rays.origin());
       defines += maps_->defines();
     }
-    const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact && !settings.soft_shadows();
+    const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact && !settings.soft_shadows() &&
+                       !settings.picks_shadows();
     const size_t kept_bytes = keeps ? ShadowCertificates::bytes_of(settings) : 0;
     if (kept_bytes != 0) defines += " -DKEPT";
     kernels_.use(defines);
@@ -271,8 +273,12 @@ class ShadowBits : public PassCache {
     culler_->set_lights(lights);
     culler_->set_view(cull_view(work.view));
     std::vector<ShadowLight> records;
-    for (size_t i = 0; i < work.plan.local.size(); ++i)
-      records.push_back(shadow_light(lights[i], work.view, rays.origin(), settings.shadow_source_m));
+    for (size_t i = 0; i < work.plan.local.size(); ++i) {
+      ShadowLight& record = records.emplace_back(shadow_light(lights[i], work.view, rays.origin()));
+      const Light& light = work.scene.lights[size_t(work.plan.local[i])];
+      if (settings.soft_shadows()) record.source_m = float(settings.shadow_source_m);
+      record.luminance = light.intensity * glm::dot(light.color, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    }
     for (const int i : work.plan.directional_lights)
       records.push_back(shadow_light(work.scene.lights[size_t(i)]));
     for (size_t i = 0; certificates_ && i < records.size(); ++i) records[i].stamp = certificates_->stamp(i);

@@ -334,7 +334,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   }
   plan_slices(view, needs, farthest_m, plan);
   plan_shadows(scene, view, needs, instances, plan);
-  plan.shadow_bytes = settings.soft_shadows() ||
+  plan.shadow_bytes = settings.soft_shadows() || settings.picks_shadows() ||
                       (settings.shadows == ShadowMethod::map && settings.shadow_taps > 1);
   if (settings.everything_on) turn_everything_on(scene, plan, needs);
   return plan;

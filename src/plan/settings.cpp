@@ -219,11 +219,15 @@ std::vector<Setting>& all_settings() {
       {"shadow-filter", "texels that a pixel asks: its own, or the mean of 3 x 3 or 5 x 5",
        named(&Settings::shadow_taps, {{"none", 1}, {"pcf3", 3}, {"pcf5", 5}})},
       {"shadow-rays",
-       "rays for each pixel and light that casts a shadow: one to its centre, or so many to a sphere around it, "
-       "for soft shadows",
+       "rays for each pixel and light that casts a shadow: one to its centre, or so many to a sphere around "
+       "it, for soft shadows",
        numbers(&Settings::shadow_rays, {"1", "4", "16", "64", "256"})},
       {"shadow-source", "radius of these spheres in metres",
        numbers(&Settings::shadow_source_m, {"0.05", "0", "0.01", "0.02", "0.1", "0.2", "0.5"})},
+      {"shadow-pick",
+       "rays for each pixel to lights drawn from its list, in place of those to each light: one estimate of "
+       "the hidden share of all its light",
+       named(&Settings::shadow_pick, {{"off", 0}, {"1", 1}, {"4", 4}, {"16", 16}})},
       {"portable", "plain OpenCL C, without builtins that only some CPUs have",
        named(&Settings::portable, {{"off", false}, {"on", true}})},
       {"group-size", "work-items that cull a block of 4 x 4 tiles, in the group shape",

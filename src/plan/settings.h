@@ -93,14 +93,17 @@ struct Settings {
   int shadow_size = 256;  // texels a side of the largest face of a shadow map: 16 to 2048
   int shadow_bits = 32;   // of a texel: 16, 24 or 32
   int shadow_taps = 1;    // texels a side that a pixel asks: 1, 3 or 5
-  // Sphere lights: rays for each pixel and light, 1 (to the centre), 4, 16, 64 or 256, and the spheres' radius.
+  // Sphere lights: rays for each pixel and light, 1 (to the centre), 4, 16, 64 or 256, and the spheres'
+  // radius.
   int shadow_rays = 1;
   double shadow_source_m = 0.05;
+  int shadow_pick = 0;               // rays for each pixel to all its lights: 1, 4 or 16; 0: to each light
   bool portable = false;             // kernels without the builtins of one kind of CPU
   int group_size = 0;  // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   // Every effect's code and buffers, called for or not: what a plan is tested against.
   bool everything_on = false;
   // A share of a light may be hidden from a point.
+  bool picks_shadows() const { return shadows == ShadowMethod::exact && shadow_pick > 0; }
   bool soft_shadows() const {
     return shadows == ShadowMethod::exact && shadow_rays > 1 && shadow_source_m > 0;
   }

@@ -12,8 +12,8 @@ struct HiddenShare {
 };
 
 // The sphere is the disc of its radius around the light that faces the receiver. side * side rays, one to a
-// random place in each cell of a square that is mapped to the disc (P. Shirley, K. Chiu, "A low distortion map
-// between disk and square", 1997). The light has a place.
+// random place in each cell of a square that is mapped to the disc (P. Shirley, K. Chiu, "A low distortion
+// map between disk and square", 1997). The light has a place.
 HiddenShare hidden_share(const Occlusion& occlusion, const Light& light, const Receiver& receiver,
                          double radius_m, int side, Random& random);
 

@@ -10,16 +10,16 @@
 
 namespace lightgrid {
 
-// Lists of lights in tiles of 16 x 16 pixels, and of each entry a value for each pixel: value (y % 4) * 4 + x % 4
-// of block (y / 4) * 4 + x / 4, 16 a block, x and y from the tile's lower left pixel. Value v is bit v % 32 of
-// word v / 32.
+// Lists of lights in tiles of 16 x 16 pixels, and of each entry a value for each pixel: value (y % 4) * 4 + x
+// % 4 of block (y / 4) * 4 + x / 4, 16 a block, x and y from the tile's lower left pixel. Value v is bit v %
+// 32 of word v / 32.
 struct HostShadows {
   static constexpr int side = 16, words = 8;
   int tiles_x = 0, tiles_y = 0;
   std::vector<glm::uvec2> cells;  // first entry and number of entries, a tile; x fastest from the lower left
   std::vector<uint32_t> indices;  // of point and spot lights in scene order; ascending in each cell
-  std::vector<uint32_t> bits;     // `words` an entry of indices: the light, or more than half of it, is hidden
-  std::vector<uint8_t> shares;    // the hidden share times 255, in the same order; empty: bits say all
+  std::vector<uint32_t> bits;   // `words` an entry of indices: the light, or more than half of it, is hidden
+  std::vector<uint8_t> shares;  // the hidden share times 255, in the same order; empty: bits say all
 };
 
 // Of a pixel, row 0 at the bottom, and a light. None: the tile does not list it.
@@ -34,7 +34,8 @@ inline std::optional<size_t> shadow_value(const HostShadows& shadows, int x, int
   return entry * side * side + size_t(value);
 }
 
-// Whether a light loop is told that the light is hidden at a pixel. A light that the tile does not list is not.
+// Whether a light loop is told that the light is hidden at a pixel. A light that the tile does not list is
+// not.
 inline bool hidden_at(const HostShadows& shadows, int x, int y, uint32_t light) {
   const auto value = shadow_value(shadows, x, y, light);
   return value && (shadows.bits[*value / 32] >> *value % 32 & 1);

@@ -19,7 +19,7 @@ typedef struct ShadowLight {
   float range;     // metres
   float source_m;  // the sphere's radius
   uint stamp;      // of certificates: another one after the light, or what it may reach, moved
-  uint padding;
+  float luminance;
 } ShadowLight;
 
 typedef struct ShadowView {

@@ -66,7 +66,7 @@ const std::vector<const char*>& common_settings() {
       if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
     }
     for (const char* key : {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays",
-                            "shadow-source", "everything-on"})
+                            "shadow-source", "shadow-pick", "everything-on"})
       all.push_back(key);
     return all;
   }();

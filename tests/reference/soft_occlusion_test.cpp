@@ -9,8 +9,8 @@
 namespace lightgrid {
 namespace {
 
-// Under a light 2 m up, a card 1 m up whose edge is at x = edge_m hides what is below it: of the disc the part
-// past twice that. The point is on the ground, away from its edges.
+// Under a light 2 m up, a card 1 m up whose edge is at x = edge_m hides what is below it: of the disc the
+// part past twice that. The point is on the ground, away from its edges.
 double share_past(double edge_m, double radius_m, int side) {
   const float x = float(edge_m), far = 10;
   const Scene scene = scene_of({ground_mesh(), mesh_of({{x, 1, -far}, {far, 1, -far}, {far, 1, far}}),
@@ -36,9 +36,11 @@ TEST(SoftOcclusion, TheReceiversOwnPlaneHidesHalfOfALightInIt) {
   const Scene scene = scene_of({ground_mesh()});
   const Occlusion occlusion(scene);
   Random random(8);
-  EXPECT_NEAR(hidden_share(occlusion, light_at({-3, 0, -4}), receiver_at({2, 0, 1}), 0.5, 32, random).share, 0.5, 0.02);
+  EXPECT_NEAR(hidden_share(occlusion, light_at({-3, 0, -4}), receiver_at({2, 0, 1}), 0.5, 32, random).share,
+              0.5, 0.02);
   EXPECT_EQ(hidden_share(occlusion, light_at({-3, 1, -4}), receiver_at({2, 0, 1}), 0.5, 16, random).share, 0);
-  EXPECT_EQ(hidden_share(occlusion, light_at({-3, -1, -4}), receiver_at({2, 0, 1}), 0.5, 16, random).share, 1);
+  EXPECT_EQ(hidden_share(occlusion, light_at({-3, -1, -4}), receiver_at({2, 0, 1}), 0.5, 16, random).share,
+            1);
 }
 
 }  // namespace

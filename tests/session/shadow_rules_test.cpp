@@ -27,7 +27,8 @@ void expect_left_out_are_seen(const char* rays, double source_m) {
       ++lights[light.need];
       Scene& of = light.need == ShadowNeed::rays ? with_rays : left_out;
       of.lights[size_t(light.light)].casts_shadow = false;
-      if (settings.soft_shadows()) of.lights[size_t(light.light)].position += any_direction(within) * source_m;
+      if (settings.soft_shadows())
+        of.lights[size_t(light.light)].position += any_direction(within) * source_m;
     }
     const Leaks leaks = find_leaks(left_out, room.view, {});
     lit += leaks.lit;

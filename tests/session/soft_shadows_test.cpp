@@ -33,7 +33,8 @@ Settings settings_of(const std::vector<std::string>& assignments) {
 
 struct Shaded {
   Shaded(const Scene& scene, const char* technique, const std::vector<std::string>& settings)
-      : run(software_devices(), scene, small_view(131, 77), settings_of(settings), find_technique(technique)) {
+      : run(software_devices(), scene, small_view(131, 77), settings_of(settings),
+            find_technique(technique)) {
     run.run_frame();
     shadows = run.frame().shadows();
   }
@@ -100,8 +101,8 @@ TEST(SoftShadows, ErrorFallsWithTheRaysAndHasNoBias) {
     if (pairs.empty()) pairs = sampled_pairs(shaded.run, scene, 600);
     const Errors e = errors_of(shaded.shadows, pairs);
     ASSERT_GT(e.count, 700u);
-    std::printf("%s rays: %zu pairs in penumbrae of %zu, mean %.5f (standard error %.5f), RMS %.5f\n", rays, e.count,
-                pairs.size(), e.mean, e.standard_error(), e.rms);
+    std::printf("%s rays: %zu pairs in penumbrae of %zu, mean %.5f (standard error %.5f), RMS %.5f\n", rays,
+                e.count, pairs.size(), e.mean, e.standard_error(), e.rms);
     EXPECT_LT(std::abs(e.mean), 3 * e.standard_error()) << rays;
     // Of random samples the quotient of two rows is a half.
     EXPECT_LT(e.rms, 0.5 * last_rms) << rays;
@@ -117,13 +118,16 @@ TEST(SoftShadows, ErrorFallsWithTheRaysAndHasNoBias) {
 
 TEST(SoftShadows, AllKernelShapesGiveTheSameBytes) {
   const Scene scene = soft_scene();
-  for (const char* rays : {"shadow-rays=4", "shadow-rays=64"}) {
-    const Shaded lanes(scene, "visibility", {rays, "kernel-shape=lanes"}),
-        group(scene, "visibility", {rays, "kernel-shape=group"}),
-        portable(scene, "visibility", {rays, "kernel-shape=lanes", "portable=on"});
+  for (const auto& [rays, pick] : {std::pair{"shadow-rays=4", "shadow-pick=off"},
+                                   {"shadow-rays=64", "shadow-pick=off"},
+                                   {"shadow-rays=1", "shadow-pick=4"},
+                                   {"shadow-rays=4", "shadow-pick=16"}}) {
+    const Shaded lanes(scene, "visibility", {rays, pick, "kernel-shape=lanes"}),
+        group(scene, "visibility", {rays, pick, "kernel-shape=group"}),
+        portable(scene, "visibility", {rays, pick, "kernel-shape=lanes", "portable=on"});
     EXPECT_GT(std::ranges::count_if(lanes.shadows.shares, [](uint8_t s) { return s > 0 && s < 255; }), 1000);
-    EXPECT_EQ(lanes.shadows.shares, group.shadows.shares) << rays;
-    EXPECT_EQ(lanes.shadows.shares, portable.shadows.shares) << rays;
+    EXPECT_EQ(lanes.shadows.shares, group.shadows.shares) << rays << " " << pick;
+    EXPECT_EQ(lanes.shadows.shares, portable.shadows.shares) << rays << " " << pick;
   }
 }
 
@@ -145,6 +149,88 @@ TEST(SoftShadows, APointHasHardShadows) {
     EXPECT_TRUE(point.shadows.shares.empty());
     EXPECT_EQ(hard.shadows.bits, point.shadows.bits);
     EXPECT_EQ(hard.run.image().pixels, point.run.image().pixels);
+  }
+}
+
+// A pixel's lights by what they add to a Lambert surface.
+struct PickedPixel {
+  int x = 0, y = 0;
+  uint32_t brightest = 0;
+  double ratio = 0;  // of all that they add, what is hidden
+};
+
+glm::dvec3 normal_towards_the_eye(const Scene& scene, const Receiver& receiver) {
+  const Instance& instance = scene.instances[size_t(receiver.own.instance)];
+  const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
+  glm::dvec3 c[3];
+  for (size_t k = 0; k < 3; ++k) {
+    const glm::vec3 p = mesh.positions[mesh.indices[3 * size_t(receiver.own.triangle) + k]];
+    c[k] = glm::dvec3(instance.world_from_object * glm::dvec4(p, 1));
+  }
+  const glm::dvec3 normal = glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
+  return glm::dot(normal, receiver.eye.place - receiver.place.place) < 0 ? -normal : normal;
+}
+
+// `soft`: the lights are spheres. Pixels whose lights are neither all hidden nor all seen.
+std::vector<PickedPixel> picked_pixels(TechniqueRun& run, const Scene& scene, size_t pixels, bool soft) {
+  const View& view = run.view().view;
+  const std::vector<float> depth = read_depth(run);
+  const std::vector<CastingTriangle> shown = casting_triangles(scene, shown_triangles(run));
+  const Occlusion occlusion(scene);
+  std::vector<uint32_t> sampled = sample_pixels(covered_pixels(depth), pixels);
+  std::vector<PickedPixel> found(sampled.size());
+  parallel_for(int(sampled.size()), [&](int n) {
+    const uint32_t pixel = sampled[size_t(n)];
+    const int x = int(pixel) % view.width, y = int(pixel) / view.width;
+    if (shown[pixel].instance < 0) return;
+    const Receiver receiver = occlusion.receiver(view, x, y, double(depth[pixel]), shown[pixel]);
+    const glm::dvec3 normal = normal_towards_the_eye(scene, receiver);
+    Random random{uint64_t(n)};
+    double sum = 0, hidden = 0, most = 0;
+    PickedPixel p{x, y};
+    for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+      const Light& light = scene.lights[i];
+      const glm::dvec3 to = light.position - receiver.place.place;
+      const double d = glm::length(to), part = std::pow(d / double(light.radius_m), 4);
+      const double luminance = glm::dot(glm::dvec3(light.color), glm::dvec3(0.2126, 0.7152, 0.0722));
+      const double adds = luminance * double(light.intensity) * std::max(0.0, glm::dot(to, normal)) /
+                          (d * d * d) * std::max(0.0, 1 - part);
+      if (adds == 0) continue;
+      const double share =
+          hidden_share(occlusion, light, receiver, soft ? source_m : 0, soft ? 16 : 1, random).share;
+      sum += adds, hidden += adds * share;
+      if (adds > most) most = adds, p.brightest = i;
+    }
+    p.ratio = sum > 0 ? hidden / sum : 0;
+    found[size_t(n)] = p;
+  });
+  std::erase_if(found, [](const PickedPixel& p) { return !(p.ratio > 0.001 && p.ratio < 0.999); });
+  return found;
+}
+
+// Each pixel draws by its own hash, so that the mean over pixels is that over many draws.
+TEST(PickedShadows, MeanIsTheHiddenRatioAndNoiseFallsWithTheRays) {
+  const Scene scene = soft_scene();
+  for (const char* sphere : {"shadow-rays=1", "shadow-rays=16"}) {
+    std::vector<PickedPixel> pixels;
+    double last_rms = 1;
+    for (const char* rays : {"1", "4", "16"}) {
+      Shaded shaded(scene, "visibility", {sphere, std::string("shadow-pick=") + rays});
+      if (pixels.empty())
+        pixels = picked_pixels(shaded.run, scene, 4000, sphere[12] == '1' && sphere[13] == '6');
+      Errors e;
+      for (const PickedPixel& p : pixels) {
+        const double error = hidden_share_at(shaded.shadows, p.x, p.y, p.brightest) - p.ratio;
+        e.mean += error, e.rms += error * error, ++e.count;
+      }
+      e.mean /= double(e.count), e.rms = std::sqrt(e.rms / double(e.count));
+      ASSERT_GT(e.count, 1000u);
+      std::printf("%s, %s rays a pixel: %zu pixels, mean %.5f (standard error %.5f), RMS %.5f\n", sphere,
+                  rays, e.count, e.mean, e.standard_error(), e.rms);
+      EXPECT_LT(std::abs(e.mean), 3 * e.standard_error()) << rays;
+      EXPECT_LT(e.rms, 0.55 * last_rms) << rays;
+      last_rms = e.rms;
+    }
   }
 }
 

@@ -57,24 +57,29 @@ std::vector<Assignments> contexts_of(const Technique& technique) {
   return own;
 }
 
-// A mask, glass, clearcoat, textures, point and spot lights, which cast shadows, and a sun.
-const Scene& observed_scene() {
-  static const Scene scene = [] {
-    SmallScene s = small_scene();
-    for (const char* name : {"blend", "mask", "spot", "directional"}) effect(name).add(s);
-    for (Light& light : s.scene.lights) light.casts_shadow = true;
-    return s.scene;
-  }();
-  return scene;
+// A mask, glass, clearcoat, textures, point and spot lights and a sun.
+Scene scene_of_effects(bool shadows) {
+  SmallScene s = small_scene();
+  for (const char* name : {"blend", "mask", "spot", "directional"}) effect(name).add(s);
+  s.scene.lights[2].casts_shadow = shadows;
+  return s.scene;
+}
+
+// Settings of shadows show where a light casts one. There the settings of the pass that finds them show too,
+// which techniques without culling do not declare.
+const Scene& observed_scene(bool shadows) {
+  static const Scene with = scene_of_effects(true), without = scene_of_effects(false);
+  return shadows ? with : without;
 }
 
 // Kept by the technique's name: a run does not depend on the declaration.
-const Observed& seen_of(const Technique& technique, const Assignments& settings) {
-  static std::map<std::string, std::map<Assignments, Observed>> by_technique;
-  auto& seen = by_technique[technique.name];
+const Observed& seen_of(const Technique& technique, const Assignments& settings, bool shadows = false) {
+  static std::map<std::string, std::map<Assignments, Observed>> by_technique[2];
+  auto& seen = by_technique[shadows][technique.name];
   const auto found = seen.find(settings);
   if (found != seen.end()) return found->second;
-  return seen[settings] = observe(test_devices(), observed_scene(), small_view(33, 19), technique, settings);
+  return seen[settings] =
+             observe(test_devices(), observed_scene(shadows), small_view(33, 19), technique, settings);
 }
 
 // The facts that differ, one of which may be that a run was refused.
@@ -126,11 +131,13 @@ std::map<std::string, std::string> read_but_not_declared(const Technique& techni
 
 // Whether a value of the setting changes what a run shows, beyond refusing to run.
 bool shows(const Technique& technique, const SettingHelp& setting) {
+  const bool shadows = setting.key.starts_with("shadow-");
   for (size_t i = 1; i < setting.values.size(); ++i) {
     for (const Assignments& context : contexts_of(technique)) {
       if (holds_key(context, setting.key)) continue;
-      const Observed& seen = seen_of(technique, with(context, {setting.key + "=" + setting.values[i]}));
-      if (!seen.contains("refused") && seen != seen_of(technique, context)) return true;
+      const Observed& seen =
+          seen_of(technique, with(context, {setting.key + "=" + setting.values[i]}), shadows);
+      if (!seen.contains("refused") && seen != seen_of(technique, context, shadows)) return true;
     }
   }
   return false;

@@ -15,6 +15,9 @@
 #else
 #define ALL_ARGUMENTS WAY_ARGUMENTS SHADOW_PASS_ARGUMENTS
 #endif
+#ifdef SHADOW_PICK
+#include "kernels/shadows/picked_shadows.h"
+#endif
 
 // Of a block's pixels, into an entry of zeros.
 #ifdef SHADOW_BYTES
@@ -65,6 +68,14 @@ kernel void find_shadows(ALL_ARGUMENTS) {
     drop_small_pieces(&pieces, 0, pieces.others);
     pieces.count_at_first = pieces.count;
 #endif
+#ifdef SHADOW_PICK
+    for (uint left = used; left != 0; left &= left - 1) {
+      const uint block = lowest_bit(left);
+      way.picked[block] = picked_share(&scene, receivers + block, lights, indices, range,
+                                       tile_x * SHADOW_TILE + block % 4 * 4,
+                                       tile_y * SHADOW_TILE + block / 4 * 4, &way.traced, &way.last_blocker);
+    }
+#endif
     for (uint i = range.x; i < range.x + range.y; ++i) {
       const uint index = indices[i];
       global uint* entry = bits + (size_t)i * SHADOW_WORDS;
@@ -81,7 +92,7 @@ kernel void find_shadows(ALL_ARGUMENTS) {
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
         store_shadows(entry, block,
-                      hidden_share(&way, &scene, receivers + block, index, lights, shadow_view,
+                      hidden_share(&way, &scene, receivers + block, block, index, lights, shadow_view,
                                    tile_x * SHADOW_TILE + block % 4 * 4, tile_y * SHADOW_TILE + block / 4 * 4));
       }
 #endif

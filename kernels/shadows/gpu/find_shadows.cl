@@ -37,15 +37,19 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(WAY_
   uint turn = 0;
   Way way = WAY;
   if (item == 0) traced_here = 0;
+#ifdef SHADOW_PICK  // one part a tile
+  way.picked[0] =
+      picked_share(&scene, &r, lights, indices, range, x, y, &way.traced, &way.last_blocker);
+#endif
   for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
     global uint* entry = bits + (size_t)i * SHADOW_WORDS;
 #ifdef SHADOW_BYTES
     ((global uchar*)entry)[item] =
-        (uchar)hidden_share(&way, &scene, &r, indices[i], lights, shadow_view, x, y);
+        (uchar)hidden_share(&way, &scene, &r, 0, indices[i], lights, shadow_view, x, y);
 #else
     if (item < SHADOW_WORDS) words[turn][item] = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (hidden_share(&way, &scene, &r, indices[i], lights, shadow_view, x, y) != 0)
+    if (hidden_share(&way, &scene, &r, 0, indices[i], lights, shadow_view, x, y) != 0)
       atomic_or(&words[turn][item / 32], 1u << (item & 31u));
     barrier(CLK_LOCAL_MEM_FENCE);
     if (item < SHADOW_WORDS) entry[item] = words[turn][item];

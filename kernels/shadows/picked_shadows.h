@@ -1,0 +1,121 @@
+// One estimate, for each pixel, of the share of its shadowed light that is hidden: by SHADOW_PICK rays (1, 4
+// or 16) in all, to lights drawn from its tile's list, each as likely as it is bright there. Light loops then
+// multiply the unshadowed sum by one share, so that there is noise in shadows alone: the ratio estimator of
+// E. Heitz, S. Hill, M. McGuire, "Combining analytic direct illumination and stochastic shadows", I3D 2018.
+//
+// Roles are exchanged as in soft_shadows.h: the lanes of a packet are the rays of one pixel.
+#pragma once
+
+#include "kernels/shadows/soft_shadows.h"
+
+// What a light adds to a Lambert surface, times a factor that is the same for all lights of a pixel. It is
+// not exact: cones fade from their axis on, and the surface's own reflectance is left out.
+static inline real estimated_light(const Receivers* r, global const ShadowLight* l) {
+  const Real3 d = real3(from_double(r->at.x, l->x), from_double(r->at.y, l->y), from_double(r->at.z, l->z));
+  const real squared = lane_max(fma(d.z, d.z, fma(d.y, d.y, d.x * d.x)), REAL(1e-6f));
+  const real inverse = 1.0f / sqrt(squared), part = squared * (1.0f / l->reach_squared);
+  const real facing = -fma(d.z, r->normal.z, fma(d.y, r->normal.y, d.x * r->normal.x)) * inverse;
+  real light =
+      lane_max(facing, REAL(0.0f)) * lane_max(fma(-part, part, REAL(1.0f)), REAL(0.0f)) * inverse * inverse;
+  if (l->cos_outer > -1.0f) {
+    const real along = fma(d.z, REAL(l->axis_z), fma(d.y, REAL(l->axis_y), d.x * l->axis_x)) * inverse;
+    const real inside = lane_max((along - l->cos_outer) / (1.0f - l->cos_outer), REAL(0.0f));
+    light *= inside * inside;
+  }
+  return r->own >= (whole)(0) ? light * l->luminance : REAL(0.0f);
+}
+
+// Draws the lights of each lane, in systematic steps over the sum of all. Lanes to which no light adds
+// anything have none.
+// picks: SHADOW_PICK a lane. x, y: of lane 0.
+static inline mask_t pick_lights(const Receivers* r, global const ShadowLight* lights,
+                                 global const index_t* indices, uint2 range, uint x, uint y, uint* picks) {
+  real sum = REAL(0.0f), before = REAL(0.0f), next = REAL(0.0f), u = REAL(0.0f);
+  for (uint i = range.x; i < range.x + range.y; ++i) sum += estimated_light(r, lights + indices[i]);
+  for (uint lane = 0; lane < LANES; ++lane) ((float*)&u)[lane] = hash_in_unit(hash_of_pixel(x, y, lane));
+  whole count = (whole)(0);
+  const real step = sum * (1.0f / SHADOW_PICK);
+  next = u * step;
+  for (uint i = range.x; i < range.x + range.y; ++i) {
+    const uint index = indices[i];
+    before += estimated_light(r, lights + index);
+    for (uint left = lane_bits((before > next) & (count < (whole)(SHADOW_PICK))); left != 0;
+         left &= left - 1) {
+      const uint lane = lowest_bit(left);
+      const float end = ((const float*)&before)[lane], wide = ((const float*)&step)[lane],
+                  at = ((const float*)&u)[lane];
+      int n = ((const int*)&count)[lane];
+      do picks[lane * SHADOW_PICK + n++] = index;
+      while (n < SHADOW_PICK && end > ((float)n + at) * wide);
+      ((int*)&count)[lane] = n, ((float*)&next)[lane] = ((float)n + at) * wide;
+    }
+  }
+  return count == (whole)(SHADOW_PICK);
+}
+
+// Of a pixel's rays, how many are hidden.
+static inline uint hidden_picks(const RayScene* scene, const SoftReceiver* r,
+                                global const ShadowLight* lights, const uint* picks, uint seed, uint* traced,
+                                int* last_blocker) {
+  // A gap off the surface: the rays have no common direction.
+  const RaySource origin = {(double)r->x + r->gap * r->normal_x, (double)r->y + r->gap * r->normal_y,
+                            (double)r->z + r->gap * r->normal_z, 1};
+  const uint turned = mixed(seed ^ 0x2c1b3c6du);
+  const float u = hash_in_unit(turned);
+  uint hidden = 0;
+  for (uint first = 0; first < SHADOW_PICK; first += LANES) {
+    real x = REAL(0.0f), y = x, z = x, at_x = x, at_y = x, at_z = x, radius = x;
+    for (uint lane = 0; lane < LANES && first + lane < SHADOW_PICK; ++lane) {
+      global const ShadowLight* l = lights + picks[first + lane];
+      ((float*)&x)[lane] = (float)(l->x - r->x), ((float*)&at_x)[lane] = (float)l->x;
+      ((float*)&y)[lane] = (float)(l->y - r->y), ((float*)&at_y)[lane] = (float)l->y;
+      ((float*)&z)[lane] = (float)(l->z - r->z), ((float*)&at_z)[lane] = (float)l->z;
+      ((float*)&radius)[lane] = l->source_m;
+    }
+    // The rings of the lights' discs are dealt out by another hash, or the first lights would have the inner.
+    real p, q;
+    const whole i = lanes_from(first);
+    disc_samples((i + (int)(mixed(turned) >> 8)) & (SHADOW_PICK - 1), SHADOW_PICK, turned, u, &p, &q);
+    p *= radius, q *= radius;
+    const real squared = fma(z, z, fma(y, y, x * x)), inverse = 1.0f / sqrt(squared);
+    const real nx = x * inverse, ny = y * inverse, nz = z * inverse,
+               sign = nz < 0.0f ? REAL(-1.0f) : REAL(1.0f);
+    const real a = -1.0f / (sign + nz), b = nx * ny * a;
+    const Real3 off = real3(fma(q, b, p * fma(sign * nx * nx, a, REAL(1.0f))),
+                            fma(q, fma(ny * ny, a, sign), p * sign * b), -fma(q, ny, p * sign * nx));
+    const real height =
+        fma(z + off.z, REAL(r->normal_z), fma(y + off.y, REAL(r->normal_y), (x + off.x) * r->normal_x));
+    const mask_t used = (i < (whole)(SHADOW_PICK)) & (squared > r->gap * r->gap),
+                 away = used & (height < 0.0f), active = used & ~away;
+    *traced += popcount(lane_bits(active));
+    hidden +=
+        popcount(lane_bits(away | rays_hidden(scene, origin, real3(at_x + off.x, at_y + off.y, at_z + off.z),
+                                              REAL(0.0f), active, (whole)(r->own), last_blocker)));
+  }
+  return hidden;
+}
+
+// 0 to 255: of the light that each lane's pixel has from the tile's lights, the share that is hidden.
+static inline whole picked_share(const RayScene* scene, const Receivers* r, global const ShadowLight* lights,
+                                 global const index_t* indices, uint2 range, uint x, uint y, uint* traced,
+                                 int* last_blocker) {
+  uint picks[LANES * SHADOW_PICK];
+  whole shares = (whole)(0);
+  for (uint left = lane_bits(pick_lights(r, lights, indices, range, x, y, picks)); left != 0;
+       left &= left - 1) {
+    const uint lane = lowest_bit(left);
+    const SoftReceiver one = soft_receiver(r, lane);
+    const uint hidden = hidden_picks(scene, &one, lights, picks + lane * SHADOW_PICK,
+                                     hash_of_pixel(x, y, lane), traced, last_blocker);
+    ((int*)&shares)[lane] = byte_of(hidden, SHADOW_PICK);
+  }
+  return shares;
+}
+
+// Of one light: lights behind the pixel's own triangle are never drawn, and are hidden for certain.
+static inline whole picked_or_away(const RayScene* scene, const Receivers* r, global const ShadowLight* l,
+                                   whole shares, constant ShadowView* v) {
+  const mask_t reached = may_shade(r, l);
+  if (!any_lane(reached)) return shares;
+  return turned_away(scene, r, l, reached, v) ? (whole)(255) : shares;
+}
