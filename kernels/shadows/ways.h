@@ -38,10 +38,11 @@ static inline whole hidden_by_way(Way* rays, const RayScene* scene, const Receiv
                                                                                         : (whole)(0);
 }
 #define rays_of_way(w) ((w)->traced)
+#if defined(SHADOW_RAYS) || defined(SHADOW_PICK)
+#include "kernels/shadows/soft_shadows.h"
+#endif
 #ifdef SHADOW_PICK
 #include "kernels/shadows/picked_shadows.h"
-#elif defined(SHADOW_RAYS)
-#include "kernels/shadows/soft_shadows.h"
 #endif
 #endif
 

@@ -27,7 +27,6 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(WAY_
     atomic_or((global volatile uint*)(listed + index / 32 * 2), 1u << (index & 31u));
     if (i == range.x || indices[i - 1] / 32 != index / 32) listed[index / 32 * 2 + 1] = i;
   }
-  }
   const bool inside = x < width && y < height;
   const size_t at = inside ? (size_t)y * width + x : 0;
   const uint triangle = inside ? triangles[at] : NO_TRIANGLE;
