@@ -49,20 +49,10 @@ std::vector<CullLight> shadowed_lights(const Seen& seen) {
 // origin than the light and its range, and all of these errors together are below 2^-19 of that.
 ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin) {
   const glm::dvec3 at = light.position - origin;
-  ShadowLight s{at.x,
-                at.y,
-                at.z,
-                1,
-                float(light.direction.x),
-                float(light.direction.y),
-                float(light.direction.z),
-                float(light.cos_outer),
-                0,
-                0,
-                {}};
+  ShadowLight s{at.x, at.y, at.z, 1, float(light.direction.x), float(light.direction.y),
+                float(light.direction.z), float(light.cos_outer), 0, 0, {}};
   if (light.cos_outer < -1) s.cos_outer = -1;
-  const double slack =
-      0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
+  const double slack = 0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
   const double reach = light.radius_m * (1 + 1e-5) + slack;
   s.reach_squared = float(std::min(reach * reach, double(std::numeric_limits<float>::infinity())));
   s.slack = float(std::min(slack, double(std::numeric_limits<float>::max())));
@@ -73,8 +63,8 @@ ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
   const View& view = seen.view;
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
   const glm::dvec3 from = view.eye - origin, eye = view.orthographic ? world_from_view[2] : from;
-  ShadowView v{eye.x,         eye.y, eye.z, view.orthographic ? 0.0 : 1.0, {}, float(from.x), float(from.y),
-               float(from.z), 0,     {}};
+  ShadowView v{eye.x, eye.y, eye.z, view.orthographic ? 0.0 : 1.0, {}, float(from.x), float(from.y),
+               float(from.z), 0, {}};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
       v.world_from_view[3 * row + column] = float(world_from_view[column][row]);
@@ -119,8 +109,7 @@ class ShadowBits : public PassCache {
     hand_over(work, bytes, least_bytes);
   }
 
-  void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth,
-            const cl::Buffer& numbers) {
+  void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth, const cl::Buffer& numbers) {
     ClDevice& device = *work.renderer.cl;
     prepare(work, visible);
     const DepthBounds bounds = culler_->depth_bounds({depth.values});
@@ -137,22 +126,21 @@ class ShadowBits : public PassCache {
     const cl::NDRange lanes(size_t(grid_.cells_x), size_t(grid_.cells_y));
     const cl::NDRange groups(tiles * SHADOW_TILE * SHADOW_TILE, groups_a_tile);
     kernels_.of("find_shadows")
-        .launch(
-            device, "find_shadows", kernels_.lanes ? lanes : groups,
-            kernels_.lanes ? cl::NDRange(1, 1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
-            (maps_ ? maps_->arguments() : ClArguments()) + scene_->arguments() +
-                ClArguments{{"triangles", numbers},
-                            {"triangle_instance", visible ? visible->raster.triangle_instance : cl::Buffer()},
-                            {"number_offsets", visible ? offsets_.buffer() : cl::Buffer()},
-                            {"depths", depth.values},
-                            {"cells", storage_.cells(grid_.cell_bytes)},
-                            {"indices", storage_.indices(grid_.index_bytes)},
-                            {"lights", lights_.buffer()},
-                            {"shadow_view", view_.buffer()},
-                            {"view", work.cl_lights().view.buffer()},
-                            {"tiles", listed},
-                            {"bits", bits},
-                            {"rays", rays}});
+        .launch(device, "find_shadows", kernels_.lanes ? lanes : groups,
+                kernels_.lanes ? cl::NDRange(1, 1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
+                (maps_ ? maps_->arguments() : ClArguments()) + scene_->arguments() +
+                    ClArguments{{"triangles", numbers},
+                                {"triangle_instance", visible ? visible->raster.triangle_instance : cl::Buffer()},
+                                {"number_offsets", visible ? offsets_.buffer() : cl::Buffer()},
+                                {"depths", depth.values},
+                                {"cells", storage_.cells(grid_.cell_bytes)},
+                                {"indices", storage_.indices(grid_.index_bytes)},
+                                {"lights", lights_.buffer()},
+                                {"shadow_view", view_.buffer()},
+                                {"view", work.cl_lights().view.buffer()},
+                                {"tiles", listed},
+                                {"bits", bits},
+                                {"rays", rays}});
     hand_over(work, bytes, bit_bytes);
   }
 
@@ -196,7 +184,7 @@ class ShadowBits : public PassCache {
  private:
   size_t tile_bytes(const Seen& seen) const {
     return std::max<size_t>(least_bytes, tiles_across(seen.grid().width) * tiles_across(seen.grid().height) *
-                                             ((seen.plan.local.size() + 31) / 32) * sizeof(cl_uint2));
+                                    ((seen.plan.local.size() + 31) / 32) * sizeof(cl_uint2));
   }
 
   cl::Buffer& at_least(Work& work, SharedTexture& shared, size_t bytes, GLenum format) {
