@@ -65,8 +65,7 @@ ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dv
   ShadowLight s{at.x, at.y, at.z, 1, float(light.direction.x), float(light.direction.y),
                 float(light.direction.z), float(light.cos_outer), 0, 0, float(light.radius_m)};
   if (light.cos_outer < -1) s.cos_outer = -1;
-  const double slack =
-      0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
+  const double slack = 0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
   const double reach = light.radius_m * (1 + 1e-5) + slack;
   s.reach_squared = float(std::min(reach * reach, double(std::numeric_limits<float>::infinity())));
   s.slack = float(std::min(slack, double(std::numeric_limits<float>::max())));
@@ -132,8 +131,7 @@ class ShadowBits : public PassCache {
     hand_over(work, bytes, least_bytes);
   }
 
-  void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth,
-            const cl::Buffer& numbers) {
+  void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth, const cl::Buffer& numbers) {
     ClDevice& device = *work.renderer.cl;
     prepare(work, visible);
     const DepthBounds bounds = culler_->depth_bounds({depth.values});

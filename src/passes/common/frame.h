@@ -65,16 +65,16 @@ struct ShadowFigures {
 // A technique's result, for readers of the frame: the image, input of the oracle, memory figures.
 struct Frame {
   ShadedImage image;
-  std::optional<ViewGrid> grid;          // of opaque surfaces
-  std::optional<ViewGrid> blend_grid;    // of blended ones
-  HostLists listed;                      // of opaque surfaces
-  std::function<HostShadows()> shadows;  // reads those that it shaded with, for the oracle; null: none
-  bool lights_in_volume = false;         // which has no shadows: all count as seen, also those shaded apart
-  size_t list_bytes = 0;                 // of lists of lights in no grid
-  std::string built_by;                  // the pass whose result serves many frames, if there is one, and
+  std::optional<ViewGrid> grid;              // of opaque surfaces
+  std::optional<ViewGrid> blend_grid;        // of blended ones
+  HostLists listed;                          // of opaque surfaces
+  std::function<HostShadows()> shadows;      // reads those that it shaded with, for the oracle; null: none
+  bool lights_in_volume = false;             // which has no shadows: all count as seen, also those shaded apart
+  size_t list_bytes = 0;                     // of lists of lights in no grid
+  std::string built_by;                      // the pass whose result serves many frames, if there is one, and
   std::map<std::string, double> built_with;  // values that it chose, by their keys in results.json
   std::optional<DepthBuffer> depth;  // of techniques that rasterise in OpenCL; else the depth image has it
-  std::optional<TriangleBuffer> triangles;        // of the same techniques
+  std::optional<TriangleBuffer> triangles;      // of the same techniques
   std::function<ShadowFigures()> shadow_figures;  // null where `shadows` is; waits
 
   // Bytes of all these, in use.
