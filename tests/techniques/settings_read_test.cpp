@@ -131,7 +131,7 @@ std::map<std::string, std::string> read_but_not_declared(const Technique& techni
 
 // Whether a value of the setting changes what a run shows, beyond refusing to run.
 bool shows(const Technique& technique, const SettingHelp& setting) {
-  const bool shadows = setting.key.starts_with("shadow-");
+  const bool shadows = setting.key.starts_with("shadow");
   for (size_t i = 1; i < setting.values.size(); ++i) {
     for (const Assignments& context : contexts_of(technique)) {
       if (holds_key(context, setting.key)) continue;
