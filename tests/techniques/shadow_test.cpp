@@ -221,7 +221,7 @@ TEST(ShadowBits, AreTheSameUnderEverySetting) {
     const auto run = shadowed_run(technique, {});
     const HostShadows shadows = shadows_of(*run);
     const ShadowFigures figures = run->frame().shadow_figures();
-    EXPECT_EQ(figures.lights, 6u);
+    EXPECT_EQ(figures.lights, 7u);
     EXPECT_GT(figures.rays, 1000u);
     for (const std::string& setting : settings) {
       SCOPED_TRACE(technique + (" " + setting));
