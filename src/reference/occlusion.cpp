@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "reference/position.h"
@@ -10,6 +11,18 @@ namespace lightgrid {
 namespace {
 
 using glm::dvec3;
+
+// Distance from a triangle's edges.
+double to_edges(const Corners& c, const dvec3& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (size_t k = 0; k < 3; ++k) {
+    const dvec3 along = c[(k + 1) % 3] - c[k], from = p - c[k];
+    const double squared = glm::dot(along, along),
+                 share = squared > 0 ? std::clamp(glm::dot(from, along) / squared, 0.0, 1.0) : 0;
+    nearest = std::min(nearest, glm::length(from - along * share));
+  }
+  return nearest;
+}
 
 double greatest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -71,7 +84,8 @@ Receiver Occlusion::receiver(const View& view, int x, int y, double depth, const
   r.place.error_m = float_rounding * (17 * slope * away + 4 * depth_m + 7 * glm::length(in_view) +
                                       glm::length(view.eye - centre_) + 2 * glm::length(shaded - centre_) +
                                       6 * glm::length(shaded - c[0])) +
-                    vertex_error_m_ + std::min(tilt, 1.0) * std::abs(off) * std::sqrt(squared);
+                    vertex_error_m_ +
+                    std::min(tilt, 1.0) * (std::abs(off) * std::sqrt(squared) + to_edges(c, r.place.place));
   r.gap_m = 1e-3 + 0x1p-20 * glm::length(shaded - centre_);
   if (view.orthographic) {
     const double far_m = 2 * (diagonal_m_ + glm::length(r.place.place - centre_));
