@@ -68,7 +68,7 @@ int tell(const Report& report, const std::string& json) {
 void add_hunt_options(Subcommand& command, HuntCommand& o) {
   command.option("--hunt", o.minutes,
                  "instead, minutes of random views with lights that barely reach a pixel, on one device");
-  command.flag("--shadows", o.shadows,
+  command.flag("--shadow-pairs", o.shadows,
                "with --hunt: of random scenes instead, each pair of a pixel and a light that casts a shadow");
   command.option("--contacts", o.contacts,
                  "with --hunt: ends after this many contacts instead of a time; 0: by time");
@@ -87,7 +87,7 @@ int run_hunt(const HuntCommand& o, verify::CullEngine& engine, const std::string
                               .save = o.save,
                               .progress = progress_bar()};
   if (!o.shadows) return tell(verify::hunt(engine, options), json);
-  if (!o.save.empty()) throw input_error("verify: --save {} cannot be combined with --shadows", o.save);
+  if (!o.save.empty()) throw input_error("verify: --save {} cannot be combined with --shadow-pairs", o.save);
   return tell(verify::hunt_shadows(engine, options), json);
 }
 

@@ -1,6 +1,6 @@
 // The standing hunt for wrong shadows: random scenes, lights and views until the time is up. `lightgrid
 // verify
-// --hunt MINUTES --shadows`.
+// --hunt MINUTES --shadow-pairs`.
 #pragma once
 
 #include "verify/hunt.h"
