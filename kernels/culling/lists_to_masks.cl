@@ -2,11 +2,7 @@
 //
 // cells, indices  the light grid
 // masks           `words` words a cell: light i is bit i % 32 of word i / 32
-#ifdef INDEX_32
-typedef uint index_t;
-#else
-typedef ushort index_t;
-#endif
+#include "kernels/common/index_type.h"
 
 kernel void lists_to_masks(global const uint2* cells, global const index_t* indices, uint cell_count,
                            uint words, global uint* masks) {

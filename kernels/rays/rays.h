@@ -140,6 +140,28 @@ static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene,
   }
 }
 
+// Which way each lane's segment goes along each axis.
+typedef struct RayOctants {
+  real end;
+  uint down_x, down_y, down_z;
+} RayOctants;
+
+static inline RayOctants octants_of(const RayPacket* p) {
+  const RayOctants o = {p->end, lane_bits(p->inverse_x < 0.0f), lane_bits(p->inverse_y < 0.0f),
+                        lane_bits(p->inverse_z < 0.0f)};
+  return o;
+}
+
+// Those of the lanes `left` that go the same way as the first: the packet is then of them.
+static inline uint take_octant(RayPacket* p, const RayOctants* o, uint left) {
+  const uint lane = lowest_bit(left);
+  p->down = (o->down_x >> lane & 1) | (o->down_y >> lane & 1) << 1 | (o->down_z >> lane & 1) << 2;
+  const uint live = left & (p->down & 1 ? o->down_x : ~o->down_x) & (p->down & 2 ? o->down_y : ~o->down_y) &
+                    (p->down & 4 ? o->down_z : ~o->down_z);
+  p->end = lanes_of(live) ? o->end : REAL(-1.0f);
+  return live;
+}
+
 // Lanes of `active` whose segment from the light to `to`, less its last `gap` metres, meets a triangle other
 // than number `own` (below 0: any). `to` is relative to the scene's origin. The triangle that hid a lane last
 // is tried first: *last_blocker, which is -1 at first, and does not change the answer.
@@ -150,16 +172,10 @@ static inline mask_t rays_hidden(const RayScene* scene, RaySource light, Real3 t
   if (left == 0) return hidden;
   RayPacket p;
   set_packet(&p, light, to, gap, scene->extent);
-  const real end = p.end;
-  const uint down_x = lane_bits(p.inverse_x < 0.0f), down_y = lane_bits(p.inverse_y < 0.0f),
-             down_z = lane_bits(p.inverse_z < 0.0f);
+  const RayOctants octants = octants_of(&p);
   while (left != 0) {  // mostly once
-    const uint lane = lowest_bit(left);
-    p.down = (down_x >> lane & 1) | (down_y >> lane & 1) << 1 | (down_z >> lane & 1) << 2;
-    const uint live = left & (p.down & 1 ? down_x : ~down_x) & (p.down & 2 ? down_y : ~down_y) &
-                      (p.down & 4 ? down_z : ~down_z);
+    const uint live = take_octant(&p, &octants, left);
     left &= ~live;
-    p.end = lanes_of(live) ? end : REAL(-1.0f);
     hidden |= light.w != 0 ? trace(scene, &p, true, own, live, last_blocker)
                            : trace(scene, &p, false, own, live, last_blocker);
   }

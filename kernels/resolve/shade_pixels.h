@@ -13,16 +13,11 @@
 // -DSHADOWS   some light casts a shadow: shared/shadow_bits.h
 #pragma once
 
+#include "kernels/common/index_type.h"
 #include "kernels/resolve/gbuffer.h"
 #include "shared/pixel_position.h"
 #include "shared/punctual_light.h"
 #include "shared/slices.h"
-
-#ifdef INDEX_32
-typedef uint index_t;
-#else
-typedef ushort index_t;
-#endif
 
 // Point and spot lights by index, as the shaders read them, and the z-bins of each (shared/slices.h).
 typedef struct Lights {

@@ -4,6 +4,7 @@
 // new state last. A reader reads the state before and after what it takes.
 #pragma once
 
+#include "kernels/common/hash.h"
 #include "kernels/rays/rays.h"
 #include "shared/shadow_certificates.h"
 
@@ -23,11 +24,6 @@ typedef struct Piece {
   int x, y, z, exponent;
 } Piece;
 
-static inline uint mixed(uint h) {
-  h = (h ^ h >> 16) * 0x85ebca6bu;
-  h = (h ^ h >> 13) * 0xc2b2ae35u;
-  return h ^ h >> 16;
-}
 static inline uint hash_of_piece(const Piece* p) {
   return mixed(p->triangle * 0x9e3779b1u ^ mixed((uint)p->x * 0x8da6b343u + (uint)p->y * 0xd8163841u +
                                                  (uint)p->z * 0xcb1ab31fu + (uint)p->exponent));

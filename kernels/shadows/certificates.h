@@ -4,8 +4,7 @@
 // A piece is the part of a triangle in a cell of the world's grid. The points that belong to it are those
 // that in_piece (cpu/tile_pieces.h) lets in: floats, near the triangle's plane and a little inside its edges.
 // polygon_of holds them all. A triangle is left out only if the ray's own arithmetic (kernels/rays/) misses it
-// from every such
-// point, all of that arithmetic's roundings counted in:
+// from every such point, all of that arithmetic's roundings counted in:
 // - Its box, or one around it, lies beyond a plane that all segments from the light to the polygon are on one
 //   side of. The test of boxes meets nothing further than 2^-19 of the segment's length from the segment,
 //   plus 2^-21 of the light's coordinates.

@@ -6,6 +6,7 @@
 // -DORTHOGRAPHIC  shared/pixel_position.h
 #pragma once
 
+#include "kernels/common/index_type.h"
 #include "kernels/rays/rays.h"
 #ifdef SHADOW_MAP
 #include "kernels/shadow_maps/shadow_maps.h"
@@ -14,12 +15,6 @@
 #include "shared/pixel_position.h"
 #include "shared/shadow_bits.h"
 #include "shared/shadow_records.h"
-
-#ifdef INDEX_32
-typedef uint index_t;
-#else
-typedef ushort index_t;
-#endif
 
 // triangles          a pixel each, row 0 at the bottom
 // triangle_instance  the rasteriser's instance of a triangle

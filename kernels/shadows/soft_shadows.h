@@ -11,6 +11,7 @@
 // all forms and devices give the same bytes.
 #pragma once
 
+#include "kernels/common/hash.h"
 #include "kernels/shadows/receivers.h"
 
 #ifndef SHADOW_RAYS
@@ -25,12 +26,6 @@ typedef struct SoftReceiver {
   float normal_x, normal_y, normal_z;  // unit, or 0
   int own;
 } SoftReceiver;
-
-static inline uint mixed(uint h) {  // C. Wellons, "Prospecting for hash functions", 2018: lowbias32
-  h = (h ^ h >> 16) * 0x7feb352du;
-  h = (h ^ h >> 15) * 0x846ca68bu;
-  return h ^ h >> 16;
-}
 
 static inline float dot_of(float ax, float ay, float az, float bx, float by, float bz) {
   return fma(az, bz, fma(ay, by, ax * bx));

@@ -13,13 +13,12 @@
 // counted, most  of world_counts_enough: counting then stops
 // -DCOLUMNS   blocks are 8 x 8 columns, not 4 x 4 x 4 cubes
 // -DINDEX_32  indices are 32 bits, not 16
+#include "kernels/common/index_type.h"
 #include "kernels/world_grid/world_block.h"
 
 #ifdef INDEX_32
-typedef uint index_t;
 #define append_indices append_uints
 #else
-typedef ushort index_t;
 #define append_indices append_ushorts
 #endif
 

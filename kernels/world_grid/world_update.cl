@@ -12,13 +12,8 @@
 // old_cells, old_indices  the lists before
 // keys, totals, cells, indices  as in world_lists
 // -DCOLUMNS, -DINDEX_32  as in world_lists
+#include "kernels/common/index_type.h"
 #include "kernels/world_grid/world_block.h"
-
-#ifdef INDEX_32
-typedef uint index_t;
-#else
-typedef ushort index_t;
-#endif
 
 #define EDIT_BEFORE 0x80000000u
 #define EDIT_AFTER 0x40000000u

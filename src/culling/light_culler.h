@@ -38,6 +38,7 @@ struct CullLight {
   glm::dvec3 direction{0, 0, -1};  // unit, the spot's axis
   // Cosine of a spot's outer half-angle; below 0 (no cone, or one past 90 degrees) the sphere decides.
   double cos_outer = -1;
+  bool operator==(const CullLight&) const = default;
 };
 
 // A depth buffer of this view in OpenCL memory: 32-bit floats, row 0 at the bottom, with `samples` values

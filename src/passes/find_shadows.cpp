@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "cl/transfer.h"
-#include "passes/common/view_shadow_maps.h"
 #include "passes/shadows/certificates.h"
+#include "passes/shadows/view_shadow_maps.h"
 #include "renderer/drawing/draw.h"
 #include "renderer/upload/culler_input.h"
 #include "renderer/upload/lights.h"
@@ -25,8 +25,9 @@ constexpr size_t groups_a_tile = 4;
 
 constexpr size_t least_bytes = 64;  // of a buffer
 
-// Words of an entry, as SHADOW_WORDS of kernels has them.
-size_t entry_words(const FramePlan& plan) { return plan.shadow_bytes ? 64 : SHADOW_WORDS; }
+size_t entry_words(const FramePlan& plan) {
+  return plan.shadow_bytes ? SHADOW_WORDS_OF_BYTES : SHADOW_WORDS_OF_BITS;
+}
 
 // Local and directional.
 size_t lights_of(const FramePlan& plan) { return plan.local.size() + plan.directional_lights.size(); }
@@ -45,7 +46,7 @@ CullerOptions options_of_shadows(const FramePlan& plan) {
 // In the order of FramePlan::shadowed, as shining: directional ones everywhere.
 std::vector<CullLight> all_lights_of(const Seen& seen) {
   std::vector<CullLight> lights = cull_lights_of(seen.scene, seen.plan.local, seen.plan.settings.ranges);
-  lights.resize(lights_of(seen.plan), CullLight{.position = seen.view.eye});
+  lights.resize(lights_of(seen.plan));
   return lights;
 }
 
@@ -57,9 +58,9 @@ std::vector<CullLight> shadowed_lights(const Seen& seen, std::vector<CullLight> 
   return lights;
 }
 
-// Positions in view space are floats; they are turned to world axes and rounded again.
-// Shading computes with other roundings of them. Points in range are no further from the eye and from the
-// origin than the light and its range, and all of these errors together are below 2^-19 of that.
+// Positions in view space are floats; they are turned to world axes and rounded again. Shading computes with
+// other roundings of them. Points in range are no further from the eye and from the origin than the light and
+// its range, and all of these errors together are below 2^-19 of that.
 ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin) {
   const glm::dvec3 at = light.position - origin;
   ShadowLight s{at.x, at.y, at.z, 1, float(light.direction.x), float(light.direction.y),
@@ -125,14 +126,16 @@ class ShadowBits : public PassCache {
   void clear(Work& work) {
     ClDevice& device = *work.renderer.cl;
     const size_t bytes = tile_bytes(work);
+    if (cleared_ == bytes) return;
     fill_buffer(device, "clearing shadows", at_least(work, work.shadows.tiles, bytes, GL_RG32UI), 0, bytes);
     at_least(work, work.shadows.bits, least_bytes, GL_R32UI);
-    grid_ = {};
+    grid_ = {}, cleared_ = bytes;
     hand_over(work, bytes, least_bytes);
   }
 
   void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth, const cl::Buffer& numbers) {
     ClDevice& device = *work.renderer.cl;
+    cleared_ = 0;
     prepare(work, visible);
     const DepthBounds bounds = culler_->depth_bounds({depth.values});
     grid_ = culler_->cull(bounds.opaque, storage_);
@@ -268,7 +271,7 @@ class ShadowBits : public PassCache {
       if (!certificates_) certificates_.emplace(device, kept_bytes);
       certificates_->follow(work, rays, all_lights);
     }
-    culler_->set_lights(lights);
+    if (lights != lights_in_culler_) culler_->set_lights(lights), lights_in_culler_ = lights;
     culler_->set_view(cull_view(work.view));
     std::vector<ShadowLight> records;
     for (size_t i = 0; i < work.plan.local.size(); ++i) {
@@ -298,13 +301,15 @@ class ShadowBits : public PassCache {
   PassKernels kernels_;
   std::shared_ptr<RayScene> scene_;
   std::optional<LightCuller> culler_;
+  std::vector<CullLight> lights_in_culler_;
   std::optional<ViewShadowMaps> maps_;
   std::optional<ShadowCertificates> certificates_;
   ClGridStorage storage_;
   UploadedBuffer lights_, view_, offsets_;
   GrowingBuffer rays_;
   LightGrid grid_;
-  size_t parts_ = 0;  // counts of rays
+  size_t parts_ = 0;    // counts of rays
+  size_t cleared_ = 0;  // bytes of tiles in which nothing was found since they were cleared
   bool followed_ = false;
 };
 

@@ -25,7 +25,8 @@ Surfaces find_surfaces(RenderView& v, bool depth_in_cl = false);
 // The surfaces of a depth image that a pass has drawn.
 Surfaces surfaces_of(RenderView& v, const DepthImage& image, bool depth_in_cl = false);
 
-// For surfaces that neither of these returned, before they are shaded.
+// Where lights cast shadows, both of these find them too (passes/find_shadows.h). For other surfaces, before
+// they are shaded:
 void find_shadows(RenderView& v, Surfaces& surfaces);
 
 // Each is made at its first use in the frame.

@@ -46,10 +46,10 @@ namespace lightgrid {
 SHARED_STRUCT(PunctualLight){LIGHT_TABLE(LIGHT_MEMBER) SHADOW_MEMBERS};
 
 // The end of every light loop: how much of a light reaches a point of an instance, 0 to 1, besides what
-// distance and cone let through. Shadows answer here, at the pixel that is shaded; groups and cookies will,
-// and in reference/attenuation.h. The plan says whether an effect asks (FramePlan::light_reaches); without
-// one the factor is the constant 1, which compiles to nothing. BLEND: blended surfaces receive no shadows
-// yet.
+// distance and cone let through. Shadows answer here, for the pixel that is shaded. Groups and cookies will
+// answer here and in reference/attenuation.h. The plan says whether an effect asks
+// (FramePlan::light_reaches); without one the factor is the constant 1, which compiles to nothing. BLEND:
+// blended surfaces receive no shadows yet.
 //   point: along the axes of light.position, which are the view's. instance: the scene's index. NO_INSTANCE
 //   in every loop until an effect needs it. Forward shaders then get it with each draw, resolve kernels from
 //   triangle_instance, both by way of ShadingPoint; the geometry buffer has no room for it yet, and

@@ -13,10 +13,12 @@
 #include "shared/real.h"
 
 #define SHADOW_TILE 16
+#define SHADOW_WORDS_OF_BITS 8
+#define SHADOW_WORDS_OF_BYTES 64
 #ifdef SHADOW_BYTES
-#define SHADOW_WORDS 64
+#define SHADOW_WORDS SHADOW_WORDS_OF_BYTES
 #else
-#define SHADOW_WORDS 8
+#define SHADOW_WORDS SHADOW_WORDS_OF_BITS
 #endif
 
 #if defined(LIGHTGRID_GLSL) && defined(SHADOWS)

@@ -16,10 +16,7 @@ bool holds(const std::vector<const char*>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-// Read by every technique that finds shadows, where a light casts one; it changes no bit.
-bool is_of_shadows(const std::string& key) { return key == "shadow-kept"; }
-
-// A range's settings are shown only with a range that reads them, and those of shadows where they are given.
+// Settings are shown only with others that read them, and one that changes no bit where it is given.
 bool has_effect(const Settings& settings, const std::string& key) {
   const LightRange range = settings.ranges.range;
   if (key == "cutoff") return range == LightRange::cutoff;
@@ -28,7 +25,7 @@ bool has_effect(const Settings& settings, const std::string& key) {
   if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
     return settings.shadows == ShadowMethod::map;
   if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
-  if (is_of_shadows(key)) return settings.given.contains(key);
+  if (key == "shadow-kept") return settings.given.contains(key);
   return true;
 }
 
@@ -66,7 +63,7 @@ const std::vector<const char*>& common_settings() {
       if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
     }
     for (const char* key : {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays",
-                            "shadow-source", "shadow-pick", "everything-on"})
+                            "shadow-source", "shadow-pick", "shadow-kept", "everything-on"})
       all.push_back(key);
     return all;
   }();
@@ -79,8 +76,7 @@ static bool is_of_kernels(const std::string& key) {
 }
 
 bool reads_setting(const Technique& technique, const std::string& key) {
-  return holds(common_settings(), key) || holds(technique.settings, key) || is_of_kernels(key) ||
-         (technique.needs.shadows && is_of_shadows(key));
+  return holds(common_settings(), key) || holds(technique.settings, key) || is_of_kernels(key);
 }
 
 std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings) {

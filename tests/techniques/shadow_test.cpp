@@ -253,7 +253,9 @@ TEST(ShadowBits, AreTheOraclesInViewsOfAFewPixels) {
       run.run_frame();
       const LitPairs pairs = stage.pairs(run);
       EXPECT_EQ(pairs.lost + pairs.wrong + pairs.leaked + pairs.acned, 0u) << width << "x" << height;
-      if (width == 17) EXPECT_GT(pairs.lit, 100u);
+      if (width == 17) {
+        EXPECT_GT(pairs.lit, 100u);
+      }
     }
   }
 }

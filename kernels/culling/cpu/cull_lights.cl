@@ -19,13 +19,12 @@
 // the kernels again with more room.
 #define LANES 16
 #include "kernels/culling/bin_tiles.h"
+#include "kernels/common/index_type.h"
 #include "kernels/culling/candidates.h"
 
 #ifdef INDEX_32
-typedef uint index_t;
 #define append_indices append_uints
 #else
-typedef ushort index_t;
 #define append_indices append_ushorts
 #endif
 

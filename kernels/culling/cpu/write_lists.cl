@@ -5,6 +5,7 @@
 // cells     uint2 a cell: first, count; x fastest, then y, then slice
 // indices   the light index list
 // counters  [4], [5] = low and high word of the number of indices; past 2^32 the host refuses
+#include "kernels/common/index_type.h"
 #include "shared/cull_params.h"
 #include "shared/light_grid.h"
 
@@ -12,11 +13,6 @@
 #define SLICE_COUNT (p->slices)
 #else
 #define SLICE_COUNT 1u
-#endif
-#ifdef INDEX_32
-typedef uint index_t;
-#else
-typedef ushort index_t;
 #endif
 #ifdef __clang__  // PoCL 3.1 turns vstore16 of ushort into 16 stores
 typedef index_t unaligned_indices __attribute__((ext_vector_type(16), aligned(2)));

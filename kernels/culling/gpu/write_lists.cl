@@ -12,13 +12,8 @@
 #endif
 #define LANES 1
 #include "kernels/common/group_sums.h"
+#include "kernels/common/index_type.h"
 #include "kernels/culling/group_grid.h"
-
-#ifdef INDEX_32
-typedef uint index_t;
-#else
-typedef ushort index_t;
-#endif
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void write_lists(
     global const uint* ids, global const uint4* offsets, global const ulong* totals, global const uint* marks,

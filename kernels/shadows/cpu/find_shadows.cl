@@ -1,19 +1,19 @@
 // Which lights are hidden from which pixels, for CPUs: a work-item takes a tile, and of each of its lights
 // block after block of 4 x 4 pixels, whose 16 rays share the light as their origin.
 //
-// WAY_ARGUMENTS          kernels/shadows/ways.h
+// SHADOW_TEST_ARGUMENTS          kernels/shadows/shadow_test.h
 // SHADOW_PASS_ARGUMENTS  kernels/shadows/receivers.h
 // -DKEPT                 certificates decide what they can (kernels/shadows/certificates.h)
 // decided                out, with -DKEPT: pairs of a pixel and a listed light that took no ray, a tile
 #define LANES 16
 #include "kernels/common/pack.h"
 #include "kernels/common/image_blocks.h"
-#include "kernels/shadows/ways.h"
+#include "kernels/shadows/shadow_test.h"
 #ifdef KEPT
 #include "kernels/shadows/cpu/tile_pieces.h"
 #define ALL_ARGUMENTS SHADOW_PASS_ARGUMENTS, CERTIFICATE_ARGUMENTS
 #else
-#define ALL_ARGUMENTS WAY_ARGUMENTS SHADOW_PASS_ARGUMENTS
+#define ALL_ARGUMENTS SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS
 #endif
 #ifdef SHADOW_PICK
 #include "kernels/shadows/picked_shadows.h"
@@ -37,7 +37,7 @@ kernel void find_shadows(ALL_ARGUMENTS) {
   const uint2 range = cells[tile];
   global uint2* listed = tiles + (size_t)tile * shadow_view->words;
   for (uint i = 0; i < shadow_view->words; ++i) listed[i] = (uint2)(0);
-  Way way = WAY;
+  ShadowTest test = SHADOW_TEST;
 #ifdef KEPT
   const Certificates kept = CERTIFICATES;
   TilePieces pieces;
@@ -71,9 +71,9 @@ kernel void find_shadows(ALL_ARGUMENTS) {
 #ifdef SHADOW_PICK
     for (uint left = used; left != 0; left &= left - 1) {
       const uint block = lowest_bit(left);
-      way.picked[block] = picked_share(&scene, receivers + block, lights, indices, range,
+      test.picked[block] = picked_share(&scene, receivers + block, lights, indices, range,
                                        tile_x * SHADOW_TILE + block % 4 * 4,
-                                       tile_y * SHADOW_TILE + block / 4 * 4, &way.traced, &way.last_blocker);
+                                       tile_y * SHADOW_TILE + block / 4 * 4, &test.traced, &test.last_blocker);
     }
 #endif
     for (uint i = range.x; i < range.x + range.y; ++i) {
@@ -84,15 +84,15 @@ kernel void find_shadows(ALL_ARGUMENTS) {
       hidden_by_certificates(&scene, &pieces, receivers, lights + index, index,
                              indices[min(i + 1, range.x + range.y - 1)], &kept, shadow_view, words, others,
                              &without_ray);
-      hidden_by_rays(&scene, receivers, others, lights + index, shadow_view, words, &way.traced,
-                     &way.last_blocker);
+      hidden_by_rays(&scene, receivers, others, lights + index, shadow_view, words, &test.traced,
+                     &test.last_blocker);
       vstore8(vload8(0, words), 0, entry);
 #else
       for (uint word = 0; word < SHADOW_WORDS; word += 8) vstore8((uint8)(0), 0, entry + word);
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
         store_shadows(entry, block,
-                      hidden_share(&way, &scene, receivers + block, block, index, lights, shadow_view,
+                      hidden_share(&test, &scene, receivers + block, block, index, lights, shadow_view,
                                    tile_x * SHADOW_TILE + block % 4 * 4, tile_y * SHADOW_TILE + block / 4 * 4));
       }
 #endif
@@ -101,7 +101,7 @@ kernel void find_shadows(ALL_ARGUMENTS) {
       here->x |= 1u << (index & 31u);
     }
   }
-  rays[tile] = rays_of_way(&way);
+  rays[tile] = rays_of_test(&test);
 #ifdef KEPT
   decided[tile] = without_ray;
 #endif

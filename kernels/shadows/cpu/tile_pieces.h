@@ -167,16 +167,10 @@ static __attribute__((noinline)) mask_t hidden_by_few(const RayScene* scene, con
   RayPacket p;
   const RaySource source = {l->x, l->y, l->z, l->w};
   set_packet(&p, source, r->at, r->gap, scene->extent);
-  const real end = p.end;
-  const uint down_x = lane_bits(p.inverse_x < 0.0f), down_y = lane_bits(p.inverse_y < 0.0f),
-             down_z = lane_bits(p.inverse_z < 0.0f);
+  const RayOctants octants = octants_of(&p);
   for (uint left = lane_bits(active); left != 0;) {  // mostly once
-    const uint lane = lowest_bit(left);
-    p.down = (down_x >> lane & 1) | (down_y >> lane & 1) << 1 | (down_z >> lane & 1) << 2;
-    const uint live = left & (p.down & 1 ? down_x : ~down_x) & (p.down & 2 ? down_y : ~down_y) &
-                      (p.down & 4 ? down_z : ~down_z);
+    const uint live = take_octant(&p, &octants, left);
     left &= ~live;
-    p.end = lanes_of(live) ? end : REAL(-1.0f);
     for (uint i = 0; i < count; ++i) {
       if (ray_met(scene, &p, true, places[i], r->own, &hidden) && (lane_bits(hidden) & live) == live) break;
     }

@@ -1,11 +1,11 @@
 // Which lights are hidden from which pixels, for GPUs: a work-group takes a tile and some of its lights, a
 // work-item a pixel. Bytes as kernels/shadows/cpu/find_shadows.cl has them, from the same arguments.
 #define LANES 1
-#include "kernels/shadows/ways.h"
+#include "kernels/shadows/shadow_test.h"
 
 #define GROUP (SHADOW_TILE * SHADOW_TILE)
 
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(WAY_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
   local volatile uint words[2][SHADOW_WORDS];
   local volatile uint traced_here;
   const RayScene scene = RAYS_SCENE;
@@ -34,28 +34,28 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(WAY_
       receivers_at(&scene, triangle, triangle != NO_TRIANGLE, (float)x + 0.5f, (float)y + 0.5f, depths[at],
                    triangle_instance, number_offsets, shadow_view, view);
   uint turn = 0;
-  Way way = WAY;
+  ShadowTest test = SHADOW_TEST;
   if (item == 0) traced_here = 0;
 #ifdef SHADOW_PICK  // one part a tile
-  way.picked[0] =
-      picked_share(&scene, &r, lights, indices, range, x, y, &way.traced, &way.last_blocker);
+  test.picked[0] =
+      picked_share(&scene, &r, lights, indices, range, x, y, &test.traced, &test.last_blocker);
 #endif
   for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
     global uint* entry = bits + (size_t)i * SHADOW_WORDS;
 #ifdef SHADOW_BYTES
     ((global uchar*)entry)[item] =
-        (uchar)hidden_share(&way, &scene, &r, 0, indices[i], lights, shadow_view, x, y);
+        (uchar)hidden_share(&test, &scene, &r, 0, indices[i], lights, shadow_view, x, y);
 #else
     if (item < SHADOW_WORDS) words[turn][item] = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (hidden_share(&way, &scene, &r, 0, indices[i], lights, shadow_view, x, y) != 0)
+    if (hidden_share(&test, &scene, &r, 0, indices[i], lights, shadow_view, x, y) != 0)
       atomic_or(&words[turn][item / 32], 1u << (item & 31u));
     barrier(CLK_LOCAL_MEM_FENCE);
     if (item < SHADOW_WORDS) entry[item] = words[turn][item];
 #endif
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  atomic_add(&traced_here, rays_of_way(&way));
+  atomic_add(&traced_here, rays_of_test(&test));
   barrier(CLK_LOCAL_MEM_FENCE);
   if (item == 0) rays[tile * parts + part] = traced_here;
 }

@@ -24,11 +24,6 @@ namespace {
 
 constexpr uint32_t frames_a_step = 4;  // of the time by which slots age
 
-bool same(const CullLight& a, const CullLight& b) {
-  return a.position == b.position && a.radius_m == b.radius_m && a.direction == b.direction &&
-         a.cos_outer == b.cos_outer;
-}
-
 WorldBox box_of(const Mesh& mesh, const glm::dmat4& world_from_object) {
   WorldBox box{glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
   if (mesh.bounds.empty()) return box;
@@ -89,7 +84,7 @@ void ShadowCertificates::follow(Work& work, const RayScene& rays, const std::vec
   stamps_.resize(all_lights.size());
   for (size_t i = 0; i < all_lights.size(); ++i) {
     const auto reaches = [&](const WorldBox& box) { return may_reach(all_lights[i], box, rays.origin()); };
-    if (all || i >= known || !same(lights_[i], all_lights[i]) || std::ranges::any_of(moved, reaches))
+    if (all || i >= known || lights_[i] != all_lights[i] || std::ranges::any_of(moved, reaches))
       renew(i);
   }
   lights_ = all_lights;

@@ -4,40 +4,41 @@
 // -DSHADOW_BYTES  of a light a share may be hidden (shared/shadow_bits.h)
 #pragma once
 
+#include "kernels/common/hash.h"  // here, since what is included below under a condition counts as there
 #include "kernels/shadows/receivers.h"
 
 #ifdef SHADOW_MAP
-#define WAY_ARGUMENTS SHADOW_MAPS_ARGUMENTS,
-#define WAY SHADOW_MAPS
-typedef ShadowMaps Way;
+#define SHADOW_TEST_ARGUMENTS SHADOW_MAPS_ARGUMENTS,
+#define SHADOW_TEST SHADOW_MAPS
+typedef ShadowMaps ShadowTest;
 
 // Of its texels around the lanes' points, those that see something nearer, in 255ths of all.
-static inline whole hidden_by_way(Way* maps, const RayScene* scene, const Receivers* r, uint light,
-                                  global const ShadowLight* l, mask_t active) {
+static inline whole hidden_by_test(ShadowTest* maps, const RayScene* scene, const Receivers* r, uint light,
+                                   global const ShadowLight* l, mask_t active) {
   const float share = 255.0f / (SHADOW_TAPS * SHADOW_TAPS);
   return TO_WHOLE(TO_REAL(shadow_taps(maps, light, &r->for_maps, active)) * share + 0.5f);
 }
-#define rays_of_way(w) 0
+#define rays_of_test(test) 0
 #else
-#define WAY_ARGUMENTS
-#define WAY \
+#define SHADOW_TEST_ARGUMENTS
+#define SHADOW_TEST \
   { .last_blocker = -1 }
-typedef struct Way {
+typedef struct ShadowTest {
   uint traced;
   int last_blocker;
 #ifdef SHADOW_PICK
   whole picked[LANES];  // of each block of a tile: 255ths of its lights together
 #endif
-} Way;
+} ShadowTest;
 
-static inline whole hidden_by_way(Way* rays, const RayScene* scene, const Receivers* r, uint light,
-                                  global const ShadowLight* l, mask_t active) {
+static inline whole hidden_by_test(ShadowTest* rays, const RayScene* scene, const Receivers* r, uint light,
+                                   global const ShadowLight* l, mask_t active) {
   const RaySource source = {l->x, l->y, l->z, l->w};
   rays->traced += popcount(lane_bits(active));
   return rays_hidden(scene, source, r->at, r->gap, active, r->own, &rays->last_blocker) ? (whole)(255)
                                                                                         : (whole)(0);
 }
-#define rays_of_way(w) ((w)->traced)
+#define rays_of_test(test) ((test)->traced)
 #if defined(SHADOW_RAYS) || defined(SHADOW_PICK)
 #include "kernels/shadows/soft_shadows.h"
 #endif
@@ -49,17 +50,17 @@ static inline whole hidden_by_way(Way* rays, const RayScene* scene, const Receiv
 // The share of each light that is hidden from the lanes, times 255: 0 or 255 without SHADOW_BYTES. block: of
 // the lanes in their tile, 0 for a single one. x, y: the first lane's pixel. Directional lights take one ray
 // each.
-static inline whole hidden_share(Way* way, const RayScene* scene, const Receivers* r, uint block, uint light,
+static inline whole hidden_share(ShadowTest* test, const RayScene* scene, const Receivers* r, uint block, uint light,
                                  global const ShadowLight* lights, constant ShadowView* v, uint x, uint y) {
   global const ShadowLight* l = lights + light;
 #if defined(SHADOW_PICK)
-  if (l->w != 0) return picked_or_away(scene, r, l, way->picked[block], v);
+  if (l->w != 0) return picked_or_away(scene, r, l, test->picked[block], v);
 #elif defined(SHADOW_RAYS)
-  if (l->w != 0) return soft_share(scene, r, l, x, y, light, &way->traced, &way->last_blocker);
+  if (l->w != 0) return soft_share(scene, r, l, x, y, light, &test->traced, &test->last_blocker);
 #endif
   const mask_t reached = may_shade(r, l);
   if (!any_lane(reached)) return (whole)(0);
   const mask_t away = turned_away(scene, r, l, reached, v);
-  const whole hidden = hidden_by_way(way, scene, r, light, l, reached & ~away);
+  const whole hidden = hidden_by_test(test, scene, r, light, l, reached & ~away);
   return away ? (whole)(255) : hidden;
 }

@@ -1,4 +1,4 @@
-#include "passes/common/view_shadow_maps.h"
+#include "passes/shadows/view_shadow_maps.h"
 
 namespace lightgrid {
 

@@ -17,7 +17,8 @@ class ViewShadowMaps {
   // All of them, in each frame.
   void draw(const RayScene& rays) { maps_.draw(rays, atlas_); }
 
-  // What kernels need to look them up: -DSHADOW_MAP, and what ShadowMaps has. Lights are FramePlan::local.
+  // What kernels need to look them up: -DSHADOW_MAP, and what ShadowMaps has. Lights are in
+  // the order of FramePlan::shadowed.
   std::string defines() const { return " -DSHADOW_MAP " + maps_.defines(); }
   ClArguments arguments() const { return maps_.arguments(); }
 
