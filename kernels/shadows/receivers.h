@@ -63,9 +63,7 @@ static inline double plane_distance(global const RayTriangle* t, double x, doubl
 static inline real size_of(Real3 v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); }
 
 // Into the lanes that are `here` their triangle.
-static inline void add_plane(Receivers* r, const RayScene* scene, uint number, mask_t here,
-                             constant ShadowView* v) {
-  global const RayTriangle* t = scene->triangles + scene->places[number];
+static inline void add_plane(Receivers* r, global const RayTriangle* t, mask_t here, constant ShadowView* v) {
   const double side = plane_distance(t, v->eye_x, v->eye_y, v->eye_z, v->eye_w);
   const float turn = side > 0 ? 1.0f : side < 0 ? -1.0f : 0.0f;
   const float nx = (float)t->normal[0], ny = (float)t->normal[1], nz = (float)t->normal[2];
@@ -80,18 +78,11 @@ static inline void add_plane(Receivers* r, const RayScene* scene, uint number, m
   r->at.z = here ? on_plane.z : r->at.z, r->slack = here ? slack : r->slack;
   r->normal.x = here ? REAL(nx * turn) : r->normal.x, r->normal.y = here ? REAL(ny * turn) : r->normal.y;
   r->normal.z = here ? REAL(nz * turn) : r->normal.z;
-  r->own = here ? (whole)((int)number) : r->own;
+  r->own = here ? (whole)((int)(t->number & ~RAY_MASKED)) : r->own;
 }
 
-// x, y: pixels' centres. covered: they show a triangle.
-#if LANES == 16
-typedef uint16 triangles_t;
-#else
-typedef uint triangles_t;
-#endif
-static inline Receivers receivers_at(const RayScene* scene, triangles_t triangle, mask_t covered, real x, real y,
-                                     real depth, global const uint* triangle_instance,
-                                     global const int* number_offsets, constant ShadowView* v,
+// Where a surface is shaded: without planes, which add_plane completes. x, y: pixels' centres.
+static inline Receivers receivers_at(mask_t covered, real x, real y, real depth, constant ShadowView* v,
                                      constant ViewParams* view) {
   Receivers r;
   const Real3 p = position_of_pixel(x, y, covered ? depth : REAL(1.0f), view);
@@ -102,22 +93,17 @@ static inline Receivers receivers_at(const RayScene* scene, triangles_t triangle
   r.shaded = r.at;
   r.gap = fma(REAL(0x1p-20f), sqrt(fma(r.at.z, r.at.z, fma(r.at.y, r.at.y, r.at.x * r.at.x))), REAL(1e-3f));
   r.own = (whole)(-1), r.normal = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f)), r.slack = REAL(0.0f);
-#if LANES == 16
-  for (uint left = lane_bits(covered); left != 0;) {
-    const uint one = ((const uint*)&triangle)[lowest_bit(left)];
-    const mask_t here = covered & (triangle == (uint16)(one));
-    left &= ~lane_bits(here);
-    add_plane(&r, scene, ray_number(one, triangle_instance, number_offsets), here, v);
-  }
-#else
-  if (covered) add_plane(&r, scene, ray_number(triangle, triangle_instance, number_offsets), 1, v);
-#endif
-#ifdef SHADOW_MAP
-  const uint live = lane_bits(r.own >= (whole)(0));
-  if (live != 0) r.for_maps = shadow_receivers(scene, r.at, r.own, r.gap, live);
-#endif
   return r;
 }
+
+#ifdef SHADOW_MAP
+static inline void add_corners(Receivers* r, const RayScene* scene) {
+  const uint live = lane_bits(r->own >= (whole)(0));
+  if (live != 0) r->for_maps = shadow_receivers(scene, r->at, r->own, r->gap, live);
+}
+#else
+#define add_corners(r, scene)
+#endif
 
 // Lanes that the light may shade, in its range and its cone.
 static inline mask_t may_shade(const Receivers* r, global const ShadowLight* l) {

@@ -7,6 +7,7 @@
 // decided                out, with -DKEPT: pairs of a pixel and a listed light that took no ray, a tile
 #define LANES 16
 #include "kernels/common/pack.h"
+#include "kernels/common/fetch.h"
 #include "kernels/common/image_blocks.h"
 #include "kernels/shadows/shadow_test.h"
 #ifdef KEPT
@@ -30,6 +31,23 @@ static inline void store_shadows(global uint* entry, uint block, whole hidden) {
 }
 #endif
 
+// Triangles that a tile shows, once for each block.
+typedef struct TileTriangles {
+  uint triangle[SHADOW_TILE * SHADOW_TILE];
+  ushort lanes[SHADOW_TILE * SHADOW_TILE];
+  uchar block[SHADOW_TILE * SHADOW_TILE];
+  uint count;
+} TileTriangles;
+
+static inline void add_triangles(TileTriangles* t, uint block, uint16 triangle, mask_t covered) {
+  for (uint left = lane_bits(covered); left != 0; ++t->count) {
+    const uint one = ((const uint*)&triangle)[lowest_bit(left)],
+               here = lane_bits(covered & (triangle == (uint16)(one)));
+    left &= ~here;
+    t->triangle[t->count] = one, t->lanes[t->count] = (ushort)here, t->block[t->count] = (uchar)block;
+  }
+}
+
 kernel void find_shadows(ALL_ARGUMENTS) {
   const RayScene scene = RAYS_SCENE;
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
@@ -48,6 +66,10 @@ kernel void find_shadows(ALL_ARGUMENTS) {
   if (range.y != 0) {
     Receivers receivers[16];
     uint used = 0;  // blocks with a surface
+    // Each block's triangles: first all of their places, then all records, so that the processor waits for
+    // many of them at a time.
+    TileTriangles found;
+    found.count = 0;
     for (uint block = 0; block < 16; ++block) {
       const uint x = tile_x * SHADOW_TILE + block % 4 * 4, y = tile_y * SHADOW_TILE + block / 4 * 4;
       if (x >= width || y >= height) continue;
@@ -56,10 +78,23 @@ kernel void find_shadows(ALL_ARGUMENTS) {
       const mask_t covered = inside & (triangle != (uint16)(NO_TRIANGLE));
       if (!any_lane(covered)) continue;
       const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
-      receivers[block] = receivers_at(
-          &scene, triangle, covered, (float)x + 0.5f + convert_float16(LANE_INDEX & 3),
-          (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, triangle_instance, number_offsets, shadow_view, view);
+      receivers[block] = receivers_at(covered, (float)x + 0.5f + convert_float16(LANE_INDEX & 3),
+                                      (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, shadow_view, view);
+      add_triangles(&found, block, triangle, covered);
       used |= 1u << block;
+    }
+    for (uint i = 0; i < found.count; ++i) {
+      const uint number = ray_number(found.triangle[i], triangle_instance, number_offsets);
+      found.triangle[i] = scene.places[number];
+      FETCH(scene.triangles + found.triangle[i]);
+    }
+    for (uint i = 0; i < found.count; ++i) {
+      add_plane(receivers + found.block[i], scene.triangles + found.triangle[i], lanes_of(found.lanes[i]),
+                shadow_view);
+    }
+    for (uint left = used; left != 0; left &= left - 1) {
+      const uint block = lowest_bit(left);
+      add_corners(receivers + block, &scene);
 #ifdef KEPT
       add_pieces(&pieces, &scene, receivers + block, block, range.y, shadow_view);
 #endif

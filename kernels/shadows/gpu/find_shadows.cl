@@ -30,9 +30,13 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   const bool inside = x < width && y < height;
   const size_t at = inside ? (size_t)y * width + x : 0;
   const uint triangle = inside ? triangles[at] : NO_TRIANGLE;
-  const Receivers r =
-      receivers_at(&scene, triangle, triangle != NO_TRIANGLE, (float)x + 0.5f, (float)y + 0.5f, depths[at],
-                   triangle_instance, number_offsets, shadow_view, view);
+  const bool covered = triangle != NO_TRIANGLE;
+  Receivers r = receivers_at(covered, (float)x + 0.5f, (float)y + 0.5f, depths[at], shadow_view, view);
+  if (covered) {
+    const uint number = ray_number(triangle, triangle_instance, number_offsets);
+    add_plane(&r, scene.triangles + scene.places[number], 1, shadow_view);
+    add_corners(&r, &scene);
+  }
   uint turn = 0;
   ShadowTest test = SHADOW_TEST;
   if (item == 0) traced_here = 0;
