@@ -9,6 +9,7 @@
 //   }
 #pragma once
 
+#include "kernels/common/fetch.h"
 #include "kernels/rays/ray_packet.h"
 #include "shared/surface_records.h"
 
@@ -91,6 +92,11 @@ static inline __attribute__((always_inline)) bool leaf_blocked(const RayScene* s
   return false;
 }
 
+static inline void fetch_child(const RayScene* scene, int child, int count) {
+  if (count == 0) FETCH(scene->nodes + child);
+  else FETCH(scene->triangles + child);
+}
+
 // Lanes with the bits `live`, whose segments go the same way along each axis.
 static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene, RayPacket* p,
                                                           const bool point, whole own, uint live,
@@ -106,6 +112,8 @@ static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene,
   for (;;) {
     global const RayNode* n = scene->nodes + at;
     global const float* f = n->low_0;
+    fetch_child(scene, n->child_0, n->count_0);
+    fetch_child(scene, n->child_1, n->count_1);
     // Used at once, or the compiler keeps what the second test needs until the first leaf is done.
     uint met = lane_bits(meets_box(p, f[in_x], f[in_y], f[in_z], f[out_x], f[out_y], f[out_z])) |
                lane_bits(meets_box(p, f[in_x + 6], f[in_y + 6], f[in_z + 6], f[out_x + 6], f[out_y + 6],
