@@ -95,6 +95,10 @@ Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered,
     while (end < pixels.size() && cell_of(lists, pixels[end]) == cell) ++end;
     tally.wrong += listed.read(lists, cell) * (end - begin);
     tally.listed += uint64_t(length_of_list(lists, cell)) * (end - begin);
+    for (size_t i = begin; shadows && i < end; ++i) {
+      for (uint32_t d = 0; d < shadows->directional; ++d)
+        tally_shadow(*shadows, width, pixels[i], uint32_t(lights.size()) + d, true, tally, out);
+    }
     for (size_t i = begin; i < end; ++i) out.listed_of_pixel[pixels[i]] = length_of_list(lists, cell);
     for (uint32_t light : tile.lights) {
       uint64_t lit = 0;

@@ -29,7 +29,7 @@ struct LitPairs {
   uint64_t wrong = 0;
   // With shadows, at the pixels where they were decided: listed and shaded though hidden, shaded as hidden
   // though seen; pairs in range whose sight turns on rounding, which are not counted as lit, lost or either
-  // of these.
+  // of these. Directional lights count here alone.
   std::vector<uint32_t> leaked_of_pixel, acned_of_pixel;  // as above; empty without shadows
   uint64_t leaked = 0, acned = 0, either = 0;
 };
@@ -40,6 +40,7 @@ class SeenPairs;
 struct PairShadows {
   const SeenPairs& truth;
   const HostShadows* shaded = nullptr;
+  uint32_t directional = 0;  // lights, which both of these number after those of the lists
 };
 
 // `depth` is the buffer that the technique shaded from: width * height, row 0 at the bottom, 0 for

@@ -17,7 +17,8 @@ struct HostShadows {
   static constexpr int side = 16, words = 8;
   int tiles_x = 0, tiles_y = 0;
   std::vector<glm::uvec2> cells;  // first entry and number of entries, a tile; x fastest from the lower left
-  std::vector<uint32_t> indices;  // of point and spot lights in scene order; ascending in each cell
+  // Of point and spot lights in scene order, then of directional ones; ascending in each cell.
+  std::vector<uint32_t> indices;
   std::vector<uint32_t> bits;   // `words` an entry of indices: the light, or more than half of it, is hidden
   std::vector<uint8_t> shares;  // the hidden share times 255, in the same order; empty: bits say all
 };

@@ -27,7 +27,9 @@ bool FrameShadows::shaded_as_hidden(int x, int y, uint32_t local) const {
 }
 
 PairShadows FrameShadows::pairs() {
-  return {*truth_.pairs(run_.view(), depth_, shown_), shaded_ ? &*shaded_ : nullptr};
+  const Seen& v = run_.view();
+  return {*truth_.pairs(v, depth_, shown_), shaded_ ? &*shaded_ : nullptr,
+          uint32_t(v.plan.directional_lights.size())};
 }
 
 }  // namespace lightgrid

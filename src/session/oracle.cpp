@@ -64,7 +64,8 @@ LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, 
   if (!seen) return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth));
   std::optional<HostShadows> shaded;
   if (run.frame().shadows) shaded = run.frame().shadows();
-  const PairShadows shadows{*seen, shaded ? &*shaded : nullptr};
+  const PairShadows shadows{*seen, shaded ? &*shaded : nullptr,
+                            uint32_t(v.plan.directional_lights.size())};
   return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), &shadows);
 }
 

@@ -70,7 +70,9 @@ const SeenPairs* ShadowTruth::pairs(const Seen& v, const std::vector<float>& dep
     if (d.pairs && d.depth == depth && d.triangles == triangles) return d.pairs.get();
   }
   const std::vector<CastingTriangle> casting = casting_triangles(scene_, triangles);
-  const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, v.plan.local);
+  std::vector<int> places = v.plan.local;
+  places.insert(places.end(), v.plan.directional_lights.begin(), v.plan.directional_lights.end());
+  const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, places);
   const ShownSurfaces shown{v.view, depth, casting};
   Decided& d = decided_[next_];
   next_ = 1 - next_;

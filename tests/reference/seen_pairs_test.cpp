@@ -147,4 +147,18 @@ TEST(SeenPairs, CountsOfASampleAreOfItsPixels) {
 }
 
 }  // namespace
+// Lists hold light 0 alone; light 1 comes after them, as directional lights do, and a frame darkens it under
+// the roof, where it is seen.
+TEST(SeenPairs, DirectionalLightsAreCountedWithoutLists) {
+  const RoofFromAbove roof;
+  const SeenPairs seen = roof.pairs(covered_pixels(roof.depth));
+  const HostShadows dark = roof.shadows([](int x, int, uint32_t) { return under_roof(x); });
+  const PairShadows shadows{seen, &dark, 1};
+  const LitPairs pairs =
+      count_pairs(roof.view, roof.depth, {roof.lights.in_view[0]}, list_every_light(1), &shadows);
+  EXPECT_EQ(pairs.leaked, 0u);
+  EXPECT_EQ(pairs.acned, 4u * side);
+  EXPECT_EQ(pairs.lit, side * side - 1u - 4 * side) << "as lists have them";
+}
+
 }  // namespace lightgrid
