@@ -18,6 +18,7 @@
 #include "inspect/inspect.h"
 #include "session/contestants.h"
 #include "session/frame_shadows.h"
+#include "session/shadow_truth.h"
 
 namespace lightgrid {
 namespace {
@@ -50,6 +51,27 @@ void check_place(const Place& place, const View& view) {
                     view.height - 1);
 }
 
+// The technique's frame, and the oracle of its shadows. Of many pairs, those at a sample of the pixels are
+// decided.
+struct FrameAndTruth {
+  FrameAndTruth(Renderer& renderer, const ChosenScene& chosen, const Settings& settings,
+                const Technique& technique)
+      : run(renderer, chosen.scene, chosen.view, settings, technique), truth(chosen.scene, most_pairs) {
+    run.draw_frame();
+    frame = read_frame_shadows(run);
+  }
+  PairShadows pairs() {
+    const Seen& v = run.view();
+    return {*truth.pairs(v, frame.depth, frame.shown), frame.shaded ? &*frame.shaded : nullptr,
+            uint32_t(v.plan.directional_lights.size())};
+  }
+
+  static constexpr uint64_t most_pairs = 10'000'000;
+  TechniqueRun run;
+  ShadowTruth truth;
+  FrameShadows frame;
+};
+
 // The input: a folder is a captured frame, which needs no OpenGL; anything else is a scene, to be captured
 // first.
 struct Subject {
@@ -59,7 +81,7 @@ struct Subject {
   std::string technique;  // the chosen one
   TechniqueNeeds needs{};
   std::unique_ptr<Renderer> renderer{};     // of `shadows`
-  std::unique_ptr<FrameShadows> shadows{};  // where lights of the scene cast
+  std::unique_ptr<FrameAndTruth> shadows{};  // where lights of the scene cast
   const View& view() const { return scene ? scene->view : frame.view; }
 };
 
@@ -102,8 +124,7 @@ OpenCl open_devices_for(Subject& subject, const InspectOptions& o) {
         capture_frame(*renderer, subject.scene->scene, subject.scene->view, subject.settings, chosen);
     subject.technique = chosen.name;
     if (ShadowTruth(subject.scene->scene, 0).casts()) {
-      subject.shadows = std::make_unique<FrameShadows>(*renderer, subject.scene->scene, subject.scene->view,
-                                                       subject.settings, chosen);
+      subject.shadows = std::make_unique<FrameAndTruth>(*renderer, *subject.scene, subject.settings, chosen);
       subject.renderer = std::move(renderer);
     }
   }
@@ -116,28 +137,18 @@ bool says_exact(const Subject& subject) {
   return !is_approximate(find_technique(subject.technique), subject.settings);
 }
 
-// Of the lights that cast and are lit at the pixel. Returns whether one leaks or is dark though seen, where
-// none may.
-bool add_shadows(PixelInspection& pixel, const Subject& subject) {
-  bool wrong = false;
-  for (LightVerdict& v : pixel.lights) {
-    if (!v.lit || !subject.frame.lights[size_t(v.light)].casts_shadow) continue;
-    const auto sight = subject.shadows->sight(pixel.x, pixel.y, size_t(v.light));
-    if (!sight) continue;
-    v.shadow = ShadowVerdict{*sight, "", subject.shadows->shaded_as_hidden(pixel.x, pixel.y, v.index)};
-    if (sight->by.instance >= 0)
-      v.shadow->by = subject.scene->scene.instances[size_t(sight->by.instance)].name;
-    wrong |= sight->sight == (v.shadow->shaded_as_hidden ? Sight::seen : Sight::hidden);
-  }
-  return wrong && says_exact(subject);
-}
-
 // Returns 1 if a light was lost, or its shadow is wrong.
 int inspect_place(const InspectOptions& o, const Subject& subject, FrameCuller& culler, const FrameGrid& grid,
                   const Place& place) {
   PixelInspection pixel =
       inspect_pixel(subject.frame, grid, culler.intervals(), subject.settings, place.x, place.y);
-  const bool wrong = subject.shadows && add_shadows(pixel, subject);
+  bool wrong = false;
+  if (subject.shadows) {
+    const Scene& scene = subject.scene->scene;
+    const PixelShadows here =
+        subject.shadows->frame.at(place.x, place.y, scene, subject.shadows->truth.occlusion());
+    wrong = add_shadows(pixel, scene, here) && says_exact(subject);
+  }
   const int most = o.all ? std::numeric_limits<int>::max() : o.dropped;
   if (!o.json.empty()) write_json(o.json, inspection_json(subject.frame, pixel, grid, most));
   if (o.json != "-") std::fputs(inspection_table(subject.frame, pixel, most).c_str(), stdout);

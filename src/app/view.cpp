@@ -30,7 +30,6 @@ std::string scene_words(const ViewOptions& o) {
   if (!s.lights_file.empty()) words += " --lights-file " + shell_word(s.lights_file);
   if (!s.light_radius.empty()) words += " --light-radius " + shell_word(s.light_radius);
   if (!s.ambient.empty()) words += " --ambient " + shell_word(s.ambient);
-  if (!s.shadows.empty()) words += " --shadows " + shell_word(s.shadows);
   if (s.lights >= 0 && s.lights_file.empty() && s.seed != SceneChoice().seed)
     words += fmt::format(" --seed {}", s.seed);
   if (!s.exposure.empty()) words += " --exposure " + s.exposure;
@@ -45,6 +44,8 @@ ViewJob make_job(const ViewOptions& o) {
   for (const BuiltinScene& scene : builtin_scenes()) job.scenes.push_back(scene.name);
   if (!find_builtin_scene(job.name)) job.scenes.push_back(job.name);
   job.controls.lights = light_motion(o.scene.light_motion);
+  chosen_casters(o.scene.shadows);  // reports a fault before the scene is loaded
+  job.controls.casters = o.scene.shadows;
   job.scripted = !o.script.empty() || !o.screenshot.empty();
   job.frames = o.frames;
   job.screenshot = o.screenshot;
@@ -58,7 +59,9 @@ ViewJob make_job(const ViewOptions& o) {
   return job;
 }
 
-void load(ViewJob& job, const SceneChoice& choice) {
+// The window chooses the lights that cast, so that the scene's own can be chosen again.
+void load(ViewJob& job, SceneChoice choice) {
+  choice.shadows.clear();
   ChosenScene chosen = load_chosen_scene(choice);
   job.scene = std::move(chosen.scene);
   job.view = chosen.view;

@@ -247,4 +247,30 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
   return pixel;
 }
 
+bool add_shadows(PixelInspection& pixel, const Scene& scene, const PixelShadows& shadows) {
+  if (!shadows.receiver) return false;
+  bool wrong = false;
+  const auto verdict_of = [&](int light, uint32_t in_lists) {
+    ShadowVerdict verdict;
+    verdict.truth = shadows.occlusion.sight(scene.lights[size_t(light)], *shadows.receiver);
+    if (verdict.truth.by.instance >= 0) verdict.by = scene.instances[size_t(verdict.truth.by.instance)].name;
+    verdict.shaded_as_hidden = shadows.shaded && hidden_at(*shadows.shaded, pixel.x, pixel.y, in_lists);
+    wrong |= verdict.leaked() || verdict.acned();
+    return verdict;
+  };
+  for (LightVerdict& v : pixel.lights) {
+    if (v.lit && scene.lights[size_t(v.light)].casts_shadow) v.shadow = verdict_of(v.light, v.index);
+  }
+  // In shadows, directional lights have the numbers after all others.
+  auto number =
+      uint32_t(std::ranges::count_if(scene.lights, [](const Light& l) { return !is_directional(l); }));
+  for (int i = 0; i < int(scene.lights.size()); ++i) {
+    const Light& light = scene.lights[size_t(i)];
+    if (!is_directional(light)) continue;
+    if (light.casts_shadow) pixel.directional_shadows.push_back({i, verdict_of(i, number)});
+    ++number;
+  }
+  return wrong;
+}
+
 }  // namespace lightgrid

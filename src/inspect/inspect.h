@@ -7,7 +7,7 @@
 
 #include "capture/frame_culler.h"
 #include "reference/lit_set.h"
-#include "reference/occlusion.h"
+#include "reference/seen_pairs.h"
 #include "results/results.h"
 
 namespace lightgrid {
@@ -27,8 +27,16 @@ struct TestMargins {
 // Of a light that casts, at the pixel.
 struct ShadowVerdict {
   SightAnswer truth;
-  std::string by;                 // the instance that hides it
+  std::string by;                 // name of the instance that hides it
   bool shaded_as_hidden = false;  // by the frame
+
+  bool leaked() const { return truth.sight == Sight::hidden && !shaded_as_hidden; }
+  bool acned() const { return truth.sight == Sight::seen && shaded_as_hidden; }
+};
+
+struct DirectionalShadow {
+  int light = 0;  // in the frame
+  ShadowVerdict shadow;
 };
 
 struct LightVerdict {
@@ -43,7 +51,7 @@ struct LightVerdict {
   bool touches = false;                 // some point of the convex cell may be lit, cone included
   bool lit = false;                     // by the oracle, at this pixel
   int lit_pixels = 0;                   // of the cell
-  std::optional<ShadowVerdict> shadow;  // not set by inspect_pixel
+  std::optional<ShadowVerdict> shadow;  // by add_shadows
 };
 
 struct PixelInspection {
@@ -57,6 +65,7 @@ struct PixelInspection {
   int covered_pixels = 0;              // of the cell
   int directional = 0;                 // directional lights: they reach every pixel and are in no list
   std::vector<LightVerdict> lights;    // listed ones by index, then dropped ones, nearest to the cell first
+  std::vector<DirectionalShadow> directional_shadows;  // by add_shadows
   int listed() const;
   int lit() const;
   int lost() const;  // lit but not listed
@@ -66,6 +75,13 @@ struct PixelInspection {
 PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
                               const std::vector<DepthInterval>& intervals, const Settings& settings, int x,
                               int y);
+
+// What each light that casts and is lit at the pixel meets on its way there. None where the pixel shows no
+// triangle. Returns whether the frame leaks one or has one dark though seen.
+bool add_shadows(PixelInspection& pixel, const Scene& scene, const PixelShadows& shadows);
+
+// `hidden by node 3 "column" triangle 12, 1.250 m from the light; the frame shades it: LEAKED`.
+std::string shadow_words(const ShadowVerdict& shadow, const Light& light);
 
 // Both omit dropped lights after the first `most_dropped`, but never lost ones.
 std::string inspection_table(const CapturedFrame& frame, const PixelInspection& pixel, int most_dropped);

@@ -65,21 +65,9 @@ const char* name_of(Sight sight) {
   return sight == Sight::seen ? "seen" : sight == Sight::hidden ? "hidden" : "either";
 }
 
-// "light 3 "lamp": hidden by "column" triangle 12, 1.250 m from the light; the frame shades it: leaked".
-std::string shadow_text(const CapturedFrame& frame, const LightVerdict& v) {
-  const ShadowVerdict& shadow = *v.shadow;
-  const Light& light = frame.lights[v.light];
-  const bool hidden = shadow.truth.sight == Sight::hidden;
-  std::string text = fmt::format("light {} \"{}\": {}", v.light, light.name, name_of(shadow.truth.sight));
-  if (hidden)
-    text += fmt::format(" by \"{}\" triangle {}, {:.3f} m from the {}", shadow.by, shadow.truth.by.triangle,
-                        shadow.truth.distance_m, is_directional(light) ? "surface" : "light");
-  if (shadow.truth.sight == Sight::either) text += ": its answer turns on rounding";
-  const char* fault = hidden && !shadow.shaded_as_hidden ? "; the frame shades it: LEAKED"
-                      : shadow.truth.sight == Sight::seen && shadow.shaded_as_hidden
-                          ? "; the frame hides it: ACNED"
-                          : "";
-  return text + fault + "\n";
+std::string shadow_line(const CapturedFrame& frame, int number, const ShadowVerdict& shadow) {
+  const Light& light = frame.lights[size_t(number)];
+  return fmt::format("light {} \"{}\": {}\n", number, light.name, shadow_words(shadow, light));
 }
 
 json shadow_json(const ShadowVerdict& shadow) {
@@ -93,6 +81,18 @@ json shadow_json(const ShadowVerdict& shadow) {
 }
 
 }  // namespace
+
+std::string shadow_words(const ShadowVerdict& shadow, const Light& light) {
+  const SightAnswer& truth = shadow.truth;
+  std::string text = name_of(truth.sight);
+  if (truth.sight == Sight::hidden)
+    text += fmt::format(" by node {} \"{}\" triangle {}, {:.3f} m from the {}", truth.by.instance, shadow.by,
+                        truth.by.triangle, truth.distance_m, is_directional(light) ? "surface" : "light");
+  if (truth.sight == Sight::either) text += ": its answer turns on rounding";
+  if (shadow.leaked()) text += "; the frame shades it: LEAKED";
+  if (shadow.acned()) text += "; the frame hides it: ACNED";
+  return text;
+}
 
 std::string inspection_table(const CapturedFrame& frame, const PixelInspection& p, int most_dropped) {
   const auto rows = shown(p, most_dropped);
@@ -114,8 +114,9 @@ std::string inspection_table(const CapturedFrame& frame, const PixelInspection& 
   for (const LightVerdict* v : rows) text += row_text(frame, *v, p.covered_pixels);
   std::string shadows;
   for (const LightVerdict* v : rows) {
-    if (v->shadow) shadows += shadow_text(frame, *v);
+    if (v->shadow) shadows += shadow_line(frame, v->light, *v->shadow);
   }
+  for (const DirectionalShadow& d : p.directional_shadows) shadows += shadow_line(frame, d.light, d.shadow);
   return shadows.empty() ? text : text + "\n" + shadows;
 }
 
@@ -140,6 +141,11 @@ std::string inspection_json(const CapturedFrame& frame, const PixelInspection& p
                       {"lit_pixels", v->lit_pixels}});
     if (v->shadow) lights.back()["shadow"] = shadow_json(*v->shadow);
   }
+  json directional_shadows = json::array();
+  for (const DirectionalShadow& d : p.directional_shadows) {
+    directional_shadows.push_back(shadow_json(d.shadow));
+    directional_shadows.back()["light"] = d.light;
+  }
   const bool empty = !(p.near_m <= p.far_m);
   const json out = {{"scene", frame.name},
                     {"size", {frame.view.width, frame.view.height}},
@@ -161,7 +167,8 @@ std::string inspection_json(const CapturedFrame& frame, const PixelInspection& p
                     {"lost", p.lost()},
                     {"directional", p.directional},
                     {"dropped_not_shown", p.lights.size() - rows.size()},
-                    {"lights", lights}};
+                    {"lights", lights},
+                    {"directional_shadows", directional_shadows}};
   return json_text(out);
 }
 

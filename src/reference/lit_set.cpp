@@ -20,7 +20,7 @@ namespace {
 
 // Sums over the pixels of one tile.
 struct Tally {
-  uint64_t listed = 0, lit = 0, lost = 0, wrong = 0, leaked = 0, acned = 0, either = 0;
+  uint64_t listed = 0, lit = 0, lost = 0, wrong = 0, hidden = 0, leaked = 0, acned = 0, either = 0;
 };
 
 // The set of lights of the current list. Marks are never cleared: each list has its own mark.
@@ -67,6 +67,7 @@ bool tally_shadow(const PairShadows& shadows, int width, uint32_t pixel, uint32_
   if (!shadows.truth.decided(pixel)) return true;
   const Sight sight = shadows.truth.at(pixel, light);
   if (sight == Sight::either) ++tally.either;
+  tally.hidden += sight == Sight::hidden, out.hidden_of_pixel[pixel] += sight == Sight::hidden;
   if (sight == Sight::either || !listed) return sight == Sight::seen;
   const bool hidden =
       shadows.shaded && hidden_at(*shadows.shaded, int(pixel) % width, int(pixel) / width, light);
@@ -188,7 +189,7 @@ LitPairs count_pairs(const View& view, const std::vector<float>& depth, const st
   assert(lists.cell_of_pixel.empty() || lists.cell_of_pixel.size() == depth.size());
   const std::vector<uint32_t> none(depth.size(), 0);
   LitPairs out{none, none, none};
-  if (shadows) out.leaked_of_pixel = out.acned_of_pixel = none;
+  if (shadows) out.hidden_of_pixel = out.leaked_of_pixel = out.acned_of_pixel = none;
   const std::vector<uint32_t> covered = covered_pixels(depth);
   std::mutex adding;
   const auto position_of = [&](uint32_t p) {
@@ -198,7 +199,8 @@ LitPairs count_pairs(const View& view, const std::vector<float>& depth, const st
     const Tally tally = tally_tile(tile, covered, view.width, lights, lists, shadows, out);
     std::lock_guard lock(adding);
     out.listed += tally.listed, out.lit += tally.lit, out.lost += tally.lost, out.wrong += tally.wrong;
-    out.leaked += tally.leaked, out.acned += tally.acned, out.either += tally.either;
+    out.hidden += tally.hidden, out.either += tally.either;
+    out.leaked += tally.leaked, out.acned += tally.acned;
   });
   return out;
 }

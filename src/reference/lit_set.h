@@ -27,11 +27,11 @@ struct LitPairs {
   uint64_t listed = 0, lit = 0;
   uint64_t lost = 0;  // lit but not listed
   uint64_t wrong = 0;
-  // With shadows, at the pixels where they were decided: listed and shaded though hidden, shaded as hidden
-  // though seen; pairs in range whose sight turns on rounding, which are not counted as lit, lost or either
-  // of these. Directional lights count here alone.
-  std::vector<uint32_t> leaked_of_pixel, acned_of_pixel;  // as above; empty without shadows
-  uint64_t leaked = 0, acned = 0, either = 0;
+  // With shadows, at the pixels where they were decided: pairs in range that are hidden; listed and shaded
+  // though hidden; shaded as hidden though seen; pairs in range whose sight turns on rounding, which are not
+  // counted as lit, lost or any of these. Directional lights count here alone.
+  std::vector<uint32_t> hidden_of_pixel, leaked_of_pixel, acned_of_pixel;  // as above; empty without shadows
+  uint64_t hidden = 0, leaked = 0, acned = 0, either = 0;
 };
 
 class SeenPairs;

@@ -12,7 +12,7 @@
 namespace lightgrid {
 
 SeenPairs::SeenPairs(const Occlusion& occlusion, const ShownSurfaces& shown, const CastingLights& lights,
-                     const std::vector<uint32_t>& pixels, bool in_range)
+                     const std::vector<uint32_t>& pixels, bool in_range, const std::function<bool()>& stops)
     : pixels_(pixels.size()), of_pixel_(shown.depth.size(), glm::uvec2(undecided, 0)) {
   assert(lights.in_view.size() == lights.casting.size() && shown.triangles.size() == shown.depth.size());
   const int width = shown.view.width;
@@ -24,6 +24,7 @@ SeenPairs::SeenPairs(const Occlusion& occlusion, const ShownSurfaces& shown, con
   std::mutex adding;
   const std::vector<ViewLight> none;
   for_each_tile(width, pixels, position_of, in_range ? lights.in_view : none, [&](const TileOfPixels& tile) {
+    if (stops && stops()) return;
     const size_t count = tile.indices.size();
     std::vector<Receiver> receivers(count);
     std::vector<std::vector<uint32_t>> entries(count);

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "reference/occlusion.h"
+#include "scene/host_shadows.h"
 #include "scene/view_lights.h"
 
 namespace lightgrid {
@@ -27,8 +29,10 @@ class SeenPairs {
  public:
   // Takes `pixels` (y * width + x each, all covered), and of each the lights that cast and, with `in_range`,
   // are lit (lit_set.h). Occlusion::sight decides on all cores: 0.2 million pairs a second and core in hall.
+  // stops: called from several threads, once for each 16 x 16 tile; true leaves its pixels undecided.
   SeenPairs(const Occlusion& occlusion, const ShownSurfaces& shown, const CastingLights& lights,
-            const std::vector<uint32_t>& pixels, bool in_range = true);
+            const std::vector<uint32_t>& pixels, bool in_range = true,
+            const std::function<bool()>& stops = {});
 
   // Of a pair that was not decided: seen. Of a pixel without a triangle: either.
   Sight at(uint32_t pixel, uint32_t light) const;
@@ -48,6 +52,13 @@ class SeenPairs {
   uint64_t pixels_ = 0;
   std::vector<glm::uvec2> of_pixel_;  // first entry, number of entries
   std::vector<uint32_t> entries_;     // light * 4 + Sight, ascending
+};
+
+// For a look at the shadows of one pixel. All outlive it.
+struct PixelShadows {
+  const Occlusion& occlusion;
+  std::optional<Receiver> receiver;  // none: it shows no triangle
+  const HostShadows* shaded;         // by the frame; null: it shades every light
 };
 
 }  // namespace lightgrid

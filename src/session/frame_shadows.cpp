@@ -1,35 +1,23 @@
 #include "session/frame_shadows.h"
 
 #include "session/oracle.h"
+#include "session/shadow_truth.h"
 #include "session/surfaces_in_double.h"
 
 namespace lightgrid {
 
-FrameShadows::FrameShadows(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
-                           const Technique& technique)
-    : run_(renderer, scene, view, settings, technique), truth_(scene, most_pairs) {
-  run_.draw_frame();
-  depth_ = read_depth(run_), shown_ = shown_triangles(run_);
-  if (run_.frame().shadows) shaded_ = run_.frame().shadows();
+PixelShadows FrameShadows::at(int x, int y, const Scene& scene, const Occlusion& occlusion) const {
+  const size_t pixel = view.grid().index(x, y);
+  const CastingTriangle own = casting_triangles(scene, {shown[pixel]}).front();
+  PixelShadows here{occlusion, {}, shaded ? &*shaded : nullptr};
+  if (own.instance >= 0) here.receiver = occlusion.receiver(view, x, y, double(depth[pixel]), own);
+  return here;
 }
 
-std::optional<SightAnswer> FrameShadows::sight(int x, int y, size_t light) {
-  const Seen& v = run_.view();
-  const size_t pixel = v.view.grid().index(x, y);
-  const CastingTriangle own = casting_triangles(v.scene, {shown_[pixel]}).front();
-  if (own.instance < 0) return {};
-  const Receiver receiver = truth_.occlusion().receiver(v.view, x, y, double(depth_[pixel]), own);
-  return truth_.occlusion().sight(v.scene.lights[light], receiver);
-}
-
-bool FrameShadows::shaded_as_hidden(int x, int y, uint32_t local) const {
-  return shaded_ && hidden_at(*shaded_, x, y, local);
-}
-
-PairShadows FrameShadows::pairs() {
-  const Seen& v = run_.view();
-  return {*truth_.pairs(v, depth_, shown_), shaded_ ? &*shaded_ : nullptr,
-          uint32_t(v.plan.directional_lights.size())};
+FrameShadows read_frame_shadows(TechniqueRun& run) {
+  FrameShadows frame{run.view().view, read_depth(run), shown_triangles(run), {}};
+  if (run.frame().shadows) frame.shaded = run.frame().shadows();
+  return frame;
 }
 
 }  // namespace lightgrid

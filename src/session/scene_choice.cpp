@@ -58,17 +58,6 @@ float parse_ambient(const std::string& text) {
   return *radiance;
 }
 
-// How many lights cast; empty: those that the scene says.
-std::optional<size_t> parse_shadows(const std::string& text) {
-  if (text.empty()) return {};
-  if (text == "all") return size_t(most_lights);
-  if (text == "none") return 0;
-  const auto count = parse_number<int>(text);
-  if (!count || *count < 0 || *count > most_lights)
-    throw input_error("shadows {}: neither all, none nor a number of lights from 0 to {}", text, most_lights);
-  return size_t(*count);
-}
-
 constexpr double most_exposure = 60;
 
 // Stops; empty: automatic.
@@ -99,6 +88,16 @@ void tell_endless_lights(const Scene& scene, const SceneChoice& choice) {
 }
 
 }  // namespace
+
+std::optional<size_t> chosen_casters(const std::string& text) {
+  if (text.empty()) return {};
+  if (text == "all") return size_t(most_lights);
+  if (text == "none") return 0;
+  const auto count = parse_number<int>(text);
+  if (!count || *count < 0 || *count > most_lights)
+    throw input_error("shadows {}: neither all, none nor a number of lights from 0 to {}", text, most_lights);
+  return size_t(*count);
+}
 
 Exposure chosen_exposure(const SceneChoice& choice, const Image& image) {
   const std::optional<double> ev = parse_exposure(choice);
@@ -173,7 +172,7 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
     scene.ambient = added.ambient;
   }
   if (!choice.ambient.empty()) scene.ambient = glm::vec3(parse_ambient(choice.ambient));
-  if (const auto casters = parse_shadows(choice.shadows)) choose_shadow_casters(scene, *casters);
+  if (const auto casters = chosen_casters(choice.shadows)) choose_shadow_casters(scene, *casters);
   tell_endless_lights(scene, choice);
   return view;
 }
@@ -209,7 +208,7 @@ ChosenScene load_chosen_scene(const SceneChoice& choice) {
   check_light_radius(choice);
   parse_exposure(choice);
   if (!choice.ambient.empty()) parse_ambient(choice.ambient);
-  parse_shadows(choice.shadows);
+  chosen_casters(choice.shadows);
   ChosenScene chosen{load_scene(choice.scene), {}};
   chosen.view = choose_view(chosen.scene, choice);
   return chosen;

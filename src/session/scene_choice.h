@@ -66,6 +66,8 @@ struct ChosenScene {
 };
 ChosenScene load_chosen_scene(const SceneChoice& choice);
 Settings chosen_settings(const SceneChoice& choice);
+// How many lights cast, by SceneChoice::shadows; empty: those that the scene says.
+std::optional<size_t> chosen_casters(const std::string& shadows);
 // The exposure of a run's pictures; auto takes it from `image`, or 0 if that has no pixels.
 Exposure chosen_exposure(const SceneChoice& choice, const Image& image);
 // Logs an exposure that was chosen here and is not 0. `view` begins the line.

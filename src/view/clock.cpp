@@ -31,7 +31,8 @@ Motion::Motion(Scene& scene, LightMotion lights, std::optional<double> seconds)
 SceneChanges Motion::follow(Controls& controls, double seconds_passed) {
   const std::optional<double> before = seconds_;
   SceneChanges changes;
-  if (controls.lights != rig_.motion) {
+  const bool other_rig = controls.lights != rig_.motion;
+  if (other_rig) {
     changes = move_lights(scene_, rig_, 0);
     rig_ = make_light_rig(scene_, controls.lights);
   }
@@ -44,7 +45,7 @@ SceneChanges Motion::follow(Controls& controls, double seconds_passed) {
   }
   controls.seconds.reset();
   controls.step = false;
-  if (seconds_ == before && changes.lights.empty() && rig_.motion == LightMotion::none) return changes;
+  if (seconds_ == before && !other_rig) return changes;
   const SceneChanges posed = pose();
   add(changes.instances, posed.instances);
   add(changes.meshes, posed.meshes);

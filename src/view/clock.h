@@ -24,6 +24,7 @@ class Motion {
   SceneChanges follow(Controls& controls, double seconds_passed);
 
   double seconds() const { return seconds_.value_or(0); }
+  LightMotion lights() const { return rig_.motion; }
   bool can_play() const { return animated_ || rig_.motion != LightMotion::none; }
   bool animated() const { return animated_; }
   // The options of `lightgrid render` for this time; empty at rest.

@@ -11,8 +11,9 @@
 
 namespace lightgrid {
 
-const std::array<const char*, 5>& map_names() {
-  static const std::array<const char*, 5> names = {"picture", "listed", "lit", "lost", "difference"};
+const std::array<const char*, 8>& map_names() {
+  static const std::array<const char*, 8> names = {"picture", "listed", "lit",   "lost",
+                                                   "hidden",  "leaked", "acned", "difference"};
   return names;
 }
 

@@ -13,9 +13,9 @@
 namespace lightgrid {
 
 // What a side shows.
-enum class SideMap { picture, listed, lit, lost, difference };
+enum class SideMap { picture, listed, lit, lost, hidden, leaked, acned, difference };
 
-const std::array<const char*, 5>& map_names();  // by SideMap
+const std::array<const char*, 8>& map_names();  // by SideMap
 // Throws Error(input) that lists the names.
 SideMap parse_map(const std::string& name);
 
@@ -35,6 +35,8 @@ struct Controls {
   std::array<SideControls, 2> sides;  // left, right
   double line = 0.5;                  // position of the dividing line, as a fraction of the picture's width
   bool picture_under = false;         // maps let the picture through
+  std::string casters;       // lights that cast shadows, in the form of --shadows; empty: the scene's own
+  std::optional<int> light;  // of the scene: chosen, maps count its pairs alone
   double rate = 30;  // frames a second to hold while something moves; 0: always the full picture
   std::optional<std::string> camera;                    // target of a jump, in the form of --camera
   std::array<std::optional<std::string>, 3> bookmarks;  // cameras
@@ -48,12 +50,18 @@ struct Controls {
   std::optional<PicturePixel> pixel;  // the inspected pixel
   std::string pixel_file;             // its lights are written there in this frame; empty: not
   std::string times_file;             // likewise the figures of both sides
+  std::string casting_file;           // likewise the lights that cast, with what the plan says of each
   bool show_lights = false;           // signs at their places
   bool show_keys = false;
   bool close_lists = false;  // in this frame
   bool screenshot = false;
   bool quit = false;
 };
+
+// Chooses the light, or none if it is chosen.
+inline void toggle_light(Controls& controls, int light) {
+  controls.light = controls.light == light ? std::nullopt : std::optional(light);
+}
 
 // Input of one frame, from the window or a script.
 struct Input {

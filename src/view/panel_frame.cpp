@@ -86,7 +86,34 @@ void figures(const Timings& timings, const std::vector<std::string>& names) {
 constexpr size_t most_rows = 200;
 constexpr float lines_high = 16;  // always, so that what is below stays where it is
 
-void show_lights(const PixelInspection& pixel, const Scene& scene) {
+// Of a light in range that is seen; hidden or not in range; and where something is wrong with it.
+const ImVec4 lit_colour(1, 0.95f, 0.7f, 1), dark_colour(0.55f, 0.55f, 0.55f, 1),
+    hidden_colour(0.55f, 0.7f, 1, 1), wrong_colour(1, 0.3f, 0.3f, 1);
+
+ImVec4 colour_of(const ShadowVerdict& shadow) {
+  if (shadow.leaked() || shadow.acned()) return wrong_colour;
+  return shadow.truth.sight == Sight::hidden ? hidden_colour : lit_colour;
+}
+
+// Below its light's name.
+void shadow_text(const std::string& text, const ShadowVerdict& shadow) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour_of(shadow));
+  ImGui::Indent(8);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::Unindent(8);
+  ImGui::PopStyleColor();
+}
+
+// A click on it chooses the light.
+void light_name(const std::string& text, const ImVec4& colour, int light, Controls& controls) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::PushID(light);
+  if (ImGui::Selectable(text.c_str(), controls.light == light)) toggle_light(controls, light);
+  ImGui::PopID();
+  ImGui::PopStyleColor();
+}
+
+void show_lights(const PixelInspection& pixel, const Scene& scene, Controls& controls) {
   if (!pixel.covered) {
     ImGui::TextUnformatted("no opaque surface");
     return;
@@ -94,18 +121,26 @@ void show_lights(const PixelInspection& pixel, const Scene& scene) {
   ImGui::TextUnformatted(
       fmt::format("{} listed, {} lit, {} lost", pixel.listed(), pixel.lit(), pixel.lost()).c_str());
   ImGui::TextUnformatted(fmt::format("surface {:.3g} m away", pixel.distance_m).c_str());
+  const std::string shadows = shadows_at_pixel(pixel);
+  if (!shadows.empty()) ImGui::TextUnformatted(shadows.c_str());
   ImGui::BeginChild("lights", {0, 0});
   for (size_t i = 0; i < std::min(pixel.lights.size(), most_rows); ++i) {
     const LightVerdict& light = pixel.lights[i];
     const bool lost = light.lit && !light.listed;
-    const ImVec4 colour = lost        ? ImVec4(1, 0.3f, 0.3f, 1)
-                          : light.lit ? ImVec4(1, 0.95f, 0.7f, 1)
-                                      : ImVec4(0.55f, 0.55f, 0.55f, 1);
-    const auto [where, decided] = lines_of(light, scene);
-    ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextUnformatted(where.c_str());
-    ImGui::PopStyleColor();
+    const auto [where, decided, shadow] = lines_of(light, scene);
+    light_name(where,
+               lost           ? wrong_colour
+               : light.shadow ? colour_of(*light.shadow)
+               : light.lit    ? lit_colour
+                              : dark_colour,
+               light.light, controls);
     if (!decided.empty()) ImGui::TextDisabled("  %s", decided.c_str());
+    if (light.shadow) shadow_text(shadow, *light.shadow);
+  }
+  for (const DirectionalShadow& light : pixel.directional_shadows) {
+    const auto [name, shadow] = lines_of(light, scene);
+    light_name(name, colour_of(light.shadow), light.light, controls);
+    shadow_text(shadow, light.shadow);
   }
   ImGui::EndChild();
 }
@@ -158,7 +193,7 @@ void show_pixel(Controls& controls, const Shown& shown) {
       ImGui::PushID(i);
       ImGui::BeginChild("side", {0, height});
       if (shown.pixel[i]) {
-        show_lights(*shown.pixel[i], shown.scene);
+        show_lights(*shown.pixel[i], shown.scene, controls);
       } else {
         ImGui::TextDisabled(shown.sides[i]->ready() ? "when the camera rests" : "not drawn");
       }

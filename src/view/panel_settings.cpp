@@ -84,9 +84,10 @@ void show_techniques(Controls& controls, const Shown& shown) {
   if (any_map) ImGui::Checkbox("picture under maps", &controls.picture_under);
 }
 
-void show_settings(Controls& controls) {
+void show_settings(Controls& controls, bool of_shadows) {
   if (!begin_table("settings")) return;
   for (const SettingHelp& setting : setting_help()) {
+    if (setting.key.starts_with("shadow") != of_shadows) continue;
     if (!reads(controls.sides[0], setting.key) && !reads(controls.sides[1], setting.key)) continue;
     row_name(setting.key.c_str(), setting.meaning);
     cells(controls, [&](SideControls& side) {

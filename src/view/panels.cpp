@@ -104,7 +104,8 @@ void show_panels(Controls& controls, const Shown& shown) {
   ImGui::Begin("panel", nullptr, fixed);
   show_status(controls, shown);
   show_techniques(controls, shown);
-  if (section("Settings", false)) show_settings(controls);
+  if (section("Settings", false)) show_settings(controls, false);
+  if (section("Shadows", false)) show_shadows(controls, shown);
   if (shown.pixel_is_new) ImGui::SetNextItemOpen(true);
   if (section("Lights at a pixel", false)) show_pixel(controls, shown);
   if (section("Camera", true)) show_camera(controls, shown);
@@ -202,9 +203,9 @@ std::string name_of(const SideControls& side, const std::string& note, double ms
   return ms > 0 ? fmt::format("{}  {}, {:.1f} ms", name, rate_words(1000 / ms), ms) : name;
 }
 
-// A dot at each light that has a place, with a spot's direction. That under the pointer has its range and a
-// text.
-void light_signs(const Shown& shown, float width, float height) {
+// A dot at each light that has a place, or only at the chosen one (null: none is), with a spot's direction.
+// That under the pointer, else the chosen one, has its range and a text.
+void light_signs(const Shown& shown, bool all, const Light* chosen, float width, float height) {
   constexpr float dot = 4, reach = 9;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const View& view = shown.view;
@@ -217,6 +218,8 @@ void light_signs(const Shown& shown, float width, float height) {
   ImVec2 pointed_at;
   float nearest = reach;
   for (const Light& light : shown.scene.lights) {
+    const bool is_chosen = chosen == &light;
+    if (!all && !is_chosen) continue;
     ImVec2 at, tip;
     if (is_directional(light) || !seen(light.position, at)) continue;
     const float peak = std::max({light.color.r, light.color.g, light.color.b, 1e-9f});
@@ -228,8 +231,8 @@ void light_signs(const Shown& shown, float width, float height) {
     draw.AddCircleFilled(at, dot + 1.5f, backdrop);
     draw.AddCircleFilled(at, dot, colour);
     const float away = std::hypot(at.x - float(shown.pointer[0]), at.y - float(shown.pointer[1]));
-    if (away >= nearest) continue;
-    nearest = away;
+    if (away >= nearest && !(is_chosen && !pointed)) continue;
+    nearest = std::min(away, reach);
     pointed = &light;
     pointed_at = at;
   }
@@ -292,7 +295,8 @@ void show_overlay(const Controls& controls, const Shown& shown) {
     if (controls.sides[i].map != SideMap::picture && shown.notes[i].empty())
       colour_bar(shown.maps[i]->scale(), i ? line : 0, i ? width : line, height);
   }
-  if (controls.show_lights) light_signs(shown, width, height);
+  const Light* chosen = controls.light ? &shown.scene.lights[size_t(*controls.light)] : nullptr;
+  if (controls.show_lights || chosen) light_signs(shown, controls.show_lights, chosen, width, height);
   const ImVec2 left = label(names[0], margin, first_label_y, 0, width);
   const float right_width = ImGui::CalcTextSize(names[1].c_str()).x;
   label(names[1], width - margin, second_label_y(left.x, left.y, right_width, width), 1, width);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "session/scene_choice.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -140,6 +141,25 @@ Run times(Words words) {
   return [file = words[0]](Controls& controls, Input&) { controls.times_file = file; };
 }
 
+Run shadows(Words words) {
+  expect_words(words, 1, "shadows N|all|none|scene");
+  const std::string casters = words[0] == "scene" ? "" : words[0];
+  chosen_casters(casters);
+  return [casters](Controls& controls, Input&) { controls.casters = casters; };
+}
+
+Run light(Words words) {
+  expect_words(words, 1, "light N|none");
+  std::optional<int> light;
+  if (words[0] != "none") light = number(words[0], 0, most_lights);
+  return [light](Controls& controls, Input&) { controls.light = light; };
+}
+
+Run casting(Words words) {
+  expect_words(words, 1, "casting FILE");
+  return [file = words[0]](Controls& controls, Input&) { controls.casting_file = file; };
+}
+
 Run line(Words words) {
   expect_words(words, 1, "line FRACTION");
   return [at = number(words[0], 0.0, 1.0)](Controls& controls, Input&) { controls.line = at; };
@@ -193,6 +213,9 @@ const std::map<std::string, std::function<Run(Words)>>& actions() {
       {"line", line},
       {"camera", camera},
       {"lights", lights},
+      {"shadows", shadows},
+      {"light", light},
+      {"casting", casting},
       {"time", time},
       {"rate", rate},
       {"play", [](Words words) { return switch_on(std::move(words), &Controls::playing, true); }},

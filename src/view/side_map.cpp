@@ -1,7 +1,6 @@
 #include "view/side_map.h"
 
 #include <algorithm>
-#include <chrono>
 #include <set>
 #include <tuple>
 
@@ -10,27 +9,14 @@
 #include "capture/frame_culler.h"
 #include "passes/read_back.h"
 #include "reference/position.h"
-#include "scene/view_lights.h"
-#include "session/oracle.h"
 #include "session/runs.h"
 
 namespace lightgrid {
 
-ListedFrame read_listed_frame(TechniqueRun& run) {
-  const RenderView& v = run.view();
-  const Settings& settings = v.plan.settings;
-  ListedFrame listed{{v.scene.name, v.view, settings.tile, v.plan.slice_far_m,
-                      lights_with_ranges(v.scene, settings.ranges), read_depth(run)},
-                     local_lights(v),
-                     {}};
-  listed.lists = listed_lights(run, listed.frame.depth);
-  return listed;
-}
-
 PixelInspection lights_at(const ListedFrame& listed, PicturePixel pixel) {
   const CapturedFrame& frame = listed.frame;
   const ListedLights& lists = listed.lists;
-  PixelInspection result;
+  PixelInspection result{.x = pixel.x, .y = pixel.y};
   const size_t place = size_t(pixel.y) * frame.view.width + pixel.x;
   result.covered = frame.depth[place] > 0;
   if (!result.covered) return result;
@@ -76,9 +62,12 @@ void add_margins(PixelInspection& lights, const PixelInspection& inspection, int
   }
 }
 
-std::array<std::string, 2> lines_of(const LightVerdict& verdict, const Scene& scene) {
-  const Light& light = scene.lights[verdict.light];
-  const std::string name = light.name.empty() ? fmt::format("light {}", verdict.light) : light.name;
+static std::string name_of(int light, const Scene& scene) {
+  const std::string& name = scene.lights[size_t(light)].name;
+  return name.empty() ? fmt::format("light {}", light) : name;
+}
+
+std::array<std::string, 3> lines_of(const LightVerdict& verdict, const Scene& scene) {
   const char* lost = verdict.lit && !verdict.listed ? " LOST" : "";
   std::string decided;
   if (verdict.test == "empty") {
@@ -87,45 +76,91 @@ std::array<std::string, 2> lines_of(const LightVerdict& verdict, const Scene& sc
     decided = fmt::format("{} by {} {:+.3f} m", verdict.listed ? "kept" : "dropped", verdict.test,
                           verdict.margin_m);
   }
-  return {fmt::format("{} {:.2f} of {:.2f} m{}", name, verdict.distance_m, verdict.radius_m, lost), decided};
+  return {fmt::format("{} {:.2f} of {:.2f} m{}", name_of(verdict.light, scene), verdict.distance_m,
+                      verdict.radius_m, lost),
+          decided, verdict.shadow ? shadow_words(*verdict.shadow, scene.lights[size_t(verdict.light)]) : ""};
 }
 
-void ListedCount::start(ListedFrame frame, size_t picture) {
-  picture_ = picture;
-  running_ = std::async(std::launch::async, [frame = std::move(frame)] {
-    return count_pairs(frame.frame.view, frame.frame.depth, frame.lights, frame.lists);
+std::array<std::string, 2> lines_of(const DirectionalShadow& verdict, const Scene& scene) {
+  return {name_of(verdict.light, scene), shadow_words(verdict.shadow, scene.lights[size_t(verdict.light)])};
+}
+
+void put_hidden_first(PixelInspection& pixel) {
+  std::ranges::stable_sort(pixel.lights, {}, [](const LightVerdict& l) {
+    if (l.lit && !l.listed) return 0;
+    if (!l.shadow) return 3;
+    return l.shadow->leaked() || l.shadow->acned() ? 1 : l.shadow->truth.sight == Sight::hidden ? 2 : 3;
   });
 }
 
-const LitPairs* ListedCount::result(size_t picture, bool wait) {
-  if (running_.valid()) {
-    if (!wait && running_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
-    done_ = running_.get();
-    done_picture_ = picture_;
+std::string shadows_at_pixel(const PixelInspection& pixel) {
+  size_t cast = pixel.directional_shadows.size();
+  auto hidden = std::ranges::count_if(pixel.directional_shadows, [](const DirectionalShadow& d) {
+    return d.shadow.truth.sight == Sight::hidden;
+  });
+  for (const LightVerdict& light : pixel.lights) {
+    if (!light.shadow) continue;
+    ++cast;
+    hidden += light.shadow->truth.sight == Sight::hidden;
   }
-  return done_ && done_picture_ == picture ? &*done_ : nullptr;
+  return cast ? fmt::format("{} of {} that cast are hidden", hidden, cast) : "";
 }
 
-void MapOfSide::show_counts(SideMap wanted, Side& side, bool wait) {
-  const size_t picture = side.pictures();
-  const LitPairs* pairs = count_.result(picture, wait);
+static bool casts(const Scene& scene, const std::optional<int>& light) {
+  if (light) return scene.lights[size_t(*light)].casts_shadow;
+  return std::ranges::any_of(scene.lights, &Light::casts_shadow);
+}
+
+// The counts of a map; `shadows` were counted.
+static std::vector<uint32_t> counts_of(SideMap map, const LitPairs& pairs) {
+  const std::vector<uint32_t>* counts = map == SideMap::listed   ? &pairs.listed_of_pixel
+                                        : map == SideMap::lit    ? &pairs.lit_of_pixel
+                                        : map == SideMap::lost   ? &pairs.lost_of_pixel
+                                        : map == SideMap::hidden ? &pairs.hidden_of_pixel
+                                        : map == SideMap::leaked ? &pairs.leaked_of_pixel
+                                                                 : &pairs.acned_of_pixel;
+  // Without a light that casts nothing is hidden.
+  return counts->empty() ? std::vector<uint32_t>(pairs.listed_of_pixel.size()) : *counts;
+}
+
+static std::string legend_of(SideMap map, const LitPairs& pairs, bool shadows) {
+  const std::string seen = shadows ? " and seen" : "";
+  switch (map) {
+    case SideMap::listed:
+      return fmt::format("{} pairs listed", pairs.listed);
+    case SideMap::lit:
+    case SideMap::lost:
+      return fmt::format("{} pairs lit{}, {} of them lost", pairs.lit, seen, pairs.lost);
+    default:
+      if (!shadows) return "no light casts a shadow";
+      return fmt::format("{} pairs hidden, {} undecided; {} leaked, {} acned", pairs.hidden, pairs.either,
+                         pairs.leaked, pairs.acned);
+  }
+}
+
+void MapOfSide::show_counts(const MapChoice& wanted, Side& side, bool wait) {
+  const bool shadows = wanted.map != SideMap::listed && casts(occlusion_.scene(), wanted.light);
+  const CountChoice choice{side.pictures(), wanted.light, shadows};
+  const LitPairs* pairs = count_.result(choice, wait);
   if (!pairs && !count_.running()) {
-    count_.start(read_listed_frame(side.run()), picture);
-    pairs = count_.result(picture, wait);
+    count_.start(side.run(), choice);
+    pairs = count_.result(choice, wait);
   }
   if (!pairs) return;
-  const auto& counts = wanted == SideMap::listed ? pairs->listed_of_pixel
-                       : wanted == SideMap::lit  ? pairs->lit_of_pixel
-                                                 : pairs->lost_of_pixel;
-  const uint32_t top = wanted == SideMap::lost ? 1 : top_of_scale(counts);
-  legend_ = fmt::format("lights {} a pixel; {} pairs listed, {} lit, {} lost", map_names()[int(wanted)],
-                        pairs->listed, pairs->lit, pairs->lost);
+  const std::vector<uint32_t> counts = counts_of(wanted.map, *pairs);
+  const bool fault =
+      wanted.map == SideMap::lost || wanted.map == SideMap::leaked || wanted.map == SideMap::acned;
+  const uint32_t top = fault ? 1 : top_of_scale(counts);
+  const std::string of =
+      wanted.light ? name_of(*wanted.light, occlusion_.scene()) + " alone" : "lights a pixel";
+  legend_ =
+      fmt::format("{}, {}: {}", map_names()[size_t(wanted.map)], of, legend_of(wanted.map, *pairs, shadows));
   scale_ = {&viridis_ramp(), top > 1 ? "1" : "", top > 3 ? fmt::format("{}", top / 2) : "",
             fmt::format("{} or more", top)};
   put(heat_map(side.width(), side.height(), counts, top), wanted, side);
 }
 
-void MapOfSide::show_difference(Side& side, const Image& reference) {
+void MapOfSide::show_difference(const MapChoice& wanted, Side& side, const Image& reference) {
   Image image;
   RenderView& v = side.run().view();
   read_back(v, side.run().frame().image, image);
@@ -133,10 +168,10 @@ void MapOfSide::show_difference(Side& side, const Image& reference) {
   legend_ =
       fmt::format("difference from forward over its brightest: black equal, greatest {:.2g}", error.max_rel);
   scale_ = {&difference_ramp(), "1e-7", "3e-4", "1"};
-  put(difference_image(image, reference), SideMap::difference, side);
+  put(difference_image(image, reference), wanted, side);
 }
 
-void MapOfSide::put(const Image& image, SideMap map, const Side& side) {
+void MapOfSide::put(const Image& image, const MapChoice& map, const Side& side) {
   if (image.width != width_ || image.height != height_) {
     width_ = image.width;
     height_ = image.height;

@@ -2,27 +2,17 @@
 // picture; and the map of its difference from `forward`.
 #pragma once
 
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "inspect/inspect.h"
-#include "reference/lit_set.h"
 #include "results/metrics.h"
-#include "session/technique_run.h"
+#include "view/pair_count.h"
 #include "view/side.h"
 
 namespace lightgrid {
-
-// The last frame of a side, copied from the devices, with the lights that it listed.
-struct ListedFrame {
-  CapturedFrame frame;
-  std::vector<ViewLight> lights;  // point and spot lights, in the lists' order
-  ListedLights lists;
-};
-ListedFrame read_listed_frame(TechniqueRun& run);
 
 // The lights at a pixel that the frame listed or the oracle finds lit: lost first, then lit, then the rest;
 // each group by distance. Tests are empty. Of the place only what a pixel has without a light grid is set.
@@ -37,24 +27,14 @@ std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const CapturedFr
 // cell first.
 void add_margins(PixelInspection& lights, const PixelInspection& inspection, int most_dropped);
 
-// "lamp 3 1.20 of 3.00 m" and "kept by aabb +0.430 m": the two lines of a light. The second may be empty.
-std::array<std::string, 2> lines_of(const LightVerdict& verdict, const Scene& scene);
-
-// Counts every pixel's lights on other threads: takes about a second for a full picture and a thousand
-// lights.
-class ListedCount {
- public:
-  void start(ListedFrame frame, size_t picture);  // `picture`: its number
-  bool running() const { return running_.valid(); }
-  // The counts of the last started picture, when done; null before. `wait`: waits for them.
-  const LitPairs* result(size_t picture, bool wait);
-  size_t picture() const { return picture_; }
-
- private:
-  std::future<LitPairs> running_;
-  std::optional<LitPairs> done_;
-  size_t picture_ = 0, done_picture_ = 0;
-};
+// "lamp 3 1.20 of 3.00 m", "kept by aabb +0.430 m", and of a light that casts a shadow what it meets, as
+// shadow_words has it: the lines of a light. The last two may be empty.
+std::array<std::string, 3> lines_of(const LightVerdict& verdict, const Scene& scene);
+std::array<std::string, 2> lines_of(const DirectionalShadow& verdict, const Scene& scene);
+// Of the others than lost ones puts first what the frame leaks or acnes, then what is hidden.
+void put_hidden_first(PixelInspection& pixel);
+// "3 of 5 that cast are hidden"; empty if none casts.
+std::string shadows_at_pixel(const PixelInspection& pixel);
 
 // The colours of a map and their numbers. Black is 0.
 struct MapScale {
@@ -62,35 +42,50 @@ struct MapScale {
   std::string least, middle, most;  // at the ramp's ends and between; empty: not shown
 };
 
+// A map of a side; `light` of the scene: of its pairs alone, where pairs are counted.
+struct MapChoice {
+  SideMap map = SideMap::picture;
+  std::optional<int> light;
+  bool operator==(const MapChoice&) const = default;
+};
+
 class MapOfSide {
  public:
+  // It outlives this.
+  explicit MapOfSide(SceneOcclusion& occlusion) : occlusion_(occlusion), count_(occlusion) {}
+
   // The map of the side's last picture, in progress or done. Only for pictures of full size with the camera
   // at rest; `wait`: waits until it is done. `reference`: draws `forward` on the same view; called for
   // `difference` alone.
   template <typename Reference>
-  void follow(SideMap wanted, Side& side, bool wait, const Reference& reference) {
-    if (shown_picture_ == side.pictures() && shown_ == wanted) return;
-    if (wanted == SideMap::difference) {
-      show_difference(side, reference());
+  void follow(const MapChoice& wanted, Side& side, bool wait, const Reference& reference) {
+    if (shows(wanted, side)) return;
+    if (wanted.map == SideMap::difference) {
+      show_difference(wanted, side, reference());
     } else {
       show_counts(wanted, side, wait);
     }
   }
+  // Before the scene changes (PairCount::leave_scene).
+  void leave_scene() { count_.leave_scene(); }
 
-  bool shows(SideMap wanted, const Side& side) const {
+  bool shows(const MapChoice& wanted, const Side& side) const {
     return shown_picture_ == side.pictures() && shown_ == wanted;
   }
+  bool counts() const { return count_.running(); }
+  double progress() const { return count_.progress(); }
   GLuint texture() const { return texture_.name(); }
   const std::string& legend() const { return legend_; }  // of the displayed map
   const MapScale& scale() const { return scale_; }
 
  private:
-  void show_counts(SideMap wanted, Side& side, bool wait);
-  void show_difference(Side& side, const Image& reference);
-  void put(const Image& image, SideMap map, const Side& side);
+  void show_counts(const MapChoice& wanted, Side& side, bool wait);
+  void show_difference(const MapChoice& wanted, Side& side, const Image& reference);
+  void put(const Image& image, const MapChoice& map, const Side& side);
 
-  ListedCount count_;
-  SideMap shown_ = SideMap::picture;
+  SceneOcclusion& occlusion_;
+  PairCount count_;
+  MapChoice shown_;
   size_t shown_picture_ = 0;
   int width_ = 0, height_ = 0;
   GlTexture texture_;

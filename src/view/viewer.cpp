@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "base/timer.h"
 #include "base/write_file.h"
+#include "scene/shadow_casters.h"
+#include "session/scene_choice.h"
 
 namespace lightgrid {
 namespace {
@@ -14,6 +16,7 @@ namespace {
 constexpr double script_step_s = 1.0 / 60;
 constexpr double longest_step_s = 0.1;  // limits the camera's movement after a slow frame
 constexpr double idle_wait_s = 1;
+constexpr double counting_wait_s = 0.05;  // the oracle counts meanwhile
 constexpr int frames_after_event = 3;  // Dear ImGui opens a list one to two frames after a click
 constexpr int least_picture_px = 64;
 constexpr PicturePixel no_pixel{-1, -1};
@@ -38,8 +41,11 @@ Viewer::Viewer(Window& window, Interface& interface, Renderer& renderer, ViewJob
       resolution_(!job_.scripted),
       reference_(renderer_, gpu_),
       sides_{{renderer_, gpu_}, {renderer_, gpu_}},
+      occlusion_(job_.scene),
+      maps_{MapOfSide(occlusion_), MapOfSide(occlusion_)},
       width_(job_.view.width),
       height_(job_.view.height) {
+  for (const Light& light : job_.scene.lights) own_casters_.push_back(light.casts_shadow);
   if (!job_.scripted) window_.limit_size(panel_width + least_picture_px, least_picture_px);
   before_compiling = [this](const std::string& file) {
     compiled_.insert(file);
@@ -55,8 +61,8 @@ std::optional<ViewJob> Viewer::run() {
   Timer timer;
   for (int number = job_.first_frame;
        !window_.closing() && !controls_.quit && (!job_.scripted || number < job_.frames); ++number) {
-    const bool settled = !job_.scripted && number > job_.first_frame + 2 && idle();
-    const bool events = window_.poll(settled ? idle_wait_s : 0);
+    const bool settled = !job_.scripted && number > job_.first_frame + 2;
+    const bool events = window_.poll(settled ? wait_s() : 0);
     awake_frames_ = events || window_.input_waits() ? frames_after_event : std::max(awake_frames_ - 1, 0);
     const double passed_s = job_.scripted ? script_step_s : timer.elapsed_ms() / 1000;
     seconds_ = std::min(passed_s, longest_step_s);
@@ -84,6 +90,7 @@ std::optional<ViewJob> Viewer::chosen_scene(int next_frame) {
     next.controls = controls_;
     next.controls.bookmarks = {};
     next.controls.pixel.reset();
+    next.controls.light.reset();
     next.controls.playing = false;
     next.first_frame = next_frame;
     return next;
@@ -94,14 +101,21 @@ std::optional<ViewJob> Viewer::chosen_scene(int next_frame) {
   }
 }
 
-bool Viewer::idle() const {
-  bool waits = true;
+double Viewer::wait_s() const {
+  if (awake_frames_ > 0 || moved_ || drew_ || !resolution_.resting() || controls_.playing ||
+      controls_.draw_always)
+    return 0;
+  double wait = idle_wait_s;
   for (int i = 0; i < 2; ++i) {
     const bool map_open = controls_.sides[i].map != SideMap::picture && side(i).ready();
-    waits = waits && !(map_open && !controls_.playing && !maps_[i].shows(controls_.sides[i].map, side(i)));
+    if (map_open && !shows_map(i)) wait = std::min(wait, maps_[i].counts() ? counting_wait_s : 0);
   }
-  return waits && awake_frames_ == 0 && !moved_ && !drew_ && resolution_.resting() && !controls_.playing &&
-         !controls_.draw_always;
+  return wait;
+}
+
+MapChoice Viewer::wanted_map(int i) const {
+  const SideMap map = controls_.sides[i].map;
+  return {map, map == SideMap::difference ? std::nullopt : controls_.light};
 }
 
 // The last picture with a text, at once. A pass may be drawing: what this changes it gets back.
@@ -128,6 +142,7 @@ void Viewer::frame(int number) {
   follow_maps();
   follow_pixel();
   if (!controls_.pixel_file.empty()) write_pixel(std::exchange(controls_.pixel_file, {}));
+  if (!controls_.casting_file.empty()) write_casting(std::exchange(controls_.casting_file, {}));
   if (!controls_.times_file.empty()) write_times(std::exchange(controls_.times_file, {}));
   show(shown());
   glFinish();
@@ -180,9 +195,33 @@ void Viewer::take_input(int number) {
   }
 }
 
+void Viewer::leave_scene() {
+  for (MapOfSide& map : maps_) map.leave_scene();
+}
+
+void Viewer::choose_casters() {
+  if (controls_.light && *controls_.light >= int(job_.scene.lights.size())) {
+    if (job_.scripted)
+      throw input_error("view: light {}: the scene has {}", *controls_.light, job_.scene.lights.size());
+    controls_.light.reset();
+  }
+  if (controls_.casters == casters_) return;
+  casters_ = controls_.casters;
+  leave_scene();
+  for (size_t i = 0; i < own_casters_.size(); ++i) job_.scene.lights[i].casts_shadow = own_casters_[i];
+  if (const auto count = chosen_casters(casters_)) choose_shadow_casters(job_.scene, *count);
+  for (Side& side : sides_) side.forget();
+  reference_.scene_changed();
+}
+
 void Viewer::draw_sides() {
+  choose_casters();
   if (controls_.playing || controls_.step || controls_.seconds) camera_.hold(double(width_) / height_);
+  const bool moves =
+      controls_.playing || controls_.step || controls_.seconds || motion_.lights() != controls_.lights;
+  if (moves) leave_scene();
   const SceneChanges changes = motion_.follow(controls_, seconds_);
+  if (!changes.instances.empty() || !changes.meshes.empty()) occlusion_.scene_moved();
   if (!motion_.can_play()) controls_.playing = false;
   gpu_.update(changes);
   if (!changes.empty()) reference_.scene_changed();
@@ -227,9 +266,10 @@ void Viewer::draw_sides() {
 void Viewer::follow_maps() {
   if (!resolution_.resting() || controls_.playing) return;
   for (int i = 0; i < 2; ++i) {
-    const SideMap wanted = controls_.sides[i].map;
-    if (wanted == SideMap::picture || !side(i).ready() || maps_[i].shows(wanted, side(i))) continue;
-    if (wanted == SideMap::difference && !job_.scripted && !std::exchange(map_announced_[i], true)) continue;
+    const MapChoice wanted = wanted_map(i);
+    if (wanted.map == SideMap::picture || !side(i).ready() || shows_map(i)) continue;
+    if (wanted.map == SideMap::difference && !job_.scripted && !std::exchange(map_announced_[i], true))
+      continue;
     map_announced_[i] = false;
     maps_[i].follow(wanted, side(i), job_.scripted, [&]() -> const Image& {
       return reference_.draw(side(i).run().view().view, controls_.sides[i].settings);
@@ -256,6 +296,12 @@ void Viewer::follow_pixel() {
     pixel_[i] = lights_at(listed, *controls_.pixel);
     if (const auto inspection = inspect_pixel(side(i).run(), listed.frame, *controls_.pixel))
       add_margins(*pixel_[i], *inspection, dropped_shown);
+    if (std::ranges::any_of(job_.scene.lights, &Light::casts_shadow)) {
+      const FrameShadows shadows = read_frame_shadows(side(i).run());
+      const PicturePixel& pixel = *controls_.pixel;
+      add_shadows(*pixel_[i], job_.scene, shadows.at(pixel.x, pixel.y, job_.scene, occlusion_.get()));
+      put_hidden_first(*pixel_[i]);
+    }
     pixel_picture_[i] = side(i).pictures();
   }
 }
@@ -268,10 +314,29 @@ void Viewer::write_pixel(const std::string& file) const {
     if (!pixel_[i]) continue;
     text +=
         fmt::format("{} listed, {} lit, {} lost\n", pixel_[i]->listed(), pixel_[i]->lit(), pixel_[i]->lost());
+    const std::string shadows = shadows_at_pixel(*pixel_[i]);
+    if (!shadows.empty()) text += shadows + "\n";
     for (const LightVerdict& light : pixel_[i]->lights) {
-      const auto [where, decided] = lines_of(light, job_.scene);
+      const auto [where, decided, shadow] = lines_of(light, job_.scene);
       text += fmt::format("{}\n  {}\n", where, decided);
+      if (!shadow.empty()) text += fmt::format("  {}\n", shadow);
     }
+    for (const DirectionalShadow& light : pixel_[i]->directional_shadows) {
+      const auto [name, shadow] = lines_of(light, job_.scene);
+      text += fmt::format("{}\n  {}\n", name, shadow);
+    }
+  }
+  write_file(file, text);
+}
+
+// As the panel shows them.
+void Viewer::write_casting(const std::string& file) {
+  std::string text;
+  for (int i = 0; i < 2; ++i) {
+    text += fmt::format("{} {}\n", i == 0 ? "left" : "right", controls_.sides[i].technique);
+    const FramePlan& plan = side(i).run().view().plan;
+    text += casting_summary(plan) + "\n";
+    for (const LightShadow& light : plan.casting) text += casting_line(light, plan, job_.scene) + "\n";
   }
   write_file(file, text);
 }
@@ -320,13 +385,16 @@ Shown Viewer::shown() {
     const SideControls& wanted = controls_.sides[i];
     if (i == 1 && same_ && wanted.technique != controls_.sides[0].technique)
       shown.notes[i] = "(not drawn yet)";
-    if (wanted.map != SideMap::picture && !maps_[i].shows(wanted.map, side(i))) {
+    if (wanted.map != SideMap::picture && !shows_map(i)) {
+      const double done = maps_[i].progress();
       shown.notes[i] = !resolution_.resting() ? "(when the camera rests)"
                        : controls_.playing    ? "(when paused)"
+                       : done > 0             ? fmt::format("(computing, {:.0f} %)", 100 * done)
                                               : "(computing)";
     }
     shown.commands[i] =
-        render_command(job_.scene_words, width_, height_, camera_.text(), motion_.words(), wanted);
+        render_command(job_.scene_words + (casters_.empty() ? "" : " --shadows " + shell_word(casters_)),
+                       width_, height_, camera_.text(), motion_.words(), wanted);
   }
   return shown;
 }
@@ -350,8 +418,7 @@ void Viewer::show(const Shown& shown) {
   expose();
   ScreenImage images[2], pictures[2];
   for (int i = 0; i < 2; ++i) {
-    const bool map =
-        controls_.sides[i].map != SideMap::picture && maps_[i].shows(controls_.sides[i].map, side(i));
+    const bool map = controls_.sides[i].map != SideMap::picture && shows_map(i);
     pictures[i] = {side(i).picture(), false};
     images[i] = {map ? maps_[i].texture() : side(i).picture(), map};
   }

@@ -60,6 +60,11 @@ class Viewer {
   void draw_sides();
   void follow_maps();
   void follow_pixel();
+  void choose_casters();
+  void leave_scene();  // by the oracle's threads, before the scene changes
+  MapChoice wanted_map(int i) const;
+  bool shows_map(int i) const { return maps_[i].shows(wanted_map(i), side(i)); }
+  void write_casting(const std::string& file);
   void write_pixel(const std::string& file) const;
   void write_times(const std::string& file) const;
   void show(const Shown& shown);
@@ -68,7 +73,7 @@ class Viewer {
   void tell(const std::string& note);
   void take_screenshot();
   double frames_a_second() const;  // of frames that drew; 0: none yet
-  bool idle() const;
+  double wait_s() const;           // for events, before the next frame
 
   Window& window_;
   ViewJob job_;
@@ -85,6 +90,9 @@ class Viewer {
   ReferencePicture reference_;
   Side sides_[2];
   bool same_ = false;  // both sides show the left one's picture
+  std::vector<bool> own_casters_;  // lights that the scene says cast
+  std::string casters_;            // Controls::casters, as the scene has it
+  SceneOcclusion occlusion_;
   MapOfSide maps_[2];
   bool map_announced_[2] = {};  // "computing" was shown for a frame
   std::array<PlanHistory, 2> plans_;

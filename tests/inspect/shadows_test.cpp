@@ -22,20 +22,69 @@ TEST(InspectedShadows, NameWhatHidesALight) {
   Light& light = s.scene.lights[0];
   light.position = {0.9, -0.2, -1.8}, light.radius_m = 5, light.casts_shadow = true;
   const View view = small_view(128, 96);
-  FrameShadows shadows(software_devices(), s.scene, view, {}, find_technique("visibility"));
+  TechniqueRun run(software_devices(), s.scene, view, {}, find_technique("visibility"));
+  run.draw_frame();
+  const FrameShadows shadows = read_frame_shadows(run);
+  const Occlusion occlusion(s.scene);
+  const auto verdict_at = [&](int x, int y) {
+    PixelInspection pixel{.x = x, .y = y};
+    pixel.lights = {{.lit = true}};
+    EXPECT_FALSE(add_shadows(pixel, s.scene, shadows.at(x, y, s.scene, occlusion)));
+    return pixel.lights[0].shadow;
+  };
   const auto pixel_of = [&](const glm::dvec3& p) {
     const glm::dvec4 clip = view.clip_from_view * glm::dvec4(p, 1);
     return glm::ivec2((glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(128, 96));
   };
   const glm::ivec2 dark = pixel_of({-0.6, -0.2, -4}), lit = pixel_of({1.6, -0.2, -4});
-  const auto hidden = shadows.sight(dark.x, dark.y, 0), seen = shadows.sight(lit.x, lit.y, 0);
+  const auto hidden = verdict_at(dark.x, dark.y), seen = verdict_at(lit.x, lit.y);
   ASSERT_TRUE(hidden && seen);
-  EXPECT_EQ(hidden->sight, Sight::hidden);
-  EXPECT_EQ(s.scene.instances[size_t(hidden->by.instance)].name, "ball");
-  EXPECT_NEAR(hidden->distance_m, glm::distance(light.position, {0.3, -0.2, -3}), 0.7) << "on the ball";
-  EXPECT_EQ(seen->sight, Sight::seen);
-  EXPECT_FALSE(shadows.sight(0, 0, 0)) << "background";
-  EXPECT_EQ(shadows.pairs().truth.at(uint32_t(dark.y * 128 + dark.x), 0), Sight::hidden);
+  EXPECT_EQ(hidden->truth.sight, Sight::hidden);
+  EXPECT_TRUE(hidden->shaded_as_hidden);
+  EXPECT_EQ(hidden->by, "ball");
+  EXPECT_NEAR(hidden->truth.distance_m, glm::distance(light.position, {0.3, -0.2, -3}), 0.7) << "on the ball";
+  EXPECT_EQ(seen->truth.sight, Sight::seen);
+  EXPECT_FALSE(verdict_at(0, 0)) << "background";
+
+  // A frame without shadows leaks it.
+  FrameShadows unhidden = read_frame_shadows(run);
+  unhidden.shaded.reset();
+  PixelInspection pixel{.x = dark.x, .y = dark.y};
+  pixel.lights = {{.lit = true}};
+  EXPECT_TRUE(add_shadows(pixel, s.scene, unhidden.at(dark.x, dark.y, s.scene, occlusion)));
+  EXPECT_TRUE(pixel.lights[0].shadow->leaked());
+}
+
+// A sun from the right before the wall, beside a light that casts nothing and another sun: the ball's shadow
+// falls to its left.
+TEST(InspectedShadows, AreToldOfDirectionalLights) {
+  SmallScene s = small_scene();
+  s.scene.lights.resize(3);
+  for (const int i : {0, 2}) s.scene.lights[size_t(i)].type = LightType::directional;
+  s.scene.lights[0].direction = {0, 0, -1};
+  Light& sun = s.scene.lights[2];
+  sun.direction = glm::normalize(glm::vec3(-1, 0, -1)), sun.casts_shadow = true, sun.name = "sun";
+  const View view = small_view(128, 96);
+  TechniqueRun run(software_devices(), s.scene, view, {}, find_technique("visibility"));
+  run.draw_frame();
+  const FrameShadows shadows = read_frame_shadows(run);
+  const Occlusion occlusion(s.scene);
+  const auto sun_at = [&](const glm::dvec3& p) {
+    const glm::dvec4 clip = view.clip_from_view * glm::dvec4(p, 1);
+    const glm::ivec2 at((glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(128, 96));
+    PixelInspection pixel{.x = at.x, .y = at.y};
+    EXPECT_FALSE(add_shadows(pixel, s.scene, shadows.at(at.x, at.y, s.scene, occlusion)));
+    EXPECT_EQ(pixel.directional_shadows.size(), 1u);
+    return pixel.directional_shadows.at(0);
+  };
+  const DirectionalShadow dark = sun_at({-0.7, -0.2, -4}), lit = sun_at({1.6, -0.2, -4});
+  EXPECT_EQ(dark.light, 2);
+  EXPECT_EQ(dark.shadow.truth.sight, Sight::hidden);
+  EXPECT_TRUE(dark.shadow.shaded_as_hidden);
+  EXPECT_EQ(lit.shadow.truth.sight, Sight::seen);
+  EXPECT_FALSE(lit.shadow.shaded_as_hidden);
+  EXPECT_THAT(shadow_words(dark.shadow, sun),
+              AllOf(HasSubstr("hidden by node 1 \"ball\" triangle "), HasSubstr(" m from the surface")));
 }
 
 CapturedFrame frame_of_one_light() {
@@ -61,8 +110,9 @@ TEST(InspectedShadows, AreTold) {
   const auto table = [&](Sight sight, bool shaded) {
     return inspection_table(frame, inspected(sight, shaded), 10);
   };
-  EXPECT_THAT(table(Sight::hidden, true),
-              HasSubstr("light 0 \"lamp\": hidden by \"column\" triangle 12, 1.250 m from the light\n"));
+  EXPECT_THAT(
+      table(Sight::hidden, true),
+      HasSubstr("light 0 \"lamp\": hidden by node 3 \"column\" triangle 12, 1.250 m from the light\n"));
   EXPECT_THAT(table(Sight::hidden, false), HasSubstr("from the light; the frame shades it: LEAKED\n"));
   EXPECT_THAT(table(Sight::seen, false), HasSubstr("light 0 \"lamp\": seen\n"));
   EXPECT_THAT(table(Sight::seen, true), HasSubstr("light 0 \"lamp\": seen; the frame hides it: ACNED\n"));

@@ -101,6 +101,19 @@ TEST(SeenPairs, LitPairsAreSeenOnes) {
       count_pairs(roof.view, roof.depth, roof.lights.in_view, list_every_light(2), &shadows);
   EXPECT_EQ(pairs.lit, 2u * (side * side - 1) - 4 * side);
   EXPECT_EQ(pairs.lost + pairs.wrong + pairs.leaked + pairs.acned + pairs.either, 0u);
+  EXPECT_EQ(pairs.hidden, 4u * side);
+  EXPECT_EQ(pairs.hidden_of_pixel[9 + 5 * side], 1u);
+  EXPECT_EQ(pairs.hidden_of_pixel[8 + 5 * side], 0u);
+}
+
+TEST(SeenPairs, WhatWasStoppedIsUndecided) {
+  const RoofFromAbove roof;
+  int asked = 0;
+  const SeenPairs none(Occlusion(roof.scene), {roof.view, roof.depth, roof.triangles}, roof.lights,
+                       covered_pixels(roof.depth), true, [&] { return ++asked, true; });
+  EXPECT_EQ(asked, 4) << "all tiles are in one region, which one thread takes";
+  EXPECT_FALSE(none.decided(42));
+  EXPECT_EQ(none.pairs(), 0u);
 }
 
 // Light 0 in no list: only what is seen of it is lost, and nothing of it leaks.
@@ -112,6 +125,7 @@ TEST(SeenPairs, OnlySeenPairsAreLost) {
       count_pairs(roof.view, roof.depth, roof.lights.in_view, {{}, {0}, {1}, {1}}, &shadows);
   EXPECT_EQ(pairs.lost, side * side - 1u - 4 * side);
   EXPECT_EQ(pairs.leaked, 0u);
+  EXPECT_EQ(pairs.hidden, 4u * side) << "listed or not";
 }
 
 // The roof's shadow a column too far right: one column leaks, another is dark.

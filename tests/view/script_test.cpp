@@ -68,6 +68,26 @@ TEST(Script, ChoosesForOneSideOrBoth) {
   EXPECT_EQ(controls.pixel, (PicturePixel{3, 4}));
 }
 
+TEST(Script, ChoosesTheLightsThatCastAndOneOfThem) {
+  const Script script(
+      "0 shadows all\n0 light 7\n0 map left hidden\n0 map right acned\n0 casting out.txt\n1 shadows 3\n"
+      "2 shadows scene\n2 light none\n",
+      "fly.txt");
+  Controls controls;
+  Input input;
+  script.play(0, controls, input);
+  EXPECT_EQ(controls.casters, "all");
+  EXPECT_EQ(controls.light, 7);
+  EXPECT_EQ(controls.sides[0].map, SideMap::hidden);
+  EXPECT_EQ(controls.sides[1].map, SideMap::acned);
+  EXPECT_EQ(controls.casting_file, "out.txt");
+  script.play(1, controls, input);
+  EXPECT_EQ(controls.casters, "3");
+  script.play(2, controls, input);
+  EXPECT_EQ(controls.casters, "");
+  EXPECT_FALSE(controls.light);
+}
+
 TEST(Script, PressesAKeyAndTurnsTheWheelInOneFrame) {
   const Script script("0 press H\n0 press escape\n0 wheel -2\n1 scene hall\n", "fly.txt");
   Controls controls;
@@ -95,6 +115,8 @@ TEST(Script, NamesTheLineAndTheWordThatIsWrong) {
                                                        {"5 technique left", "technique [left|right] NAME"},
                                                        {"5 set tile=17", "tile=17"},
                                                        {"5 map red", "\"red\""},
+                                                       {"5 shadows some", "shadows some: neither all, none"},
+                                                       {"5 light bright", "\"bright\""},
                                                        {"5 line 1.5", "\"1.5\""},
                                                        {"5 line nan", "\"nan\""},
                                                        {"5 under there", "\"there\""},

@@ -268,6 +268,28 @@ TEST_F(LiveView, TellsWhatItCompilesBeforeItsFirstPicture) {
   EXPECT_EQ(end(), 0) << output_;
 }
 
+// The oracle counts beside the window: the camera flies meanwhile, and at rest the map comes back.
+TEST_F(LiveView, ShowsMapsOfShadowsAtRest) {
+  start("spheres --size 320x400 --shadows all");
+  const PngPixels resting = render({"render", "spheres", "--size", "320x400", "--shadows", "all"});
+  ASSERT_TRUE(shows(resting));
+  desktop_.click(320 + 176, 113);  // what the left side shows
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  constexpr int row_of_hidden = 4, row_px = 17;
+  desktop_.click(320 + 150, 113 + 20 + row_of_hidden * row_px);
+  const auto shows_map = [&] {  // by the end of its bar of colours, which is yellow
+    const PngPixels shown = desktop_.picture();
+    return shown.height == 400 && shown.at(145, 368, 1) > 200 && shown.at(145, 368, 2) < 80;
+  };
+  EXPECT_FALSE(shows_map());
+  ASSERT_TRUE(waits(shows_map));
+  desktop_.key("w", true);
+  EXPECT_TRUE(waits([&] { return !shows_map(); }));
+  desktop_.key("w", false);
+  EXPECT_TRUE(waits(shows_map));
+  EXPECT_EQ(end(), 0) << output_;
+}
+
 TEST_F(LiveView, SavesWhatItShows) {
   start("spheres --size 320x180");
   ASSERT_TRUE(shows(render({"render", "spheres", "--size", "320x180"})));
