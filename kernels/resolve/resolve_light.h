@@ -212,7 +212,7 @@ static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const Res
   for (uint i = 0; i < view->directional_count; ++i) {
     const float4 to_light = l->directional[2 * i], light = l->directional[2 * i + 1];
     Real3 back = reflected(*p, real3(REAL(to_light.x), REAL(to_light.y), REAL(to_light.z)));
-#if defined(DIRECTIONAL_SHADOWS) && !defined(BLEND)
+#ifdef DIRECTIONAL_SHADOWS
     back = scale3(back, seen_share(&l->lights.shadows, view->light_count + i));
 #endif
     sum = add3(sum, real3(back.x * light.x, back.y * light.y, back.z * light.z));

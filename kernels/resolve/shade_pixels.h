@@ -39,6 +39,15 @@ static inline void light_pixels(Lights* lights, uint x, uint y, constant ViewPar
 #endif
 }
 
+#if defined(SHADOWS) && defined(BLEND)
+// Of blended surfaces besides: the layer of each lane's fragment. Past the last one it has no shadows.
+static inline void light_layers(Lights* lights, whole layer, mask_t shown, uint layers, constant ViewParams* view) {
+  lights->shadows.layer_words =
+      words_of_layer(view->width, view->height, view->light_count + view->directional_count);
+  lights->shadows.layer = layer, lights->shadows.shown = shown & (layer < (whole)((int)layers));
+}
+#endif
+
 static inline PunctualLight light_at(const Lights* lights, uint index) {
   PunctualLight light;
   LIGHT_TABLE(LIGHT_ELEMENT)

@@ -22,13 +22,16 @@
 //                    with -DNUMBERED
 // depths             reversed, a pixel each
 // cells, indices     lists of lights in tiles (shared/light_grid.h)
+// first_tile, first_entry  of these surfaces' layer: added to the numbers of its tiles and entries
+// own_hides          1: the pixel's own triangle hides lights behind it; 0: it lets light through
 // tiles, bits        out: shared/shadow_bits.h
 // rays               out: how many were traced, a tile
 #define SHADOW_PASS_ARGUMENTS                                                                               \
   RAYS_ARGUMENTS, global const uint *triangles, global const uint *triangle_instance,                       \
       global const int *number_offsets, global const float *depths, global const uint2 *cells,              \
       global const index_t *indices, global const ShadowLight *lights, constant ShadowView *shadow_view,    \
-      constant ViewParams *view, global uint2 *tiles, global uint *bits, global uint *rays
+      constant ViewParams *view, uint first_tile, uint first_entry, uint own_hides, global uint2 *tiles,    \
+      global uint *bits, global uint *rays
 
 #define NO_TRIANGLE 0xffffffffu
 
@@ -39,6 +42,7 @@ typedef struct Receivers {
   whole own;     // the triangle's number; below 0: none
   Real3 normal;  // of its plane, towards the eye; 0: the eye is in the plane
   real slack;    // what rounds a distance along it, without the light's part
+  uint own_hides;
 #ifdef SHADOW_MAP
   ShadowReceivers for_maps;
 #endif
@@ -82,9 +86,10 @@ static inline void add_plane(Receivers* r, global const RayTriangle* t, mask_t h
 }
 
 // Where a surface is shaded: without planes, which add_plane completes. x, y: pixels' centres.
-static inline Receivers receivers_at(mask_t covered, real x, real y, real depth, constant ShadowView* v,
-                                     constant ViewParams* view) {
+static inline Receivers receivers_at(mask_t covered, real x, real y, real depth, uint own_hides,
+                                     constant ShadowView* v, constant ViewParams* view) {
   Receivers r;
+  r.own_hides = own_hides;
   const Real3 p = position_of_pixel(x, y, covered ? depth : REAL(1.0f), view);
   constant float* m = v->world_from_view;
   r.at.x = fma(p.z, REAL(m[2]), fma(p.y, REAL(m[1]), p.x * m[0])) + v->from_x;
@@ -121,6 +126,7 @@ static inline mask_t may_shade(const Receivers* r, global const ShadowLight* l) 
 // Lanes whose own triangle is between eye and light: they see its other side than the light.
 static inline mask_t turned_away(const RayScene* scene, const Receivers* r, global const ShadowLight* l,
                                  mask_t of, constant ShadowView* v) {
+  if (!r->own_hides) return (mask_t)(0);
   const real x = (float)l->x, y = (float)l->y, z = (float)l->z;
   const real w = (float)l->w;
   const Real3 to = real3(fma(-w, r->at.x, x), fma(-w, r->at.y, y), fma(-w, r->at.z, z));

@@ -108,10 +108,11 @@ static inline uint hidden_samples(const RayScene* scene, const SoftReceiver* r, 
   return hidden;
 }
 
+// A triangle that lets light through has no side that is dark: its normal is 0.
 static inline SoftReceiver soft_receiver(const Receivers* r, uint lane) {
 #define LANE_OF(v) ((const float*)&(v))[lane]
   const float x = LANE_OF(r->normal.x), y = LANE_OF(r->normal.y), z = LANE_OF(r->normal.z);
-  const float length = sqrt(dot_of(x, y, z, x, y, z)), inverse = length > 0.0f ? 1.0f / length : 0.0f;
+  const float length = sqrt(dot_of(x, y, z, x, y, z)), inverse = length > 0.0f && r->own_hides ? 1.0f / length : 0.0f;
   const SoftReceiver s = {LANE_OF(r->at.x), LANE_OF(r->at.y), LANE_OF(r->at.z), LANE_OF(r->gap),
                           x * inverse,      y * inverse,      z * inverse,      ((const int*)&r->own)[lane]};
   return s;

@@ -1,6 +1,6 @@
 // Directional lights reach every pixel, but for shadows: they are in no grid, and every technique adds them the
 // same way.
-//   DIRECTIONAL_SHADOWS: some of them casts a shadow; BLEND: blended surfaces receive none
+//   DIRECTIONAL_SHADOWS: some of them casts a shadow
 #include "shared/shadow_bits.h"
 
 // two texels each: direction to the light; illuminance
@@ -10,7 +10,7 @@ vec3 directional_light_sum(ShadingPoint p) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < int(view.directional_count); ++i) {
     vec3 back = reflected(p, texelFetch(directional_lights, 2 * i).xyz);
-#if defined(DIRECTIONAL_SHADOWS) && !defined(BLEND)
+#ifdef DIRECTIONAL_SHADOWS
     back *= seen_share(int(view.light_count) + i, uvec2(gl_FragCoord.xy));
 #endif
     sum += back * texelFetch(directional_lights, 2 * i + 1).rgb;

@@ -24,7 +24,7 @@ namespace lightgrid {
 // After them the arrays of LIGHT_TABLE.
 #define LIGHTGRID_LIGHT_SAMPLERS(UNIT, SHARE) \
   UNIT(directional_lights) \
-  UNIT(shadow_tiles) UNIT(shadow_bits) \
+  UNIT(shadow_tiles) UNIT(shadow_bits) UNIT(shadow_layers) \
   /* which lights a pixel reads: one source a program */ \
   UNIT(grid_cells) UNIT(grid_indices) UNIT(grid_masks) UNIT(light_z_bins) UNIT(voxel_irradiance) UNIT(voxel_directions) \
   SHARE(world_cells, grid_cells) UNIT(world_indices) UNIT(world_buckets) UNIT(world_keys) \

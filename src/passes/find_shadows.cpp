@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "cl/transfer.h"
+#include "passes/blended_layers.h"
 #include "passes/shadows/certificates.h"
 #include "passes/shadows/view_shadow_maps.h"
 #include "renderer/drawing/draw.h"
@@ -95,6 +96,13 @@ ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
   return v;
 }
 
+// The receivers of an image: what it shows, and what its triangles' numbers lead to.
+struct ReceiverImage {
+  cl::Buffer numbers, depths;
+  cl::Buffer triangle_instance, number_offsets;  // null: numbers are those of rays
+  bool own_hides = true;                         // lights behind a receiver's own triangle
+};
+
 // Set where more than half of a light is hidden.
 std::vector<uint32_t> bits_of_bytes(const std::vector<uint8_t>& shares) {
   std::vector<uint32_t> bits(shares.size() / 32);
@@ -108,13 +116,13 @@ std::vector<uint32_t> bits_of_bytes(const std::vector<uint8_t>& shares) {
 
 class ShadowBits : public PassCache {
  public:
-  explicit ShadowBits(Work& work) : kernels_(work, "shadows"), storage_(*work.renderer.cl) {}
+  explicit ShadowBits(Work& work) : kernels_(work, "shadows") {}
 
   bool follow(Work&) override { return followed_ = false, true; }
 
   size_t memory_bytes() const override {
-    size_t bytes = lights_.bytes() + view_.bytes() + offsets_.bytes() + rays_.bytes() + grid_.cell_bytes +
-                   grid_.index_bytes;
+    size_t bytes = lights_.bytes() + view_.bytes() + offsets_.bytes() + blended_offsets_.bytes() +
+                   rays_.bytes() + grid_bytes();
     if (scene_) bytes += scene_->memory_bytes();
     if (certificates_) bytes += certificates_->memory_bytes();
     if (culler_) bytes += culler_->memory_bytes();
@@ -129,45 +137,59 @@ class ShadowBits : public PassCache {
     if (cleared_ == bytes) return;
     fill_buffer(device, "clearing shadows", at_least(work, work.shadows.tiles, bytes, GL_RG32UI), 0, bytes);
     at_least(work, work.shadows.bits, least_bytes, GL_R32UI);
-    grid_ = {}, cleared_ = bytes;
+    listed_.clear(), layers_ = {}, cleared_ = bytes;
     hand_over(work, bytes, least_bytes);
   }
 
-  void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth, const cl::Buffer& numbers) {
+  // The first image is that of opaque surfaces; the others are layers of blended ones, if there are any.
+  void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth, const cl::Buffer& numbers,
+            const BlendedTriangles* blended, const BlendedLayers& layers) {
     ClDevice& device = *work.renderer.cl;
-    cleared_ = 0;
-    prepare(work, visible);
-    const DepthBounds bounds = culler_->depth_bounds({depth.values});
-    grid_ = culler_->cull(bounds.opaque, storage_);
-    const size_t tiles = size_t(grid_.cells_x) * size_t(grid_.cells_y), bytes = tile_bytes(work);
-    const size_t bit_bytes =
-        std::max<size_t>(least_bytes, grid_.index_count * entry_words(work.plan) * sizeof(uint32_t));
+    cleared_ = 0, layers_ = layers;
+    prepare(work, visible, blended);
+    std::vector<ReceiverImage> images{{numbers, depth.values, visible ? visible->raster.triangle_instance : cl::Buffer(),
+                                   visible ? offsets_.buffer() : cl::Buffer()}};
+    for (size_t i = 0; i < layers.numbers.size(); ++i) {
+      images.push_back({layers.numbers[i], layers.depths[i], blended ? blended->raster.triangle_instance : cl::Buffer(),
+                        blended ? blended_offsets_.buffer() : cl::Buffer(), false});
+    }
+    const size_t entries = list_lights(work, images);
+    const LightGrid& grid = listed_[0]->grid;
+    const size_t tiles = size_t(grid.cells_x) * size_t(grid.cells_y), bytes = tile_bytes(work) * images.size();
+    const size_t bit_bytes = std::max<size_t>(least_bytes, entries * entry_words(work.plan) * sizeof(uint32_t));
     const cl::Buffer& listed = at_least(work, work.shadows.tiles, bytes, GL_RG32UI);
     const cl::Buffer& bits = at_least(work, work.shadows.bits, bit_bytes, GL_R32UI);
     // Drawn lights serve all lights of a tile.
     const size_t groups_here = kernels_.lanes || work.plan.settings.picks_shadows() ? 1 : groups_a_tile;
-    parts_ = tiles * groups_here;
+    parts_ = tiles * images.size() * groups_here;
     const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
     if (maps_) maps_->draw(*scene_);
-    const cl::NDRange lanes(size_t(grid_.cells_x), size_t(grid_.cells_y));
+    const ClArguments kept = certificates_ ? certificates_->arguments(device, parts_) : ClArguments{};
+    const cl::NDRange lanes(size_t(grid.cells_x), size_t(grid.cells_y));
     const cl::NDRange groups(tiles * SHADOW_TILE * SHADOW_TILE, groups_here);
-    kernels_.of("find_shadows")
-        .launch(device, "find_shadows", kernels_.lanes ? lanes : groups,
-                kernels_.lanes ? cl::NDRange(1, 1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
-                (maps_ ? maps_->arguments() : ClArguments()) + scene_->arguments() +
-                    ClArguments{{"triangles", numbers},
-                                {"triangle_instance", visible ? visible->raster.triangle_instance : cl::Buffer()},
-                                {"number_offsets", visible ? offsets_.buffer() : cl::Buffer()},
-                                {"depths", depth.values},
-                                {"cells", storage_.cells(grid_.cell_bytes)},
-                                {"indices", storage_.indices(grid_.index_bytes)},
-                                {"lights", lights_.buffer()},
-                                {"shadow_view", view_.buffer()},
-                                {"view", work.cl_lights().view.buffer()},
-                                {"tiles", listed},
-                                {"bits", bits},
-                                {"rays", rays}} +
-                    (certificates_ ? certificates_->arguments(device, parts_) : ClArguments{}));
+    for (size_t i = 0; i < images.size(); ++i) {
+      ListedShadows& lists = *listed_[i];
+      kernels_.of("find_shadows")
+          .launch(device, "find_shadows", kernels_.lanes ? lanes : groups,
+                  kernels_.lanes ? cl::NDRange(1, 1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
+                  (maps_ ? maps_->arguments() : ClArguments()) + scene_->arguments() +
+                      ClArguments{{"triangles", images[i].numbers},
+                                  {"triangle_instance", images[i].triangle_instance},
+                                  {"number_offsets", images[i].number_offsets},
+                                  {"depths", images[i].depths},
+                                  {"cells", lists.storage.cells(lists.grid.cell_bytes)},
+                                  {"indices", lists.storage.indices(lists.grid.index_bytes)},
+                                  {"lights", lights_.buffer()},
+                                  {"shadow_view", view_.buffer()},
+                                  {"view", work.cl_lights().view.buffer()},
+                                  {"first_tile", cl_uint(i * tiles)},
+                                  {"first_entry", cl_uint(lists.first_entry)},
+                                  {"own_hides", cl_uint(images[i].own_hides)},
+                                  {"tiles", listed},
+                                  {"bits", bits},
+                                  {"rays", rays}} +
+                      kept);
+    }
     hand_over(work, bytes, bit_bytes);
   }
 
@@ -176,20 +198,22 @@ class ShadowBits : public PassCache {
     return *scene_;
   }
 
-  HostShadows read(Work& work) {
+  // image: 0, of opaque surfaces; or 1 + that of a layer.
+  HostShadows read(Work& work, size_t image = 0) {
     ClDevice& device = *work.renderer.cl;
     HostShadows shadows;
     shadows.tiles_x = int(tiles_across(work.grid().width));
-    if (grid_.index_count == 0) {
+    if (image >= listed_.size() || listed_[image]->grid.index_count == 0) {
       shadows.cells.resize(size_t(shadows.tiles_x) * tiles_across(work.grid().height));
       return shadows;
     }
-    HostGrid grid = read_grid(device, grid_, storage_);
+    HostGrid grid = read_grid(device, listed_[image]->grid, listed_[image]->storage);
     shadows.cells = std::move(grid.cells), shadows.indices = std::move(grid.indices);
+    const size_t entry_bytes = entry_words(work.plan) * sizeof(uint32_t);
     const auto read = [&](auto& values) {
-      values.resize(shadows.indices.size() * entry_words(work.plan) * sizeof(uint32_t) / sizeof values[0]);
+      values.resize(shadows.indices.size() * entry_bytes / sizeof values[0]);
       read_buffer(device, "reading shadows", work.shadows.bits.buffer->cl_buffer(), values.data(),
-                  values.size() * sizeof values[0]);
+                  values.size() * sizeof values[0], listed_[image]->first_entry * entry_bytes);
     };
     if (work.plan.shadow_bytes)
       read(shadows.shares), shadows.bits = bits_of_bytes(shadows.shares);
@@ -198,10 +222,16 @@ class ShadowBits : public PassCache {
     return shadows;
   }
 
+  std::vector<HostShadowLayer> read_layers(Work& work) {
+    std::vector<HostShadowLayer> layers = read_fragments(work, layers_);
+    for (size_t i = 0; i < layers.size(); ++i) layers[i].shadows = read(work, i + 1);
+    return layers;
+  }
+
   ShadowFigures figures(Work& work) {
     ShadowFigures f;
-    f.bytes = grid_.cell_bytes + grid_.index_bytes + work.shadows.bytes();
-    if (grid_.index_count == 0) return f;
+    f.bytes = grid_bytes() + work.shadows.bytes();
+    if (std::ranges::all_of(listed_, [](const auto& l) { return l->grid.index_count == 0; })) return f;
     f.lights = size_t(std::ranges::count(work.plan.shadowed, 1));
     std::vector<uint32_t> rays(parts_);
     read_buffer(*work.renderer.cl, "counting rays", rays_.get(), rays.data(), rays.size() * sizeof rays[0]);
@@ -218,9 +248,39 @@ class ShadowBits : public PassCache {
   }
 
  private:
+  // The lists of lights of one image, and where the shadows of their tiles and entries begin.
+  struct ListedShadows {
+    ClGridStorage storage;
+    LightGrid grid{};
+    size_t first_entry = 0;
+    explicit ListedShadows(ClDevice& device) : storage(device) {}
+  };
+
+  // Of one image.
   size_t tile_bytes(const Seen& seen) const {
     return std::max<size_t>(least_bytes, tiles_across(seen.grid().width) * tiles_across(seen.grid().height) *
                                     tile_words(seen.plan) * sizeof(cl_uint2));
+  }
+
+  size_t grid_bytes() const {
+    size_t bytes = 0;
+    for (const auto& lists : listed_) bytes += lists->grid.cell_bytes + lists->grid.index_bytes;
+    return bytes;
+  }
+
+  // Each image's own lists, between the depths of its tiles. Returns the number of entries.
+  size_t list_lights(Work& work, const std::vector<ReceiverImage>& images) {
+    listed_.resize(std::min(listed_.size(), images.size()));
+    while (listed_.size() < images.size()) listed_.push_back(std::make_unique<ListedShadows>(*work.renderer.cl));
+    size_t entries = 0;
+    for (size_t i = 0; i < images.size(); ++i) {
+      ListedShadows& lists = *listed_[i];
+      lists.grid = culler_->cull(culler_->depth_bounds({images[i].depths}).opaque, lists.storage);
+      lists.first_entry = entries;
+      entries += lists.grid.index_count;
+    }
+    if (entries > 0xffffffffu) throw machine_error("shadows: more than 2^32 pairs of a tile and a light");
+    return entries;
   }
 
   cl::Buffer& at_least(Work& work, SharedTexture& shared, size_t bytes, GLenum format) {
@@ -241,7 +301,7 @@ class ShadowBits : public PassCache {
   }
 
   // Brings everything up to the view, its lights and surfaces.
-  void prepare(Work& work, const VisibilityBuffer* visible) {
+  void prepare(Work& work, const VisibilityBuffer* visible, const BlendedTriangles* blended) {
     const RayScene& rays = scene(work);
     std::string defines = rays.defines();
     for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
@@ -286,16 +346,19 @@ class ShadowBits : public PassCache {
     lights_.put(device, "uploading lights of shadows", records);
     view_.put(device, "uploading the view of shadows",
               std::vector<ShadowView>{shadow_view(work, rays.origin())});
-    if (visible) {
-      std::vector<int32_t> offsets;
-      uint32_t first = 0;
-      for (const int i : visible->instances) {
-        offsets.push_back(int32_t(rays.first_triangle(size_t(i)) - first));
-        first += uint32_t(work.scene.meshes[size_t(work.scene.instances[size_t(i)].mesh)].indices.size() / 3);
-      }
-      offsets_.put(device, "uploading numbers of triangles", offsets);
-    }
+    if (visible) put_offsets(work, visible->instances, offsets_);
+    if (blended) put_offsets(work, blended->instances, blended_offsets_);
     followed_ = true;
+  }
+
+  void put_offsets(Work& work, std::span<const int> instances, UploadedBuffer& to) {
+    std::vector<int32_t> offsets;
+    uint32_t first = 0;
+    for (const int i : instances) {
+      offsets.push_back(int32_t(scene_->first_triangle(size_t(i)) - first));
+      first += uint32_t(work.scene.meshes[size_t(work.scene.instances[size_t(i)].mesh)].indices.size() / 3);
+    }
+    to.put(*work.renderer.cl, "uploading numbers of triangles", offsets);
   }
 
   PassKernels kernels_;
@@ -304,10 +367,10 @@ class ShadowBits : public PassCache {
   std::vector<CullLight> lights_in_culler_;
   std::optional<ViewShadowMaps> maps_;
   std::optional<ShadowCertificates> certificates_;
-  ClGridStorage storage_;
-  UploadedBuffer lights_, view_, offsets_;
+  std::vector<std::unique_ptr<ListedShadows>> listed_;  // an image each; none: nothing was found
+  BlendedLayers layers_;
+  UploadedBuffer lights_, view_, offsets_, blended_offsets_;
   GrowingBuffer rays_;
-  LightGrid grid_;
   size_t parts_ = 0;    // counts of rays
   size_t cleared_ = 0;  // bytes of tiles in which nothing was found since they were cleared
   bool followed_ = false;
@@ -342,22 +405,30 @@ const cl::Buffer& draw_triangle_numbers(Work& work, const RayScene& rays) {
 
 }  // namespace
 
-void find_shadows(Work& work, Cached<ShadowBits>& cache, const VisibilityBuffer* visible,
-                  const DepthBuffer& depth) {
+void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visible, const DepthBuffer& depth,
+                  const BlendedTriangles* blended) {
   if (!work.plan.light_reaches) return;
-  ShadowBits& shadows = cache.of(work);
+  ShadowBits& shadows = caches.shadow_bits.of(work);
+  work.shadows.layer_count = 0;
   if (!work.plan.shadows) return shadows.clear(work);
-  const cl::Buffer& numbers =
-      visible ? visible->image.triangle : draw_triangle_numbers(work, shadows.scene(work));
+  const RayScene& rays = shadows.scene(work);
+  const cl::Buffer& numbers = visible ? visible->image.triangle : draw_triangle_numbers(work, rays);
+  if (!visible && work.plan.blend) {
+    work.shadows.first_triangles.assign(work.scene.instances.size(), 0);
+    for (const int i : work.plan.blended)
+      work.shadows.first_triangles[size_t(i)] = rays.first_triangle(size_t(i));
+  }
+  const BlendedLayers layers = find_layers(work, caches.fragment_layers, blended, depth);
   auto pass = work.timer.pass("find_shadows", "cl");
-  shadows.find(work, visible, depth, numbers);
-  pass.moves(work.grid().values() * 8 + shadows.scene(work).memory_bytes(), work.shadows.bytes());
+  shadows.find(work, visible, depth, numbers, blended, layers);
+  pass.moves(work.grid().values() * 8 + layers.bytes + rays.memory_bytes(), work.shadows.bytes());
 }
 
 void tell_shadows(Work& work, Cached<ShadowBits>& cache, Frame& frame) {
   if (!work.plan.light_reaches) return;
   ShadowBits& shadows = cache.of(work);
   if (!frame.lights_in_volume) frame.shadows = [&] { return shadows.read(work); };
+  frame.blended_shadows = [&] { return shadows.read_layers(work); };
   frame.shadow_figures = [&] { return shadows.figures(work); };
 }
 

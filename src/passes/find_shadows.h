@@ -7,11 +7,12 @@
 
 namespace lightgrid {
 
-// For light loops of this frame. `visible`: of OpenCL's rasteriser; null: OpenGL drew the depth image, and
-// draws its triangles' numbers here. depth: of the same surfaces, read only where the plan's `shadows` is
-// set. Throws Error(machine) if the device has no doubles, or an OpenGL cannot read as many bytes.
-void find_shadows(Work& work, Cached<ShadowBits>& cache, const VisibilityBuffer* visible,
-                  const DepthBuffer& depth);
+// For light loops of this frame, of opaque and of blended surfaces. `visible`: of OpenCL's rasteriser; null:
+// OpenGL drew the depth image, and draws its triangles' numbers here. depth: of the same surfaces, read only
+// where the plan's `shadows` is set. blended: of OpenCL's rasteriser; null: OpenGL draws them here, or none is in
+// view. Throws Error(machine) if the device has no doubles, or an OpenGL cannot read as many bytes.
+void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visible, const DepthBuffer& depth,
+                  const BlendedTriangles* blended);
 
 // Puts the frame's shadows and their figures into it, where light loops read any.
 void tell_shadows(Work& work, Cached<ShadowBits>& cache, Frame& frame);

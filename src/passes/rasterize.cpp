@@ -159,7 +159,7 @@ BlendedTriangles list_blended(Work& work, Cached<BlendedTriangleLists>& cache) {
   InstanceRasterizer& r = blended.of;
   const RasterLists lists = r.raster.list();
   pass.moves(r.scene->geometry_bytes(), r.raster.counts().tile_entries * 4);
-  return {lists, r.raster.buffers(), r.surfaces.buffer()};
+  return {lists, r.raster.buffers(), r.surfaces.buffer(), work.plan.blended};
 }
 
 }  // namespace lightgrid

@@ -28,6 +28,7 @@ struct BlendedTriangles {
   RasterLists lists;
   RasterBuffers raster;
   cl::Buffer surfaces;
+  std::span<const int> instances;  // of the scene
 };
 
 BlendedTriangles list_blended(Work& work, Cached<BlendedTriangleLists>& cache);

@@ -218,6 +218,8 @@ void blend_resolved(Work& work, Cached<Resolver>& cache, const BlendedTriangles&
                             {"lists", blended.lists.lists},
                             {"tiles_x", cl_uint(blended.lists.tiles_x)},
                             {"depths", depth.values}} +
+                    (work.plan.light_reaches ? ClArguments{{"shadow_layers", cl_uint(work.shadows.layer_count)}}
+                                             : ClArguments()) +
                     r.arguments(work, blended.raster, blended.surfaces, *lights.in_cl) +
                     ClArguments{{"image", r.image.cl_buffer()}});
   pass.moves(work.grid().values() * 20 + lights.bytes, work.grid().pixels() * 16);

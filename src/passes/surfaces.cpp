@@ -26,8 +26,11 @@ Surfaces surfaces_of(RenderView& v, const DepthImage& image, bool depth_in_cl) {
 
 void find_shadows(RenderView& v, Surfaces& surfaces) {
   if (!v.plan.light_reaches) return;
-  find_shadows(v, v.caches.shadow_bits, surfaces.visible ? &*surfaces.visible : nullptr,
-               v.plan.shadows ? depth_of(v, surfaces) : DepthBuffer());
+  if (v.plan.shadows && surfaces.visible && !v.plan.blended.empty())
+    surfaces.blended = list_blended(v, v.caches.blended_triangles);
+  find_shadows(v, v.caches, surfaces.visible ? &*surfaces.visible : nullptr,
+               v.plan.shadows ? depth_of(v, surfaces) : DepthBuffer(),
+               surfaces.blended ? &*surfaces.blended : nullptr);
 }
 
 const DepthBuffer& depth_of(RenderView& v, Surfaces& surfaces) {
@@ -62,8 +65,10 @@ ShadedImage shade(RenderView& v, const Surfaces& surfaces, const LightSource& li
 
 void blend(RenderView& v, const Surfaces& surfaces, const LightSource& lights, const ShadedImage& image) {
   if (!surfaces.visible) return shade_blended(v, image, lights);
-  if (!v.plan.blended.empty())
-    blend_resolved(v, v.caches.resolver, list_blended(v, v.caches.blended_triangles), surfaces.depth, lights);
+  if (v.plan.blended.empty()) return;
+  const BlendedTriangles blended =
+      surfaces.blended ? *surfaces.blended : list_blended(v, v.caches.blended_triangles);
+  blend_resolved(v, v.caches.resolver, blended, surfaces.depth, lights);
 }
 
 }  // namespace lightgrid

@@ -10,11 +10,12 @@
 namespace lightgrid {
 
 struct Surfaces {
-  std::optional<VisibilityBuffer> visible;  // OpenCL's; with OpenGL instead:
+  std::optional<VisibilityBuffer> visible;  // OpenCL's; with OpenGL instead image and drawn:
   DepthImage image;
   DrawList drawn;  // all that no tile's depth hides
 
   DepthBuffer depth;  // in OpenCL; null: only OpenGL has it so far
+  std::optional<BlendedTriangles> blended;  // listed in OpenCL, where a pass before blending needed them
   std::optional<DepthBounds> bounds;
   std::optional<TileDistances> distances;
 };

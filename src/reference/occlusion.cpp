@@ -70,6 +70,8 @@ Receiver Occlusion::receiver(const View& view, int x, int y, double depth, const
   const double squared = glm::dot(normal, normal),
                off = squared > 0 ? glm::dot(shaded - c[0], normal) / squared : 0;
   Receiver r{.own = own};
+  const Mesh& mesh = scene_.meshes[scene_.instances[own.instance].mesh];
+  r.own_hides = scene_.materials[mesh.material].alpha_mode != AlphaMode::blend;
   r.place.place = shaded - normal * off;
   // docs/details/oracle.md#shadows: a position in float, its turn to world axes, its way to the plane, and
   // the plane's tilt.
@@ -178,7 +180,7 @@ SightAnswer Occlusion::sight_of(const Light& light, const Receiver& r, const Cor
   const auto side = [&](const RoundedPoint& p) {
     return side_of_triangle(rounded(own[0]), rounded(own[1]), rounded(own[2]), p).sign();
   };
-  const int sides = side(source) * side(r.eye);
+  const int sides = r.own_hides ? side(source) * side(r.eye) : 1;
   const double length = glm::length(source.place - r.place.place);
   const auto distance_at = [&](double share) {
     const double from_light = share * (length - r.gap_m);

@@ -12,7 +12,8 @@ SceneProgram::SceneProgram(const GlProgram& program)
       normal_from_object(program.uniform("normal_from_object")),
       lights_of_draw(program.uniform("lights_of_draw")),
       alpha(program.uniform("alpha")),
-      object(program.uniform("object")) {}
+      object(program.uniform("object")),
+      layers_of_draw(program.uniform("layers_of_draw")) {}
 
 const SceneProgram& ScenePrograms::of(uint32_t features) {
   if (shaders_.features_read) features = shaders_.features_read(features);

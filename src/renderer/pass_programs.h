@@ -23,6 +23,7 @@ struct SceneProgram {
   GLuint name;
   GLint clip_from_object, view_from_object, normal_from_object;
   GLint lights_of_draw, alpha, object;  // shaders/lights/object.glsl, forward.frag, object.frag
+  GLint layers_of_draw;                 // shared/shadow_bits.h
 };
 
 // The shaders of a pass over a scene's surfaces.

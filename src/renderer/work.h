@@ -112,6 +112,7 @@ struct PassCaches {
   Cached<class VoxelBuffers> voxels;                                // passes/build_voxels.cpp
   Cached<class ViewOfWorldGrid> world_grid;                         // passes/build_world_grid.cpp
   Cached<class ShadowBits> shadow_bits;                             // passes/find_shadows.cpp
+  Cached<class FragmentLayers> fragment_layers;                     // passes/blended_layers.cpp
 
   void follow(Work& work);
   void upload(Work& work);  // of those that upload while the device draws triangles
@@ -119,7 +120,7 @@ struct PassCaches {
   size_t memory_bytes() const;
 
  private:
-  std::array<std::unique_ptr<PassCache>*, 12> all();
+  std::array<std::unique_ptr<PassCache>*, 13> all();
 };
 
 }  // namespace lightgrid

@@ -23,6 +23,14 @@ struct HostShadows {
   std::vector<uint8_t> shares;  // the hidden share times 255, in the same order; empty: bits say all
 };
 
+// The shadows of one layer of blended surfaces, and the fragments that it holds: of each pixel, row 0 at the bottom,
+// depth (0: no fragment), the scene's instance (-1) and the triangle of its mesh.
+struct HostShadowLayer {
+  HostShadows shadows;
+  std::vector<float> depth;
+  std::vector<glm::ivec2> triangles;
+};
+
 // Of a pixel, row 0 at the bottom, and a light. None: the tile does not list it.
 inline std::optional<size_t> shadow_value(const HostShadows& shadows, int x, int y, uint32_t light) {
   constexpr int side = HostShadows::side;

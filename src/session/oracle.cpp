@@ -5,6 +5,7 @@
 #include "reference/seen_pairs.h"
 #include "results/metrics.h"
 #include "session/oracle_sample.h"
+#include "session/shadow_truth.h"
 
 namespace lightgrid {
 namespace {
@@ -67,6 +68,20 @@ LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, 
   const PairShadows shadows{*seen, shaded ? &*shaded : nullptr,
                             uint32_t(v.plan.directional_lights.size())};
   return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), &shadows);
+}
+
+std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& truth) {
+  if (!run.frame().blended_shadows || !truth.casts()) return {};
+  const Seen& v = run.view();
+  LitPairs sum;
+  for (const HostShadowLayer& layer : run.frame().blended_shadows()) {
+    const std::unique_ptr<SeenPairs> seen = truth.of_layer(v, layer);
+    const PairShadows shadows{*seen, &layer.shadows};
+    const LitPairs pairs = count_pairs(v.view, layer.depth, local_lights(v),
+                                       list_every_light(uint32_t(v.plan.local.size())), &shadows);
+    sum.lit += pairs.lit, sum.leaked += pairs.leaked, sum.acned += pairs.acned, sum.either += pairs.either;
+  }
+  return sum;
 }
 
 PairCounts pair_counts(const TechniqueRun& run, const LitPairs& pairs, const SeenPairs* seen) {

@@ -9,6 +9,8 @@
 
 namespace lightgrid {
 
+class ShadowTruth;
+
 // The surface at a pixel, for the oracle to shade.
 Surface surface_of(const SurfaceImages& surfaces, uint32_t pixel);
 
@@ -26,6 +28,10 @@ ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth);
 // Compares those with the lights that reach each pixel, and the frame's shadows with `seen` (null: none).
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth,
                             const SeenPairs* seen = nullptr);
+
+// The same for each layer of its blended surfaces, added up: of every light, whatever lists blended surfaces have.
+// None if no light casts.
+std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& truth);
 
 // The same as figures of a row. seen: as above.
 PairCounts pair_counts(const TechniqueRun& run, const LitPairs& pairs, const SeenPairs* seen);

@@ -93,6 +93,15 @@ std::unique_ptr<SeenPairs> ShadowTruth::at_pixels(const Seen& v, const std::vect
                                      in_range);
 }
 
+std::unique_ptr<SeenPairs> ShadowTruth::of_layer(const Seen& v, const HostShadowLayer& layer) {
+  if (!casts()) return nullptr;
+  std::vector<CastingTriangle> triangles;
+  for (const glm::ivec2& t : layer.triangles) triangles.push_back({t.x, uint32_t(t.y)});
+  const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, v.plan.local);
+  const ShownSurfaces shown{v.view, layer.depth, triangles};
+  return std::make_unique<SeenPairs>(occlusion(), shown, lights, affordable_pixels(shown, lights, most_pairs_));
+}
+
 void ShadowTruth::moved(bool geometry) {
   for (Decided& d : decided_) d = {};
   if (geometry) occlusion_.reset();

@@ -38,6 +38,9 @@ class ShadowTruth {
                                        const std::vector<CastingTriangle>& triangles,
                                        const std::vector<uint32_t>& pixels, bool in_range = true);
 
+  // Of point and spot lights at the fragments of a layer of blended surfaces. Null if no light casts.
+  std::unique_ptr<SeenPairs> of_layer(const Seen& v, const HostShadowLayer& layer);
+
   // Another view, and `geometry`: whether instances moved or meshes deformed.
   void moved(bool geometry);
 

@@ -48,18 +48,17 @@ SHARED_STRUCT(PunctualLight){LIGHT_TABLE(LIGHT_MEMBER) SHADOW_MEMBERS};
 // The end of every light loop: how much of a light reaches a point of an instance, 0 to 1, besides what
 // distance and cone let through. Shadows answer here, for the pixel that is shaded. Groups and cookies will
 // answer here and in reference/attenuation.h. The plan says whether an effect asks
-// (FramePlan::light_reaches); without one the factor is the constant 1, which compiles to nothing. BLEND:
-// blended surfaces receive no shadows yet.
+// (FramePlan::light_reaches); without one the factor is the constant 1, which compiles to nothing.
 //   point: along the axes of light.position, which are the view's. instance: the scene's index. NO_INSTANCE
 //   in every loop until an effect needs it. Forward shaders then get it with each draw, resolve kernels from
 //   triangle_instance, both by way of ShadingPoint; the geometry buffer has no room for it yet, and
 //   light_prepass lights points of no instance.
 #define NO_INSTANCE WHOLE(0)
-#if defined(SHADOWS) && !defined(BLEND) && defined(LIGHTGRID_GLSL)
+#if defined(SHADOWS) && defined(LIGHTGRID_GLSL)
 SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole instance) {
   return seen_share(light.index, uvec2(gl_FragCoord.xy));
 }
-#elif defined(SHADOWS) && !defined(BLEND) && defined(__OPENCL_VERSION__)
+#elif defined(SHADOWS) && defined(__OPENCL_VERSION__)
 SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole instance) {
   return seen_share(light.shadows, light.index);
 }

@@ -8,6 +8,10 @@
 // block: the values of an entry follow in this order, the lowest bits of a word first.
 //
 // A light that is not listed is hidden nowhere in the tile. Directional lights follow point and spot lights.
+//
+// Blended surfaces (BLEND) follow in layers: a pixel's fragments in any order, one a layer, and each layer has
+// tiles of its own after those of opaque surfaces. The image of layer i, of LAYER_STRIDE(pixels) values, has
+// the number of the triangle that the fragment belongs to, or SHADOW_NO_TRIANGLE.
 #pragma once
 
 #include "shared/real.h"
@@ -21,17 +25,40 @@
 #define SHADOW_WORDS SHADOW_WORDS_OF_BITS
 #endif
 
+#define SHADOW_NO_TRIANGLE 0xffffffffu
+// At least 16 spare values; devices let a buffer be cut at its multiples.
+#define LAYER_STRIDE(pixels) (((pixels) + 16u + 1023u) / 1024u * 1024u)
+
 #if defined(LIGHTGRID_GLSL) && defined(SHADOWS)
 
 uniform usamplerBuffer shadow_tiles;  // pairs of words
 uniform usamplerBuffer shadow_bits;   // entries
+
+#ifdef BLEND
+uniform usamplerBuffer shadow_layers;  // numbers of triangles, layer after layer
+uniform uvec2 layers_of_draw;          // the number of the object's first triangle, and how many layers there are
+
+// The fragment's own; past the last: it has none.
+uint find_layer() {
+  uint own = layers_of_draw.x + uint(gl_PrimitiveID), stride = LAYER_STRIDE(view.width * view.height);
+  uint at = uint(gl_FragCoord.y) * view.width + uint(gl_FragCoord.x), layer = 0u;
+  while (layer < layers_of_draw.y && texelFetch(shadow_layers, int(layer * stride + at)).r != own) ++layer;
+  return layer;
+}
+uint shadow_layer = find_layer();
+#endif
 
 // The share of a light that is seen from a pixel.
 float seen_share(int light, uvec2 pixel) {
   uint words = (view.light_count + view.directional_count + 31u) / 32u;
   uint across = (view.width + uint(SHADOW_TILE) - 1u) / uint(SHADOW_TILE);
   uvec2 tile = pixel / uint(SHADOW_TILE), at = pixel % uint(SHADOW_TILE);
-  uvec2 listed = texelFetch(shadow_tiles, int((tile.y * across + tile.x) * words + uint(light) / 32u)).xy;
+  uint place = tile.y * across + tile.x;
+#ifdef BLEND
+  if (shadow_layer >= layers_of_draw.y) return 1.0;
+  place += (shadow_layer + 1u) * across * ((view.height + uint(SHADOW_TILE) - 1u) / uint(SHADOW_TILE));
+#endif
+  uvec2 listed = texelFetch(shadow_tiles, int(place * words + uint(light) / 32u)).xy;
   uint own = 1u << (uint(light) & 31u);
   if ((listed.x & own) == 0u) return 1.0;
   uint entry = listed.y + uint(bitCount(listed.x & (own - 1u)));
@@ -60,6 +87,11 @@ typedef struct ShadowsHere {
   global const uint2* tiles;  // from the pixels' tile on
   global const uint* bits;
   uint x, y;
+#ifdef BLEND
+  size_t layer_words;  // pairs of words from one layer's tile to that of the next
+  whole layer;         // of each lane
+  mask_t shown;        // lanes that have one
+#endif
 } ShadowsHere;
 
 static inline ShadowsHere shadows_here(global const uint2* tiles, global const uint* bits, uint x, uint y,
@@ -69,6 +101,11 @@ static inline ShadowsHere shadows_here(global const uint2* tiles, global const u
   const ShadowsHere here = {tiles + (size_t)tile * ((light_count + 31u) / 32u), bits, x % SHADOW_TILE,
                             y % SHADOW_TILE};
   return here;
+}
+
+static inline size_t words_of_layer(uint width, uint height, uint light_count) {
+  const size_t across = (width + SHADOW_TILE - 1) / SHADOW_TILE, up = (height + SHADOW_TILE - 1) / SHADOW_TILE;
+  return across * up * ((light_count + 31u) / 32u);
 }
 
 // Of an entry: where the pixels' values begin. Those of 16 pixels side by side are in four blocks, 4 each.
@@ -112,13 +149,36 @@ static inline real seen_in_entry(global const uint* words, const ShadowsHere* he
 }
 #endif
 
-// The share of the light that is seen from each lane's pixel.
-static inline real seen_share(const ShadowsHere* here, uint light) {
-  const uint2 listed = here->tiles[light / 32u];
+static inline real seen_in_tile(const ShadowsHere* here, global const uint2* tile, uint light) {
+  const uint2 listed = tile[light / 32u];
   const uint own = 1u << (light & 31u);
   if ((listed.x & own) == 0) return REAL(1.0f);
   const uint entry = listed.y + popcount(listed.x & (own - 1u));
   return seen_in_entry(here->bits + (size_t)entry * SHADOW_WORDS, here);
 }
+
+// The share of the light that is seen from each lane's pixel.
+#if !defined(BLEND)
+static inline real seen_share(const ShadowsHere* here, uint light) {
+  return seen_in_tile(here, here->tiles, light);
+}
+#elif LANES == 1
+static inline real seen_share(const ShadowsHere* here, uint light) {
+  return here->shown ? seen_in_tile(here, here->tiles + (size_t)(here->layer + 1) * here->layer_words, light)
+                     : 1.0f;
+}
+#else
+static inline real seen_share(const ShadowsHere* here, uint light) {
+  real seen = REAL(1.0f);
+  for (uint left = mask_bits(here->shown); left != 0;) {  // mostly once
+    const int layer = ((const int*)&here->layer)[lowest_bit(left)];
+    const mask_t alike = here->shown & (here->layer == (whole)(layer));
+    left &= ~mask_bits(alike);
+    const real of_layer = seen_in_tile(here, here->tiles + (size_t)(layer + 1) * here->layer_words, light);
+    seen = alike ? of_layer : seen;
+  }
+  return seen;
+}
+#endif
 
 #endif

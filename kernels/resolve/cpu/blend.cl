@@ -5,6 +5,7 @@
 // tiles_x     of these tiles
 // depths      of opaque surfaces, a pixel each, reversed; row 0 at the bottom
 // RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h; the grid is that of blended surfaces
+// shadow_layers  with -DSHADOWS: layers of shadows, by the order of a pixel's fragments (shared/shadow_bits.h)
 // image       in and out: RGBA a pixel, linear, row 0 at the bottom
 // -DTILE      of the light grid, pixels a side, a multiple of 8 (default 16)
 // -DORTHOGRAPHIC, and what kernels/resolve/resolve.h and resolve_light.h name
@@ -12,7 +13,8 @@
 #define FUSED  // shared/real.h
 #define LANES 16
 #include "kernels/common/image_blocks.h"
-#include "kernels/raster/raster_blocks.h"
+#include "kernels/common/pack.h"
+#include "kernels/resolve/blended_fragments.h"
 #include "kernels/resolve/resolve_light.h"
 
 #ifndef TILE
@@ -30,13 +32,22 @@ static inline void blend_block(global float* image, Real3 color, real alpha, mas
   }
 }
 
+#ifdef SHADOWS
+#define LAYERS_ARGUMENT uint shadow_layers,
+#else
+#define LAYERS_ARGUMENT
+#endif
+
 kernel void blend(global const RasterRecord* records, global const uint* tile_begin, global const uint* lists,
-                  uint tiles_x, global const float* depths, RESOLVE_ARGUMENTS, global float* image) {
+                  uint tiles_x, global const float* depths, LAYERS_ARGUMENT RESOLVE_ARGUMENTS,
+                  global float* image) {
   const uint number = get_global_id(0), width = view->width, height = view->height;
   const uint tile_x = number % tiles_x * RASTER_TILE, tile_y = number / tiles_x * RASTER_TILE;
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
-  const int16 across = LANE_INDEX & 3, up = LANE_INDEX >> 2;
+#ifdef SHADOWS
+  FragmentCounts counts = {0};
+#endif
   for (uint i = tile_begin[number]; i < tile_begin[number + 1]; ++i) {
     global const RasterRecord* record = records + lists[i];
     const TileRecord r = in_tile(record, (int)tile_x, (int)tile_y);
@@ -44,13 +55,13 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
     for (int by = box.y0 & ~3; by <= box.y1; by += 4) {
       for (int bx = box.x0 & ~3; bx <= box.x1; bx += 4) {
         const uint x = tile_x + (uint)bx, y = tile_y + (uint)by;
-        const int16 inside = (across < (int16)((int)(width - x))) & (up < (int16)((int)(height - y)));
-        mask_t shown = inside & covered_pixels(&r, bx, by, across, up);
+        real depth = REAL(0.0f);
+        mask_t shown = fragments_in_block(&r, bx, by, x, y, depths, width, height, &depth);
         if (!any_lane(shown)) continue;
-        const real depth = depth_at(&r, bx, by, convert_float16(across), convert_float16(up));
-        const real opaque = as_float16(load_block((global const uint*)depths, x, y, width, height));
-        shown &= (depth >= opaque) & (depth >= REAL(FLT_MIN));
-        if (!any_lane(shown)) continue;
+#ifdef SHADOWS
+        light_pixels(&lights.lights, x, y, view);
+        light_layers(&lights.lights, next_layers(&counts, bx, by, shown), shown, shadow_layers, view);
+#endif
         Attributes a = {0};
         Surface s = {0};
         add_triangle(&a, &scene, r.triangle, shown, (float)x, (float)y, BLOCK_DX, BLOCK_DY);

@@ -3,12 +3,19 @@
 #define BLEND  // shared/light_table.h
 #define FUSED  // shared/real.h
 #define LANES 1
-#include "kernels/raster/raster_blocks.h"
+#include "kernels/resolve/blended_fragments.h"
 #include "kernels/resolve/resolve_light.h"
 #include "shared/light_grid.h"
 
+#ifdef SHADOWS
+#define LAYERS_ARGUMENT uint shadow_layers,
+#else
+#define LAYERS_ARGUMENT
+#endif
+
 kernel void blend(global const RasterRecord* records, global const uint* tile_begin, global const uint* lists,
-                  uint tiles_x, global const float* depths, RESOLVE_ARGUMENTS, global float* image) {
+                  uint tiles_x, global const float* depths, LAYERS_ARGUMENT RESOLVE_ARGUMENTS,
+                  global float* image) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
   const uint number = y / RASTER_TILE * tiles_x + x / RASTER_TILE;
@@ -20,11 +27,17 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
   ResolveLights lights = RESOLVE_LIGHTS;
   take_list(&lights, light_indices, cells, cell_of_pixel(x, y, view->tile_size, view->tiles_x), view);
   float4 under = ((global const float4*)image)[at];
+#ifdef SHADOWS
+  light_pixels(&lights.lights, x, y, view);
+  int layer = 0;
+#endif
   for (uint i = tile_begin[number]; i < tile_begin[number + 1]; ++i) {
     const TileRecord r = in_tile(records + lists[i], tile_x, tile_y);
-    if (!covered_pixels(&r, bx, by, dx, dy)) continue;
-    const float depth = depth_at(&r, bx, by, (float)dx, (float)dy);
-    if (!(depth >= opaque && depth >= FLT_MIN)) continue;
+    float depth;
+    if (!is_fragment(&r, bx, by, dx, dy, opaque, &depth)) continue;
+#ifdef SHADOWS
+    light_layers(&lights.lights, layer++, 1, shadow_layers, view);
+#endif
     Attributes a = {0};
     Surface s = {0};
     add_triangle(&a, &scene, r.triangle, 1, (float)(x & ~3u), (float)(y & ~3u), (float)dx, (float)dy);

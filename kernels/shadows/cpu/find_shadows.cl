@@ -51,9 +51,9 @@ static inline void add_triangles(TileTriangles* t, uint block, uint16 triangle, 
 kernel void find_shadows(ALL_ARGUMENTS) {
   const RayScene scene = RAYS_SCENE;
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
-  const uint tile = tile_y * (uint)get_global_size(0) + tile_x;
+  const uint tile = tile_y * (uint)get_global_size(0) + tile_x, own_tile = first_tile + tile;
   const uint2 range = cells[tile];
-  global uint2* listed = tiles + (size_t)tile * shadow_view->words;
+  global uint2* listed = tiles + (size_t)own_tile * shadow_view->words;
   for (uint i = 0; i < shadow_view->words; ++i) listed[i] = (uint2)(0);
   ShadowTest test = SHADOW_TEST;
 #ifdef KEPT
@@ -79,7 +79,8 @@ kernel void find_shadows(ALL_ARGUMENTS) {
       if (!any_lane(covered)) continue;
       const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
       receivers[block] = receivers_at(covered, (float)x + 0.5f + convert_float16(LANE_INDEX & 3),
-                                      (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, shadow_view, view);
+                                      (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, own_hides,
+                                      shadow_view, view);
       add_triangles(&found, block, triangle, covered);
       used |= 1u << block;
     }
@@ -113,7 +114,7 @@ kernel void find_shadows(ALL_ARGUMENTS) {
 #endif
     for (uint i = range.x; i < range.x + range.y; ++i) {
       const uint index = indices[i];
-      global uint* entry = bits + (size_t)i * SHADOW_WORDS;
+      global uint* entry = bits + (size_t)(first_entry + i) * SHADOW_WORDS;
 #ifdef KEPT
       uint words[SHADOW_WORDS] = {0}, others[SHADOW_WORDS];
       hidden_by_certificates(&scene, &pieces, receivers, lights + index, index,
@@ -132,12 +133,12 @@ kernel void find_shadows(ALL_ARGUMENTS) {
       }
 #endif
       global uint2* here = listed + index / 32;
-      if (here->x == 0) here->y = i;
+      if (here->x == 0) here->y = first_entry + i;
       here->x |= 1u << (index & 31u);
     }
   }
-  rays[tile] = rays_of_test(&test);
+  rays[own_tile] = rays_of_test(&test);
 #ifdef KEPT
-  decided[tile] = without_ray;
+  decided[own_tile] = without_ray;
 #endif
 }

@@ -13,7 +13,7 @@ typedef struct TilePiece {
   uint hash;
   float x, y, z, radius;  // a ball around its points
   global const RayTriangle* plane;
-  uint eye;  // the eye's side of it, plus 1
+  uint eye;  // the eye's side of it, plus 1; 1 also where it lets light through
   uint pixels;
   uint blocks;               // that show it
   uint words[SHADOW_WORDS];  // its pixels, as an entry has them
@@ -55,7 +55,7 @@ static inline mask_t in_piece(const Receivers* r, global const RayTriangle* t, c
 }
 
 // One of those from `first` on, added if it is missing. Null: there are too many.
-static TilePiece* piece_of(TilePieces* pieces, uint first, const RayScene* scene, const Piece* p,
+static TilePiece* piece_of(TilePieces* pieces, uint first, const RayScene* scene, const Piece* p, bool own_hides,
                            constant ShadowView* v) {
   for (uint i = pieces->count; i-- > first;) {
     const Piece* q = &pieces->of[i].piece;
@@ -71,7 +71,7 @@ static TilePiece* piece_of(TilePieces* pieces, uint first, const RayScene* scene
   made->radius = 0.9f * edge;
   made->plane = scene->triangles + scene->places[p->triangle];
   const double eye = plane_distance(made->plane, v->eye_x, v->eye_y, v->eye_z, v->eye_w);
-  made->eye = eye > 0 ? 2 : eye < 0 ? 0 : 1;
+  made->eye = !own_hides ? 1 : eye > 0 ? 2 : eye < 0 ? 0 : 1;
   made->pixels = 0, made->blocks = 0, made->parts = NOT_SPLIT;
   for (uint i = 0; i < SHADOW_WORDS; ++i) made->words[i] = made->rest[i] = 0;
   return made;
@@ -97,7 +97,7 @@ static uint add_lanes(TilePieces* pieces, uint first, const RayScene* scene, con
     left &= ~same;
     const uint in = same & lane_bits(in_piece(r, scene->triangles + scene->places[piece.triangle], &piece));
     if (in == 0) continue;
-    TilePiece* of = piece_of(pieces, first, scene, &piece, v);
+    TilePiece* of = piece_of(pieces, first, scene, &piece, r->own_hides, v);
     if (!of) continue;
     of->words[block / 2] |= in << 16 * (block & 1u);
     of->blocks |= 1u << block, of->pixels += popcount(in);

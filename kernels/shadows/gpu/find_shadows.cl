@@ -18,20 +18,23 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   const uint2 range = cells[tile];
   // The first part lists the lights. Not in a branch: PoCL 3.1 writes out of bounds after a barrier in one. In
   // words, since a compiler may write both of a uint2 where one is set.
-  global uint* listed = (global uint*)(tiles + (size_t)tile * shadow_view->words);
+  const uint own_tile = first_tile + tile;
+  global uint* listed = (global uint*)(tiles + (size_t)own_tile * shadow_view->words);
   const uint words_here = part == 0 ? 2 * shadow_view->words : 0, lights_here = part == 0 ? range.y : 0;
   for (uint i = item; i < words_here; i += GROUP) listed[i] = 0;
   barrier(CLK_GLOBAL_MEM_FENCE);
   for (uint i = range.x + item; i < range.x + lights_here; i += GROUP) {
     const uint index = indices[i];
     atomic_or((global volatile uint*)(listed + index / 32 * 2), 1u << (index & 31u));
-    if (i == range.x || indices[i - 1] / 32 != index / 32) listed[index / 32 * 2 + 1] = i;
+    if (i == range.x || indices[i - 1] / 32 != index / 32) 
+      listed[index / 32 * 2 + 1] = first_entry + i;
   }
   const bool inside = x < width && y < height;
   const size_t at = inside ? (size_t)y * width + x : 0;
   const uint triangle = inside ? triangles[at] : NO_TRIANGLE;
   const bool covered = triangle != NO_TRIANGLE;
-  Receivers r = receivers_at(covered, (float)x + 0.5f, (float)y + 0.5f, depths[at], shadow_view, view);
+  Receivers r =
+      receivers_at(covered, (float)x + 0.5f, (float)y + 0.5f, depths[at], own_hides, shadow_view, view);
   if (covered) {
     const uint number = ray_number(triangle, triangle_instance, number_offsets);
     add_plane(&r, scene.triangles + scene.places[number], 1, shadow_view);
@@ -45,7 +48,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
       picked_share(&scene, &r, lights, indices, range, x, y, &test.traced, &test.last_blocker);
 #endif
   for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
-    global uint* entry = bits + (size_t)i * SHADOW_WORDS;
+    global uint* entry = bits + (size_t)(first_entry + i) * SHADOW_WORDS;
 #ifdef SHADOW_BYTES
     ((global uchar*)entry)[item] =
         (uchar)hidden_share(&test, &scene, &r, 0, indices[i], lights, shadow_view, x, y);
@@ -61,5 +64,5 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   barrier(CLK_LOCAL_MEM_FENCE);
   atomic_add(&traced_here, rays_of_test(&test));
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (item == 0) rays[tile * parts + part] = traced_here;
+  if (item == 0) rays[own_tile * parts + part] = traced_here;
 }

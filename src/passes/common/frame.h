@@ -69,6 +69,7 @@ struct Frame {
   std::optional<ViewGrid> blend_grid;        // of blended ones
   HostLists listed;                          // of opaque surfaces
   std::function<HostShadows()> shadows;      // reads those that it shaded with, for the oracle; null: none
+  std::function<std::vector<HostShadowLayer>()> blended_shadows;  // of its blended surfaces, likewise
   bool lights_in_volume = false;             // which has no shadows: all count as seen, also those shaded apart
   size_t list_bytes = 0;                     // of lists of lights in no grid
   std::string built_by;                      // the pass whose result serves many frames, if there is one, and

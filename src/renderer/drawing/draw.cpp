@@ -30,6 +30,11 @@ void InstanceDrawer::bind(int index, const SceneProgram& program) {
     glUniformMatrix3fv(program.view_from_object, 1, GL_FALSE, glm::value_ptr(t.directions));
   if (program.normal_from_object >= 0)
     glUniformMatrix3fv(program.normal_from_object, 1, GL_FALSE, glm::value_ptr(t.normals));
+  if (program.layers_of_draw >= 0) {
+    const ShadowMemory& shadows = work_.shadows;
+    const uint32_t first = shadows.layer_count == 0 ? 0 : shadows.first_triangles[size_t(index)];
+    glUniform2ui(program.layers_of_draw, first, shadows.layer_count);
+  }
   work_.scene.materials[material].double_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
   glFrontFace(t.mirrored ? GL_CW : GL_CCW);
   program_ = &program;

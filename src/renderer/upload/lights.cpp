@@ -197,6 +197,7 @@ ClArguments ClLights::columns() const {
 void ShadowMemory::bind() const {
   if (tiles.texture) bind_texture(Sampler::shadow_tiles, tiles.texture.name());
   if (bits.texture) bind_texture(Sampler::shadow_bits, bits.texture.name());
+  if (layers.texture) bind_texture(Sampler::shadow_layers, layers.texture.name());
 }
 
 ClArguments ShadowMemory::arguments() {

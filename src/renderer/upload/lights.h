@@ -71,11 +71,16 @@ class ClLights {
 // A frame's shadows, which passes/find_shadows.h fills. Only where the plan's `light_reaches` is set.
 struct ShadowMemory {
   SharedTexture tiles, bits;  // shared/shadow_bits.h
+  // Of blended surfaces: images of triangles' numbers, and of depths after them, `layer_count` each. In OpenGL
+  // numbers are those of rays, and `first_triangles` has that of each instance's first.
+  SharedTexture layers;
+  uint32_t layer_count = 0;
+  std::vector<uint32_t> first_triangles;
 
   void bind() const;
   // SHADOW_ARGUMENTS.
   ClArguments arguments();
-  size_t bytes() const { return tiles.bytes() + bits.bytes(); }
+  size_t bytes() const { return tiles.bytes() + bits.bytes() + layers.bytes(); }
 };
 
 // The -D names that light loops in OpenCL take for a view and its plan (kernels/resolve/shade_pixels.h).

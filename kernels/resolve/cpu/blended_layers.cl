@@ -1,0 +1,47 @@
+// The fragments of blended surfaces in layers, of which each has shadows of its own, for CPUs: a work-item takes a
+// tile of 64 x 64 pixels. A pixel's fragments are in drawing order, as kernels/resolve/cpu/blend.cl counts them.
+//
+// records, tile_begin, lists, tiles_x, depths  as blend.cl has them
+// capacity  layers that there is room for; fragments past them are only counted
+// numbers, layer_depths  in and out: of each layer LAYER_STRIDE values (shared/shadow_bits.h), which hold none
+//           before: triangles by the rasteriser's numbers, and reversed depths
+// most      out: the most fragments of a pixel, a tile
+#define LANES 16
+#include "kernels/common/image_blocks.h"
+#include "kernels/common/pack.h"
+#include "kernels/resolve/blended_fragments.h"
+#include "shared/shadow_bits.h"
+#include "shared/view_params.h"
+
+kernel void blended_layers(global const RasterRecord* records, global const uint* tile_begin,
+                           global const uint* lists, uint tiles_x, global const float* depths, uint capacity,
+                           constant ViewParams* view, global uint* numbers, global float* layer_depths,
+                           global uint* most) {
+  const uint number = get_global_id(0), width = view->width, height = view->height;
+  const uint tile_x = number % tiles_x * RASTER_TILE, tile_y = number / tiles_x * RASTER_TILE;
+  const size_t stride = LAYER_STRIDE((size_t)width * height);
+  FragmentCounts counts = {0};
+  uint greatest = 0;
+  for (uint i = tile_begin[number]; i < tile_begin[number + 1]; ++i) {
+    global const RasterRecord* record = records + lists[i];
+    const TileRecord r = in_tile(record, (int)tile_x, (int)tile_y);
+    const PixelBox box = box_in_tile(record, (int)tile_x, (int)tile_y);
+    for (int by = box.y0 & ~3; by <= box.y1; by += 4) {
+      for (int bx = box.x0 & ~3; bx <= box.x1; bx += 4) {
+        const uint x = tile_x + (uint)bx, y = tile_y + (uint)by;
+        real depth = REAL(0.0f);
+        const mask_t shown = fragments_in_block(&r, bx, by, x, y, depths, width, height, &depth);
+        if (!any_lane(shown)) continue;
+        const whole layers = next_layers(&counts, bx, by, shown);
+        for (uint left = mask_bits(shown); left != 0; left &= left - 1) {
+          const uint lane = lowest_bit(left), layer = (uint)((const int*)&layers)[lane];
+          greatest = max(greatest, layer + 1);
+          if (layer >= capacity) continue;
+          const size_t at = layer * stride + (size_t)(y + lane / 4) * width + x + lane % 4;
+          numbers[at] = r.triangle, layer_depths[at] = ((const float*)&depth)[lane];
+        }
+      }
+    }
+  }
+  most[number] = greatest;
+}

@@ -1,0 +1,208 @@
+// Shadows on blended surfaces, in every technique: each pair of a fragment and a light against the oracle, and the
+// picture in double.
+#include "techniques/blended_in_double.h"
+#include "techniques/shadow_stage.h"
+
+namespace lightgrid {
+namespace {
+
+// Panes one behind the other, of which one's vertices have alpha and its matrix mirrors, and a bubble with both
+// sides, between lamps, ball and fence.
+Scene glazed_scene() {
+  Scene scene = shadowed_scene();
+  const auto glass = [&](const char* name, glm::vec3 color, float alpha) {
+    const int added = add_material(scene, name, color, 0, 0.6f);
+    Material& m = scene.materials[size_t(added)];
+    m.base_color.a = alpha, m.alpha_mode = AlphaMode::blend, m.double_sided = true;
+    return added;
+  };
+  const int blue = glass("blue", {0.4f, 0.5f, 0.9f}, 0.5f), lace = glass("lace", {0.9f, 0.9f, 0.8f}, 0.9f),
+            soap = glass("soap", {0.9f, 0.7f, 0.8f}, 0.3f);
+  scene.materials[size_t(blue)].double_sided = false;
+  add_instance(scene, "blue", add_mesh(scene, wall_mesh({-0.2f, 0.1f, -3.85f}, 1.1f, blue, "blue")));
+  Mesh woven = wall_mesh({0, 0, 0}, 0.7f, lace, "lace");
+  for (const glm::vec3& p : woven.positions) woven.colors.emplace_back(1, 1, 1, 0.6f + 0.4f * p.x);
+  const int sheet = add_mesh(scene, std::move(woven));
+  add_instance(scene, "lace", sheet,
+               placed({0.5, 0.3, -3.6}, 25) * glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1)));
+  add_instance(scene, "lace", sheet, placed({-0.4, -0.2, -3.5}, -160));
+  Mesh bubble;
+  shapes::add_sphere(bubble, {0, 0, 0}, 0.4f, 4);
+  add_instance(scene, "bubble", add_mesh(scene, shapes::finished(std::move(bubble), "bubble", soap)),
+               placed({-0.9, -0.4, -3.2}));
+  return scene;
+}
+
+constexpr int width = 61, height = 43;
+constexpr double own_bound = 5e-3;  // of pictures of OpenCL's surfaces, as opaque ones have it (shadow_test.cpp)
+
+struct Glazed : ShadowStage {
+  Glazed() : ShadowStage{glazed_scene(), small_view(width, height)} {}
+};
+Glazed& glazed() {
+  static auto* made = new Glazed;  // support/devices.h
+  return *made;
+}
+
+struct Way {
+  const Technique* technique;
+  RasterApi raster;
+};
+
+std::vector<Way> ways() {
+  std::vector<Way> all;
+  for (const Technique* t : techniques()) {
+    if (t->name == std::string("voxel_lights")) continue;  // it has none
+    all.push_back({t, RasterApi::opengl});
+    if (reads_setting(*t, "raster")) all.push_back({t, RasterApi::opencl});
+  }
+  return all;
+}
+
+// Pairs of all layers by the oracle, and how many of them are hidden.
+struct BlendedPairs {
+  LitPairs pairs;
+  uint64_t hidden = 0;
+  size_t layers = 0;
+};
+
+BlendedPairs blended_pairs(Glazed& stage, TechniqueRun& run) {
+  BlendedPairs all{.pairs = count_blended_pairs(run, stage.truth).value()};
+  for (const HostShadowLayer& layer : run.frame().blended_shadows()) {
+    const auto seen = stage.truth.of_layer(run.view(), layer);
+    ++all.layers;
+    for (uint32_t pixel = 0; pixel < layer.depth.size(); ++pixel) {
+      for (uint32_t light = 0; light < run.view().plan.local.size(); ++light)
+        all.hidden += seen->at(pixel, light) == Sight::hidden;
+    }
+  }
+  return all;
+}
+
+struct BlendedShadows : testing::TestWithParam<Way> {};
+
+// Errors of pictures are those of the same techniques on opaque surfaces (shadow_test.cpp).
+TEST_P(BlendedShadows, AreTheOraclesInEachPairAndInThePicture) {
+  const auto [technique, raster] = GetParam();
+  Glazed& stage = glazed();
+  const Settings settings{.raster = raster};
+  TechniqueRun run(test_devices(), stage.gpu, stage.view, settings, *technique);
+  run.run_frame();
+  const BlendedPairs found = blended_pairs(stage, run);
+  EXPECT_GE(found.layers, 4u);
+  EXPECT_TRUE(exact(found.pairs));
+  EXPECT_GT(found.hidden, 1000u);
+  EXPECT_LT(double(found.pairs.either), 0.02 * double(found.pairs.lit));
+  if (technique->approximate) return;  // another picture
+  const BlendedInDouble in_double = blended_in_double(run, stage.truth);
+  EXPECT_GT(in_double.pixels.size(), width * height / 10);
+  EXPECT_LT(in_double.left_out, in_double.pixels.size() / 5);
+  EXPECT_LT(worst_error(run.image(), in_double), own_surfaces(*technique, settings) ? own_bound : 2e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, BlendedShadows, testing::ValuesIn(ways()), [](const auto& info) {
+  return info.param.technique->name + std::string(info.param.raster == RasterApi::opencl ? "_opencl" : "");
+});
+
+// settings: KEY=VALUE each.
+std::unique_ptr<TechniqueRun> glazed_run(const char* technique, const std::vector<std::string>& settings) {
+  Glazed& stage = glazed();
+  Settings chosen;
+  for (const std::string& setting : settings) apply_setting(chosen, setting);
+  auto run = std::make_unique<TechniqueRun>(test_devices(), stage.gpu, stage.view, chosen, find_technique(technique));
+  run->run_frame();
+  return run;
+}
+
+// Kernels for GPUs, everything's code, certificates.
+TEST(BlendedShadowBits, AreTheSameUnderEverySetting) {
+  const auto run = glazed_run("visibility", {});
+  const std::vector<HostShadowLayer> layers = run->frame().blended_shadows();
+  for (const std::vector<std::string>& settings : std::vector<std::vector<std::string>>{
+           {"kernel-shape=group"}, {"everything-on=on"}, {"shadow-kept=1M"}}) {
+    SCOPED_TRACE(settings[0]);
+    const auto other = glazed_run("visibility", settings);
+    EXPECT_TRUE(identical(other->image(), run->image()));
+    const std::vector<HostShadowLayer> others = other->frame().blended_shadows();
+    ASSERT_EQ(others.size(), layers.size());
+    for (size_t i = 0; i < layers.size(); ++i) {
+      EXPECT_TRUE(same_bits(others[i].shadows, layers[i].shadows));
+      EXPECT_EQ(others[i].depth, layers[i].depth);
+    }
+  }
+}
+
+// What a view shows after the camera and the glass moved is what a new one shows.
+TEST(BlendedShadowBits, FollowTheSceneAndTheCamera) {
+  for (const char* technique : {"forward_plus", "visibility"}) {
+    SCOPED_TRACE(technique);
+    Glazed stage;
+    TechniqueRun run(test_devices(), stage.gpu, stage.view, {}, find_technique(technique));
+    run.run_frame();
+    stage.scene.instances.back().world_from_object = placed({-0.5, -0.1, -3.0});
+    const SceneChanges changes{.instances = {int(stage.scene.instances.size()) - 1}};
+    stage.gpu.update(changes);
+    run.look(make_view(look_at({0.4, 0.2, 0.1}, {0, 0, -4}), 49, 70), changes);
+    run.run_frame();
+    TechniqueRun own(test_devices(), stage.scene, run.view().view, {}, find_technique(technique));
+    own.run_frame();
+    EXPECT_TRUE(identical(run.image(), own.image()));
+    EXPECT_EQ(run.frame().shadow_figures().rays, own.frame().shadow_figures().rays);
+  }
+}
+
+// Without a blended surface in view no layer is looked for, and nothing is kept for one.
+TEST(BlendedShadowBits, CostNothingWithoutBlendedSurfacesInView) {
+  for (const char* technique : {"forward_plus", "visibility"}) {
+    SCOPED_TRACE(technique);
+    Scene scene = glazed_scene();
+    for (Material& m : scene.materials)
+      if (m.alpha_mode == AlphaMode::blend) m.alpha_mode = AlphaMode::opaque;
+    TechniqueRun run(test_devices(), scene, small_view(width, height), {}, find_technique(technique));
+    run.view().timer.enabled = true;
+    run.run_frame();
+    for (const PassRecord& pass : run.view().timer.records()) EXPECT_NE(pass.name, "blended_layers");
+    EXPECT_EQ(run.view().shadows.layers.bytes(), 0u);
+    EXPECT_TRUE(run.frame().blended_shadows().empty());
+  }
+}
+
+// Faults planted into the kernels' text are found, in pairs or in the picture.
+struct LayerFault {
+  const char *name, *right, *wrong;
+  bool in_pairs;
+};
+
+struct FaultyLayers : testing::TestWithParam<LayerFault> {};
+
+TEST_P(FaultyLayers, AreFound) {
+  const LayerFault& fault = GetParam();
+  int planted = 0;
+  Renderer renderer("", GlBackend::none);
+  renderer.kernels->alter([&](std::string text) {
+    const size_t at = text.find(fault.right);
+    if (at == text.npos) return text;
+    ++planted;
+    return text.replace(at, std::string_view(fault.right).size(), fault.wrong);
+  });
+  Glazed& stage = glazed();
+  GpuScene gpu(renderer, stage.scene);
+  TechniqueRun run(renderer, gpu, stage.view, {}, find_technique("visibility"));
+  run.run_frame();
+  EXPECT_GT(planted, 0) << "no kernel has this text";
+  const LitPairs pairs = count_blended_pairs(run, stage.truth).value();
+  EXPECT_EQ(pairs.leaked + pairs.acned > 0, fault.in_pairs);
+  EXPECT_GT(worst_error(run.image(), blended_in_double(run, stage.truth)), own_bound);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Planted, FaultyLayers,
+    testing::Values(
+        LayerFault{"own_triangle_is_opaque", "if (!r->own_hides) return (mask_t)(0);", "", true},
+        LayerFault{"first_layer_for_all", "(size_t)(layer + 1) * here->layer_words", "here->layer_words", false},
+        LayerFault{"fragments_uncounted", "vstore16(convert_ushort16(layer - shown), block, counts->of);", "", false},
+        LayerFault{"entries_of_opaque_surfaces", "here->y = first_entry + i", "here->y = i", false}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace lightgrid
