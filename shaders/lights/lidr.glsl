@@ -3,6 +3,7 @@
 //   LIDR_SHIFTED: bitshift; LIDR_GREATEST: maxblend; else sort
 //   LIDR_FLOAT: unpacks as the article does, without integers
 //   LIDR_REPEATS: one light may occur twice in a row, and counts once
+//   INDEX_SHADOWS: lights are hidden by their shadow maps; blended surfaces receive none
 // Loops run once a light: where several pixels are shaded at once, code under an if may cost all of them.
 #include "shared/light_index.h"
 
@@ -12,16 +13,47 @@ vec4 texel_of(uint target) { return texelFetch(light_index_images[target], ivec2
 
 uint lidr_before = 0u;
 
-vec3 light_of(ShadingPoint p, uint index) {
+#if defined(INDEX_SHADOWS) && !defined(BLEND)
+#define MAPS_ASKED
+#include "shaders/common/receiver.glsl"
+#include "shaders/common/index_shadow.glsl"
+Receiver lidr_receiver;
+#endif
+
+// An entry is an index and, with LIDR_SHARE_BITS, the share of the light that is hidden.
+vec3 light_of(ShadingPoint p, uint entry) {
+#ifdef LIDR_SHARE_BITS
+  uint index = entry & ((1u << LIDR_SHARE_SHIFT) - 1u);
+  float hidden = float(entry >> LIDR_SHARE_SHIFT) / float((1u << LIDR_SHARE_BITS) - 1u);
+#else
+  uint index = entry;
+#endif
 #ifdef LIDR_REPEATS
   if (index == lidr_before) return vec3(0.0);
   lidr_before = index;
 #endif
-  return punctual_light(p, int(index) - 1);
+  vec3 light = punctual_light(p, int(index) - 1);
+#ifdef LIDR_SHARE_BITS
+  light *= 1.0 - hidden;
+#endif
+#ifdef MAPS_ASKED
+  if (light != vec3(0.0)) {
+    float by_map = hidden_share(index - 1u, lidr_receiver, ivec2(gl_FragCoord.xy));
+    light = by_map == 1.0 ? vec3(0.0) : light * (1.0 - by_map);  // infinity times 0 is NaN
+  }
+#endif
+  return light;
+}
+
+void begin_lights(ShadingPoint p) {
+#ifdef MAPS_ASKED
+  lidr_receiver = receiver_at(ivec2(gl_FragCoord.xy), p.position);
+#endif
 }
 
 #if defined(LIDR_SHIFTED) && !defined(LIDR_FLOAT)
 vec3 light_sum(ShadingPoint p) {
+  begin_lights(p);
   const uint words = (LIDR_CHANNELS + 3u) / 4u;
   vec3 sum = vec3(0.0);
   for (uint group = 0u; group < LIDR_GROUPS; ++group) {
@@ -85,12 +117,14 @@ void unpack_group(uint group) {
   if (LIDR_SLOTS > 1u) lidr_found[group * LIDR_SLOTS + 1u] = index == least ? 0u : index;
 #else
   if (LIDR_CHANNELS > 1u) index |= channel_value(group * LIDR_CHANNELS + 1u) << 8u;
+  if (LIDR_CHANNELS > 2u) index |= channel_value(group * LIDR_CHANNELS + 2u) << 16u;
   lidr_found[group] = index;
 #endif
 }
 #endif
 
 vec3 light_sum(ShadingPoint p) {
+  begin_lights(p);
   uint left = 0u;
   for (uint group = 0u; group < LIDR_GROUPS; ++group) unpack_group(group);
   for (uint i = 0u; i < overlaps; ++i) left |= uint(lidr_found[i] != 0u) << i;

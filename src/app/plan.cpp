@@ -59,11 +59,14 @@ int plan(PlanOptions o) {
     json["decisions"].push_back({{"effect", d.effect}, {"needed", d.needed}, {"why", d.why}});
   }
   for (const LightShadow& light : plan.casting) {
-    const bool needed = light.need == ShadowNeed::rays, by_maps = settings.shadows == ShadowMethod::map;
+    const auto by = [&](const char* what) {
+      return light.need == ShadowNeed::rays && plan.shadows_by == std::string(what);
+    };
     json["shadows"].push_back({{"light", light.light},
                                {"name", chosen.scene.lights[size_t(light.light)].name},
-                               {"rays", needed && !by_maps},
-                               {"map", needed && by_maps},
+                               {"rays", by("rays")},
+                               {"map", by("maps")},
+                               {"volume", by("shadow volumes")},
                                {"why", words_of(light, chosen.scene)}});
   }
   if (leaks) json["leaks"] = leaks_json(*leaks, chosen.scene);

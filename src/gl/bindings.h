@@ -25,6 +25,8 @@ namespace lightgrid {
 #define LIGHTGRID_LIGHT_SAMPLERS(UNIT, SHARE) \
   UNIT(directional_lights) \
   UNIT(shadow_tiles) UNIT(shadow_bits) UNIT(shadow_layers) \
+  /* shadows that lidr finds itself */ \
+  UNIT(receiver_triangles) UNIT(triangle_corners) UNIT(shadow_lights) UNIT(shadow_faces) UNIT(shadow_texels) \
   /* which lights a pixel reads: one source a program */ \
   UNIT(grid_cells) UNIT(grid_indices) UNIT(grid_masks) UNIT(light_z_bins) UNIT(voxel_irradiance) UNIT(voxel_directions) \
   SHARE(world_cells, grid_cells) UNIT(world_indices) UNIT(world_buckets) UNIT(world_keys) \
@@ -36,11 +38,13 @@ namespace lightgrid {
   SHARE(indices, gbuffer_normal_roughness_metallic) \
   SHARE(given_depth, gbuffer_normal_roughness_metallic) \
   SHARE(triangle_numbers, gbuffer_normal_roughness_metallic) \
-  SHARE(left_image, gbuffer_normal_roughness_metallic) UNIT(right_image)
+  SHARE(left_image, gbuffer_normal_roughness_metallic) UNIT(right_image) \
+  SHARE(shadow_stencil, shadow_faces)
 
 #define LIGHTGRID_UNIFORM_BLOCKS(BLOCK) \
   BLOCK(ViewParamsBlock) BLOCK(MaterialParamsBlock) BLOCK(MaterialModelsBlock) BLOCK(SliceEdgesBlock) \
-  BLOCK(ZBinEdgesBlock) BLOCK(VoxelLookupBlock) BLOCK(WorldGridBlock) BLOCK(WorldViewBlock)
+  BLOCK(ZBinEdgesBlock) BLOCK(VoxelLookupBlock) BLOCK(WorldGridBlock) BLOCK(WorldViewBlock) \
+  BLOCK(ReceiverBlock)
 // clang-format on
 
 #define LIGHTGRID_NEXT(name) name,

@@ -10,8 +10,8 @@
 #include "cl/transfer.h"
 #include "passes/blended_layers.h"
 #include "passes/shadows/certificates.h"
+#include "passes/shadows/triangle_numbers.h"
 #include "passes/shadows/view_shadow_maps.h"
-#include "renderer/drawing/draw.h"
 #include "renderer/upload/culler_input.h"
 #include "renderer/upload/lights.h"
 #include "shared/shadow_bits.h"
@@ -102,15 +102,6 @@ struct ReceiverImage {
   cl::Buffer triangle_instance, number_offsets;  // null: numbers are those of rays
   bool own_hides = true;                         // lights behind a receiver's own triangle
 };
-
-// Set where more than half of a light is hidden.
-std::vector<uint32_t> bits_of_bytes(const std::vector<uint8_t>& shares) {
-  std::vector<uint32_t> bits(shares.size() / 32);
-  for (size_t i = 0; i < shares.size(); ++i) {
-    if (shares[i] > 127) bits[i / 32] |= 1u << (i % 32);
-  }
-  return bits;
-}
 
 }  // namespace
 
@@ -216,7 +207,7 @@ class ShadowBits : public PassCache {
                   values.size() * sizeof values[0], listed_[image]->first_entry * entry_bytes);
     };
     if (work.plan.shadow_bytes)
-      read(shadows.shares), shadows.bits = bits_of_bytes(shadows.shares);
+      read(shadows.shares), shadows.bits = hidden_bits(shadows.shares);
     else
       read(shadows.bits);
     return shadows;
@@ -314,7 +305,7 @@ class ShadowBits : public PassCache {
     if (kernels_.lanes && work.plan.settings.portable) defines += " -DPORTABLE";
     if (settings.shadows == ShadowMethod::map) {
       if (!maps_) maps_.emplace(work);
-      if (!followed_) maps_->look(work, rays.origin());
+      if (!followed_) maps_->look(work, rays.origin(), work.plan.shadowed);
       defines += maps_->defines();
     }
     const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact && !settings.soft_shadows() &&
@@ -378,25 +369,12 @@ class ShadowBits : public PassCache {
 
 namespace {
 
-// By OpenGL, at the depth image: the rays' numbers of the triangles that pixels show.
-const cl::Buffer& draw_triangle_numbers(Work& work, const RayScene& rays) {
+const cl::Buffer& triangle_numbers_in_cl(Work& work, const RayScene& rays) {
   auto pass = work.timer.pass("triangle_numbers", "gl");
-  const GLuint numbers = work.targets.texture("triangle numbers", GL_R32UI),
-               framebuffer = work.targets.framebuffer({numbers}, work.targets.depth());
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, work.grid().width, work.grid().height);
-  const GLuint nothing[4] = {0xffffffffu, 0, 0, 0};
-  glClearNamedFramebufferuiv(framebuffer, GL_COLOR, 0, nothing);
-  glDepthMask(GL_FALSE);
-  glDisable(GL_BLEND);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_EQUAL);
-  bind_texture(Sampler::triangle_numbers, work.gpu.in_gl().triangle_numbers());
-  draw_triangles(work, work.opaque, {"RAY_NUMBERS"},
-                 [&](int instance) { return rays.first_triangle(size_t(instance)); });
+  const TriangleImage drawn = draw_triangle_numbers(work, rays);
   SharedBuffer& copy = work.shared_pixels("triangle numbers", 4);
   const size_t bytes = work.grid().values() * 4;
-  work.renderer.pixel_copies.to_buffer({framebuffer, GL_COLOR_ATTACHMENT0, numbers}, GL_RED_INTEGER,
+  work.renderer.pixel_copies.to_buffer({drawn.framebuffer, GL_COLOR_ATTACHMENT0, drawn.image}, GL_RED_INTEGER,
                                        GL_UNSIGNED_INT, work.grid(), copy.gl_buffer());
   copy.hand_to_cl(bytes);
   pass.moves(work.gpu.in_gl().geometry_bytes() + bytes, 2 * bytes);
@@ -412,7 +390,7 @@ void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visibl
   work.shadows.layer_count = 0;
   if (!work.plan.shadows) return shadows.clear(work);
   const RayScene& rays = shadows.scene(work);
-  const cl::Buffer& numbers = visible ? visible->image.triangle : draw_triangle_numbers(work, rays);
+  const cl::Buffer& numbers = visible ? visible->image.triangle : triangle_numbers_in_cl(work, rays);
   if (!visible && work.plan.blend) {
     work.shadows.first_triangles.assign(work.scene.instances.size(), 0);
     for (const int i : work.plan.blended)
@@ -427,9 +405,13 @@ void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visibl
 void tell_shadows(Work& work, Cached<ShadowBits>& cache, Frame& frame) {
   if (!work.plan.light_reaches) return;
   ShadowBits& shadows = cache.of(work);
-  if (!frame.lights_in_volume) frame.shadows = [&] { return shadows.read(work); };
+  if (!frame.lights_in_volume && !frame.shadows) frame.shadows = [&] { return shadows.read(work); };
   frame.blended_shadows = [&] { return shadows.read_layers(work); };
-  frame.shadow_figures = [&] { return shadows.figures(work); };
+  frame.shadow_figures = [&, own = frame.shadow_figures] {
+    ShadowFigures figures = shadows.figures(work);
+    if (own) figures += own();
+    return figures;
+  };
 }
 
 }  // namespace lightgrid

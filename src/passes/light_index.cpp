@@ -7,35 +7,21 @@
 #include <tuple>
 
 #include "passes/light_index/blending.h"
+#include "passes/light_index/index_drawing.h"
+#include "passes/light_index/index_shadows.h"
 #include "passes/light_index/light_groups.h"
-#include "passes/light_volumes/light_volumes.h"
 
 namespace lightgrid {
-namespace {
-
-// The stencil's lowest bit is clear where the surface is inside the current volume; the bits above count the
-// remaining slots down. Decrementing an even value does both: it sets the lowest bit and takes one from the
-// count.
-constexpr GLuint not_inside = 1;
-constexpr GLuint has_room = 128;  // top bit: the count is not exhausted
-
-}  // namespace
-
-// Volumes that one call draws.
-struct Batch {
-  size_t first, count;
-  uint32_t group;  // sort: the group whose channels are written
-};
 
 struct Order {
   std::vector<LightVolume> volumes;
-  std::vector<Batch> batches;
+  std::vector<VolumeBatch> batches;
 };
 
 class LightIndexOrder : public PassCache {
  public:
   explicit LightIndexOrder(Work& work)
-      : layout(light_index_layout(work.plan.settings, work.plan.local.size())),
+      : layout(light_index_layout(work.plan.settings, work.plan.local.size(), share_bits_of(work))),
         group_of_light(work.plan.local.size(), no_group) {
     require_exact_blending(work, layout);
     find_influence(work);
@@ -60,9 +46,7 @@ class LightIndexOrder : public PassCache {
     influence.clear();
     for (const ViewLight& light :
          lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local)) {
-      const glm::dvec3& i_rgb = light.radiant_intensity;
-      // The integral of intensity / distance^2 over the sphere, up to a factor.
-      influence.push_back((i_rgb.r + i_rgb.g + i_rgb.b) * light.radius_m);
+      influence.push_back(influence_of(light));
     }
   }
 };
@@ -144,93 +128,6 @@ Order order_of(const Seen& seen, LightIndexOrder& state, std::vector<LightVolume
   return out;
 }
 
-class Drawing {
- public:
-  Drawing(const Seen& seen, const LightIndexLayout& layout, const LightVolumes& volumes)
-      : layout_(layout),
-        volumes_(volumes),
-        inside_(seen.plan.settings.lidr_volumes == LidrVolumes::stencil) {}
-
-  void draw(const Batch& batch) const {
-    const bool counted = layout_.packing != LidrPacking::sort;
-    if (inside_) mark_inside(batch);
-    // Later groups first: otherwise a light that fills one group's last slot would also be written to the
-    // next group.
-    for (uint32_t group = counted ? layout_.groups : 1; group-- > 0;) {
-      write_group(layout_, counted ? group : batch.group);
-      if (counted)
-        test_free_slot(group);
-      else
-        test_mark_only();
-      if (inside_)
-        write_marked(batch);
-      else
-        write_behind_front_faces(batch);
-    }
-  }
-
-  // The initial stencil value: the number of free slots.
-  GLint cleared_stencil() const {
-    if (layout_.packing == LidrPacking::sort) return 255;
-    return GLint(inside_ ? 2 * (has_room / 2 - 1 + layout_.overlap) + not_inside
-                         : has_room - 1 + layout_.overlap);
-  }
-
- private:
-  // Marks surfaces behind a front face; write_marked then tests for a back face behind them. If the near
-  // plane cuts holes into front faces, each face behind a surface inverts the bit: an odd number means
-  // inside, for any closed mesh.
-  void mark_inside(const Batch& batch) const {
-    write_group(layout_, no_channels);
-    const bool count = crosses_near(batch);
-    count ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
-    glDepthFunc(GL_GEQUAL);
-    glStencilMask(not_inside);
-    glStencilFunc(GL_ALWAYS, 0, 0);
-    count ? glStencilOp(GL_KEEP, GL_INVERT, GL_KEEP) : glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);
-    volumes_.draw(batch.first, batch.count);
-  }
-
-  // Tests for a free slot in this group and, with stencil, for the mark. A marked surface behind a back face
-  // is not inside and loses its mark.
-  void test_free_slot(uint32_t group) const {
-    const GLuint step = inside_ ? 2 : 1;  // stencil steps a slot takes
-    const GLuint of_group = layout_.groups > 1 ? step * layout_.slots : 0;
-    glStencilMask(255);
-    glStencilFunc(GL_EQUAL, GLint(has_room | (group == 0 ? of_group : 0)),
-                  has_room | of_group | (inside_ ? not_inside : 0));
-    glStencilOp(GL_KEEP, inside_ ? GL_INCR : GL_KEEP, GL_DECR);
-  }
-
-  void test_mark_only() const {
-    inside_ ? glStencilFunc(GL_EQUAL, 0, not_inside) : glStencilFunc(GL_ALWAYS, 0, 0);
-    inside_ ? glStencilOp(GL_KEEP, GL_INVERT, GL_INVERT) : glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-  }
-
-  void write_marked(const Batch& batch) const {
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_FRONT);
-    glDepthFunc(crosses_near(batch) ? GL_ALWAYS : GL_LEQUAL);
-    volumes_.draw(batch.first, batch.count);
-  }
-
-  // Writes to surfaces behind a front face or, if the near plane cuts holes into these, wherever there is a
-  // back face.
-  void write_behind_front_faces(const Batch& batch) const {
-    glEnable(GL_CULL_FACE);
-    glCullFace(crosses_near(batch) ? GL_FRONT : GL_BACK);
-    glDepthFunc(crosses_near(batch) ? GL_ALWAYS : GL_GEQUAL);
-    volumes_.draw(batch.first, batch.count);
-  }
-
-  bool crosses_near(const Batch& batch) const { return volumes_.volumes()[batch.first].crosses_near; }
-
-  const LightIndexLayout& layout_;
-  const LightVolumes& volumes_;
-  bool inside_;
-};
-
 std::vector<GLuint> index_images(Work& work, const LightIndexLayout& layout) {
   std::vector<GLuint> images;
   for (uint32_t i = 0; i < layout.targets(); ++i) {
@@ -248,20 +145,44 @@ void clear(const LightIndexLayout& layout, GLuint framebuffer, GLint stencil) {
   glClearNamedFramebufferiv(framebuffer, GL_STENCIL, 0, &stencil);
 }
 
+// Whether lights are not written where they are hidden.
+bool drops_hidden(const Seen& seen) {
+  return seen.plan.own_shadows && seen.plan.settings.lidr_shadows != LidrShadows::final_pass;
+}
+
+// Where the stencil marks what is inside, hidden pixels get no mark. Discarding them later would leave one.
+IndexDrawing::Programs programs_of(Work& work, const LightIndexLayout& layout, const GlLightLoop* shadows) {
+  const auto program = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> defines = layout.defines();
+    defines.insert(defines.end(), more.begin(), more.end());
+    return work.program("shaders/light_index.vert", "shaders/light_index.frag", std::move(defines)).name();
+  };
+  if (!shadows) return {program({}), program({})};
+  // A share is found once more where it is written.
+  const bool marked = work.plan.settings.lidr_volumes == LidrVolumes::stencil && !layout.share_bits;
+  return {program(shadows->defines), program(marked ? std::vector<std::string>() : shadows->defines)};
+}
+
 void draw_volumes(Work& work, const LightIndexOrder& state, const LightVolumes& volumes, const Order& order,
-                  GLuint framebuffer) {
+                  GLuint framebuffer, const IndexShadows* shadows) {
   const LightIndexLayout& layout = state.layout;
-  const Drawing drawing(work, layout, volumes);
-  const GlProgram& program =
-      work.program("shaders/light_index.vert", "shaders/light_index.frag", layout.defines());
+  std::optional<GlLightLoop> input;
+  if (shadows) input = shadows->input(work);
+  const IndexDrawing drawing(work, layout, volumes, programs_of(work, layout, input ? &*input : nullptr));
+  if (input) input->bind(work);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, work.grid().width, work.grid().height);
   clear(layout, framebuffer, drawing.cleared_stencil());
   glEnable(GL_DEPTH_TEST), glDepthMask(GL_FALSE), glEnable(GL_STENCIL_TEST);
-  glUseProgram(program.name());
   begin_light_indices(layout);
-  volumes.begin();
-  for (const Batch& batch : order.batches) drawing.draw(batch);
+  for (const VolumeBatch& batch : order.batches) {
+    if (shadows) {
+      shadows->draw_casters(work, std::span(order.volumes).subspan(batch.first, batch.count));
+      glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    }
+    volumes.begin();
+    drawing.draw(batch);
+  }
   volumes.end();
   end_light_indices();
   glStencilMask(255);
@@ -270,8 +191,15 @@ void draw_volumes(Work& work, const LightIndexOrder& state, const LightVolumes& 
 
 bool may_repeat(const Seen& seen) { return seen.plan.settings.lidr_volumes == LidrVolumes::front_faces; }
 
-GlLightLoop index_loop(const Seen& seen, const LightIndexLayout& layout, const std::vector<GLuint>& images) {
+// shadows: of lights that are listed where they are hidden too.
+GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::vector<GLuint>& images,
+                       const IndexShadows* shadows) {
   GlLightLoop loop = light_loop(seen);
+  if (shadows) {
+    const GlLightLoop input = shadows->input(seen);
+    loop.defines.insert(loop.defines.end(), input.defines.begin(), input.defines.end());
+    loop.textures = input.textures, loop.blocks = input.blocks;
+  }
   for (std::string& define : layout.defines()) loop.defines.push_back(std::move(define));
   loop.defines.emplace_back("LIGHTS_LIDR");
   if (seen.plan.settings.lidr_unpack == LidrUnpack::floats) loop.defines.emplace_back("LIDR_FLOAT");
@@ -301,7 +229,8 @@ ListedLights read_light_index(Work& work, Cached<LightIndexOrder>& cache) {
 
 }  // namespace
 
-LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache) {
+LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache,
+                        Cached<IndexShadows>& shadow_cache) {
   LightIndexOrder& state = cache.of(work);
   LightVolumes& volumes = volume_cache.of(work);
   const std::vector<GLuint> images = index_images(work, state.layout);
@@ -312,13 +241,25 @@ LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<Light
     volumes.upload_volumes(order.volumes);
     state.order = std::move(order);
   }
+  IndexShadows* shadows = work.plan.own_shadows ? &shadow_cache.of(work) : nullptr;
+  if (shadows) shadows->find(work);
   auto pass = work.timer.pass("light_index", "gl");
-  draw_volumes(work, state, volumes, state.order, framebuffer);
+  draw_volumes(work, state, volumes, state.order, framebuffer, drops_hidden(work) ? shadows : nullptr);
   const size_t values = work.grid().values();
   pass.moves(values * 5 + volumes.memory_bytes(), values * (state.layout.pixel_bytes() + 1));
-  return LightSource([&work, &state, images] { return index_loop(work, state.layout, images); }, {},
-                     work.targets.bytes(TargetUse::light_index),
-                     [&work, &cache](auto&) { return read_light_index(work, cache); });
+  if (drops_hidden(work)) shadows = nullptr;
+  return LightSource(
+      [&work, &state, images, shadows] { return index_loop(work, state.layout, images, shadows); }, {},
+      work.targets.bytes(TargetUse::light_index),
+      [&work, &cache](auto&) { return read_light_index(work, cache); });
+}
+
+void tell_index_shadows(Work& work, Cached<IndexShadows>& shadow_cache, Cached<LightVolumes>& volume_cache,
+                        Frame& frame) {
+  if (!work.plan.own_shadows) return;
+  const IndexShadows& shadows = shadow_cache.of(work);
+  frame.shadows = [&] { return shadows.read(work, volume_cache.of(work)); };
+  frame.shadow_figures = [&] { return shadows.figures(work); };
 }
 
 }  // namespace lightgrid

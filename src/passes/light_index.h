@@ -8,6 +8,11 @@ namespace lightgrid {
 // The lights in the pixel's light indices. Draws light volumes into light index images, at the prepass'
 // depth. Throws Error(input) if no layout fits the settings, and Error(machine) if this machine's blending
 // would change an index.
-LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache);
+LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache,
+                        Cached<IndexShadows>& shadow_cache);
+
+// Where the plan's own_shadows is set, puts the frame's shadows and their figures into it.
+void tell_index_shadows(Work& work, Cached<IndexShadows>& shadow_cache, Cached<LightVolumes>& volume_cache,
+                        Frame& frame);
 
 }  // namespace lightgrid

@@ -185,6 +185,33 @@ size_t place_of_light(const FramePlan& plan, int light) {
   return plan.local.size() + size_t(directional - plan.directional_lights.begin());
 }
 
+// Hands the shadows of point and spot lights over to the technique, of those of most influence if there are
+// too many.
+void take_own_shadows(const Scene& scene, const View& view, const TechniqueNeeds& needs, FramePlan& plan) {
+  const auto casts = [&](int i) { return scene.lights[size_t(i)].casts_shadow; };
+  plan.own_shadows = needs.most_own_shadows > 0 && std::ranges::any_of(plan.local, casts);
+  plan.light_reaches = plan.directional_shadows;
+  if (!plan.shadows) return;
+  const auto end_of_local = plan.shadowed.begin() + std::ptrdiff_t(plan.local.size());
+  plan.own_shadowed.assign(plan.shadowed.begin(), end_of_local);
+  std::fill(plan.shadowed.begin(), end_of_local, uint8_t(0));
+  std::vector<size_t> shadowed;
+  for (size_t i = 0; i < plan.local.size(); ++i)
+    if (plan.own_shadowed[i]) shadowed.push_back(i);
+  if (shadowed.size() > needs.most_own_shadows) {
+    const std::vector<ViewLight> lights = lights_in_view(scene, view, plan.settings.ranges, plan.local);
+    std::ranges::stable_sort(shadowed, std::greater(), [&](size_t i) { return influence_of(lights[i]); });
+    for (size_t i = needs.most_own_shadows; i < shadowed.size(); ++i) {
+      plan.own_shadowed[shadowed[i]] = 0;
+      const auto left_out = std::ranges::find(plan.casting, plan.local[shadowed[i]], &LightShadow::light);
+      left_out->need = ShadowNeed::left_out;
+    }
+  }
+  if (std::ranges::count(plan.own_shadowed, 1) == 0) plan.own_shadowed.clear();
+  plan.shadows = std::ranges::count(plan.shadowed, 1) > 0;
+  if (!plan.shadows) plan.shadowed.clear();
+}
+
 // After surfaces and lights.
 void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& needs,
                   PlannedInstances instances, FramePlan& plan) {
@@ -200,9 +227,11 @@ void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& ne
     }
     if (!plan.shadows) plan.shadowed.clear();
   }
+  plan.shadows_by = plan.settings.shadows == ShadowMethod::map ? "maps" : needs.shadows_by;
+  if (needs.own_shadows) take_own_shadows(scene, view, needs, plan), plan.shadows_by = needs.shadows_by;
   const auto rays = std::ranges::find(plan.casting, ShadowNeed::rays, &LightShadow::need);
   plan.decisions.push_back(
-      {"shadows", plan.shadows,
+      {"shadows", plan.shadows || !plan.own_shadowed.empty(),
        plan.casting.empty() ? "no light casts one"
        : !needs.shadows     ? needs.no_shadows
        : rays != plan.casting.end()
@@ -233,11 +262,13 @@ void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_
                                               : "no light grid"});
 }
 
-void turn_everything_on(const Scene& scene, FramePlan& plan, const TechniqueNeeds& needs) {
+void turn_everything_on(const Scene& scene, const View& view, FramePlan& plan, const TechniqueNeeds& needs) {
   plan.light_grid = plan.blend_grid = needs.light_grid;
   plan.world_grid = needs.world_grid;
   plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
-  if (needs.shadows) shadow_all(scene, plan), plan.light_reaches = true;
+  if (needs.shadows) shadow_all(scene, plan);
+  if (needs.own_shadows) take_own_shadows(scene, view, needs, plan);
+  if (needs.shadows) plan.light_reaches = true;
   plan.index_bits = 32;
   plan.features = features_read(feature_all, plan.settings.brdf);
   plan.clearcoat = plan.features & feature_clearcoat;
@@ -337,7 +368,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan_shadows(scene, view, needs, instances, plan);
   plan.shadow_bytes = settings.soft_shadows() || settings.picks_shadows() ||
                       (settings.shadows == ShadowMethod::map && settings.shadow_taps > 1);
-  if (settings.everything_on) turn_everything_on(scene, plan, needs);
+  if (settings.everything_on) turn_everything_on(scene, view, plan, needs);
   return plan;
 }
 
@@ -348,8 +379,7 @@ std::string describe(const FramePlan& plan, const Scene& scene) {
                   plan.blended.size(), plan.lights_in_view, scene.lights.size());
   for (const Decision& d : plan.decisions)
     text += fmt::format("  {} {}: {}\n", d.needed ? "yes" : " no", d.effect, d.why);
-  const bool by_maps = plan.settings.shadows == ShadowMethod::map;
-  return text + describe_shadows(plan.casting, scene, by_maps ? "maps" : "rays");
+  return text + describe_shadows(plan.casting, scene, plan.shadows_by);
 }
 
 }  // namespace lightgrid

@@ -68,12 +68,17 @@ struct TechniqueNeeds {
   bool chosen_raster = false;       // draws with OpenGL, or with the setting raster=opencl without
   bool world_grid = false;          // light lists in cells of the world
   bool shadows = true;              // light loops ask for shadows
+  // The technique finds those of point and spot lights itself, of so many lights at most; the pass that all
+  // techniques share is then left those of directional lights.
+  bool own_shadows = false;
+  size_t most_own_shadows = SIZE_MAX;
   // Changes these, and the plan's settings, by the technique's own settings. Null: nothing changes.
   void (*adapt)(TechniqueNeeds& needs, Settings& settings) = nullptr;
   // Why the plan has none of them, if it is not the view.
   const char* no_light_grid = "the technique reads none";
   const char* no_slices = "the technique uses none";
   const char* no_shadows = "";
+  const char* shadows_by = "rays";  // what finds shadows, in words
 };
 
 // Whether a technique with these settings draws with OpenGL.
@@ -98,6 +103,11 @@ struct FramePlan {
   std::vector<LightShadow> casting;  // all lights that cast, in scene order
   // By index into `local` and then into `directional_lights`, 1: of this light. Empty if `shadows` is false.
   std::vector<uint8_t> shadowed;
+  // Point and spot lights whose shadows the technique finds itself, likewise by index into `local`; empty if
+  // there are none. own_shadows: some light of the scene may be one, as light_reaches.
+  std::vector<uint8_t> own_shadowed;
+  bool own_shadows = false;
+  const char* shadows_by = "rays";   // what finds shadows, in words
   bool directional_shadows = false;  // as light_reaches, of directional lights alone
   bool shadow_bytes = false;         // a share of a light may be hidden: a byte a pixel and light, not a bit
   bool directional = false;

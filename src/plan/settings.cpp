@@ -161,6 +161,19 @@ std::vector<Setting>& all_settings() {
        named(&Settings::lidr_unpack, {{"integer", LidrUnpack::integers}, {"float", LidrUnpack::floats}})},
       {"lidr-order", "the lights kept if a pixel has too many: those of most influence, or the scene's first",
        named(&Settings::lidr_order, {{"priority", LidrOrder::priority}, {"scene", LidrOrder::scene}})},
+      {"lidr-shadows",
+       "shadows of point and spot lights: exact, by the pass of all techniques; none; or where light volumes "
+       "are drawn by shadow volumes or shadow maps, hard or as a share beside each index, or by shadow maps "
+       "of "
+       "a few lights where surfaces are shaded",
+       named(&Settings::lidr_shadows, {{"pass", LidrShadows::pass},
+                                       {"none", LidrShadows::none},
+                                       {"volumes", LidrShadows::volumes},
+                                       {"prepass", LidrShadows::prepass},
+                                       {"prepass-soft", LidrShadows::prepass_soft},
+                                       {"final", LidrShadows::final_pass}})},
+      {"lidr-maps", "lights with shadow maps, with lidr-shadows=final: those of most influence",
+       numbers(&Settings::lidr_maps, {"4", "1", "16", "64", "256"})},
       {"volume-mesh", "the mesh of a light's volume; auto: more faces if it is larger on screen",
        named(&Settings::volume_mesh, {{"auto", VolumeMeshes::automatic},
                                       {"icosahedron", VolumeMeshes::icosahedron},

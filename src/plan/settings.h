@@ -25,6 +25,9 @@ enum class LidrPacking { bitshift, maxblend, sort };
 enum class LidrVolumes { stencil, front_faces };
 enum class LidrUnpack { integers, floats };
 enum class LidrOrder { priority, scene };
+// Who finds the shadows of point and spot lights: find_shadows, as for every technique; nobody; or lidr
+// itself, by shadow volumes or shadow maps (docs/techniques/lidr.md#shadows).
+enum class LidrShadows { pass, none, volumes, prepass, prepass_soft, final_pass };
 
 // Who rasterises, in techniques that leave the choice: OpenGL, or OpenCL (raster/raster_view.h), which then
 // needs no OpenGL.
@@ -75,6 +78,8 @@ struct Settings {
   LidrVolumes lidr_volumes = LidrVolumes::stencil;
   LidrUnpack lidr_unpack = LidrUnpack::integers;
   LidrOrder lidr_order = LidrOrder::priority;
+  LidrShadows lidr_shadows = LidrShadows::pass;
+  int lidr_maps = 4;  // LidrShadows::final_pass: lights that have shadow maps: 1, 4, 16, 64 or 256
   VolumeMeshes volume_mesh = VolumeMeshes::automatic;
   PrepassSpecular prepass_specular = PrepassSpecular::plain;
   int prepass_shininess = 32;  // the lights' specular exponent: 2, 8, 32, 128 or 512

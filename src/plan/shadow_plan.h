@@ -21,6 +21,7 @@ enum class ShadowNeed {
   no_caster,       // no opaque or masked instance of the scene meets the light's bounds
   no_receiver,     // the bounds are out of view, or no instance in view meets them
   casters_behind,  // of all receivers: shadow_plan.cpp
+  left_out,        // the technique shows fewer shadows: FramePlan::own_shadowed
 };
 
 // Why no rays are traced. Empty: they are.
@@ -36,7 +37,7 @@ struct LightShadow {
 std::string words_of(const LightShadow& light, const Scene& scene);
 
 // As `lightgrid plan` prints them: a line for each need, with its number of lights and the first of them.
-// found_by: "rays" or "maps". Empty if no light casts.
+// found_by: "rays", "maps" or "shadow volumes". Empty if no light casts.
 std::string describe_shadows(const std::vector<LightShadow>& casting, const Scene& scene,
                              const char* found_by = "rays");
 

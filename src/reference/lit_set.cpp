@@ -61,16 +61,19 @@ uint32_t length_of_list(const ListedLights& lists, uint32_t cell) {
   return cell < lists.count.size() ? lists.count[cell] : 0;
 }
 
-// A pair in range, by what hides its light. Returns whether it is lit.
-bool tally_shadow(const PairShadows& shadows, int width, uint32_t pixel, uint32_t light, bool listed,
+// A pair in range, by what hides its light. Returns whether it is lit. listed: or left out as hidden, which
+// then is set.
+bool tally_shadow(const PairShadows& shadows, int width, uint32_t pixel, uint32_t light, bool& listed,
                   Tally& tally, LitPairs& out) {
+  const bool hidden =
+      shadows.shaded && hidden_at(*shadows.shaded, int(pixel) % width, int(pixel) / width, light);
+  listed = listed || (hidden && shadows.shaded->drops_hidden &&
+                      hidden_share_at(*shadows.shaded, int(pixel) % width, int(pixel) / width, light) == 1);
   if (!shadows.truth.decided(pixel)) return true;
   const Sight sight = shadows.truth.at(pixel, light);
   if (sight == Sight::either) ++tally.either;
   tally.hidden += sight == Sight::hidden, out.hidden_of_pixel[pixel] += sight == Sight::hidden;
   if (sight == Sight::either || !listed) return sight == Sight::seen;
-  const bool hidden =
-      shadows.shaded && hidden_at(*shadows.shaded, int(pixel) % width, int(pixel) / width, light);
   const bool leaked = sight == Sight::hidden && !hidden, acned = sight == Sight::seen && hidden;
   tally.leaked += leaked, tally.acned += acned;
   out.leaked_of_pixel[pixel] += leaked, out.acned_of_pixel[pixel] += acned;
@@ -97,23 +100,22 @@ Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered,
     tally.wrong += listed.read(lists, cell) * (end - begin);
     tally.listed += uint64_t(length_of_list(lists, cell)) * (end - begin);
     for (size_t i = begin; shadows && i < end; ++i) {
-      for (uint32_t d = 0; d < shadows->directional; ++d)
-        tally_shadow(*shadows, width, pixels[i], uint32_t(lights.size()) + d, true, tally, out);
+      const bool local_alone = shadows->shaded && shadows->shaded->local_alone;
+      for (uint32_t d = 0; d < (local_alone ? 0 : shadows->directional); ++d) {
+        bool is_listed = true;
+        tally_shadow(*shadows, width, pixels[i], uint32_t(lights.size()) + d, is_listed, tally, out);
+      }
     }
     for (size_t i = begin; i < end; ++i) out.listed_of_pixel[pixels[i]] = length_of_list(lists, cell);
     for (uint32_t light : tile.lights) {
-      uint64_t lit = 0;
-      const bool is_listed = listed.has(light);
       for (size_t i = begin; i < end; ++i) {
-        bool reaches = is_lit(lights[light], positions[i]);
+        bool reaches = is_lit(lights[light], positions[i]), is_listed = listed.has(light);
         if (reaches && shadows)
           reaches = tally_shadow(*shadows, width, pixels[i], light, is_listed, tally, out);
-        out.lit_of_pixel[pixels[i]] += reaches;
-        if (!is_listed) out.lost_of_pixel[pixels[i]] += reaches;
-        lit += reaches;
+        const bool lost = reaches && !is_listed;
+        out.lit_of_pixel[pixels[i]] += reaches, out.lost_of_pixel[pixels[i]] += lost;
+        tally.lit += reaches, tally.lost += lost;
       }
-      tally.lit += lit;
-      if (!is_listed) tally.lost += lit;
     }
   }
   return tally;

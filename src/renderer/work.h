@@ -108,6 +108,7 @@ struct PassCaches {
   Cached<class LightSums> light_sums;                               // passes/fill_light_buffer.cpp
   Cached<class LightVolumes> light_volumes;                         // passes/light_volumes/light_volumes.h
   Cached<class LightIndexOrder> light_index;                        // passes/light_index.cpp
+  Cached<class IndexShadows> index_shadows;                         // passes/light_index/index_shadows.h
   Cached<class ObjectLights> object_lights, blended_object_lights;  // passes/find_object_lights.h
   Cached<class VoxelBuffers> voxels;                                // passes/build_voxels.cpp
   Cached<class ViewOfWorldGrid> world_grid;                         // passes/build_world_grid.cpp
@@ -120,7 +121,7 @@ struct PassCaches {
   size_t memory_bytes() const;
 
  private:
-  std::array<std::unique_ptr<PassCache>*, 13> all();
+  std::array<std::unique_ptr<PassCache>*, 14> all();
 };
 
 }  // namespace lightgrid

@@ -21,6 +21,8 @@ struct HostShadows {
   std::vector<uint32_t> indices;
   std::vector<uint32_t> bits;   // `words` an entry of indices: the light, or more than half of it, is hidden
   std::vector<uint8_t> shares;  // the hidden share times 255, in the same order; empty: bits say all
+  bool local_alone = false;     // those of directional lights are elsewhere
+  bool drops_hidden = false;    // lights are in no list of lights at a pixel that they are wholly hidden from
 };
 
 // The shadows of one layer of blended surfaces, and the fragments that it holds: of each pixel, row 0 at the bottom,
@@ -30,6 +32,15 @@ struct HostShadowLayer {
   std::vector<float> depth;
   std::vector<glm::ivec2> triangles;
 };
+
+// HostShadows::bits of shares.
+inline std::vector<uint32_t> hidden_bits(const std::vector<uint8_t>& shares) {
+  std::vector<uint32_t> bits(shares.size() / 32);
+  for (size_t i = 0; i < shares.size(); ++i) {
+    if (shares[i] > 127) bits[i / 32] |= 1u << (i % 32);
+  }
+  return bits;
+}
 
 // Of a pixel, row 0 at the bottom, and a light. None: the tile does not list it.
 inline std::optional<size_t> shadow_value(const HostShadows& shadows, int x, int y, uint32_t light) {

@@ -20,6 +20,11 @@ struct ViewLight {
   double least_falloff = 0;  // 1 / m^2: scene/light_ranges.h
 };
 
+// The integral of intensity / distance^2 over the range's ball, up to a factor.
+inline double influence_of(const ViewLight& light) {
+  return (light.radiant_intensity.r + light.radiant_intensity.g + light.radiant_intensity.b) * light.radius_m;
+}
+
 // In the scene's order. Positions are subtracted from the eye in double, so that a scene and a camera moved
 // together by an exact amount give the same bits.
 std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, const LightRanges& ranges = {});

@@ -19,17 +19,17 @@ NamedKernel& ShadowMaps::kernel(const std::string& name, const RayScene& rays) {
   return kernel;
 }
 
-void ShadowMaps::draw(const RayScene& rays, const ShadowAtlas& atlas) {
+void ShadowMaps::draw(const RayScene& rays, const ShadowAtlas& atlas, const cl::Buffer& texels) {
   if (atlas.texels > 0xffffffffu)
     throw machine_error("shadow maps: {} texels, more than 2^32 - 1: a smaller shadow-size", atlas.texels);
   lights_.put(device_, "shadow maps: lights", atlas.lights);
   faces_.put(device_, "shadow maps: faces", atlas.faces);
-  texels_.at_least(device_, atlas.bytes);
+  const cl::Buffer& drawn = texels() ? texels : texels_.at_least(device_, atlas.bytes);
   light_count_ = atlas.lights.size();
   if (atlas.faces.empty()) return;
   kernel("draw_faces", rays)
       .launch(device_, "draw_faces", cl::NDRange(atlas.faces.size()), cl::NDRange(1),
-              rays.arguments() + ClArguments{{"faces", faces_.buffer()}, {"texels", texels_.get()}});
+              rays.arguments() + ClArguments{{"faces", faces_.buffer()}, {"texels", drawn}});
 }
 
 std::vector<uint8_t> ShadowMaps::look_up(const RayScene& rays, std::span<const RayPoint> points,

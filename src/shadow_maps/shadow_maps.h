@@ -19,8 +19,9 @@ class ShadowMaps {
   ShadowMaps(ClDevice& device, ProgramCache& programs, const ShadowMapOptions& options);
 
   // All triangles that cast and that a face sees, from both sides. Does not wait for the queue. Throws
-  // machine where a face's texels have no 32-bit numbers.
-  void draw(const RayScene& rays, const ShadowAtlas& atlas);
+  // machine where a face's texels have no 32-bit numbers. texels: where to, of atlas.bytes; null: into a
+  // buffer of its own, which look_up() and arguments() read.
+  void draw(const RayScene& rays, const ShadowAtlas& atlas, const cl::Buffer& texels = {});
 
   // How many of the taps are hidden, for 16 points a packet. Each point's `own` is the triangle that it lies
   // on. Waits for the queue. Throws input: a packet whose block or light does not exist. For tests: kernels
@@ -39,7 +40,7 @@ class ShadowMaps {
   ShadowMapOptions options_;
   UploadedBuffer faces_, lights_;
   GrowingBuffer texels_;
-  size_t light_count_ = 0;  // of the atlas that was drawn
+  size_t light_count_ = 0;                      // of the atlas that was drawn
   std::map<std::string, NamedKernel> kernels_;  // by file and defines
   NamedKernel& kernel(const std::string& name, const RayScene& rays);
 };

@@ -1,5 +1,6 @@
 // Light-indexed deferred rendering: light volumes drawn into images of light indices, then forward shading of
 // the lights that a pixel's indices name (docs/techniques/lidr.md).
+#include "base/error.h"
 #include "passes/find_object_lights.h"
 #include "passes/light_index.h"
 #include "passes/shade_forward.h"
@@ -7,27 +8,50 @@
 
 namespace lightgrid {
 
+// Shadow volumes mark the nearest surfaces; behind front faces lights are listed for all that lie before
+// them.
+static void refuse_impossible(const Settings& settings) {
+  if (settings.lidr_shadows == LidrShadows::volumes && settings.lidr_volumes == LidrVolumes::front_faces) {
+    throw input_error(
+        "lidr: shadow volumes mark opaque surfaces, but lidr-volumes=front-faces lists lights for all that "
+        "lies before them; use lidr-volumes=stencil, or lidr-shadows=prepass");
+  }
+}
+
 static Frame render(RenderView& v) {
+  refuse_impossible(v.plan.settings);
   const Surfaces surfaces = find_surfaces(v);
   if (v.plan.local.empty()) return shade_every_light(v, surfaces);
-  const LightSource lights = light_index(v, v.caches.light_index, v.caches.light_volumes);
+  const LightSource lights =
+      light_index(v, v.caches.light_index, v.caches.light_volumes, v.caches.index_shadows);
   const ShadedImage image = shade(v, surfaces, lights);
-  // Stencil marks opaque surfaces only.
-  if (v.plan.settings.lidr_volumes == LidrVolumes::front_faces) {
+  // Stencil marks opaque surfaces only, and only from these are lights hidden.
+  const bool as_opaque = !v.plan.own_shadows || v.plan.settings.lidr_shadows == LidrShadows::final_pass;
+  if (v.plan.settings.lidr_volumes == LidrVolumes::front_faces && as_opaque) {
     blend(v, surfaces, lights, image);
   } else {
     shade_blended(v, image, find_blended_object_lights(v, v.caches.blended_object_lights));
   }
-  return {.image = image, .listed = lights.listed, .list_bytes = lights.bytes};
+  Frame frame{.image = image, .listed = lights.listed, .list_bytes = lights.bytes};
+  tell_index_shadows(v, v.caches.index_shadows, v.caches.light_volumes, frame);
+  return frame;
+}
+
+static void adapt(TechniqueNeeds& needs, Settings& settings) {
+  const LidrShadows way = settings.lidr_shadows;
+  if (way == LidrShadows::pass) return;
+  needs.own_shadows = true, needs.shadows_by = way == LidrShadows::volumes ? "shadow volumes" : "maps";
+  if (way == LidrShadows::none) needs.most_own_shadows = 0;
+  if (way == LidrShadows::final_pass) needs.most_own_shadows = size_t(settings.lidr_maps);
 }
 
 extern const Technique lidr{
     .name = "lidr",
     .summary = "light volumes drawn into images of light indices",
     .source = "Trebilco: Light-Indexed Deferred Rendering, ShaderX7 2.9, 2009",
-    .needs = {.stencil = true},
+    .needs = {.stencil = true, .adapt = adapt},
     .settings = {"brdf", "lidr-packing", "lidr-overlap", "lidr-lights", "lidr-volumes", "lidr-unpack",
-                 "lidr-order", "volume-mesh", "depth-bounds", "tile", "kernel-shape"},
+                 "lidr-order", "lidr-shadows", "lidr-maps", "volume-mesh", "depth-bounds", "tile", "kernel-shape"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .limited_lists = true};

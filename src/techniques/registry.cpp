@@ -16,14 +16,26 @@ bool holds(const std::vector<const char*>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
+LidrShadows own_shadows(const Technique& technique, const Settings& settings) {
+  return holds(technique.settings, "lidr-shadows") ? settings.lidr_shadows : LidrShadows::pass;
+}
+
+// prepass: one texel decides.
+bool filters_maps(LidrShadows way) {
+  return way == LidrShadows::prepass_soft || way == LidrShadows::final_pass;
+}
+
 // Settings are shown only with others that read them, and one that changes no bit where it is given.
-bool has_effect(const Settings& settings, const std::string& key) {
+bool has_effect(const Technique& technique, const Settings& settings, const std::string& key) {
   const LightRange range = settings.ranges.range;
   if (key == "cutoff") return range == LightRange::cutoff;
   if (key == "alpha" || key == "light-seed") return range == LightRange::stochastic;
   if (key == "window") return range == LightRange::scene || range == LightRange::cutoff;
+  const LidrShadows own = own_shadows(technique, settings);
+  if (key == "lidr-maps") return own == LidrShadows::final_pass;
   if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
-    return settings.shadows == ShadowMethod::map;
+    return settings.shadows == ShadowMethod::map || filters_maps(own) ||
+           (own == LidrShadows::prepass && key != "shadow-filter");
   if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
   if (key == "shadow-kept") return settings.given.contains(key);
   return true;
@@ -79,12 +91,17 @@ bool reads_setting(const Technique& technique, const std::string& key) {
   return holds(common_settings(), key) || holds(technique.settings, key) || is_of_kernels(key);
 }
 
+bool is_approximate(const Technique& technique, const Settings& settings) {
+  return technique.approximate || settings.shadows != ShadowMethod::exact || settings.soft_shadows() ||
+         settings.picks_shadows() || own_shadows(technique, settings) != LidrShadows::pass;
+}
+
 std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings) {
   std::map<std::string, std::string> all = to_strings(settings), own;
   for (const SettingHelp& help : setting_help()) {
     const std::string key = json_key(help.key);
     const bool shown = holds(common_settings(), help.key) || holds(technique.settings, help.key);
-    if (shown && has_effect(settings, help.key)) own[key] = all.at(key);
+    if (shown && has_effect(technique, settings, help.key)) own[key] = all.at(key);
   }
   return own;
 }

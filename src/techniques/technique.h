@@ -33,17 +33,14 @@ inline bool own_surfaces(const Technique& technique, const Settings& settings) {
   return !draws_with_opengl(technique.needs, settings);
 }
 
-// Whether with these settings its picture is not forward's, by nature, or its shadows are no exact ones.
-inline bool is_approximate(const Technique& technique, const Settings& settings) {
-  return technique.approximate || settings.shadows != ShadowMethod::exact || settings.soft_shadows() ||
-         settings.picks_shadows();
-}
-
 const std::vector<const Technique*>& techniques();
 
 // Keys of the settings that every technique reads.
 const std::vector<const char*>& common_settings();
 bool reads_setting(const Technique& technique, const std::string& key);
+
+// Whether with these settings its picture is not forward's, by nature, or its shadows are no exact ones.
+bool is_approximate(const Technique& technique, const Settings& settings);
 
 // The subset of `settings` that the technique reads, as to_strings returns them.
 std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "passes/light_index/light_groups.h"
 #include "passes/light_index/layout.h"
 #include "passes/light_index/blending.h"
@@ -100,6 +101,34 @@ TEST(LightIndexProbe, PassesBlendingThatKeepsEveryIndex) {
       }
     }
   }
+}
+
+TEST(LightIndexLayout, HasRoomForSharesOrIsRefused) {
+  struct Row {
+    int overlap, lights;
+    size_t bytes;  // 0: refused
+  };
+  for (const Row& row : {Row{1, 255, 2}, {2, 255, 4}, {4, 15, 4}, {4, 255, 8}, {8, 15, 8}, {8, 255, 12},
+                         {16, 15, 16}, {16, 255, 0}, {2, 65535, 8}, {4, 65535, 12}, {8, 65535, 0}}) {
+    const Settings settings{.lidr_overlap = row.overlap, .lidr_lights = row.lights};
+    if (row.bytes == 0) {
+      EXPECT_THROW(light_index_layout(settings, 1, 4), Error);
+      continue;
+    }
+    const LightIndexLayout layout = light_index_layout(settings, 1, 4);
+    EXPECT_EQ(layout.pixel_bytes(), row.bytes) << layout.name();
+    EXPECT_EQ(why_blending_fails(layout, blender_of(exact_blend(layout))), "") << layout.name();
+    // A light's index comes back without its share.
+    std::vector<uint16_t> channels(layout.targets() * 4, 0);
+    const uint32_t entry = 11u | 9u << layout.share_shift;
+    for (uint32_t c = 0; c < layout.channels; ++c)
+      channels[c] = uint16_t(light_index_channel(LIDR_BITSHIFT, entry, c, layout.shift, layout.most()));
+    std::vector<uint32_t> lights;
+    unpack_light_index(layout, channels, false, lights);
+    EXPECT_EQ(lights, std::vector<uint32_t>{10}) << layout.name();
+  }
+  EXPECT_EQ(light_index_layout({}, 16, 4).name(), "bitshift, 8 overlaps of 255 lights with 4 bits of shadow");
+  EXPECT_THROW(light_index_layout({.lidr_packing = LidrPacking::maxblend}, 1, 4), Error);
 }
 
 // A quarter as 63 / 255, an ulp short, and truncated; 0.25 rounded; the article's 0.251 rounded and

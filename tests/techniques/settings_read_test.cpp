@@ -38,6 +38,7 @@ const std::vector<Assignments>& contexts() {
       {"shadow-rays=4"},
       {"voxel-lights-exact=1", "shadows=map"},
       {"voxel-lights-exact=1", "shadow-rays=4"},
+      {"lidr-shadows=final"},
   };
   return all;
 }
@@ -61,7 +62,7 @@ std::vector<Assignments> contexts_of(const Technique& technique) {
 Scene scene_of_effects(bool shadows) {
   SmallScene s = small_scene();
   for (const char* name : {"blend", "mask", "spot", "directional"}) effect(name).add(s);
-  s.scene.lights[2].casts_shadow = shadows;
+  s.scene.lights[2].casts_shadow = s.scene.lights[0].casts_shadow = shadows;
   return s.scene;
 }
 
@@ -131,7 +132,8 @@ std::map<std::string, std::string> read_but_not_declared(const Technique& techni
 
 // Whether a value of the setting changes what a run shows, beyond refusing to run.
 bool shows(const Technique& technique, const SettingHelp& setting) {
-  const bool shadows = setting.key.starts_with("shadow");
+  const bool shadows = setting.key.starts_with("shadow") || setting.key == "lidr-shadows" ||
+                       setting.key == "lidr-maps";
   for (size_t i = 1; i < setting.values.size(); ++i) {
     for (const Assignments& context : contexts_of(technique)) {
       if (holds_key(context, setting.key)) continue;

@@ -60,6 +60,13 @@ struct ShadowFigures {
   size_t bytes = 0;      // of bits, maps and certificates
   size_t undecided = 0;  // pairs that maps left to rays
   int halvings = 0;      // of the sizes of all maps, to fit into their bound of memory
+
+  // Of other lights of the same frame.
+  ShadowFigures& operator+=(const ShadowFigures& more) {
+    lights += more.lights, rays += more.rays, maps += more.maps, drawn += more.drawn, kept += more.kept;
+    bytes += more.bytes, undecided += more.undecided, halvings += more.halvings;
+    return *this;
+  }
 };
 
 // A technique's result, for readers of the frame: the image, input of the oracle, memory figures.

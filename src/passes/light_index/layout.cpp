@@ -23,22 +23,29 @@ uint32_t number_of(LidrPacking packing) {
 }
 
 // The layout of such a row, possible or not.
-LightIndexLayout row_of(LidrPacking packing, uint32_t overlap, uint32_t lights) {
+LightIndexLayout row_of(LidrPacking packing, uint32_t overlap, uint32_t lights, uint32_t share_bits) {
   const uint32_t index_bits = lights == 15 ? 4 : lights == 255 ? 8 : 16;
-  LightIndexLayout row{.packing = packing, .overlap = overlap, .lights = lights};
+  LightIndexLayout row{.packing = packing, .overlap = overlap, .lights = lights, .share_bits = share_bits};
+  if (share_bits) row.share_shift = index_bits;
   if (packing == LidrPacking::sort) {
     row.groups = overlap, row.channels = index_bits > 8 ? 2 : 1;
+    if (share_bits) row.share_shift = 8 * row.channels++;  // a channel of its own
   } else if (packing == LidrPacking::maxblend) {
     row.slots = std::min(overlap, 2u), row.groups = overlap / row.slots;
     row.channels = row.slots, row.channel_bits = index_bits > 8 ? 16 : 8;
   } else {
     row.slots = std::min(overlap, 8u), row.groups = overlap / row.slots;
-    row.shift = 8 / row.slots, row.channels = (index_bits + row.shift - 1) / row.shift;
+    row.shift = 8 / row.slots, row.channels = (index_bits + share_bits + row.shift - 1) / row.shift;
+    // Shaders read groups as whole texels.
+    if (share_bits && row.groups > 1) row.channels = (row.channels + 3) / 4 * 4;
   }
   return row;
 }
 
 std::string why_not(const LightIndexLayout& row) {
+  if (row.packing == LidrPacking::maxblend && row.share_bits) {
+    return "the greatest and least index of two lights leave no bits for shares; use lidr-packing=bitshift";
+  }
   if (row.packing == LidrPacking::maxblend && row.groups > 2) {
     return "two passes find the greatest and least index of two lights each, four in all; use "
            "lidr-packing=bitshift";
@@ -71,23 +78,28 @@ std::vector<std::string> LightIndexLayout::defines() const {
   const char* kind = packing == LidrPacking::sort       ? "LIDR_APART"
                      : packing == LidrPacking::maxblend ? "LIDR_GREATEST"
                                                         : "LIDR_SHIFTED";
-  return {kind,
-          fmt::format("LIDR_PACKING {}u", number_of(packing)),
-          fmt::format("LIDR_GROUPS {}u", groups),
-          fmt::format("LIDR_SLOTS {}u", slots),
-          fmt::format("LIDR_CHANNELS {}u", channels),
-          fmt::format("LIDR_SHIFT {}u", shift),
-          fmt::format("LIDR_MOST {}u", most()),
-          fmt::format("LIDR_TARGETS {}", targets()),
-          fmt::format("LIDR_PRESENT {}u", present)};
+  std::vector<std::string> defines = {kind,
+                                      fmt::format("LIDR_PACKING {}u", number_of(packing)),
+                                      fmt::format("LIDR_GROUPS {}u", groups),
+                                      fmt::format("LIDR_SLOTS {}u", slots),
+                                      fmt::format("LIDR_CHANNELS {}u", channels),
+                                      fmt::format("LIDR_SHIFT {}u", shift),
+                                      fmt::format("LIDR_MOST {}u", most()),
+                                      fmt::format("LIDR_TARGETS {}", targets()),
+                                      fmt::format("LIDR_PRESENT {}u", present)};
+  if (share_bits) {
+    defines.push_back(fmt::format("LIDR_SHARE_BITS {}u", share_bits));
+    defines.push_back(fmt::format("LIDR_SHARE_SHIFT {}u", share_shift));
+  }
+  return defines;
 }
 
 std::string LightIndexLayout::name() const {
-  return fmt::format("{}, {} overlap{} of {} lights", name_of(packing), overlap, overlap == 1 ? "" : "s",
-                     lights);
+  return fmt::format("{}, {} overlap{} of {} lights{}", name_of(packing), overlap, overlap == 1 ? "" : "s",
+                     lights, share_bits ? fmt::format(" with {} bits of shadow", share_bits) : "");
 }
 
-LightIndexLayout light_index_layout(const Settings& settings, size_t lights) {
+LightIndexLayout light_index_layout(const Settings& settings, size_t lights, uint32_t share_bits) {
   const uint32_t most_lights =
       settings.lidr_lights ? uint32_t(settings.lidr_lights) : least_that_holds(lights);
   if (lights > most_lights) {
@@ -96,9 +108,11 @@ LightIndexLayout light_index_layout(const Settings& settings, size_t lights) {
   }
   uint32_t overlap = uint32_t(settings.lidr_overlap);
   if (!overlap) {
-    for (overlap = 16; !why_not(row_of(settings.lidr_packing, overlap, most_lights)).empty();) overlap /= 2;
+    for (overlap = 16; overlap > 1; overlap /= 2) {
+      if (why_not(row_of(settings.lidr_packing, overlap, most_lights, share_bits)).empty()) break;
+    }
   }
-  const LightIndexLayout row = row_of(settings.lidr_packing, overlap, most_lights);
+  const LightIndexLayout row = row_of(settings.lidr_packing, overlap, most_lights, share_bits);
   if (const std::string why = why_not(row); !why.empty())
     throw input_error("lidr: no images hold {}: {}", row.name(), why);
   return row;
@@ -108,14 +122,17 @@ void unpack_light_index(const LightIndexLayout& layout, std::span<const uint16_t
                         std::vector<uint32_t>& lights) {
   lights.clear();
   uint32_t before = 0;
-  const auto take = [&](uint32_t index) {
+  const auto take = [&](uint32_t entry) {
+    const uint32_t index = layout.share_bits ? entry & ((1u << layout.share_shift) - 1) : entry;
     if (index != 0 && !(drop_repeats && index == before)) lights.push_back(index - 1);
     if (index != 0) before = index;
   };
   for (uint32_t group = 0; group < layout.groups; ++group) {
     const uint16_t* own = channels.data() + group * layout.channels;
     if (layout.packing == LidrPacking::sort) {
-      take(own[0] | (layout.channels > 1 ? own[1] << 8 : 0));
+      uint32_t entry = 0;
+      for (uint32_t c = 0; c < layout.channels; ++c) entry |= uint32_t(own[c]) << 8 * c;
+      take(entry);
     } else if (layout.packing == LidrPacking::maxblend) {
       const uint32_t least = own[0] && layout.slots > 1 ? layout.most() - own[1] : own[0];
       take(least);

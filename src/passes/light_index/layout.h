@@ -19,11 +19,15 @@ struct LightIndexLayout {
   uint32_t channels = 1;           // of a group
   uint32_t channel_bits = 8;
   uint32_t shift = 8;  // bitshift: bits of each channel that one slot takes
+  // Bits of the share of the light that is hidden, above those of its index; 0: there is none. An entry is
+  // both.
+  uint32_t share_bits = 0;
+  uint32_t share_shift = 32;
 
   uint32_t most() const { return (1u << channel_bits) - 1; }
   uint32_t targets() const { return (groups * channels + 3) / 4; }
-  // Channels of each image.
-  uint32_t target_channels() const { return targets() > 1 ? 4 : groups * channels; }
+  // Channels of each image: 1, 2 or 4.
+  uint32_t target_channels() const { return groups * channels > 2 ? 4 : groups * channels; }
   GLenum format() const;
   size_t pixel_bytes() const { return size_t(targets()) * target_channels() * channel_bits / 8; }
 
@@ -33,8 +37,9 @@ struct LightIndexLayout {
 };
 
 // The row that the settings select. If they leave it open: the fewest lights that suffice for `lights`, and
-// the most overlaps. Throws Error(input) with the reason if there is no such row.
-LightIndexLayout light_index_layout(const Settings& settings, size_t lights);
+// the most overlaps. share_bits: beside each index. Throws Error(input) with the reason if there is no such
+// row.
+LightIndexLayout light_index_layout(const Settings& settings, size_t lights, uint32_t share_bits = 0);
 
 // The lights of a pixel, oldest first, from its channels: targets() * 4 values, image after image.
 // drop_repeats: an index twice in a row counts once.

@@ -1,21 +1,26 @@
 #include "passes/shadows/view_shadow_maps.h"
 
+#include <algorithm>
+
 namespace lightgrid {
 
-static ShadowMapOptions options_of(const Settings& settings) {
-  return {.size = settings.shadow_size, .bits = settings.shadow_bits, .taps = settings.shadow_taps};
+static ShadowMapOptions options_of(const Settings& settings, int taps, size_t most_bytes) {
+  ShadowMapOptions options{.size = settings.shadow_size, .bits = settings.shadow_bits, .taps = taps};
+  options.most_bytes = std::min(options.most_bytes, most_bytes);
+  return options;
 }
 
-ViewShadowMaps::ViewShadowMaps(Work& work)
-    : options_(options_of(work.plan.settings)), maps_(*work.renderer.cl, *work.renderer.kernels, options_) {}
+ViewShadowMaps::ViewShadowMaps(Work& work, int taps, size_t most_bytes)
+    : options_(options_of(work.plan.settings, taps, most_bytes)),
+      maps_(*work.renderer.cl, *work.renderer.kernels, options_) {}
 
-void ViewShadowMaps::look(const Work& work, const glm::dvec3& origin) {
+void ViewShadowMaps::look(const Work& work, const glm::dvec3& origin, const std::vector<uint8_t>& shadowed) {
   const FramePlan& plan = work.plan;
   std::vector<size_t> numbers(plan.local.begin(), plan.local.end());
   numbers.insert(numbers.end(), plan.directional_lights.begin(), plan.directional_lights.end());
   std::vector<Light> lights;
   for (size_t i = 0; i < numbers.size(); ++i) {
-    if (!plan.shadowed[i]) continue;
+    if (!shadowed[i]) continue;
     Light& light = lights.emplace_back(work.scene.lights[numbers[i]]);
     light.radius_m = float(range_of(light, numbers[i], plan.settings.ranges));
   }
@@ -23,7 +28,7 @@ void ViewShadowMaps::look(const Work& work, const glm::dvec3& origin) {
   // In the order of FramePlan::shadowed; those without shadows have no face, and no kernel asks for them.
   std::vector<std::array<uint32_t, 2>> by_number(numbers.size());
   for (size_t i = 0, next = 0; i < numbers.size(); ++i)
-    if (plan.shadowed[i]) by_number[i] = atlas_.lights[next++];
+    if (shadowed[i]) by_number[i] = atlas_.lights[next++];
   atlas_.lights = std::move(by_number);
 }
 

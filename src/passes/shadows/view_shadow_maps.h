@@ -9,13 +9,15 @@ namespace lightgrid {
 
 class ViewShadowMaps {
  public:
-  // With the settings of the view's plan, which stay as they are.
-  explicit ViewShadowMaps(Work& work);
+  // With the settings of the view's plan, which stay as they are, but for `taps` and the most bytes.
+  explicit ViewShadowMaps(Work& work) : ViewShadowMaps(work, work.plan.settings.shadow_taps) {}
+  ViewShadowMaps(Work& work, int taps, size_t most_bytes = ShadowMapOptions().most_bytes);
 
-  // When the view, lights or surfaces moved: which maps, and their sizes.
-  void look(const Work& work, const glm::dvec3& origin);
-  // All of them, in each frame.
-  void draw(const RayScene& rays) { maps_.draw(rays, atlas_); }
+  // When the view, lights or surfaces moved: which maps, and their sizes. shadowed: as FramePlan's, whether a
+  // light has maps.
+  void look(const Work& work, const glm::dvec3& origin, const std::vector<uint8_t>& shadowed);
+  // All of them, in each frame. texels: of atlas().bytes, for a reader besides kernels; null: its own.
+  void draw(const RayScene& rays, const cl::Buffer& texels = {}) { maps_.draw(rays, atlas_, texels); }
 
   // What kernels need to look them up: -DSHADOW_MAP, and what ShadowMaps has. Lights are in
   // the order of FramePlan::shadowed.

@@ -1,0 +1,39 @@
+// Shadow volumes in a stencil of their own, of which shaders read whether a light is hidden: the depth
+// image's counts the free slots of light indices.
+#pragma once
+
+#include "passes/light_volumes/light_volumes.h"
+#include "passes/shadows/caster_volumes.h"
+
+namespace lightgrid {
+
+class CasterDraws {
+ public:
+  explicit CasterDraws(Work& work);
+  size_t memory_bytes() const { return index_bytes_; }
+
+  // Once a frame: makes the volumes anew if a light, an instance or a mesh moved, and copies the depth image.
+  void begin_frame(Work& work, const RayScene& rays);
+
+  // A stencil value for each pixel in the rectangles of these light volumes, which share no pixel: not 0
+  // where a triangle is between light and surface. Counts faces behind the surface ("Carmack's reverse":
+  // Everitt, Kilgard, "Practical and Robust Stenciled Shadow Volumes", 2002), modulo 256. Leaves another
+  // framebuffer bound; the textures of IndexShadows::input are bound.
+  void draw(Work& work, std::span<const LightVolume> lights) const;
+
+  GLuint stencil() const { return stencil_; }  // to be sampled
+
+ private:
+  void make_volumes(Work& work, const RayScene& rays);
+
+  std::vector<CasterVolumes::Range> of_light_;
+  GlBuffer indices_;
+  GlVertexArray array_;
+  size_t index_bytes_ = 0;
+  int shape_ = -1, instances_ = -1, lights_ = -1;  // versions of the scene that the volumes are of, and
+  std::optional<LightRanges> ranges_;
+  GLuint stencil_ = 0, framebuffer_ = 0;  // of the frame
+  glm::mat4 clip_from_rays_{1};
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,46 @@
+// Draws light volumes into light index images: which pixels are inside, and which have a free slot, is in the
+// stencil (docs/details/lidr.md).
+#pragma once
+
+#include "passes/light_index/layout.h"
+#include "passes/light_volumes/light_volumes.h"
+
+namespace lightgrid {
+
+// Volumes that one call draws.
+struct VolumeBatch {
+  size_t first, count;
+  uint32_t group;  // sort: the group whose channels are written
+};
+
+class IndexDrawing {
+ public:
+  // Of shaders/light_index.*. mark: draws the front faces that mark what is inside, and leaves out what it
+  // discards.
+  struct Programs {
+    GLuint mark, write;
+  };
+  IndexDrawing(const Seen& seen, const LightIndexLayout& layout, const LightVolumes& volumes,
+               const Programs& programs);
+
+  // The initial stencil value: the number of free slots.
+  GLint cleared_stencil() const;
+
+  // Into the bound framebuffer, between LightVolumes::begin() and end().
+  void draw(const VolumeBatch& batch) const;
+
+ private:
+  void mark_inside(const VolumeBatch& batch) const;
+  void test_free_slot(uint32_t group) const;
+  void test_mark_only() const;
+  void write_marked(const VolumeBatch& batch) const;
+  void write_behind_front_faces(const VolumeBatch& batch) const;
+  bool crosses_near(const VolumeBatch& batch) const { return volumes_.volumes()[batch.first].crosses_near; }
+
+  const LightIndexLayout& layout_;
+  const LightVolumes& volumes_;
+  Programs programs_;
+  bool inside_;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,71 @@
+// Shadows of point and spot lights that lidr finds itself (docs/techniques/lidr.md#shadows): what shaders
+// read to decide whether a light is hidden from a pixel (shaders/common/index_shadow.glsl), of the lights
+// that the plan's own_shadowed names.
+#pragma once
+
+#include "passes/common/light_source.h"
+#include "passes/light_index/caster_draws.h"
+#include "passes/shadows/view_shadow_maps.h"
+
+namespace lightgrid {
+
+// Of a share beside each index, with prepass-soft: 16 steps, as pcf3 has ten. Eight bits would take as much
+// room as an index does.
+constexpr uint32_t shadow_share_bits = 4;
+
+// 0: the view's light index images have no shares.
+inline uint32_t share_bits_of(const Seen& seen) {
+  return seen.plan.own_shadows && seen.plan.settings.lidr_shadows == LidrShadows::prepass_soft
+             ? shadow_share_bits
+             : 0;
+}
+
+class IndexShadows : public PassCache {
+ public:
+  explicit IndexShadows(Work& work);
+  bool follow(Work& work) override;
+  size_t memory_bytes() const override;
+
+  // Once a frame, after its depth image: the triangles that pixels show, and shadow maps. Throws
+  // Error(machine) if the device has no doubles, or an OpenGL cannot read as many bytes.
+  void find(Work& work);
+
+  // The defines and textures with which a program includes index_shadow.glsl.
+  GlLightLoop input(Work& work) const;
+
+  // With shadow volumes: of these lights, which share no pixel, before a program asks for them. Leaves
+  // another framebuffer bound. After input() is bound.
+  void draw_casters(Work& work, std::span<const LightVolume> lights) const {
+    if (casters_) casters_->draw(work, lights);
+  }
+
+  // The shares that a frame's programs found, at each pixel in a light's rectangle: for the oracle.
+  HostShadows read(Work& work, const LightVolumes& volumes) const;
+  ShadowFigures figures(const Work& work) const;
+
+ private:
+  void upload_corners(Work& work);
+  void upload_view(Work& work);
+  void draw_maps(Work& work);
+
+  struct Table {
+    GlBuffer buffer;
+    GlTexture texture;
+    size_t bytes = 0;
+    void put(const std::vector<uint32_t>& words);  // as GL_RGBA32UI
+  };
+
+  std::shared_ptr<RayScene> scene_;
+  SharedTexture corners_;  // of the scene's triangles
+  NamedKernel corners_kernel_;
+  int shape_ = -1, instances_ = -1;  // versions of the scene that corners_ has
+  std::optional<ViewShadowMaps> maps_;
+  std::optional<CasterDraws> casters_;
+  SharedTexture texels_;
+  Table lights_, faces_;
+  GlBuffer view_block_;
+  GLuint triangles_ = 0;  // of the frame
+  bool followed_ = false;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,90 @@
+// What a frame's shadows are, drawn once more by the same shader text, a light after the other.
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "passes/light_index/index_shadows.h"
+
+namespace lightgrid {
+namespace {
+
+// Draws one light's shares into the bound framebuffer, and reads those in the rectangle.
+std::vector<uint8_t> draw_shares(const PixelGrid& grid, const GlProgram& program, const LightVolume& volume) {
+  const glm::ivec2 size = volume.end - volume.first;
+  glViewport(0, 0, grid.width, grid.height);
+  glEnable(GL_SCISSOR_TEST);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glUseProgram(program.name());
+  glUniform1ui(program.uniform("light"), volume.light);
+  glScissor(volume.first.x, volume.first.y, size.x, size.y);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  std::vector<uint8_t> shares(size_t(size.x) * size_t(size.y));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(volume.first.x, volume.first.y, size.x, size.y, GL_RED, GL_UNSIGNED_BYTE, shares.data());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  return shares;
+}
+
+// Entries of tiles that a light's rectangle touches.
+void add_shares(const LightVolume& volume, const std::vector<uint8_t>& shares, HostShadows& all,
+                std::vector<std::vector<std::pair<uint32_t, std::vector<uint8_t>>>>& of_tile) {
+  constexpr int side = HostShadows::side;
+  const int width = volume.end.x - volume.first.x;
+  for (int ty = volume.first.y / side; ty * side < volume.end.y; ++ty) {
+    for (int tx = volume.first.x / side; tx * side < volume.end.x; ++tx) {
+      std::vector<uint8_t> values(side * side);
+      for (int y = std::max(ty * side, volume.first.y); y < std::min((ty + 1) * side, volume.end.y); ++y) {
+        for (int x = std::max(tx * side, volume.first.x); x < std::min((tx + 1) * side, volume.end.x); ++x) {
+          const int block = y % side / 4 * 4 + x % side / 4, value = block * 16 + y % 4 * 4 + x % 4;
+          values[size_t(value)] =
+              shares[size_t(y - volume.first.y) * size_t(width) + size_t(x - volume.first.x)];
+        }
+      }
+      of_tile[size_t(ty) * size_t(all.tiles_x) + size_t(tx)].emplace_back(volume.light, std::move(values));
+    }
+  }
+}
+
+}  // namespace
+
+HostShadows IndexShadows::read(Work& work, const LightVolumes& volumes) const {
+  constexpr int side = HostShadows::side;
+  HostShadows all;
+  all.tiles_x = (work.grid().width + side - 1) / side, all.tiles_y = (work.grid().height + side - 1) / side;
+  std::vector<std::vector<std::pair<uint32_t, std::vector<uint8_t>>>> of_tile(size_t(all.tiles_x) *
+                                                                              size_t(all.tiles_y));
+  GlLightLoop loop = input(work);
+  if (share_bits_of(work)) loop.defines.push_back(fmt::format("LIDR_SHARE_BITS {}u", share_bits_of(work)));
+  const GlProgram& program =
+      work.program("shaders/screen.vert", "shaders/index_shadow_probe.frag", loop.defines);
+  const GlTexture shares = make_texture_2d(GL_R8, work.grid().width, work.grid().height);
+  const GlFramebuffer framebuffer = make_framebuffer({shares.name()}, 0);
+  const GlVertexArray nothing = make_vertex_array();
+  std::vector<LightVolume> shadowed;
+  for (const LightVolume& volume : volumes.volumes())
+    if (!work.plan.own_shadowed.empty() && work.plan.own_shadowed[volume.light]) shadowed.push_back(volume);
+  std::ranges::sort(shadowed, {}, &LightVolume::light);
+  for (const LightVolume& volume : shadowed) {
+    reset_gl_state();
+    loop.bind(work);
+    draw_casters(work, {&volume, 1});
+    reset_gl_state();
+    loop.bind(work);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    glBindVertexArray(nothing.name());
+    add_shares(volume, draw_shares(work.grid(), program, volume), all, of_tile);
+  }
+  reset_gl_state();
+  for (const auto& entries : of_tile) {
+    all.cells.emplace_back(uint32_t(all.indices.size()), uint32_t(entries.size()));
+    for (const auto& [light, values] : entries) {
+      all.indices.push_back(light);
+      all.shares.insert(all.shares.end(), values.begin(), values.end());
+    }
+  }
+  all.bits = hidden_bits(all.shares);
+  all.local_alone = true;
+  all.drops_hidden = work.plan.settings.lidr_shadows != LidrShadows::final_pass;
+  return all;
+}
+
+}  // namespace lightgrid
