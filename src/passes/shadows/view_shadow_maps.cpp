@@ -3,7 +3,10 @@
 namespace lightgrid {
 
 static ShadowMapOptions options_of(const Settings& settings) {
-  return {.size = settings.shadow_size, .bits = settings.shadow_bits, .taps = settings.shadow_taps};
+  return {.size = settings.shadow_size,
+          .bits = settings.shadow_bits,
+          .taps = settings.shadow_taps,
+          .shape = settings.kernel_shape};
 }
 
 ViewShadowMaps::ViewShadowMaps(Work& work)
