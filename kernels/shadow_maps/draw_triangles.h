@@ -53,9 +53,8 @@ static inline void bound_axis(const FaceTile* t, Real3 x, Real3 z, whole* first,
   }
   const float middle = 0.5f * (float)t->size, to_texels = middle / t->extent;
   const real most = REAL((float)t->size), least = REAL(-1.0f);
-  // A texel more on each side: what edges round may cover it.
-  low = lane_floor(low * to_texels + (middle - 0.5f - TEXEL_ROUNDING));
-  high = -lane_floor((0.5f - TEXEL_ROUNDING - middle) - high * to_texels);
+  low = -lane_floor((0.5f + TEXEL_ROUNDING - middle) - low * to_texels);
+  high = lane_floor(high * to_texels + (middle - 0.5f + TEXEL_ROUNDING));
   *first = max(*first, TO_WHOLE(lane_max(lane_min(low, most), least)));
   *last = min(*last, TO_WHOLE(lane_max(lane_min(high, most), least)));
 }
@@ -66,6 +65,11 @@ static inline mask_t out_of_edge(const FaceTile* t, Real3 p, const TriangleLanes
   const real u = t->first_u + t->step * TO_REAL(p.x > 0.0f ? d->right : d->left),
              v = t->first_u + t->step * TO_REAL(p.y > 0.0f ? d->high : d->low);
   return p.x * u + (p.y * v + p.z) < 0.0f;
+}
+
+// Twice a x b, from the edge itself: of two long vectors side by side the product would lose most of its digits.
+static inline Real3 edge_plane_of(Real3 a, Real3 b, real turn) {
+  return scale3(cross3(add3(a, scale3(b, REAL(-1.0f))), add3(a, b)), turn);
 }
 
 // Lanes that may change a texel of the tile.
@@ -89,8 +93,7 @@ static inline mask_t set_up(const FaceTile* t, Real3 first, Real3 second, Real3 
   d->normal = scale3(normal, turn), d->offset = turn * offset;
   Real3 ea = a, eb = b, ec = c;
   if (t->parallel) ea.z = eb.z = ec.z = REAL(1.0f);
-  d->p = scale3(cross3(eb, ec), turn), d->q = scale3(cross3(ec, ea), turn);
-  d->r = scale3(cross3(ea, eb), turn);
+  d->p = edge_plane_of(eb, ec, turn), d->q = edge_plane_of(ec, ea, turn), d->r = edge_plane_of(ea, eb, turn);
   return drawn & ~(out_of_edge(t, d->p, d) | out_of_edge(t, d->q, d) | out_of_edge(t, d->r, d));
 }
 

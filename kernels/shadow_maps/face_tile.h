@@ -34,7 +34,6 @@
 
 #define ROUNDING 1e-6f        // of coordinates: more than 8 roundings of 2^-24
 #define TEXEL_ROUNDING 0.01f  // texels: more than what a triangle's bounds on the image round
-#define TILE_MARGIN 1.02f     // texels: more than bounds reach past the triangle
 
 typedef struct FaceTile {
   float3 from, right, up, ahead;
@@ -66,10 +65,10 @@ static inline float3 at3(global const float* p) { return (float3)(p[0], p[1], p[
 // Side planes go through the centres of the outer texels, moved out by more than what triangles' bounds are:
 // a triangle with a texel in its bounds is in no box that is left out.
 static inline void set_planes(FaceTile* t) {
-  const float low_u = t->first_u + t->step * ((float)t->x - TILE_MARGIN),
-              high_u = t->first_u + t->step * ((float)(t->x + t->side - 1) + TILE_MARGIN),
-              low_v = t->first_u + t->step * ((float)t->y - TILE_MARGIN),
-              high_v = t->first_u + t->step * ((float)(t->y + t->side - 1) + TILE_MARGIN);
+  const float low_u = t->first_u + t->step * ((float)t->x - 2 * TEXEL_ROUNDING),
+              high_u = t->first_u + t->step * ((float)(t->x + t->side - 1) + 2 * TEXEL_ROUNDING),
+              low_v = t->first_u + t->step * ((float)t->y - 2 * TEXEL_ROUNDING),
+              high_v = t->first_u + t->step * ((float)(t->y + t->side - 1) + 2 * TEXEL_ROUNDING);
   const float8 along_right = (float8)(1, -1, 0, 0, 0, 0, 0, 0), along_up = (float8)(0, 0, 1, -1, 0, 0, 0, 0);
   const float8 sides = (float8)(-low_u, high_u, -low_v, high_v, 0, 0, 0, 0);
   const float8 along_ahead = (t->parallel ? (float8)(0) : sides) + (float8)(0, 0, 0, 0, 1, -1, 0, 0);

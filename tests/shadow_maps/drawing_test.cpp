@@ -2,7 +2,7 @@
 // kernels against each other.
 #include <gtest/gtest.h>
 
-#include <bit>
+#include <algorithm>
 #include <random>
 
 #include "cl/transfer.h"
@@ -88,7 +88,7 @@ bool see(const dvec3 (&corners)[3], const ShadowFace& face, SeenTriangle* t) {
     dvec3 p = corners[k], q = corners[(k + 1) % 3];
     if (face.parallel) p.z = q.z = 1;
     t->edges[k] = glm::cross(p, q) * (facing < 0 ? -1.0 : 1.0);
-    t->margins[k] = 1e-6 * glm::length(p) * glm::length(q);
+    t->margins[k] = 1e-6 * glm::length(p - q) * (glm::length(p) + glm::length(q));
   }
   t->error_m = 1e-5 * (glm::length(a) + glm::length(b) + glm::length(c));
   return t->furthest > 0 && t->nearest <= double(face.range_m);
@@ -114,6 +114,8 @@ void add_triangle(const SeenTriangle& t, const dvec3& r, const ShadowFace& face,
   if (inside && sure && high < double(face.range_m) * (1 - 1e-5)) d->high = std::min(d->high, high);
 }
 
+dvec3 axis(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
+
 struct Checked {
   size_t wrong = 0, sure = 0, covered = 0;
 };
@@ -123,7 +125,6 @@ Checked check(const std::vector<uint8_t>& bytes, const ShadowMapOptions& options
   const std::vector<glm::vec3> corners = soup();
   Checked checked;
   for (const ShadowFace& face : atlas.faces) {
-    const auto axis = [](const float(&v)[3]) { return dvec3(v[0], v[1], v[2]); };
     const dvec3 right = axis(face.right), up = axis(face.up), ahead = axis(face.ahead),
                 from = axis(face.from);
     std::vector<SeenTriangle> triangles;
@@ -184,6 +185,46 @@ TEST(DrawFaces, FaultsOfTilesAreFound) {
     });
     EXPECT_GT(check(texels_of(faulty, small_faces), small_faces).wrong, 0u) << fault.right;
   }
+}
+
+// Cells of 2 mm, 5 m away in the corner of a face, whose edges a product of their ends would round to half a
+// millimetre.
+TEST(DrawFaces, AFineMeshHasNoHoles) {
+  constexpr int side = 200;
+  constexpr glm::vec2 middle(2.8f, 2.7f);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> any(-0.3f, 0.3f);
+  std::vector<glm::vec3> corners;
+  std::vector<uint32_t> indices;
+  for (int i = 0; i < side * side; ++i) {
+    const glm::vec2 cell(float(i % side) + any(random), float(i / side) + any(random));
+    const glm::vec2 at = middle + turned((cell - 0.5f * side) * 2e-3f, 0.3);
+    corners.push_back({at.x, 1e-3f * any(random), at.y});
+    if (i % side == side - 1 || i / side == side - 1) continue;
+    const uint32_t k = uint32_t(i);
+    for (const uint32_t j : {k, k + 1, k + side, k + 1, k + side + 1, k + side}) indices.push_back(j);
+  }
+  const RayScene rays = scene_of(corners, indices);
+  const Light light = lamp(LightType::point);
+  const ShadowMapOptions options{.size = 2048};
+  const ShadowAtlas atlas = plan_shadow_atlas({&light, 1}, view_from(5), rays.origin(), room, options);
+  ShadowMaps maps(device(), programs(), options);
+  maps.draw(rays, atlas);
+  std::vector<float> texels(atlas.texels);
+  read_buffer(device(), "texels", maps.texels(), texels.data(), atlas.bytes);
+  const ShadowFace& below = atlas.faces[3];
+  int seen = 0, holes = 0;
+  for (uint y = 0; y < below.size; ++y) {
+    for (uint x = 0; x < below.size; ++x) {
+      const auto place = [&](uint k) { return (double(2 * k + 1) / below.size - 1) * light_height_m; };
+      const dvec3 at = axis(below.right) * place(x) + axis(below.up) * place(y);
+      if (glm::length(glm::dvec2(at.x, at.z) - glm::dvec2(middle)) > 0.19) continue;
+      ++seen;
+      holes += !(std::abs(texels[below.first + y * below.size + x] - light_height_m) < 1e-3);
+    }
+  }
+  EXPECT_GT(seen, 10000);
+  EXPECT_EQ(holes, 0);
 }
 
 TEST(DrawFaces, BothShapesWriteTheSameBytes) {
