@@ -45,14 +45,15 @@ static inline ShadowReceivers shadow_receivers(const RayScene* scene, Real3 at, 
     rays_triangle(scene, (uint)numbers[lane], of);
     for (int k = 0; k < 9; ++k) corners[k][lane] = of[k];
   }
-#define CORNER(k) \
+#define RECEIVER_CORNER(k) \
   real3(vload16(0, corners[3 * k]), vload16(0, corners[3 * k + 1]), vload16(0, corners[3 * k + 2]))
 #else
   float corners[9];
   rays_triangle(scene, (uint)own, corners);
-#define CORNER(k) real3(corners[3 * k], corners[3 * k + 1], corners[3 * k + 2])
+#define RECEIVER_CORNER(k) real3(corners[3 * k], corners[3 * k + 1], corners[3 * k + 2])
 #endif
-  const Real3 a = CORNER(0), b = CORNER(1), c = CORNER(2), back = scale3(a, REAL(-1.0f));
+  const Real3 a = RECEIVER_CORNER(0), b = RECEIVER_CORNER(1), c = RECEIVER_CORNER(2),
+              back = scale3(a, REAL(-1.0f));
   const Real3 across = cross3(add3(b, back), add3(c, back));
   ShadowReceivers r = {at, {a, b, c}, scale3(across, 1.0f / sqrt(dot3(across, across))), gap};
   return r;

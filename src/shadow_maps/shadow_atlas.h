@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/camera.h"
+#include "shared/cull_settings.h"
 #include "shared/shadow_face.h"
 
 namespace lightgrid {
@@ -16,6 +17,7 @@ struct ShadowMapOptions {
   int taps = 1;    // texels a side that a point asks: 1, or 3 or 5 with a filter
   int cascades = 4;  // of a directional light: 1 to 4
   size_t most_bytes = size_t(256) << 20;
+  KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the same bits
 };
 
 constexpr int least_shadow_size = 16;

@@ -8,12 +8,18 @@
 
 namespace lightgrid {
 
+constexpr size_t tiles_a_group = 64;  // of an atlas, on a GPU
+
 ShadowMaps::ShadowMaps(ClDevice& device, ProgramCache& programs, const ShadowMapOptions& options)
     : device_(device), programs_(programs), options_(options) {}
 
+bool ShadowMaps::lanes() const {
+  return options_.shape == KernelShape::automatic ? device_.info().cpu : options_.shape == KernelShape::lanes;
+}
+
 NamedKernel& ShadowMaps::kernel(const std::string& name, const RayScene& rays) {
   const std::string defines =
-      fmt::format("{} {} -DLANES={}", rays.defines(), this->defines(), device_.info().cpu ? 16 : 1);
+      fmt::format("{} {} -DLANES={}", rays.defines(), this->defines(), lanes() ? 16 : 1);
   NamedKernel& kernel = kernels_[name + defines];
   if (!kernel) kernel = NamedKernel(programs_, "shadow_maps/" + name, defines);
   return kernel;
@@ -27,9 +33,21 @@ void ShadowMaps::draw(const RayScene& rays, const ShadowAtlas& atlas, const cl::
   const cl::Buffer& drawn = texels() ? texels : texels_.at_least(device_, atlas.bytes);
   light_count_ = atlas.lights.size();
   if (atlas.faces.empty()) return;
+  const uint tile = lanes() ? FACE_TILE_LANES : FACE_TILE_GROUP;
+  const size_t group = lanes() ? 1 : tiles_a_group;
+  std::vector<uint32_t> first_tiles{0};
+  for (const ShadowFace& face : atlas.faces) {
+    const uint across = std::max(face.size / tile, 1u);
+    first_tiles.push_back(first_tiles.back() + across * across);
+  }
+  first_tiles_.put(device_, "shadow maps: tiles", first_tiles);
+  const size_t items = (first_tiles.back() + group - 1) / group * group;
   kernel("draw_faces", rays)
-      .launch(device_, "draw_faces", cl::NDRange(atlas.faces.size()), cl::NDRange(1),
-              rays.arguments() + ClArguments{{"faces", faces_.buffer()}, {"texels", drawn}});
+      .launch(device_, "draw_faces", cl::NDRange(items), cl::NDRange(group),
+              rays.arguments() + ClArguments{{"faces", faces_.buffer()},
+                                             {"first_tiles", first_tiles_.buffer()},
+                                             {"face_count", cl_uint(atlas.faces.size())},
+                                             {"texels", drawn}});
 }
 
 std::vector<uint8_t> ShadowMaps::look_up(const RayScene& rays, std::span<const RayPoint> points,

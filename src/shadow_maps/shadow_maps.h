@@ -32,16 +32,19 @@ class ShadowMaps {
   // SHADOW_MAPS_ARGUMENTS and the -D of kernels/shadow_maps/shadow_maps.h.
   ClArguments arguments() const;
   std::string defines() const;
+  // All faces', by ShadowFace::first: whole steps of the range in 2 or 4 bytes, or float metres.
+  const cl::Buffer& texels() const { return texels_.get(); }
   size_t memory_bytes() const;  // on the device
 
  private:
   ClDevice& device_;
   ProgramCache& programs_;
   ShadowMapOptions options_;
-  UploadedBuffer faces_, lights_;
+  UploadedBuffer faces_, lights_, first_tiles_;
   GrowingBuffer texels_;
   size_t light_count_ = 0;                      // of the atlas that was drawn
   std::map<std::string, NamedKernel> kernels_;  // by file and defines
+  bool lanes() const;
   NamedKernel& kernel(const std::string& name, const RayScene& rays);
 };
 

@@ -5,7 +5,10 @@
 namespace lightgrid {
 
 static ShadowMapOptions options_of(const Settings& settings, int taps, size_t most_bytes) {
-  ShadowMapOptions options{.size = settings.shadow_size, .bits = settings.shadow_bits, .taps = taps};
+  ShadowMapOptions options{.size = settings.shadow_size,
+                           .bits = settings.shadow_bits,
+                           .taps = taps,
+                           .shape = settings.kernel_shape};
   options.most_bytes = std::min(options.most_bytes, most_bytes);
   return options;
 }
