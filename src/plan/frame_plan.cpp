@@ -188,6 +188,10 @@ size_t place_of_light(const FramePlan& plan, int light) {
 // After surfaces and lights.
 void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& needs,
                   PlannedInstances instances, FramePlan& plan) {
+  if (plan.settings.shadows == ShadowMethod::none) {
+    plan.decisions.push_back({"shadows", false, "shadows=none"});
+    return;
+  }
   if (needs.shadows) shadow_all(scene, plan);
   plan.casting = plan_light_shadows(scene, view, plan.settings.ranges, plan.opaque, plan.blended,
                                     plan.settings.soft_shadows() ? plan.settings.shadow_source_m : 0);
@@ -201,15 +205,14 @@ void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& ne
     if (!plan.shadows) plan.shadowed.clear();
   }
   const auto rays = std::ranges::find(plan.casting, ShadowNeed::rays, &LightShadow::need);
-  plan.decisions.push_back(
-      {"shadows", plan.shadows,
-       plan.casting.empty() ? "no light casts one"
-       : !needs.shadows     ? needs.no_shadows
-       : rays != plan.casting.end()
-           ? fmt::format("{} reaches {}", light_witness(scene, rays->light),
-                         instance_witness(scene, rays->caster))
-                                  : fmt::format("{}: {}", light_witness(scene, plan.casting[0].light),
-                                                reason_of(plan.casting[0].need))});
+  plan.decisions.push_back({"shadows", plan.shadows,
+                            plan.casting.empty() ? "no light casts one"
+                            : !needs.shadows     ? needs.no_shadows
+                            : rays != plan.casting.end()
+                                ? fmt::format("{} reaches {}", light_witness(scene, rays->light),
+                                              instance_witness(scene, rays->caster))
+                                : fmt::format("{}: {}", light_witness(scene, plan.casting[0].light),
+                                              reason_of(plan.casting[0].need))});
 }
 
 // From the near plane to the farthest surface in view.
@@ -237,7 +240,8 @@ void turn_everything_on(const Scene& scene, FramePlan& plan, const TechniqueNeed
   plan.light_grid = plan.blend_grid = needs.light_grid;
   plan.world_grid = needs.world_grid;
   plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
-  if (needs.shadows) shadow_all(scene, plan), plan.light_reaches = true;
+  if (needs.shadows && plan.settings.shadows != ShadowMethod::none)
+    shadow_all(scene, plan), plan.light_reaches = true;
   plan.index_bits = 32;
   plan.features = features_read(feature_all, plan.settings.brdf);
   plan.clearcoat = plan.features & feature_clearcoat;

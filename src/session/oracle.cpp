@@ -70,7 +70,9 @@ LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, 
 
 PairCounts pair_counts(const TechniqueRun& run, const LitPairs& pairs, const SeenPairs* seen) {
   PairCounts counts{pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
-  if (seen) counts.shadows = {pairs.leaked, pairs.acned, pairs.either, seen->pixels(), !run.approximate()};
+  if (seen)
+    counts.shadows = {pairs.leaked,   pairs.acned,   pairs.either,
+                      seen->pixels(), seen->pairs(), !run.approximate()};
   return counts;
 }
 

@@ -27,7 +27,8 @@ class ShadowTruth {
   bool casts() const;  // some light of the scene
   const Occlusion& occlusion();
 
-  // Of point and spot lights, as lists have them. Null if no light casts; until the next call but one. triangles: the nearest opaque one of each pixel.
+  // Of point and spot lights, as lists have them. Null if no light casts; until the next call but one.
+  // triangles: the nearest opaque one of each pixel.
   const SeenPairs* pairs(const Seen& v, const std::vector<float>& depth,
                          const std::vector<SceneTriangle>& triangles);
 
@@ -42,6 +43,7 @@ class ShadowTruth {
 
  private:
   struct Decided {
+    LightRanges ranges;
     std::vector<float> depth;
     std::vector<SceneTriangle> triangles;
     std::unique_ptr<SeenPairs> pairs;
