@@ -124,6 +124,17 @@ def break_even(groups):
     return table(head, rows)
 
 
+def replace(page, mark, text):
+    """Puts the text between the page's marks."""
+    with open(page) as file:
+        whole = file.read()
+    begin, end = f"<!-- {mark} -->\n", f"<!-- /{mark} -->"
+    if whole.count(begin) != 1 or whole.count(end) != 1:
+        sys.exit(f"{page}: has no place {begin.strip()} … {end}")
+    with open(page, "w") as file:
+        file.write(whole.split(begin)[0] + begin + "\n" + text + "\n\n" + end + whole.split(end)[1])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("csv")
@@ -138,14 +149,8 @@ def main():
     if not o.page:
         print(text)
         return
-    with open(o.page) as file:
-        page = file.read()
-    begin, end = f"<!-- {o.mark} -->\n", f"<!-- /{o.mark} -->"
-    if page.count(begin) != 1 or page.count(end) != 1:
-        sys.exit(f"{o.page}: has no place {begin.strip()} … {end}")
-    before, after = page.split(begin)[0], page.split(end)[1]
-    with open(o.page, "w") as file:
-        file.write(before + begin + "\n" + text + "\n\n" + end + after)
+    replace(o.page, o.mark, text)
 
 
-main()
+if __name__ == "__main__":
+    main()
