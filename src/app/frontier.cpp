@@ -16,6 +16,7 @@
 #include "base/version.h"
 #include "base/write_file.h"
 #include "frontier/answer.h"
+#include "frontier/brute_force.h"
 #include "frontier/measure.h"
 
 namespace lightgrid {
@@ -27,7 +28,7 @@ struct FrontierCommand {
   SceneChoice scene;                // shared by all scenes
   std::vector<std::string> scenes;  // or "merge" and folders
   DeviceOptions devices;
-  std::string output = "out/frontier", json, gate, shard = "0/1";
+  std::string output = "out/frontier", json, gate, shard = "0/1", truth;
   std::vector<std::string> techniques, vary;
   int views = 8, rounds = 40, budget = 14, page_mb = 12;
   bool no_growth = false;
@@ -58,8 +59,30 @@ SceneChoice choice_of(const FrontierCommand& o, const std::string& scene) {
   return choice;
 }
 
+// A scene's points, and what they are held to.
+struct SceneRequest {
+  std::vector<ChosenPoint> points;
+  FrontierTruth truth;
+  bool casts = false;  // some light of the scene
+};
+
+std::optional<bool> parse_truth(const std::string& text) {
+  if (text.empty()) return {};
+  if (text == "infinite") return false;
+  if (text == "own") return true;
+  throw input_error("truth {}: neither infinite nor own", text);
+}
+
+SceneRequest request_of_scene(const FrontierCommand& o, bool casts, const Settings& common, bool opengl) {
+  SceneRequest request{{}, chosen_truth(common, casts, parse_truth(o.truth)), casts};
+  const auto shadows = casts ? std::optional(request.truth) : std::nullopt;
+  request.points = chosen_points(o.techniques, o.vary, common, opengl, shadows);
+  return request;
+}
+
 // Parts of one sweep agree in this.
-std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>& points) {
+std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>& points,
+                       const std::vector<SceneRequest>& of_scenes) {
   const SceneChoice& s = o.scene;
   nlohmann::json request = {{"scenes", o.scenes},
                             {"size", s.size},
@@ -79,6 +102,13 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
                                  settings_of(*point.contestant.technique, point.contestant.settings),
                                  point.frames});
   }
+  // Lights of a path's file may cast in one sweep and not in the next.
+  if (!o.truth.empty()) request["truth"] = o.truth;
+  for (size_t i = 0; i < of_scenes.size(); ++i) {
+    if (!of_scenes[i].casts) continue;
+    request["casting"].push_back(i);
+    for (const ChosenPoint& point : of_scenes[i].points) request["casting"].push_back(point.label);
+  }
   // A path may hold bytes that are not UTF-8.
   return content_hash(request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
@@ -92,15 +122,17 @@ bool failed_gate(const FrontierCommand& o, const FrontierAnswer& answer) {
   return !result.worse.empty();
 }
 
-// Points that lose lights or draw NaN fail; refused ones do not.
+// Points that lose lights, draw NaN or have wrong shadows that they say are exact fail; refused ones do not.
 bool tell_losses(const FrontierAnswer& answer) {
   bool failed = false;
   for (const PointFigures& p : answer.points) {
     const bool limited = find_technique(p.point.technique).limited_lists;
-    if ((p.pairs.lost == 0 || limited) && p.pairs.wrong == 0 && p.nan_pixels == 0) continue;
+    const uint64_t shadows = p.pairs.shadows ? p.pairs.shadows->faults() : 0;
+    if ((p.pairs.lost == 0 || limited) && p.pairs.wrong == 0 && p.nan_pixels == 0 && shadows == 0) continue;
     failed = true;
-    fmt::print(stderr, "lightgrid: {} in {}: {} lost and {} wrong pairs, {} NaN pixels; all must be 0\n",
-               p.point.label, p.point.scene, p.pairs.lost, p.pairs.wrong, p.nan_pixels);
+    fmt::print(stderr, "lightgrid: {} in {}: {} lost and {} wrong pairs, {} NaN pixels{}; all must be 0\n",
+               p.point.label, p.point.scene, p.pairs.lost, p.pairs.wrong, p.nan_pixels,
+               shadows > 0 ? fmt::format(", {} wrong shadows", shadows) : "");
   }
   return failed;
 }
@@ -139,22 +171,24 @@ int merge(const FrontierCommand& o) {
   return finish(o, read_parts(folders, [](const std::string& what) { log_info("{}", what); }), pictures);
 }
 
-// Checks what the command is asked for, before a device opens and before the first scene is measured.
-void check_request(const FrontierCommand& o) {
+// Checks what the command is asked for, before a device opens and before the first scene is measured. Returns
+// whether a light casts, scene by scene.
+std::vector<bool> check_request(const FrontierCommand& o) {
+  parse_truth(o.truth);
   if (!o.gate.empty()) read_frontier_json(o.gate);
   if (!o.json.empty()) check_output_file("--json", o.json);
-  for (const std::string& scene : o.scenes) load_chosen_scene(choice_of(o, scene));
+  std::vector<bool> casts;
+  for (const std::string& scene : o.scenes) {
+    const ChosenScene chosen = load_chosen_scene(choice_of(o, scene));
+    casts.push_back(std::ranges::any_of(chosen.scene.lights, &Light::casts_shadow));
+  }
+  return casts;
 }
 
 FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Shard& shard) {
   FrontierJob job;
   job.common = chosen_settings(o.scene);
-  const bool opengl = renderer.gl != nullptr;
-  const std::vector<ChosenPoint> all = chosen_points(o.techniques, o.vary, job.common, opengl);
-  for (size_t i = 0; i < all.size(); ++i) {
-    if (in_shard(i, shard.index, shard.count)) job.points.push_back(all[i]);
-  }
-  job.baseline = baseline_point(job.common, opengl);
+  job.baseline = baseline_point(job.common, renderer.gl != nullptr);
   job.views = o.views;
   job.seed = o.scene.seed;
   job.growth = shard.index == 0 && !o.no_growth;
@@ -163,6 +197,14 @@ FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Sha
   job.pictures = fs::path(o.output) / "pictures";
   job.notice = [](const std::string& what) { log_info("{}", what); };
   return job;
+}
+
+void ask(FrontierJob& job, const SceneRequest& request, const Shard& shard) {
+  job.points.clear();
+  for (size_t i = 0; i < request.points.size(); ++i) {
+    if (in_shard(i, shard.index, shard.count)) job.points.push_back(request.points[i]);
+  }
+  job.truth = request.truth;
 }
 
 int frontier(FrontierCommand o) {
@@ -176,12 +218,16 @@ int frontier(FrontierCommand o) {
   }
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   chosen_points(o.techniques, o.vary, chosen_settings(o.scene), true);
-  check_request(o);
+  const std::vector<bool> casts = check_request(o);
   make_folder(o.output);
   Renderer renderer(o.devices.device, backend);
   FrontierJob job = job_of(o, renderer, shard);
+  std::vector<SceneRequest> of_scenes;
+  for (const bool scene_casts : casts)
+    of_scenes.push_back(request_of_scene(o, scene_casts, job.common, renderer.gl != nullptr));
   FrontierPart part;
-  part.request = request_of(o, chosen_points(o.techniques, o.vary, job.common, renderer.gl != nullptr));
+  part.request =
+      request_of(o, chosen_points(o.techniques, o.vary, job.common, renderer.gl != nullptr), of_scenes);
   part.commit = commit_of_build(), part.seed = o.scene.seed, part.shard = shard.index,
   part.shards = shard.count;
   part.baseline = job.baseline.label;
@@ -203,6 +249,7 @@ int frontier(FrontierCommand o) {
     job.progress = [&](double part_done, const std::string& step) {
       bar(done + part_done * share, o.scenes[i] + ": " + step);
     };
+    ask(job, of_scenes[i], shard);
     measure_scene(renderer, choice_of(o, o.scenes[i]), job, file);
     ++measured;
   }
@@ -237,6 +284,10 @@ void add_frontier(CommandLine& line) {
   command.list(
       "--vary", o->vary,
       "KEY=VALUE,VALUE,…: each technique that reads KEY with each value, one key at a time; may be repeated");
+  command.option(
+      "--truth", o->truth,
+      "ranges of the lights in the picture that errors are against: infinite, or own, those of the "
+      "settings (default: infinite; where lights cast shadows, own)");
   command.option("--rounds", o->rounds,
                  "times of each point and view, at most: fewer if the intervals are narrow before", 1, 1000);
   command.flag("--no-growth", o->no_growth, "leaves out how times grow with lights, pixels and ranges");

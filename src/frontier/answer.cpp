@@ -115,18 +115,20 @@ std::vector<Failure> failures_of(Records records) {
       failures.push_back({point, cause, why});
     };
     std::string refused;
-    uint64_t lost = 0, wrong = 0, nan_pixels = 0, overflow = 0;
+    uint64_t lost = 0, wrong = 0, nan_pixels = 0, overflow = 0, shadows = 0;
     bool finite = true;
     for (const FrontierRecord* r : views) {
       if (refused.empty()) refused = r->refused;
       if (!r->refused.empty()) continue;
       lost += r->pairs.lost, wrong += r->pairs.wrong;
+      if (r->pairs.shadows) shadows += r->pairs.shadows->faults();
       nan_pixels += r->nan_pixels, overflow += r->overflow;
       finite &= errors_are_finite(r->errors);
     }
     if (!refused.empty()) add("refused", "refused: " + refused);
     if (lost) add("lost", with_commas(lost) + " lit pairs are not listed");
     if (wrong) add("wrong", with_commas(wrong) + " listed pairs are no light, or twice the same");
+    if (shadows) add("shadow", with_commas(shadows) + " pairs have a wrong shadow that is said to be exact");
     if (nan_pixels) {
       add("NaN", with_commas(nan_pixels) + " pixels are NaN");
     } else if (!finite) {

@@ -28,6 +28,7 @@ struct PointFigures {
   PointErrors errors;
   int flip_views = 0, temporal_views = 0;  // that have FLIP, and flicker
   PairCounts pairs;                        // sums over views
+  std::optional<FrontierTruth> truth;      // empty: every light without a range
   uint64_t memory_bytes = 0;               // the largest of the views
   uint64_t bytes_moved = 0;                // a frame of the views that were profiled: the first
   uint64_t nan_pixels = 0;
@@ -35,6 +36,11 @@ struct PointFigures {
   // Points of the scene whose ratio does not differ (Mann-Whitney U, alpha 0.05), by index.
   std::vector<int> tied_with;
 };
+
+// Of all pairs of a pixel and a light that casts and is in range, in per cent: those shaded though hidden,
+// and those dark though seen. None where shadows were not counted, or there is no such pair.
+std::optional<double> leaked_percent(const PairCounts& pairs);
+std::optional<double> acned_percent(const PairCounts& pairs);
 
 // "If you can bear an error of … use …": the point of least ratio whose error.total.rmse_rel is at most
 // `error`.
@@ -73,7 +79,7 @@ struct Growth {
 
 struct Failure {
   FrontierPoint point;
-  std::string cause;  // "refused", "lost", "wrong", "NaN" or "overflow"
+  std::string cause;  // "refused", "lost", "wrong", "shadow", "NaN" or "overflow"
   std::string why;    // in words, with the figure
 };
 

@@ -59,7 +59,12 @@ json point_json(const PointFigures& p) {
   error["in_double"] = p.errors.in_double ? in_double_json(*p.errors.in_double) : json();
   error["flip_views"] = p.flip_views;
   error["temporal_views"] = p.temporal_views;
-  out["pairs"] = finite_json(p.pairs);
+  out["pairs"] = pairs_json(p.pairs);
+  if (p.pairs.shadows) {
+    out["leaked_percent"] = finite_json(leaked_percent(p.pairs));
+    out["acned_percent"] = finite_json(acned_percent(p.pairs));
+  }
+  if (p.truth) out["truth"] = finite_json(*p.truth);
   out["listed_per_lit"] = p.pairs.lit > 0 ? json(double(p.pairs.listed) / double(p.pairs.lit)) : json();
   out["memory_bytes"] = p.memory_bytes;
   out["bytes_moved"] = p.bytes_moved;
@@ -104,7 +109,7 @@ json failure_json(const Failure& f) {
   return out;
 }
 
-std::vector<CsvColumn> csv_columns() {
+std::vector<CsvColumn> csv_columns(bool truths, bool shadows) {
   std::vector<CsvColumn> all;
   const auto add_measures = [&](const std::string& within, const std::string& prefix) {
     for (const ErrorMeasure& m : frontier_error_measures()) add_columns(all, {m.key}, within, prefix);
@@ -131,6 +136,11 @@ std::vector<CsvColumn> csv_columns() {
   add_measures(sampled + "/picture", "in_double_");
   add_columns(all, {"max_rel", "rmse_rel"}, sampled + "/picture_in_float", "in_double_float_total_");
   add_columns(all, {"max_rel", "rmse_rel"}, sampled + "/truth", "in_double_float_truth_");
+  if (truths) add_columns(all, {"own_ranges", "shadow_source", "shadow_rays"}, "/truth", "truth_");
+  if (!shadows) return all;
+  add_columns(all, {"leaked", "acned", "either"}, "/pairs/shadows");
+  add_columns(all, {"pixels", "pairs"}, "/pairs/shadows", "shadow_");
+  add_columns(all, {"leaked_percent", "acned_percent"});
   return all;
 }
 
@@ -144,6 +154,10 @@ json csv_row(const FrontierAnswer& answer, size_t row) {
     if (machine.shard == r.shard) fields.update({{"cl", machine.cl_device}, {"gl", machine.gl_device}});
   }
   fields["settings"] = settings_field(r.point.settings);
+  if (r.pairs.shadows) {
+    fields["leaked_percent"] = finite_json(leaked_percent(r.pairs));
+    fields["acned_percent"] = finite_json(acned_percent(r.pairs));
+  }
   if (!r.refused.empty()) {  // what it would have drawn
     for (const char* key :
          {"bytes_moved", "memory_bytes", "covered_pixels", "pairs", "nan_pixels", "overflow"})
@@ -250,7 +264,10 @@ json to_json(const FrontierAnswer& answer) {
 std::string csv_text(const FrontierAnswer& answer) {
   std::vector<json> rows;
   for (size_t row = 0; row < answer.part.records.size(); ++row) rows.push_back(csv_row(answer, row));
-  return csv_table(csv_columns(), rows);
+  const auto any = [&](const auto& has) { return std::ranges::any_of(answer.part.records, has); };
+  const bool truths = any([](const FrontierRecord& r) { return r.truth.has_value(); });
+  const bool shadows = any([](const FrontierRecord& r) { return r.pairs.shadows.has_value(); });
+  return csv_table(csv_columns(truths, shadows), rows);
 }
 
 std::string cull_csv_text(const FrontierAnswer& answer) {

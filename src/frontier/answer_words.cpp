@@ -59,6 +59,8 @@ const PointFigures* baseline_of(const FrontierAnswer& answer, const std::string&
 int fastest_same_picture(const FrontierAnswer& answer, const std::string& scene) {
   const PointFigures* baseline = baseline_of(answer, scene);
   int best = -1;
+  // With point lights among spheres the baseline's picture is another one itself.
+  if (baseline && !(baseline->errors.technique.max_rel <= same_picture)) baseline = nullptr;
   for (size_t i = 0; baseline && i < answer.points.size(); ++i) {
     const PointFigures& p = answer.points[i];
     if (p.point.scene != scene || p.ratios.empty() || !same_model(p, *baseline)) continue;
@@ -192,6 +194,7 @@ void add_failures(const FrontierAnswer& answer, const std::string& scene,
   for (const auto& [cause, words] : {std::pair<const char*, const char*>{"refused", "refused"},
                                      {"lost", "with lost lights"},
                                      {"wrong", "with wrong lights"},
+                                     {"shadow", "with wrong shadows"},
                                      {"NaN", "with NaN"},
                                      {"overflow", "with lists that overflow by design"}}) {
     size_t count = 0;
@@ -209,6 +212,48 @@ void add_failures(const FrontierAnswer& answer, const std::string& scene,
   sentences.push_back(fmt::format("In {} {} of {} points failed: {}.", scene_in_words(scene),
                                   with_commas(failed.size()), with_commas(all.size()),
                                   fmt::join(parts, ", ")));
+}
+
+// What errors are against, where that is not every light without a range.
+void add_truth(const FrontierAnswer& answer, const std::string& scene, std::vector<std::string>& sentences) {
+  const auto of_scene = std::ranges::find_if(
+      answer.points, [&](const PointFigures& p) { return p.point.scene == scene && p.truth; });
+  if (of_scene == answer.points.end()) return;
+  const FrontierTruth& truth = *of_scene->truth;
+  sentences.push_back(fmt::format("Errors in {} are against every light {}{}.", scene_in_words(scene),
+                                  truth.own_ranges ? "with its range" : "without a range",
+                                  truth.source_m > 0
+                                      ? fmt::format(", each a sphere of {:g} m with {} shadow rays a pixel",
+                                                    truth.source_m, truth.shadow_rays)
+                                      : ""));
+}
+
+std::string share_in_words(const std::optional<double>& percent) {
+  return percent ? three_digits(*percent) + " %" : "an unknown share";
+}
+
+// Of the points whose shadows are wrong in places, the cheapest, and the one with the fewest wrong pairs.
+void add_shadows(const FrontierAnswer& answer, const std::string& scene,
+                 std::vector<std::string>& sentences) {
+  const PointFigures *cheapest = nullptr, *best = nullptr;
+  const auto wrong = [](const PointFigures& p) { return *leaked_percent(p.pairs) + *acned_percent(p.pairs); };
+  for (const PointFigures& p : answer.points) {
+    if (p.point.scene != scene || p.ratios.empty() || !leaked_percent(p.pairs)) continue;
+    if (p.pairs.shadows->says_exact || wrong(p) == 0) continue;
+    if (!cheapest || p.ratio.median < cheapest->ratio.median) cheapest = &p;
+    if (!best || wrong(p) < wrong(*best)) best = &p;
+  }
+  if (!best) return;
+  const auto words = [](const PointFigures& p) {
+    return fmt::format(
+        "{} ({} of the pairs of a pixel and a light leaked, {} acned, at {} times the "
+        "baseline's time)",
+        p.point.label, share_in_words(leaked_percent(p.pairs)), share_in_words(acned_percent(p.pairs)),
+        three_digits(p.ratio.median));
+  };
+  sentences.push_back(fmt::format("Of the points in {} whose shadows are wrong somewhere the cheapest is {}.",
+                                  scene_in_words(scene), words(*cheapest)));
+  if (best != cheapest) sentences.push_back(fmt::format("The fewest wrong pairs has {}.", words(*best)));
 }
 
 }  // namespace
@@ -233,8 +278,10 @@ std::string three_digits(double value) {
 
 static std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene) {
   std::vector<std::string> sentences;
+  add_truth(answer, scene, sentences);
   add_fastest(answer, scene, sentences);
   add_best_within(answer, scene, sentences);
+  add_shadows(answer, scene, sentences);
   add_break_even(answer, scene, sentences);
   add_growth(answer, scene, sentences);
   add_failures(answer, scene, sentences);
@@ -245,6 +292,8 @@ SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene
   SceneWords words;
   add_fastest(answer, scene, words.opening);
   if (words.opening.size() > 1) words.notes.push_back(words.opening.back()), words.opening.pop_back();
+  add_truth(answer, scene, words.opening);
+  add_shadows(answer, scene, words.notes);
   add_failures(answer, scene, words.opening);
   add_break_even(answer, scene, words.notes);
   add_growth(answer, scene, words.notes);

@@ -14,13 +14,28 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t least_pixels = 400, most_pixels = 20000;
+constexpr int rays_of_truth = 256;  // to a sphere; docs/shadows.md has their error
 
 }  // namespace
 
-BruteForce::BruteForce(Renderer& renderer, GpuScene& gpu, const Settings& common, bool own_surfaces)
+FrontierTruth chosen_truth(const Settings& common, bool casts, std::optional<bool> own_ranges) {
+  FrontierTruth truth{.own_ranges = own_ranges.value_or(casts)};
+  const bool spheres = common.given.contains("shadow-source") || common.shadow_rays > 1;
+  if (casts && spheres && common.shadow_source_m > 0)
+    truth.source_m = common.shadow_source_m, truth.shadow_rays = rays_of_truth;
+  return truth;
+}
+
+bool counts_shadow_pairs(const Settings& settings, const FrontierTruth& truth) {
+  return truth.source_m == 0 && !settings.soft_shadows() && !settings.picks_shadows();
+}
+
+BruteForce::BruteForce(Renderer& renderer, GpuScene& gpu, const Settings& common, const FrontierTruth& truth,
+                       bool own_surfaces)
     : renderer_(renderer),
       gpu_(gpu),
       common_(common),
+      truth_(truth),
       technique_(find_technique(own_surfaces ? "visibility" : "forward")),
       pool_(std::make_shared<TargetPool>()) {}
 
@@ -29,25 +44,46 @@ void BruteForce::look(const View& view) {
   pictures_.clear();
 }
 
-const Image& BruteForce::picture(const Settings& settings) {
-  for (const auto& [meaning, image] : pictures_) {
-    if (same_model(meaning, settings)) return image;
-  }
-  return pictures_.emplace_back(settings, draw(settings)).second;
-}
-
-Image BruteForce::draw(const Settings& settings) {
+Settings BruteForce::meaning(const Settings& settings, double source_m) const {
   Settings meaning = with_exact_shadows(with_model(common_, settings));
   meaning.lights = ShadedLights::all;
+  meaning.shadow_pick = 0;
+  meaning.shadow_rays = source_m > 0 ? rays_of_truth : 1, meaning.shadow_source_m = source_m;
+  return meaning;
+}
+
+const Image& BruteForce::kept(const Settings& meaning) {
+  for (const auto& [of, image] : pictures_) {
+    if (same_model(of, meaning) && of.shadow_source_m == meaning.shadow_source_m) return image;
+  }
+  return pictures_.emplace_back(meaning, drawn(meaning)).second;
+}
+
+Image BruteForce::drawn(const Settings& meaning) {
   TechniqueRun run(renderer_, gpu_, view_, meaning, technique_, pool_);
   run.run_frame(true);
   return run.take_image();
 }
 
+static double source_of(const Settings& settings, const FrontierTruth& truth) {
+  if (truth.source_m > 0) return truth.source_m;
+  return settings.soft_shadows() ? settings.shadow_source_m : 0;
+}
+
+const Image& BruteForce::picture(const Settings& settings) {
+  return kept(meaning(settings, source_of(settings, truth_)));
+}
+
+Image BruteForce::draw(const Settings& settings) {
+  return drawn(meaning(settings, source_of(settings, truth_)));
+}
+
+const Image& BruteForce::picture_of_points(const Settings& settings) { return kept(meaning(settings, 0)); }
+
 const Image& BruteForce::truth() {
   Settings settings = common_;
-  settings.ranges = {.range = LightRange::infinite};
-  return picture(settings);
+  if (!truth_.own_ranges) settings.ranges = {.range = LightRange::infinite};
+  return kept(meaning(settings, truth_.source_m));
 }
 
 double BruteForce::brightest() { return brightest_channel(truth()); }
@@ -64,8 +100,8 @@ std::vector<uint32_t> random_pixels(const std::vector<uint32_t>& pixels, size_t 
 }
 
 Precision::Precision(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& common,
-                     size_t pairs)
-    : renderer_(renderer), common_(common), pairs_(pairs) {
+                     const FrontierTruth& truth, size_t pairs)
+    : renderer_(renderer), common_(common), truth_(truth), pairs_(pairs) {
   for (Sample& sample : samples_) {
     for (const ErrorMeasure& measure : frontier_error_measures()) sample.precision.*measure.value = unknown;
   }
@@ -76,23 +112,27 @@ Precision::Precision(Renderer& renderer, GpuScene& gpu, const View& view, const 
 
 void Precision::judge(Sample& sample, BruteForce& brute, const std::vector<glm::dvec3>& with_ranges) const {
   sample.precision =
-      frontier_error(at_pixels(brute.picture(common_), sample.pixels), with_ranges, brightest_);
+      frontier_error(at_pixels(brute.picture_of_points(common_), sample.pixels), with_ranges, brightest_);
+  if (truth_.source_m > 0) return;
   sample.float_truth = at_pixels(brute.truth(), sample.pixels);
   sample.truth_in_float = frontier_error(sample.float_truth, sample.truth, brightest_);
 }
 
-void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own, uint64_t seed) {
+void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own, uint64_t seed,
+                        ShadowTruth& shadows) {
   if (!opengl_) return;
   opengl_->look(view);
   opengl_->run_frame(true);
   RenderView& v = opengl_->view();
   const std::vector<float> depth = read_depth(v);
-  const SurfaceOracle oracle(v, depth);
+  const SurfaceOracle oracle(v, depth, &shadows);
   const size_t lights = std::max<size_t>(v.scene.lights.size(), 1);
   Sample& all = samples_[0];
-  all.pixels = random_pixels(oracle.pixels(), std::clamp(pairs_ / lights, least_pixels, most_pixels), seed);
-  all.truth = oracle.shade(all.pixels, false);
+  all.pixels = oracle.decided(
+      random_pixels(oracle.pixels(), std::clamp(pairs_ / lights, least_pixels, most_pixels), seed),
+      truth_.own_ranges);
   const std::vector<glm::dvec3> with_ranges = oracle.shade(all.pixels, true);
+  all.truth = truth_.own_ranges ? with_ranges : oracle.shade(all.pixels, false);
   brightest_ = opengl.brightest();
   judge(all, opengl, with_ranges);
   if (!own) return;
@@ -116,7 +156,7 @@ void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own, u
 
 std::optional<SampledErrors> Precision::in_double(const Image& picture, bool own_surfaces) const {
   const Sample& sample = samples_[own_surfaces];
-  if (!opengl_ || sample.pixels.empty()) return {};
+  if (!opengl_ || sample.pixels.empty() || truth_.source_m > 0) return {};
   const Image at_sample = at_pixels(picture, sample.pixels);
   return SampledErrors{int(sample.pixels.size()), frontier_error(at_sample, sample.truth, brightest_),
                        frontier_error(at_sample, sample.float_truth, brightest_), sample.truth_in_float};

@@ -8,9 +8,19 @@
 #include <vector>
 
 #include "frontier/record.h"
+#include "session/shadow_truth.h"
 #include "session/technique_run.h"
 
 namespace lightgrid {
+
+// What a sweep's pictures are held to. Where lights cast, the lights keep their ranges unless `own_ranges`
+// says otherwise: shadows are then what is in question. Where the settings also give shadows a source
+// (shadow-source, or shadow-rays), lights are spheres.
+FrontierTruth chosen_truth(const Settings& common, bool casts, std::optional<bool> own_ranges = {});
+
+// Whether the oracle can tell whether a pair's shadow is right: not where a light is partly hidden, or a
+// pixel's lights share one estimate.
+bool counts_shadow_pairs(const Settings& settings, const FrontierTruth& truth);
 
 // Pictures of one view, for techniques that share its surfaces: OpenGL's (`forward`) or those of the
 // rasteriser in OpenCL (`visibility:lights=all`). Float; their own error against the oracle in double is
@@ -18,43 +28,53 @@ namespace lightgrid {
 class BruteForce {
  public:
   // `common`: the settings that all points share. All outlive it.
-  BruteForce(Renderer& renderer, GpuScene& gpu, const Settings& common, bool own_surfaces);
+  BruteForce(Renderer& renderer, GpuScene& gpu, const Settings& common, const FrontierTruth& truth,
+             bool own_surfaces);
 
   void look(const View& view);  // forgets the pictures of the view before
 
-  // With the BRDF, ranges and window of `settings`.
+  // With the BRDF, ranges and window of `settings`, and exact shadows of points, or of spheres: the truth's,
+  // or those of `settings`.
   const Image& picture(const Settings& settings);
   Image draw(const Settings& settings);  // the same, not kept
-  // Without ranges.
+  // With exact shadows of points.
+  const Image& picture_of_points(const Settings& settings);
   const Image& truth();
   double brightest();  // channel of the truth
 
  private:
+  Settings meaning(const Settings& settings, double source_m) const;
+  const Image& kept(const Settings& meaning);
+  Image drawn(const Settings& meaning);
+
   Renderer& renderer_;
   GpuScene& gpu_;
   Settings common_;
+  FrontierTruth truth_;
   const Technique& technique_;
   View view_;
   std::shared_ptr<TargetPool> pool_;
-  std::list<std::pair<Settings, Image>> pictures_;  // with their meaning
+  std::list<std::pair<Settings, Image>> pictures_;  // with their meanings
 };
 
 // On the surfaces that OpenGL shows, at opaque pixels, with the BRDF of `common`. For techniques with
 // surfaces of their own the sample holds the pixels where both show the same triangle, and the figures
-// contain what their texture filter does otherwise.
+// contain what their texture filter does otherwise. Where lights cast, the sample holds the pixels where no
+// shadow turns on rounding.
 class Precision {
  public:
   // Without OpenGL nothing is measured: figures are NaN. All outlive it. `pairs`: of pixel and light that the
   // oracle may shade on a view.
-  Precision(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& common, size_t pairs);
+  Precision(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& common,
+            const FrontierTruth& truth, size_t pairs);
 
   // `own`: the pictures of the family whose surfaces are the rasteriser's; null: not needed. `seed`: of the
-  // random pixels.
-  void measure(const View& view, BruteForce& opengl, BruteForce* own, uint64_t seed);
+  // random pixels. `shadows`: of the scene.
+  void measure(const View& view, BruteForce& opengl, BruteForce* own, uint64_t seed, ShadowTruth& shadows);
 
-  // Brute force with the ranges of `common` in float against the same in double.
+  // Brute force with the ranges of `common` in float against the same in double, with shadows of points.
   const ImageError& of(bool own_surfaces) const { return samples_[own_surfaces].precision; }
-  // A picture of that view against the truth in double.
+  // A picture of that view against the truth in double. None where the truth's lights are spheres.
   std::optional<SampledErrors> in_double(const Image& picture, bool own_surfaces) const;
 
  private:
@@ -69,6 +89,7 @@ class Precision {
 
   Renderer& renderer_;
   Settings common_;
+  FrontierTruth truth_;
   size_t pairs_;
   double brightest_ = 0;  // channel of the truth on OpenGL's surfaces
   std::optional<TechniqueRun> opengl_, visibility_;

@@ -13,7 +13,7 @@
 namespace lightgrid {
 
 // The demands of a reader: whole numbers are at least `low`, and a field that is not required keeps its
-// value.
+// value. One that is not required and absent is not written.
 struct FieldRule {
   int low = 0;
   bool required = true;
@@ -31,12 +31,30 @@ void visit_fields(T& p, Visit&& visit) {
   visit("frames", p.frames, FieldRule{.low = 1});
 }
 
+template <Is<ShadowPairs> T, typename Visit>
+void visit_fields(T& s, Visit&& visit) {
+  visit("leaked", s.leaked);
+  visit("acned", s.acned);
+  visit("either", s.either);
+  visit("pixels", s.pixels);
+  visit("pairs", s.pairs);
+  visit("says_exact", s.says_exact);
+}
+
 template <Is<PairCounts> T, typename Visit>
 void visit_fields(T& p, Visit&& visit) {
   visit("listed", p.listed);
   visit("lit", p.lit);
   visit("lost", p.lost);
   visit("wrong", p.wrong);
+  visit("shadows", p.shadows, FieldRule{.required = false});
+}
+
+template <Is<FrontierTruth> T, typename Visit>
+void visit_fields(T& t, Visit&& visit) {
+  visit("own_ranges", t.own_ranges);
+  visit("shadow_source", t.source_m);
+  visit("shadow_rays", t.shadow_rays, FieldRule{.low = 1});
 }
 
 template <Is<ImageError> T, typename Visit>
@@ -83,6 +101,7 @@ void visit_identity(T& r, Visit&& visit) {
 template <Is<FrontierRecord> T, typename Visit>
 void visit_fields(T& r, Visit&& visit) {
   visit_identity(r, visit);
+  visit("truth", r.truth, FieldRule{.required = false});
   visit("refused", r.refused);
   visit("frame_ms", r.frame_ms);
   visit("baseline_ms", r.baseline_ms);
@@ -138,6 +157,10 @@ struct ToJson {
   template <typename T>
   void operator()(const char* key, const T& value, FieldRule = {}) {
     object[key] = json_of(value);
+  }
+  template <typename T>
+  void operator()(const char* key, const std::optional<T>& value, FieldRule rule = {}) {
+    if (value || rule.required) object[key] = json_of(value);
   }
   nlohmann::json json_of(double value) const {
     return numbers == Numbers::exact ? exact_number(value) : finite_number(value);

@@ -62,8 +62,13 @@ class PointComparison {
         earlier_(*earlier.value, now.name + ": "),
         result_(result) {}
 
-  // False if they are of different views.
-  bool is_of_same_views() const {
+  // False if they are of different views, or held to different truths.
+  bool is_comparable() const {
+    const auto truth_of = [](const JsonFields& p) { return p.has("truth") ? p.at("truth") : json(); };
+    if (truth_of(now_) != truth_of(earlier_)) {
+      result_.told.push_back(name_ + ": against another truth than earlier: not compared");
+      return false;
+    }
     const int now = now_.whole("views", 1), earlier = earlier_.whole("views", 1);
     if (now == earlier) return true;
     result_.told.push_back(fmt::format("{}: {} views, earlier {}: not compared", name_, now, earlier));
@@ -81,6 +86,9 @@ class PointComparison {
       return p.has("nan_pixels") ? p.count("nan_pixels") : 0;
     };
     compare_counts("pixels are NaN", nan_pixels(now_), nan_pixels(earlier_));
+    for (const char* percent : {"leaked_percent", "acned_percent"}) {
+      if (now_.has(percent)) compare_error(fmt::format("{}: {}", name_, percent), now_, earlier_, percent);
+    }
     compare_ratios();
   }
 
@@ -181,7 +189,7 @@ GateResult compare_frontiers(const json& now, const json& earlier) {
       continue;
     }
     PointComparison comparison(found->second, point, result);
-    if (!comparison.is_of_same_views()) continue;
+    if (!comparison.is_comparable()) continue;
     comparison.compare();
     ++compared;
   }

@@ -101,6 +101,7 @@ class SceneSweep {
     record.view = view;
     record.width = start_.width, record.height = start_.height;
     record.lights = int(scene_.lights.size());
+    if (job_.truth != FrontierTruth()) record.truth = job_.truth;
     return record;
   }
 

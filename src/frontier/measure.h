@@ -15,14 +15,17 @@ struct FrontierJob {
   std::vector<ChosenPoint> points;
   ChosenPoint baseline;
   Settings common;
+  FrontierTruth truth;
   int views = 8;         // at most: fewer if the time allows no more
   double seconds = 180;  // for the scene, from loading to its last record
   int least_rounds = 6, most_rounds = 40;
   double interval_width = 0.05;  // rounds end when each ratio's interval is at most this share of its median
   uint64_t seed = 1;
-  size_t shaded_pairs = 10'000'000;  // of pixel and light that the oracle shades on a view
-  bool growth = true;                // the series of lights, pixels and radius too
-  std::filesystem::path pictures;    // folder; empty: no pictures
+  // Of pixel and light, on a view: those that the oracle shades, and those whose shadows it decides, which
+  // takes longer (of more, an even sample of the pixels is taken).
+  size_t shaded_pairs = 10'000'000, shadow_pairs = 1'000'000;
+  bool growth = true;              // the series of lights, pixels and radius too
+  std::filesystem::path pictures;  // folder; empty: no pictures
   // Called with the progress (0 to 1) and the next step.
   std::function<void(double done, const std::string& step)> progress;
   std::function<void(const std::string& what)> notice;

@@ -98,6 +98,7 @@ PointFigures over_views(const Group& views) {
   all.point = views.front()->point;
   all.views = int(views.size());
   all.width = views.front()->width, all.height = views.front()->height;
+  all.truth = views.front()->truth;
   std::vector<double> frame_ms = sums_over(views, &FrontierRecord::frame_ms);
   const std::vector<double> baseline_ms = sums_over(views, &FrontierRecord::baseline_ms);
   for (size_t run = 0; run < frame_ms.size(); ++run) {
@@ -117,9 +118,7 @@ PointFigures over_views(const Group& views) {
   }
   uint64_t bytes_moved = 0, counted = 0;  // views that were profiled
   for (const FrontierRecord* view : views) {
-    for (const auto count : {&PairCounts::listed, &PairCounts::lit, &PairCounts::lost, &PairCounts::wrong}) {
-      all.pairs.*count += view->pairs.*count;
-    }
+    all.pairs += view->pairs;
     all.memory_bytes = std::max(all.memory_bytes, view->memory_bytes);
     bytes_moved += view->bytes_moved;
     counted += view->bytes_moved > 0;
@@ -145,7 +144,20 @@ std::vector<int> tied_and_no_worse(const std::vector<PointFigures>& points, int 
   return tied;
 }
 
+std::optional<double> percent_of_pairs(const PairCounts& pairs, uint64_t ShadowPairs::*count) {
+  if (!pairs.shadows || pairs.shadows->pairs == 0) return {};
+  return 100 * double(*pairs.shadows.*count) / double(pairs.shadows->pairs);
+}
+
 }  // namespace
+
+std::optional<double> leaked_percent(const PairCounts& pairs) {
+  return percent_of_pairs(pairs, &ShadowPairs::leaked);
+}
+
+std::optional<double> acned_percent(const PairCounts& pairs) {
+  return percent_of_pairs(pairs, &ShadowPairs::acned);
+}
 
 std::string point_key(const FrontierPoint& point, std::span<const std::string> without) {
   std::string key = point.scene + "\n" + point.technique;

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "base/timer.h"
 #include "cl/error.h"
+#include "passes/shadows/certificates.h"
 #include "results/metrics.h"
 #include "session/contestants.h"
 
@@ -59,6 +61,41 @@ constexpr Star default_variations[] = {
     {"visibility", "range=stochastic alpha=0.01"},
 };
 
+// The same where lights cast. Ranges and BRDFs are another question, which --vary asks.
+constexpr Star shadow_variations[] = {
+    {"voxel_lights", "raster=opencl"},
+    {"world_grid", "raster=opencl"},
+    {"lidr", "lidr-overlap=4"},
+    {"forward_plus", "shadow-kept=64M"},
+    {"forward_plus", "shadow-pick=4"},
+    {"forward_plus", "shadows=map"},
+    {"forward_plus", "shadows=none"},
+    {"visibility", "shadow-kept=64M"},
+    {"visibility", "shadow-pick=1"},
+    {"visibility", "shadow-pick=4"},
+    {"visibility", "shadow-pick=16"},
+    {"visibility", "shadows=map shadow-size=32"},
+    {"visibility", "shadows=map shadow-size=64"},
+    {"visibility", "shadows=map shadow-size=128"},
+    {"visibility", "shadows=map shadow-size=256"},
+    {"visibility", "shadows=map shadow-size=512"},
+    {"visibility", "shadows=map shadow-bits=16"},
+    {"visibility", "shadows=map shadow-bits=24"},
+    {"visibility", "shadows=map shadow-filter=pcf3"},
+    {"visibility", "shadows=map shadow-filter=pcf5"},
+    {"visibility", "shadows=none"},
+};
+
+// Besides, where they are spheres: rays for each pixel and light, and for each pixel to places on its lights.
+constexpr Star soft_variations[] = {
+    {"visibility", "shadow-rays=4"},
+    {"visibility", "shadow-rays=16"},
+    {"visibility", "shadow-rays=64"},
+    {"visibility", "shadow-rays=4 shadow-pick=1"},
+    {"visibility", "shadow-rays=4 shadow-pick=4"},
+    {"visibility", "shadow-rays=4 shadow-pick=16"},
+};
+
 std::vector<std::string> words(const std::string& text, char separator) {
   std::vector<std::string> parts;
   for (size_t begin = 0; begin < text.size();) {
@@ -75,7 +112,8 @@ ChosenPoint point(const Technique& technique, const Settings& settings, int fram
   return chosen;
 }
 
-std::vector<ChosenPoint> star(const Settings& common, bool opengl) {
+std::vector<ChosenPoint> star(const Settings& common, bool opengl,
+                              const std::optional<FrontierTruth>& shadows) {
   std::vector<ChosenPoint> points;
   const auto add = [&](const Technique& technique, const char* assignments, int frames) {
     Settings settings = common;
@@ -84,7 +122,11 @@ std::vector<ChosenPoint> star(const Settings& common, bool opengl) {
     points.push_back(point(technique, settings, frames));
   };
   for (const Technique* technique : techniques()) add(*technique, "", 1);
-  for (const Star& s : default_variations) add(find_technique(s.technique), s.settings, s.frames);
+  const auto add_all = [&](std::span<const Star> variations) {
+    for (const Star& s : variations) add(find_technique(s.technique), s.settings, s.frames);
+  };
+  add_all(shadows ? std::span<const Star>(shadow_variations) : default_variations);
+  if (shadows && shadows->source_m > 0) add_all(soft_variations);
   return points;
 }
 
@@ -134,8 +176,9 @@ void vary(std::vector<ChosenPoint>& points, const std::vector<ChosenPoint>& arou
 
 std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& techniques,
                                        const std::vector<std::string>& varied, const Settings& common,
-                                       bool opengl) {
-  std::vector<ChosenPoint> points = techniques.empty() ? star(common, opengl) : named(techniques, common);
+                                       bool opengl, const std::optional<FrontierTruth>& truth) {
+  std::vector<ChosenPoint> points =
+      techniques.empty() ? star(common, opengl, truth) : named(techniques, common);
   std::vector<ChosenPoint> around;
   for (const ChosenPoint& p : points) {
     if (!techniques.empty() || p.label == p.contestant.technique->name) around.push_back(p);
@@ -196,6 +239,8 @@ void PointRun::go_to_frame(int number) {
   if (point_.frames > 1 || !has_random_ranges()) return;
   attempt([&] { run_->draw_ranges(seed(0)); });
 }
+
+bool PointRun::keeps_shadows() const { return ShadowCertificates::bytes_of(point_.contestant.settings) > 0; }
 
 void PointRun::look(const View& view) {
   attempt([&] { run_->look(view); });

@@ -20,12 +20,13 @@ struct ChosenPoint {
 };
 
 // `techniques` as compare's -t, or empty: the default points, of which those that need OpenGL are left out
-// without it. `vary`: "KEY=V1,V2": each technique that reads KEY with each value, one key at a time;
-// "frames=1,4,16": averaged frames of points with range=stochastic. Duplicates are dropped. Throws
-// Error(input) that names what is wrong.
+// without it. `truth`: where lights of the scene cast, what points are held to; the default points then vary
+// shadows, and their samples of spheres if the truth's lights are such. `vary`: "KEY=V1,V2": each technique
+// that reads KEY with each value, one key at a time; "frames=1,4,16": averaged frames of points with
+// range=stochastic. Duplicates are dropped. Throws Error(input) that names what is wrong.
 std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& techniques,
                                        const std::vector<std::string>& vary, const Settings& common,
-                                       bool opengl);
+                                       bool opengl, const std::optional<FrontierTruth>& truth = {});
 
 // The point with which each other is measured in turn: forward_plus as it is or, without OpenGL, visibility.
 ChosenPoint baseline_point(const Settings& common, bool opengl);
@@ -45,6 +46,8 @@ class PointRun {
   const ChosenPoint& point() const { return point_; }
   const std::string& refused() const { return refused_; }  // empty: it runs
   TechniqueRun& run() { return *run_; }
+  // What is known of shadows is kept from frame to frame.
+  bool keeps_shadows() const;
 
   void look(const View& view);
   // One picture: all of its frames, read back and averaged. Milliseconds; 0 if refused. A refusal is kept.

@@ -49,6 +49,15 @@ struct PointErrors {
   std::optional<double> temporal_rmse_rel;
 };
 
+// The lights of a truth that is not the usual one of every light without a range (docs/frontier.md#shadows).
+struct FrontierTruth {
+  bool own_ranges = false;  // those of the sweep's settings
+  double source_m = 0;      // lights that cast are spheres of this radius, in metres; 0: points
+  int shadow_rays = 1;      // for each pixel and light that casts
+
+  bool operator==(const FrontierTruth&) const = default;
+};
+
 struct FrontierRecord {
   FrontierPoint point;
   int view = 0;               // index on the scene's path
@@ -56,6 +65,7 @@ struct FrontierRecord {
   int lights = 0;             // of the scene
   double radius_scale = 1;    // of the lights' ranges, in the series "radius"
   std::string series;         // empty: a point of the front; "lights", "pixels", "radius": of a growth curve
+  std::optional<FrontierTruth> truth;  // empty: every light without a range
 
   std::string refused;                        // why it did not run; the fields below are then empty
   std::vector<double> frame_ms, baseline_ms;  // of equal length; entry i of both ran one after the other
@@ -66,7 +76,7 @@ struct FrontierRecord {
   uint64_t bytes_moved = 0;  // sum of the passes' counted bytes, on the first view; otherwise 0
   uint64_t memory_bytes = 0;
   uint64_t covered_pixels = 0;  // with an opaque surface
-  PairCounts pairs;
+  PairCounts pairs;             // shadows: where these are hard, for each pair (counts_shadow_pairs)
   uint64_t nan_pixels = 0, overflow = 0;
   PointErrors errors;
   std::optional<FlipExposures> flip;  // with which errors.total.flip_mean was measured

@@ -19,6 +19,10 @@ struct FromJson {
   void read(const char* key, std::string& value, FieldRule) const { value = fields.text(key); }
   void read(const char* key, int& value, FieldRule rule) const { value = fields.whole(key, rule.low); }
   void read(const char* key, uint64_t& value, FieldRule) const { value = fields.count(key); }
+  void read(const char* key, bool& value, FieldRule) const {
+    if (!fields.at(key).is_boolean()) throw input_error("{}: is neither true nor false", key);
+    value = fields.at(key).get<bool>();
+  }
   void read(const char* key, double& value, FieldRule) const { value = fields.number(key); }
   void read(const char* key, std::optional<double>& value, FieldRule) const {
     value = fields.optional_number(key);

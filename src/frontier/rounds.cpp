@@ -173,6 +173,7 @@ void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& ti
 
 double TimeRounds::timed(MeasuredPoint& point, size_t view) {
   point.run.look(views[view]);
+  if (point.run.keeps_shadows()) point.run.draw();  // a frame at rest has what this one leaves
   return point.run.draw();
 }
 

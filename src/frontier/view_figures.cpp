@@ -10,6 +10,7 @@
 #include "scene/camera_path.h"
 #include "scene/random.h"
 #include "session/oracle.h"
+#include "session/surfaces_in_double.h"
 
 namespace lightgrid {
 namespace {
@@ -64,16 +65,19 @@ ViewFigures::ViewFigures(Renderer& renderer, GpuScene& gpu, const Scene& scene, 
     : renderer_(renderer),
       scene_(scene),
       choice_(choice),
-      truths_{Truths(renderer, gpu, job.common, !renderer.gl), Truths(renderer, gpu, job.common, true)},
-      precision_(renderer, gpu, start, job.common, job.shaded_pairs),
+      truth_(job.truth),
+      shadows_(scene, job.shadow_pairs),
+      truths_{Truths(renderer, gpu, job, !renderer.gl), Truths(renderer, gpu, job, true)},
+      precision_(renderer, gpu, start, job.common, job.truth,
+                 shadows_.casts() ? job.shadow_pairs : job.shaded_pairs),
       pictures_(job.pictures),
       nowhere_({}),
       seed_(job.seed) {}
 
-ViewFigures::Truths::Truths(Renderer& renderer, GpuScene& gpu, const Settings& common, bool own_surfaces)
-    : brute(renderer, gpu, common, own_surfaces) {
+ViewFigures::Truths::Truths(Renderer& renderer, GpuScene& gpu, const FrontierJob& job, bool own_surfaces)
+    : brute(renderer, gpu, job.common, job.truth, own_surfaces) {
   for (int frame = 1; frame < frames_of_flicker; ++frame)
-    turned.emplace_back(renderer, gpu, common, own_surfaces);
+    turned.emplace_back(renderer, gpu, job.common, job.truth, own_surfaces);
 }
 
 void ViewFigures::Truths::look(const View& view, const std::vector<View>& turn) {
@@ -101,8 +105,9 @@ void ViewFigures::look(const View& view, int index, bool own, bool whole) {
     if (exposures_) truths->flip.emplace(truths->brute.truth(), *exposures_);
   }
   brightest_ = first.brightest();
+  shadows_.moved(false);
   precision_.measure(view, first, used.size() > 1 ? &truths_[1].brute : nullptr,
-                     Random::mix(seed_) + uint64_t(index));
+                     Random::mix(seed_) + uint64_t(index), shadows_);
 }
 
 ViewFigures::Truths& ViewFigures::truths_of(const ChosenPoint& point) {
@@ -144,9 +149,8 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
   TechniqueRun& run = point_run.run();
   const std::vector<float> depth = read_depth(run);
   record.covered_pixels = uint64_t(std::ranges::count_if(depth, [](float d) { return d > 0; }));
-  const LitPairs pairs = count_listed_pairs(run, depth);
-  record.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
-  if (run.technique().limited_lists) record.overflow = pairs.lost;
+  record.pairs = pairs_of(run, point.contestant.settings, depth);
+  if (run.technique().limited_lists) record.overflow = record.pairs.lost;
   if (record.view == 0) run.run_profiled_frames(100);
   const RunResult result = run.result();
   record.memory_bytes = result.memory_total;
@@ -159,6 +163,15 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
   const double change =
       as_meant ? flicker_of_brute_force(point, truths) : flicker_of(point_run, truths, image);
   record.errors.temporal_rmse_rel = change / brightest_;
+}
+
+PairCounts ViewFigures::pairs_of(TechniqueRun& run, const Settings& settings,
+                                 const std::vector<float>& depth) {
+  const SeenPairs* seen =
+      shadows_.casts() ? shadows_.pairs(run.view(), depth, shown_triangles(run)) : nullptr;
+  PairCounts counts = pair_counts(run, count_listed_pairs(run, depth, seen), seen);
+  if (!counts_shadow_pairs(settings, truth_)) counts.shadows.reset();
+  return counts;
 }
 
 void ViewFigures::fill_flip(const Image& image, Truths& truths, FrontierRecord& record) {

@@ -31,7 +31,7 @@ class ViewFigures {
  private:
   // The truths of the techniques that share surfaces: OpenGL's, or those of the rasteriser in OpenCL.
   struct Truths {
-    Truths(Renderer& renderer, GpuScene& gpu, const Settings& common, bool own_surfaces);
+    Truths(Renderer& renderer, GpuScene& gpu, const FrontierJob& job, bool own_surfaces);
     BruteForce brute;
     std::vector<BruteForce> turned;  // of the later frames of a slow turn
     std::optional<HdrFlip> flip;
@@ -40,6 +40,7 @@ class ViewFigures {
   };
   Truths& truths_of(const ChosenPoint& point);
   void fill(PointRun& run, FrontierRecord& record);
+  PairCounts pairs_of(TechniqueRun& run, const Settings& settings, const std::vector<float>& depth);
   void fill_flip(const Image& image, Truths& truths, FrontierRecord& record);
   double flicker_of(PointRun& run, Truths& truths, const Image& first);
   double flicker_of_brute_force(const ChosenPoint& point, Truths& truths);
@@ -47,6 +48,8 @@ class ViewFigures {
   Renderer& renderer_;
   const Scene& scene_;
   const SceneChoice choice_;
+  const FrontierTruth truth_;
+  ShadowTruth shadows_;
   std::array<Truths, 2> truths_;  // OpenGL's, OpenCL's
   Precision precision_;
   PictureFiles pictures_, nowhere_;  // the latter measures FLIP alone

@@ -215,6 +215,10 @@ void take_own_shadows(const Scene& scene, const View& view, const TechniqueNeeds
 // After surfaces and lights.
 void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& needs,
                   PlannedInstances instances, FramePlan& plan) {
+  if (plan.settings.shadows == ShadowMethod::none) {
+    plan.decisions.push_back({"shadows", false, "shadows=none"});
+    return;
+  }
   if (needs.shadows) shadow_all(scene, plan);
   plan.casting = plan_light_shadows(scene, view, plan.settings.ranges, plan.opaque, plan.blended,
                                     plan.settings.soft_shadows() ? plan.settings.shadow_source_m : 0);
@@ -266,9 +270,11 @@ void turn_everything_on(const Scene& scene, const View& view, FramePlan& plan, c
   plan.light_grid = plan.blend_grid = needs.light_grid;
   plan.world_grid = needs.world_grid;
   plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
-  if (needs.shadows) shadow_all(scene, plan);
-  if (needs.own_shadows) take_own_shadows(scene, view, needs, plan);
-  if (needs.shadows) plan.light_reaches = true;
+  if (needs.shadows && plan.settings.shadows != ShadowMethod::none) {
+    shadow_all(scene, plan);
+    if (needs.own_shadows) take_own_shadows(scene, view, needs, plan);
+    plan.light_reaches = true;
+  }
   plan.index_bits = 32;
   plan.features = features_read(feature_all, plan.settings.brdf);
   plan.clearcoat = plan.features & feature_clearcoat;

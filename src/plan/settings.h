@@ -37,8 +37,9 @@ enum class RasterApi { opengl, opencl };
 enum class TexelLayout { packed, packed_8, separate };
 enum class ShadedLights { grid, all };
 
-// How shadows are found: exactly, or from shadow maps (docs/shadow_maps.md), whose pictures are approximate.
-enum class ShadowMethod { exact, map };
+// How shadows are found: exactly, from shadow maps (docs/shadow_maps.md), whose pictures are approximate, or
+// not at all: light then goes through what hides it.
+enum class ShadowMethod { exact, map, none };
 
 // Light pre-pass (docs/techniques/light_prepass.md): the specular term that the light buffer keeps, and the
 // format of the image of normals.
@@ -102,8 +103,8 @@ struct Settings {
   // radius.
   int shadow_rays = 1;
   double shadow_source_m = 0.05;
-  int shadow_pick = 0;               // rays for each pixel to all its lights: 1, 4 or 16; 0: to each light
-  bool portable = false;             // kernels without the builtins of one kind of CPU
+  int shadow_pick = 0;    // rays for each pixel to all its lights: 1, 4 or 16; 0: to each light
+  bool portable = false;  // kernels without the builtins of one kind of CPU
   int group_size = 0;  // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   // Every effect's code and buffers, called for or not: what a plan is tested against.
   bool everything_on = false;

@@ -60,7 +60,7 @@ std::vector<CsvColumn> csv_columns(bool shadows) {
   all.push_back({"memory", "/memory_bytes/total"});
   add_columns(all, {"light_grid", "gbuffer"}, "/memory_bytes");
   add_columns(all, {"listed", "lit", "lost", "wrong"}, "/pairs");
-  if (shadows) add_columns(all, {"leaked", "acned", "either", "shadow_pixels"}, "/pairs");
+  if (shadows) add_columns(all, {"leaked", "acned", "either", "shadow_pixels", "shadow_pairs"}, "/pairs");
   for (const ErrorMeasure& measure : error_measures()) add_columns(all, {measure.key}, "/error");
   add_columns(all, {"bit_identical"}, "/error");
   add_columns(all, {"nan_pixels", "overflow"});

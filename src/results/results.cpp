@@ -148,8 +148,23 @@ json pairs_json(const PairCounts& pairs) {
     all.update({{"leaked", shadows->leaked},
                 {"acned", shadows->acned},
                 {"either", shadows->either},
-                {"shadow_pixels", shadows->pixels}});
+                {"shadow_pixels", shadows->pixels},
+                {"shadow_pairs", shadows->pairs}});
   return all;
+}
+
+ShadowPairs& ShadowPairs::operator+=(const ShadowPairs& other) {
+  leaked += other.leaked, acned += other.acned, either += other.either;
+  pixels += other.pixels, pairs += other.pairs;
+  says_exact = says_exact && other.says_exact;
+  return *this;
+}
+
+PairCounts& PairCounts::operator+=(const PairCounts& other) {
+  listed += other.listed, lit += other.lit, lost += other.lost, wrong += other.wrong;
+  if (other.shadows && shadows) *shadows += *other.shadows;
+  if (!shadows) shadows = other.shadows;
+  return *this;
 }
 
 const char* every_light_on(bool own_surfaces) { return own_surfaces ? "visibility:lights=all" : "forward"; }

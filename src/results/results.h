@@ -32,7 +32,10 @@ struct PassResult {
 struct ShadowPairs {
   uint64_t leaked = 0, acned = 0, either = 0;
   uint64_t pixels = 0;     // at which they were decided
+  uint64_t pairs = 0;      // of these pixels and lights that cast and are in range
   bool says_exact = true;  // the technique and its settings: leaked and acned must be 0
+
+  ShadowPairs& operator+=(const ShadowPairs& other);
 
   uint64_t faults() const { return says_exact ? leaked + acned : 0; }
 };
@@ -41,6 +44,8 @@ struct ShadowPairs {
 struct PairCounts {
   uint64_t listed = 0, lit = 0, lost = 0, wrong = 0;
   std::optional<ShadowPairs> shadows = {};  // where some light casts
+
+  PairCounts& operator+=(const PairCounts& other);  // shadows: of those that have them
 };
 
 // This image and the reference's, each compared with the oracle at the same pixels: a sample of the view and

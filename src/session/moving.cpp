@@ -93,17 +93,7 @@ void add_pairs(Path& p, ShadowTruth& shadows) {
   const std::vector<float> depth = read_depth(*p.run);
   const SeenPairs* seen =
       shadows.casts() ? shadows.pairs(p.run->view(), depth, shown_triangles(*p.run)) : nullptr;
-  const PairCounts pairs = pair_counts(*p.run, count_listed_pairs(*p.run, depth, seen), seen);
-  PairCounts& sum = p.result.pairs;
-  sum.listed += pairs.listed;
-  sum.lit += pairs.lit;
-  sum.lost += pairs.lost;
-  sum.wrong += pairs.wrong;
-  if (!pairs.shadows) return;
-  if (!sum.shadows) sum.shadows = ShadowPairs{.says_exact = pairs.shadows->says_exact};
-  for (uint64_t ShadowPairs::*count :
-       {&ShadowPairs::leaked, &ShadowPairs::acned, &ShadowPairs::either, &ShadowPairs::pixels})
-    *sum.shadows.*count += *pairs.shadows.*count;
+  p.result.pairs += pair_counts(*p.run, count_listed_pairs(*p.run, depth, seen), seen);
 }
 
 void finish(Path& p, size_t frames) {

@@ -86,7 +86,9 @@ std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& trut
 
 PairCounts pair_counts(const TechniqueRun& run, const LitPairs& pairs, const SeenPairs* seen) {
   PairCounts counts{pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
-  if (seen) counts.shadows = {pairs.leaked, pairs.acned, pairs.either, seen->pixels(), !run.approximate()};
+  if (seen)
+    counts.shadows = {pairs.leaked,   pairs.acned,   pairs.either,
+                      seen->pixels(), seen->pairs(), !run.approximate()};
   return counts;
 }
 

@@ -43,8 +43,8 @@ SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth, Sha
   }
 }
 
-std::vector<uint32_t> SurfaceOracle::decided(std::vector<uint32_t> pixels) const {
-  const std::unique_ptr<SeenPairs> seen = shadows_->at_pixels(v_, depth_, triangles_, pixels);
+std::vector<uint32_t> SurfaceOracle::decided(std::vector<uint32_t> pixels, bool window) const {
+  const std::unique_ptr<SeenPairs> seen = shadows_->at_pixels(v_, depth_, triangles_, pixels, window);
   if (seen) std::erase_if(pixels, [&](uint32_t pixel) { return seen->has_either(pixel); });
   return pixels;
 }

@@ -54,9 +54,7 @@ CastingLights casting_lights(const Scene& scene, const View& view, const LightRa
   return lights;
 }
 
-bool ShadowTruth::casts() const {
-  return std::ranges::any_of(scene_.lights, &Light::casts_shadow);
-}
+bool ShadowTruth::casts() const { return std::ranges::any_of(scene_.lights, &Light::casts_shadow); }
 
 const Occlusion& ShadowTruth::occlusion() {
   if (!occlusion_) occlusion_ = std::make_unique<Occlusion>(scene_);
@@ -67,7 +65,8 @@ const SeenPairs* ShadowTruth::pairs(const Seen& v, const std::vector<float>& dep
                                     const std::vector<SceneTriangle>& triangles) {
   if (!casts()) return nullptr;
   for (const Decided& d : decided_) {
-    if (d.pairs && d.depth == depth && d.triangles == triangles) return d.pairs.get();
+    if (d.pairs && d.ranges == v.plan.settings.ranges && d.depth == depth && d.triangles == triangles)
+      return d.pairs.get();
   }
   const std::vector<CastingTriangle> casting = casting_triangles(scene_, triangles);
   std::vector<int> places = v.plan.local;
@@ -77,7 +76,7 @@ const SeenPairs* ShadowTruth::pairs(const Seen& v, const std::vector<float>& dep
   Decided& d = decided_[next_];
   next_ = 1 - next_;
   d = {
-      depth, triangles,
+      v.plan.settings.ranges, depth, triangles,
       std::make_unique<SeenPairs>(occlusion(), shown, lights, affordable_pixels(shown, lights, most_pairs_))};
   return d.pairs.get();
 }

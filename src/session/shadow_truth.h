@@ -46,6 +46,7 @@ class ShadowTruth {
 
  private:
   struct Decided {
+    LightRanges ranges;
     std::vector<float> depth;
     std::vector<SceneTriangle> triangles;
     std::unique_ptr<SeenPairs> pairs;

@@ -173,6 +173,64 @@ TEST(FrontierCommand, AnswersWhatAccuracyCostsResumesAndIsItsOwnGate) {
   EXPECT_THAT(gated.err, HasSubstr("forward_plus"));
 }
 
+// Exact shadows have no wrong pair and no error, without shadows light leaks, and what one estimate hides is
+// not counted. Where lights are spheres, more rays come nearer to the truth, and the shadows of points differ
+// from it.
+TEST(FrontierCommand, TellsWhatShadowsCost) {
+  const TempFolder folder;
+  const auto answer_to = [&](const std::string& name, const std::vector<std::string>& more) {
+    const fs::path out = folder.path / name;
+    const ProgramRun run = run_program(
+        std::vector<std::string>{"frontier", "hall", "--size", "80x45", "--shadows", "all", "--views", "1",
+                                 "--rounds", "1", "--no-growth", "-o", out.string(), "-t"} +
+        more);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("Errors in hall are against every light with its range"));
+    return json::parse(file_bytes(out / "frontier.json"));
+  };
+  const std::string map = "visibility:shadows=map,shadow-size=64", kept = "visibility:shadow-kept=1M",
+                    pick = "visibility:shadow-pick=1", none = "visibility:shadows=none";
+  const json hard =
+      answer_to("hard", {"visibility,forward_plus," + kept + "," + pick + "," + map + "," + none});
+  for (const std::string& exact : {std::string("visibility"), std::string("forward_plus"), kept}) {
+    const json point = point_of(hard, exact);
+    EXPECT_EQ(point["leaked_percent"], 0) << exact;
+    EXPECT_EQ(point["acned_percent"], 0) << exact;
+    EXPECT_EQ(point["error"]["total"]["max_rel"], 0) << exact;
+    EXPECT_GT(point["pairs"]["shadow_pairs"], 1000) << exact;
+  }
+  EXPECT_EQ(without_times(point_of(hard, kept))["error"],
+            without_times(point_of(hard, "visibility"))["error"]);
+  for (const char* wrong : {"leaked_percent", "acned_percent"}) {
+    EXPECT_GT(point_of(hard, map)[wrong], 0) << wrong;
+    EXPECT_FALSE(point_of(hard, pick).contains(wrong)) << wrong;
+  }
+  EXPECT_GT(point_of(hard, none)["leaked_percent"], point_of(hard, map)["leaked_percent"]);
+  EXPECT_EQ(point_of(hard, none)["acned_percent"], 0);
+  const auto rmse = [](const json& answer, const std::string& label) {
+    return point_of(answer, label)["error"]["total"]["rmse_rel"].get<double>();
+  };
+  EXPECT_GT(rmse(hard, none), rmse(hard, map));
+  EXPECT_GT(rmse(hard, map), 0);
+  const auto in_double = [&](const std::string& label) {
+    return point_of(hard, label)["error"]["in_double"]["rmse_rel"].get<double>();
+  };
+  EXPECT_LT(20 * in_double("forward_plus"), in_double(none)) << "the oracle has the same shadows";
+
+  const std::string rays = "visibility:shadow-rays=";
+  const json soft =
+      answer_to("soft", {"visibility," + rays + "4," + rays + "64", "--set", "shadow-source=0.1"});
+  const std::string source = ",shadow-source=0.1";
+  EXPECT_GT(rmse(soft, rays + "4" + source), 1.5 * rmse(soft, rays + "64" + source));
+  EXPECT_GT(rmse(soft, rays + "64" + source), 0);
+  EXPECT_GT(rmse(soft, "visibility"), 1.5 * rmse(soft, rays + "64" + source));
+  for (const json& point : soft["points"]) {
+    EXPECT_FALSE(point.contains("leaked_percent")) << point["label"];
+    EXPECT_EQ(point["error"]["in_double"], nullptr) << point["label"];
+    EXPECT_EQ(point["truth"]["shadow_rays"], 256) << point["label"];
+  }
+}
+
 TEST(FrontierInParts, MergesThemIntoOneAnswer) {
   const TempFolder folder;
   for (const char* shard : {"0/2", "1/2"}) {
@@ -204,6 +262,7 @@ TEST(FrontierCommand, RefusesWhatItCannotDoInOneLineThatNamesIt) {
   } cases[] = {
       {{"--vary", "tiles=8"}, "tiles"},
       {{"--vary", "tile=9"}, "\"9\""},
+      {{"--truth", "exact"}, "truth exact"},
       {{"-t", "quick"}, "quick"},
       {{"--shard", "0/0"}, "--shard 0/0"},
       {{"--shard", "2/2"}, "--shard 2/2"},

@@ -214,6 +214,28 @@ TEST_F(FrontierPage, TakesASweepInWhichNothingRan) {
   EXPECT_EQ(seen["hidden"], json::parse(R"(["within", "break-even-part", "growth-part"])"));
 }
 
+// A point whose pairs were not counted is not on their axis; where nothing was counted there is no such axis.
+TEST_F(FrontierPage, HasAxesAndColumnsOfShadowsWhereTheyWereCounted) {
+  FrontierPart part = synthetic_sweep();
+  for (FrontierRecord& r : part.records) {
+    if (r.point.label == "clustered") r.pairs.shadows = ShadowPairs{.pixels = 9, .pairs = 200};
+    if (r.point.label == "deferred")
+      r.pairs.shadows = ShadowPairs{.leaked = 3, .acned = 1, .pixels = 9, .pairs = 200, .says_exact = false};
+  }
+  const char* control = "tests/frontier/frontier_page_shadows.js";
+  const json without = seen_in_browser(folder.path, control, "1280,900");
+  write_file(folder.path / "index.html", page_text(answer_of({part})));
+  const json with = seen_in_browser(folder.path, control, "1280,900");
+  ASSERT_TRUE(without.is_object() && with.is_object());
+  for (const json* seen : {&without, &with}) EXPECT_THAT(texts((*seen)["faults"]), IsEmpty());
+  EXPECT_THAT(texts(without["axes"]), testing::Not(Contains("Leaked pairs, %")));
+  EXPECT_THAT(texts(without["columns"]), testing::Not(Contains("Leaked pairs, %")));
+  EXPECT_THAT(texts(with["axes"]), testing::IsSupersetOf({"Leaked pairs, %", "Acned pairs, %"}));
+  EXPECT_THAT(texts(with["columns"]), testing::IsSupersetOf({"Leaked pairs, %", "Acned pairs, %"}));
+  EXPECT_THAT(texts(with["marks"]), UnorderedElementsAre("clustered: 0 %", "deferred: 1.50 %"));
+  EXPECT_THAT(with["summary"].get<std::string>(), HasSubstr("1.50 % of 400 pairs leaked, 0.500 % acned"));
+}
+
 TEST(FrontierPageText, NamesNoOtherPlaceAndEscapesWhatItShows) {
   const std::string page = page_text(answer_of({synthetic_sweep()}));
   expect_no_other_place(page);

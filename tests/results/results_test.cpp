@@ -88,9 +88,9 @@ TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
 // A scene without casters has the keys above alone.
 TEST(Results, HoldShadowsOnlyWhereLightsCast) {
   RunResult result = small_result();
-  result.pairs->shadows = ShadowPairs{.leaked = 1, .acned = 2, .either = 3, .pixels = 4};
+  result.pairs->shadows = ShadowPairs{.leaked = 1, .acned = 2, .either = 3, .pixels = 4, .pairs = 5};
   EXPECT_EQ(to_json(result)["pairs"], json::parse(R"({"listed": 9, "lit": 8, "lost": 7, "wrong": 6,
-    "leaked": 1, "acned": 2, "either": 3, "shadow_pixels": 4})"));
+    "leaked": 1, "acned": 2, "either": 3, "shadow_pixels": 4, "shadow_pairs": 5})"));
 }
 
 TEST(Results, ShadowsAreThereIfALightCastsOne) {

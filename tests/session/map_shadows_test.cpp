@@ -112,6 +112,23 @@ TEST_P(MapShadows, GiveLightLoopsTheShareOfTheTapsThatSeeTheLight) {
 
 INSTANTIATE_TEST_SUITE_P(Raster, MapShadows, testing::Values("opengl", "opencl"));
 
+// The same bits as of a scene whose lights cast nothing; the light that goes through walls is told.
+TEST(NoShadows, AreThePictureOfLightsThatCastNone) {
+  SmallScene s = shadowed_scene_of_maps();
+  for (const char* technique : {"visibility", "forward_plus"}) {
+    const MapsDrawn none(s.scene, technique, {"shadows=none"});
+    EXPECT_GT(none.pairs.leaked, none.pairs.lit / 50) << technique;
+    EXPECT_EQ(none.pairs.acned, 0u) << technique;
+    EXPECT_TRUE(none.run.approximate());
+    EXPECT_FALSE(none.run.result().shadows) << "nothing was looked for";
+    SmallScene plain = s;
+    for (Light& light : plain.scene.lights) light.casts_shadow = false;
+    TechniqueRun lit(software_devices(), plain.scene, small_view(131, 77), {}, find_technique(technique));
+    lit.run_frame();
+    EXPECT_EQ(lit.image().pixels, none.run.image().pixels) << technique;
+  }
+}
+
 TEST(MapShadowRows, AreToldAsApproximateAgainstAnExactReference) {
   const SmallScene s = shadowed_scene_of_maps();
   const Settings by_maps = settings_with({"shadows=map", "shadow-size=64"});

@@ -64,6 +64,20 @@ TEST(ShadowTruth, TakesAnEvenSampleOfMorePairsThanItMay) {
   EXPECT_LT(sample.pixels(), 1000u);
 }
 
+// A run with other ranges has other pairs on the same surfaces.
+TEST(ShadowTruth, IsOfTheRangesOfTheRun) {
+  const SmallScene s = shadowed_scene();
+  ShadowTruth truth(s.scene, 1'000'000);
+  Shown gl(s.scene, "forward");
+  const uint64_t in_range = truth.pairs(gl.run.view(), gl.depth, gl.triangles)->pairs();
+  Settings endless;
+  endless.ranges.range = LightRange::infinite;
+  TechniqueRun run(software_devices(), s.scene, small_view(131, 77), endless, find_technique("forward"));
+  run.run_frame();
+  EXPECT_GT(truth.pairs(run.view(), gl.depth, gl.triangles)->pairs(), in_range);
+  EXPECT_EQ(truth.pairs(gl.run.view(), gl.depth, gl.triangles)->pairs(), in_range);
+}
+
 TEST(ShadowTruth, IsNoneWhereNoLightCasts) {
   SmallScene s = shadowed_scene();
   for (Light& light : s.scene.lights) light.casts_shadow = false;

@@ -11,6 +11,8 @@ function threeDigits(value) {
   return value.toLocaleString("en-US", { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
 }
 
+const percentText = (percent) => `${threeDigits(percent)} %`;
+
 // Below six runs there is no interval: the range of the runs, with their number.
 const intervalInWords = ({ median, ci95: [low, high], runs }, unit) =>
   `${threeDigits(median)}${unit} (${runs === 1 ? "one run, no interval" : `${threeDigits(low)} to ${threeDigits(high)}${runs < 6 ? `, ${runs} runs` : ""}`})`;
@@ -19,7 +21,9 @@ const intervalInWords = ({ median, ci95: [low, high], runs }, unit) =>
 const errorQuantity = ([kind, kindTitle], [measure, title]) => ({ key: `${kind}.${measure}`, title: `${title}, ${kindTitle}`, short: title,
   value: ({ error }) => error[kind][measure], text: errorNumber });
 const ERRORS = [...ERROR_KINDS.flatMap((kind) => ERROR_MEASURES.map((measure) => errorQuantity(kind, measure))),
-  { key: "temporal", title: "Flicker, RMSE of the change", short: "Flicker", value: ({ error }) => error.temporal_rmse_rel, text: errorNumber }];
+  { key: "temporal", title: "Flicker, RMSE of the change", short: "Flicker", value: ({ error }) => error.temporal_rmse_rel, text: errorNumber },
+  ...["Leaked", "Acned"].map((title) => ({ key: title.toLowerCase(), title: `${title} pairs, %`, short: title,
+    value: (point) => point[`${title.toLowerCase()}_percent`] ?? null, text: percentText }))];
 const COSTS = [
   { key: "ratio", title: "Time, over the baseline's", value: (point) => point.ratio.median, text: threeDigits, time: true },
   { key: "ms", title: "Time, ms a frame", value: (point) => point.frame_ms.median, text: threeDigits, time: true },

@@ -98,6 +98,7 @@ function choosePoint(point) {
   const timed = point?.ratio.runs > 0;
   const summary = point && [timed && `${intervalInWords(point.ratio, "")} times ${page.baseline}`, timed && `${intervalInWords(point.frame_ms, " ms")} a frame`,
     `${point.views} view${point.views === 1 ? "" : "s"}`, point.pairs.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
+    quantity("leaked").value(point) !== null && `${percentText(point.leaked_percent)} of ${wholeNumber(point.pairs.shadow_pairs)} pairs leaked, ${percentText(point.acned_percent)} acned`,
     point.nan_pixels > 0 && `${wholeNumber(point.nan_pixels)} NaN pixels`,
     point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, point.front && "on the front"];
   byId("chosen").replaceChildren(...(point ? [make("article", { class: "technique" }, make("h3", {}, nameElement(point.label)),
@@ -122,6 +123,7 @@ const FIGURE_COLUMNS = [
   column("Technique", "technique.rmse_rel"),
   { title: "Lost pairs", value: (point) => point.pairs.lost, text: wholeNumber, gate: true },
   { title: "NaN pixels", value: (point) => point.nan_pixels, text: wholeNumber, gate: true },
+  ...["leaked", "acned"].filter((key) => page.points.some((point) => quantity(key).value(point) !== null)).map((key) => column(quantity(key).title, key)),
   column("Listed pairs", "listed"), column("Bytes moved", "moved"), column("Memory", "memory"),
 ];
 

@@ -1,0 +1,156 @@
+#!/usr/bin/env python3
+"""What shadow_lights measured (tests/benchmarks/shadow_lights.cpp), as the tables of docs/results/shadows.md.
+
+    tests/benchmarks/shadow_lights.py CSV [--page PAGE --mark NAME]
+
+Prints the tables of one machine; with --page they replace what stands there between <!-- NAME --> and <!-- /NAME -->.
+"""
+import argparse
+import csv
+import math
+import sys
+
+BUDGETS = (16, 33, 100)
+TABLED = "1280x720"  # whose times are in a table; the CSV has the others
+NONE, EXACT, KEPT = "shadows=none", "shadows=exact", "shadow-kept=64M"
+MAPS = {64: "shadows=map shadow-size=64", 256: "shadows=map shadow-size=256"}
+NAMES = {NONE: "none", EXACT: "exact", KEPT: "kept", MAPS[64]: "maps of 64", MAPS[256]: "maps of 256"}
+
+
+class Series:
+    """Of one scene and size: rows by setting, then by number of lights."""
+
+    def __init__(self):
+        self.rows = {}
+
+    def add(self, row):
+        self.rows.setdefault(row["shadows"], {})[int(row["lights"])] = row
+
+    def of(self, setting):
+        return sorted(self.rows.get(setting, {}).items())
+
+    def both(self, a, b):
+        return sorted(set(self.rows.get(a, {})) & set(self.rows.get(b, {})))
+
+
+def read(path):
+    groups, machine = {}, ""
+    with open(path) as file:
+        for row in csv.DictReader(file):
+            machine = f"Commit {row['commit']}; {row['device']}."
+            groups.setdefault((row["scene"], row["size"]), Series()).add(row)
+    if not groups:
+        sys.exit(f"{path}: holds no measurement")
+    return groups, machine
+
+
+def figure(value):
+    if value >= 100 or value == 0:
+        return f"{value:,.0f}"
+    return f"{value:.3g}" if value >= 1 else f"{value:.2g}"
+
+
+def fitting(points, budget):
+    """The number of lights whose frame takes `budget` ms: between measured ones, times are powers of it."""
+    points = [(n, max(ms, 1e-6)) for n, ms in points]
+    if not points:
+        return "–"
+    if points[0][1] > budget:
+        return f"< {points[0][0]}"
+    for (n0, t0), (n1, t1) in zip(points, points[1:]):
+        if t1 > budget:
+            share = math.log(budget / t0) / math.log(t1 / t0)
+            count = n0 * (n1 / n0) ** share
+            return f"{float(f'{count:.2g}'):,.0f}"
+    return f"> {points[-1][0]:,}"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "| --- | " + " | ".join("---:" for _ in head[1:]) + " |"]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def lights_that_fit(groups, column):
+    settings = [s for s in NAMES if s != NONE]
+    head = ["scene, size"] + [f"{b} ms: {' / '.join(NAMES[s] for s in settings)}" for b in BUDGETS]
+    rows = []
+    for (scene, size), series in groups.items():
+        if len(series.of(EXACT)) < 2:
+            continue
+        timed = {s: [(n, float(r[column])) for n, r in series.of(s)] for s in NAMES}
+        least = timed[NONE][0][1]  # with the fewest lights, without shadows
+        cells = [" / ".join(fitting(timed[s], b) for s in settings) if least <= b else "0" for b in BUDGETS]
+        rows.append([f"`{scene}`, {size.replace('x', ' × ')}"] + cells)
+    return table(head, rows)
+
+
+def times(groups, column):
+    head = ["scene", "lights", "pairs"] + list(NAMES.values())
+    rows = []
+    for (scene, size), series in groups.items():
+        if size != TABLED:
+            continue
+        for lights, row in series.of(EXACT):
+            cells = [series.rows.get(s, {}).get(lights) for s in NAMES]
+            rows.append([f"`{scene}`", f"{lights:,}", f"{int(row['pairs']):,}"]
+                        + [figure(float(c[column])) if c else "–" for c in cells])
+    return table(head, rows)
+
+
+def break_even(groups):
+    """From the kernels of the most lights with all of these: what a ray, a look-up and a light's maps take."""
+    head = ["scene, size", "lights", "a ray, ns", "pairs a light"]
+    for size in MAPS:
+        head += [f"maps of {size}: a light, µs", "a look-up, ns", "pay from pairs a light"]
+    rows = []
+    for (scene, size), series in groups.items():
+        lights = [n for n in series.both(EXACT, MAPS[256]) if n in series.rows.get(MAPS[64], {})
+                  and int(series.rows[EXACT][n]["pairs"]) > 0]
+        if not lights:
+            continue
+        n = lights[-1]
+        exact = series.rows[EXACT][n]
+        pairs, found = int(exact["pairs"]), int(exact["lights_found"])
+        ray = float(exact["find_shadows_ms"]) * 1e6 / pairs
+        cells = [f"`{scene}`, {size.replace('x', ' × ')}", f"{n:,}", figure(ray), figure(pairs / found)]
+        for setting in MAPS.values():
+            row = series.rows[setting][n]
+            drawn = int(row["maps_drawn"])
+            a_light = float(row["draw_maps_ms"]) * 1e6 / drawn if drawn else 0
+            look_up = float(row["find_shadows_ms"]) * 1e6 / pairs
+            cells += [figure(a_light / 1e3), figure(look_up),
+                      figure(a_light / (ray - look_up)) if ray > look_up else "never"]
+        rows.append(cells)
+    return table(head, rows)
+
+
+def replace(page, mark, text):
+    """Puts the text between the page's marks."""
+    with open(page) as file:
+        whole = file.read()
+    begin, end = f"<!-- {mark} -->\n", f"<!-- /{mark} -->"
+    if whole.count(begin) != 1 or whole.count(end) != 1:
+        sys.exit(f"{page}: has no place {begin.strip()} … {end}")
+    with open(page, "w") as file:
+        file.write(whole.split(begin)[0] + begin + "\n" + text + "\n\n" + end + whole.split(end)[1])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("csv")
+    parser.add_argument("--page")
+    parser.add_argument("--mark")
+    o = parser.parse_args()
+    groups, machine = read(o.csv)
+    text = "\n\n".join([machine, "Lights that fit, by a frame's time:", lights_that_fit(groups, "frame_ms"),
+                        "By the time of its kernels:", lights_that_fit(groups, "kernels_ms"),
+                        f"Times of a frame of {TABLED.replace('x', ' × ')}, ms:", times(groups, "frame_ms"), "Where maps begin to pay, by kernels:",
+                        break_even(groups)])
+    if not o.page:
+        print(text)
+        return
+    replace(o.page, o.mark, text)
+
+
+if __name__ == "__main__":
+    main()
