@@ -1,5 +1,6 @@
-// Corners of a light's shadow volume (passes/shadows/caster_volumes.h): a triangle's own, moved away from the light by
-// the distance before a point in which nothing hides it (docs/rays.md), or infinitely far from the light.
+// Corners of a light's shadow volume (passes/shadows/caster_volumes.h): a triangle's own, moved away
+// from the light by the distance before a point in which nothing hides it (docs/rays.md), or infinitely
+// far from the light.
 uniform samplerBuffer triangle_corners;  // three texels each, relative to the origin of the rays' scene
 uniform usamplerBuffer shadow_lights;    // common/index_shadow.glsl
 uniform uint light;
@@ -7,7 +8,8 @@ uniform mat4 clip_from_rays;
 
 void main() {
   uvec4 place = texelFetch(shadow_lights, int(light) * 2);
-  vec3 corner = texelFetch(triangle_corners, gl_VertexID >> 1).xyz, away = corner - uintBitsToFloat(place.xyz);
+  vec3 corner = texelFetch(triangle_corners, gl_VertexID >> 1).xyz;
+  vec3 away = corner - uintBitsToFloat(place.xyz);
   float distance = max(length(away), 1e-18);
   bool far = (gl_VertexID & 1) != 0;
 #ifdef ORTHOGRAPHIC

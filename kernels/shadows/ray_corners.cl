@@ -10,5 +10,6 @@ kernel void ray_corners(RAYS_ARGUMENTS, global float4* corners) {
   const size_t number = get_global_id(0);
   float of[9];
   rays_triangle(&scene, (uint)number, of);
-  for (int k = 0; k < 3; ++k) corners[number * 3 + k] = (float4)(of[3 * k], of[3 * k + 1], of[3 * k + 2], 0.0f);
+  for (int k = 0; k < 3; ++k)
+    corners[number * 3 + k] = (float4)(of[3 * k], of[3 * k + 1], of[3 * k + 2], 0.0f);
 }

@@ -1,8 +1,9 @@
-// The share of a light that is hidden from a receiver, found by lidr itself (passes/light_index/index_shadows.h).
-// After receiver.glsl.
+// The share of a light that is hidden from a receiver, found by lidr itself
+// (passes/light_index/index_shadows.h). After receiver.glsl.
 //   SHADOW_VOLUMES: by the stencil; else by its shadow map
 //   LIDR_SHARE_BITS: of a share beside an index
-uniform usamplerBuffer shadow_lights;  // two texels each: position, range; 1 if it has a shadow, first face, faces
+// Two texels each: position, range; 1 if it has a shadow, first face, number of faces.
+uniform usamplerBuffer shadow_lights;
 #ifdef SHADOW_VOLUMES
 uniform usampler2D shadow_stencil;  // 0: out of every shadow volume of the light
 #else

@@ -1,5 +1,5 @@
-// The share of a light that its shadow map hides from a receiver: what kernels/shadow_maps/shadow_maps.h answers for
-// point and spot lights. IndexShadows.MapsAnswerAsInOpenCl holds both to each other.
+// The share of a light that its shadow map hides from a receiver: what kernels/shadow_maps/shadow_maps.h
+// answers for point and spot lights. LidrShadows.MapsAnswerInOpenGlAsInOpenCl holds both to each other.
 //   SHADOW_BITS: of a texel: 16, 24 or 32; SHADOW_TAPS: texels a side that are asked
 uniform usamplerBuffer shadow_faces;  // four texels each: from, extent; right, range; up, size; ahead, first
 #if SHADOW_BITS == 32
@@ -19,8 +19,8 @@ struct ShadowFace {
 ShadowFace shadow_face(uint face) {
   uvec4 a = texelFetch(shadow_faces, int(face) * 4), b = texelFetch(shadow_faces, int(face) * 4 + 1);
   uvec4 c = texelFetch(shadow_faces, int(face) * 4 + 2), d = texelFetch(shadow_faces, int(face) * 4 + 3);
-  return ShadowFace(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), uintBitsToFloat(c.xyz), uintBitsToFloat(d.xyz),
-                    uintBitsToFloat(a.w), uintBitsToFloat(b.w), c.w, d.w);
+  return ShadowFace(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), uintBitsToFloat(c.xyz),
+                    uintBitsToFloat(d.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.w), c.w, d.w);
 }
 
 // +x, -x, +y, -y, +z, -z.

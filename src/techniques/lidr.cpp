@@ -51,7 +51,8 @@ extern const Technique lidr{
     .source = "Trebilco: Light-Indexed Deferred Rendering, ShaderX7 2.9, 2009",
     .needs = {.stencil = true, .adapt = adapt},
     .settings = {"brdf", "lidr-packing", "lidr-overlap", "lidr-lights", "lidr-volumes", "lidr-unpack",
-                 "lidr-order", "lidr-shadows", "lidr-maps", "volume-mesh", "depth-bounds", "tile", "kernel-shape"},
+                 "lidr-order", "lidr-shadows", "lidr-maps", "volume-mesh", "depth-bounds", "tile",
+                 "kernel-shape"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .limited_lists = true};

@@ -16,8 +16,12 @@ bool holds(const std::vector<const char*>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
+// How the technique finds shadows itself; pass: it does not.
 LidrShadows own_shadows(const Technique& technique, const Settings& settings) {
-  return holds(technique.settings, "lidr-shadows") ? settings.lidr_shadows : LidrShadows::pass;
+  TechniqueNeeds needs = technique.needs;
+  Settings adapted = settings;
+  if (needs.adapt) needs.adapt(needs, adapted);
+  return needs.own_shadows ? settings.lidr_shadows : LidrShadows::pass;
 }
 
 // prepass: one texel decides.
@@ -32,7 +36,7 @@ bool has_effect(const Technique& technique, const Settings& settings, const std:
   if (key == "alpha" || key == "light-seed") return range == LightRange::stochastic;
   if (key == "window") return range == LightRange::scene || range == LightRange::cutoff;
   const LidrShadows own = own_shadows(technique, settings);
-  if (key == "lidr-maps") return own == LidrShadows::final_pass;
+  if (key.ends_with("-maps")) return own == LidrShadows::final_pass;
   if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
     return settings.shadows == ShadowMethod::map || filters_maps(own) ||
            (own == LidrShadows::prepass && key != "shadow-filter");

@@ -169,7 +169,7 @@ TEST(LidrShadows, AreToldWhereTheyAreLeftOut) {
 
 // A share of 15 steps is off by half of one: each light by 1/30 of what it adds.
 TEST(LidrShadows, SharesBesideIndicesAreThoseOfMapsToHalfAStep) {
-  const std::string filter = "shadow-filter=pcf5";
+  const std::string filter = "shadow-filter=pcf3";
   const std::string of_sun = "shadows=map";  // by its maps in all of them
   const Way in_pass({of_sun, filter}), unhidden({of_sun, filter, "lidr-shadows=none"});
   for (const char* packing : {"lidr-packing=bitshift", "lidr-packing=sort"}) {
@@ -215,6 +215,44 @@ TEST(LidrShadows, SharesNeedRoom) {
       EXPECT_EQ(error.kind(), ErrorKind::input);
       EXPECT_EQ(std::string(error.what()), message);
     }
+  }
+}
+
+// What a run shows after a change is what a run that begins with it shows, and a camera that moves builds
+// nothing.
+TEST(LidrShadows, FollowEveryChange) {
+  for (const LidrShadows way : {LidrShadows::volumes, LidrShadows::final_pass}) {
+    SCOPED_TRACE(int(way));
+    const Settings settings{.lidr_shadows = way};
+    ShadowStage moving{shadowed_scene(), small_view(61, 37)};
+    TechniqueRun run(test_devices(), moving.gpu, moving.view, settings, find_technique("lidr"));
+    run.prepare();
+    run.run_frame();
+    Image before = run.image();
+    const auto expect_new = [&](const char* change) {
+      run.run_frame();
+      TechniqueRun own(test_devices(), moving.scene, run.view().view, settings, find_technique("lidr"));
+      own.run_frame();
+      EXPECT_TRUE(identical(run.image(), own.image())) << change;
+      EXPECT_FALSE(same_bytes(run.image(), before)) << change;
+      before = run.image();
+    };
+    const RendererCounts counts = test_devices().counts();
+    run.look(make_view(look_at({0.5, 0.3, 0.2}, {0, 0, -4}), 61, 37));
+    run.run_frame();
+    EXPECT_EQ(test_devices().counts().gl_programs, counts.gl_programs);
+    EXPECT_EQ(test_devices().counts().cl_programs, counts.cl_programs);
+    expect_new("the camera moved");
+    const auto changed = [&](const SceneChanges& changes) {
+      moving.gpu.update(changes);
+      run.look(run.view().view, changes);
+    };
+    moving.scene.lights[2].position += glm::dvec3(0.2, 0.1, 0);
+    changed({.lights = {2}});
+    expect_new("a light moved");
+    moving.scene.instances[1].world_from_object = placed({-0.4, 0.3, -3.1});
+    changed({.instances = {1}});
+    expect_new("an instance moved");
   }
 }
 

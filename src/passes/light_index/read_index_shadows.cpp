@@ -24,9 +24,16 @@ std::vector<uint8_t> draw_shares(const PixelGrid& grid, const GlProgram& program
   return shares;
 }
 
+struct TileEntry {
+  uint32_t light;
+  std::vector<uint32_t> bits;
+  std::vector<uint8_t> shares;
+};
+using TileEntries = std::vector<std::vector<TileEntry>>;  // by tile
+
 // Entries of tiles that a light's rectangle touches.
-void add_shares(const LightVolume& volume, const std::vector<uint8_t>& shares, HostShadows& all,
-                std::vector<std::vector<std::pair<uint32_t, std::vector<uint8_t>>>>& of_tile) {
+void add_shares(const LightVolume& volume, const std::vector<uint8_t>& shares, int tiles_x, bool keep_shares,
+                TileEntries& of_tile) {
   constexpr int side = HostShadows::side;
   const int width = volume.end.x - volume.first.x;
   for (int ty = volume.first.y / side; ty * side < volume.end.y; ++ty) {
@@ -39,9 +46,19 @@ void add_shares(const LightVolume& volume, const std::vector<uint8_t>& shares, H
               shares[size_t(y - volume.first.y) * size_t(width) + size_t(x - volume.first.x)];
         }
       }
-      of_tile[size_t(ty) * size_t(all.tiles_x) + size_t(tx)].emplace_back(volume.light, std::move(values));
+      std::vector<uint32_t> bits = hidden_bits(values);
+      if (!keep_shares) values.clear(), values.shrink_to_fit();
+      of_tile[size_t(ty) * size_t(tiles_x) + size_t(tx)].push_back(
+          {volume.light, std::move(bits), std::move(values)});
     }
   }
+}
+
+// Lights may be hidden in part.
+bool filtered(const Seen& seen) {
+  const LidrShadows way = seen.plan.settings.lidr_shadows;
+  return (way == LidrShadows::prepass_soft || way == LidrShadows::final_pass) &&
+         seen.plan.settings.shadow_taps > 1;
 }
 
 }  // namespace
@@ -50,8 +67,7 @@ HostShadows IndexShadows::read(Work& work, const LightVolumes& volumes) const {
   constexpr int side = HostShadows::side;
   HostShadows all;
   all.tiles_x = (work.grid().width + side - 1) / side, all.tiles_y = (work.grid().height + side - 1) / side;
-  std::vector<std::vector<std::pair<uint32_t, std::vector<uint8_t>>>> of_tile(size_t(all.tiles_x) *
-                                                                              size_t(all.tiles_y));
+  TileEntries of_tile(size_t(all.tiles_x) * size_t(all.tiles_y));
   GlLightLoop loop = input(work);
   if (share_bits_of(work)) loop.defines.push_back(fmt::format("LIDR_SHARE_BITS {}u", share_bits_of(work)));
   const GlProgram& program =
@@ -71,17 +87,17 @@ HostShadows IndexShadows::read(Work& work, const LightVolumes& volumes) const {
     loop.bind(work);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
     glBindVertexArray(nothing.name());
-    add_shares(volume, draw_shares(work.grid(), program, volume), all, of_tile);
+    add_shares(volume, draw_shares(work.grid(), program, volume), all.tiles_x, filtered(work), of_tile);
   }
   reset_gl_state();
   for (const auto& entries : of_tile) {
     all.cells.emplace_back(uint32_t(all.indices.size()), uint32_t(entries.size()));
-    for (const auto& [light, values] : entries) {
-      all.indices.push_back(light);
-      all.shares.insert(all.shares.end(), values.begin(), values.end());
+    for (const TileEntry& entry : entries) {
+      all.indices.push_back(entry.light);
+      all.bits.insert(all.bits.end(), entry.bits.begin(), entry.bits.end());
+      all.shares.insert(all.shares.end(), entry.shares.begin(), entry.shares.end());
     }
   }
-  all.bits = hidden_bits(all.shares);
   all.local_alone = true;
   all.drops_hidden = work.plan.settings.lidr_shadows != LidrShadows::final_pass;
   return all;
