@@ -1,6 +1,7 @@
 #include "reference/seen_pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <mutex>
 #include <numeric>
@@ -10,6 +11,17 @@
 #include "reference/position.h"
 
 namespace lightgrid {
+
+// The tile's pixels, as places in it, in blocks of 4 x 4.
+static std::array<std::vector<uint32_t>, 16> blocks_of(int width, const std::vector<uint32_t>& pixels,
+                                                       const TileOfPixels& tile) {
+  std::array<std::vector<uint32_t>, 16> blocks;
+  for (uint32_t i = 0; i < tile.indices.size(); ++i) {
+    const uint32_t p = pixels[tile.indices[i]], x = p % uint32_t(width), y = p / uint32_t(width);
+    blocks[y / 4 % 4 * 4 + x / 4 % 4].push_back(i);
+  }
+  return blocks;
+}
 
 SeenPairs::SeenPairs(const Occlusion& occlusion, const ShownSurfaces& shown, const CastingLights& lights,
                      const std::vector<uint32_t>& pixels, bool in_range, const std::function<bool()>& stops)
@@ -34,15 +46,31 @@ SeenPairs::SeenPairs(const Occlusion& occlusion, const ShownSurfaces& shown, con
       if (own.instance >= 0)
         receivers[i] = occlusion.receiver(shown.view, int(p) % width, int(p) / width, shown.depth[p], own);
     }
+    const auto blocks = blocks_of(width, pixels, tile);
+    std::vector<const Receiver*> asked;
+    std::vector<uint32_t> places;  // of these in the tile
+    std::vector<SightAnswer> answers;
     for (const uint32_t light : in_range ? tile.lights : all) {
       if (!lights.casting[light]) continue;
       int last = -1;
-      for (size_t i = 0; i < count; ++i) {
-        if (in_range && !is_lit(lights.in_view[light], tile.positions[i])) continue;
-        const Sight sight = receivers[i].own.instance < 0
-                                ? Sight::either
-                                : occlusion.sight(*lights.casting[light], receivers[i], &last).sight;
-        entries[i].push_back(light << 2 | uint32_t(sight));
+      for (const std::vector<uint32_t>& block : blocks) {
+        asked.clear(), places.clear();
+        for (const uint32_t i : block) {
+          if (in_range && !is_lit(lights.in_view[light], tile.positions[i])) continue;
+          if (receivers[i].own.instance < 0)
+            entries[i].push_back(light << 2 | uint32_t(Sight::either));
+          else
+            asked.push_back(&receivers[i]), places.push_back(i);
+        }
+        answers.resize(asked.size());
+        const Light& source = *lights.casting[light];
+        if (is_directional(source)) {
+          for (size_t k = 0; k < asked.size(); ++k) answers[k] = occlusion.sight(source, *asked[k], &last);
+        } else {
+          occlusion.sights(source, asked, answers, &last);
+        }
+        for (size_t k = 0; k < places.size(); ++k)
+          entries[places[k]].push_back(light << 2 | uint32_t(answers[k].sight));
       }
     }
     std::lock_guard lock(adding);

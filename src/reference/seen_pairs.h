@@ -28,7 +28,7 @@ struct CastingLights {
 class SeenPairs {
  public:
   // Takes `pixels` (y * width + x each, all covered), and of each the lights that cast and, with `in_range`,
-  // are lit (lit_set.h). Occlusion::sight decides on all cores: 0.2 million pairs a second and core in hall.
+  // are lit (lit_set.h). Occlusion decides on all cores: 1 to 2 million pairs a second and core in hall.
   // stops: called from several threads, once for each 16 x 16 tile; true leaves its pixels undecided.
   SeenPairs(const Occlusion& occlusion, const ShownSurfaces& shown, const CastingLights& lights,
             const std::vector<uint32_t>& pixels, bool in_range = true,

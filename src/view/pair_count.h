@@ -48,7 +48,7 @@ struct CountChoice {
 };
 
 // One count at a time. Without shadows it takes about a second for a full picture and a thousand lights, with
-// shadows about 0.2 million pairs a second and core.
+// shadows about a million pairs a second and core.
 class PairCount {
  public:
   // It outlives this.

@@ -81,6 +81,35 @@ TEST(SeenPairs, HoldsTheRoofsShadow) {
   }
 }
 
+// Pixels are decided in blocks, but those of a directional light one by one.
+TEST(SeenPairs, OfAnyLightAreThoseOfEachPairAlone) {
+  RoofFromAbove roof;
+  Light sun = light_at({0, 0, 0});
+  sun.type = LightType::directional, sun.direction = {0, -1, 0};
+  roof.scene.lights.push_back(sun);
+  roof.lights.in_view = lights_in_view(roof.scene, roof.view);
+  roof.lights.casting = {&roof.scene.lights[0], nullptr, &roof.scene.lights[2], &roof.scene.lights[3]};
+  roof.triangles[77] = {};
+  const Occlusion occlusion(roof.scene);
+  const std::vector<uint32_t> pixels = covered_pixels(roof.depth);
+  const SeenPairs seen(occlusion, {roof.view, roof.depth, roof.triangles}, roof.lights, pixels, false);
+  int hidden[4] = {};
+  for (const uint32_t p : pixels) {
+    for (const uint32_t light : {0u, 2u, 3u}) {
+      Sight alone = Sight::either;
+      if (roof.triangles[p].instance >= 0) {
+        const Receiver r =
+            occlusion.receiver(roof.view, int(p) % side, int(p) / side, roof.depth[p], roof.triangles[p]);
+        alone = occlusion.sight(roof.scene.lights[light], r).sight;
+      }
+      EXPECT_EQ(seen.at(p, light), alone) << p << " " << light;
+      hidden[light] += alone == Sight::hidden;
+    }
+  }
+  EXPECT_GT(hidden[0], 2 * side);
+  EXPECT_GT(hidden[3], side);
+}
+
 TEST(SeenPairs, APixelWithoutATriangleIsUndecidable) {
   RoofFromAbove roof;
   roof.triangles[42] = {};
