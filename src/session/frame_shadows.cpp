@@ -18,8 +18,9 @@ std::optional<SightAnswer> FrameShadows::sight(int x, int y, size_t light) {
   const size_t pixel = v.view.grid().index(x, y);
   const CastingTriangle own = casting_triangles(v.scene, {shown_[pixel]}).front();
   if (own.instance < 0) return {};
-  const Receiver receiver = truth_.occlusion().receiver(v.view, x, y, double(depth_[pixel]), own);
-  return truth_.occlusion().sight(v.scene.lights[light], receiver);
+  const Occlusion& occlusion = truth_.occlusion(v.plan.settings.shadow_blended);
+  return occlusion.sight(v.scene.lights[light],
+                         occlusion.receiver(v.view, x, y, double(depth_[pixel]), own));
 }
 
 bool FrameShadows::shaded_as_hidden(int x, int y, uint32_t local) const {
