@@ -45,6 +45,9 @@ typedef struct RayPacket {
   real inverse_x, inverse_y, inverse_z;
   real enter_x, enter_y, enter_z, leave_x, leave_y, leave_z;
   uint down;  // 1, 2, 4: they go down x, y, z
+#ifdef RAYS_VEILS
+  whole veil;  // of blended triangles that are met (kernels/rays/ray_masks.h)
+#endif
 } RayPacket;
 
 static inline real inverse_step(real x) { return 1.0f / (fabs(x) < LEAST_STEP ? REAL(LEAST_STEP) : x); }

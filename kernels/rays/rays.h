@@ -48,14 +48,27 @@ static inline void rays_triangle(const RayScene* scene, uint number, float corne
   for (int i = 0; i < 9; ++i) corners[i] = from[i];
 }
 
-// Of lanes that meet the triangle, those that it hides.
-RAYS_CALL mask_t ray_hides(const RayScene* scene, const RayPacket* p, int place, whole own, mask_t met) {
+#ifdef RAYS_VEILS
+#define IN_MEMORY RayPacket
+#else
+#define IN_MEMORY const RayPacket
+#endif
+
+// Of lanes that meet the triangle, those that it hides. A blended one hides none, and adds to their veils.
+RAYS_CALL mask_t ray_hides(const RayScene* scene, IN_MEMORY* p, int place, whole own, mask_t met) {
   global const RayTriangle* t = scene->triangles + place;
   met &= meets_own_box(p, t->corners) & (own != (whole)((int)(t->number & ~RAY_MASKED)));
 #ifdef RAYS_MASKS
   if (t->number & RAY_MASKED && any_lane(met)) {
     Real3 weights;
     meets_triangle(p->light, p->light.w != 0, t, real3(p->x, p->y, p->z), p->end, &weights);
+#ifdef RAYS_VEILS
+    if (scene->masks.of_place[place].x & RAY_BLENDS) {
+      const whole veil = veil_of(alpha_of_hit(&scene->masks, place, weights.x, weights.y, weights.z));
+      p->veil = min(p->veil + (met ? veil : (whole)(0)), (whole)(MOST_VEIL));
+      return (mask_t)(0);
+    }
+#endif
     met &= hides_by_mask(&scene->masks, place, weights.x, weights.y, weights.z);
   }
 #endif
@@ -72,8 +85,11 @@ static inline __attribute__((always_inline)) bool ray_met(const RayScene* scene,
   mask_t met = point ? meets_from_point(p->light.x, p->light.y, p->light.z, t, at, p->end)
                      : meets_from_direction(p->light.x, p->light.y, p->light.z, t, at, p->end);
   if (!any_lane(met)) return false;
-  const RayPacket in_memory = *p;
+  IN_MEMORY in_memory = *p;
   met = ray_hides(scene, &in_memory, place, own, met);
+#ifdef RAYS_VEILS
+  p->veil = in_memory.veil;
+#endif
   *hidden |= met;
   p->end = met ? REAL(-1.0f) : p->end;
   return any_lane(met);
@@ -172,14 +188,18 @@ static inline uint take_octant(RayPacket* p, const RayOctants* o, uint left) {
 
 // Lanes of `active` whose segment from the light to `to`, less its last `gap` metres, meets a triangle other
 // than number `own` (below 0: any). `to` is relative to the scene's origin. The triangle that hid a lane last
-// is tried first: *last_blocker, which is -1 at first, and does not change the answer.
-static inline mask_t rays_hidden(const RayScene* scene, RaySource light, Real3 to, real gap, mask_t active,
-                                 whole own, int* last_blocker) {
+// is tried first: *last_blocker, which is -1 at first, and does not change the answer. *veil: of lanes that are
+// not hidden, that of blended triangles; unchanged without -DRAYS_VEILS.
+static inline mask_t rays_veiled(const RayScene* scene, RaySource light, Real3 to, real gap, mask_t active,
+                                 whole own, int* last_blocker, whole* veil) {
   mask_t hidden = (mask_t)(0);
   uint left = lane_bits(active);
   if (left == 0) return hidden;
   RayPacket p;
   set_packet(&p, light, to, gap, scene->extent);
+#ifdef RAYS_VEILS
+  p.veil = (whole)(0);
+#endif
   const RayOctants octants = octants_of(&p);
   while (left != 0) {  // mostly once
     const uint live = take_octant(&p, &octants, left);
@@ -187,5 +207,27 @@ static inline mask_t rays_hidden(const RayScene* scene, RaySource light, Real3 t
     hidden |= light.w != 0 ? trace(scene, &p, true, own, live, last_blocker)
                            : trace(scene, &p, false, own, live, last_blocker);
   }
+#ifdef RAYS_VEILS
+  *veil = p.veil;
+#endif
   return hidden;
+}
+
+// The same without blended triangles, which hide nothing then.
+static inline mask_t rays_hidden(const RayScene* scene, RaySource light, Real3 to, real gap, mask_t active,
+                                 whole own, int* last_blocker) {
+  whole veil = (whole)(0);
+  return rays_veiled(scene, light, to, gap, active, own, last_blocker, &veil);
+}
+
+// 255ths of the light that are hidden from each lane: 0 or 255 without blended triangles.
+static inline whole rays_share(const RayScene* scene, RaySource light, Real3 to, real gap, mask_t active, whole own,
+                               int* last_blocker) {
+  whole veil = (whole)(0);
+  const mask_t hidden = rays_veiled(scene, light, to, gap, active, own, last_blocker, &veil);
+#ifdef RAYS_VEILS
+  return hidden ? (whole)(255) : share_of_veil(veil);
+#else
+  return hidden ? (whole)(255) : (whole)(0);
+#endif
 }

@@ -88,9 +88,8 @@ static inline uint hidden_picks(const RayScene* scene, const SoftReceiver* r,
     const mask_t used = (i < (whole)(SHADOW_PICK)) & (squared > r->gap * r->gap),
                  away = used & (height < 0.0f), active = used & ~away;
     *traced += popcount(lane_bits(active));
-    hidden +=
-        popcount(lane_bits(away | rays_hidden(scene, origin, real3(at_x + off.x, at_y + off.y, at_z + off.z),
-                                              REAL(0.0f), active, (whole)(r->own), last_blocker)));
+    hidden += hidden_in_samples(scene, origin, real3(at_x + off.x, at_y + off.y, at_z + off.z), active, away,
+                                r->own, last_blocker);
   }
   return hidden;
 }

@@ -35,8 +35,7 @@ static inline whole hidden_by_test(ShadowTest* rays, const RayScene* scene, cons
                                    global const ShadowLight* l, mask_t active) {
   const RaySource source = {l->x, l->y, l->z, l->w};
   rays->traced += popcount(lane_bits(active));
-  return rays_hidden(scene, source, r->at, r->gap, active, r->own, &rays->last_blocker) ? (whole)(255)
-                                                                                        : (whole)(0);
+  return rays_share(scene, source, r->at, r->gap, active, r->own, &rays->last_blocker);
 }
 #define rays_of_test(test) ((test)->traced)
 #if defined(SHADOW_RAYS) || defined(SHADOW_PICK)

@@ -62,6 +62,22 @@ static inline void disc_samples(whole i, uint count, uint turned, float u, real*
   *y = r * (t < 0.0f ? -sine : sine);
 }
 
+// Of samples of which `away` are hidden without a ray, those that are hidden in all; with blended casters in
+// 255ths.
+static inline uint hidden_in_samples(const RayScene* scene, RaySource origin, Real3 to, mask_t active, mask_t away,
+                                     int own, int* last_blocker) {
+#ifdef RAYS_VEILS
+  const whole shares = rays_share(scene, origin, to, REAL(0.0f), active, (whole)(own), last_blocker);
+  uint hidden = 255u * popcount(lane_bits(away));
+  for (uint left = lane_bits(active); left != 0; left &= left - 1)
+    hidden += (uint)((const int*)&shares)[lowest_bit(left)];
+  return hidden;
+#else
+  return popcount(
+      lane_bits(away | rays_hidden(scene, origin, to, REAL(0.0f), active, (whole)(own), last_blocker)));
+#endif
+}
+
 static inline float hash_in_unit(uint h) { return (float)(mixed(h ^ 0x68bc21ebu) >> 8) * 0x1p-24f; }
 
 // Of the samples, how many are hidden. `seed`: of pixel and light.
@@ -102,8 +118,7 @@ static inline uint hidden_samples(const RayScene* scene, const SoftReceiver* r, 
         real3(fma(q, REAL(bx), fma(p, REAL(ax), REAL(lx))), fma(q, REAL(by), fma(p, REAL(ay), REAL(ly))),
               fma(q, REAL(bz), fma(p, REAL(az), REAL(lz))));
     *traced += popcount(lane_bits(active));
-    hidden += popcount(
-        lane_bits(away | rays_hidden(scene, origin, to, REAL(0.0f), active, (whole)(r->own), last_blocker)));
+    hidden += hidden_in_samples(scene, origin, to, active, away, r->own, last_blocker);
   }
   return hidden;
 }
@@ -125,7 +140,13 @@ static inline uint hash_of_pixel(uint x, uint y, uint lane) {
 }
 
 // The share as a byte.
-static inline int byte_of(uint hidden, uint rays) { return (int)((hidden * 255u + rays / 2) / rays); }
+static inline int byte_of(uint hidden, uint rays) {
+#ifdef RAYS_VEILS
+  return (int)((hidden + rays / 2) / rays);
+#else
+  return (int)((hidden * 255u + rays / 2) / rays);
+#endif
+}
 
 // 0 to 255: the share of the light that is hidden from each lane. x, y: the pixel of lane 0; others as in
 // shared/shadow_bits.h.

@@ -142,7 +142,8 @@ class ShadowBits : public PassCache {
                                    visible ? offsets_.buffer() : cl::Buffer()}};
     for (size_t i = 0; i < layers.numbers.size(); ++i) {
       images.push_back({layers.numbers[i], layers.depths[i], blended ? blended->raster.triangle_instance : cl::Buffer(),
-                        blended ? blended_offsets_.buffer() : cl::Buffer(), false});
+                        blended ? blended_offsets_.buffer() : cl::Buffer(),
+                        work.plan.settings.blended_casters() == BlendedCasters::opaque});
     }
     const size_t entries = list_lights(work, images);
     const LightGrid& grid = listed_[0]->grid;
@@ -185,7 +186,7 @@ class ShadowBits : public PassCache {
   }
 
   const RayScene& scene(Work& work) {
-    scene_ = work.gpu.in_rays(work.plan.settings.texels);
+    scene_ = work.gpu.in_rays(work.plan.settings.texels, work.plan.settings.blended_casters());
     return *scene_;
   }
 
@@ -309,7 +310,7 @@ class ShadowBits : public PassCache {
       defines += maps_->defines();
     }
     const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact && !settings.soft_shadows() &&
-                       !settings.picks_shadows();
+                       !settings.picks_shadows() && !has_veils(work.scene, settings.blended_casters());
     const size_t kept_bytes = keeps ? ShadowCertificates::bytes_of(settings) : 0;
     if (kept_bytes != 0) defines += " -DKEPT";
     kernels_.use(defines);

@@ -221,7 +221,8 @@ void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& ne
   }
   if (needs.shadows) shadow_all(scene, plan);
   plan.casting = plan_light_shadows(scene, view, plan.settings.ranges, plan.opaque, plan.blended,
-                                    plan.settings.soft_shadows() ? plan.settings.shadow_source_m : 0);
+                                    plan.settings.soft_shadows() ? plan.settings.shadow_source_m : 0,
+                                    plan.settings.blended_casters());
   if (instances == PlannedInstances::in_view && plan.shadows) {
     plan.shadows = false;
     for (const LightShadow& light : plan.casting) {
@@ -373,7 +374,8 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan_slices(view, needs, farthest_m, plan);
   plan_shadows(scene, view, needs, instances, plan);
   plan.shadow_bytes = settings.soft_shadows() || settings.picks_shadows() ||
-                      (settings.shadows == ShadowMethod::map && settings.shadow_taps > 1);
+                      (settings.shadows == ShadowMethod::map && settings.shadow_taps > 1) ||
+                      (plan.light_reaches && has_veils(scene, settings.blended_casters()));
   if (settings.everything_on) turn_everything_on(scene, view, plan, needs);
   return plan;
 }

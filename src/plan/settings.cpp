@@ -242,6 +242,11 @@ std::vector<Setting>& all_settings() {
        "rays for each pixel to lights drawn from its list, in place of those to each light: one estimate of "
        "the hidden share of all its light",
        named(&Settings::shadow_pick, {{"off", 0}, {"1", 1}, {"4", 4}, {"16", 16}})},
+      {"shadow-blended",
+       "what blended surfaces hide of a light: nothing, all of it, or what their alpha says",
+       named(&Settings::shadow_blended, {{"none", BlendedCasters::none},
+                                         {"opaque", BlendedCasters::opaque},
+                                         {"alpha", BlendedCasters::alpha}})},
       {"portable", "plain OpenCL C, without builtins that only some CPUs have",
        named(&Settings::portable, {{"off", false}, {"on", true}})},
       {"group-size", "work-items that cull a block of 4 x 4 tiles, in the group shape",
@@ -299,15 +304,19 @@ void apply_setting(Settings& settings, const std::string& assignment) {
 }
 
 const std::vector<std::string>& model_settings() {
-  static const std::vector<std::string> keys = {"brdf", "range", "cutoff", "window", "alpha", "light-seed"};
+  static const std::vector<std::string> keys = {"brdf",  "range",      "cutoff",        "window",
+                                                "alpha", "light-seed", "shadow-blended"};
   return keys;
 }
 
-bool same_model(const Settings& a, const Settings& b) { return a.brdf == b.brdf && a.ranges == b.ranges; }
+bool same_model(const Settings& a, const Settings& b) {
+  return a.brdf == b.brdf && a.ranges == b.ranges && a.shadow_blended == b.shadow_blended;
+}
 
 Settings with_model(Settings settings, const Settings& model) {
   settings.brdf = model.brdf;
   settings.ranges = model.ranges;
+  settings.shadow_blended = model.shadow_blended;
   return settings;
 }
 

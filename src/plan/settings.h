@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/blended_casters.h"
 #include "scene/light_ranges.h"
 #include "scene/material_model.h"
 #include "shared/cull_settings.h"
@@ -104,6 +105,7 @@ struct Settings {
   int shadow_rays = 1;
   double shadow_source_m = 0.05;
   int shadow_pick = 0;    // rays for each pixel to all its lights: 1, 4 or 16; 0: to each light
+  BlendedCasters shadow_blended = BlendedCasters::none;
   bool portable = false;  // kernels without the builtins of one kind of CPU
   int group_size = 0;  // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   // Every effect's code and buffers, called for or not: what a plan is tested against.
@@ -112,6 +114,12 @@ struct Settings {
   bool picks_shadows() const { return shadows == ShadowMethod::exact && shadow_pick > 0; }
   bool soft_shadows() const {
     return shadows == ShadowMethod::exact && shadow_rays > 1 && shadow_source_m > 0;
+  }
+
+  // Shadow maps know no share of a light.
+  BlendedCasters blended_casters() const {
+    const bool shares = shadow_blended == BlendedCasters::alpha && shadows == ShadowMethod::map;
+    return shares ? BlendedCasters::none : shadow_blended;
   }
 
   std::set<std::string> given{};        // keys that apply_setting has set

@@ -15,7 +15,7 @@ struct Box {
   dvec3 corners[8];
   dvec3 min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
   int instance = 0;
-  bool blended = false;
+  bool blended = false;  // lets light through from behind
   int flat_axis =
       -1;  // of the world: all triangles lie in one plane across it, to the last bit. -1: they may not
 };
@@ -39,12 +39,12 @@ bool is_blended(const Scene& scene, int instance) {
   return scene.materials[size_t(mesh.material)].alpha_mode == AlphaMode::blend;
 }
 
-Box box_of(const Scene& scene, int instance) {
+Box box_of(const Scene& scene, int instance, BlendedCasters by_blended) {
   const glm::dmat4& world_from_object = scene.instances[size_t(instance)].world_from_object;
   const Aabb& bounds = scene.meshes[size_t(scene.instances[size_t(instance)].mesh)].bounds;
   Box box;
   box.instance = instance;
-  box.blended = is_blended(scene, instance);
+  box.blended = by_blended != BlendedCasters::opaque && is_blended(scene, instance);
   for (int i = 0; i < 8; ++i) {
     const glm::dvec4 corner(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
                             i & 4 ? bounds.max.z : bounds.min.z, 1);
@@ -55,10 +55,10 @@ Box box_of(const Scene& scene, int instance) {
   return box;
 }
 
-bool casts(const Scene& scene, int instance) {
+bool casts(const Scene& scene, int instance, BlendedCasters by_blended) {
   const Mesh& mesh = scene.meshes[size_t(scene.instances[size_t(instance)].mesh)];
   return scene.instances[size_t(instance)].casts_shadow && !mesh.indices.empty() && !mesh.bounds.empty() &&
-         !is_blended(scene, instance);
+         (by_blended != BlendedCasters::none || !is_blended(scene, instance));
 }
 
 double distance_to(const Box& box, const dvec3& point) {
@@ -95,12 +95,12 @@ struct Boxes {
 };
 
 Boxes boxes_of(const Scene& scene, const View& view, const std::vector<int>& opaque,
-               const std::vector<int>& blended) {
+               const std::vector<int>& blended, BlendedCasters by_blended) {
   Boxes boxes;
   for (int i = 0; i < int(scene.instances.size()); ++i)
-    if (casts(scene, i)) boxes.casters.push_back(box_of(scene, i));
+    if (casts(scene, i, by_blended)) boxes.casters.push_back(box_of(scene, i, by_blended));
   for (const auto* instances : {&opaque, &blended})
-    for (const int i : *instances) boxes.receivers.push_back(box_of(scene, i));
+    for (const int i : *instances) boxes.receivers.push_back(box_of(scene, i, by_blended));
   dvec3 min = view.eye, max = view.eye;
   for (const auto* some : {&boxes.casters, &boxes.receivers})
     for (const Box& box : *some) min = glm::min(min, box.min), max = glm::max(max, box.max);
@@ -186,12 +186,19 @@ LightShadow plan_light(const LightBounds& light, int number, const View& view, c
 
 }  // namespace
 
+bool has_veils(const Scene& scene, BlendedCasters by_blended) {
+  if (by_blended != BlendedCasters::alpha) return false;
+  for (int i = 0; i < int(scene.instances.size()); ++i)
+    if (is_blended(scene, i) && casts(scene, i, by_blended)) return true;
+  return false;
+}
+
 std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view, const LightRanges& ranges,
                                             const std::vector<int>& opaque, const std::vector<int>& blended,
-                                            double source_m) {
+                                            double source_m, BlendedCasters by_blended) {
   std::vector<LightShadow> plans;
   if (std::ranges::none_of(scene.lights, &Light::casts_shadow)) return plans;
-  const Boxes boxes = boxes_of(scene, view, opaque, blended);
+  const Boxes boxes = boxes_of(scene, view, opaque, blended, by_blended);
   for (int i = 0; i < int(scene.lights.size()); ++i) {
     const Light& light = scene.lights[size_t(i)];
     if (!light.casts_shadow) continue;

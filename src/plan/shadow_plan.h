@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/blended_casters.h"
 #include "scene/camera.h"
 #include "scene/view_lights.h"
 
@@ -18,7 +19,7 @@ namespace lightgrid {
 
 enum class ShadowNeed {
   rays,
-  no_caster,       // no opaque or masked instance of the scene meets the light's bounds
+  no_caster,       // no instance of the scene that hides light meets the light's bounds
   no_receiver,     // the bounds are out of view, or no instance in view meets them
   casters_behind,  // of all receivers: shadow_plan.cpp
   left_out,        // the technique shows fewer shadows: FramePlan::own_shadowed
@@ -42,9 +43,14 @@ std::string describe_shadows(const std::vector<LightShadow>& casting, const Scen
                              const char* found_by = "rays");
 
 // All lights that cast, in the scene's order. `opaque` (masked ones too) and `blended`: the instances in
-// view. source_m: lights are spheres of this radius, and what hides any part of one counts.
+// view. source_m: lights are spheres of this radius, and what hides any part of one counts. by_blended: what
+// blended instances hide.
 std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view, const LightRanges& ranges,
                                             const std::vector<int>& opaque, const std::vector<int>& blended,
-                                            double source_m = 0);
+                                            double source_m = 0,
+                                            BlendedCasters by_blended = BlendedCasters::none);
+
+// Whether a blended instance may cast, and hides as much as its alpha says.
+bool has_veils(const Scene& scene, BlendedCasters by_blended);
 
 }  // namespace lightgrid

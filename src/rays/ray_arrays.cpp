@@ -106,7 +106,8 @@ RayArrays ray_arrays(std::span<const RayInstance> instances, std::span<const Ray
       kinds[number] = !fits(by_number[number]) ? invalid : instance.casts ? in_tree : no_caster;
       if (!is_masked) continue;
       const uint32_t v = mesh.first_vertex;
-      masks[number] = {uint32_t(instance.alpha_material), v + at[0], v + at[1], v + at[2]};
+      masks[number] = {uint32_t(instance.alpha_material) | (instance.blends ? RAY_BLENDS : 0), v + at[0],
+                       v + at[1], v + at[2]};
     }
   });
 

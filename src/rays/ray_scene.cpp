@@ -110,7 +110,7 @@ void RayScene::set_instances(std::span<const RayInstance> instances) {
   State& s = *state_;
   check_ray_instances(instances, s.meshes);
   const auto same_triangles = [](const RayInstance& a, const RayInstance& b) {
-    return a.mesh == b.mesh && a.alpha_material == b.alpha_material && a.casts == b.casts;
+    return a.mesh == b.mesh && a.alpha_material == b.alpha_material && a.casts == b.casts && a.blends == b.blends;
   };
   const RayBounds bounds = ray_bounds(instances, s.meshes);
   // Where something fails on the way, the next call builds anew.
@@ -151,7 +151,12 @@ ClArguments RayScene::arguments() const {
           {"ray_materials", s.masks.materials}, {"ray_alphas", s.masks.alphas}};
 }
 
-std::string RayScene::defines() const { return state_->has_masks() ? "-DRAYS_MASKS" : ""; }
+std::string RayScene::defines() const {
+  if (!state_->has_masks()) return "";
+  const bool veils = std::ranges::any_of(
+      state_->instances, [](const RayInstance& i) { return i.casts && i.blends && i.alpha_material >= 0; });
+  return veils ? "-DRAYS_MASKS -DRAYS_VEILS" : "-DRAYS_MASKS";
+}
 
 std::string RayScene::kernel_text() { return with_includes("kernels/rays/rays.h"); }
 

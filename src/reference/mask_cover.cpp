@@ -33,7 +33,7 @@ MaskCover::MaskCover(const Scene& scene) : scene_(scene) {
   for (const Instance& instance : scene.instances) {
     const Material& m = scene.materials[scene.meshes[instance.mesh].material];
     const int texture = m.base_color_map.texture;
-    if (m.alpha_mode == AlphaMode::mask && texture >= 0)
+    if (m.alpha_mode != AlphaMode::opaque && texture >= 0)
       samplers_.try_emplace(texture, scene.bitmaps[scene.textures[texture].bitmap], scene.textures[texture]);
   }
 }
@@ -60,6 +60,13 @@ MaskCover::Range MaskCover::alpha_of_map(const TextureSlot& slot, const dvec2& u
 Cover MaskCover::at(int instance, uint32_t triangle, const dvec3& weights, const dvec3& error) const {
   const Material& m = material_of(scene_, instance);
   if (m.alpha_mode != AlphaMode::mask) return Cover::opaque;
+  const Range range = alpha(instance, triangle, weights, error);
+  return range.least >= m.alpha_cutoff ? Cover::opaque : range.most < m.alpha_cutoff ? Cover::clear : Cover::either;
+}
+
+MaskCover::Range MaskCover::alpha(int instance, uint32_t triangle, const dvec3& weights,
+                                  const dvec3& error) const {
+  const Material& m = material_of(scene_, instance);
   const Mesh& mesh = scene_.meshes[scene_.instances[instance].mesh];
   const uint32_t* v = &mesh.indices[3 * size_t(triangle)];
   double alpha = m.base_color.a, factor_error = 0;
@@ -85,9 +92,7 @@ Cover MaskCover::at(int instance, uint32_t triangle, const dvec3& weights, const
     range = alpha_of_map(slot, uv, uv_error);
   }
   const double slack = factor_error + of_lookup * (std::abs(alpha) + 1);
-  if (alpha * range.least - slack >= m.alpha_cutoff) return Cover::opaque;
-  if (alpha * range.most + slack < m.alpha_cutoff) return Cover::clear;
-  return Cover::either;
+  return {alpha * range.least - slack, alpha * range.most + slack};
 }
 
 }  // namespace lightgrid

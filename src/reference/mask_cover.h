@@ -19,10 +19,13 @@ class MaskCover {
   // materials are opaque everywhere. May be called from several threads.
   Cover at(int instance, uint32_t triangle, const glm::dvec3& weights, const glm::dvec3& error) const;
 
- private:
   struct Range {
     double least = 0, most = 0;
   };
+  // Alpha there, of masked and blended materials; not limited to 0 to 1.
+  Range alpha(int instance, uint32_t triangle, const glm::dvec3& weights, const glm::dvec3& error) const;
+
+ private:
   Range alpha_of_map(const TextureSlot& slot, const glm::dvec2& uv, const glm::dvec2& error) const;
 
   const Scene& scene_;

@@ -28,7 +28,8 @@ double greatest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y),
 
 }  // namespace
 
-Occlusion::Occlusion(const Scene& scene) : scene_(scene), masks_(scene) {
+Occlusion::Occlusion(const Scene& scene, BlendedCasters by_blended)
+    : scene_(scene), by_blended_(by_blended), masks_(scene) {
   const WorldBox box = world_box(scene);
   if (box.empty()) return;
   centre_ = (box.min + box.max) * 0.5, diagonal_m_ = glm::length(box.max - box.min);
@@ -37,8 +38,8 @@ Occlusion::Occlusion(const Scene& scene) : scene_(scene), masks_(scene) {
   vertex_error_m_ = std::sqrt(3.0) * float_rounding * extent;
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
-    if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend || !scene.instances[i].casts_shadow)
-      continue;
+    const bool blended = scene.materials[mesh.material].alpha_mode == AlphaMode::blend;
+    if ((blended && by_blended == BlendedCasters::none) || !scene.instances[i].casts_shadow) continue;
     for (uint32_t t = 0; t < mesh.indices.size() / 3; ++t) {
       const Corners c = corners_of({int(i), t});
       // Equal corners stay equal when they are rounded, and nothing meets a triangle without area.
@@ -71,7 +72,8 @@ Receiver Occlusion::receiver(const View& view, int x, int y, double depth, const
                off = squared > 0 ? glm::dot(shaded - c[0], normal) / squared : 0;
   Receiver r{.own = own};
   const Mesh& mesh = scene_.meshes[scene_.instances[own.instance].mesh];
-  r.own_hides = scene_.materials[mesh.material].alpha_mode != AlphaMode::blend;
+  r.own_hides =
+      by_blended_ == BlendedCasters::opaque || scene_.materials[mesh.material].alpha_mode != AlphaMode::blend;
   r.place.place = shaded - normal * off;
   // docs/details/oracle.md#shadows: a position in float, its turn to world axes, its way to the plane, and
   // the plane's tilt.
@@ -138,6 +140,7 @@ Occlusion::Met Occlusion::meet(int number, const RoundedPoint& light, const Roun
       errors[k] = (weights[k].error + std::abs(shares[k]) * error) / (std::abs(sum) - error);
     }
   }
+  met.weights = shares, met.errors = errors;
   const CastingTriangle& t = numbers_[size_t(number)];
   const Cover cover = masks_.at(t.instance, t.triangle, shares, errors);
   if (cover == Cover::clear) return {};
@@ -193,7 +196,7 @@ SightAnswer Occlusion::sight_of(const Light& light, const Receiver& r, const Cor
   std::optional<SightAnswer> hidden;
   std::vector<std::pair<int, Met>> unsure;
   const auto meets = [&](int number) {
-    if (numbers_[size_t(number)] == r.own) return false;
+    if (numbers_[size_t(number)] == r.own || is_veil(numbers_[size_t(number)])) return false;
     const Met met = meet(number, source, end);
     if (met.meeting == Meeting::none) return false;
     bool certain = met.meeting == Meeting::crossed;
@@ -212,10 +215,39 @@ SightAnswer Occlusion::sight_of(const Light& light, const Receiver& r, const Cor
 }
 
 SightAnswer Occlusion::sight(const Light& light, const Receiver& r, int* last) const {
-  return sight_of(light, r, corners_of(r.own), last,
-                  [&](const RoundedPoint& from, const RoundedPoint& to, double reach, const auto& visit) {
-                    tree_.walk(from.place, to.place, reach, visit);
-                  });
+  const SightAnswer answer =
+      sight_of(light, r, corners_of(r.own), last,
+               [&](const RoundedPoint& from, const RoundedPoint& to, double reach, const auto& visit) {
+                 tree_.walk(from.place, to.place, reach, visit);
+               });
+  if (by_blended_ != BlendedCasters::alpha || answer.sight != Sight::seen) return answer;
+  constexpr double of_byte = 1.0 / 255;
+  const Veil hidden = veil(light, r);
+  if (hidden.most < 0.5 - of_byte) return answer;
+  return {hidden.least > 0.5 + of_byte ? Sight::hidden : Sight::either, {}, 0};
+}
+
+bool Occlusion::is_veil(const CastingTriangle& t) const {
+  if (by_blended_ != BlendedCasters::alpha) return false;
+  return scene_.materials[scene_.meshes[scene_.instances[t.instance].mesh].material].alpha_mode == AlphaMode::blend;
+}
+
+Veil Occlusion::veil(const Light& light, const Receiver& r) const {
+  const RoundedPoint source = source_of(light, r);
+  double least = 1, most = 1;  // let through
+  if (!(glm::length(source.place - r.place.place) > r.gap_m)) return {};
+  const RoundedPoint end = end_of(source, r);
+  tree_.walk(source.place, end.place, reach_of(source, end), [&](int number) {
+    const CastingTriangle& t = numbers_[size_t(number)];
+    if (t == r.own || !is_veil(t)) return false;
+    const Met met = meet(number, source, end);
+    if (met.meeting == Meeting::none) return false;
+    const MaskCover::Range alpha = masks_.alpha(t.instance, t.triangle, met.weights, met.errors);
+    least *= 1 - std::clamp(alpha.most, 0.0, 1.0);
+    if (met.meeting == Meeting::crossed) most *= 1 - std::clamp(alpha.least, 0.0, 1.0);
+    return false;
+  });
+  return {1 - most, 1 - least};
 }
 
 void Occlusion::sights(const Light& light, std::span<const Receiver* const> receivers,

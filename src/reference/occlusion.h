@@ -8,6 +8,7 @@
 #include "reference/mask_cover.h"
 #include "reference/signed_volume.h"
 #include "reference/triangle_tree.h"
+#include "scene/blended_casters.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 
@@ -37,12 +38,17 @@ struct SightAnswer {
   double distance_m = 0;  // from the light to where it does; of a directional light from the receiver
 };
 
-// Opaque and masked triangles hide lights, from both sides, but those of instances that cast no shadow;
-// blended ones do not.
+// The share of a light that blended triangles hide, which is known to lie between these.
+struct Veil {
+  double least = 0, most = 0;
+};
+
+// Opaque and masked triangles hide lights, from both sides, but those of instances that cast no shadow. by_blended:
+// what blended ones hide; with alpha a light of which more than half is hidden counts as hidden.
 class Occlusion {
  public:
   // The scene outlives it, and does not move meanwhile.
-  explicit Occlusion(const Scene& scene);
+  explicit Occlusion(const Scene& scene, BlendedCasters by_blended = BlendedCasters::none);
 
   // depth: the pixel's value in the depth buffer; own: the triangle that it shows. (x, y): row 0 at the
   // bottom.
@@ -57,6 +63,9 @@ class Occlusion {
   void sights(const Light& light, std::span<const Receiver* const> receivers, std::span<SightAnswer> answers,
               int* last) const;
 
+  // What blended triangles hide by their alpha: 1 less the product of 1 - alpha of all but the receiver's own.
+  Veil veil(const Light& light, const Receiver& receiver) const;
+
   double vertex_error_m() const { return vertex_error_m_; }
 
  private:
@@ -68,6 +77,7 @@ class Occlusion {
     int of_edge = -1;
     int light_side = 0;  // of the plane
     double share = 0;    // of the segment, from the light to the plane
+    glm::dvec3 weights{1.0 / 3}, errors{1};  // of the corners, where the segment meets it
   };
   Corners corners_of(const CastingTriangle& triangle) const;
   RoundedPoint rounded(const glm::dvec3& vertex) const { return {vertex, vertex_error_m_}; }
@@ -80,7 +90,10 @@ class Occlusion {
   Met meet(int number, const RoundedPoint& light, const RoundedPoint& end) const;
   bool share_an_edge(int a, const Met& met_a, int b, const Met& met_b) const;
 
+  bool is_veil(const CastingTriangle& triangle) const;
+
   const Scene& scene_;
+  BlendedCasters by_blended_;
   MaskCover masks_;
   glm::dvec3 centre_{0};
   double diagonal_m_ = 0, vertex_error_m_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cl/transfer.h"
 #include "renderer/upload/scene_surfaces.h"
 
 namespace lightgrid {
@@ -39,15 +40,32 @@ void set_ray_meshes(const Scene& scene, RayScene& rays) {
   rays.set_meshes(meshes);
 }
 
-void set_ray_instances(const Scene& scene, RayScene& rays) {
+void set_ray_instances(const Scene& scene, BlendedCasters by_blended, RayScene& rays) {
   std::vector<RayInstance> instances;
   for (const Instance& instance : scene.instances) {
     const AlphaMode mode = alpha_mode_of(scene, instance);
+    const bool blended = mode == AlphaMode::blend, veils = blended && by_blended == BlendedCasters::alpha;
     instances.push_back({instance.mesh, instance.world_from_object,
-                         mode == AlphaMode::mask ? scene.meshes[instance.mesh].material : -1,
-                         instance.casts_shadow && mode != AlphaMode::blend});
+                         mode == AlphaMode::mask || veils ? scene.meshes[instance.mesh].material : -1,
+                         instance.casts_shadow && (!blended || by_blended != BlendedCasters::none), veils});
   }
   rays.set_instances(instances);
+}
+
+// Materials and alphas of their own, since blending needs no chain of alphas.
+RayMasks masks_with_blended(ClDevice& device, const Scene& scene, TexelLayout layout, const cl::Buffer& vertices) {
+  std::vector<bool> used(scene.materials.size());
+  for (const Instance& instance : scene.instances)
+    used[size_t(scene.meshes[instance.mesh].material)] = alpha_mode_of(scene, instance) != AlphaMode::opaque;
+  const SurfaceTexels texels = surface_texels(scene, used, layout, true);
+  const auto uploaded = [&](const char* what, const auto& values) {
+    const size_t bytes = values.size() * sizeof values[0];
+    const cl::Buffer buffer = device_buffer(device, bytes);
+    if (bytes > 0) write_buffer(device, what, buffer, values.data(), bytes);
+    return buffer;
+  };
+  return {vertices, uploaded("uploading materials of rays", texels.materials),
+          uploaded("uploading alphas of rays", texels.alphas)};
 }
 
 }  // namespace
@@ -91,15 +109,18 @@ std::shared_ptr<RasterScene> GpuScene::in_raster(TexelLayout layout) {
   return held;
 }
 
-std::shared_ptr<RayScene> GpuScene::in_rays(TexelLayout layout) {
-  std::shared_ptr<RayScene> held = in_rays_.lock();
+std::shared_ptr<RayScene> GpuScene::in_rays(TexelLayout layout, BlendedCasters by_blended) {
+  HeldRays& of = in_rays_[by_blended];
+  std::shared_ptr<RayScene> held = of.rays.lock();
   const bool made = !held;
-  if (made) in_rays_ = held = std::make_shared<RayScene>(*renderer_.cl, *renderer_.kernels);
-  const bool reshaped = made || in_rays_shape_ != shape_version_;
+  if (made) of.rays = held = std::make_shared<RayScene>(*renderer_.cl, *renderer_.kernels);
+  const bool reshaped = made || of.shape != shape_version_;
   if (reshaped) set_ray_meshes(scene_, *held);
-  if (reshaped || in_rays_instances_ != instances_version_) set_ray_instances(scene_, *held);
-  in_rays_shape_ = shape_version_, in_rays_instances_ = instances_version_;
-  if (reshaped && shows_masks(scene_)) {
+  if (reshaped || of.instances != instances_version_) set_ray_instances(scene_, by_blended, *held);
+  of.shape = shape_version_, of.instances = instances_version_;
+  if (reshaped && by_blended == BlendedCasters::alpha) {
+    held->set_masks(masks_with_blended(*renderer_.cl, scene_, layout, in_cl(layout).vertices()));
+  } else if (reshaped && shows_masks(scene_)) {
     const ClScene& scene = in_cl(layout);
     held->set_masks({scene.vertices(), scene.materials(), scene.alphas()});
   }

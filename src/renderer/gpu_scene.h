@@ -36,10 +36,10 @@ class GpuScene {
   // from in_cl(layout), which are alike in each layout. One for all views; freed with the last that holds it.
   std::shared_ptr<RasterScene> in_raster(TexelLayout layout);
 
-  // The same scene for shadow rays, triangles by instance in scene order. Blended ones hide no light, nor do
-  // instances that cast no shadow. Refitted where it moved. Throws Error(machine) if the device has no
-  // doubles.
-  std::shared_ptr<RayScene> in_rays(TexelLayout layout);
+  // The same scene for shadow rays, triangles by instance in scene order. Instances that cast no shadow hide no
+  // light; by_blended: what blended ones hide. Refitted where it moved. Throws Error(machine) if the device has
+  // no doubles.
+  std::shared_ptr<RayScene> in_rays(TexelLayout layout, BlendedCasters by_blended);
 
   // The light lists of world_grid with these settings, shared by all views that hold them; not yet built.
   std::shared_ptr<SharedWorldGrid> world_grid(Renderer& renderer, const WorldGridKey& key);
@@ -63,8 +63,11 @@ class GpuScene {
   std::weak_ptr<RasterScene> in_raster_;
   int in_raster_version_ = 0;  // shape_version() of its meshes
   bool in_raster_has_masks_ = false;
-  std::weak_ptr<RayScene> in_rays_;
-  int in_rays_shape_ = 0, in_rays_instances_ = 0;  // shape_version() and instances_version() of what it holds
+  struct HeldRays {
+    std::weak_ptr<RayScene> rays;
+    int shape = 0, instances = 0;  // shape_version() and instances_version() of what it holds
+  };
+  std::map<BlendedCasters, HeldRays> in_rays_;
   std::vector<std::pair<WorldGridKey, std::weak_ptr<SharedWorldGrid>>> world_grids_;
   int shape_version_ = 0, instances_version_ = 0, lights_version_ = 0;
   std::vector<int> mesh_versions_;  // updates that deformed each; of the first ones

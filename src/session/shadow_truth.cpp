@@ -56,14 +56,18 @@ CastingLights casting_lights(const Scene& scene, const View& view, const LightRa
 
 bool ShadowTruth::casts() const { return std::ranges::any_of(scene_.lights, &Light::casts_shadow); }
 
-const Occlusion& ShadowTruth::occlusion() {
-  if (!occlusion_) occlusion_ = std::make_unique<Occlusion>(scene_);
+const Occlusion& ShadowTruth::occlusion(BlendedCasters by_blended) {
+  if (!occlusion_ || by_blended_ != by_blended) {
+    for (Decided& d : decided_) d = {};
+    occlusion_ = std::make_unique<Occlusion>(scene_, by_blended), by_blended_ = by_blended;
+  }
   return *occlusion_;
 }
 
 const SeenPairs* ShadowTruth::pairs(const Seen& v, const std::vector<float>& depth,
                                     const std::vector<SceneTriangle>& triangles) {
   if (!casts()) return nullptr;
+  const Occlusion& truth = occlusion(v.plan.settings.shadow_blended);
   for (const Decided& d : decided_) {
     if (d.pairs && d.ranges == v.plan.settings.ranges && d.depth == depth && d.triangles == triangles)
       return d.pairs.get();
@@ -77,7 +81,7 @@ const SeenPairs* ShadowTruth::pairs(const Seen& v, const std::vector<float>& dep
   next_ = 1 - next_;
   d = {
       v.plan.settings.ranges, depth, triangles,
-      std::make_unique<SeenPairs>(occlusion(), shown, lights, affordable_pixels(shown, lights, most_pairs_))};
+      std::make_unique<SeenPairs>(truth, shown, lights, affordable_pixels(shown, lights, most_pairs_))};
   return d.pairs.get();
 }
 
@@ -88,7 +92,7 @@ std::unique_ptr<SeenPairs> ShadowTruth::at_pixels(const Seen& v, const std::vect
   std::vector<int> all(scene_.lights.size());
   std::iota(all.begin(), all.end(), 0);
   const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, all);
-  return std::make_unique<SeenPairs>(occlusion(), ShownSurfaces{v.view, depth, triangles}, lights, pixels,
+  return std::make_unique<SeenPairs>(occlusion(v.plan.settings.shadow_blended), ShownSurfaces{v.view, depth, triangles}, lights, pixels,
                                      in_range);
 }
 
@@ -98,7 +102,8 @@ std::unique_ptr<SeenPairs> ShadowTruth::of_layer(const Seen& v, const HostShadow
   for (const glm::ivec2& t : layer.triangles) triangles.push_back({t.x, uint32_t(t.y)});
   const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, v.plan.local);
   const ShownSurfaces shown{v.view, layer.depth, triangles};
-  return std::make_unique<SeenPairs>(occlusion(), shown, lights, affordable_pixels(shown, lights, most_pairs_));
+  return std::make_unique<SeenPairs>(occlusion(v.plan.settings.shadow_blended), shown, lights,
+                                     affordable_pixels(shown, lights, most_pairs_));
 }
 
 void ShadowTruth::moved(bool geometry) {

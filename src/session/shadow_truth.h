@@ -25,7 +25,7 @@ class ShadowTruth {
   ShadowTruth(const Scene& scene, uint64_t most_pairs) : scene_(scene), most_pairs_(most_pairs) {}
 
   bool casts() const;  // some light of the scene
-  const Occlusion& occlusion();
+  const Occlusion& occlusion(BlendedCasters by_blended = BlendedCasters::none);
 
   // Of point and spot lights, as lists have them, then of directional ones. Null if no light casts; until the
   // next call but one. triangles: the nearest opaque one of each pixel.
@@ -54,6 +54,7 @@ class ShadowTruth {
   const Scene& scene_;
   uint64_t most_pairs_;
   std::unique_ptr<Occlusion> occlusion_;
+  BlendedCasters by_blended_ = BlendedCasters::none;  // of it
   Decided decided_[2];  // OpenGL's surfaces, and those drawn in OpenCL
   int next_ = 0;
 };

@@ -1,43 +1,15 @@
 // Shadows on blended surfaces, in every technique: each pair of a fragment and a light against the oracle, and the
 // picture in double.
 #include "techniques/blended_in_double.h"
-#include "techniques/shadow_stage.h"
+#include "techniques/glazed_stage.h"
 
 namespace lightgrid {
 namespace {
 
-// Panes one behind the other, of which one's vertices have alpha and its matrix mirrors, and a bubble with both
-// sides, between lamps, ball and fence.
-Scene glazed_scene() {
-  Scene scene = shadowed_scene();
-  const auto glass = [&](const char* name, glm::vec3 color, float alpha) {
-    const int added = add_material(scene, name, color, 0, 0.6f);
-    Material& m = scene.materials[size_t(added)];
-    m.base_color.a = alpha, m.alpha_mode = AlphaMode::blend, m.double_sided = true;
-    return added;
-  };
-  const int blue = glass("blue", {0.4f, 0.5f, 0.9f}, 0.5f), lace = glass("lace", {0.9f, 0.9f, 0.8f}, 0.9f),
-            soap = glass("soap", {0.9f, 0.7f, 0.8f}, 0.3f);
-  scene.materials[size_t(blue)].double_sided = false;
-  add_instance(scene, "blue", add_mesh(scene, wall_mesh({-0.2f, 0.1f, -3.85f}, 1.1f, blue, "blue")));
-  Mesh woven = wall_mesh({0, 0, 0}, 0.7f, lace, "lace");
-  for (const glm::vec3& p : woven.positions) woven.colors.emplace_back(1, 1, 1, 0.6f + 0.4f * p.x);
-  const int sheet = add_mesh(scene, std::move(woven));
-  add_instance(scene, "lace", sheet,
-               placed({0.5, 0.3, -3.6}, 25) * glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1)));
-  add_instance(scene, "lace", sheet, placed({-0.4, -0.2, -3.5}, -160));
-  Mesh bubble;
-  shapes::add_sphere(bubble, {0, 0, 0}, 0.4f, 4);
-  add_instance(scene, "bubble", add_mesh(scene, shapes::finished(std::move(bubble), "bubble", soap)),
-               placed({-0.9, -0.4, -3.2}));
-  return scene;
-}
-
-constexpr int width = 61, height = 43;
 constexpr double own_bound = 5e-3;  // of pictures of OpenCL's surfaces, as opaque ones have it (shadow_test.cpp)
 
 struct Glazed : ShadowStage {
-  Glazed() : ShadowStage{glazed_scene(), small_view(width, height)} {}
+  Glazed() : ShadowStage{glazed_scene(), small_view(glazed_width, glazed_height)} {}
 };
 Glazed& glazed() {
   static auto* made = new Glazed;  // support/devices.h
@@ -95,7 +67,7 @@ TEST_P(BlendedShadows, AreTheOraclesInEachPairAndInThePicture) {
   EXPECT_LT(double(found.pairs.either), 0.02 * double(found.pairs.lit));
   if (technique->approximate) return;  // another picture
   const BlendedInDouble in_double = blended_in_double(run, stage.truth);
-  EXPECT_GT(in_double.pixels.size(), width * height / 10);
+  EXPECT_GT(in_double.pixels.size(), glazed_width * glazed_height / 10);
   EXPECT_LT(in_double.left_out, in_double.pixels.size() / 5);
   EXPECT_LT(worst_error(run.image(), in_double), own_surfaces(*technique, settings) ? own_bound : 2e-4);
 }
@@ -158,7 +130,7 @@ TEST(BlendedShadowBits, CostNothingWithoutBlendedSurfacesInView) {
     Scene scene = glazed_scene();
     for (Material& m : scene.materials)
       if (m.alpha_mode == AlphaMode::blend) m.alpha_mode = AlphaMode::opaque;
-    TechniqueRun run(test_devices(), scene, small_view(width, height), {}, find_technique(technique));
+    TechniqueRun run(test_devices(), scene, small_view(glazed_width, glazed_height), {}, find_technique(technique));
     run.view().timer.enabled = true;
     run.run_frame();
     for (const PassRecord& pass : run.view().timer.records()) EXPECT_NE(pass.name, "blended_layers");

@@ -53,8 +53,8 @@ struct PlacedChain {
 
 class TexelWriter {
  public:
-  TexelWriter(const Scene& scene, TexelLayout layout, SurfaceTexels& out)
-      : scene_(scene), layout_(layout), out_(out) {}
+  TexelWriter(const Scene& scene, TexelLayout layout, bool blended_alphas, SurfaceTexels& out)
+      : scene_(scene), layout_(layout), blended_alphas_(blended_alphas), out_(out) {}
 
   void add_textures(const Material& m, SurfaceMaterial& record) {
     const auto maps = maps_of(m);
@@ -70,7 +70,8 @@ class TexelWriter {
       record.flags |= SURFACE_PACKED;
       record.maps[0] = map(*packed_maps(m).front(), packed_chain(m));
     }
-    if (m.alpha_mode == AlphaMode::mask && m.base_color_map.texture >= 0)
+    const bool alphas = m.alpha_mode == AlphaMode::mask || (blended_alphas_ && m.alpha_mode == AlphaMode::blend);
+    if (alphas && m.base_color_map.texture >= 0)
       record.alpha_base = alphas_of(m.base_color_map.texture);
   }
 
@@ -193,6 +194,7 @@ class TexelWriter {
 
   const Scene& scene_;
   TexelLayout layout_;
+  bool blended_alphas_;
   SurfaceTexels& out_;
   std::map<int, PlacedChain> chains_;                        // by texture
   std::map<std::array<int, packable>, PlacedChain> packed_;  // by the textures
@@ -221,9 +223,9 @@ SurfaceMaterial factors_of(const Material& m, int model) {
 }  // namespace
 
 SurfaceTexels surface_texels(const Scene& scene, const std::vector<bool>& used_materials,
-                             TexelLayout layout) {
+                             TexelLayout layout, bool blended_alphas) {
   SurfaceTexels texels;
-  TexelWriter writer(scene, layout, texels);
+  TexelWriter writer(scene, layout, blended_alphas, texels);
   const std::vector<MaterialModel> models = material_models(scene);
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& m = scene.materials[i];

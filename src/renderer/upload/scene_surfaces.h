@@ -20,14 +20,15 @@ struct SurfaceTexels {
   // The same chains with TexelLayout::packed_8, in bytes: base colours as their square roots, whose steps the
   // eye sees alike.
   std::vector<uint8_t> small_texels_8;
-  std::vector<uint32_t> alphas;  // chains of alpha_quads, for masked materials
+  std::vector<uint32_t> alphas;  // chains of alpha_quads, for masked materials, and for blended ones if asked for
 };
 
 // Textures that no used material has are left out. A texture or a set of packed ones is there once, however
 // many materials share it. Maps are packed, unless TexelLayout::separate, where a material has two or more of
 // base colour, metallic-roughness and normal map, of one size, with one sampler and one set of texture
 // coordinates, and is not blended: a packed texel has no alpha.
-SurfaceTexels surface_texels(const Scene& scene, const std::vector<bool>& used_materials, TexelLayout layout);
+SurfaceTexels surface_texels(const Scene& scene, const std::vector<bool>& used_materials, TexelLayout layout,
+                             bool blended_alphas = false);
 
 // By mesh: true if an instance shows it and it has triangles. OpenGL's and OpenCL's copies of a scene, and
 // the rasteriser's, leave out the others: their vertices are numbered alike.
