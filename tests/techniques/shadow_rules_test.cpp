@@ -2,6 +2,7 @@
 // with all of it, and what is left out costs no pass, ray or memory.
 #include <gmock/gmock.h>
 
+#include "reference/position.h"
 #include "scene/shadow_casters.h"
 #include "support/random_rooms.h"
 #include "techniques/observed_run.h"
@@ -192,6 +193,52 @@ TEST(ShadowRulesPicture, HasNoShadowsOfTheFrameBefore) {
     EXPECT_FALSE(run.view().plan.shadows);
     EXPECT_TRUE(identical(run.image(), render(scene, view, technique))) << technique;
   }
+}
+
+// A pixel's point lies beside the triangle that it shows, since rasterisers move vertices: here a lamp
+// reaches the point, but not the box of the wall, and a chip between them hides the lamp.
+TEST(ShadowRulesPicture, ReckonsWithMovedVertices) {
+  Random random(11);
+  size_t bites = 0;
+  for (int i = 0; i < 30; ++i) {
+    const char* technique = i % 4 == 0 ? "forward_plus" : "visibility";
+    SmallScene s = small_scene(false);
+    Scene& scene = s.scene;
+    scene.instances.clear();
+    scene.materials[size_t(s.wall_material)].double_sided = true;
+    const double size_m = random.uniform(20, 60);
+    add_instance(scene, "wall",
+                 add_mesh(scene, wall_mesh({0, 0, 0}, float(size_m), s.wall_material, "wall")));
+    // Seen at a grazing angle, with pixels of a few metres.
+    const glm::dvec3 eye(size_m * random.uniform(-0.5, 0.5), -2 * size_m, size_m * random.uniform(0.02, 0.2));
+    const View view = make_view(look_at(eye, {0, 0, 0}), 24, 14);
+    TechniqueRun bare(test_devices(), scene, view, {}, find_technique(technique));
+    bare.run_frame();
+    const std::vector<float> depth = read_depth(bare);
+    glm::dvec3 farthest(0);
+    for (int y = 0; y < view.height; ++y) {
+      for (int x = 0; x < view.width; ++x) {
+        const float d = depth[view.grid().index(x, y)];
+        if (d == 0) continue;
+        const glm::dvec3 at = view.eye + glm::transpose(glm::dmat3(view.view_from_world)) *
+                                             position_from_depth(view, x, y, double(d));
+        if (at.z > farthest.z) farthest = at;
+      }
+    }
+    const double off_m = farthest.z;
+    if (off_m < 0.003) continue;
+    const glm::dvec3 lamp = farthest + glm::dvec3(0, 0, 0.5 * off_m);
+    add_point(scene, "lamp", glm::vec3(0), {1, 1, 1}, 1e-6f, float(0.9 * off_m)).casts_shadow = true;
+    scene.lights[0].position = lamp;
+    const int chip = add_mesh(scene, wall_mesh({0, 0, 0}, 2e-3f, s.wall_material, "chip"));
+    add_instance(scene, "chip", chip, placed({lamp.x, lamp.y, 1.3 * off_m}));
+    Ruled both(scene, view, technique);
+    both.draw();
+    EXPECT_TRUE(identical(both.ruled.image(), both.full.image())) << "wall " << i << ", " << technique;
+    scene.lights[0].casts_shadow = false;
+    bites += !same_bytes(both.full.image(), render(scene, view, technique));
+  }
+  EXPECT_GT(bites, 5u) << "walls whose chip hides the lamp from a pixel";
 }
 
 // Where no light casts.
