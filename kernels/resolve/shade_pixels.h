@@ -41,9 +41,7 @@ static inline void light_pixels(Lights* lights, uint x, uint y, constant ViewPar
 
 #if defined(SHADOWS) && defined(BLEND)
 // Of blended surfaces besides: the layer of each lane's fragment. Past the last one it has no shadows.
-static inline void light_layers(Lights* lights, whole layer, mask_t shown, uint layers, constant ViewParams* view) {
-  lights->shadows.layer_words =
-      words_of_layer(view->width, view->height, view->light_count + view->directional_count);
+static inline void light_layers(Lights* lights, whole layer, mask_t shown, uint layers) {
   lights->shadows.layer = layer, lights->shadows.shown = shown & (layer < (whole)((int)layers));
 }
 #endif

@@ -2,6 +2,7 @@
 // and on which side of that plane the eye is.
 //
 // -DSHADOW_MAP    what shadow maps need to know of the triangle is kept (kernels/shadow_maps/shadow_maps.h)
+// -DBANDS         of the frame's tiles only some are looked at (BAND_ARGUMENTS)
 // -DNUMBERED      triangles come by the rays' numbers, else by the rasteriser's
 // -DORTHOGRAPHIC  shared/pixel_position.h
 #pragma once
@@ -22,16 +23,26 @@
 //                    with -DNUMBERED
 // depths             reversed, a pixel each
 // cells, indices     lists of lights in tiles (shared/light_grid.h)
-// first_tile, first_entry  of these surfaces' layer: added to the numbers of its tiles and entries
+// image, first_entry  0 of opaque surfaces, else 1 + that of a layer, and how many entries those before it have
 // own_hides          1: the pixel's own triangle hides lights behind it; 0: it lets light through
 // tiles, bits        out: shared/shadow_bits.h
 // rays               out: how many were traced, a tile
+// BAND_ARGUMENTS     the first tile of the band, and for each tile of each image the band's entries before it
+#ifdef BANDS
+#define BAND_ARGUMENTS , uint first_tile, global const uint *first_entries
+#define FIRST_TILE first_tile
+#define FIRST_ENTRY(own_tile, range) first_entries[own_tile]
+#else
+#define BAND_ARGUMENTS
+#define FIRST_TILE 0
+#define FIRST_ENTRY(own_tile, range) (first_entry + (range).x)
+#endif
 #define SHADOW_PASS_ARGUMENTS                                                                               \
   RAYS_ARGUMENTS, global const uint *triangles, global const uint *triangle_instance,                       \
       global const int *number_offsets, global const float *depths, global const uint2 *cells,              \
       global const index_t *indices, global const ShadowLight *lights, constant ShadowView *shadow_view,    \
-      constant ViewParams *view, uint first_tile, uint first_entry, uint own_hides, global uint2 *tiles,    \
-      global uint *bits, global uint *rays
+      constant ViewParams *view, uint image, uint first_entry, uint own_hides, global uint2 *tiles,         \
+      global uint *bits, global uint *rays BAND_ARGUMENTS
 
 #define NO_TRIANGLE 0xffffffffu
 

@@ -4,11 +4,14 @@
 #include "passes/find_shadows.h"
 
 #include <fmt/format.h>
+#include <cstring>
+#include <functional>
+#include <limits>
 #include <numeric>
 
-#include "base/error.h"
 #include "cl/transfer.h"
 #include "passes/blended_layers.h"
+#include "passes/shadows/bands.h"
 #include "passes/shadows/certificates.h"
 #include "passes/shadows/triangle_numbers.h"
 #include "passes/shadows/view_shadow_maps.h"
@@ -25,6 +28,12 @@ namespace {
 constexpr size_t groups_a_tile = 4;
 
 constexpr size_t least_bytes = 64;  // of a buffer
+
+const OwnSetting<bool> shadow_reuse{
+    "shadow-reuse",
+    "portable",
+    "shadows are found in each frame, or only where the camera, a light or a surface changed",
+    {{"off", false}, {"on", true}}};
 
 size_t entry_words(const FramePlan& plan) {
   return plan.shadow_bytes ? SHADOW_WORDS_OF_BYTES : SHADOW_WORDS_OF_BITS;
@@ -96,6 +105,8 @@ ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
   return v;
 }
 
+}  // namespace
+
 // The receivers of an image: what it shows, and what its triangles' numbers lead to.
 struct ReceiverImage {
   cl::Buffer numbers, depths;
@@ -103,13 +114,30 @@ struct ReceiverImage {
   bool own_hides = true;                         // lights behind a receiver's own triangle
 };
 
-}  // namespace
+// All that shadows follow from and that may change: of a scene's other parts nothing does.
+struct ShadowInputs {
+  View view;
+  std::vector<Light> lights;
+  std::vector<CullLight> shining;  // with their ranges
+  std::vector<uint8_t> shadowed;
+  std::vector<std::pair<glm::dmat4, int>> instances;  // and the versions of their meshes
+  int builds;                                         // of the tree
+  bool operator==(const ShadowInputs&) const = default;
+};
 
 class ShadowBits : public PassCache {
  public:
   explicit ShadowBits(Work& work) : kernels_(work, "shadows") {}
 
   bool follow(Work&) override { return followed_ = false, true; }
+
+  // Whether the bits of the frame before are this frame's too. The view's next frame must then not find them.
+  bool unchanged(Work& work) {
+    unchanged_ = work.plan.shadows && shadow_reuse.of(work.plan.settings) &&
+                 !work.plan.settings.everything_on && found_for_ &&
+                 (followed_ || *found_for_ == inputs_of(work, scene(work)));
+    return unchanged_;
+  }
 
   size_t memory_bytes() const override {
     size_t bytes = lights_.bytes() + view_.bytes() + offsets_.bytes() + blended_offsets_.bytes() +
@@ -118,71 +146,67 @@ class ShadowBits : public PassCache {
     if (certificates_) bytes += certificates_->memory_bytes();
     if (culler_) bytes += culler_->memory_bytes();
     if (maps_) bytes += maps_->memory_bytes();
-    return bytes;
+    return bytes + first_entries_.bytes() + banded_.memory_bytes();
   }
 
-  // No light is hidden anywhere.
+  // No light is hidden anywhere: the table holds no tile, and all have its empty row.
   void clear(Work& work) {
-    ClDevice& device = *work.renderer.cl;
-    const size_t bytes = tile_bytes(work);
+    const size_t bytes = std::max(least_bytes, (1 + tile_words(work.plan)) * sizeof(cl_uint2));
     if (cleared_ == bytes) return;
-    fill_buffer(device, "clearing shadows", at_least(work, work.shadows.tiles, bytes, GL_RG32UI), 0, bytes);
+    fill_buffer(*work.renderer.cl, "clearing shadows", at_least(work, work.shadows.tiles, bytes, GL_RG32UI),
+                0, bytes);
     at_least(work, work.shadows.bits, least_bytes, GL_R32UI);
-    listed_.clear(), layers_ = {}, cleared_ = bytes;
+    listed_.clear(), layers_ = {}, cleared_ = bytes, bands_ = {}, found_for_.reset();
     hand_over(work, bytes, least_bytes);
   }
 
   // The first image is that of opaque surfaces; the others are layers of blended ones, if there are any.
   void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth, const cl::Buffer& numbers,
             const BlendedTriangles* blended, const BlendedLayers& layers) {
-    ClDevice& device = *work.renderer.cl;
-    cleared_ = 0, layers_ = layers;
-    prepare(work, visible, blended);
-    std::vector<ReceiverImage> images{{numbers, depth.values, visible ? visible->raster.triangle_instance : cl::Buffer(),
-                                   visible ? offsets_.buffer() : cl::Buffer()}};
+    found_for_.reset();
+    layers_ = layers;
+    if (band_ == 0) {
+      cleared_ = 0;
+      prepare(work, visible, blended);
+    }
+    std::vector<ReceiverImage> images{{numbers, depth.values,
+                                       visible ? visible->raster.triangle_instance : cl::Buffer(),
+                                       visible ? offsets_.buffer() : cl::Buffer()}};
     for (size_t i = 0; i < layers.numbers.size(); ++i) {
-      images.push_back({layers.numbers[i], layers.depths[i], blended ? blended->raster.triangle_instance : cl::Buffer(),
+      images.push_back({layers.numbers[i], layers.depths[i],
+                        blended ? blended->raster.triangle_instance : cl::Buffer(),
                         blended ? blended_offsets_.buffer() : cl::Buffer(),
                         work.plan.settings.blended_casters() == BlendedCasters::opaque});
     }
-    const size_t entries = list_lights(work, images);
-    const LightGrid& grid = listed_[0]->grid;
-    const size_t tiles = size_t(grid.cells_x) * size_t(grid.cells_y), bytes = tile_bytes(work) * images.size();
-    const size_t bit_bytes = std::max<size_t>(least_bytes, entries * entry_words(work.plan) * sizeof(uint32_t));
-    const cl::Buffer& listed = at_least(work, work.shadows.tiles, bytes, GL_RG32UI);
-    const cl::Buffer& bits = at_least(work, work.shadows.bits, bit_bytes, GL_R32UI);
-    // Drawn lights serve all lights of a tile.
-    const size_t groups_here = kernels_.lanes || work.plan.settings.picks_shadows() ? 1 : groups_a_tile;
-    parts_ = tiles * images.size() * groups_here;
-    const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
-    if (maps_) maps_->draw(*scene_);
-    const ClArguments kept = certificates_ ? certificates_->arguments(device, parts_) : ClArguments{};
-    const cl::NDRange lanes(size_t(grid.cells_x), size_t(grid.cells_y));
-    const cl::NDRange groups(tiles * SHADOW_TILE * SHADOW_TILE, groups_here);
-    for (size_t i = 0; i < images.size(); ++i) {
-      ListedShadows& lists = *listed_[i];
-      kernels_.of("find_shadows")
-          .launch(device, "find_shadows", kernels_.lanes ? lanes : groups,
-                  kernels_.lanes ? cl::NDRange(1, 1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
-                  (maps_ ? maps_->arguments() : ClArguments()) + scene_->arguments() +
-                      ClArguments{{"triangles", images[i].numbers},
-                                  {"triangle_instance", images[i].triangle_instance},
-                                  {"number_offsets", images[i].number_offsets},
-                                  {"depths", images[i].depths},
-                                  {"cells", lists.storage.cells(lists.grid.cell_bytes)},
-                                  {"indices", lists.storage.indices(lists.grid.index_bytes)},
-                                  {"lights", lights_.buffer()},
-                                  {"shadow_view", view_.buffer()},
-                                  {"view", work.cl_lights().view.buffer()},
-                                  {"first_tile", cl_uint(i * tiles)},
-                                  {"first_entry", cl_uint(lists.first_entry)},
-                                  {"own_hides", cl_uint(images[i].own_hides)},
-                                  {"tiles", listed},
-                                  {"bits", bits},
-                                  {"rays", rays}} +
-                      kept);
+    if (band_ == 0) {
+      list_lights(work, images);
+      bands_ = plan_bands(work);
+      if (bands_.bands.size() > 1)
+        first_entries_.put(*work.renderer.cl, "uploading bands", bands_.first_entries);
+      use_kernels(work, visible);
+      if (maps_) maps_->draw(*scene_);
     }
-    hand_over(work, bytes, bit_bytes);
+    const size_t bit_bytes =
+        std::max<size_t>(least_bytes, bands_.bands[band_].entries * entry_words(work.plan) * 4);
+    make_room(work, bit_bytes);
+    launch(work, images, bands_.bands[band_]);
+    if (bands_.bands.size() > 1)
+      again_ = [this, images](Work& of, const ShadowBand& band) { launch(of, images, band); };
+    hand_over(work, room_.table_bytes, bit_bytes);
+    if (shadow_reuse.of(work.plan.settings) && bands_.bands.size() == 1)
+      found_for_ = inputs_of(work, *scene_);
+  }
+
+  void begin_bands() { band_ = 0; }
+
+  bool next_band(Work& work, const ShadedImage& image) {
+    if (bands_.bands.size() < 2) return false;
+    if (band_ + 1 == bands_.bands.size()) {
+      banded_.restore(work, image, std::span(bands_.bands).first(band_));
+      return false;
+    }
+    banded_.keep(work, image, bands_.bands[band_++]);
+    return true;
   }
 
   const RayScene& scene(Work& work) {
@@ -204,8 +228,7 @@ class ShadowBits : public PassCache {
     const size_t entry_bytes = entry_words(work.plan) * sizeof(uint32_t);
     const auto read = [&](auto& values) {
       values.resize(shadows.indices.size() * entry_bytes / sizeof values[0]);
-      read_buffer(device, "reading shadows", work.shadows.bits.buffer->cl_buffer(), values.data(),
-                  values.size() * sizeof values[0], listed_[image]->first_entry * entry_bytes);
+      read_bands(work, shadows, image, entry_bytes, reinterpret_cast<std::byte*>(values.data()));
     };
     if (work.plan.shadow_bytes)
       read(shadows.shares), shadows.bits = hidden_bits(shadows.shares);
@@ -224,23 +247,25 @@ class ShadowBits : public PassCache {
     ShadowFigures f;
     f.bytes = grid_bytes() + work.shadows.bytes();
     if (std::ranges::all_of(listed_, [](const auto& l) { return l->grid.index_count == 0; })) return f;
-    f.lights = size_t(std::ranges::count(work.plan.shadowed, 1));
+    f.unchanged = unchanged_;
+    f.lights = size_t(std::ranges::count(work.plan.shadowed, 1)), f.bands = bands_.bands.size();
     std::vector<uint32_t> rays(parts_);
     read_buffer(*work.renderer.cl, "counting rays", rays_.get(), rays.data(), rays.size() * sizeof rays[0]);
     if (maps_) {
-      f.maps = f.drawn = f.lights, f.halvings = maps_->atlas().halvings;
+      f.maps = f.lights, f.drawn = unchanged_ ? 0 : f.lights, f.kept = unchanged_ ? f.lights : 0;
+      f.halvings = maps_->atlas().halvings;
       f.bytes += maps_->atlas().bytes;
     }
-    f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
+    if (!unchanged_) f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
     if (certificates_) {
-      f.kept = certificates_->decided(*work.renderer.cl);
+      if (!unchanged_) f.certified = certificates_->decided(*work.renderer.cl);
       f.bytes += certificates_->table_bytes();
     }
     return f;
   }
 
  private:
-  // The lists of lights of one image, and where the shadows of their tiles and entries begin.
+  // The lists of lights of one image, and, where there is one band, the first of its entries.
   struct ListedShadows {
     ClGridStorage storage;
     LightGrid grid{};
@@ -248,10 +273,116 @@ class ShadowBits : public PassCache {
     explicit ListedShadows(ClDevice& device) : storage(device) {}
   };
 
-  // Of one image.
-  size_t tile_bytes(const Seen& seen) const {
-    return std::max<size_t>(least_bytes, tiles_across(seen.grid().width) * tiles_across(seen.grid().height) *
-                                    tile_words(seen.plan) * sizeof(cl_uint2));
+  static ShadowInputs inputs_of(Work& work, const RayScene& rays) {
+    ShadowInputs inputs{work.view, work.scene.lights, all_lights_of(work), work.plan.shadowed,
+                        {},        rays.builds()};
+    for (const Instance& i : work.scene.instances)
+      inputs.instances.emplace_back(i.world_from_object, work.gpu.mesh_version(i.mesh));
+    return inputs;
+  }
+
+  size_t tile_count() const { return size_t(listed_[0]->grid.cells_x) * size_t(listed_[0]->grid.cells_y); }
+
+  // All images' shadows of a tile are in the same band.
+  ShadowBands plan_bands(Work& work) {
+    const size_t tiles = tile_count(), images = listed_.size(), words = tile_words(work.plan) * images,
+                 entry = entry_words(work.plan) * sizeof(uint32_t);
+    size_t entries = 0;
+    for (const auto& lists : listed_) entries += lists->grid.index_count;
+    const auto most = [&](GLenum format) {
+      return work.plan.opengl ? most_texture_bytes(format) : std::numeric_limits<size_t>::max();
+    };
+    room_ = {tiles, shadow_table_bytes(tiles, words), entries * entry};
+    if (room_.table_bytes + room_.bit_bytes <= work.plan.settings.shadow_memory &&
+        room_.table_bytes <= most(GL_RG32UI) && room_.bit_bytes <= most(GL_R32UI))
+      return {{{0, tiles, entries}}, {}};
+    room_ = shadow_room(tiles, words, size_t(std::ranges::count(work.plan.shadowed, 1)) * images, entry,
+                        work.plan.settings.shadow_memory, most(GL_RG32UI), most(GL_R32UI));
+    std::vector<std::vector<glm::uvec2>> cells;
+    std::vector<glm::uvec2> together(tiles);
+    for (const auto& lists : listed_) {
+      auto& here = cells.emplace_back(tiles);
+      read_buffer(*work.renderer.cl, "reading lists of shadows", lists->storage.cells(lists->grid.cell_bytes),
+                  here.data(), tiles * sizeof here[0]);
+      for (size_t tile = 0; tile < tiles; ++tile) together[tile].y += here[tile].y;
+    }
+    ShadowBands bands = shadow_bands(together, room_, entry);
+    for (size_t image = 1; image < images; ++image) {
+      for (size_t tile = 0; tile < tiles; ++tile) {
+        bands.first_entries.push_back(bands.first_entries[(image - 1) * tiles + tile] +
+                                      cells[image - 1][tile].y);
+      }
+    }
+    return bands;
+  }
+
+  // Buffers only grow: where both would then be too large together, other views' needs have made them so.
+  void make_room(Work& work, size_t bit_bytes) {
+    ShadowMemory& shadows = work.shadows;
+    if (std::max(shadows.tiles.bytes(), room_.table_bytes) + std::max(shadows.bits.bytes(), bit_bytes) >
+        work.plan.settings.shadow_memory)
+      shadows.tiles = {}, shadows.bits = {};
+    at_least(work, shadows.tiles, room_.table_bytes, GL_RG32UI);
+    at_least(work, shadows.bits, bit_bytes, GL_R32UI);
+  }
+
+  // The table and the bits of these tiles.
+  void launch(Work& work, const std::vector<ReceiverImage>& images, const ShadowBand& band) {
+    ClDevice& device = *work.renderer.cl;
+    // Drawn lights serve all lights of a tile.
+    const size_t groups_here = kernels_.lanes || work.plan.settings.picks_shadows() ? 1 : groups_a_tile;
+    parts_ = tile_count() * images.size() * groups_here;
+    const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
+    const cl::NDRange lanes(band.tiles), groups(band.tiles * SHADOW_TILE * SHADOW_TILE, groups_here);
+    const ClArguments before = (maps_ ? maps_->arguments() : ClArguments()) + scene_->arguments();
+    ClArguments after;
+    if (bands_.bands.size() > 1)
+      after = {{"first_tile", cl_uint(band.first)}, {"first_entries", first_entries_.buffer()}};
+    if (certificates_) after = after + certificates_->arguments(device, parts_);
+    for (size_t i = 0; i < images.size(); ++i) {
+      ListedShadows& lists = *listed_[i];
+      kernels_.of("find_shadows")
+          .launch(device, "find_shadows", kernels_.lanes ? lanes : groups,
+                  kernels_.lanes ? cl::NDRange(1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
+                  before + ClArguments{{"triangles", images[i].numbers},
+                                       {"triangle_instance", images[i].triangle_instance},
+                                       {"number_offsets", images[i].number_offsets},
+                                       {"depths", images[i].depths},
+                                       {"cells", lists.storage.cells(lists.grid.cell_bytes)},
+                                       {"indices", lists.storage.indices(lists.grid.index_bytes)},
+                                       {"lights", lights_.buffer()},
+                                       {"shadow_view", view_.buffer()},
+                                       {"view", work.cl_lights().view.buffer()},
+                                       {"image", cl_uint(i)},
+                                       {"first_entry", cl_uint(lists.first_entry)},
+                                       {"own_hides", cl_uint(images[i].own_hides)},
+                                       {"tiles", work.shadows.tiles.buffer->cl_buffer()},
+                                       {"bits", work.shadows.bits.buffer->cl_buffer()},
+                                       {"rays", rays}} + after);
+    }
+  }
+
+  // Bits, or bytes, of all of an image's entries. Only the last of several bands has its own still: they are
+  // found again.
+  void read_bands(Work& work, const HostShadows& shadows, size_t image, size_t entry, std::byte* to) {
+    ClDevice& device = *work.renderer.cl;
+    constexpr const char* what = "reading shadows";
+    const cl::Buffer& bits = work.shadows.bits.buffer->cl_buffer();
+    if (bands_.bands.size() < 2) {
+      return read_buffer(device, what, bits, to, shadows.indices.size() * entry,
+                         listed_[image]->first_entry * entry);
+    }
+    std::vector<std::byte> of_band;
+    for (const ShadowBand& band : bands_.bands) {
+      again_(work, band);
+      of_band.resize(band.entries * entry);
+      read_buffer(device, what, bits, of_band.data(), of_band.size());
+      for (size_t tile = band.first; tile < band.first + band.tiles; ++tile) {
+        const glm::uvec2 cell = shadows.cells[tile];
+        const size_t first = bands_.first_entries[image * tile_count() + tile];
+        std::memcpy(to + cell.x * entry, of_band.data() + first * entry, cell.y * entry);
+      }
+    }
   }
 
   size_t grid_bytes() const {
@@ -260,8 +391,8 @@ class ShadowBits : public PassCache {
     return bytes;
   }
 
-  // Each image's own lists, between the depths of its tiles. Returns the number of entries.
-  size_t list_lights(Work& work, const std::vector<ReceiverImage>& images) {
+  // Each image's own lists, between the depths of its tiles.
+  void list_lights(Work& work, const std::vector<ReceiverImage>& images) {
     listed_.resize(std::min(listed_.size(), images.size()));
     while (listed_.size() < images.size()) listed_.push_back(std::make_unique<ListedShadows>(*work.renderer.cl));
     size_t entries = 0;
@@ -272,16 +403,9 @@ class ShadowBits : public PassCache {
       entries += lists.grid.index_count;
     }
     if (entries > 0xffffffffu) throw machine_error("shadows: more than 2^32 pairs of a tile and a light");
-    return entries;
   }
 
   cl::Buffer& at_least(Work& work, SharedTexture& shared, size_t bytes, GLenum format) {
-    if (work.plan.opengl && bytes > most_texture_bytes(format)) {
-      throw machine_error(
-          "shadows: {} bytes are more than the {} that a buffer texture may have in this OpenGL; let fewer "
-          "lights cast, or use raster=opencl",
-          bytes, most_texture_bytes(format));
-    }
     return shared.at_least(work.renderer, bytes, format, work.plan.opengl);
   }
 
@@ -295,25 +419,12 @@ class ShadowBits : public PassCache {
   // Brings everything up to the view, its lights and surfaces.
   void prepare(Work& work, const VisibilityBuffer* visible, const BlendedTriangles* blended) {
     const RayScene& rays = scene(work);
-    std::string defines = rays.defines();
-    for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
     const Settings& settings = work.plan.settings;
-    if (settings.soft_shadows()) defines += fmt::format(" -DSHADOW_RAYS={}", settings.shadow_rays);
-    if (settings.picks_shadows()) defines += fmt::format(" -DSHADOW_PICK={}", settings.shadow_pick);
-    if (!visible) defines += " -DNUMBERED";
-    if (lights_of(work.plan) > 65536) defines += " -DINDEX_32";
-    if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
-    if (kernels_.lanes && work.plan.settings.portable) defines += " -DPORTABLE";
     if (settings.shadows == ShadowMethod::map) {
       if (!maps_) maps_.emplace(work);
       if (!followed_) maps_->look(work, rays.origin(), work.plan.shadowed);
-      defines += maps_->defines();
     }
-    const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact && !settings.soft_shadows() &&
-                       !settings.picks_shadows() && !has_veils(work.scene, settings.blended_casters());
-    const size_t kept_bytes = keeps ? ShadowCertificates::bytes_of(settings) : 0;
-    if (kept_bytes != 0) defines += " -DKEPT";
-    kernels_.use(defines);
+    const size_t kept_bytes = kept_bytes_of(work);
     if (followed_) return;
     ClDevice& device = *work.renderer.cl;
     if (!culler_) culler_.emplace(device, *work.renderer.kernels, options_of_shadows(work.plan));
@@ -329,7 +440,7 @@ class ShadowBits : public PassCache {
     for (size_t i = 0; i < work.plan.local.size(); ++i) {
       ShadowLight& record = records.emplace_back(shadow_light(lights[i], work.view, rays.origin()));
       const Light& light = work.scene.lights[size_t(work.plan.local[i])];
-      if (settings.soft_shadows()) record.source_m = float(settings.shadow_source_m);
+      if (settings.soft_shadows()) record.source_m = float(source_of(light, settings.shadow_source_m));
       record.luminance = light.intensity * glm::dot(light.color, glm::vec3(0.2126f, 0.7152f, 0.0722f));
     }
     for (const int i : work.plan.directional_lights)
@@ -353,6 +464,30 @@ class ShadowBits : public PassCache {
     to.put(*work.renderer.cl, "uploading numbers of triangles", offsets);
   }
 
+  size_t kept_bytes_of(const Seen& seen) const {
+    const Settings& settings = seen.plan.settings;
+    const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact && !settings.soft_shadows() &&
+                       !settings.picks_shadows() && !has_veils(seen.scene, settings.blended_casters());
+    return keeps ? ShadowCertificates::bytes_of(settings) : 0;
+  }
+
+  // After the bands are known.
+  void use_kernels(Work& work, const VisibilityBuffer* visible) {
+    const Settings& settings = work.plan.settings;
+    std::string defines = scene_->defines();
+    for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
+    if (settings.soft_shadows()) defines += fmt::format(" -DSHADOW_RAYS={}", settings.shadow_rays);
+    if (settings.picks_shadows()) defines += fmt::format(" -DSHADOW_PICK={}", settings.shadow_pick);
+    if (!visible) defines += " -DNUMBERED";
+    if (lights_of(work.plan) > 65536) defines += " -DINDEX_32";
+    if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
+    if (kernels_.lanes && settings.portable) defines += " -DPORTABLE";
+    if (maps_) defines += maps_->defines();
+    if (kept_bytes_of(work) != 0) defines += " -DKEPT";
+    if (bands_.bands.size() > 1) defines += " -DBANDS";
+    kernels_.use(defines);
+  }
+
   PassKernels kernels_;
   std::shared_ptr<RayScene> scene_;
   std::optional<LightCuller> culler_;
@@ -361,11 +496,17 @@ class ShadowBits : public PassCache {
   std::optional<ShadowCertificates> certificates_;
   std::vector<std::unique_ptr<ListedShadows>> listed_;  // an image each; none: nothing was found
   BlendedLayers layers_;
-  UploadedBuffer lights_, view_, offsets_, blended_offsets_;
+  UploadedBuffer lights_, view_, offsets_, blended_offsets_, first_entries_;
   GrowingBuffer rays_;
+  ShadowRoom room_;
+  ShadowBands bands_;                                    // of the frame
+  size_t band_ = 0;                                      // that is shaded
+  std::function<void(Work&, const ShadowBand&)> again_;  // finds one of several bands of the last frame
+  BandedImage banded_;
   size_t parts_ = 0;    // counts of rays
   size_t cleared_ = 0;  // bytes of tiles in which nothing was found since they were cleared
-  bool followed_ = false;
+  std::optional<ShadowInputs> found_for_;  // what the bits were found for, with shadow-reuse
+  bool followed_ = false, unchanged_ = false;
 };
 
 namespace {
@@ -401,6 +542,18 @@ void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visibl
   auto pass = work.timer.pass("find_shadows", "cl");
   shadows.find(work, visible, depth, numbers, blended, layers);
   pass.moves(work.grid().values() * 8 + layers.bytes + rays.memory_bytes(), work.shadows.bytes());
+}
+
+bool shadows_are_unchanged(Work& work, Cached<ShadowBits>& cache) {
+  return work.plan.light_reaches && cache.of(work).unchanged(work);
+}
+
+void begin_shadow_bands(Work& work, Cached<ShadowBits>& cache) {
+  if (work.plan.light_reaches) cache.of(work).begin_bands();
+}
+
+bool next_shadow_band(Work& work, Cached<ShadowBits>& cache, const ShadedImage& image) {
+  return work.plan.light_reaches && cache.of(work).next_band(work, image);
 }
 
 void tell_shadows(Work& work, Cached<ShadowBits>& cache, Frame& frame) {

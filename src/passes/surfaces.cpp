@@ -25,7 +25,7 @@ Surfaces surfaces_of(RenderView& v, const DepthImage& image, bool depth_in_cl) {
 }
 
 void find_shadows(RenderView& v, Surfaces& surfaces) {
-  if (!v.plan.light_reaches) return;
+  if (!v.plan.light_reaches || shadows_are_unchanged(v, v.caches.shadow_bits)) return;
   if (v.plan.shadows && surfaces.visible && !v.plan.blended.empty())
     surfaces.blended = list_blended(v, v.caches.blended_triangles);
   find_shadows(v, v.caches, surfaces.visible ? &*surfaces.visible : nullptr,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "plan/dim_lights.h"
 #include "plan/visibility.h"
 
 namespace lightgrid {
@@ -223,6 +224,9 @@ void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& ne
   plan.casting = plan_light_shadows(scene, view, plan.settings.ranges, plan.opaque, plan.blended,
                                     plan.settings.soft_shadows() ? plan.settings.shadow_source_m : 0,
                                     plan.settings.blended_casters());
+  if (!plan.settings.everything_on)
+    plan.dim_steps =
+        leave_out_dim_lights(scene, view, plan.settings, plan.opaque, plan.blended, plan.casting);
   if (instances == PlannedInstances::in_view && plan.shadows) {
     plan.shadows = false;
     for (const LightShadow& light : plan.casting) {

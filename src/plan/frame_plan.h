@@ -108,6 +108,9 @@ struct FramePlan {
   std::vector<uint8_t> own_shadowed;
   bool own_shadows = false;
   const char* shadows_by = "rays";   // what finds shadows, in words
+  // What the lights that are too dim for a shadow (shadow-threshold) add to any pixel, at most, in steps of
+  // the 8-bit display.
+  double dim_steps = 0;
   bool directional_shadows = false;  // as light_reaches, of directional lights alone
   bool shadow_bytes = false;         // a share of a light may be hidden: a byte a pixel and light, not a bit
   bool directional = false;

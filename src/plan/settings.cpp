@@ -247,6 +247,20 @@ std::vector<Setting>& all_settings() {
        named(&Settings::shadow_blended, {{"none", BlendedCasters::none},
                                          {"opaque", BlendedCasters::opaque},
                                          {"alpha", BlendedCasters::alpha}})},
+      {"shadow-threshold",
+       "lights that together add less than so many steps of the 8-bit display to any surface have no shadow "
+       "there",
+       named(&Settings::shadow_threshold, {{"off", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}})},
+      {"shadow-memory",
+       "most memory of a frame's shadows, and as much again of shadow maps: where bits take more, the frame "
+       "is "
+       "shaded in bands; maps get smaller",
+       named(&Settings::shadow_memory, {{"256M", size_t(256) << 20},
+                                        {"1M", size_t(1) << 20},
+                                        {"4M", size_t(4) << 20},
+                                        {"16M", size_t(16) << 20},
+                                        {"64M", size_t(64) << 20},
+                                        {"1G", size_t(1) << 30}})},
       {"portable", "plain OpenCL C, without builtins that only some CPUs have",
        named(&Settings::portable, {{"off", false}, {"on", true}})},
       {"group-size", "work-items that cull a block of 4 x 4 tiles, in the group shape",
@@ -321,7 +335,7 @@ Settings with_model(Settings settings, const Settings& model) {
 }
 
 Settings with_exact_shadows(Settings settings) {
-  settings.shadows = ShadowMethod::exact;
+  settings.shadows = ShadowMethod::exact, settings.shadow_threshold = 0;
   return settings;
 }
 

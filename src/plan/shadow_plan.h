@@ -23,15 +23,19 @@ enum class ShadowNeed {
   no_receiver,     // the bounds are out of view, or no instance in view meets them
   casters_behind,  // of all receivers: shadow_plan.cpp
   left_out,        // the technique shows fewer shadows: FramePlan::own_shadowed
+  too_dim,         // plan/dim_lights.h
 };
 
 // Why no rays are traced. Empty: they are.
 const char* reason_of(ShadowNeed need);
 
+// Of a light whose shadows are those of the frame before (the setting shadow-reuse).
+inline constexpr const char* unchanged_reason = "unchanged since the last frame";
+
 struct LightShadow {
   int light = 0;  // of the scene
   ShadowNeed need = ShadowNeed::rays;
-  int caster = -1;  // rays: the first instance that may cast within the light's bounds
+  int caster = -1;  // rays, too_dim: the first instance that may cast within the light's bounds
 };
 
 // `reaches node 3 "wall"`, or the reason.
@@ -42,9 +46,15 @@ std::string words_of(const LightShadow& light, const Scene& scene);
 std::string describe_shadows(const std::vector<LightShadow>& casting, const Scene& scene,
                              const char* found_by = "rays");
 
+// The radius of the sphere that soft shadows of a light see, where lights without one of their own have this.
+// 0: none is soft.
+inline double source_of(const Light& light, double source_m) {
+  return source_m > 0 && light.source_m >= 0 ? double(light.source_m) : source_m;
+}
+
 // All lights that cast, in the scene's order. `opaque` (masked ones too) and `blended`: the instances in
-// view. source_m: lights are spheres of this radius, and what hides any part of one counts. by_blended: what
-// blended instances hide.
+// view. source_m: as source_of has it; what hides any part of a light's sphere counts. by_blended: what blended
+// instances hide.
 std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view, const LightRanges& ranges,
                                             const std::vector<int>& opaque, const std::vector<int>& blended,
                                             double source_m = 0,

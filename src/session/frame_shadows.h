@@ -1,7 +1,10 @@
 // The shadows of one frame, for a look at its pixels.
 #pragma once
 
+#include <optional>
+
 #include "passes/read_outs.h"
+#include "reference/lit_set.h"
 #include "reference/seen_pairs.h"
 #include "session/technique_run.h"
 

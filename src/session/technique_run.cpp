@@ -33,7 +33,9 @@ void TechniqueRun::release() {
 void TechniqueRun::draw_frame() {
   const bool opengl = view_.renderer.gl != nullptr;
   if (opengl) reset_gl_state();
-  frame_ = technique_.render(view_);
+  begin_shadow_bands(view_, view_.caches.shadow_bits);
+  do frame_ = technique_.render(view_);
+  while (next_shadow_band(view_, view_.caches.shadow_bits, frame_.image));
   tell_shadows(view_, view_.caches.shadow_bits, frame_);
   if (opengl) check_gl(technique_.name);
 }
@@ -85,15 +87,21 @@ static std::vector<KernelResult> kernel_results(const PassRecord& pass) {
 static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Frame& frame) {
   if (plan.casting.empty()) return {};
   ShadowResult result;
+  bool unchanged = false;
   if (frame.shadow_figures) {
     const ShadowFigures figures = frame.shadow_figures();
     result.lights = figures.lights, result.maps = figures.maps, result.drawn = figures.drawn;
-    result.kept = figures.kept, result.bytes = figures.bytes, result.rays = figures.rays;
-    result.undecided = figures.undecided, result.halvings = figures.halvings;
+    result.kept = figures.kept, result.certified = figures.certified, result.bytes = figures.bytes,
+    result.rays = figures.rays;
+    unchanged = figures.unchanged;
+    result.undecided = figures.undecided, result.halvings = figures.halvings, result.bands = figures.bands;
   }
+  result.dim_steps = plan.dim_steps;
   if (plan.settings.everything_on) return result;
   for (const LightShadow& light : plan.casting) {
-    if (light.need != ShadowNeed::rays) result.skipped.push_back({light.light, reason_of(light.need)});
+    const bool needed = light.need == ShadowNeed::rays;
+    if (!needed || unchanged)
+      result.skipped.push_back({light.light, needed ? unchanged_reason : reason_of(light.need)});
   }
   return result;
 }

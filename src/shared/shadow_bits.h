@@ -1,16 +1,18 @@
 // The shadows of a frame, found before it shades (passes/find_shadows.h), as light loops read them: a bit for
-// each pixel of each listed pair of a tile and a light, 1 where the light is hidden there. With SHADOW_BYTES a
-// byte: 255 where it is hidden, 0 where it is seen, between them the share of it that is hidden.
+// each pixel of each listed pair of a tile and a light, 1 where the light is hidden there. With SHADOW_BYTES
+// a byte: 255 where it is hidden, 0 where it is seen, between them the share of it that is hidden.
 //
-// Tiles are SHADOW_TILE pixels a side, from the lower left. A tile has a pair of words for each 32 lights:
-// which of them are listed, and the entry of the first of these; the others follow in order. An entry is
-// SHADOW_WORDS words. In a tile, blocks of 4 x 4 pixels are numbered x fastest, and so are the pixels of a
-// block: the values of an entry follow in this order, the lowest bits of a word first.
+// Tiles are SHADOW_TILE pixels a side, from the lower left. The table of tiles begins with the first tile
+// that it holds and their number, one pair of words. Then come rows, a pair for each 32 lights: which of them
+// are listed, and the entry of the first of these; the others follow in order. The first row is empty, for
+// all tiles that the table does not hold; the others are the tiles'. An entry is SHADOW_WORDS words. In a
+// tile, blocks of 4 x 4 pixels are numbered x fastest, and so are the pixels of a block: the values of an
+// entry follow in this order, the lowest bits of a word first.
 //
 // A light that is not listed is hidden nowhere in the tile. Directional lights follow point and spot lights.
 //
 // Blended surfaces (BLEND) follow in layers: a pixel's fragments in any order, one a layer, and each layer has
-// tiles of its own after those of opaque surfaces. The image of layer i, of LAYER_STRIDE(pixels) values, has
+// rows of its own for the same tiles, after those of opaque surfaces. The image of layer i, of LAYER_STRIDE(pixels) values, has
 // the number of the triangle that the fragment belongs to, or SHADOW_NO_TRIANGLE.
 #pragma once
 
@@ -53,12 +55,13 @@ float seen_share(int light, uvec2 pixel) {
   uint words = (view.light_count + view.directional_count + 31u) / 32u;
   uint across = (view.width + uint(SHADOW_TILE) - 1u) / uint(SHADOW_TILE);
   uvec2 tile = pixel / uint(SHADOW_TILE), at = pixel % uint(SHADOW_TILE);
-  uint place = tile.y * across + tile.x;
+  uvec2 held = texelFetch(shadow_tiles, 0).xy;
+  uint of_table = tile.y * across + tile.x - held.x, row = of_table < held.y ? 1u + of_table : 0u;
 #ifdef BLEND
   if (shadow_layer >= layers_of_draw.y) return 1.0;
-  place += (shadow_layer + 1u) * across * ((view.height + uint(SHADOW_TILE) - 1u) / uint(SHADOW_TILE));
+  if (row != 0u) row += (shadow_layer + 1u) * held.y;
 #endif
-  uvec2 listed = texelFetch(shadow_tiles, int(place * words + uint(light) / 32u)).xy;
+  uvec2 listed = texelFetch(shadow_tiles, int(1u + row * words + uint(light) / 32u)).xy;
   uint own = 1u << (uint(light) & 31u);
   if ((listed.x & own) == 0u) return 1.0;
   uint entry = listed.y + uint(bitCount(listed.x & (own - 1u)));
@@ -84,11 +87,11 @@ float seen_share(int light, uvec2 pixel) {
 #define GIVEN_SHADOWS , shadow_tiles, shadow_bits
 
 typedef struct ShadowsHere {
-  global const uint2* tiles;  // from the pixels' tile on
+  global const uint2* tiles;  // the row of the pixels' tile
   global const uint* bits;
   uint x, y;
 #ifdef BLEND
-  size_t layer_words;  // pairs of words from one layer's tile to that of the next
+  size_t layer_words;  // pairs of words from one layer's row to that of the next
   whole layer;         // of each lane
   mask_t shown;        // lanes that have one
 #endif
@@ -96,16 +99,17 @@ typedef struct ShadowsHere {
 
 static inline ShadowsHere shadows_here(global const uint2* tiles, global const uint* bits, uint x, uint y,
                                        uint width, uint light_count) {
-  const uint across = (width + SHADOW_TILE - 1) / SHADOW_TILE,
-             tile = y / SHADOW_TILE * across + x / SHADOW_TILE;
-  const ShadowsHere here = {tiles + (size_t)tile * ((light_count + 31u) / 32u), bits, x % SHADOW_TILE,
-                            y % SHADOW_TILE};
+  const uint across = (width + SHADOW_TILE - 1) / SHADOW_TILE, words = (light_count + 31u) / 32u;
+  const uint2 held = tiles[0];
+  const uint of_table = y / SHADOW_TILE * across + x / SHADOW_TILE - held.x;
+  const bool is_held = of_table < held.y;
+  ShadowsHere here;
+  here.tiles = tiles + 1 + (size_t)(is_held ? 1 + of_table : 0) * words;
+  here.bits = bits, here.x = x % SHADOW_TILE, here.y = y % SHADOW_TILE;
+#ifdef BLEND
+  here.layer_words = (size_t)(is_held ? held.y : 0) * words;
+#endif
   return here;
-}
-
-static inline size_t words_of_layer(uint width, uint height, uint light_count) {
-  const size_t across = (width + SHADOW_TILE - 1) / SHADOW_TILE, up = (height + SHADOW_TILE - 1) / SHADOW_TILE;
-  return across * up * ((light_count + 31u) / 32u);
 }
 
 // Of an entry: where the pixels' values begin. Those of 16 pixels side by side are in four blocks, 4 each.

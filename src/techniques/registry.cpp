@@ -41,7 +41,8 @@ bool has_effect(const Technique& technique, const Settings& settings, const std:
     return settings.shadows == ShadowMethod::map || filters_maps(own) ||
            (own == LidrShadows::prepass && key != "shadow-filter");
   if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
-  if (key == "shadow-kept") return settings.given.contains(key);
+  if (key == "shadow-kept" || key == "shadow-memory" || key == "shadow-reuse" || key == "shadow-threshold")
+    return settings.given.contains(key);
   return true;
 }
 
@@ -78,8 +79,9 @@ const std::vector<const char*>& common_settings() {
     for (const std::string& key : model_settings()) {
       if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
     }
-    for (const char* key : {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays",
-                            "shadow-source", "shadow-pick", "shadow-kept", "everything-on"})
+    for (const char* key :
+         {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays", "shadow-source",
+          "shadow-pick", "shadow-kept", "shadow-reuse", "shadow-threshold", "shadow-memory", "everything-on"})
       all.push_back(key);
     return all;
   }();
@@ -97,7 +99,8 @@ bool reads_setting(const Technique& technique, const std::string& key) {
 
 bool is_approximate(const Technique& technique, const Settings& settings) {
   return technique.approximate || settings.shadows != ShadowMethod::exact || settings.soft_shadows() ||
-         settings.picks_shadows() || own_shadows(technique, settings) != LidrShadows::pass;
+         settings.picks_shadows() || settings.shadow_threshold > 0 ||
+         own_shadows(technique, settings) != LidrShadows::pass;
 }
 
 std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings) {

@@ -25,7 +25,7 @@ Scene scene_of(Mesh mesh, const glm::dmat4& world_from_object = glm::dmat4(1)) {
 
 CasterVolumes volumes_of(const Scene& scene, const CastingLight& light) {
   GpuScene gpu(test_devices(), scene);
-  return caster_volumes(scene, *gpu.in_rays(TexelLayout::packed), {&light, 1});
+  return caster_volumes(scene, *gpu.in_rays(TexelLayout::packed, BlendedCasters::none), {&light, 1});
 }
 
 Mesh mesh_of(std::vector<glm::vec3> positions, std::vector<uint32_t> indices) {

@@ -60,7 +60,7 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
         if (!any_lane(shown)) continue;
 #ifdef SHADOWS
         light_pixels(&lights.lights, x, y, view);
-        light_layers(&lights.lights, next_layers(&counts, bx, by, shown), shown, shadow_layers, view);
+        light_layers(&lights.lights, next_layers(&counts, bx, by, shown), shown, shadow_layers);
 #endif
         Attributes a = {0};
         Surface s = {0};

@@ -36,7 +36,7 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
     float depth;
     if (!is_fragment(&r, bx, by, dx, dy, opaque, &depth)) continue;
 #ifdef SHADOWS
-    light_layers(&lights.lights, layer++, 1, shadow_layers, view);
+    light_layers(&lights.lights, layer++, 1, shadow_layers);
 #endif
     Attributes a = {0};
     Surface s = {0};

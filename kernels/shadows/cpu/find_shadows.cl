@@ -50,11 +50,18 @@ static inline void add_triangles(TileTriangles* t, uint block, uint16 triangle, 
 
 kernel void find_shadows(ALL_ARGUMENTS) {
   const RayScene scene = RAYS_SCENE;
-  const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
-  const uint tile = tile_y * (uint)get_global_size(0) + tile_x, own_tile = first_tile + tile;
+  const uint width = view->width, height = view->height, words_a_tile = shadow_view->words;
+  const uint row = (uint)get_global_id(0), rows = (uint)get_global_size(0), tile = FIRST_TILE + row,
+             across = (width + SHADOW_TILE - 1) / SHADOW_TILE, tile_x = tile % across, tile_y = tile / across;
+  const uint own_tile = image * across * ((height + SHADOW_TILE - 1) / SHADOW_TILE) + tile;
   const uint2 range = cells[tile];
-  global uint2* listed = tiles + (size_t)own_tile * shadow_view->words;
-  for (uint i = 0; i < shadow_view->words; ++i) listed[i] = (uint2)(0);
+  const uint own_entry = FIRST_ENTRY(own_tile, range);
+  global uint2* listed = tiles + 1 + (size_t)(1 + image * rows + row) * words_a_tile;
+  for (uint i = 0; i < words_a_tile; ++i) listed[i] = (uint2)(0);
+  if (row == 0 && image == 0) {
+    tiles[0] = (uint2)(FIRST_TILE, rows);
+    for (uint i = 0; i < words_a_tile; ++i) tiles[1 + i] = (uint2)(0);
+  }
   ShadowTest test = SHADOW_TEST;
 #ifdef KEPT
   const Certificates kept = CERTIFICATES;
@@ -113,8 +120,8 @@ kernel void find_shadows(ALL_ARGUMENTS) {
     }
 #endif
     for (uint i = range.x; i < range.x + range.y; ++i) {
-      const uint index = indices[i];
-      global uint* entry = bits + (size_t)(first_entry + i) * SHADOW_WORDS;
+      const uint index = indices[i], number = i - range.x + own_entry;
+      global uint* entry = bits + (size_t)number * SHADOW_WORDS;
 #ifdef KEPT
       uint words[SHADOW_WORDS] = {0}, others[SHADOW_WORDS];
       hidden_by_certificates(&scene, &pieces, receivers, lights + index, index,
@@ -133,7 +140,7 @@ kernel void find_shadows(ALL_ARGUMENTS) {
       }
 #endif
       global uint2* here = listed + index / 32;
-      if (here->x == 0) here->y = first_entry + i;
+        if (here->x == 0) here->y = number;
       here->x |= 1u << (index & 31u);
     }
   }

@@ -103,7 +103,7 @@ size_t IndexShadows::memory_bytes() const {
 }
 
 void IndexShadows::find(Work& work) {
-  scene_ = work.gpu.in_rays(work.plan.settings.texels);
+  scene_ = work.gpu.in_rays(work.plan.settings.texels, work.plan.settings.blended_casters());
   upload_corners(work);
   if (!followed_) upload_view(work);
   followed_ = true;

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 
+#include "base/error.h"
+
 namespace lightgrid {
 
 static ShadowMapOptions options_of(const Settings& settings, int taps, size_t most_bytes) {
-  ShadowMapOptions options{.size = settings.shadow_size,
-                           .bits = settings.shadow_bits,
-                           .taps = taps,
-                           .shape = settings.kernel_shape};
-  options.most_bytes = std::min(options.most_bytes, most_bytes);
-  return options;
+  return {.size = settings.shadow_size,
+          .bits = settings.shadow_bits,
+          .taps = taps,
+          .most_bytes = std::min(settings.shadow_memory, most_bytes),
+          .shape = settings.kernel_shape};
 }
 
 ViewShadowMaps::ViewShadowMaps(Work& work, int taps, size_t most_bytes)
@@ -28,6 +29,12 @@ void ViewShadowMaps::look(const Work& work, const glm::dvec3& origin, const std:
     light.radius_m = float(range_of(light, numbers[i], plan.settings.ranges));
   }
   atlas_ = plan_shadow_atlas(lights, work.view, origin, world_box(work.scene), options_);
+  if (atlas_.bytes > options_.most_bytes)
+    throw input_error(
+        "shadow maps: {} faces of {} x {} texels need {} bytes, more than shadow-memory allows ({}): raise "
+        "it, "
+        "or let fewer lights cast",
+        atlas_.faces.size(), least_shadow_size, least_shadow_size, atlas_.bytes, options_.most_bytes);
   // In the order of FramePlan::shadowed; those without shadows have no face, and no kernel asks for them.
   std::vector<std::array<uint32_t, 2>> by_number(numbers.size());
   for (size_t i = 0, next = 0; i < numbers.size(); ++i)

@@ -11,10 +11,10 @@ class ViewShadowMaps {
  public:
   // With the settings of the view's plan, which stay as they are, but for `taps` and the most bytes.
   explicit ViewShadowMaps(Work& work) : ViewShadowMaps(work, work.plan.settings.shadow_taps) {}
-  ViewShadowMaps(Work& work, int taps, size_t most_bytes = ShadowMapOptions().most_bytes);
+  ViewShadowMaps(Work& work, int taps, size_t most_bytes = ~size_t(0));
 
   // When the view, lights or surfaces moved: which maps, and their sizes. shadowed: as FramePlan's, whether a
-  // light has maps.
+  // light has maps. Throws Error(input) where even the least sizes take more than the setting shadow-memory.
   void look(const Work& work, const glm::dvec3& origin, const std::vector<uint8_t>& shadowed);
   // All of them, in each frame. texels: of atlas().bytes, for a reader besides kernels; null: its own.
   void draw(const RayScene& rays, const cl::Buffer& texels = {}) { maps_.draw(rays, atlas_, texels); }

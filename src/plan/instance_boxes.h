@@ -1,0 +1,53 @@
+// Instances as boxes in world space, and what of them a light may reach: for rules that leave out what no
+// pixel shows. In double; no triangle is read.
+#pragma once
+
+#include <vector>
+
+#include "scene/camera.h"
+#include "scene/view_lights.h"
+
+namespace lightgrid {
+
+struct InstanceBox {
+  glm::dvec3 min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
+  int instance = 0;
+  bool blended = false;
+  // Of the world: all triangles lie in one plane across it, to the last bit. -1: they may not.
+  int flat_axis = -1;
+  double nearest_m = 0, farthest_m = 0;  // along the view's axis
+};
+
+InstanceBox box_of(const Scene& scene, int instance, const View& view);
+bool is_blended(const Scene& scene, int instance);
+
+double distance_to(const InstanceBox& box, const glm::dvec3& point);
+double farthest_from(const InstanceBox& box, const glm::dvec3& point);
+
+// A light's bounds, grown by what rounding may move positions, and by the sphere's radius: segments to a
+// sphere's points are no further than that from those to its centre.
+struct LightReach {
+  LightBounds light;
+  double slack_m = 0, source_m = 0;
+
+  LightReach grown(double by_m) const { return {light, slack_m + by_m, source_m}; }
+};
+
+bool may_reach(const LightReach& reach, const InstanceBox& box);
+
+// How far a pixel's point, within a light's reach, may lie from the triangle of an instance that it shows.
+// Rasterisers move vertices to 1/256 pixel: by at most half of that and never in depth, so that a point at
+// distance z of the moved triangle is as far from the true one as that is at z. Depth is interpolated in
+// float, with errors of up to 3 * 2^-21 of the greatest depth, that of the nearest corner: near / z0. At z
+// that is 3 * 2^-21 z^2 / z0 along the view (docs/raster.md). Both are doubled.
+class PixelErrors {
+ public:
+  explicit PixelErrors(const View& view);
+  double displaced_m(const LightReach& reach, const InstanceBox& box) const;
+
+ private:
+  glm::dvec3 eye_, ahead_;
+  double near_m_, fixed_m_, across_, along_;  // metres, and those a metre and a metre^2 / metre of distance
+};
+
+}  // namespace lightgrid
