@@ -206,7 +206,8 @@ class ShadowBits : public PassCache {
     std::vector<uint32_t> rays(parts_);
     read_buffer(*work.renderer.cl, "counting rays", rays_.get(), rays.data(), rays.size() * sizeof rays[0]);
     if (maps_) {
-      f.maps = f.drawn = f.lights, f.halvings = maps_->atlas().halvings;
+      f.maps = f.lights, f.drawn = maps_->drawn_lights(), f.kept = f.maps - f.drawn;
+      f.halvings = maps_->atlas().halvings;
       f.bytes += maps_->atlas().bytes;
     }
     f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
@@ -254,7 +255,7 @@ class ShadowBits : public PassCache {
     if (kernels_.lanes && work.plan.settings.portable) defines += " -DPORTABLE";
     if (settings.shadows == ShadowMethod::map) {
       if (!maps_) maps_.emplace(work);
-      if (!followed_) maps_->look(work, rays.origin());
+      if (!followed_) maps_->look(work, rays);
       defines += maps_->defines();
     }
     const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact && !settings.soft_shadows() &&

@@ -1,6 +1,24 @@
 #include "passes/shadows/view_shadow_maps.h"
 
+#include <algorithm>
+#include <cstring>
+
+#include "passes/shadows/certificates.h"
+
 namespace lightgrid {
+namespace {
+
+// Whether a face may show what the box holds. slack: rounding of positions to float.
+bool may_see(const ShadowFace& face, const WorldBox& box, const glm::dvec3& origin) {
+  if (box.empty()) return false;
+  if (face.parallel) return true;
+  const glm::dvec3 from = glm::dvec3(face.from[0], face.from[1], face.from[2]) + origin;
+  const double farthest = glm::length(glm::max(glm::abs(box.min - origin), glm::abs(box.max - origin)));
+  const double slack = 1e-5 * (farthest + glm::length(from - origin));
+  return glm::length(from - glm::clamp(from, box.min, box.max)) <= 1.001 * double(face.range_m) + slack;
+}
+
+}  // namespace
 
 static ShadowMapOptions options_of(const Settings& settings) {
   return {.size = settings.shadow_size,
@@ -12,7 +30,8 @@ static ShadowMapOptions options_of(const Settings& settings) {
 ViewShadowMaps::ViewShadowMaps(Work& work)
     : options_(options_of(work.plan.settings)), maps_(*work.renderer.cl, *work.renderer.kernels, options_) {}
 
-void ViewShadowMaps::look(const Work& work, const glm::dvec3& origin) {
+void ViewShadowMaps::look(const Work& work, const RayScene& rays) {
+  const glm::dvec3 origin = rays.origin();
   const FramePlan& plan = work.plan;
   std::vector<size_t> numbers(plan.local.begin(), plan.local.end());
   numbers.insert(numbers.end(), plan.directional_lights.begin(), plan.directional_lights.end());
@@ -22,12 +41,35 @@ void ViewShadowMaps::look(const Work& work, const glm::dvec3& origin) {
     Light& light = lights.emplace_back(work.scene.lights[numbers[i]]);
     light.radius_m = float(range_of(light, numbers[i], plan.settings.ranges));
   }
+  const std::vector<ShadowFace> before = std::move(atlas_.faces);
   atlas_ = plan_shadow_atlas(lights, work.view, origin, world_box(work.scene), options_);
   // In the order of FramePlan::shadowed; those without shadows have no face, and no kernel asks for them.
   std::vector<std::array<uint32_t, 2>> by_number(numbers.size());
   for (size_t i = 0, next = 0; i < numbers.size(); ++i)
     if (plan.shadowed[i]) by_number[i] = atlas_.lights[next++];
   atlas_.lights = std::move(by_number);
+
+  keeps_ = ShadowCertificates::bytes_of(plan.settings) != 0;
+  const auto moved = keeps_ ? moved_.since_last(work, rays) : std::nullopt;
+  if (!moved) kept_.clear();
+  kept_.resize(std::min(kept_.size(), atlas_.faces.size()));
+  for (size_t i = 0; i < kept_.size(); ++i) {
+    const ShadowFace& face = atlas_.faces[i];
+    const auto sees = [&](const WorldBox& box) { return may_see(face, box, origin); };
+    kept_[i] &= std::memcmp(&before[i], &face, sizeof face) == 0 && std::ranges::none_of(*moved, sees);
+  }
+}
+
+void ViewShadowMaps::draw(const RayScene& rays) {
+  const auto is_drawn = [&](const std::array<uint32_t, 2>& light) {
+    const auto [first, count] = light;
+    for (uint32_t face = first; face < first + count; ++face)
+      if (face >= kept_.size() || !kept_[face]) return true;
+    return false;
+  };
+  drawn_lights_ = size_t(std::ranges::count_if(atlas_.lights, is_drawn));
+  maps_.draw(rays, atlas_, kept_);
+  if (keeps_) kept_.assign(atlas_.faces.size(), 1);
 }
 
 }  // namespace lightgrid

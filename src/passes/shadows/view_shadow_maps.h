@@ -2,6 +2,7 @@
 // find_shadows (shadow_maps/shadow_maps.h). Each light whose shadows the plan calls for has its maps.
 #pragma once
 
+#include "passes/shadows/moved_instances.h"
 #include "renderer/work.h"
 #include "shadow_maps/shadow_maps.h"
 
@@ -13,9 +14,10 @@ class ViewShadowMaps {
   explicit ViewShadowMaps(Work& work);
 
   // When the view, lights or surfaces moved: which maps, and their sizes.
-  void look(const Work& work, const glm::dvec3& origin);
-  // All of them, in each frame.
-  void draw(const RayScene& rays) { maps_.draw(rays, atlas_); }
+  void look(const Work& work, const RayScene& rays);
+  // All of them; with shadow-kept only those of which something changed since they were drawn.
+  void draw(const RayScene& rays);
+  size_t drawn_lights() const { return drawn_lights_; }  // of the last frame
 
   // What kernels need to look them up: -DSHADOW_MAP, and what ShadowMaps has. Lights are in
   // the order of FramePlan::shadowed.
@@ -29,6 +31,10 @@ class ViewShadowMaps {
   ShadowMapOptions options_;
   ShadowMaps maps_;
   ShadowAtlas atlas_;
+  bool keeps_ = false;
+  std::vector<uint8_t> kept_;  // faces of the atlas that are as they were drawn; empty: none
+  MovedInstances moved_;
+  size_t drawn_lights_ = 0;
 };
 
 }  // namespace lightgrid
