@@ -18,10 +18,10 @@ class ShadowMaps {
   // Compiles nothing yet. `device` and `programs` outlive it.
   ShadowMaps(ClDevice& device, ProgramCache& programs, const ShadowMapOptions& options);
 
-  // All triangles that cast and that a face sees, from both sides. Faces whose `kept` is set are not drawn, if
-  // their texels are still there: they lie where an atlas that was drawn before had the same face, of which no
-  // triangle in the light's range moved. Does not wait for the queue. Throws machine where a face's texels
-  // have no 32-bit numbers.
+  // All triangles that cast and that a face sees, from both sides. Faces whose `kept` is set are not drawn,
+  // if their texels are still there: they lie where an atlas that was drawn before had the same face, of
+  // which no triangle in the light's range moved. Does not wait for the queue. Throws machine where a face's
+  // texels have no 32-bit numbers.
   void draw(const RayScene& rays, const ShadowAtlas& atlas, const std::vector<uint8_t>& kept = {});
 
   // How many of the taps are hidden, for 16 points a packet. Each point's `own` is the triangle that it lies
