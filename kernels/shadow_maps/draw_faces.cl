@@ -3,9 +3,9 @@
 //
 // RAYS_ARGUMENTS  the triangles, in a tree that leaves out what the tile does not see
 // faces           ShadowFace each
-// first_tiles     of each face, and then the number of all tiles
-// face_count
-// texels          of all faces, written whole
+// tiles           of each face that is drawn: its first tile, and the face
+// face_count, tile_count
+// texels          of all faces; those that are drawn are written whole
 //
 // -DSHADOW_BITS, -DLANES  face_tile.h
 //
@@ -17,17 +17,17 @@
 #include "kernels/rays/rays.h"
 #include "kernels/shadow_maps/draw_triangles.h"
 
-// Which face's tile: the last that begins there or before.
-static inline uint face_of_tile(global const uint* first_tiles, uint face_count, uint tile) {
+// Which face's tile: of those that are drawn the last that begins there or before.
+static inline uint2 face_of_tile(global const uint2* tiles, uint face_count, uint tile) {
   uint low = 0, high = face_count;
   while (high - low > 1) {
     const uint middle = (low + high) / 2;
-    if (first_tiles[middle] <= tile)
+    if (tiles[middle].x <= tile)
       low = middle;
     else
       high = middle;
   }
-  return low;
+  return tiles[low];
 }
 
 static inline void store_tile(const FaceTile* t, global Texel* texels) {
@@ -43,14 +43,15 @@ typedef struct Waiting {
   float nearest;
 } Waiting;
 
-kernel void draw_faces(RAYS_ARGUMENTS, global const ShadowFace* faces, global const uint* first_tiles,
-                       uint face_count, global Texel* texels) {
+kernel void draw_faces(RAYS_ARGUMENTS, global const ShadowFace* faces, global const uint2* tiles,
+                       uint face_count, uint tile_count, global Texel* texels) {
   const RayScene scene = RAYS_SCENE;
   const uint number = (uint)get_global_id(0);
-  if (number >= first_tiles[face_count]) return;
-  const uint face = face_of_tile(first_tiles, face_count, number);
+  if (number >= tile_count) return;
+  const uint2 of = face_of_tile(tiles, face_count, number);
+  global const ShadowFace* face = faces + of.y;
   FaceTile tile;
-  set_tile(&tile, faces + face, number - first_tiles[face]);
+  set_tile(&tile, face, number - of.x);
   Waiting stack[RAY_STACK + 1];
   int height = 0, places[LANES], waiting = 0;  // triangles that are drawn together
   const Waiting root = {0, 0, 0.0f};
@@ -75,5 +76,5 @@ kernel void draw_faces(RAYS_ARGUMENTS, global const ShadowFace* faces, global co
     if (a_first ? to_a : to_b) stack[height++] = a_first ? a : b;
   }
   if (LANES > 1 && waiting != 0) draw_triangles(&scene, places, waiting, &tile);
-  store_tile(&tile, texels + faces[face].first);
+  store_tile(&tile, texels + face->first);
 }

@@ -67,18 +67,36 @@ static inline mask_t out_of_edge(const FaceTile* t, Real3 p, const TriangleLanes
   return p.x * u + (p.y * v + p.z) < 0.0f;
 }
 
-// Twice a x b, from the edge itself: of two long vectors side by side the product would lose most of its digits.
+// Twice a x b, from the edge itself: of two long vectors side by side the product would lose most of its
+// digits.
 static inline Real3 edge_plane_of(Real3 a, Real3 b, real turn) {
   return scale3(cross3(add3(a, scale3(b, REAL(-1.0f))), add3(a, b)), turn);
 }
 
+// As may_change() says it of boxes: what a face holds then depends on no box of the tree.
+static inline mask_t in_range(const FaceTile* t, const Real3 corners[3]) {
+  Real3 off = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
+#define OFF_BOX(axis)                                                                                     \
+  {                                                                                                       \
+    const real a = corners[0].axis - t->from.axis, b = corners[1].axis - t->from.axis,                    \
+               c = corners[2].axis - t->from.axis;                                                        \
+    off.axis = lane_max(lane_max(lane_min(lane_min(a, b), c), -lane_max(lane_max(a, b), c)), REAL(0.0f)); \
+  }
+  OFF_BOX(x)
+  OFF_BOX(y)
+  OFF_BOX(z)
+  return dot3(off, off) <= t->range * t->range * 1.00001f;
+}
+
 // Lanes that may change a texel of the tile.
-static inline mask_t set_up(const FaceTile* t, Real3 first, Real3 second, Real3 third, TriangleLanes* d) {
-  const Real3 a = in_face(t, first), b = in_face(t, second), c = in_face(t, third), z = real3(a.z, b.z, c.z);
+static inline mask_t set_up(const FaceTile* t, const Real3 corners[3], TriangleLanes* d) {
+  const Real3 a = in_face(t, corners[0]), b = in_face(t, corners[1]), c = in_face(t, corners[2]);
+  const Real3 z = real3(a.z, b.z, c.z);
   d->furthest = lane_max(lane_max(z.x, z.y), z.z);
   const real nearest = lane_min(lane_min(z.x, z.y), z.z);
   d->nearest = lane_max(nearest, REAL(0.0f));
   mask_t drawn = (d->furthest > 0.0f) & (nearest <= t->range) & (texel_value(t, d->nearest) < t->farthest);
+  if (!t->parallel) drawn &= in_range(t, corners);
   if (!any_lane(drawn)) return drawn;
   d->left = (whole)(t->x), d->right = (whole)(t->x + t->side - 1);
   d->low = (whole)(t->y), d->high = (whole)(t->y + t->side - 1);
@@ -187,9 +205,9 @@ static inline void draw_triangles(const RayScene* scene, const int places[LANES]
   global const float* corners = scene->triangles[places[0]].corners;
 #define CORNER_LANES(k) real3(corners[3 * k], corners[3 * k + 1], corners[3 * k + 2])
 #endif
+  const Real3 placed[3] = {CORNER_LANES(0), CORNER_LANES(1), CORNER_LANES(2)};
   TriangleLanes d;
-  uint left =
-      lane_bits(set_up(t, CORNER_LANES(0), CORNER_LANES(1), CORNER_LANES(2), &d)) & ((1u << count) - 1u);
+  uint left = lane_bits(set_up(t, placed, &d)) & ((1u << count) - 1u);
   if (left == 0) return;
   for (; left != 0; left &= left - 1) {
     const uint lane = LANES == 1 ? 0 : lowest_bit(left);

@@ -252,7 +252,7 @@ class ShadowBits : public PassCache {
     std::vector<uint32_t> rays(parts_);
     read_buffer(*work.renderer.cl, "counting rays", rays_.get(), rays.data(), rays.size() * sizeof rays[0]);
     if (maps_) {
-      f.maps = f.lights, f.drawn = unchanged_ ? 0 : f.lights, f.kept = unchanged_ ? f.lights : 0;
+      f.maps = f.lights, f.drawn = unchanged_ ? 0 : maps_->drawn_lights(), f.kept = f.maps - f.drawn;
       f.halvings = maps_->atlas().halvings;
       f.bytes += maps_->atlas().bytes;
     }
@@ -422,7 +422,7 @@ class ShadowBits : public PassCache {
     const Settings& settings = work.plan.settings;
     if (settings.shadows == ShadowMethod::map) {
       if (!maps_) maps_.emplace(work);
-      if (!followed_) maps_->look(work, rays.origin(), work.plan.shadowed);
+      if (!followed_) maps_->look(work, rays, work.plan.shadowed);
     }
     const size_t kept_bytes = kept_bytes_of(work);
     if (followed_) return;

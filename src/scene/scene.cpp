@@ -26,20 +26,29 @@ bool intensity_overflows(const Light& light) {
   return !(largest <= double(std::numeric_limits<float>::max()));
 }
 
-WorldBox world_box(const Scene& scene) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  WorldBox box{glm::dvec3(inf), glm::dvec3(-inf)};
-  for (const Instance& instance : scene.instances) {
-    const Aabb& bounds = scene.meshes[instance.mesh].bounds;
-    if (bounds.empty()) continue;
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::dvec4 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
-                         corner & 4 ? bounds.max.z : bounds.min.z, 1);
-      const glm::dvec3 world(instance.world_from_object * p);
-      box.min = glm::min(box.min, world), box.max = glm::max(box.max, world);
-    }
+constexpr WorldBox no_box{glm::dvec3(std::numeric_limits<double>::infinity()),
+                          glm::dvec3(-std::numeric_limits<double>::infinity())};
+
+WorldBox world_box(const Mesh& mesh, const glm::dmat4& world_from_object) {
+  const Aabb& bounds = mesh.bounds;
+  WorldBox box = no_box;
+  if (bounds.empty()) return box;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec4 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
+                       corner & 4 ? bounds.max.z : bounds.min.z, 1);
+    const glm::dvec3 world(world_from_object * p);
+    box.min = glm::min(box.min, world), box.max = glm::max(box.max, world);
   }
   return box;
+}
+
+WorldBox world_box(const Scene& scene) {
+  WorldBox all = no_box;
+  for (const Instance& instance : scene.instances) {
+    const WorldBox box = world_box(scene.meshes[size_t(instance.mesh)], instance.world_from_object);
+    all.min = glm::min(all.min, box.min), all.max = glm::max(all.max, box.max);
+  }
+  return all;
 }
 
 namespace {

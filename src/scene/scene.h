@@ -170,7 +170,8 @@ struct Scene {
   int animation = -1;              // the posed animation; -1: all animations
 };
 
-// The box around all instances, in world space; empty for a scene without geometry.
+// The box around all instances, or around a mesh that is placed; empty without geometry.
 WorldBox world_box(const Scene& scene);
+WorldBox world_box(const Mesh& mesh, const glm::dmat4& world_from_object);
 
 }  // namespace lightgrid

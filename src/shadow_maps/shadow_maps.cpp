@@ -25,28 +25,33 @@ NamedKernel& ShadowMaps::kernel(const std::string& name, const RayScene& rays) {
   return kernel;
 }
 
-void ShadowMaps::draw(const RayScene& rays, const ShadowAtlas& atlas, const cl::Buffer& texels) {
+void ShadowMaps::draw(const RayScene& rays, const ShadowAtlas& atlas, const std::vector<uint8_t>& kept,
+                      const cl::Buffer& texels) {
   if (atlas.texels > 0xffffffffu)
     throw machine_error("shadow maps: {} texels, more than 2^32 - 1: a smaller shadow-size", atlas.texels);
   lights_.put(device_, "shadow maps: lights", atlas.lights);
   faces_.put(device_, "shadow maps: faces", atlas.faces);
+  const cl_mem before = texels_.get()();
   const cl::Buffer& drawn = texels() ? texels : texels_.at_least(device_, atlas.bytes);
+  const bool lost = texels() || drawn() != before;
   light_count_ = atlas.lights.size();
-  if (atlas.faces.empty()) return;
-  const uint tile = lanes() ? FACE_TILE_LANES : FACE_TILE_GROUP;
-  const size_t group = lanes() ? 1 : tiles_a_group;
-  std::vector<uint32_t> first_tiles{0};
-  for (const ShadowFace& face : atlas.faces) {
-    const uint across = std::max(face.size / tile, 1u);
-    first_tiles.push_back(first_tiles.back() + across * across);
+  const uint side = lanes() ? FACE_TILE_LANES : FACE_TILE_GROUP;
+  std::vector<std::array<uint32_t, 2>> tiles;  // of each face that is drawn: the first, and the face
+  uint32_t count = 0;
+  for (uint32_t face = 0; face < atlas.faces.size(); ++face) {
+    if (!lost && face < kept.size() && kept[face]) continue;
+    const uint across = std::max(atlas.faces[face].size / side, 1u);
+    tiles.push_back({count, face}), count += across * across;
   }
-  first_tiles_.put(device_, "shadow maps: tiles", first_tiles);
-  const size_t items = (first_tiles.back() + group - 1) / group * group;
+  if (count == 0) return;
+  tiles_.put(device_, "shadow maps: tiles", tiles);
+  const size_t group = lanes() ? 1 : tiles_a_group;
   kernel("draw_faces", rays)
-      .launch(device_, "draw_faces", cl::NDRange(items), cl::NDRange(group),
+      .launch(device_, "draw_faces", cl::NDRange((count + group - 1) / group * group), cl::NDRange(group),
               rays.arguments() + ClArguments{{"faces", faces_.buffer()},
-                                             {"first_tiles", first_tiles_.buffer()},
-                                             {"face_count", cl_uint(atlas.faces.size())},
+                                             {"tiles", tiles_.buffer()},
+                                             {"face_count", cl_uint(tiles.size())},
+                                             {"tile_count", cl_uint(count)},
                                              {"texels", drawn}});
 }
 

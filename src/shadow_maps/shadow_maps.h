@@ -18,10 +18,13 @@ class ShadowMaps {
   // Compiles nothing yet. `device` and `programs` outlive it.
   ShadowMaps(ClDevice& device, ProgramCache& programs, const ShadowMapOptions& options);
 
-  // All triangles that cast and that a face sees, from both sides. Does not wait for the queue. Throws
-  // machine where a face's texels have no 32-bit numbers. texels: where to, of atlas.bytes; null: into a
-  // buffer of its own, which look_up() and arguments() read.
-  void draw(const RayScene& rays, const ShadowAtlas& atlas, const cl::Buffer& texels = {});
+  // All triangles that cast and that a face sees, from both sides. Faces whose `kept` is set are not drawn,
+  // if their texels are still there: they lie where an atlas that was drawn before had the same face, of
+  // which no triangle in the light's range moved. Does not wait for the queue. Throws machine where a face's
+  // texels have no 32-bit numbers. texels: where to, of atlas.bytes, into which all faces are drawn; null: into
+  // a buffer of its own, which look_up() and arguments() read.
+  void draw(const RayScene& rays, const ShadowAtlas& atlas, const std::vector<uint8_t>& kept = {},
+            const cl::Buffer& texels = {});
 
   // How many of the taps are hidden, for 16 points a packet. Each point's `own` is the triangle that it lies
   // on. Waits for the queue. Throws input: a packet whose block or light does not exist. For tests: kernels
@@ -40,7 +43,7 @@ class ShadowMaps {
   ClDevice& device_;
   ProgramCache& programs_;
   ShadowMapOptions options_;
-  UploadedBuffer faces_, lights_, first_tiles_;
+  UploadedBuffer faces_, lights_, tiles_;
   GrowingBuffer texels_;
   size_t light_count_ = 0;                      // of the atlas that was drawn
   std::map<std::string, NamedKernel> kernels_;  // by file and defines

@@ -92,6 +92,15 @@ inline std::vector<uint8_t> taps_at(ShadowMaps& maps, const RayScene& rays,
   return maps.look_up(rays, points, packets);
 }
 
+inline glm::dvec3 axis(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
+
+// Whether a cascade has all texels that a point asks.
+inline bool holds_taps(const ShadowFace& f, const glm::dvec3& point, int taps) {
+  const glm::dvec3 to = point - axis(f.from);
+  const double most = double(f.extent) * (int(f.size) - 2 * (taps / 2)) / int(f.size);
+  return std::abs(glm::dot(to, axis(f.right))) < most && std::abs(glm::dot(to, axis(f.up))) < most;
+}
+
 struct Wrong {
   int leaked = 0, acned = 0;
   double furthest_m = 0;  // from the shadow's edge

@@ -114,8 +114,6 @@ void add_triangle(const SeenTriangle& t, const dvec3& r, const ShadowFace& face,
   if (inside && sure && high < double(face.range_m) * (1 - 1e-5)) d->high = std::min(d->high, high);
 }
 
-dvec3 axis(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
-
 struct Checked {
   size_t wrong = 0, sure = 0, covered = 0;
 };

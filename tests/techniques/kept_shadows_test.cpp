@@ -106,14 +106,15 @@ struct MovingRoom {
 };
 
 struct Case {
-  const char *technique = "visibility", *bytes = "16M", *portable = "off";
+  const char *technique = "visibility", *bytes = "16M", *portable = "off", *shadows = "exact";
   dvec3 offset{0};
   bool orthographic = false;
   int frames = 20, width = 200, height = 120;
+  bool turns = true;  // the camera
 };
 
 struct Sum {
-  size_t rays = 0, rays_without = 0, certified = 0, hidden = 0;
+  size_t rays = 0, rays_without = 0, certified = 0, kept = 0, hidden = 0, drawn = 0, maps = 0;
 };
 
 // Frame by frame against a run without certificates.
@@ -123,6 +124,7 @@ Sum expect_same_bits(Renderer& devices, const Case& c) {
   GpuScene gpu(devices, room.scene);
   Settings settings;
   apply_setting(settings, std::string("portable=") + c.portable);
+  apply_setting(settings, std::string("shadows=") + c.shadows);
   const View start = room.view(0, c.width, c.height);
   TechniqueRun without(devices, gpu, start, settings, find_technique(c.technique));
   apply_setting(settings, std::string("shadow-kept=") + c.bytes);
@@ -132,7 +134,7 @@ Sum expect_same_bits(Renderer& devices, const Case& c) {
   for (int frame = 0; frame < c.frames; ++frame) {
     const SceneChanges changes = room.move(frame);
     if (!changes.empty()) gpu.update(changes);
-    if (frame % 3 != 0) turn += 0.02;
+    if (c.turns && frame % 3 != 0) turn += 0.02;
     const View view = room.view(turn, c.width, c.height);
     for (TechniqueRun* run : {&without, &with}) run->look(view, changes), run->run_frame();
     const HostShadows truth = without.frame().shadows(), bits = with.frame().shadows();
@@ -141,6 +143,7 @@ Sum expect_same_bits(Renderer& devices, const Case& c) {
     EXPECT_EQ(bits.bits == truth.bits, true) << "frame " << frame;
     EXPECT_TRUE(identical(with.image(), without.image())) << "frame " << frame;
     const ShadowFigures figures = with.frame().shadow_figures();
+    sum.drawn += figures.drawn, sum.maps += figures.maps, sum.kept += figures.kept;
     sum.certified += figures.certified, sum.rays += figures.rays;
     sum.rays_without += without.frame().shadow_figures().rays;
     for (const uint32_t word : truth.bits) sum.hidden += size_t(__builtin_popcount(word));
@@ -168,6 +171,16 @@ TEST(KeptShadows, AreThoseOfRaysWhereTheTableIsFull) {
   const Sum large =
       expect_same_bits(opencl_devices(), {.bytes = "64M", .frames = 40, .width = 640, .height = 360});
   EXPECT_LT(small.certified, large.certified);
+}
+
+TEST(KeptShadows, AreThoseOfMapsDrawnAnewInEachFrame) {
+  for (const bool at_rest : {false, true}) {
+    const Sum sum = expect_same_bits(
+        opencl_devices(), {.shadows = "map", .frames = long_tests() ? 300 : 30, .turns = !at_rest});
+    EXPECT_EQ(sum.maps, sum.drawn + sum.kept);
+    EXPECT_LT(sum.drawn, sum.maps / 2);
+    EXPECT_GT(sum.drawn, sum.maps / 20);
+  }
 }
 
 TEST(KeptShadows, AreThoseOfRaysOnSurfacesOfOpenGl) {

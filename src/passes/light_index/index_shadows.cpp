@@ -151,7 +151,7 @@ void IndexShadows::upload_view(Work& work) {
   block[3] = work.view.orthographic ? glm::vec4(glm::vec3(ahead), 0) : glm::vec4(glm::vec3(eye), 1);
   if (!view_block_) view_block_ = make_buffer(sizeof block, nullptr);
   glNamedBufferSubData(view_block_.name(), 0, sizeof block, block);
-  if (maps_) maps_->look(work, origin, shadowed_of(work.plan));
+  if (maps_) maps_->look(work, *scene_, shadowed_of(work.plan));
   lights_.put(light_words(work, origin, maps_ ? &maps_->atlas() : nullptr));
   if (maps_) faces_.put(face_words(maps_->atlas()));
 }

@@ -2,6 +2,7 @@
 // find_shadows (shadow_maps/shadow_maps.h). Each light whose shadows the plan calls for has its maps.
 #pragma once
 
+#include "passes/shadows/moved_instances.h"
 #include "renderer/work.h"
 #include "shadow_maps/shadow_maps.h"
 
@@ -15,9 +16,11 @@ class ViewShadowMaps {
 
   // When the view, lights or surfaces moved: which maps, and their sizes. shadowed: as FramePlan's, whether a
   // light has maps. Throws Error(input) where even the least sizes take more than the setting shadow-memory.
-  void look(const Work& work, const glm::dvec3& origin, const std::vector<uint8_t>& shadowed);
-  // All of them, in each frame. texels: of atlas().bytes, for a reader besides kernels; null: its own.
-  void draw(const RayScene& rays, const cl::Buffer& texels = {}) { maps_.draw(rays, atlas_, texels); }
+  void look(const Work& work, const RayScene& rays, const std::vector<uint8_t>& shadowed);
+  // All of them; with shadow-kept only those of which something changed since they were drawn. texels: of
+  // atlas().bytes, for a reader besides kernels, into which all are drawn; null: its own.
+  void draw(const RayScene& rays, const cl::Buffer& texels = {});
+  size_t drawn_lights() const { return drawn_lights_; }  // of the last frame
 
   // What kernels need to look them up: -DSHADOW_MAP, and what ShadowMaps has. Lights are in
   // the order of FramePlan::shadowed.
@@ -31,6 +34,10 @@ class ViewShadowMaps {
   ShadowMapOptions options_;
   ShadowMaps maps_;
   ShadowAtlas atlas_;
+  bool keeps_ = false;
+  std::vector<uint8_t> kept_;  // faces of the atlas that are as they were drawn; empty: none
+  MovedInstances moved_;
+  size_t drawn_lights_ = 0;
 };
 
 }  // namespace lightgrid
