@@ -149,6 +149,11 @@ json pairs_json(const PairCounts& pairs) {
                 {"acned", shadows->acned},
                 {"either", shadows->either},
                 {"shadow_pixels", shadows->pixels}});
+  if (const auto& blended = pairs.blended)
+    all["blended"] = {{"lit", blended->lit},
+                      {"leaked", blended->leaked},
+                      {"acned", blended->acned},
+                      {"either", blended->either}};
   return all;
 }
 
