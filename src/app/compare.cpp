@@ -39,9 +39,12 @@ bool tell_failures(const CompareReport& report, const std::string& view) {
     if (row.pairs->lost || row.pairs->wrong || row.nan_pixels)
       fmt::print(stderr, "lightgrid: {}{}: {} lost{} and {} wrong pairs, {} NaN pixels; all must be 0\n",
                  view, names[i], row.pairs->lost, why_lost(row), row.pairs->wrong, row.nan_pixels);
-    if (shadow_faults(row) > 0)
+    if (row.pairs->shadows && row.pairs->shadows->faults() > 0)
       fmt::print(stderr, "lightgrid: {}{}: {} leaked and {} acned pairs; exact shadows have none\n", view,
                  names[i], row.pairs->shadows->leaked, row.pairs->shadows->acned);
+    if (row.pairs->blended && row.pairs->blended->faults() > 0)
+      fmt::print(stderr, "lightgrid: {}{}: {} leaked and {} acned pairs of blended surfaces\n", view, names[i],
+                 row.pairs->blended->leaked, row.pairs->blended->acned);
     if (row.unshaded.value_or(0) > most_unshaded)
       fmt::print(stderr,
                  "lightgrid: {}{}: its lists hold every light, but its image lacks {:.3g} % of their light\n",

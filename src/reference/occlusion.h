@@ -28,8 +28,8 @@ struct Receiver {
   CastingTriangle own;
   RoundedPoint place;  // world
   double gap_m = 0;    // the end of a segment that hides nothing
-  bool own_hides = true;  // lights behind its own triangle; a blended one lets them through
   RoundedPoint eye;    // world; of an orthographic view far away
+  bool own_hides = true;  // lights behind its own triangle; a blended one lets them through
 };
 
 struct SightAnswer {

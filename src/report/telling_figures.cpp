@@ -89,6 +89,9 @@ std::string lights_figure(const CompareReport& report, const RunResult& row) {
     if (const auto& shadows = row.pairs->shadows)
       line += fmt::format("; shadows: {}, {} undecided, at {} pixels", shadows_in_words(*shadows),
                           with_commas(shadows->either), with_commas(shadows->pixels));
+    if (const auto& blended = row.pairs->blended)
+      line += fmt::format("; on blended surfaces {} leaked and {} acned", with_commas(blended->leaked),
+                          with_commas(blended->acned));
   }
   return line;
 }
@@ -205,7 +208,9 @@ const RunResult* fastest(const CompareReport& report, const RowTest& counts) {
 }
 
 uint64_t shadow_faults(const RunResult& row) {
-  return row.pairs && row.pairs->shadows ? row.pairs->shadows->faults() : 0;
+  if (!row.pairs) return 0;
+  return (row.pairs->shadows ? row.pairs->shadows->faults() : 0) +
+         (row.pairs->blended ? row.pairs->blended->faults() : 0);
 }
 
 bool passes_gates(const RunResult& row) {

@@ -153,6 +153,11 @@ json pairs_json(const PairCounts& pairs) {
                 {"either", shadows->either},
                 {"shadow_pixels", shadows->pixels},
                 {"shadow_pairs", shadows->pairs}});
+  if (const auto& blended = pairs.blended)
+    all["blended"] = {{"lit", blended->lit},
+                      {"leaked", blended->leaked},
+                      {"acned", blended->acned},
+                      {"either", blended->either}};
   return all;
 }
 

@@ -40,12 +40,21 @@ struct ShadowPairs {
   uint64_t faults() const { return says_exact ? leaked + acned : 0; }
 };
 
+// The same of fragments of blended surfaces and lights.
+struct BlendedPairs {
+  uint64_t lit = 0, leaked = 0, acned = 0, either = 0;
+  bool says_exact = true;
+
+  uint64_t faults() const { return says_exact ? leaked + acned : 0; }
+};
+
 // (pixel, light) pairs over the image. lit: according to the oracle.
 struct PairCounts {
   uint64_t listed = 0, lit = 0, lost = 0, wrong = 0;
   std::optional<ShadowPairs> shadows = {};  // where some light casts
+  std::optional<BlendedPairs> blended = {};  // likewise, and where a blended surface is in view
 
-  PairCounts& operator+=(const PairCounts& other);  // shadows: of those that have them
+  PairCounts& operator+=(const PairCounts& other);  // shadows: of those that have them; blended stay
 };
 
 // This image and the reference's, each compared with the oracle at the same pixels: a sample of the view and

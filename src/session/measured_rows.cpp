@@ -130,6 +130,8 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
       m.shadows.pairs(run.view(), depth, row.own_surfaces ? own : m.triangles.shown.opaque);
   LitPairs pairs = count_listed_pairs(run, depth, seen);
   row.pairs = pair_counts(run, pairs, seen);
+  if (const std::optional<LitPairs> blended = count_blended_pairs(run, m.shadows))
+    row.pairs->blended = {blended->lit, blended->leaked, blended->acned, blended->either, !run.approximate()};
   if (run.technique().limited_lists) row.overflow = pairs.lost;
   const Image& every_light =
       row.own_surfaces && !reference.run().frame().triangles ? m.every_light_on_own : reference.image;

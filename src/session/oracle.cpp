@@ -71,11 +71,11 @@ LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, 
 }
 
 std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& truth) {
-  if (!run.frame().blended_shadows || !truth.casts()) return {};
   const Seen& v = run.view();
+  if (!run.frame().blended_shadows || !truth.casts() || v.plan.blended.empty()) return {};
   LitPairs sum;
   for (const HostShadowLayer& layer : run.frame().blended_shadows()) {
-    const std::unique_ptr<SeenPairs> seen = truth.of_layer(v, layer);
+    const SeenPairs* seen = truth.of_layer(v, layer);
     const PairShadows shadows{*seen, &layer.shadows};
     const LitPairs pairs = count_pairs(v.view, layer.depth, local_lights(v),
                                        list_every_light(uint32_t(v.plan.local.size())), &shadows);

@@ -30,7 +30,7 @@ LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth,
                             const SeenPairs* seen = nullptr);
 
 // The same for each layer of its blended surfaces, added up: of every light, whatever lists blended surfaces have.
-// None if no light casts.
+// None if no light casts or nothing blended is in view.
 std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& truth);
 
 // The same as figures of a row. seen: as above.

@@ -58,7 +58,7 @@ bool ShadowTruth::casts() const { return std::ranges::any_of(scene_.lights, &Lig
 
 const Occlusion& ShadowTruth::occlusion(BlendedCasters by_blended) {
   if (!occlusion_ || by_blended_ != by_blended) {
-    for (Decided& d : decided_) d = {};
+    moved(false);
     occlusion_ = std::make_unique<Occlusion>(scene_, by_blended), by_blended_ = by_blended;
   }
   return *occlusion_;
@@ -96,18 +96,26 @@ std::unique_ptr<SeenPairs> ShadowTruth::at_pixels(const Seen& v, const std::vect
                                      in_range);
 }
 
-std::unique_ptr<SeenPairs> ShadowTruth::of_layer(const Seen& v, const HostShadowLayer& layer) {
+const SeenPairs* ShadowTruth::of_layer(const Seen& v, const HostShadowLayer& layer) {
   if (!casts()) return nullptr;
+  const Occlusion& truth = occlusion(v.plan.settings.shadow_blended);
+  for (const DecidedLayer& d : layers_) {
+    if (d.depth == layer.depth && d.triangles == layer.triangles) return d.pairs.get();
+  }
   std::vector<CastingTriangle> triangles;
   for (const glm::ivec2& t : layer.triangles) triangles.push_back({t.x, uint32_t(t.y)});
   const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, v.plan.local);
   const ShownSurfaces shown{v.view, layer.depth, triangles};
-  return std::make_unique<SeenPairs>(occlusion(v.plan.settings.shadow_blended), shown, lights,
-                                     affordable_pixels(shown, lights, most_pairs_));
+  if (layers_.size() >= most_layers) layers_.clear();
+  layers_.push_back(
+      {layer.depth, layer.triangles,
+       std::make_unique<SeenPairs>(truth, shown, lights, affordable_pixels(shown, lights, most_pairs_))});
+  return layers_.back().pairs.get();
 }
 
 void ShadowTruth::moved(bool geometry) {
   for (Decided& d : decided_) d = {};
+  layers_.clear();
   if (geometry) occlusion_.reset();
 }
 

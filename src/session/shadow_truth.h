@@ -38,8 +38,9 @@ class ShadowTruth {
                                        const std::vector<CastingTriangle>& triangles,
                                        const std::vector<uint32_t>& pixels, bool in_range = true);
 
-  // Of point and spot lights at the fragments of a layer of blended surfaces. Null if no light casts.
-  std::unique_ptr<SeenPairs> of_layer(const Seen& v, const HostShadowLayer& layer);
+  // Of point and spot lights at the fragments of a layer of blended surfaces. Null if no light casts; until the
+  // view moves, or more layers were decided than are kept.
+  const SeenPairs* of_layer(const Seen& v, const HostShadowLayer& layer);
 
   // Another view, and `geometry`: whether instances moved or meshes deformed.
   void moved(bool geometry);
@@ -55,7 +56,15 @@ class ShadowTruth {
   uint64_t most_pairs_;
   std::unique_ptr<Occlusion> occlusion_;
   BlendedCasters by_blended_ = BlendedCasters::none;  // of it
+  struct DecidedLayer {
+    std::vector<float> depth;
+    std::vector<glm::ivec2> triangles;
+    std::unique_ptr<SeenPairs> pairs;
+  };
+  static constexpr size_t most_layers = 64;
+
   Decided decided_[2];  // OpenGL's surfaces, and those drawn in OpenCL
+  std::vector<DecidedLayer> layers_;
   int next_ = 0;
 };
 
