@@ -277,7 +277,7 @@ class ShadowBits : public PassCache {
     for (size_t i = 0; i < work.plan.local.size(); ++i) {
       ShadowLight& record = records.emplace_back(shadow_light(lights[i], work.view, rays.origin()));
       const Light& light = work.scene.lights[size_t(work.plan.local[i])];
-      if (settings.soft_shadows()) record.source_m = float(settings.shadow_source_m);
+      if (settings.soft_shadows()) record.source_m = float(source_of(light, settings.shadow_source_m));
       record.luminance = light.intensity * glm::dot(light.color, glm::vec3(0.2126f, 0.7152f, 0.0722f));
     }
     for (const int i : work.plan.directional_lights)

@@ -131,7 +131,7 @@ std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view
     if (!light.casts_shadow) continue;
     plans.push_back(is_directional(light) ? plan_directional_light(i, boxes)
                                           : plan_light(bounds_of(light, range_of(light, size_t(i), ranges)),
-                                                       i, view, boxes, errors, source_m));
+                                                       i, view, boxes, errors, source_of(light, source_m)));
   }
   return plans;
 }

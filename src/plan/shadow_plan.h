@@ -40,8 +40,15 @@ std::string words_of(const LightShadow& light, const Scene& scene);
 std::string describe_shadows(const std::vector<LightShadow>& casting, const Scene& scene,
                              const char* found_by = "rays");
 
+// The radius of the sphere that soft shadows of a light see, where lights without one of their own have this.
+// 0: none is soft.
+inline double source_of(const Light& light, double source_m) {
+  return source_m > 0 && light.source_m >= 0 ? double(light.source_m) : source_m;
+}
+
 // All lights that cast, in the scene's order. `opaque` (masked ones too) and `blended`: the instances in
-// view. source_m: lights are spheres of this radius, and what hides any part of one counts.
+// view. source_m: as source_of has it; what hides any part of a light's
+// sphere counts.
 std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view, const LightRanges& ranges,
                                             const std::vector<int>& opaque, const std::vector<int>& blended,
                                             double source_m = 0);

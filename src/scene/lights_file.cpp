@@ -175,6 +175,7 @@ Light plain_light(const Fields& fields) {
                        light.intensity);
   }
   light.radius_m = float(fields.number("radius", light.radius_m, 0, max_float));
+  if (fields.has("source_radius")) light.source_m = float(fields.number("source_radius", 0, 0, max_float));
   const double inner = fields.number("inner_cone", 0, 0, float(std::numbers::pi));
   const double outer = fields.number("outer_cone", light.outer_cone_rad, 0, float(std::numbers::pi));
   light.inner_cone_rad = float(inner), light.outer_cone_rad = float(outer);
@@ -205,6 +206,7 @@ nlohmann::ordered_json to_json(const Light& light) {
   json["color"] = to_json(light.color);
   json["intensity"] = shortest(light.intensity);
   if (light.casts_shadow) json["casts_shadow"] = true;
+  if (light.source_m >= 0) json["source_radius"] = shortest(light.source_m);
   return json;
 }
 

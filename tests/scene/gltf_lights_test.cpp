@@ -192,6 +192,23 @@ TEST(GltfLights, extras_of_the_light_or_its_node_say_whether_it_casts_a_shadow) 
   EXPECT_THAT(wrong.refusal(), HasSubstr("node 0: extras.casts_shadow is neither true, false nor a number"));
 }
 
+TEST(GltfLights, extras_of_the_light_or_its_node_have_the_radius_of_its_sphere) {
+  const auto radius = [](const json& of_light, const json& of_node) {
+    GltfBuilder made = with_light({{"type", "point"}, {"extras", of_light}});
+    made.node()["extras"] = of_node;
+    return made.load().lights.at(0).source_m;
+  };
+  const json none = json::object(), small = {{"source_radius", 0.25}}, point = {{"source_radius", 0}};
+  EXPECT_LT(radius(none, none), 0) << "that of the setting shadow-source";
+  EXPECT_EQ(radius(small, none), 0.25f);
+  EXPECT_EQ(radius(none, small), 0.25f);
+  EXPECT_EQ(radius(small, point), 0) << "a node overrides its light";
+  GltfBuilder wrong = with_light({{"type", "point"}, {"extras", {{"source_radius", "wide"}}}});
+  EXPECT_THAT(wrong.refusal(), HasSubstr("light 0: extras.source_radius is not a number"));
+  wrong.node()["extras"] = {{"source_radius", -1}};
+  EXPECT_THAT(wrong.refusal(), HasSubstr("extras.source_radius is -1"));
+}
+
 TEST(GltfLights, extras_of_a_node_say_whether_its_mesh_hides_lights) {
   GltfBuilder made = GltfBuilder::triangle();
   EXPECT_TRUE(made.load().instances.at(0).casts_shadow);

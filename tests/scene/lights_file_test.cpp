@@ -56,7 +56,7 @@ TEST_F(LightsFile, EveryFieldIsRead) {
   const Light light = load_one(
       R"("name": "lamp", "type": "spot", "position": [1, 2.5, -3], "direction": [0, -2, 0], "radius": 4,
          "inner_cone": 0.25, "outer_cone": 0.5, "color": [1, 0.5, 0.25], "intensity": 8, "casts_shadow": true,
-         "unknown": {"a": [1]})");
+         "source_radius": 0.125, "unknown": {"a": [1]})");
   EXPECT_EQ(light.name, "lamp");
   EXPECT_EQ(light.type, LightType::spot);
   EXPECT_EQ(light.position, glm::dvec3(1, 2.5, -3));
@@ -67,6 +67,7 @@ TEST_F(LightsFile, EveryFieldIsRead) {
   EXPECT_EQ(light.color, glm::vec3(1, 0.5f, 0.25f));
   EXPECT_EQ(light.intensity, 8);
   EXPECT_TRUE(light.casts_shadow);
+  EXPECT_EQ(light.source_m, 0.125f);
 }
 
 TEST_F(LightsFile, AbsentFieldsHaveTheirDefaults) {
@@ -76,6 +77,7 @@ TEST_F(LightsFile, AbsentFieldsHaveTheirDefaults) {
   EXPECT_EQ(light.intensity, 1);
   EXPECT_TRUE(std::isinf(light.radius_m));
   EXPECT_FALSE(light.casts_shadow);
+  EXPECT_LT(light.source_m, 0);
   EXPECT_TRUE(load(R"({"lights": []})").empty());
 }
 
@@ -103,7 +105,7 @@ TEST_F(LightsFile, SavedLightsAreLoadedAsTheyWere) {
   lights[0].position = {0.1, 1e6 + 1.0 / 3, -1e-9};
   lights[0].color = {0.1f, 1e-20f, 3.3333333f};
   lights[0].radius_m = 0.7f;
-  lights[0].casts_shadow = true;
+  lights[0].casts_shadow = true, lights[0].source_m = 0.3f;
   lights[1].type = LightType::spot;
   lights[1].direction = glm::normalize(glm::vec3(0.3f, -0.7f, 0.11f));
   lights[1].inner_cone_rad = 0.1f;
@@ -125,6 +127,7 @@ TEST_F(LightsFile, SavedLightsAreLoadedAsTheyWere) {
     EXPECT_EQ(loaded[i].inner_cone_rad, lights[i].inner_cone_rad);
     EXPECT_EQ(loaded[i].outer_cone_rad, lights[i].outer_cone_rad);
     EXPECT_EQ(loaded[i].casts_shadow, lights[i].casts_shadow);
+    EXPECT_EQ(loaded[i].source_m, lights[i].source_m);
   }
 }
 

@@ -141,11 +141,24 @@ std::map<int, std::optional<bool>> casts_shadow_of(const json& owners) {
   return out;
 }
 
+std::map<int, std::optional<double>> source_radius_of(const json& owners) {
+  std::map<int, std::optional<double>> out;
+  const json::json_pointer radius("/extras/source_radius");
+  for (size_t i = 0; i < owners.size(); ++i) {
+    if (!owners[i].contains(radius)) continue;
+    const json& value = owners[i][radius];
+    out[int(i)] = value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+  }
+  return out;
+}
+
 ShadowEntries read_shadows(const json& root) {
   ShadowEntries out;
-  if (root.contains("nodes")) out.of_node = casts_shadow_of(root["nodes"]);
+  if (root.contains("nodes"))
+    out.of_node = casts_shadow_of(root["nodes"]), out.source_of_node = source_radius_of(root["nodes"]);
   const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-  if (root.contains(lights) && root[lights].is_array()) out.of_light = casts_shadow_of(root[lights]);
+  if (root.contains(lights) && root[lights].is_array())
+    out.of_light = casts_shadow_of(root[lights]), out.source_of_light = source_radius_of(root[lights]);
   return out;
 }
 

@@ -46,10 +46,11 @@ struct ModelEntry {
   std::optional<double> roll_off, k;
 };
 
-// extras.casts_shadow of nodes and of lights, by their index. Empty values are neither booleans nor numbers
-// (as Blender's custom properties may be).
+// extras.casts_shadow of nodes and of lights, by their index, and extras.source_radius, in metres. Empty
+// values are neither booleans nor numbers (as Blender's custom properties may be), or no numbers.
 struct ShadowEntries {
   std::map<int, std::optional<bool>> of_node, of_light;
+  std::map<int, std::optional<double>> source_of_node, source_of_light;
 };
 
 struct PreparedJson {

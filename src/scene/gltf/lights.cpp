@@ -74,6 +74,19 @@ bool casts_shadow(const Document& doc, int node, int light) {
   return *found->second;
 }
 
+// Below 0: neither has one.
+float source_radius(const Document& doc, int node, int light) {
+  const auto &of_node = doc.shadows.source_of_node, &of_light = doc.shadows.source_of_light;
+  const auto read = [&](const auto& entries, int index, const std::string& place) {
+    const auto found = entries.find(index);
+    if (found == entries.end()) return -1.0f;
+    if (!found->second) throw doc.error("{}: extras.source_radius is not a number", place);
+    return checked_amount(doc, *found->second, place, "extras.source_radius");
+  };
+  const float own = read(of_node, node, node_label(doc, node));
+  return own >= 0 ? own : read(of_light, light, label("light", light, ""));
+}
+
 }  // namespace
 
 std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes) {
@@ -91,6 +104,7 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
     light.name = node.name.empty() ? in.name : node.name;
     light.position = glm::dvec3(placed.world_from_node[3]);
     light.casts_shadow = casts_shadow(doc, placed.node, index);
+    light.source_m = source_radius(doc, placed.node, index);
     if (placed.moves) light.node = static_cast<int>(i);
     if (const auto direction = light_direction(placed.world_from_node))
       light.direction = *direction;
