@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "reference/lit_set.h"
 #include "session/shadow_truth.h"
 #include "session/technique_run.h"
 

@@ -1,0 +1,51 @@
+// What a comparison's rows are measured against, once all have run: the reference's picture, its surfaces,
+// and the oracle.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "results/flip.h"
+#include "session/runs.h"
+#include "session/shadow_truth.h"
+#include "session/surfaces_in_double.h"
+
+namespace lightgrid {
+
+// The triangles that the reference shows, and where some row shows another one.
+struct ReferenceTriangles {
+  ShownTriangles shown;
+  std::vector<bool> contested = std::vector<bool>(shown.opaque.size());
+};
+
+// What the rows are compared with.
+struct Measured {
+  Reference& reference;
+  std::vector<float> depth;
+  ReferenceTriangles triangles;
+  ShadowTruth shadows;
+  RunResult result;
+  std::optional<FlipExposures> exposures{};
+  bool shown = false;             // the report will have the reference's image
+  Image every_light_on_own = {};  // surfaces, where rows have such and the reference has OpenGL's; or empty
+};
+
+// Takes the reference's image from its run. flip: with exposures for it.
+Measured measured(Reference& reference, bool flip);
+
+// Where an own reference is not wanted, the report has no OwnSurfaces; where it cannot be had, it says why
+// not.
+void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& compared,
+                                      const std::vector<ContestantRun>& entries, Measured& m);
+
+// The run's row, its errors and pairs, its image and lists, at this place of the report. All or nothing: the
+// lists may not fit in memory. The run's images may hold another run's frame, so it draws once more.
+void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m);
+
+// Of all rows, against surfaces in double and the oracle.
+void measure_errors(CompareReport& report, const Compared& compared, Measured& m);
+
+// The reference's image becomes the report's, or its row's.
+void hand_over_image(CompareReport& report, Measured& m);
+
+}  // namespace lightgrid
