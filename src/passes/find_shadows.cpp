@@ -211,7 +211,7 @@ class ShadowBits : public PassCache {
     }
     f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
     if (certificates_) {
-      f.kept = certificates_->decided(*work.renderer.cl);
+      f.certified = certificates_->decided(*work.renderer.cl);
       f.bytes += certificates_->table_bytes();
     }
     return f;

@@ -71,7 +71,7 @@ void measure(const std::string& name, const char* lights_file, size_t most_light
       fmt::print(
           "  {:>5}: first {:7.1f} ms, least {:7.1f}, median {:7.1f} ({:.2f}); {} rays, {} pairs kept, {:.1f} "
           "MB\n",
-          c.name, c.first, c.ms.front(), median, median / base, f.rays, f.kept, double(f.bytes) / 1e6);
+          c.name, c.first, c.ms.front(), median, median / base, f.rays, f.certified, double(f.bytes) / 1e6);
       c.ms.clear();
     }
   };

@@ -96,10 +96,15 @@ TEST(Results, HoldShadowsOnlyWhereLightsCast) {
 TEST(Results, ShadowsAreThereIfALightCastsOne) {
   RunResult result = small_result();
   EXPECT_FALSE(to_json(result).contains("shadows"));
-  result.shadows = ShadowResult{1, 2, 3, 4, 5, 6, 7, {{8, "no caster in its range"}}, 9};
+  result.shadows = ShadowResult{1, 2, 3, 4, 5, 6, 7, {{8, "no caster in its range"}}};
+  result.shadows->halvings = 9;
   EXPECT_EQ(to_json(result)["shadows"], json::parse(R"({
     "lights": 1, "maps": 2, "drawn": 3, "kept": 4, "bytes": 5, "rays": 6, "undecided": 7,
     "halvings": 9, "skipped": [{"light": 8, "why": "no caster in its range"}]})"));
+  result.shadows->certified = 10;
+  const json all = to_json(result)["shadows"];
+  EXPECT_EQ(all["kept"], 4) << "maps, as ever";
+  EXPECT_EQ(all["certified"], 10);
 }
 
 // Of surfaces drawn in OpenCL: not `error`, in which these surfaces are too.

@@ -56,7 +56,8 @@ struct ShadowFigures {
   size_t rays = 0;       // traced
   size_t maps = 0;       // in use, of these
   size_t drawn = 0;      // drawn in this frame, and
-  size_t kept = 0;       // kept from frames before; with certificates the pairs that they decide
+  size_t kept = 0;       // kept from frames before
+  size_t certified = 0;  // pairs of a pixel and a listed light that certificates decided
   size_t bytes = 0;      // of bits, maps and certificates
   size_t undecided = 0;  // pairs that maps left to rays
   int halvings = 0;      // of the sizes of all maps, to fit into their bound of memory
