@@ -2,6 +2,7 @@
 // and on which side of that plane the eye is.
 //
 // -DSHADOW_MAP    what shadow maps need to know of the triangle is kept (kernels/shadow_maps/shadow_maps.h)
+// -DBANDS         of the frame's tiles only some are looked at (BAND_ARGUMENTS)
 // -DNUMBERED      triangles come by the rays' numbers, else by the rasteriser's
 // -DORTHOGRAPHIC  shared/pixel_position.h
 #pragma once
@@ -24,11 +25,21 @@
 // cells, indices     lists of lights in tiles (shared/light_grid.h)
 // tiles, bits        out: shared/shadow_bits.h
 // rays               out: how many were traced, a tile
+// BAND_ARGUMENTS     the first tile of the band, and a tile each the number of the band's entries before it
+#ifdef BANDS
+#define BAND_ARGUMENTS , uint first_tile, global const uint *first_entries
+#define FIRST_TILE first_tile
+#define FIRST_ENTRY(tile, range) first_entries[tile]
+#else
+#define BAND_ARGUMENTS
+#define FIRST_TILE 0
+#define FIRST_ENTRY(tile, range) (range).x
+#endif
 #define SHADOW_PASS_ARGUMENTS                                                                               \
   RAYS_ARGUMENTS, global const uint *triangles, global const uint *triangle_instance,                       \
       global const int *number_offsets, global const float *depths, global const uint2 *cells,              \
       global const index_t *indices, global const ShadowLight *lights, constant ShadowView *shadow_view,    \
-      constant ViewParams *view, global uint2 *tiles, global uint *bits, global uint *rays
+      constant ViewParams *view, global uint2 *tiles, global uint *bits, global uint *rays BAND_ARGUMENTS
 
 #define NO_TRIANGLE 0xffffffffu
 

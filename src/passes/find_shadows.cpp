@@ -4,10 +4,13 @@
 #include "passes/find_shadows.h"
 
 #include <fmt/format.h>
+#include <cstring>
+#include <functional>
+#include <limits>
 #include <numeric>
 
-#include "base/error.h"
 #include "cl/transfer.h"
+#include "passes/shadows/bands.h"
 #include "passes/shadows/certificates.h"
 #include "passes/shadows/view_shadow_maps.h"
 #include "renderer/drawing/draw.h"
@@ -119,56 +122,54 @@ class ShadowBits : public PassCache {
     if (certificates_) bytes += certificates_->memory_bytes();
     if (culler_) bytes += culler_->memory_bytes();
     if (maps_) bytes += maps_->memory_bytes();
-    return bytes;
+    return bytes + first_entries_.bytes() + banded_.memory_bytes();
   }
 
-  // No light is hidden anywhere.
+  // No light is hidden anywhere: the table holds no tile, and all have its empty row.
   void clear(Work& work) {
-    ClDevice& device = *work.renderer.cl;
-    const size_t bytes = tile_bytes(work);
+    const size_t bytes = std::max(least_bytes, (1 + tile_words(work.plan)) * sizeof(cl_uint2));
     if (cleared_ == bytes) return;
-    fill_buffer(device, "clearing shadows", at_least(work, work.shadows.tiles, bytes, GL_RG32UI), 0, bytes);
+    fill_buffer(*work.renderer.cl, "clearing shadows", at_least(work, work.shadows.tiles, bytes, GL_RG32UI),
+                0, bytes);
     at_least(work, work.shadows.bits, least_bytes, GL_R32UI);
-    grid_ = {}, cleared_ = bytes;
+    grid_ = {}, cleared_ = bytes, bands_ = {};
     hand_over(work, bytes, least_bytes);
   }
 
-  void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth, const cl::Buffer& numbers) {
+  void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth,
+            const cl::Buffer& numbers) {
     ClDevice& device = *work.renderer.cl;
-    cleared_ = 0;
-    prepare(work, visible);
-    const DepthBounds bounds = culler_->depth_bounds({depth.values});
-    grid_ = culler_->cull(bounds.opaque, storage_);
-    const size_t tiles = size_t(grid_.cells_x) * size_t(grid_.cells_y), bytes = tile_bytes(work);
+    if (band_ == 0) {
+      cleared_ = 0;
+      prepare(work, visible);
+      grid_ = culler_->cull(culler_->depth_bounds({depth.values}).opaque, storage_);
+      bands_ = plan_bands(work);
+      if (bands_.bands.size() > 1) first_entries_.put(device, "uploading bands", bands_.first_entries);
+      use_kernels(work, visible);
+      if (maps_) maps_->draw(*scene_);
+    }
     const size_t bit_bytes =
-        std::max<size_t>(least_bytes, grid_.index_count * entry_words(work.plan) * sizeof(uint32_t));
-    const cl::Buffer& listed = at_least(work, work.shadows.tiles, bytes, GL_RG32UI);
-    const cl::Buffer& bits = at_least(work, work.shadows.bits, bit_bytes, GL_R32UI);
-    // Drawn lights serve all lights of a tile.
-    const size_t groups_here = kernels_.lanes || work.plan.settings.picks_shadows() ? 1 : groups_a_tile;
-    parts_ = tiles * groups_here;
-    const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
-    if (maps_) maps_->draw(*scene_);
-    const cl::NDRange lanes(size_t(grid_.cells_x), size_t(grid_.cells_y));
-    const cl::NDRange groups(tiles * SHADOW_TILE * SHADOW_TILE, groups_here);
-    kernels_.of("find_shadows")
-        .launch(device, "find_shadows", kernels_.lanes ? lanes : groups,
-                kernels_.lanes ? cl::NDRange(1, 1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
-                (maps_ ? maps_->arguments() : ClArguments()) + scene_->arguments() +
-                    ClArguments{{"triangles", numbers},
-                                {"triangle_instance", visible ? visible->raster.triangle_instance : cl::Buffer()},
-                                {"number_offsets", visible ? offsets_.buffer() : cl::Buffer()},
-                                {"depths", depth.values},
-                                {"cells", storage_.cells(grid_.cell_bytes)},
-                                {"indices", storage_.indices(grid_.index_bytes)},
-                                {"lights", lights_.buffer()},
-                                {"shadow_view", view_.buffer()},
-                                {"view", work.cl_lights().view.buffer()},
-                                {"tiles", listed},
-                                {"bits", bits},
-                                {"rays", rays}} +
-                    (certificates_ ? certificates_->arguments(device, parts_) : ClArguments{}));
-    hand_over(work, bytes, bit_bytes);
+        std::max<size_t>(least_bytes, bands_.bands[band_].entries * entry_words(work.plan) * 4);
+    make_room(work, bit_bytes);
+    launch(work, visible, depth, numbers, bands_.bands[band_]);
+    if (bands_.bands.size() > 1)
+      again_ = [this, seen = visible ? std::optional(*visible) : std::nullopt, depth, numbers](
+                   Work& of, const ShadowBand& band) {
+        launch(of, seen ? &*seen : nullptr, depth, numbers, band);
+      };
+    hand_over(work, room_.table_bytes, bit_bytes);
+  }
+
+  void begin_bands() { band_ = 0; }
+
+  bool next_band(Work& work, const ShadedImage& image) {
+    if (bands_.bands.size() < 2) return false;
+    if (band_ + 1 == bands_.bands.size()) {
+      banded_.restore(work, image, std::span(bands_.bands).first(band_));
+      return false;
+    }
+    banded_.keep(work, image, bands_.bands[band_++]);
+    return true;
   }
 
   const RayScene& scene(Work& work) {
@@ -187,9 +188,10 @@ class ShadowBits : public PassCache {
     HostGrid grid = read_grid(device, grid_, storage_);
     shadows.cells = std::move(grid.cells), shadows.indices = std::move(grid.indices);
     const auto read = [&](auto& values) {
-      values.resize(shadows.indices.size() * entry_words(work.plan) * sizeof(uint32_t) / sizeof values[0]);
-      read_buffer(device, "reading shadows", work.shadows.bits.buffer->cl_buffer(), values.data(),
-                  values.size() * sizeof values[0]);
+      const size_t entry = entry_words(work.plan) * sizeof(uint32_t) / sizeof values[0];
+      values.resize(shadows.indices.size() * entry);
+      read_bands(work, shadows, entry_words(work.plan) * sizeof(uint32_t),
+                 reinterpret_cast<std::byte*>(values.data()));
     };
     if (work.plan.shadow_bytes)
       read(shadows.shares), shadows.bits = bits_of_bytes(shadows.shares);
@@ -202,7 +204,7 @@ class ShadowBits : public PassCache {
     ShadowFigures f;
     f.bytes = grid_.cell_bytes + grid_.index_bytes + work.shadows.bytes();
     if (grid_.index_count == 0) return f;
-    f.lights = size_t(std::ranges::count(work.plan.shadowed, 1));
+    f.lights = size_t(std::ranges::count(work.plan.shadowed, 1)), f.bands = bands_.bands.size();
     std::vector<uint32_t> rays(parts_);
     read_buffer(*work.renderer.cl, "counting rays", rays_.get(), rays.data(), rays.size() * sizeof rays[0]);
     if (maps_) {
@@ -218,18 +220,85 @@ class ShadowBits : public PassCache {
   }
 
  private:
-  size_t tile_bytes(const Seen& seen) const {
-    return std::max<size_t>(least_bytes, tiles_across(seen.grid().width) * tiles_across(seen.grid().height) *
-                                    tile_words(seen.plan) * sizeof(cl_uint2));
+  ShadowBands plan_bands(Work& work) {
+    const size_t tiles = size_t(grid_.cells_x) * size_t(grid_.cells_y),
+                 entry = entry_words(work.plan) * sizeof(uint32_t);
+    const auto most = [&](GLenum format) {
+      return work.plan.opengl ? most_texture_bytes(format) : std::numeric_limits<size_t>::max();
+    };
+    room_ = {tiles, shadow_table_bytes(tiles, tile_words(work.plan)), grid_.index_count * entry};
+    if (room_.table_bytes + room_.bit_bytes <= work.plan.settings.shadow_memory &&
+        room_.table_bytes <= most(GL_RG32UI) && room_.bit_bytes <= most(GL_R32UI))
+      return {{{0, tiles, grid_.index_count}}, {}};
+    room_ = shadow_room(tiles, tile_words(work.plan), size_t(std::ranges::count(work.plan.shadowed, 1)),
+                        entry, work.plan.settings.shadow_memory, most(GL_RG32UI), most(GL_R32UI));
+    std::vector<glm::uvec2> cells(tiles);
+    read_buffer(*work.renderer.cl, "reading lists of shadows", storage_.cells(grid_.cell_bytes), cells.data(),
+                tiles * sizeof cells[0]);
+    return shadow_bands(cells, room_, entry);
+  }
+
+  // Buffers only grow: where both would then be too large together, other views' needs have made them so.
+  void make_room(Work& work, size_t bit_bytes) {
+    ShadowMemory& shadows = work.shadows;
+    if (std::max(shadows.tiles.bytes(), room_.table_bytes) + std::max(shadows.bits.bytes(), bit_bytes) >
+        work.plan.settings.shadow_memory)
+      shadows = {};
+    at_least(work, shadows.tiles, room_.table_bytes, GL_RG32UI);
+    at_least(work, shadows.bits, bit_bytes, GL_R32UI);
+  }
+
+  // The table and the bits of these tiles.
+  void launch(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth,
+              const cl::Buffer& numbers, const ShadowBand& band) {
+    ClDevice& device = *work.renderer.cl;
+    // Drawn lights serve all lights of a tile.
+    const size_t groups_here = kernels_.lanes || work.plan.settings.picks_shadows() ? 1 : groups_a_tile;
+    parts_ = size_t(grid_.cells_x) * size_t(grid_.cells_y) * groups_here;
+    const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
+    const cl::NDRange lanes(band.tiles), groups(band.tiles * SHADOW_TILE * SHADOW_TILE, groups_here);
+    ClArguments of_band;
+    if (bands_.bands.size() > 1)
+      of_band = {{"first_tile", cl_uint(band.first)}, {"first_entries", first_entries_.buffer()}};
+    kernels_.of("find_shadows")
+        .launch(
+            device, "find_shadows", kernels_.lanes ? lanes : groups,
+            kernels_.lanes ? cl::NDRange(1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
+            (maps_ ? maps_->arguments() : ClArguments()) + scene_->arguments() +
+                ClArguments{{"triangles", numbers},
+                            {"triangle_instance", visible ? visible->raster.triangle_instance : cl::Buffer()},
+                            {"number_offsets", visible ? offsets_.buffer() : cl::Buffer()},
+                            {"depths", depth.values},
+                            {"cells", storage_.cells(grid_.cell_bytes)},
+                            {"indices", storage_.indices(grid_.index_bytes)},
+                            {"lights", lights_.buffer()},
+                            {"shadow_view", view_.buffer()},
+                            {"view", work.cl_lights().view.buffer()},
+                            {"tiles", work.shadows.tiles.buffer->cl_buffer()},
+                            {"bits", work.shadows.bits.buffer->cl_buffer()},
+                            {"rays", rays}} +
+                of_band + (certificates_ ? certificates_->arguments(device, parts_) : ClArguments{}));
+  }
+
+  // Bits, or bytes, of all entries. Only the last of several bands has its own still: they are found again.
+  void read_bands(Work& work, const HostShadows& shadows, size_t entry, std::byte* to) {
+    ClDevice& device = *work.renderer.cl;
+    constexpr const char* what = "reading shadows";
+    const cl::Buffer& bits = work.shadows.bits.buffer->cl_buffer();
+    if (bands_.bands.size() < 2) return read_buffer(device, what, bits, to, shadows.indices.size() * entry);
+    std::vector<std::byte> of_band;
+    for (const ShadowBand& band : bands_.bands) {
+      again_(work, band);
+      of_band.resize(band.entries * entry);
+      read_buffer(device, what, bits, of_band.data(), of_band.size());
+      for (size_t tile = band.first; tile < band.first + band.tiles; ++tile) {
+        const glm::uvec2 cell = shadows.cells[tile];
+        std::memcpy(to + cell.x * entry, of_band.data() + bands_.first_entries[tile] * entry, cell.y * entry);
+      }
+    }
   }
 
   cl::Buffer& at_least(Work& work, SharedTexture& shared, size_t bytes, GLenum format) {
-    if (work.plan.opengl && bytes > most_texture_bytes(format)) {
-      throw machine_error(
-          "shadows: {} bytes are more than the {} that a buffer texture may have in this OpenGL; let fewer "
-          "lights cast, or use raster=opencl",
-          bytes, most_texture_bytes(format));
-    }
     return shared.at_least(work.renderer, bytes, format, work.plan.opengl);
   }
 
@@ -243,25 +312,12 @@ class ShadowBits : public PassCache {
   // Brings everything up to the view, its lights and surfaces.
   void prepare(Work& work, const VisibilityBuffer* visible) {
     const RayScene& rays = scene(work);
-    std::string defines = rays.defines();
-    for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
     const Settings& settings = work.plan.settings;
-    if (settings.soft_shadows()) defines += fmt::format(" -DSHADOW_RAYS={}", settings.shadow_rays);
-    if (settings.picks_shadows()) defines += fmt::format(" -DSHADOW_PICK={}", settings.shadow_pick);
-    if (!visible) defines += " -DNUMBERED";
-    if (lights_of(work.plan) > 65536) defines += " -DINDEX_32";
-    if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
-    if (kernels_.lanes && work.plan.settings.portable) defines += " -DPORTABLE";
     if (settings.shadows == ShadowMethod::map) {
       if (!maps_) maps_.emplace(work);
       if (!followed_) maps_->look(work, rays.origin());
-      defines += maps_->defines();
     }
-    const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact && !settings.soft_shadows() &&
-                       !settings.picks_shadows();
-    const size_t kept_bytes = keeps ? ShadowCertificates::bytes_of(settings) : 0;
-    if (kept_bytes != 0) defines += " -DKEPT";
-    kernels_.use(defines);
+    const size_t kept_bytes = kept_bytes_of(settings);
     if (followed_) return;
     ClDevice& device = *work.renderer.cl;
     if (!culler_) culler_.emplace(device, *work.renderer.kernels, options_of_shadows(work.plan));
@@ -298,6 +354,29 @@ class ShadowBits : public PassCache {
     followed_ = true;
   }
 
+  size_t kept_bytes_of(const Settings& settings) const {
+    const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact &&
+                       !settings.soft_shadows() && !settings.picks_shadows();
+    return keeps ? ShadowCertificates::bytes_of(settings) : 0;
+  }
+
+  // After the bands are known.
+  void use_kernels(Work& work, const VisibilityBuffer* visible) {
+    const Settings& settings = work.plan.settings;
+    std::string defines = scene_->defines();
+    for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
+    if (settings.soft_shadows()) defines += fmt::format(" -DSHADOW_RAYS={}", settings.shadow_rays);
+    if (settings.picks_shadows()) defines += fmt::format(" -DSHADOW_PICK={}", settings.shadow_pick);
+    if (!visible) defines += " -DNUMBERED";
+    if (lights_of(work.plan) > 65536) defines += " -DINDEX_32";
+    if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
+    if (kernels_.lanes && settings.portable) defines += " -DPORTABLE";
+    if (maps_) defines += maps_->defines();
+    if (kept_bytes_of(settings) != 0) defines += " -DKEPT";
+    if (bands_.bands.size() > 1) defines += " -DBANDS";
+    kernels_.use(defines);
+  }
+
   PassKernels kernels_;
   std::shared_ptr<RayScene> scene_;
   std::optional<LightCuller> culler_;
@@ -305,9 +384,14 @@ class ShadowBits : public PassCache {
   std::optional<ViewShadowMaps> maps_;
   std::optional<ShadowCertificates> certificates_;
   ClGridStorage storage_;
-  UploadedBuffer lights_, view_, offsets_;
+  UploadedBuffer lights_, view_, offsets_, first_entries_;
   GrowingBuffer rays_;
   LightGrid grid_;
+  ShadowRoom room_;
+  ShadowBands bands_;                                    // of the frame
+  size_t band_ = 0;                                      // that is shaded
+  std::function<void(Work&, const ShadowBand&)> again_;  // finds one of several bands of the last frame
+  BandedImage banded_;
   size_t parts_ = 0;    // counts of rays
   size_t cleared_ = 0;  // bytes of tiles in which nothing was found since they were cleared
   bool followed_ = false;
@@ -352,6 +436,14 @@ void find_shadows(Work& work, Cached<ShadowBits>& cache, const VisibilityBuffer*
   auto pass = work.timer.pass("find_shadows", "cl");
   shadows.find(work, visible, depth, numbers);
   pass.moves(work.grid().values() * 8 + shadows.scene(work).memory_bytes(), work.shadows.bytes());
+}
+
+void begin_shadow_bands(Work& work, Cached<ShadowBits>& cache) {
+  if (work.plan.light_reaches) cache.of(work).begin_bands();
+}
+
+bool next_shadow_band(Work& work, Cached<ShadowBits>& cache, const ShadedImage& image) {
+  return work.plan.light_reaches && cache.of(work).next_band(work, image);
 }
 
 void tell_shadows(Work& work, Cached<ShadowBits>& cache, Frame& frame) {

@@ -9,9 +9,16 @@ namespace lightgrid {
 
 // For light loops of this frame. `visible`: of OpenCL's rasteriser; null: OpenGL drew the depth image, and
 // draws its triangles' numbers here. depth: of the same surfaces, read only where the plan's `shadows` is
-// set. Throws Error(machine) if the device has no doubles, or an OpenGL cannot read as many bytes.
+// set. Throws Error(machine) if the device has no doubles, Error(input) if a tile's
+// bits alone take more memory than there may be.
 void find_shadows(Work& work, Cached<ShadowBits>& cache, const VisibilityBuffer* visible,
                   const DepthBuffer& depth);
+
+// Shadows that take more memory than the setting shadow-memory allows are found in several bands of tiles,
+// and the frame is shaded once for each: before the first time, and after each of them, which keeps the
+// band's pixels of its image. True: the frame has to be shaded again; false: the image is whole.
+void begin_shadow_bands(Work& work, Cached<ShadowBits>& cache);
+bool next_shadow_band(Work& work, Cached<ShadowBits>& cache, const ShadedImage& image);
 
 // Puts the frame's shadows and their figures into it, where light loops read any.
 void tell_shadows(Work& work, Cached<ShadowBits>& cache, Frame& frame);

@@ -228,6 +228,16 @@ std::vector<Setting>& all_settings() {
        "rays for each pixel to lights drawn from its list, in place of those to each light: one estimate of "
        "the hidden share of all its light",
        named(&Settings::shadow_pick, {{"off", 0}, {"1", 1}, {"4", 4}, {"16", 16}})},
+      {"shadow-memory",
+       "most memory of a frame's shadows, and as much again of shadow maps: where bits take more, the frame "
+       "is "
+       "shaded in bands; maps get smaller",
+       named(&Settings::shadow_memory, {{"256M", size_t(256) << 20},
+                                        {"1M", size_t(1) << 20},
+                                        {"4M", size_t(4) << 20},
+                                        {"16M", size_t(16) << 20},
+                                        {"64M", size_t(64) << 20},
+                                        {"1G", size_t(1) << 30}})},
       {"portable", "plain OpenCL C, without builtins that only some CPUs have",
        named(&Settings::portable, {{"off", false}, {"on", true}})},
       {"group-size", "work-items that cull a block of 4 x 4 tiles, in the group shape",

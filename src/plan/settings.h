@@ -98,6 +98,8 @@ struct Settings {
   int shadow_rays = 1;
   double shadow_source_m = 0.05;
   int shadow_pick = 0;               // rays for each pixel to all its lights: 1, 4 or 16; 0: to each light
+  // Most bytes of a frame's shadow bits with their table, and as many again of its shadow maps.
+  size_t shadow_memory = size_t(256) << 20;
   bool portable = false;             // kernels without the builtins of one kind of CPU
   int group_size = 0;  // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   // Every effect's code and buffers, called for or not: what a plan is tested against.

@@ -131,7 +131,7 @@ struct ShadowResult {
   size_t lights = 0;                                                         // whose shadows were found
   size_t maps = 0, drawn = 0, kept = 0, bytes = 0, rays = 0, undecided = 0;  // as in ShadowFigures
   std::vector<Skipped> skipped;
-  size_t certified = 0;  // as in ShadowFigures
+  size_t certified = 0, bands = 0;  // as in ShadowFigures
   int halvings = 0;  // of all maps' sizes
 };
 

@@ -1,11 +1,13 @@
 // The shadows of a frame, found before it shades (passes/find_shadows.h), as light loops read them: a bit for
-// each pixel of each listed pair of a tile and a light, 1 where the light is hidden there. With SHADOW_BYTES a
-// byte: 255 where it is hidden, 0 where it is seen, between them the share of it that is hidden.
+// each pixel of each listed pair of a tile and a light, 1 where the light is hidden there. With SHADOW_BYTES
+// a byte: 255 where it is hidden, 0 where it is seen, between them the share of it that is hidden.
 //
-// Tiles are SHADOW_TILE pixels a side, from the lower left. A tile has a pair of words for each 32 lights:
-// which of them are listed, and the entry of the first of these; the others follow in order. An entry is
-// SHADOW_WORDS words. In a tile, blocks of 4 x 4 pixels are numbered x fastest, and so are the pixels of a
-// block: the values of an entry follow in this order, the lowest bits of a word first.
+// Tiles are SHADOW_TILE pixels a side, from the lower left. The table of tiles begins with the first tile
+// that it holds and their number, one pair of words. A tile's row follows, a pair for each 32 lights: which
+// of them are listed, and the entry of the first of these; the others follow in order. After the last row
+// there is an empty one, for all tiles that the table does not hold. An entry is SHADOW_WORDS words. In a
+// tile, blocks of 4 x 4 pixels are numbered x fastest, and so are the pixels of a block: the values of an
+// entry follow in this order, the lowest bits of a word first.
 //
 // A light that is not listed is hidden nowhere in the tile. Directional lights follow point and spot lights.
 #pragma once
@@ -31,7 +33,9 @@ float seen_share(int light, uvec2 pixel) {
   uint words = (view.light_count + view.directional_count + 31u) / 32u;
   uint across = (view.width + uint(SHADOW_TILE) - 1u) / uint(SHADOW_TILE);
   uvec2 tile = pixel / uint(SHADOW_TILE), at = pixel % uint(SHADOW_TILE);
-  uvec2 listed = texelFetch(shadow_tiles, int((tile.y * across + tile.x) * words + uint(light) / 32u)).xy;
+  uvec2 held = texelFetch(shadow_tiles, 0).xy;
+  uint row = min(tile.y * across + tile.x - held.x, held.y);
+  uvec2 listed = texelFetch(shadow_tiles, int(1u + row * words + uint(light) / 32u)).xy;
   uint own = 1u << (uint(light) & 31u);
   if ((listed.x & own) == 0u) return 1.0;
   uint entry = listed.y + uint(bitCount(listed.x & (own - 1u)));
@@ -57,7 +61,7 @@ float seen_share(int light, uvec2 pixel) {
 #define GIVEN_SHADOWS , shadow_tiles, shadow_bits
 
 typedef struct ShadowsHere {
-  global const uint2* tiles;  // from the pixels' tile on
+  global const uint2* tiles;  // the row of the pixels' tile
   global const uint* bits;
   uint x, y;
 } ShadowsHere;
@@ -66,7 +70,9 @@ static inline ShadowsHere shadows_here(global const uint2* tiles, global const u
                                        uint width, uint light_count) {
   const uint across = (width + SHADOW_TILE - 1) / SHADOW_TILE,
              tile = y / SHADOW_TILE * across + x / SHADOW_TILE;
-  const ShadowsHere here = {tiles + (size_t)tile * ((light_count + 31u) / 32u), bits, x % SHADOW_TILE,
+  const uint2 held = tiles[0];
+  const uint row = min(tile - held.x, held.y);
+  const ShadowsHere here = {tiles + 1 + (size_t)row * ((light_count + 31u) / 32u), bits, x % SHADOW_TILE,
                             y % SHADOW_TILE};
   return here;
 }

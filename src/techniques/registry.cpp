@@ -25,7 +25,8 @@ bool has_effect(const Settings& settings, const std::string& key) {
   if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
     return settings.shadows == ShadowMethod::map;
   if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
-  if (key == "shadow-kept") return settings.given.contains(key);
+  if (key == "shadow-kept" || key == "shadow-memory")
+    return settings.given.contains(key);
   return true;
 }
 
@@ -62,8 +63,9 @@ const std::vector<const char*>& common_settings() {
     for (const std::string& key : model_settings()) {
       if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
     }
-    for (const char* key : {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays",
-                            "shadow-source", "shadow-pick", "shadow-kept", "everything-on"})
+    for (const char* key :
+         {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays", "shadow-source",
+          "shadow-pick", "shadow-kept", "shadow-memory", "everything-on"})
       all.push_back(key);
     return all;
   }();

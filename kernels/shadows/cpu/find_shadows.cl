@@ -32,11 +32,17 @@ static inline void store_shadows(global uint* entry, uint block, whole hidden) {
 
 kernel void find_shadows(ALL_ARGUMENTS) {
   const RayScene scene = RAYS_SCENE;
-  const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
-  const uint tile = tile_y * (uint)get_global_size(0) + tile_x;
+  const uint width = view->width, height = view->height, words_a_tile = shadow_view->words;
+  const uint row = (uint)get_global_id(0), rows = (uint)get_global_size(0), tile = FIRST_TILE + row,
+             across = (width + SHADOW_TILE - 1) / SHADOW_TILE, tile_x = tile % across, tile_y = tile / across;
   const uint2 range = cells[tile];
-  global uint2* listed = tiles + (size_t)tile * shadow_view->words;
-  for (uint i = 0; i < shadow_view->words; ++i) listed[i] = (uint2)(0);
+  const uint first_entry = FIRST_ENTRY(tile, range);
+  global uint2* listed = tiles + 1 + (size_t)row * words_a_tile;
+  for (uint i = 0; i < words_a_tile; ++i) listed[i] = (uint2)(0);
+  if (row == 0) {
+    tiles[0] = (uint2)(FIRST_TILE, rows);
+    for (uint i = 0; i < words_a_tile; ++i) tiles[1 + (size_t)rows * words_a_tile + i] = (uint2)(0);
+  }
   ShadowTest test = SHADOW_TEST;
 #ifdef KEPT
   const Certificates kept = CERTIFICATES;
@@ -77,8 +83,8 @@ kernel void find_shadows(ALL_ARGUMENTS) {
     }
 #endif
     for (uint i = range.x; i < range.x + range.y; ++i) {
-      const uint index = indices[i];
-      global uint* entry = bits + (size_t)i * SHADOW_WORDS;
+      const uint index = indices[i], number = i - range.x + first_entry;
+      global uint* entry = bits + (size_t)number * SHADOW_WORDS;
 #ifdef KEPT
       uint words[SHADOW_WORDS] = {0}, others[SHADOW_WORDS];
       hidden_by_certificates(&scene, &pieces, receivers, lights + index, index,
@@ -97,7 +103,7 @@ kernel void find_shadows(ALL_ARGUMENTS) {
       }
 #endif
       global uint2* here = listed + index / 32;
-      if (here->x == 0) here->y = i;
+      if (here->x == 0) here->y = number;
       here->x |= 1u << (index & 31u);
     }
   }

@@ -9,23 +9,29 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   local volatile uint words[2][SHADOW_WORDS];
   local volatile uint traced_here;
   const RayScene scene = RAYS_SCENE;
-  const uint item = (uint)get_local_id(0), tile = (uint)get_group_id(0), part = (uint)get_group_id(1),
-             parts = (uint)get_num_groups(1), width = view->width, height = view->height;
+  const uint item = (uint)get_local_id(0), row = (uint)get_group_id(0), rows = (uint)get_num_groups(0),
+             part = (uint)get_group_id(1), parts = (uint)get_num_groups(1), width = view->width,
+             height = view->height, tile = FIRST_TILE + row;
   const uint across = (width + SHADOW_TILE - 1) / SHADOW_TILE;
   // Pixels in the order of their bits.
   const uint block = item / 16, x = tile % across * SHADOW_TILE + block % 4 * 4 + item % 4,
              y = tile / across * SHADOW_TILE + block / 4 * 4 + item % 16 / 4;
   const uint2 range = cells[tile];
+  const uint first_entry = FIRST_ENTRY(tile, range);
   // The first part lists the lights. Not in a branch: PoCL 3.1 writes out of bounds after a barrier in one. In
   // words, since a compiler may write both of a uint2 where one is set.
-  global uint* listed = (global uint*)(tiles + (size_t)tile * shadow_view->words);
-  const uint words_here = part == 0 ? 2 * shadow_view->words : 0, lights_here = part == 0 ? range.y : 0;
+  const uint words_a_tile = 2 * shadow_view->words;
+  global uint *all = (global uint*)tiles, *listed = all + 2 + (size_t)row * words_a_tile;
+  const uint words_here = part == 0 ? words_a_tile : 0, lights_here = part == 0 ? range.y : 0,
+             empty_words = row == 0 ? words_here : 0;
   for (uint i = item; i < words_here; i += GROUP) listed[i] = 0;
+  for (uint i = item; i < empty_words; i += GROUP) all[2 + (size_t)rows * words_a_tile + i] = 0;
+  if (item < (empty_words != 0 ? 2 : 0)) all[item] = item == 0 ? FIRST_TILE : rows;
   barrier(CLK_GLOBAL_MEM_FENCE);
   for (uint i = range.x + item; i < range.x + lights_here; i += GROUP) {
     const uint index = indices[i];
     atomic_or((global volatile uint*)(listed + index / 32 * 2), 1u << (index & 31u));
-    if (i == range.x || indices[i - 1] / 32 != index / 32) listed[index / 32 * 2 + 1] = i;
+    if (i == range.x || indices[i - 1] / 32 != index / 32) listed[index / 32 * 2 + 1] = i - range.x + first_entry;
   }
   const bool inside = x < width && y < height;
   const size_t at = inside ? (size_t)y * width + x : 0;
@@ -41,7 +47,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
       picked_share(&scene, &r, lights, indices, range, x, y, &test.traced, &test.last_blocker);
 #endif
   for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
-    global uint* entry = bits + (size_t)i * SHADOW_WORDS;
+    global uint* entry = bits + (size_t)(i - range.x + first_entry) * SHADOW_WORDS;
 #ifdef SHADOW_BYTES
     ((global uchar*)entry)[item] =
         (uchar)hidden_share(&test, &scene, &r, 0, indices[i], lights, shadow_view, x, y);

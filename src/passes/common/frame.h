@@ -60,6 +60,7 @@ struct ShadowFigures {
   size_t certified = 0;  // pairs of a pixel and a listed light that certificates decided
   size_t bytes = 0;      // of bits, maps and certificates
   size_t undecided = 0;  // pairs that maps left to rays
+  size_t bands = 0;      // of tiles, for each of which the frame was shaded: their bits fit into memory
   int halvings = 0;      // of the sizes of all maps, to fit into their bound of memory
 };
 

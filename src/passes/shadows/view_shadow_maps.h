@@ -12,7 +12,8 @@ class ViewShadowMaps {
   // With the settings of the view's plan, which stay as they are.
   explicit ViewShadowMaps(Work& work);
 
-  // When the view, lights or surfaces moved: which maps, and their sizes.
+  // When the view, lights or surfaces moved: which maps, and their sizes. Throws Error(input) where even the
+  // least sizes take more than the setting shadow-memory.
   void look(const Work& work, const glm::dvec3& origin);
   // All of them, in each frame.
   void draw(const RayScene& rays) { maps_.draw(rays, atlas_); }
