@@ -28,6 +28,12 @@ constexpr size_t groups_a_tile = 4;
 
 constexpr size_t least_bytes = 64;  // of a buffer
 
+const OwnSetting<bool> shadow_reuse{
+    "shadow-reuse",
+    "portable",
+    "shadows are found in each frame, or only where the camera, a light or a surface changed",
+    {{"off", false}, {"on", true}}};
+
 size_t entry_words(const FramePlan& plan) {
   return plan.shadow_bytes ? SHADOW_WORDS_OF_BYTES : SHADOW_WORDS_OF_BITS;
 }
@@ -107,6 +113,17 @@ std::vector<uint32_t> bits_of_bytes(const std::vector<uint8_t>& shares) {
   return bits;
 }
 
+// All that shadows follow from and that may change: of a scene's other parts nothing does.
+struct ShadowInputs {
+  View view;
+  std::vector<Light> lights;
+  std::vector<CullLight> shining;  // with their ranges
+  std::vector<uint8_t> shadowed;
+  std::vector<std::pair<glm::dmat4, int>> instances;  // and the versions of their meshes
+  int builds;                                         // of the tree
+  bool operator==(const ShadowInputs&) const = default;
+};
+
 }  // namespace
 
 class ShadowBits : public PassCache {
@@ -114,6 +131,14 @@ class ShadowBits : public PassCache {
   explicit ShadowBits(Work& work) : kernels_(work, "shadows"), storage_(*work.renderer.cl) {}
 
   bool follow(Work&) override { return followed_ = false, true; }
+
+  // Whether the bits of the frame before are this frame's too. The view's next frame must then not find them.
+  bool unchanged(Work& work) {
+    unchanged_ = work.plan.shadows && shadow_reuse.of(work.plan.settings) &&
+                 !work.plan.settings.everything_on && found_for_ &&
+                 (followed_ || *found_for_ == inputs_of(work, *work.gpu.in_rays(work.plan.settings.texels)));
+    return unchanged_;
+  }
 
   size_t memory_bytes() const override {
     size_t bytes = lights_.bytes() + view_.bytes() + offsets_.bytes() + rays_.bytes() + grid_.cell_bytes +
@@ -132,13 +157,14 @@ class ShadowBits : public PassCache {
     fill_buffer(*work.renderer.cl, "clearing shadows", at_least(work, work.shadows.tiles, bytes, GL_RG32UI),
                 0, bytes);
     at_least(work, work.shadows.bits, least_bytes, GL_R32UI);
-    grid_ = {}, cleared_ = bytes, bands_ = {};
+    grid_ = {}, cleared_ = bytes, bands_ = {}, found_for_.reset();
     hand_over(work, bytes, least_bytes);
   }
 
   void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth,
             const cl::Buffer& numbers) {
     ClDevice& device = *work.renderer.cl;
+    found_for_.reset();
     if (band_ == 0) {
       cleared_ = 0;
       prepare(work, visible);
@@ -158,6 +184,8 @@ class ShadowBits : public PassCache {
         launch(of, seen ? &*seen : nullptr, depth, numbers, band);
       };
     hand_over(work, room_.table_bytes, bit_bytes);
+    if (shadow_reuse.of(work.plan.settings) && bands_.bands.size() == 1)
+      found_for_ = inputs_of(work, *scene_);
   }
 
   void begin_bands() { band_ = 0; }
@@ -204,22 +232,32 @@ class ShadowBits : public PassCache {
     ShadowFigures f;
     f.bytes = grid_.cell_bytes + grid_.index_bytes + work.shadows.bytes();
     if (grid_.index_count == 0) return f;
+    f.unchanged = unchanged_;
     f.lights = size_t(std::ranges::count(work.plan.shadowed, 1)), f.bands = bands_.bands.size();
     std::vector<uint32_t> rays(parts_);
     read_buffer(*work.renderer.cl, "counting rays", rays_.get(), rays.data(), rays.size() * sizeof rays[0]);
     if (maps_) {
-      f.maps = f.drawn = f.lights, f.halvings = maps_->atlas().halvings;
+      f.maps = f.lights, f.drawn = unchanged_ ? 0 : f.lights, f.kept = unchanged_ ? f.lights : 0;
+      f.halvings = maps_->atlas().halvings;
       f.bytes += maps_->atlas().bytes;
     }
-    f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
+    if (!unchanged_) f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
     if (certificates_) {
-      f.certified = certificates_->decided(*work.renderer.cl);
+      if (!unchanged_) f.certified = certificates_->decided(*work.renderer.cl);
       f.bytes += certificates_->table_bytes();
     }
     return f;
   }
 
  private:
+  static ShadowInputs inputs_of(Work& work, const RayScene& rays) {
+    ShadowInputs inputs{work.view, work.scene.lights, all_lights_of(work), work.plan.shadowed,
+                        {},        rays.builds()};
+    for (const Instance& i : work.scene.instances)
+      inputs.instances.emplace_back(i.world_from_object, work.gpu.mesh_version(i.mesh));
+    return inputs;
+  }
+
   ShadowBands plan_bands(Work& work) {
     const size_t tiles = size_t(grid_.cells_x) * size_t(grid_.cells_y),
                  entry = entry_words(work.plan) * sizeof(uint32_t);
@@ -394,7 +432,8 @@ class ShadowBits : public PassCache {
   BandedImage banded_;
   size_t parts_ = 0;    // counts of rays
   size_t cleared_ = 0;  // bytes of tiles in which nothing was found since they were cleared
-  bool followed_ = false;
+  std::optional<ShadowInputs> found_for_;  // what the bits were found for, with shadow-reuse
+  bool followed_ = false, unchanged_ = false;
 };
 
 namespace {
@@ -436,6 +475,10 @@ void find_shadows(Work& work, Cached<ShadowBits>& cache, const VisibilityBuffer*
   auto pass = work.timer.pass("find_shadows", "cl");
   shadows.find(work, visible, depth, numbers);
   pass.moves(work.grid().values() * 8 + shadows.scene(work).memory_bytes(), work.shadows.bytes());
+}
+
+bool shadows_are_unchanged(Work& work, Cached<ShadowBits>& cache) {
+  return work.plan.light_reaches && cache.of(work).unchanged(work);
 }
 
 void begin_shadow_bands(Work& work, Cached<ShadowBits>& cache) {

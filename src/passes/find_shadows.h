@@ -14,6 +14,10 @@ namespace lightgrid {
 void find_shadows(Work& work, Cached<ShadowBits>& cache, const VisibilityBuffer* visible,
                   const DepthBuffer& depth);
 
+// With the setting shadow-reuse: whether the bits of the view's last frame are those of this one, since
+// neither camera, lights, surfaces nor the lights that need shadows changed. find_shadows then finds nothing.
+bool shadows_are_unchanged(Work& work, Cached<ShadowBits>& cache);
+
 // Shadows that take more memory than the setting shadow-memory allows are found in several bands of tiles,
 // and the frame is shaded once for each: before the first time, and after each of them, which keeps the
 // band's pixels of its image. True: the frame has to be shaded again; false: the image is whole.

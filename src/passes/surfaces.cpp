@@ -25,7 +25,7 @@ Surfaces surfaces_of(RenderView& v, const DepthImage& image, bool depth_in_cl) {
 }
 
 void find_shadows(RenderView& v, Surfaces& surfaces) {
-  if (!v.plan.light_reaches) return;
+  if (!v.plan.light_reaches || shadows_are_unchanged(v, v.caches.shadow_bits)) return;
   find_shadows(v, v.caches.shadow_bits, surfaces.visible ? &*surfaces.visible : nullptr,
                v.plan.shadows ? depth_of(v, surfaces) : DepthBuffer());
 }

@@ -26,6 +26,9 @@ enum class ShadowNeed {
 // Why no rays are traced. Empty: they are.
 const char* reason_of(ShadowNeed need);
 
+// Of a light whose shadows are those of the frame before (the setting shadow-reuse).
+inline constexpr const char* unchanged_reason = "unchanged since the last frame";
+
 struct LightShadow {
   int light = 0;  // of the scene
   ShadowNeed need = ShadowNeed::rays;

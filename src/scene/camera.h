@@ -22,6 +22,7 @@ struct View {
   bool orthographic = false;
 
   PixelGrid grid() const { return {width, height}; }
+  bool operator==(const View&) const = default;
 };
 
 // The camera's vertical field is kept and the image's own aspect used (Camera::aspect and half_width_m are

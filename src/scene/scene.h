@@ -125,6 +125,7 @@ struct Light {
   bool casts_shadow = false;  // opaque and masked surfaces hide it from what lies behind them
   int node = -1;              // of the rig, which moves it; -1: static
   float source_m = -1;        // soft shadows are those of a sphere of this radius; below 0: of the setting's
+  bool operator==(const Light&) const = default;
 };
 
 // Both take a Light or a ViewLight. Directional lights have no place: they reach every surface, and are in no

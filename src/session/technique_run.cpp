@@ -87,16 +87,20 @@ static std::vector<KernelResult> kernel_results(const PassRecord& pass) {
 static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Frame& frame) {
   if (plan.casting.empty()) return {};
   ShadowResult result;
+  bool unchanged = false;
   if (frame.shadow_figures) {
     const ShadowFigures figures = frame.shadow_figures();
     result.lights = figures.lights, result.maps = figures.maps, result.drawn = figures.drawn;
     result.kept = figures.kept, result.certified = figures.certified, result.bytes = figures.bytes,
     result.rays = figures.rays;
+    unchanged = figures.unchanged;
     result.undecided = figures.undecided, result.halvings = figures.halvings, result.bands = figures.bands;
   }
   if (plan.settings.everything_on) return result;
   for (const LightShadow& light : plan.casting) {
-    if (light.need != ShadowNeed::rays) result.skipped.push_back({light.light, reason_of(light.need)});
+    const bool needed = light.need == ShadowNeed::rays;
+    if (!needed || unchanged)
+      result.skipped.push_back({light.light, needed ? unchanged_reason : reason_of(light.need)});
   }
   return result;
 }

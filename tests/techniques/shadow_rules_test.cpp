@@ -134,6 +134,7 @@ struct ShadowWork {
 ShadowWork work_of_shadows(TechniqueRun& run) {
   ShadowWork work;
   run.view().renderer.note_programs(&work.programs);
+  run.view().timer.clear();
   run.view().timer.enabled = true;
   run.run_frame();
   run.view().timer.enabled = false;
@@ -240,6 +241,49 @@ TEST(ShadowRulesPicture, ReckonsWithMovedVertices) {
   }
   EXPECT_GT(bites, 5u) << "walls whose chip hides the lamp from a pixel";
 }
+
+struct UnchangedShadows : testing::TestWithParam<const char*> {};
+
+// With shadow-reuse. ShadowBits.FollowEveryChange has what ends it.
+TEST_P(UnchangedShadows, CostNoKernelAndNoBit) {
+  const Scene scene = shadowed_scene();
+  GpuScene gpu(test_devices(), scene);
+  const View view = small_view(45, 31);
+  Settings reuse, everything_on;
+  apply_setting(reuse, "shadow-reuse=on");
+  apply_setting(everything_on, "shadow-reuse=on"), apply_setting(everything_on, "everything-on=on");
+  const Technique& technique = find_technique(GetParam());
+  TechniqueRun without(test_devices(), gpu, view, {}, technique),
+      with(test_devices(), gpu, view, reuse, technique),
+      all(test_devices(), gpu, view, everything_on, technique);
+  for (int frame = 0; frame < 3; ++frame) {
+    SCOPED_TRACE(frame);
+    if (frame == 2) without.look(view), with.look(view), all.look(view);
+    const ShadowWork ruled = work_of_shadows(with), full = work_of_shadows(without);
+    EXPECT_TRUE(identical(with.image(), without.image()));
+    EXPECT_TRUE(same_bits(shadows_of(with), shadows_of(without)));
+    EXPECT_THAT(full.passes, Contains("find_shadows"));
+    EXPECT_GT(full.figures.rays, 100u);
+    EXPECT_EQ(ruled.figures.lights, full.figures.lights);
+    const RunResult result = with.result();
+    const auto unchanged = std::ranges::count(result.shadows->skipped, std::string(unchanged_reason),
+                                              &ShadowResult::Skipped::why);
+    if (frame == 0) {
+      EXPECT_THAT(ruled.passes, Contains("find_shadows"));
+      EXPECT_EQ(unchanged, 0);
+    } else {
+      EXPECT_THAT(ruled.passes, Not(Contains("find_shadows")));
+      EXPECT_THAT(ruled.passes, Not(Contains("triangle_numbers")));
+      EXPECT_EQ(ruled.figures.rays, 0u);
+      EXPECT_TRUE(ruled.figures.unchanged);
+      EXPECT_EQ(size_t(unchanged), full.figures.lights);
+    }
+    EXPECT_THAT(work_of_shadows(all).passes, Contains("find_shadows")) << "everything-on";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, UnchangedShadows, testing::Values("deferred", "forward_plus", "visibility"),
+                         [](const auto& info) { return std::string(info.param); });
 
 // Where no light casts.
 

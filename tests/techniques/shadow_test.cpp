@@ -262,14 +262,17 @@ TEST(ShadowBits, AreTheOraclesInViewsOfAFewPixels) {
 
 // What a run shows after a change is what a run that begins with it shows.
 TEST(ShadowBits, FollowEveryChange) {
-  for (const char* technique : {"forward_plus", "visibility"}) {
-    SCOPED_TRACE(technique);
+  for (const auto& [technique, reuse] :
+       {std::pair("forward_plus", "on"), {"visibility", "off"}, {"visibility", "on"}}) {
+    SCOPED_TRACE(fmt::format("{}, shadow-reuse={}", technique, reuse));
     ShadowStage stage{shadowed_scene(), small_view(61, 37)};
+    Settings settings;
+    apply_setting(settings, std::string("shadow-reuse=") + reuse);
     const int fence = stage.scene.instances[2].mesh;
     auto rig = std::make_shared<Rig>();
     rig->meshes.push_back({.mesh = fence});
     stage.scene.rig = rig;
-    TechniqueRun run(test_devices(), stage.gpu, stage.view, {}, find_technique(technique));
+    TechniqueRun run(test_devices(), stage.gpu, stage.view, settings, find_technique(technique));
     run.run_frame();
     HostShadows before = shadows_of(run);
     const auto expect_new = [&](const char* change, bool differs = true) {

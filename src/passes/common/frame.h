@@ -58,6 +58,7 @@ struct ShadowFigures {
   size_t drawn = 0;      // drawn in this frame, and
   size_t kept = 0;       // kept from frames before
   size_t certified = 0;  // pairs of a pixel and a listed light that certificates decided
+  bool unchanged = false;  // all are those of the frame before, and nothing was found
   size_t bytes = 0;      // of bits, maps and certificates
   size_t undecided = 0;  // pairs that maps left to rays
   size_t bands = 0;      // of tiles, for each of which the frame was shaded: their bits fit into memory
