@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "plan/dim_lights.h"
 #include "plan/visibility.h"
 
 namespace lightgrid {
@@ -191,6 +192,9 @@ void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& ne
   if (needs.shadows) shadow_all(scene, plan);
   plan.casting = plan_light_shadows(scene, view, plan.settings.ranges, plan.opaque, plan.blended,
                                     plan.settings.soft_shadows() ? plan.settings.shadow_source_m : 0);
+  if (!plan.settings.everything_on)
+    plan.dim_steps =
+        leave_out_dim_lights(scene, view, plan.settings, plan.opaque, plan.blended, plan.casting);
   if (instances == PlannedInstances::in_view && plan.shadows) {
     plan.shadows = false;
     for (const LightShadow& light : plan.casting) {

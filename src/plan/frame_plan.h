@@ -98,6 +98,9 @@ struct FramePlan {
   std::vector<LightShadow> casting;  // all lights that cast, in scene order
   // By index into `local` and then into `directional_lights`, 1: of this light. Empty if `shadows` is false.
   std::vector<uint8_t> shadowed;
+  // What the lights that are too dim for a shadow (shadow-threshold) add to any pixel, at most, in steps of
+  // the 8-bit display.
+  double dim_steps = 0;
   bool directional_shadows = false;  // as light_reaches, of directional lights alone
   bool shadow_bytes = false;         // a share of a light may be hidden: a byte a pixel and light, not a bit
   bool directional = false;

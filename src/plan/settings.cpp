@@ -228,6 +228,10 @@ std::vector<Setting>& all_settings() {
        "rays for each pixel to lights drawn from its list, in place of those to each light: one estimate of "
        "the hidden share of all its light",
        named(&Settings::shadow_pick, {{"off", 0}, {"1", 1}, {"4", 4}, {"16", 16}})},
+      {"shadow-threshold",
+       "lights that together add less than so many steps of the 8-bit display to any surface have no shadow "
+       "there",
+       named(&Settings::shadow_threshold, {{"off", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}})},
       {"shadow-memory",
        "most memory of a frame's shadows, and as much again of shadow maps: where bits take more, the frame "
        "is "
@@ -308,7 +312,7 @@ Settings with_model(Settings settings, const Settings& model) {
 }
 
 Settings with_exact_shadows(Settings settings) {
-  settings.shadows = ShadowMethod::exact;
+  settings.shadows = ShadowMethod::exact, settings.shadow_threshold = 0;
   return settings;
 }
 

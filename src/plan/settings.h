@@ -98,6 +98,9 @@ struct Settings {
   int shadow_rays = 1;
   double shadow_source_m = 0.05;
   int shadow_pick = 0;               // rays for each pixel to all its lights: 1, 4 or 16; 0: to each light
+  int shadow_threshold = 0;  // steps of the display below which lights have no shadow: 1 to 16; 0: off
+  // Exposure of pictures, in stops, by which these steps are counted; none: it is chosen from the picture.
+  std::optional<double> display_ev = 0.0;
   // Most bytes of a frame's shadow bits with their table, and as many again of its shadow maps.
   size_t shadow_memory = size_t(256) << 20;
   bool portable = false;             // kernels without the builtins of one kind of CPU

@@ -21,6 +21,7 @@ enum class ShadowNeed {
   no_caster,       // no opaque or masked instance of the scene meets the light's bounds
   no_receiver,     // the bounds are out of view, or no instance in view meets them
   casters_behind,  // of all receivers: shadow_plan.cpp
+  too_dim,         // plan/dim_lights.h
 };
 
 // Why no rays are traced. Empty: they are.
@@ -32,7 +33,7 @@ inline constexpr const char* unchanged_reason = "unchanged since the last frame"
 struct LightShadow {
   int light = 0;  // of the scene
   ShadowNeed need = ShadowNeed::rays;
-  int caster = -1;  // rays: the first instance that may cast within the light's bounds
+  int caster = -1;  // rays, too_dim: the first instance that may cast within the light's bounds
 };
 
 // `reaches node 3 "wall"`, or the reason.

@@ -16,6 +16,8 @@ const char* reason_of(ShadowNeed need) {
       return "no receiver in view within its range";
     case ShadowNeed::casters_behind:
       return "casters only behind all receivers";
+    case ShadowNeed::too_dim:
+      return "adds too little to the display here (shadow-threshold)";
   }
   return "";
 }
@@ -29,7 +31,7 @@ std::string describe_shadows(const std::vector<LightShadow>& casting, const Scen
                              const char* found_by) {
   std::string text;
   for (const ShadowNeed need : {ShadowNeed::rays, ShadowNeed::no_caster, ShadowNeed::no_receiver,
-                                ShadowNeed::casters_behind}) {
+                                ShadowNeed::casters_behind, ShadowNeed::too_dim}) {
     const auto count = std::ranges::count(casting, need, &LightShadow::need);
     if (count == 0) continue;
     const LightShadow& first = *std::ranges::find(casting, need, &LightShadow::need);

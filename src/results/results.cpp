@@ -137,6 +137,7 @@ json to_json(const ShadowResult& s) {
   json out = {{"lights", s.lights}, {"maps", s.maps}, {"drawn", s.drawn},         {"kept", s.kept},
               {"bytes", s.bytes},   {"rays", s.rays}, {"undecided", s.undecided}, {"skipped", skipped}};
   if (s.certified > 0) out["certified"] = s.certified;
+  if (s.dim_steps > 0) out["dim_steps"] = s.dim_steps;
   if (s.bands > 1) out["bands"] = s.bands;
   if (s.maps > 0) out["halvings"] = s.halvings;
   return out;

@@ -132,6 +132,7 @@ struct ShadowResult {
   size_t maps = 0, drawn = 0, kept = 0, bytes = 0, rays = 0, undecided = 0;  // as in ShadowFigures
   std::vector<Skipped> skipped;
   size_t certified = 0, bands = 0;  // as in ShadowFigures
+  double dim_steps = 0;             // as in FramePlan
   int halvings = 0;  // of all maps' sizes
 };
 

@@ -22,7 +22,7 @@ struct EveryLight {
   bool is(const Technique& other, const Settings& settings) const {
     return other.name == std::string(technique->name) &&
            (!chosen_lights || settings.lights == ShadedLights::all) &&
-           settings.shadows == ShadowMethod::exact;
+           settings.shadows == ShadowMethod::exact && settings.shadow_threshold == 0;
   }
   std::string name() const { return technique->name + std::string(chosen_lights ? ":lights=all" : ""); }
 };

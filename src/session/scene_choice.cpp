@@ -219,6 +219,7 @@ Settings chosen_settings(const SceneChoice& choice) {
   Settings settings;
   for (const std::string& assignment : choice.set) apply_setting(settings, assignment);
   if (!choice.brdf.empty()) apply_setting(settings, "brdf=" + choice.brdf);
+  settings.display_ev = parse_exposure(choice);
   return settings;
 }
 

@@ -96,6 +96,7 @@ static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Fr
     unchanged = figures.unchanged;
     result.undecided = figures.undecided, result.halvings = figures.halvings, result.bands = figures.bands;
   }
+  result.dim_steps = plan.dim_steps;
   if (plan.settings.everything_on) return result;
   for (const LightShadow& light : plan.casting) {
     const bool needed = light.need == ShadowNeed::rays;

@@ -25,7 +25,7 @@ bool has_effect(const Settings& settings, const std::string& key) {
   if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
     return settings.shadows == ShadowMethod::map;
   if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
-  if (key == "shadow-kept" || key == "shadow-memory" || key == "shadow-reuse")
+  if (key == "shadow-kept" || key == "shadow-memory" || key == "shadow-reuse" || key == "shadow-threshold")
     return settings.given.contains(key);
   return true;
 }
@@ -65,7 +65,7 @@ const std::vector<const char*>& common_settings() {
     }
     for (const char* key :
          {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays", "shadow-source",
-          "shadow-pick", "shadow-kept", "shadow-reuse", "shadow-memory", "everything-on"})
+          "shadow-pick", "shadow-kept", "shadow-reuse", "shadow-threshold", "shadow-memory", "everything-on"})
       all.push_back(key);
     return all;
   }();

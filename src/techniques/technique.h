@@ -36,7 +36,7 @@ inline bool own_surfaces(const Technique& technique, const Settings& settings) {
 // Whether with these settings its picture is not forward's, by nature, or its shadows are no exact ones.
 inline bool is_approximate(const Technique& technique, const Settings& settings) {
   return technique.approximate || settings.shadows != ShadowMethod::exact || settings.soft_shadows() ||
-         settings.picks_shadows();
+         settings.picks_shadows() || settings.shadow_threshold > 0;
 }
 
 const std::vector<const Technique*>& techniques();
