@@ -152,6 +152,22 @@ TEST(SoftShadows, APointHasHardShadows) {
   }
 }
 
+// shadow-source is of lights without a radius of their own.
+TEST(SoftShadows, LightsMayHaveARadiusOfTheirOwn) {
+  const Scene scene = soft_scene();
+  Scene own = scene;
+  for (Light& light : own.lights) light.source_m = float(source_m);
+  const Shaded by_setting(scene, "visibility", {"shadow-rays=16"}),
+      by_light(own, "visibility", {"shadow-rays=16", "shadow-source=0.5"}),
+      wider(scene, "visibility", {"shadow-rays=16", "shadow-source=0.5"});
+  EXPECT_EQ(by_light.shadows.shares, by_setting.shadows.shares);
+  EXPECT_NE(by_light.shadows.shares, wider.shadows.shares);
+  for (Light& light : own.lights) light.source_m = 0;
+  const Shaded points(own, "visibility", {"shadow-rays=16"});
+  EXPECT_GT(std::ranges::count(points.shadows.shares, 255), 100);
+  EXPECT_TRUE(std::ranges::all_of(points.shadows.shares, [](int share) { return share == 0 || share == 255; }));
+}
+
 // A pixel's lights by what they add to a Lambert surface.
 struct PickedPixel {
   int x = 0, y = 0;

@@ -62,6 +62,8 @@ Scene scene_of_effects(bool shadows) {
   SmallScene s = small_scene();
   for (const char* name : {"blend", "mask", "spot", "directional"}) effect(name).add(s);
   s.scene.lights[2].casts_shadow = shadows;
+  // Too dim for any step of the display.
+  if (shadows) add_point(s.scene, "ember", {0, 0, -1}, {1, 1, 1}, 1e-9f, 4).casts_shadow = true;
   return s.scene;
 }
 
