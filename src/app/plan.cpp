@@ -79,6 +79,7 @@ void add_plan(CommandLine& line) {
       line.add("plan", "the effects that this view needs, and why", [o] { return plan(*o); });
   add_scene_options(command, o->scene);
   add_technique_option(command, o->technique, technique_names());
+  add_exposure_option(command, o->scene);
   command.flag("--leaks", o->leaks, "lists the light that goes through walls, by light and wall");
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
