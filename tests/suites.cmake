@@ -17,7 +17,8 @@ function(add_entry name filter)
   endif()
   set(environment LIGHTGRID_TUNED=off)
   # .ci/run sets LIGHTGRID_CL_QUICK_BUILD=all. Read here, since this runs when ctest starts.
-  if("$ENV{LIGHTGRID_CL_QUICK_BUILD}" STREQUAL all AND (folder IN_LIST optimised_folders OR suite MATCHES "PassCases$"))
+  if("$ENV{LIGHTGRID_CL_QUICK_BUILD}" STREQUAL all AND NOT suite IN_LIST unoptimised_suites AND
+     (folder IN_LIST optimised_folders OR suite MATCHES "PassCases$"))
     list(APPEND environment LIGHTGRID_CL_QUICK_BUILD=gpu)
   endif()
   set(labels ${folder})

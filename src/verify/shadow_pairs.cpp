@@ -68,9 +68,23 @@ std::string words_of(const TileLight& l, const TileReceivers& tile, size_t i, co
   return words;
 }
 
+void add_pair(ShadowPairs& pairs, const ShadowImage& image, const TileReceivers& tile, const TileLight& l,
+              size_t k, const SightAnswer& answer) {
+  if (answer.sight == Sight::either) {
+    ++pairs.either;
+    return;
+  }
+  const bool hidden = answer.sight == Sight::hidden;
+  ++(hidden ? pairs.hidden : pairs.seen);
+  if (hidden_at(image.shadows, tile.x[k], tile.y[k], l.index) == hidden) return;
+  ++(hidden ? pairs.leaked : pairs.acned);
+  if (pairs.why.empty()) pairs.why = words_of(l, tile, k, answer, hidden ? "leaks" : "is dark, though seen,");
+}
+
 // A block of a tile's pixels.
-void add_block(ShadowPairs& pairs, const Occlusion& occlusion, const ShadowImage& image,
-               const TileReceivers& tile, const TileLight& l, size_t begin, int* last) {
+void add_block(std::vector<ShadowPairs>& pairs, const Occlusion& occlusion,
+               const std::vector<const ShadowImage*>& images, const TileReceivers& tile, const TileLight& l,
+               size_t begin, int* last) {
   size_t pixels[block], count = 0;
   const Receiver* receivers[block];
   SightAnswer answers[block];
@@ -79,17 +93,8 @@ void add_block(ShadowPairs& pairs, const Occlusion& occlusion, const ShadowImage
   }
   occlusion.sights(l.light, {receivers, count}, answers, last);
   for (size_t i = 0; i < count; ++i) {
-    const size_t k = pixels[i];
-    if (answers[i].sight == Sight::either) {
-      ++pairs.either;
-      continue;
-    }
-    const bool hidden = answers[i].sight == Sight::hidden;
-    ++(hidden ? pairs.hidden : pairs.seen);
-    if (hidden_at(image.shadows, tile.x[k], tile.y[k], l.index) == hidden) continue;
-    ++(hidden ? pairs.leaked : pairs.acned);
-    if (pairs.why.empty())
-      pairs.why = words_of(l, tile, k, answers[i], hidden ? "leaks" : "is dark, though seen,");
+    for (size_t of = 0; of < images.size(); ++of)
+      add_pair(pairs[of], *images[of], tile, l, pixels[i], answers[i]);
   }
 }
 
@@ -104,25 +109,36 @@ ShadowPairs& ShadowPairs::operator+=(const ShadowPairs& more) {
 
 ShadowPairs count_shadow_pairs(const Scene& scene, const Occlusion& occlusion, const View& view,
                                const ShadowImage& image) {
-  check_lists(scene, image);
-  const std::vector<ViewLight> lights = lights_in_view(scene, view, {}, image.lights);
-  const int tiles_x = image.shadows.tiles_x, tiles = int(image.shadows.cells.size());
-  std::vector<ShadowPairs> of_tile(static_cast<size_t>(tiles));
+  return count_shadow_pairs(scene, occlusion, view, std::vector{&image}).front();
+}
+
+std::vector<ShadowPairs> count_shadow_pairs(const Scene& scene, const Occlusion& occlusion, const View& view,
+                                            const std::vector<const ShadowImage*>& images) {
+  for (const ShadowImage* image : images) check_lists(scene, *image);
+  const ShadowImage& first = *images.front();
+  const std::vector<ViewLight> lights = lights_in_view(scene, view, {}, first.lights);
+  const int tiles_x = first.shadows.tiles_x, tiles = int(first.shadows.cells.size());
+  std::vector<std::vector<ShadowPairs>> of_tile(size_t(tiles), std::vector<ShadowPairs>(images.size()));
   parallel_for(tiles, [&](int t) {
-    ShadowPairs& pairs = of_tile[size_t(t)];
-    const TileReceivers tile = receivers_of(occlusion, view, image, t % tiles_x, t / tiles_x);
+    const TileReceivers tile = receivers_of(occlusion, view, first, t % tiles_x, t / tiles_x);
     for (size_t i = 0; i < lights.size(); ++i) {
-      const Light& light = scene.lights[size_t(image.lights[i])];
+      const Light& light = scene.lights[size_t(first.lights[i])];
       if (!light.casts_shadow) continue;
-      const TileLight here{light, image.lights[i], lights[i], uint32_t(i)};
+      const TileLight here{light, first.lights[i], lights[i], uint32_t(i)};
       int last = -1;
       for (size_t k = 0; k < tile.x.size(); k += block)
-        add_block(pairs, occlusion, image, tile, here, k, &last);
+        add_block(of_tile[size_t(t)], occlusion, images, tile, here, k, &last);
     }
   });
-  ShadowPairs sum;
-  for (const ShadowPairs& pairs : of_tile) sum += pairs;
-  return sum;
+  std::vector<ShadowPairs> sums(images.size());
+  for (const auto& pairs : of_tile) {
+    for (size_t of = 0; of < images.size(); ++of) sums[of] += pairs[of];
+  }
+  return sums;
+}
+
+bool same_surfaces_and_lights(const ShadowImage& a, const ShadowImage& b) {
+  return a.triangles == b.triangles && a.depths == b.depths && a.lights == b.lights;
 }
 
 const char* difference(const ShadowImage& a, const ShadowImage& b) {

@@ -81,6 +81,28 @@ INSTANTIATE_TEST_SUITE_P(Shapes, RaysByHand, testing::Values(KernelShape::lanes,
                            return info.param == KernelShape::lanes ? "Lanes" : "Group";
                          });
 
+TEST(RaysOracle, LeavesOutOnlyTrianglesThatAreNotMet) {
+  size_t far = 0, near = 0;
+  for (const Soup& soup : hard_soups()) {
+    const Queries q = queries_of(soup.triangles, 6, 8, 3);
+    for (const RayPacket& packet : q.packets) {
+      for (int lane = 0; lane < 16; lane += 5) {
+        const RayLight& light = q.lights[packet.light];
+        const RayPoint& point = q.points[packet.block * 16 + lane];
+        const RayOracle::Line line(light, point);
+        for (const Corners& c : soup.triangles) {
+          const bool is_far = line.is_far(c);
+          ++(is_far ? far : near);
+          if (!is_far) continue;
+          ASSERT_EQ(RayOracle::one(c, light, point), Answer::no) << soup.name;
+        }
+      }
+    }
+  }
+  EXPECT_GT(far, near);
+  EXPECT_GT(near, 1000u);
+}
+
 class RaysInSoups : public testing::TestWithParam<int> {
  protected:
   const Soup soup = hard_soups()[GetParam()];

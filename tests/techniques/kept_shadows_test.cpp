@@ -167,9 +167,9 @@ TEST(KeptShadows, AreThoseOfRaysFarFromTheOrigin) {
 
 TEST(KeptShadows, AreThoseOfRaysWhereTheTableIsFull) {
   const Sum small =
-      expect_same_bits(opencl_devices(), {.bytes = "1M", .frames = 40, .width = 640, .height = 360});
+      expect_same_bits(opencl_devices(), {.bytes = "1M", .frames = 24, .width = 480, .height = 270});
   const Sum large =
-      expect_same_bits(opencl_devices(), {.bytes = "64M", .frames = 40, .width = 640, .height = 360});
+      expect_same_bits(opencl_devices(), {.bytes = "64M", .frames = 24, .width = 480, .height = 270});
   EXPECT_LT(small.certified, large.certified);
 }
 
