@@ -86,6 +86,12 @@ static inline void add_plane(Receivers* r, const RayScene* scene, uint number, m
 // x, y: pixels' centres. covered: they show a triangle.
 #if LANES == 16
 typedef uint16 triangles_t;
+
+// Of a block of 4 x 4 pixels from (x, y) on, those in the image that show a triangle.
+static inline mask_t covered_lanes(uint16 triangle, uint x, uint y, uint width, uint height) {
+  return (LANE_INDEX & 3) < (int16)((int)(width - x)) & (LANE_INDEX >> 2) < (int16)((int)(height - y)) &
+         (triangle != (uint16)(NO_TRIANGLE));
+}
 #else
 typedef uint triangles_t;
 #endif

@@ -46,7 +46,8 @@ CullerOptions options_of_shadows(const FramePlan& plan) {
 // In the order of FramePlan::shadowed, as shining: directional ones everywhere.
 std::vector<CullLight> all_lights_of(const Seen& seen) {
   std::vector<CullLight> lights = cull_lights_of(seen.scene, seen.plan.local, seen.plan.settings.ranges);
-  lights.resize(lights_of(seen.plan));
+  for (const int i : seen.plan.directional_lights)
+    lights.push_back({.direction = glm::dvec3(seen.scene.lights[size_t(i)].direction)});
   return lights;
 }
 
@@ -167,7 +168,8 @@ class ShadowBits : public PassCache {
                                 {"tiles", listed},
                                 {"bits", bits},
                                 {"rays", rays}} +
-                    (certificates_ ? certificates_->arguments(device, parts_) : ClArguments{}));
+                    (certificates_ ? certificates_->arguments(device, parts_, grid_.index_count)
+                                   : ClArguments{}));
     hand_over(work, bytes, bit_bytes);
   }
 
@@ -212,7 +214,7 @@ class ShadowBits : public PassCache {
     f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
     if (certificates_) {
       f.kept = certificates_->decided(*work.renderer.cl);
-      f.bytes += certificates_->table_bytes();
+      f.bytes += certificates_->memory_bytes();
     }
     return f;
   }
@@ -267,12 +269,17 @@ class ShadowBits : public PassCache {
     if (!culler_) culler_.emplace(device, *work.renderer.kernels, options_of_shadows(work.plan));
     const std::vector<CullLight> all_lights = all_lights_of(work);
     const std::vector<CullLight> lights = shadowed_lights(work, all_lights);
-    if (kept_bytes != 0) {
-      if (!certificates_) certificates_.emplace(device, kept_bytes);
-      certificates_->follow(work, rays, all_lights);
-    }
     if (lights != lights_in_culler_) culler_->set_lights(lights), lights_in_culler_ = lights;
     culler_->set_view(cull_view(work.view));
+    std::vector<int32_t> offsets;
+    if (visible) {
+      uint32_t first = 0;
+      for (const int i : visible->instances) {
+        offsets.push_back(int32_t(rays.first_triangle(size_t(i)) - first));
+        first += uint32_t(work.scene.meshes[size_t(work.scene.instances[size_t(i)].mesh)].indices.size() / 3);
+      }
+      offsets_.put(device, "uploading numbers of triangles", offsets);
+    }
     std::vector<ShadowLight> records;
     for (size_t i = 0; i < work.plan.local.size(); ++i) {
       ShadowLight& record = records.emplace_back(shadow_light(lights[i], work.view, rays.origin()));
@@ -282,19 +289,15 @@ class ShadowBits : public PassCache {
     }
     for (const int i : work.plan.directional_lights)
       records.push_back(shadow_light(work.scene.lights[size_t(i)]));
-    for (size_t i = 0; certificates_ && i < records.size(); ++i) records[i].stamp = certificates_->stamp(i);
-    lights_.put(device, "uploading lights of shadows", records);
-    view_.put(device, "uploading the view of shadows",
-              std::vector<ShadowView>{shadow_view(work, rays.origin())});
-    if (visible) {
-      std::vector<int32_t> offsets;
-      uint32_t first = 0;
-      for (const int i : visible->instances) {
-        offsets.push_back(int32_t(rays.first_triangle(size_t(i)) - first));
-        first += uint32_t(work.scene.meshes[size_t(work.scene.instances[size_t(i)].mesh)].indices.size() / 3);
-      }
-      offsets_.put(device, "uploading numbers of triangles", offsets);
+    ShadowView seen_from = shadow_view(work, rays.origin());
+    if (kept_bytes != 0) {
+      if (!certificates_) certificates_.emplace(device, kept_bytes);
+      certificates_->follow(work, rays, all_lights, {seen_from, work.params, offsets, defines});
+      for (size_t i = 0; i < records.size(); ++i) records[i].stamp = certificates_->stamp(i);
+      seen_from.stamp = certificates_->sight_stamp();
     }
+    lights_.put(device, "uploading lights of shadows", records);
+    view_.put(device, "uploading the view of shadows", std::vector<ShadowView>{seen_from});
     followed_ = true;
   }
 

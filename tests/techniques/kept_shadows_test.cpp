@@ -19,6 +19,7 @@ struct MovingRoom {
   Scene scene;
   dvec3 offset;
   bool orthographic = false;
+  int sun = -1;  // its light, if there is one
   int cloth_mesh, ball, box, mirrored, hedge, cloth;
 
   explicit MovingRoom(const dvec3& at) : offset(at) {
@@ -63,6 +64,14 @@ struct MovingRoom {
     }
   }
 
+  void add_sun() {
+    sun = int(scene.lights.size());
+    Light& light = scene.lights.emplace_back();
+    light.type = LightType::directional, light.direction = glm::normalize(glm::vec3(0.3f, -1, -0.4f)),
+    light.intensity = 1;
+    light.casts_shadow = true;
+  }
+
   View view(double turn, int width, int height) const {
     const dvec3 eye = offset + dvec3(3 * std::sin(turn), 1.7, 3.6 * std::cos(turn) + 0.4);
     Camera camera = look_at(eye, offset + dvec3(0, 0.8, -1));
@@ -95,6 +104,10 @@ struct MovingRoom {
       torch.direction = glm::normalize(dvec3(std::sin(t), -1.5, std::cos(3 * t)));
       changes.lights.push_back(8 + frame / 19 % 2);
     }
+    if (sun >= 0 && frame % 9 == 6) {
+      scene.lights[size_t(sun)].direction = glm::normalize(glm::vec3(0.3 * std::cos(t), -1, -0.4));
+      changes.lights.push_back(sun);
+    }
     if (frame % 23 == 4) {
       Mesh& mesh = scene.meshes[size_t(cloth_mesh)];
       for (glm::vec3& p : mesh.positions) p.y = 0.3f * std::sin(float(t) + 2 * p.x + p.z);
@@ -110,6 +123,7 @@ struct Case {
   dvec3 offset{0};
   bool orthographic = false;
   int frames = 20, width = 200, height = 120;
+  bool still = false;  // the camera; there is a sun, too
 };
 
 struct Sum {
@@ -120,6 +134,7 @@ struct Sum {
 Sum expect_same_bits(Renderer& devices, const Case& c) {
   MovingRoom room(c.offset);
   room.orthographic = c.orthographic;
+  if (c.still) room.add_sun();
   GpuScene gpu(devices, room.scene);
   Settings settings;
   apply_setting(settings, std::string("portable=") + c.portable);
@@ -132,7 +147,7 @@ Sum expect_same_bits(Renderer& devices, const Case& c) {
   for (int frame = 0; frame < c.frames; ++frame) {
     const SceneChanges changes = room.move(frame);
     if (!changes.empty()) gpu.update(changes);
-    if (frame % 3 != 0) turn += 0.02;
+    if (frame % 3 != 0 && !c.still) turn += 0.02;
     const View view = room.view(turn, c.width, c.height);
     for (TechniqueRun* run : {&without, &with}) run->look(view, changes), run->run_frame();
     const HostShadows truth = without.frame().shadows(), bits = with.frame().shadows();
@@ -155,6 +170,13 @@ TEST(KeptShadows, AreThoseOfRaysWhateverMoves) {
   // Without certificates in use this test would show nothing.
   EXPECT_LT(2 * sum.rays, sum.rays_without);
   EXPECT_GT(sum.kept, sum.rays);
+}
+
+// Then tiles keep the bits of lights, too.
+TEST(KeptShadows, AreThoseOfRaysWhereTheCameraRests) {
+  const Sum sum =
+      expect_same_bits(opencl_devices(), {.frames = 100, .width = 128, .height = 72, .still = true});
+  EXPECT_LT(5 * sum.rays, sum.rays_without);
 }
 
 TEST(KeptShadows, AreThoseOfRaysFarFromTheOrigin) {

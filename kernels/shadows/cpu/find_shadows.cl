@@ -3,15 +3,16 @@
 //
 // SHADOW_TEST_ARGUMENTS          kernels/shadows/shadow_test.h
 // SHADOW_PASS_ARGUMENTS  kernels/shadows/receivers.h
-// -DKEPT                 certificates decide what they can (kernels/shadows/certificates.h)
+// -DKEPT                 what is kept decides what it can: tiles' bits
+//                        (kernels/shadows/cpu/kept_tiles.h), then certificates (kernels/shadows/certificates.h)
 // decided                out, with -DKEPT: pairs of a pixel and a listed light that took no ray, a tile
 #define LANES 16
 #include "kernels/common/pack.h"
 #include "kernels/common/image_blocks.h"
 #include "kernels/shadows/shadow_test.h"
 #ifdef KEPT
-#include "kernels/shadows/cpu/tile_pieces.h"
-#define ALL_ARGUMENTS SHADOW_PASS_ARGUMENTS, CERTIFICATE_ARGUMENTS
+#include "kernels/shadows/cpu/certified_lights.h"
+#define ALL_ARGUMENTS SHADOW_PASS_ARGUMENTS, CERTIFICATE_ARGUMENTS, KEPT_TILE_ARGUMENTS
 #else
 #define ALL_ARGUMENTS SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS
 #endif
@@ -30,9 +31,32 @@ static inline void store_shadows(global uint* entry, uint block, whole hidden) {
 }
 #endif
 
+// Of a tile's blocks. Returns those with a surface.
+static inline uint receivers_of_tile(Receivers receivers[16], const RayScene* scene, uint tile_x, uint tile_y,
+                                     global const uint* triangles, global const float* depths,
+                                     global const uint* triangle_instance, global const int* number_offsets,
+                                     constant ShadowView* shadow_view, constant ViewParams* view) {
+  const uint width = view->width, height = view->height;
+  uint used = 0;
+  for (uint block = 0; block < 16; ++block) {
+    const uint x = tile_x * SHADOW_TILE + block % 4 * 4, y = tile_y * SHADOW_TILE + block / 4 * 4;
+    if (x >= width || y >= height) continue;
+    const uint16 triangle = load_block(triangles, x, y, width, height);
+    const mask_t covered = covered_lanes(triangle, x, y, width, height);
+    if (!any_lane(covered)) continue;
+    const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
+    receivers[block] =
+        receivers_at(scene, triangle, covered, (float)x + 0.5f + convert_float16(LANE_INDEX & 3),
+                     (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, triangle_instance,
+                     number_offsets, shadow_view, view);
+    used |= 1u << block;
+  }
+  return used;
+}
+
 kernel void find_shadows(ALL_ARGUMENTS) {
   const RayScene scene = RAYS_SCENE;
-  const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
+  const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
   const uint tile = tile_y * (uint)get_global_size(0) + tile_x;
   const uint2 range = cells[tile];
   global uint2* listed = tiles + (size_t)tile * shadow_view->words;
@@ -40,33 +64,26 @@ kernel void find_shadows(ALL_ARGUMENTS) {
   ShadowTest test = SHADOW_TEST;
 #ifdef KEPT
   const Certificates kept = CERTIFICATES;
-  TilePieces pieces;
-  pieces.count = 0;
-  for (uint w = 0; w < SHADOW_WORDS; ++w) pieces.others[w] = 0;
   uint without_ray = 0;
+  KeptTile kept_tile = {0, 0, 0};
 #endif
   if (range.y != 0) {
     Receivers receivers[16];
-    uint used = 0;  // blocks with a surface
-    for (uint block = 0; block < 16; ++block) {
-      const uint x = tile_x * SHADOW_TILE + block % 4 * 4, y = tile_y * SHADOW_TILE + block / 4 * 4;
-      if (x >= width || y >= height) continue;
-      const uint16 triangle = load_block(triangles, x, y, width, height);
-      const int16 inside = (LANE_INDEX & 3) < (int16)((int)(width - x)) & (LANE_INDEX >> 2) < (int16)((int)(height - y));
-      const mask_t covered = inside & (triangle != (uint16)(NO_TRIANGLE));
-      if (!any_lane(covered)) continue;
-      const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
-      receivers[block] = receivers_at(
-          &scene, triangle, covered, (float)x + 0.5f + convert_float16(LANE_INDEX & 3),
-          (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, triangle_instance, number_offsets, shadow_view, view);
-      used |= 1u << block;
 #ifdef KEPT
-      add_pieces(&pieces, &scene, receivers + block, block, range.y, shadow_view);
-#endif
-    }
-#ifdef KEPT
-    drop_small_pieces(&pieces, 0, pieces.others);
-    pieces.count_at_first = pieces.count;
+    TilePieces pieces;
+    LightBatch batch;
+    batch.count = 0;
+    bool has_pieces = false;
+    uint covered;
+    const bool same = follow_surfaces(kept_surfaces + (size_t)tile * KEPT_SURFACE_WORDS, triangles, depths,
+                                      tile_x, tile_y, view->width, view->height, &covered) &&
+                      kept_tiles[tile].view == shadow_view->stamp;
+    uint at = kept_tiles[tile].first;
+    const uint end = same ? at + kept_tiles[tile].count : at;
+    kept_tile.view = shadow_view->stamp, kept_tile.first = range.x, kept_tile.count = range.y;
+#else
+    const uint used = receivers_of_tile(receivers, &scene, tile_x, tile_y, triangles, depths,
+                                        triangle_instance, number_offsets, shadow_view, view);
 #endif
 #ifdef SHADOW_PICK
     for (uint left = used; left != 0; left &= left - 1) {
@@ -78,16 +95,30 @@ kernel void find_shadows(ALL_ARGUMENTS) {
 #endif
     for (uint i = range.x; i < range.x + range.y; ++i) {
       const uint index = indices[i];
-      global uint* entry = bits + (size_t)i * SHADOW_WORDS;
 #ifdef KEPT
-      uint words[SHADOW_WORDS] = {0}, others[SHADOW_WORDS];
-      hidden_by_certificates(&scene, &pieces, receivers, lights + index, index,
-                             indices[min(i + 1, range.x + range.y - 1)], &kept, shadow_view, words, others,
-                             &without_ray);
-      hidden_by_rays(&scene, receivers, others, lights + index, shadow_view, words, &test.traced,
-                     &test.last_blocker);
-      vstore8(vload8(0, words), 0, entry);
+      const uint stamp = lights[index].stamp;
+      global const KeptShadow* known = kept_shadow(last_shadows, &at, end, index, stamp);
+      if (known) {
+        keep_shadow(bits, next_shadows, i, index, stamp, vload8(0, known->words));
+        without_ray += covered;
+      } else {
+        batch.entry[batch.count] = i, batch.light[batch.count] = index, ++batch.count;
+      }
+      if (batch.count == 16 || (batch.count != 0 && i + 1 == range.x + range.y)) {
+        if (!has_pieces) {
+          const uint used = receivers_of_tile(receivers, &scene, tile_x, tile_y, triangles, depths,
+                                              triangle_instance, number_offsets, shadow_view, view);
+          if (range.y < LEAST_LIGHTS)
+            set_no_pieces(&pieces, receivers, used);
+          else
+            set_pieces(&pieces, &scene, receivers, used, &kept, shadow_view);
+          has_pieces = true;
+        }
+        hidden_from_batch(&scene, &pieces, receivers, &batch, lights, &kept, shadow_view, bits, next_shadows,
+                          &without_ray, &test.traced, &test.last_blocker);
+      }
 #else
+      global uint* entry = bits + (size_t)i * SHADOW_WORDS;
       for (uint word = 0; word < SHADOW_WORDS; word += 8) vstore8((uint8)(0), 0, entry + word);
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
@@ -104,5 +135,6 @@ kernel void find_shadows(ALL_ARGUMENTS) {
   rays[tile] = rays_of_test(&test);
 #ifdef KEPT
   decided[tile] = without_ray;
+  kept_tiles[tile] = kept_tile;
 #endif
 }
