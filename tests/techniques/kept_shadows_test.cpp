@@ -18,7 +18,7 @@ using glm::dvec3;
 struct MovingRoom {
   Scene scene;
   dvec3 offset;
-  bool orthographic = false;
+  bool orthographic = false, along_wall = false;
   int sun = -1;  // its light, if there is one
   int cloth_mesh, ball, box, mirrored, hedge, cloth;
 
@@ -77,6 +77,11 @@ struct MovingRoom {
     Camera camera = look_at(eye, offset + dvec3(0, 0.8, -1));
     if (orthographic)
       camera.orthographic = true, camera.half_width_m = 4, camera.half_height_m = 2.4, camera.far_m = 20;
+    if (along_wall) {  // which then fills the view: at each pixel the same triangles and depths
+      const dvec3 before = offset + dvec3(turn, 2.5, -3.5);
+      camera = look_at(before, before - dvec3(0, 0, 1));
+      camera.orthographic = true, camera.half_width_m = 1.5, camera.half_height_m = 0.9, camera.far_m = 20;
+    }
     return make_view(camera, width, height);
   }
 
@@ -124,6 +129,7 @@ struct Case {
   bool orthographic = false;
   int frames = 20, width = 200, height = 120;
   bool still = false;  // the camera; there is a sun, too
+  bool along_wall = false;
 };
 
 struct Sum {
@@ -133,7 +139,7 @@ struct Sum {
 // Frame by frame against a run without certificates.
 Sum expect_same_bits(Renderer& devices, const Case& c) {
   MovingRoom room(c.offset);
-  room.orthographic = c.orthographic;
+  room.orthographic = c.orthographic, room.along_wall = c.along_wall;
   if (c.still) room.add_sun();
   GpuScene gpu(devices, room.scene);
   Settings settings;
@@ -199,6 +205,11 @@ TEST(KeptShadows, AreThoseOfRaysOnSurfacesOfOpenGl) {
 
 TEST(KeptShadows, AreThoseOfRaysInParallelViews) {
   const Sum sum = expect_same_bits(opencl_devices(), {.orthographic = true});
+  EXPECT_LT(sum.rays, sum.rays_without);
+}
+
+TEST(KeptShadows, AreThoseOfRaysWhereTheViewSlidesAlongAWall) {
+  const Sum sum = expect_same_bits(opencl_devices(), {.along_wall = true});
   EXPECT_LT(sum.rays, sum.rays_without);
 }
 
