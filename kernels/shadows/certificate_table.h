@@ -82,15 +82,41 @@ static inline volatile global uchar* light_used(volatile global PieceCertificate
   return (volatile global uchar*)of->light_used + light;
 }
 
-// False: they are those of another piece by now, or always being written.
+static inline void copy_line(PieceCertificates* to, volatile global PieceCertificates* from, uint line) {
+  vstore16(((volatile global uint16*)from)[line], line, (uint*)to);
+}
+
+// Cache lines of a piece: the key, twice stamps, twice states, places.
+#define FIRST_STAMPS 1
+#define FIRST_STATES (FIRST_STAMPS + CERTIFICATE_LIGHTS / 16)
+#define FIRST_PLACES (FIRST_STATES + CERTIFICATE_LIGHTS / 16)
+
+// Where the piece's certificates most probably are.
+static inline void prefetch_certificates(const Certificates* c, const Piece* p) {
+#ifdef __clang__
+  global uint16* lines = (global uint16*)set_of(c, p);
+  __builtin_prefetch(lines, 0, 3);
+  __builtin_prefetch(lines + FIRST_STAMPS, 0, 3);
+  __builtin_prefetch(lines + FIRST_STATES, 0, 3);
+  __builtin_prefetch(lines + FIRST_PLACES, 0, 3);
+#endif
+}
+
+// Those lines that hold something: lights follow one another. False: they are those of another piece by now,
+// or always being written.
 static bool copy_certificates(PieceCertificates* to, volatile global PieceCertificates* from,
                               const Piece* piece) {
   for (uint tries = 0; tries < 64; ++tries) {
     const uint version = from->version;
     if (version & 1u) continue;
     read_mem_fence(CLK_GLOBAL_MEM_FENCE);
-    for (uint i = 0; i < sizeof(PieceCertificates) / 64; ++i)
-      vstore16(((volatile global uint16*)from)[i], i, (uint*)to);
+    copy_line(to, from, 0), copy_line(to, from, FIRST_STAMPS), copy_line(to, from, FIRST_STATES);
+    if (to->stamps[15] != 0)
+      copy_line(to, from, FIRST_STAMPS + 1), copy_line(to, from, FIRST_STATES + 1);
+    else
+      to->stamps[16] = 0;
+    for (uint i = 0; i < CERTIFICATE_POOL / 16 && 16 * i < to->place_count; ++i)
+      copy_line(to, from, FIRST_PLACES + i);
     read_mem_fence(CLK_GLOBAL_MEM_FENCE);
     if (from->version == version) return is_of_piece(from, piece);
   }

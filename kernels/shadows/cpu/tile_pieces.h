@@ -117,9 +117,7 @@ static void finish_pieces(TilePieces* pieces, const Certificates* c) {
       for (uint w = 0; w < SHADOW_WORDS; ++w) pieces->others[w] |= p->words[w];
       continue;
     }
-#ifdef __clang__
-    __builtin_prefetch((global void*)set_of(c, &p->piece), 0, 3);
-#endif
+    prefetch_certificates(c, &p->piece);
     if (count != i) pieces->of[count] = *p;
     ++count;
   }
