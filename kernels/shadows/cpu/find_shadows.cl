@@ -4,7 +4,7 @@
 // SHADOW_TEST_ARGUMENTS          kernels/shadows/shadow_test.h
 // SHADOW_PASS_ARGUMENTS  kernels/shadows/receivers.h
 // -DKEPT                 what is kept decides what it can: tiles' bits
-//                        (kernels/shadows/cpu/kept_tiles.h), then certificates (kernels/shadows/certificates.h)
+//                        (kernels/shadows/cpu/kept_tiles.h), certificates (kernels/shadows/certificates.h)
 // decided                out, with -DKEPT: pairs of a pixel and a listed light that took no ray, a tile
 #define LANES 16
 #include "kernels/common/pack.h"
