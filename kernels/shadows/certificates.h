@@ -19,7 +19,7 @@
 
 // Of a cell's edge: how much wider the polygon's cell is.
 #define EDGE 0x1p-8f
-#define MOST_SEEN 24  // triangles that may hide a point, after which nothing more is tried
+#define MOST_SEEN 32  // triangles that may hide a point, after which nothing more is tried
 
 typedef struct Polygon {
   double at[12][3];
@@ -286,7 +286,7 @@ static uint find_hiding(const RayScene* scene, const Shaft* s, global const Shad
         const int hit = hit_of(s, l, t);
         if (hit == MISSES) continue;
         if (hit == HIDES_ALL) {
-          places[0] = place, *found = 1;
+          *found = 0;
           return CERTIFICATE_HIDDEN;
         }
         if (count < CERTIFICATE_PLACES) places[count] = place;
@@ -304,7 +304,7 @@ static uint find_hiding(const RayScene* scene, const Shaft* s, global const Shad
       break;
     }
   }
-  *found = min(count, (uint)CERTIFICATE_PLACES);
+  *found = count <= CERTIFICATE_PLACES ? count : 0;
   return count == 0                    ? CERTIFICATE_FREE
          : count <= CERTIFICATE_PLACES ? CERTIFICATE_FEW
                                        : CERTIFICATE_UNDECIDED;

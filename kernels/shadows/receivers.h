@@ -96,6 +96,14 @@ static inline void add_plane(Receivers* r, global const RayTriangle* t, mask_t h
   r->own = here ? (whole)((int)(t->number & ~RAY_MASKED)) : r->own;
 }
 
+#if LANES == 16
+// Of a block of 4 x 4 pixels from (x, y) on, those in the image that show a triangle.
+static inline mask_t covered_lanes(uint16 triangle, uint x, uint y, uint width, uint height) {
+  return (LANE_INDEX & 3) < (int16)((int)(width - x)) & (LANE_INDEX >> 2) < (int16)((int)(height - y)) &
+         (triangle != (uint16)(NO_TRIANGLE));
+}
+#endif
+
 // Where a surface is shaded: without planes, which add_plane completes. x, y: pixels' centres.
 static inline Receivers receivers_at(mask_t covered, real x, real y, real depth, uint own_hides,
                                      constant ShadowView* v, constant ViewParams* view) {
@@ -117,8 +125,6 @@ static inline void add_corners(Receivers* r, const RayScene* scene) {
   const uint live = lane_bits(r->own >= (whole)(0));
   if (live != 0) r->for_maps = shadow_receivers(scene, r->at, r->own, r->gap, live);
 }
-#else
-#define add_corners(r, scene)
 #endif
 
 // Lanes that the light may shade, in its range and its cone.

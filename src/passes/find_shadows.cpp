@@ -56,7 +56,8 @@ CullerOptions options_of_shadows(const FramePlan& plan) {
 // In the order of FramePlan::shadowed, as shining: directional ones everywhere.
 std::vector<CullLight> all_lights_of(const Seen& seen) {
   std::vector<CullLight> lights = cull_lights_of(seen.scene, seen.plan.local, seen.plan.settings.ranges);
-  lights.resize(lights_of(seen.plan));
+  for (const int i : seen.plan.directional_lights)
+    lights.push_back({.direction = glm::dvec3(seen.scene.lights[size_t(i)].direction)});
   return lights;
 }
 
@@ -258,8 +259,8 @@ class ShadowBits : public PassCache {
     }
     if (!unchanged_) f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
     if (certificates_) {
-      if (!unchanged_) f.certified = certificates_->decided(*work.renderer.cl);
-      f.bytes += certificates_->table_bytes();
+      if (keeps_ && !unchanged_) f.certified = certificates_->decided(*work.renderer.cl);
+      f.bytes += certificates_->memory_bytes();
     }
     return f;
   }
@@ -338,7 +339,7 @@ class ShadowBits : public PassCache {
     ClArguments after;
     if (bands_.bands.size() > 1)
       after = {{"first_tile", cl_uint(band.first)}, {"first_entries", first_entries_.buffer()}};
-    if (certificates_) after = after + certificates_->arguments(device, parts_);
+    if (keeps_) after = certificates_->arguments(device, parts_, band.entries);
     for (size_t i = 0; i < images.size(); ++i) {
       ListedShadows& lists = *listed_[i];
       kernels_.of("find_shadows")
@@ -430,10 +431,6 @@ class ShadowBits : public PassCache {
     if (!culler_) culler_.emplace(device, *work.renderer.kernels, options_of_shadows(work.plan));
     const std::vector<CullLight> all_lights = all_lights_of(work);
     const std::vector<CullLight> lights = shadowed_lights(work, all_lights);
-    if (kept_bytes != 0) {
-      if (!certificates_) certificates_.emplace(device, kept_bytes);
-      certificates_->follow(work, rays, all_lights);
-    }
     if (lights != lights_in_culler_) culler_->set_lights(lights), lights_in_culler_ = lights;
     culler_->set_view(cull_view(work.view));
     std::vector<ShadowLight> records;
@@ -445,16 +442,26 @@ class ShadowBits : public PassCache {
     }
     for (const int i : work.plan.directional_lights)
       records.push_back(shadow_light(work.scene.lights[size_t(i)]));
-    for (size_t i = 0; certificates_ && i < records.size(); ++i) records[i].stamp = certificates_->stamp(i);
+    std::vector<int32_t> offsets;
+    if (visible) offsets = put_offsets(work, visible->instances, offsets_);
+    if (blended) {
+      const auto of_blended = put_offsets(work, blended->instances, blended_offsets_);
+      offsets.insert(offsets.end(), of_blended.begin(), of_blended.end());
+    }
+    ShadowView seen_from = shadow_view(work, rays.origin());
+    if (kept_bytes != 0) {
+      if (!certificates_) certificates_.emplace(device, kept_bytes);
+      certificates_->follow(work, rays, all_lights,
+                            {seen_from, work.params, layers_.numbers.size(), offsets, defines_of(work, visible)});
+      for (size_t i = 0; i < records.size(); ++i) records[i].stamp = certificates_->stamp(i);
+      seen_from.stamp = certificates_->sight_stamp();
+    }
     lights_.put(device, "uploading lights of shadows", records);
-    view_.put(device, "uploading the view of shadows",
-              std::vector<ShadowView>{shadow_view(work, rays.origin())});
-    if (visible) put_offsets(work, visible->instances, offsets_);
-    if (blended) put_offsets(work, blended->instances, blended_offsets_);
+    view_.put(device, "uploading the view of shadows", std::vector<ShadowView>{seen_from});
     followed_ = true;
   }
 
-  void put_offsets(Work& work, std::span<const int> instances, UploadedBuffer& to) {
+  std::vector<int32_t> put_offsets(Work& work, std::span<const int> instances, UploadedBuffer& to) {
     std::vector<int32_t> offsets;
     uint32_t first = 0;
     for (const int i : instances) {
@@ -462,6 +469,7 @@ class ShadowBits : public PassCache {
       first += uint32_t(work.scene.meshes[size_t(work.scene.instances[size_t(i)].mesh)].indices.size() / 3);
     }
     to.put(*work.renderer.cl, "uploading numbers of triangles", offsets);
+    return offsets;
   }
 
   size_t kept_bytes_of(const Seen& seen) const {
@@ -471,8 +479,7 @@ class ShadowBits : public PassCache {
     return keeps ? ShadowCertificates::bytes_of(settings) : 0;
   }
 
-  // After the bands are known.
-  void use_kernels(Work& work, const VisibilityBuffer* visible) {
+  std::string defines_of(Work& work, const VisibilityBuffer* visible) const {
     const Settings& settings = work.plan.settings;
     std::string defines = scene_->defines();
     for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
@@ -483,9 +490,14 @@ class ShadowBits : public PassCache {
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
     if (kernels_.lanes && settings.portable) defines += " -DPORTABLE";
     if (maps_) defines += maps_->defines();
-    if (kept_bytes_of(work) != 0) defines += " -DKEPT";
-    if (bands_.bands.size() > 1) defines += " -DBANDS";
-    kernels_.use(defines);
+    return defines;
+  }
+
+  // After the bands are known. In bands nothing is kept: entries have numbers of their own in each.
+  void use_kernels(Work& work, const VisibilityBuffer* visible) {
+    keeps_ = kept_bytes_of(work) != 0 && bands_.bands.size() == 1;
+    kernels_.use(defines_of(work, visible) + (keeps_ ? " -DKEPT" : "") +
+                 (bands_.bands.size() > 1 ? " -DBANDS" : ""));
   }
 
   PassKernels kernels_;
@@ -506,7 +518,7 @@ class ShadowBits : public PassCache {
   size_t parts_ = 0;    // counts of rays
   size_t cleared_ = 0;  // bytes of tiles in which nothing was found since they were cleared
   std::optional<ShadowInputs> found_for_;  // what the bits were found for, with shadow-reuse
-  bool followed_ = false, unchanged_ = false;
+  bool followed_ = false, unchanged_ = false, keeps_ = false;
 };
 
 namespace {

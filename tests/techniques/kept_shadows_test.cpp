@@ -18,7 +18,8 @@ using glm::dvec3;
 struct MovingRoom {
   Scene scene;
   dvec3 offset;
-  bool orthographic = false;
+  bool orthographic = false, along_wall = false;
+  int sun = -1;  // its light, if there is one
   int cloth_mesh, ball, box, mirrored, hedge, cloth;
 
   explicit MovingRoom(const dvec3& at) : offset(at) {
@@ -63,11 +64,24 @@ struct MovingRoom {
     }
   }
 
+  void add_sun() {
+    sun = int(scene.lights.size());
+    Light& light = scene.lights.emplace_back();
+    light.type = LightType::directional, light.direction = glm::normalize(glm::vec3(0.3f, -1, -0.4f)),
+    light.intensity = 1;
+    light.casts_shadow = true;
+  }
+
   View view(double turn, int width, int height) const {
     const dvec3 eye = offset + dvec3(3 * std::sin(turn), 1.7, 3.6 * std::cos(turn) + 0.4);
     Camera camera = look_at(eye, offset + dvec3(0, 0.8, -1));
     if (orthographic)
       camera.orthographic = true, camera.half_width_m = 4, camera.half_height_m = 2.4, camera.far_m = 20;
+    if (along_wall) {  // which then fills the view: at each pixel the same triangles and depths
+      const dvec3 before = offset + dvec3(turn, 2.5, -3.5);
+      camera = look_at(before, before - dvec3(0, 0, 1));
+      camera.orthographic = true, camera.half_width_m = 1.5, camera.half_height_m = 0.9, camera.far_m = 20;
+    }
     return make_view(camera, width, height);
   }
 
@@ -95,6 +109,10 @@ struct MovingRoom {
       torch.direction = glm::normalize(dvec3(std::sin(t), -1.5, std::cos(3 * t)));
       changes.lights.push_back(8 + frame / 19 % 2);
     }
+    if (sun >= 0 && frame % 9 == 6) {
+      scene.lights[size_t(sun)].direction = glm::normalize(glm::vec3(0.3 * std::cos(t), -1, -0.4));
+      changes.lights.push_back(sun);
+    }
     if (frame % 23 == 4) {
       Mesh& mesh = scene.meshes[size_t(cloth_mesh)];
       for (glm::vec3& p : mesh.positions) p.y = 0.3f * std::sin(float(t) + 2 * p.x + p.z);
@@ -110,7 +128,8 @@ struct Case {
   dvec3 offset{0};
   bool orthographic = false;
   int frames = 20, width = 200, height = 120;
-  bool turns = true;  // the camera
+  bool still = false;  // the camera; there is a sun, too
+  bool along_wall = false;
 };
 
 struct Sum {
@@ -120,7 +139,8 @@ struct Sum {
 // Frame by frame against a run without certificates.
 Sum expect_same_bits(Renderer& devices, const Case& c) {
   MovingRoom room(c.offset);
-  room.orthographic = c.orthographic;
+  room.orthographic = c.orthographic, room.along_wall = c.along_wall;
+  if (c.still) room.add_sun();
   GpuScene gpu(devices, room.scene);
   Settings settings;
   apply_setting(settings, std::string("portable=") + c.portable);
@@ -134,7 +154,7 @@ Sum expect_same_bits(Renderer& devices, const Case& c) {
   for (int frame = 0; frame < c.frames; ++frame) {
     const SceneChanges changes = room.move(frame);
     if (!changes.empty()) gpu.update(changes);
-    if (c.turns && frame % 3 != 0) turn += 0.02;
+    if (frame % 3 != 0 && !c.still) turn += 0.02;
     const View view = room.view(turn, c.width, c.height);
     for (TechniqueRun* run : {&without, &with}) run->look(view, changes), run->run_frame();
     const HostShadows truth = without.frame().shadows(), bits = with.frame().shadows();
@@ -160,6 +180,13 @@ TEST(KeptShadows, AreThoseOfRaysWhateverMoves) {
   EXPECT_GT(sum.certified, sum.rays);
 }
 
+// Then tiles keep the bits of lights, too.
+TEST(KeptShadows, AreThoseOfRaysWhereTheCameraRests) {
+  const Sum sum =
+      expect_same_bits(opencl_devices(), {.frames = 100, .width = 128, .height = 72, .still = true});
+  EXPECT_LT(5 * sum.rays, sum.rays_without);
+}
+
 TEST(KeptShadows, AreThoseOfRaysFarFromTheOrigin) {
   const Sum sum = expect_same_bits(opencl_devices(), {.offset = {1e5, 300, -2e5}, .frames = 60});
   EXPECT_LT(sum.rays, sum.rays_without);
@@ -176,7 +203,7 @@ TEST(KeptShadows, AreThoseOfRaysWhereTheTableIsFull) {
 TEST(KeptShadows, AreThoseOfMapsDrawnAnewInEachFrame) {
   for (const bool at_rest : {false, true}) {
     const Sum sum = expect_same_bits(
-        opencl_devices(), {.shadows = "map", .frames = long_tests() ? 300 : 30, .turns = !at_rest});
+        opencl_devices(), {.shadows = "map", .frames = long_tests() ? 300 : 30, .still = at_rest});
     EXPECT_EQ(sum.maps, sum.drawn + sum.kept);
     EXPECT_LT(sum.drawn, sum.maps / 2);
     EXPECT_GT(sum.drawn, sum.maps / 20);
@@ -190,6 +217,11 @@ TEST(KeptShadows, AreThoseOfRaysOnSurfacesOfOpenGl) {
 
 TEST(KeptShadows, AreThoseOfRaysInParallelViews) {
   const Sum sum = expect_same_bits(opencl_devices(), {.orthographic = true});
+  EXPECT_LT(sum.rays, sum.rays_without);
+}
+
+TEST(KeptShadows, AreThoseOfRaysWhereTheViewSlidesAlongAWall) {
+  const Sum sum = expect_same_bits(opencl_devices(), {.along_wall = true});
   EXPECT_LT(sum.rays, sum.rays_without);
 }
 

@@ -3,7 +3,8 @@
 //
 // SHADOW_TEST_ARGUMENTS          kernels/shadows/shadow_test.h
 // SHADOW_PASS_ARGUMENTS  kernels/shadows/receivers.h
-// -DKEPT                 certificates decide what they can (kernels/shadows/certificates.h)
+// -DKEPT                 what is kept decides what it can: tiles' bits
+//                        (kernels/shadows/cpu/kept_tiles.h), certificates (kernels/shadows/certificates.h)
 // decided                out, with -DKEPT: pairs of a pixel and a listed light that took no ray, a tile
 #define LANES 16
 #include "kernels/common/pack.h"
@@ -11,8 +12,8 @@
 #include "kernels/common/image_blocks.h"
 #include "kernels/shadows/shadow_test.h"
 #ifdef KEPT
-#include "kernels/shadows/cpu/tile_pieces.h"
-#define ALL_ARGUMENTS SHADOW_PASS_ARGUMENTS, CERTIFICATE_ARGUMENTS
+#include "kernels/shadows/cpu/certified_lights.h"
+#define ALL_ARGUMENTS SHADOW_PASS_ARGUMENTS, CERTIFICATE_ARGUMENTS, KEPT_TILE_ARGUMENTS
 #else
 #define ALL_ARGUMENTS SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS
 #endif
@@ -48,6 +49,45 @@ static inline void add_triangles(TileTriangles* t, uint block, uint16 triangle, 
   }
 }
 
+// Of a tile's blocks. Returns those with a surface. First the places of all triangles are read, then all
+// records, so that the processor waits for many of them at a time.
+static inline uint receivers_of_tile(Receivers receivers[16], const RayScene* scene, uint tile_x, uint tile_y,
+                                     global const uint* triangles, global const float* depths,
+                                     global const uint* triangle_instance, global const int* number_offsets,
+                                     uint own_hides, constant ShadowView* shadow_view,
+                                     constant ViewParams* view) {
+  const uint width = view->width, height = view->height;
+  uint used = 0;
+  TileTriangles found;
+  found.count = 0;
+  for (uint block = 0; block < 16; ++block) {
+    const uint x = tile_x * SHADOW_TILE + block % 4 * 4, y = tile_y * SHADOW_TILE + block / 4 * 4;
+    if (x >= width || y >= height) continue;
+    const uint16 triangle = load_block(triangles, x, y, width, height);
+    const mask_t covered = covered_lanes(triangle, x, y, width, height);
+    if (!any_lane(covered)) continue;
+    const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
+    receivers[block] = receivers_at(covered, (float)x + 0.5f + convert_float16(LANE_INDEX & 3),
+                                    (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, own_hides,
+                                    shadow_view, view);
+    add_triangles(&found, block, triangle, covered);
+    used |= 1u << block;
+  }
+  for (uint i = 0; i < found.count; ++i) {
+    const uint number = ray_number(found.triangle[i], triangle_instance, number_offsets);
+    found.triangle[i] = scene->places[number];
+    FETCH(scene->triangles + found.triangle[i]);
+  }
+  for (uint i = 0; i < found.count; ++i) {
+    add_plane(receivers + found.block[i], scene->triangles + found.triangle[i], lanes_of(found.lanes[i]),
+              shadow_view);
+  }
+#ifdef SHADOW_MAP
+  for (uint left = used; left != 0; left &= left - 1) add_corners(receivers + lowest_bit(left), scene);
+#endif
+  return used;
+}
+
 kernel void find_shadows(ALL_ARGUMENTS) {
   const RayScene scene = RAYS_SCENE;
   const uint width = view->width, height = view->height, words_a_tile = shadow_view->words;
@@ -65,51 +105,26 @@ kernel void find_shadows(ALL_ARGUMENTS) {
   ShadowTest test = SHADOW_TEST;
 #ifdef KEPT
   const Certificates kept = CERTIFICATES;
-  TilePieces pieces;
-  pieces.count = 0;
-  for (uint w = 0; w < SHADOW_WORDS; ++w) pieces.others[w] = 0;
   uint without_ray = 0;
+  KeptTile kept_tile = {0, 0, 0};
 #endif
   if (range.y != 0) {
     Receivers receivers[16];
-    uint used = 0;  // blocks with a surface
-    // Each block's triangles: first all of their places, then all records, so that the processor waits for
-    // many of them at a time.
-    TileTriangles found;
-    found.count = 0;
-    for (uint block = 0; block < 16; ++block) {
-      const uint x = tile_x * SHADOW_TILE + block % 4 * 4, y = tile_y * SHADOW_TILE + block / 4 * 4;
-      if (x >= width || y >= height) continue;
-      const uint16 triangle = load_block(triangles, x, y, width, height);
-      const int16 inside = (LANE_INDEX & 3) < (int16)((int)(width - x)) & (LANE_INDEX >> 2) < (int16)((int)(height - y));
-      const mask_t covered = inside & (triangle != (uint16)(NO_TRIANGLE));
-      if (!any_lane(covered)) continue;
-      const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
-      receivers[block] = receivers_at(covered, (float)x + 0.5f + convert_float16(LANE_INDEX & 3),
-                                      (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, own_hides,
-                                      shadow_view, view);
-      add_triangles(&found, block, triangle, covered);
-      used |= 1u << block;
-    }
-    for (uint i = 0; i < found.count; ++i) {
-      const uint number = ray_number(found.triangle[i], triangle_instance, number_offsets);
-      found.triangle[i] = scene.places[number];
-      FETCH(scene.triangles + found.triangle[i]);
-    }
-    for (uint i = 0; i < found.count; ++i) {
-      add_plane(receivers + found.block[i], scene.triangles + found.triangle[i], lanes_of(found.lanes[i]),
-                shadow_view);
-    }
-    for (uint left = used; left != 0; left &= left - 1) {
-      const uint block = lowest_bit(left);
-      add_corners(receivers + block, &scene);
 #ifdef KEPT
-      add_pieces(&pieces, &scene, receivers + block, block, range.y, shadow_view);
-#endif
-    }
-#ifdef KEPT
-    drop_small_pieces(&pieces, 0, pieces.others);
-    pieces.count_at_first = pieces.count;
+    TilePieces pieces;
+    LightBatch batch;
+    batch.count = 0;
+    bool has_pieces = false;
+    uint covered;
+    const bool same = follow_surfaces(kept_surfaces + (size_t)own_tile * KEPT_SURFACE_WORDS, triangles, depths,
+                                      tile_x, tile_y, view->width, view->height, &covered) &&
+                      kept_tiles[own_tile].view == shadow_view->stamp;
+    uint at = kept_tiles[own_tile].first;
+    const uint end = same ? at + kept_tiles[own_tile].count : at;
+    kept_tile.view = shadow_view->stamp, kept_tile.first = own_entry, kept_tile.count = range.y;
+#else
+    const uint used = receivers_of_tile(receivers, &scene, tile_x, tile_y, triangles, depths,
+                                        triangle_instance, number_offsets, own_hides, shadow_view, view);
 #endif
 #ifdef SHADOW_PICK
     for (uint left = used; left != 0; left &= left - 1) {
@@ -121,16 +136,30 @@ kernel void find_shadows(ALL_ARGUMENTS) {
 #endif
     for (uint i = range.x; i < range.x + range.y; ++i) {
       const uint index = indices[i], number = i - range.x + own_entry;
-      global uint* entry = bits + (size_t)number * SHADOW_WORDS;
 #ifdef KEPT
-      uint words[SHADOW_WORDS] = {0}, others[SHADOW_WORDS];
-      hidden_by_certificates(&scene, &pieces, receivers, lights + index, index,
-                             indices[min(i + 1, range.x + range.y - 1)], &kept, shadow_view, words, others,
-                             &without_ray);
-      hidden_by_rays(&scene, receivers, others, lights + index, shadow_view, words, &test.traced,
-                     &test.last_blocker);
-      vstore8(vload8(0, words), 0, entry);
+      const uint stamp = lights[index].stamp;
+      global const KeptShadow* known = kept_shadow(last_shadows, &at, end, index, stamp);
+      if (known) {
+        keep_shadow(bits, next_shadows, number, index, stamp, vload8(0, known->words));
+        without_ray += covered;
+      } else {
+        batch.entry[batch.count] = number, batch.light[batch.count] = index, ++batch.count;
+      }
+      if (batch.count == 16 || (batch.count != 0 && i + 1 == range.x + range.y)) {
+        if (!has_pieces) {
+          const uint used = receivers_of_tile(receivers, &scene, tile_x, tile_y, triangles, depths,
+                                              triangle_instance, number_offsets, own_hides, shadow_view, view);
+          if (range.y < LEAST_LIGHTS)
+            set_no_pieces(&pieces, receivers, used);
+          else
+            set_pieces(&pieces, &scene, receivers, used, &kept, shadow_view);
+          has_pieces = true;
+        }
+        hidden_from_batch(&scene, &pieces, receivers, &batch, lights, &kept, shadow_view, bits, next_shadows,
+                          &without_ray, &test.traced, &test.last_blocker);
+      }
 #else
+      global uint* entry = bits + (size_t)number * SHADOW_WORDS;
       for (uint word = 0; word < SHADOW_WORDS; word += 8) vstore8((uint8)(0), 0, entry + word);
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
@@ -140,12 +169,13 @@ kernel void find_shadows(ALL_ARGUMENTS) {
       }
 #endif
       global uint2* here = listed + index / 32;
-        if (here->x == 0) here->y = number;
+      if (here->x == 0) here->y = number;
       here->x |= 1u << (index & 31u);
     }
   }
   rays[own_tile] = rays_of_test(&test);
 #ifdef KEPT
   decided[own_tile] = without_ray;
+  kept_tiles[own_tile] = kept_tile;
 #endif
 }

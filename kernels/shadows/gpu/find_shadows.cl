@@ -43,7 +43,9 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   if (covered) {
     const uint number = ray_number(triangle, triangle_instance, number_offsets);
     add_plane(&r, scene.triangles + scene.places[number], 1, shadow_view);
+#ifdef SHADOW_MAP
     add_corners(&r, &scene);
+#endif
   }
   uint turn = 0;
   ShadowTest test = SHADOW_TEST;
