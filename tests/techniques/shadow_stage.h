@@ -9,7 +9,7 @@
 namespace lightgrid {
 
 // Between the lamps and the wall: a ball, a masked fence, a sliver, a flag that its matrix mirrors, and the
-// surface around a lamp, which hides no light. Glass neither casts nor receives; one lamp and the sun cast
+// surface around a lamp, which hides no light. Glass casts nothing; one lamp and the sun cast
 // nothing that is found.
 inline Scene shadowed_scene() {
   SmallScene s = small_scene();
