@@ -16,13 +16,13 @@ Glazed& glazed() {
   return *made;
 }
 
-struct Way {
+struct BlendedCase {
   const Technique* technique;
   RasterApi raster;
 };
 
-std::vector<Way> ways() {
-  std::vector<Way> all;
+std::vector<BlendedCase> blended_cases() {
+  std::vector<BlendedCase> all;
   for (const Technique* t : techniques()) {
     if (t->name == std::string("voxel_lights")) continue;  // it has none
     all.push_back({t, RasterApi::opengl});
@@ -51,7 +51,7 @@ BlendedPairs blended_pairs(Glazed& stage, TechniqueRun& run) {
   return all;
 }
 
-struct BlendedShadows : testing::TestWithParam<Way> {};
+struct BlendedShadows : testing::TestWithParam<BlendedCase> {};
 
 // Errors of pictures are those of the same techniques on opaque surfaces (shadow_test.cpp).
 TEST_P(BlendedShadows, AreTheOraclesInEachPairAndInThePicture) {
@@ -72,7 +72,7 @@ TEST_P(BlendedShadows, AreTheOraclesInEachPairAndInThePicture) {
   EXPECT_LT(worst_error(run.image(), in_double), own_surfaces(*technique, settings) ? own_bound : 2e-4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, BlendedShadows, testing::ValuesIn(ways()), [](const auto& info) {
+INSTANTIATE_TEST_SUITE_P(Techniques, BlendedShadows, testing::ValuesIn(blended_cases()), [](const auto& info) {
   return info.param.technique->name + std::string(info.param.raster == RasterApi::opencl ? "_opencl" : "");
 });
 
