@@ -74,10 +74,11 @@ class FragmentLayers : public PassCache {
     ClDevice& device = *work.renderer.cl;
     const size_t bytes = capacity_ * stride_of(work) * 4, tiles = blended.lists.tiles_x * blended.lists.tiles_y;
     const cl::Buffer& room = room_for(work, capacity_);
-    const cl::Buffer numbers = part_of(room, 0, bytes), depths = part_of(room, bytes, bytes);
     const cl::Buffer& most = most_.at_least(device, tiles * sizeof(cl_uint));
-    fill_buffer(device, "clearing layers", numbers, SHADOW_NO_TRIANGLE, bytes);
-    fill_buffer(device, "clearing layers", depths, 0, bytes);
+    // All through the buffer itself. NVIDIA's driver loses what is written through a part of a buffer that was
+    // not in use before: in a view's first frame.
+    fill_buffer(device, "clearing layers", room, 0, 2 * bytes);
+    fill_buffer(device, "clearing layers", room, SHADOW_NO_TRIANGLE, bytes);
     fill_buffer(device, "clearing layers", most, 0, tiles * sizeof(cl_uint));
     std::string defines = kernels_.lanes && work.plan.settings.portable ? " -DPORTABLE" : "";
     kernels_.use(defines);
@@ -92,8 +93,7 @@ class FragmentLayers : public PassCache {
                  {"depths", depth.values},
                  {"capacity", cl_uint(capacity_)},
                  {"view", work.cl_lights().view.buffer()},
-                 {"numbers", numbers},
-                 {"layer_depths", depths},
+                 {"layers", room},
                  {"most", most}});
     std::vector<cl_uint> found(tiles);
     read_buffer(device, "counting layers", most, found.data(), found.size() * sizeof found[0]);

@@ -65,8 +65,8 @@ std::vector<ShadowFault> shadow_faults() {
        {"masked_foliage"},
        "foliage"},
       {"pixels_past_the_edge",
-       "const mask_t here = covered & (triangle ==",
-       "const mask_t here = (triangle ==",
+       "here = lane_bits(covered & (triangle ==",
+       "here = lane_bits((triangle ==",
        {"cut_tiles"}},
       {"sixteen_bit_indices", "typedef uint index_t;", "typedef ushort index_t;", {"shadows_in_32_bits"}},
   };

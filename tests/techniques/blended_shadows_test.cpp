@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
         LayerFault{"own_triangle_is_opaque", "if (!r->own_hides) return (mask_t)(0);", "", true},
         LayerFault{"first_layer_for_all", "(size_t)(layer + 1) * here->layer_words", "here->layer_words", false},
         LayerFault{"fragments_uncounted", "vstore16(convert_ushort16(layer - shown), block, counts->of);", "", false},
-        LayerFault{"entries_of_opaque_surfaces", "here->y = first_entry + i", "here->y = i", false}),
+        LayerFault{"entries_of_opaque_surfaces", "here->y = number", "here->y = i", false}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

@@ -3,8 +3,8 @@
 //
 // records, tile_begin, lists, tiles_x, depths  as blend.cl has them
 // capacity  layers that there is room for; fragments past them are only counted
-// numbers, layer_depths  in and out: of each layer LAYER_STRIDE values (shared/shadow_bits.h), which hold none
-//           before: triangles by the rasteriser's numbers, and reversed depths
+// layers    in and out: of each layer LAYER_STRIDE values (shared/shadow_bits.h), which hold none before:
+//           triangles by the rasteriser's numbers, then of each as many reversed depths
 // most      out: the most fragments of a pixel, a tile
 #define LANES 16
 #include "kernels/common/image_blocks.h"
@@ -15,8 +15,7 @@
 
 kernel void blended_layers(global const RasterRecord* records, global const uint* tile_begin,
                            global const uint* lists, uint tiles_x, global const float* depths, uint capacity,
-                           constant ViewParams* view, global uint* numbers, global float* layer_depths,
-                           global uint* most) {
+                           constant ViewParams* view, global uint* layers, global uint* most) {
   const uint number = get_global_id(0), width = view->width, height = view->height;
   const uint tile_x = number % tiles_x * RASTER_TILE, tile_y = number / tiles_x * RASTER_TILE;
   const size_t stride = LAYER_STRIDE((size_t)width * height);
@@ -32,13 +31,13 @@ kernel void blended_layers(global const RasterRecord* records, global const uint
         real depth = REAL(0.0f);
         const mask_t shown = fragments_in_block(&r, bx, by, x, y, depths, width, height, &depth);
         if (!any_lane(shown)) continue;
-        const whole layers = next_layers(&counts, bx, by, shown);
+        const whole of_layers = next_layers(&counts, bx, by, shown);
         for (uint left = mask_bits(shown); left != 0; left &= left - 1) {
-          const uint lane = lowest_bit(left), layer = (uint)((const int*)&layers)[lane];
+          const uint lane = lowest_bit(left), layer = (uint)((const int*)&of_layers)[lane];
           greatest = max(greatest, layer + 1);
           if (layer >= capacity) continue;
           const size_t at = layer * stride + (size_t)(y + lane / 4) * width + x + lane % 4;
-          numbers[at] = r.triangle, layer_depths[at] = ((const float*)&depth)[lane];
+          layers[at] = r.triangle, layers[capacity * stride + at] = as_uint(((const float*)&depth)[lane]);
         }
       }
     }

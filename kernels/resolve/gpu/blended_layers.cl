@@ -7,8 +7,7 @@
 
 kernel void blended_layers(global const RasterRecord* records, global const uint* tile_begin,
                            global const uint* lists, uint tiles_x, global const float* depths, uint capacity,
-                           constant ViewParams* view, global uint* numbers, global float* layer_depths,
-                           global uint* most) {
+                           constant ViewParams* view, global uint* layers, global uint* most) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
   const uint number = y / RASTER_TILE * tiles_x + x / RASTER_TILE;
@@ -22,7 +21,7 @@ kernel void blended_layers(global const RasterRecord* records, global const uint
     float depth;
     if (!is_fragment(&r, bx, by, dx, dy, opaque, &depth)) continue;
     if (layer < capacity)
-      numbers[layer * stride + pixel] = r.triangle, layer_depths[layer * stride + pixel] = depth;
+      layers[layer * stride + pixel] = r.triangle, layers[(capacity + layer) * stride + pixel] = as_uint(depth);
     ++layer;
   }
   if (layer != 0) atomic_max(most + number, layer);
