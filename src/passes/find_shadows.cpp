@@ -13,9 +13,10 @@
 #include "passes/blended_layers.h"
 #include "passes/shadows/bands.h"
 #include "passes/shadows/certificates.h"
+#include "passes/shadows/shadow_lights.h"
+#include "passes/shadows/shadow_lists.h"
 #include "passes/shadows/triangle_numbers.h"
 #include "passes/shadows/view_shadow_maps.h"
-#include "renderer/upload/culler_input.h"
 #include "renderer/upload/lights.h"
 #include "shared/shadow_bits.h"
 #include "shared/shadow_certificates.h"
@@ -35,77 +36,6 @@ const OwnSetting<bool> shadow_reuse{
     "shadows are found in each frame, or only where the camera, a light or a surface changed",
     {{"off", false}, {"on", true}}};
 
-size_t entry_words(const FramePlan& plan) {
-  return plan.shadow_bytes ? SHADOW_WORDS_OF_BYTES : SHADOW_WORDS_OF_BITS;
-}
-
-// Local and directional.
-size_t lights_of(const FramePlan& plan) { return plan.local.size() + plan.directional_lights.size(); }
-
-size_t tile_words(const FramePlan& plan) { return (lights_of(plan) + 31) / 32; }
-
-size_t tiles_across(int pixels) { return (size_t(pixels) + SHADOW_TILE - 1) / SHADOW_TILE; }
-
-CullerOptions options_of_shadows(const FramePlan& plan) {
-  CullerOptions options = culler_options(plan);
-  options.cull_test = default_cull_test, options.depth_bounds = DepthBoundsMode::minmax;
-  options.tile = SHADOW_TILE, options.blend = false, options.index_bits = 0, options.lists = GridLists::lists;
-  return options;
-}
-
-// In the order of FramePlan::shadowed, as shining: directional ones everywhere.
-std::vector<CullLight> all_lights_of(const Seen& seen) {
-  std::vector<CullLight> lights = cull_lights_of(seen.scene, seen.plan.local, seen.plan.settings.ranges);
-  for (const int i : seen.plan.directional_lights)
-    lights.push_back({.direction = glm::dvec3(seen.scene.lights[size_t(i)].direction)});
-  return lights;
-}
-
-// Those without shadows are listed nowhere, directional ones in every tile that shows a surface.
-std::vector<CullLight> shadowed_lights(const Seen& seen, std::vector<CullLight> lights) {
-  for (size_t i = 0; i < lights.size(); ++i) {
-    if (!seen.plan.shadowed[i]) lights[i].radius_m = -1;
-  }
-  return lights;
-}
-
-// Positions in view space are floats; they are turned to world axes and rounded again. Shading computes with
-// other roundings of them. Points in range are no further from the eye and from the origin than the light and
-// its range, and all of these errors together are below 2^-19 of that.
-ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin) {
-  const glm::dvec3 at = light.position - origin;
-  ShadowLight s{at.x, at.y, at.z, 1, float(light.direction.x), float(light.direction.y),
-                float(light.direction.z), float(light.cos_outer), 0, 0, float(light.radius_m)};
-  if (light.cos_outer < -1) s.cos_outer = -1;
-  const double slack = 0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
-  const double reach = light.radius_m * (1 + 1e-5) + slack;
-  s.reach_squared = float(std::min(reach * reach, double(std::numeric_limits<float>::infinity())));
-  s.slack = float(std::min(slack, double(std::numeric_limits<float>::max())));
-  return s;
-}
-
-ShadowLight shadow_light(const Light& directional) {
-  const glm::dvec3 to_light = -glm::normalize(glm::dvec3(directional.direction));
-  constexpr float everywhere = std::numeric_limits<float>::infinity();
-  return {to_light.x, to_light.y, to_light.z, 0, 0, 0, 0, -1, everywhere, 0, {}};
-}
-
-ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
-  const View& view = seen.view;
-  const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
-  const glm::dvec3 from = view.eye - origin, eye = view.orthographic ? world_from_view[2] : from;
-  ShadowView v{eye.x, eye.y, eye.z, view.orthographic ? 0.0 : 1.0, {}, float(from.x), float(from.y),
-               float(from.z), 0, 0, {}};
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      v.world_from_view[3 * row + column] = float(world_from_view[column][row]);
-  }
-  v.words = uint(tile_words(seen.plan));
-  const double piece = PIECE_PIXELS * 2 / (view.clip_from_view[1][1] * view.height);
-  v.piece_scale = float(piece * piece);
-  return v;
-}
-
 }  // namespace
 
 // The receivers of an image: what it shows, and what its triangles' numbers lead to.
@@ -113,17 +43,6 @@ struct ReceiverImage {
   cl::Buffer numbers, depths;
   cl::Buffer triangle_instance, number_offsets;  // null: numbers are those of rays
   bool own_hides = true;                         // lights behind a receiver's own triangle
-};
-
-// All that shadows follow from and that may change: of a scene's other parts nothing does.
-struct ShadowInputs {
-  View view;
-  std::vector<Light> lights;
-  std::vector<CullLight> shining;  // with their ranges
-  std::vector<uint8_t> shadowed;
-  std::vector<std::pair<glm::dmat4, int>> instances;  // and the versions of their meshes
-  int builds;                                         // of the tree
-  bool operator==(const ShadowInputs&) const = default;
 };
 
 class ShadowBits : public PassCache {
@@ -136,28 +55,27 @@ class ShadowBits : public PassCache {
   bool unchanged(Work& work) {
     unchanged_ = work.plan.shadows && shadow_reuse.of(work.plan.settings) &&
                  !work.plan.settings.everything_on && found_for_ &&
-                 (followed_ || *found_for_ == inputs_of(work, scene(work)));
+                 (followed_ || *found_for_ == shadow_inputs(work, scene(work)));
     return unchanged_;
   }
 
   size_t memory_bytes() const override {
     size_t bytes = lights_.bytes() + view_.bytes() + offsets_.bytes() + blended_offsets_.bytes() +
-                   rays_.bytes() + grid_bytes();
+                   rays_.bytes() + lists_.memory_bytes();
     if (scene_) bytes += scene_->memory_bytes();
     if (certificates_) bytes += certificates_->memory_bytes();
-    if (culler_) bytes += culler_->memory_bytes();
     if (maps_) bytes += maps_->memory_bytes();
     return bytes + first_entries_.bytes() + banded_.memory_bytes();
   }
 
   // No light is hidden anywhere: the table holds no tile, and all have its empty row.
   void clear(Work& work) {
-    const size_t bytes = std::max(least_bytes, (1 + tile_words(work.plan)) * sizeof(cl_uint2));
+    const size_t bytes = std::max(least_bytes, shadow_table_bytes(0, shadow_table_words(work.plan)));
     if (cleared_ == bytes) return;
     fill_buffer(*work.renderer.cl, "clearing shadows", at_least(work, work.shadows.tiles, bytes, GL_RG32UI),
                 0, bytes);
     at_least(work, work.shadows.bits, least_bytes, GL_R32UI);
-    listed_.clear(), layers_ = {}, cleared_ = bytes, bands_ = {}, found_for_.reset();
+    lists_.clear(), layers_ = {}, cleared_ = bytes, bands_ = {}, found_for_.reset();
     hand_over(work, bytes, least_bytes);
   }
 
@@ -180,22 +98,24 @@ class ShadowBits : public PassCache {
                         work.plan.settings.blended_casters() == BlendedCasters::opaque});
     }
     if (band_ == 0) {
-      list_lights(work, images);
-      bands_ = plan_bands(work);
+      std::vector<cl::Buffer> depths;
+      for (const ReceiverImage& image : images) depths.push_back(image.depths);
+      lists_.list(work, depths);
+      bands_ = lists_.bands(work, room_);
       if (bands_.bands.size() > 1)
         first_entries_.put(*work.renderer.cl, "uploading bands", bands_.first_entries);
       use_kernels(work, visible);
       if (maps_) maps_->draw(*scene_);
     }
     const size_t bit_bytes =
-        std::max<size_t>(least_bytes, bands_.bands[band_].entries * entry_words(work.plan) * 4);
+        std::max<size_t>(least_bytes, bands_.bands[band_].entries * shadow_entry_bytes(work.plan));
     make_room(work, bit_bytes);
     launch(work, images, bands_.bands[band_]);
     if (bands_.bands.size() > 1)
       again_ = [this, images](Work& of, const ShadowBand& band) { launch(of, images, band); };
     hand_over(work, room_.table_bytes, bit_bytes);
     if (shadow_reuse.of(work.plan.settings) && bands_.bands.size() == 1)
-      found_for_ = inputs_of(work, *scene_);
+      found_for_ = shadow_inputs(work, *scene_);
   }
 
   void begin_bands() { band_ = 0; }
@@ -219,14 +139,15 @@ class ShadowBits : public PassCache {
   HostShadows read(Work& work, size_t image = 0) {
     ClDevice& device = *work.renderer.cl;
     HostShadows shadows;
-    shadows.tiles_x = int(tiles_across(work.grid().width));
-    if (image >= listed_.size() || listed_[image]->grid.index_count == 0) {
-      shadows.cells.resize(size_t(shadows.tiles_x) * tiles_across(work.grid().height));
+    constexpr int side = HostShadows::side;
+    shadows.tiles_x = (work.grid().width + side - 1) / side;
+    if (image >= lists_.images() || lists_.pairs(image) == 0) {
+      shadows.cells.resize(size_t(shadows.tiles_x) * size_t((work.grid().height + side - 1) / side));
       return shadows;
     }
-    HostGrid grid = read_grid(device, listed_[image]->grid, listed_[image]->storage);
+    HostGrid grid = lists_.read(device, image);
     shadows.cells = std::move(grid.cells), shadows.indices = std::move(grid.indices);
-    const size_t entry_bytes = entry_words(work.plan) * sizeof(uint32_t);
+    const size_t entry_bytes = shadow_entry_bytes(work.plan);
     const auto read = [&](auto& values) {
       values.resize(shadows.indices.size() * entry_bytes / sizeof values[0]);
       read_bands(work, shadows, image, entry_bytes, reinterpret_cast<std::byte*>(values.data()));
@@ -246,8 +167,8 @@ class ShadowBits : public PassCache {
 
   ShadowFigures figures(Work& work) {
     ShadowFigures f;
-    f.bytes = grid_bytes() + work.shadows.bytes();
-    if (std::ranges::all_of(listed_, [](const auto& l) { return l->grid.index_count == 0; })) return f;
+    f.bytes = lists_.bytes() + work.shadows.bytes();
+    if (lists_.pairs() == 0) return f;
     f.unchanged = unchanged_;
     f.lights = size_t(std::ranges::count(work.plan.shadowed, 1)), f.bands = bands_.bands.size();
     std::vector<uint32_t> rays(parts_);
@@ -266,57 +187,6 @@ class ShadowBits : public PassCache {
   }
 
  private:
-  // The lists of lights of one image, and, where there is one band, the first of its entries.
-  struct ListedShadows {
-    ClGridStorage storage;
-    LightGrid grid{};
-    size_t first_entry = 0;
-    explicit ListedShadows(ClDevice& device) : storage(device) {}
-  };
-
-  static ShadowInputs inputs_of(Work& work, const RayScene& rays) {
-    ShadowInputs inputs{work.view, work.scene.lights, all_lights_of(work), work.plan.shadowed,
-                        {},        rays.builds()};
-    for (const Instance& i : work.scene.instances)
-      inputs.instances.emplace_back(i.world_from_object, work.gpu.mesh_version(i.mesh));
-    return inputs;
-  }
-
-  size_t tile_count() const { return size_t(listed_[0]->grid.cells_x) * size_t(listed_[0]->grid.cells_y); }
-
-  // All images' shadows of a tile are in the same band.
-  ShadowBands plan_bands(Work& work) {
-    const size_t tiles = tile_count(), images = listed_.size(), words = tile_words(work.plan) * images,
-                 entry = entry_words(work.plan) * sizeof(uint32_t);
-    size_t entries = 0;
-    for (const auto& lists : listed_) entries += lists->grid.index_count;
-    const auto most = [&](GLenum format) {
-      return work.plan.opengl ? most_texture_bytes(format) : std::numeric_limits<size_t>::max();
-    };
-    room_ = {tiles, shadow_table_bytes(tiles, words), entries * entry};
-    if (room_.table_bytes + room_.bit_bytes <= work.plan.settings.shadow_memory &&
-        room_.table_bytes <= most(GL_RG32UI) && room_.bit_bytes <= most(GL_R32UI))
-      return {{{0, tiles, entries}}, {}};
-    room_ = shadow_room(tiles, words, size_t(std::ranges::count(work.plan.shadowed, 1)) * images, entry,
-                        work.plan.settings.shadow_memory, most(GL_RG32UI), most(GL_R32UI));
-    std::vector<std::vector<glm::uvec2>> cells;
-    std::vector<glm::uvec2> together(tiles);
-    for (const auto& lists : listed_) {
-      auto& here = cells.emplace_back(tiles);
-      read_buffer(*work.renderer.cl, "reading lists of shadows", lists->storage.cells(lists->grid.cell_bytes),
-                  here.data(), tiles * sizeof here[0]);
-      for (size_t tile = 0; tile < tiles; ++tile) together[tile].y += here[tile].y;
-    }
-    ShadowBands bands = shadow_bands(together, room_, entry);
-    for (size_t image = 1; image < images; ++image) {
-      for (size_t tile = 0; tile < tiles; ++tile) {
-        bands.first_entries.push_back(bands.first_entries[(image - 1) * tiles + tile] +
-                                      cells[image - 1][tile].y);
-      }
-    }
-    return bands;
-  }
-
   // Buffers only grow: where both would then be too large together, other views' needs have made them so.
   void make_room(Work& work, size_t bit_bytes) {
     ShadowMemory& shadows = work.shadows;
@@ -332,7 +202,7 @@ class ShadowBits : public PassCache {
     ClDevice& device = *work.renderer.cl;
     // Drawn lights serve all lights of a tile.
     const size_t groups_here = kernels_.lanes || work.plan.settings.picks_shadows() ? 1 : groups_a_tile;
-    parts_ = tile_count() * images.size() * groups_here;
+    parts_ = lists_.tiles() * images.size() * groups_here;
     const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
     const cl::NDRange lanes(band.tiles), groups(band.tiles * SHADOW_TILE * SHADOW_TILE, groups_here);
     const ClArguments before = (maps_ ? maps_->arguments() : ClArguments()) + scene_->arguments();
@@ -341,7 +211,6 @@ class ShadowBits : public PassCache {
       after = {{"first_tile", cl_uint(band.first)}, {"first_entries", first_entries_.buffer()}};
     if (keeps_) after = certificates_->arguments(device, parts_, band.entries);
     for (size_t i = 0; i < images.size(); ++i) {
-      ListedShadows& lists = *listed_[i];
       kernels_.of("find_shadows")
           .launch(device, "find_shadows", kernels_.lanes ? lanes : groups,
                   kernels_.lanes ? cl::NDRange(1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
@@ -349,13 +218,13 @@ class ShadowBits : public PassCache {
                                        {"triangle_instance", images[i].triangle_instance},
                                        {"number_offsets", images[i].number_offsets},
                                        {"depths", images[i].depths},
-                                       {"cells", lists.storage.cells(lists.grid.cell_bytes)},
-                                       {"indices", lists.storage.indices(lists.grid.index_bytes)},
+                                       {"cells", lists_.cells(i)},
+                                       {"indices", lists_.indices(i)},
                                        {"lights", lights_.buffer()},
                                        {"shadow_view", view_.buffer()},
                                        {"view", work.cl_lights().view.buffer()},
                                        {"image", cl_uint(i)},
-                                       {"first_entry", cl_uint(lists.first_entry)},
+                                       {"first_entry", cl_uint(lists_.first_entry(i))},
                                        {"own_hides", cl_uint(images[i].own_hides)},
                                        {"tiles", work.shadows.tiles.buffer->cl_buffer()},
                                        {"bits", work.shadows.bits.buffer->cl_buffer()},
@@ -371,7 +240,7 @@ class ShadowBits : public PassCache {
     const cl::Buffer& bits = work.shadows.bits.buffer->cl_buffer();
     if (bands_.bands.size() < 2) {
       return read_buffer(device, what, bits, to, shadows.indices.size() * entry,
-                         listed_[image]->first_entry * entry);
+                         lists_.first_entry(image) * entry);
     }
     std::vector<std::byte> of_band;
     for (const ShadowBand& band : bands_.bands) {
@@ -380,30 +249,10 @@ class ShadowBits : public PassCache {
       read_buffer(device, what, bits, of_band.data(), of_band.size());
       for (size_t tile = band.first; tile < band.first + band.tiles; ++tile) {
         const glm::uvec2 cell = shadows.cells[tile];
-        const size_t first = bands_.first_entries[image * tile_count() + tile];
+        const size_t first = bands_.first_entries[image * lists_.tiles() + tile];
         std::memcpy(to + cell.x * entry, of_band.data() + first * entry, cell.y * entry);
       }
     }
-  }
-
-  size_t grid_bytes() const {
-    size_t bytes = 0;
-    for (const auto& lists : listed_) bytes += lists->grid.cell_bytes + lists->grid.index_bytes;
-    return bytes;
-  }
-
-  // Each image's own lists, between the depths of its tiles.
-  void list_lights(Work& work, const std::vector<ReceiverImage>& images) {
-    listed_.resize(std::min(listed_.size(), images.size()));
-    while (listed_.size() < images.size()) listed_.push_back(std::make_unique<ListedShadows>(*work.renderer.cl));
-    size_t entries = 0;
-    for (size_t i = 0; i < images.size(); ++i) {
-      ListedShadows& lists = *listed_[i];
-      lists.grid = culler_->cull(culler_->depth_bounds({images[i].depths}).opaque, lists.storage);
-      lists.first_entry = entries;
-      entries += lists.grid.index_count;
-    }
-    if (entries > 0xffffffffu) throw machine_error("shadows: more than 2^32 pairs of a tile and a light");
   }
 
   cl::Buffer& at_least(Work& work, SharedTexture& shared, size_t bytes, GLenum format) {
@@ -428,20 +277,9 @@ class ShadowBits : public PassCache {
     const size_t kept_bytes = kept_bytes_of(work);
     if (followed_) return;
     ClDevice& device = *work.renderer.cl;
-    if (!culler_) culler_.emplace(device, *work.renderer.kernels, options_of_shadows(work.plan));
-    const std::vector<CullLight> all_lights = all_lights_of(work);
-    const std::vector<CullLight> lights = shadowed_lights(work, all_lights);
-    if (lights != lights_in_culler_) culler_->set_lights(lights), lights_in_culler_ = lights;
-    culler_->set_view(cull_view(work.view));
-    std::vector<ShadowLight> records;
-    for (size_t i = 0; i < work.plan.local.size(); ++i) {
-      ShadowLight& record = records.emplace_back(shadow_light(lights[i], work.view, rays.origin()));
-      const Light& light = work.scene.lights[size_t(work.plan.local[i])];
-      if (settings.soft_shadows()) record.source_m = float(source_of(light, settings.shadow_source_m));
-      record.luminance = light.intensity * glm::dot(light.color, glm::vec3(0.2126f, 0.7152f, 0.0722f));
-    }
-    for (const int i : work.plan.directional_lights)
-      records.push_back(shadow_light(work.scene.lights[size_t(i)]));
+    const std::vector<CullLight> shining = shining_lights(work), lights = shadowed_lights(work, shining);
+    lists_.look(work, lights);
+    std::vector<ShadowLight> records = shadow_light_records(work, lights, rays.origin());
     std::vector<int32_t> offsets;
     if (visible) offsets = put_offsets(work, visible->instances, offsets_);
     if (blended) {
@@ -451,7 +289,7 @@ class ShadowBits : public PassCache {
     ShadowView seen_from = shadow_view(work, rays.origin());
     if (kept_bytes != 0) {
       if (!certificates_) certificates_.emplace(device, kept_bytes);
-      certificates_->follow(work, rays, all_lights,
+      certificates_->follow(work, rays, shining,
                             {seen_from, work.params, layers_.numbers.size(), offsets, defines_of(work, visible)});
       for (size_t i = 0; i < records.size(); ++i) records[i].stamp = certificates_->stamp(i);
       seen_from.stamp = certificates_->sight_stamp();
@@ -486,7 +324,7 @@ class ShadowBits : public PassCache {
     if (settings.soft_shadows()) defines += fmt::format(" -DSHADOW_RAYS={}", settings.shadow_rays);
     if (settings.picks_shadows()) defines += fmt::format(" -DSHADOW_PICK={}", settings.shadow_pick);
     if (!visible) defines += " -DNUMBERED";
-    if (lights_of(work.plan) > 65536) defines += " -DINDEX_32";
+    if (shadow_light_count(work.plan) > 65536) defines += " -DINDEX_32";
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
     if (kernels_.lanes && settings.portable) defines += " -DPORTABLE";
     if (maps_) defines += maps_->defines();
@@ -502,11 +340,9 @@ class ShadowBits : public PassCache {
 
   PassKernels kernels_;
   std::shared_ptr<RayScene> scene_;
-  std::optional<LightCuller> culler_;
-  std::vector<CullLight> lights_in_culler_;
   std::optional<ViewShadowMaps> maps_;
   std::optional<ShadowCertificates> certificates_;
-  std::vector<std::unique_ptr<ListedShadows>> listed_;  // an image each; none: nothing was found
+  ShadowLists lists_;
   BlendedLayers layers_;
   UploadedBuffer lights_, view_, offsets_, blended_offsets_, first_entries_;
   GrowingBuffer rays_;

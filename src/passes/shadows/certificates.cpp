@@ -25,19 +25,6 @@ namespace {
 
 constexpr uint32_t frames_a_step = 4;  // of the time by which slots age
 
-WorldBox box_of(const Mesh& mesh, const glm::dmat4& world_from_object) {
-  WorldBox box{glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
-  if (mesh.bounds.empty()) return box;
-  for (int i = 0; i < 8; ++i) {
-    const glm::dvec4 corner(i & 1 ? mesh.bounds.max.x : mesh.bounds.min.x,
-                            i & 2 ? mesh.bounds.max.y : mesh.bounds.min.y,
-                            i & 4 ? mesh.bounds.max.z : mesh.bounds.min.z, 1);
-    const glm::dvec3 at(world_from_object * corner);
-    box.min = glm::min(box.min, at), box.max = glm::max(box.max, at);
-  }
-  return box;
-}
-
 // Most metres between what pixels of the view show of the box and the box itself, since rasterisers move
 // corners by a part of a pixel.
 double snapping(const View& view, const WorldBox& box) {
@@ -89,25 +76,12 @@ ShadowCertificates::ShadowCertificates(ClDevice& device, size_t bytes)
 // an instance in its reach, before or after it moved or its mesh deformed, as a caster or as a receiver.
 void ShadowCertificates::follow(Work& work, const RayScene& rays, const std::vector<CullLight>& all_lights,
                                 ShadowSight sight) {
-  const Scene& scene = work.scene;
   if (sight_stamp_ == 0 || !(sight == sight_)) ++sight_stamp_, sight_ = std::move(sight);
-  bool all = rays.builds() != builds_ || instances_.size() != scene.instances.size();
+  const auto moved = moved_.since_last(work, rays);
+  bool all = !moved;
   if (last_stamp_ > 0xffffffffu - all_lights.size() - 1) {
     fill_buffer(*work.renderer.cl, "clearing certificates", table_, 0, lightgrid::bytes_of(table_));
-    last_stamp_ = 0, all = true;
-  }
-  builds_ = rays.builds();
-  std::vector<WorldBox> moved;
-  instances_.resize(scene.instances.size(), {glm::dmat4(0), -1, {}});
-  for (size_t i = 0; i < instances_.size(); ++i) {
-    const Instance& instance = scene.instances[i];
-    Placed& before = instances_[i];
-    const int version = work.gpu.mesh_version(instance.mesh);
-    if (before.world_from_object == instance.world_from_object && before.mesh_version == version) continue;
-    const Placed after{instance.world_from_object, version,
-                       box_of(scene.meshes[size_t(instance.mesh)], instance.world_from_object)};
-    if (!all) moved.push_back(before.box), moved.push_back(after.box);
-    before = after;
+    last_stamp_ = 0, all = true, ++sight_stamp_;
   }
   const size_t known = std::min(lights_.size(), all_lights.size());
   stamps_.resize(all_lights.size());
@@ -115,7 +89,7 @@ void ShadowCertificates::follow(Work& work, const RayScene& rays, const std::vec
     const auto reaches = [&](const WorldBox& box) {
       return may_reach(all_lights[i], box, rays.origin(), work.view);
     };
-    if (all || i >= known || lights_[i] != all_lights[i] || std::ranges::any_of(moved, reaches)) renew(i);
+    if (all || i >= known || lights_[i] != all_lights[i] || std::ranges::any_of(*moved, reaches)) renew(i);
   }
   lights_ = all_lights;
 }

@@ -7,6 +7,7 @@
 #include "cl/buffers.h"
 #include "cl/launch.h"
 #include "culling/light_culler.h"
+#include "passes/shadows/moved_instances.h"
 #include "renderer/work.h"
 #include "shared/shadow_records.h"
 
@@ -44,11 +45,6 @@ class ShadowCertificates {
   size_t memory_bytes() const;
 
  private:
-  struct Placed {
-    glm::dmat4 world_from_object;
-    int mesh_version;
-    WorldBox box;
-  };
   void renew(size_t light) { stamps_[light] = ++last_stamp_; }
 
   cl::Buffer table_;
@@ -56,11 +52,10 @@ class ShadowCertificates {
   GrowingBuffer tiles_, surfaces_, bits_[2];  // KeptShadows of this frame and the last in turn
   size_t tile_count_ = 0;
   uint32_t frames_ = 0, last_stamp_ = 0, sight_stamp_ = 0;
-  int builds_ = 0;  // of the tree that the triangles' places are of
   ShadowSight sight_{};
   std::vector<CullLight> lights_;
   std::vector<uint32_t> stamps_;
-  std::vector<Placed> instances_;
+  MovedInstances moved_;
 };
 
 }  // namespace lightgrid

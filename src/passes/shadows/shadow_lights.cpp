@@ -1,0 +1,97 @@
+#include "passes/shadows/shadow_lights.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "renderer/upload/culler_input.h"
+#include "shared/shadow_bits.h"
+#include "shared/shadow_certificates.h"
+
+namespace lightgrid {
+namespace {
+
+// Positions in view space are floats; they are turned to world axes and rounded again. Shading computes with
+// other roundings of them. Points in range are no further from the eye and from the origin than the light and
+// its range, and all of these errors together are below 2^-19 of that.
+ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin) {
+  const glm::dvec3 at = light.position - origin;
+  ShadowLight s{at.x, at.y, at.z, 1, float(light.direction.x), float(light.direction.y),
+                float(light.direction.z), float(light.cos_outer), 0, 0, float(light.radius_m)};
+  if (light.cos_outer < -1) s.cos_outer = -1;
+  const double slack = 0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
+  const double reach = light.radius_m * (1 + 1e-5) + slack;
+  s.reach_squared = float(std::min(reach * reach, double(std::numeric_limits<float>::infinity())));
+  s.slack = float(std::min(slack, double(std::numeric_limits<float>::max())));
+  return s;
+}
+
+ShadowLight shadow_light(const Light& directional) {
+  const glm::dvec3 to_light = -glm::normalize(glm::dvec3(directional.direction));
+  constexpr float everywhere = std::numeric_limits<float>::infinity();
+  return {to_light.x, to_light.y, to_light.z, 0, 0, 0, 0, -1, everywhere, 0, {}};
+}
+
+}  // namespace
+
+size_t shadow_light_count(const FramePlan& plan) { return plan.local.size() + plan.directional_lights.size(); }
+
+size_t shadow_table_words(const FramePlan& plan) { return (shadow_light_count(plan) + 31) / 32; }
+
+size_t shadow_entry_bytes(const FramePlan& plan) {
+  return (plan.shadow_bytes ? SHADOW_WORDS_OF_BYTES : SHADOW_WORDS_OF_BITS) * sizeof(uint32_t);
+}
+
+std::vector<CullLight> shining_lights(const Seen& seen) {
+  std::vector<CullLight> lights = cull_lights_of(seen.scene, seen.plan.local, seen.plan.settings.ranges);
+  for (const int i : seen.plan.directional_lights)
+    lights.push_back({.direction = glm::dvec3(seen.scene.lights[size_t(i)].direction)});
+  return lights;
+}
+
+std::vector<CullLight> shadowed_lights(const Seen& seen, std::vector<CullLight> lights) {
+  for (size_t i = 0; i < lights.size(); ++i) {
+    if (!seen.plan.shadowed[i]) lights[i].radius_m = -1;
+  }
+  return lights;
+}
+
+std::vector<ShadowLight> shadow_light_records(const Seen& seen, const std::vector<CullLight>& shadowed,
+                                              const glm::dvec3& origin) {
+  const Settings& settings = seen.plan.settings;
+  std::vector<ShadowLight> records;
+  for (size_t i = 0; i < seen.plan.local.size(); ++i) {
+    ShadowLight& record = records.emplace_back(shadow_light(shadowed[i], seen.view, origin));
+    const Light& light = seen.scene.lights[size_t(seen.plan.local[i])];
+    if (settings.soft_shadows()) record.source_m = float(source_of(light, settings.shadow_source_m));
+    record.luminance = light.intensity * glm::dot(light.color, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+  }
+  for (const int i : seen.plan.directional_lights)
+    records.push_back(shadow_light(seen.scene.lights[size_t(i)]));
+  return records;
+}
+
+ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
+  const View& view = seen.view;
+  const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
+  const glm::dvec3 from = view.eye - origin, eye = view.orthographic ? world_from_view[2] : from;
+  ShadowView v{eye.x, eye.y, eye.z, view.orthographic ? 0.0 : 1.0, {}, float(from.x), float(from.y),
+               float(from.z), 0, 0, {}};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      v.world_from_view[3 * row + column] = float(world_from_view[column][row]);
+  }
+  v.words = uint(shadow_table_words(seen.plan));
+  const double piece = PIECE_PIXELS * 2 / (view.clip_from_view[1][1] * view.height);
+  v.piece_scale = float(piece * piece);
+  return v;
+}
+
+ShadowInputs shadow_inputs(Work& work, const RayScene& rays) {
+  ShadowInputs inputs{work.view, work.scene.lights, shining_lights(work), work.plan.shadowed,
+                      {},        rays.builds()};
+  for (const Instance& i : work.scene.instances)
+    inputs.instances.emplace_back(i.world_from_object, work.gpu.mesh_version(i.mesh));
+  return inputs;
+}
+
+}  // namespace lightgrid
