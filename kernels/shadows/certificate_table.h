@@ -4,6 +4,7 @@
 // that last. A reader reads it before and after it copies.
 #pragma once
 
+#include "kernels/common/fetch.h"
 #include "kernels/common/hash.h"
 #include "kernels/rays/rays.h"
 #include "shared/shadow_certificates.h"
@@ -93,13 +94,11 @@ static inline void copy_line(PieceCertificates* to, volatile global PieceCertifi
 
 // Where the piece's certificates most probably are.
 static inline void prefetch_certificates(const Certificates* c, const Piece* p) {
-#ifdef __clang__
   global uint16* lines = (global uint16*)set_of(c, p);
-  __builtin_prefetch(lines, 0, 3);
-  __builtin_prefetch(lines + FIRST_STAMPS, 0, 3);
-  __builtin_prefetch(lines + FIRST_STATES, 0, 3);
-  __builtin_prefetch(lines + FIRST_PLACES, 0, 3);
-#endif
+  FETCH(lines);
+  FETCH(lines + FIRST_STAMPS);
+  FETCH(lines + FIRST_STATES);
+  FETCH(lines + FIRST_PLACES);
 }
 
 // Those lines that hold something: lights follow one another. False: they are those of another piece by now,

@@ -148,17 +148,11 @@ struct FaultyVeils : testing::TestWithParam<VeilFault> {};
 TEST_P(FaultyVeils, AreFound) {
   const VeilFault& fault = GetParam();
   int planted = 0;
-  Renderer renderer("", GlBackend::none);
-  renderer.kernels->alter([&](std::string text) {
-    const size_t at = text.find(fault.right);
-    if (at == text.npos) return text;
-    ++planted;
-    return text.replace(at, std::string_view(fault.right).size(), fault.wrong);
-  });
-  GpuScene gpu(renderer, veiled().scene);
+  const auto renderer = faulty_renderer(fault.right, fault.wrong, planted);
+  GpuScene gpu(*renderer, veiled().scene);
   Settings settings;
   apply_setting(settings, "shadow-blended=alpha");
-  TechniqueRun run(renderer, gpu, veiled().view, settings, find_technique("visibility"));
+  TechniqueRun run(*renderer, gpu, veiled().view, settings, find_technique("visibility"));
   run.run_frame();
   EXPECT_GT(planted, 0) << "no kernel has this text";
   EXPECT_GT(shares_of(run).wrong, 20u);

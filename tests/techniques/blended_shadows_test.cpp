@@ -16,21 +16,6 @@ Glazed& glazed() {
   return *made;
 }
 
-struct BlendedCase {
-  const Technique* technique;
-  RasterApi raster;
-};
-
-std::vector<BlendedCase> blended_cases() {
-  std::vector<BlendedCase> all;
-  for (const Technique* t : techniques()) {
-    if (t->name == std::string("voxel_lights")) continue;  // it has none
-    all.push_back({t, RasterApi::opengl});
-    if (reads_setting(*t, "raster")) all.push_back({t, RasterApi::opencl});
-  }
-  return all;
-}
-
 // Pairs of all layers by the oracle, and how many of them are hidden.
 struct BlendedPairs {
   LitPairs pairs;
@@ -51,7 +36,7 @@ BlendedPairs blended_pairs(Glazed& stage, TechniqueRun& run) {
   return all;
 }
 
-struct BlendedShadows : testing::TestWithParam<BlendedCase> {};
+struct BlendedShadows : testing::TestWithParam<ShadowWay> {};
 
 // Errors of pictures are those of the same techniques on opaque surfaces (shadow_test.cpp).
 TEST_P(BlendedShadows, AreTheOraclesInEachPairAndInThePicture) {
@@ -72,7 +57,7 @@ TEST_P(BlendedShadows, AreTheOraclesInEachPairAndInThePicture) {
   EXPECT_LT(worst_error(run.image(), in_double), own_surfaces(*technique, settings) ? own_bound : 2e-4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, BlendedShadows, testing::ValuesIn(blended_cases()), [](const auto& info) {
+INSTANTIATE_TEST_SUITE_P(Techniques, BlendedShadows, testing::ValuesIn(shadow_ways()), [](const auto& info) {
   return info.param.technique->name + std::string(info.param.raster == RasterApi::opencl ? "_opencl" : "");
 });
 
@@ -150,16 +135,10 @@ struct FaultyLayers : testing::TestWithParam<LayerFault> {};
 TEST_P(FaultyLayers, AreFound) {
   const LayerFault& fault = GetParam();
   int planted = 0;
-  Renderer renderer("", GlBackend::none);
-  renderer.kernels->alter([&](std::string text) {
-    const size_t at = text.find(fault.right);
-    if (at == text.npos) return text;
-    ++planted;
-    return text.replace(at, std::string_view(fault.right).size(), fault.wrong);
-  });
+  const auto renderer = faulty_renderer(fault.right, fault.wrong, planted);
   Glazed& stage = glazed();
-  GpuScene gpu(renderer, stage.scene);
-  TechniqueRun run(renderer, gpu, stage.view, {}, find_technique("visibility"));
+  GpuScene gpu(*renderer, stage.scene);
+  TechniqueRun run(*renderer, gpu, stage.view, {}, find_technique("visibility"));
   run.run_frame();
   EXPECT_GT(planted, 0) << "no kernel has this text";
   const LitPairs pairs = count_blended_pairs(run, stage.truth).value();

@@ -35,4 +35,16 @@ inline Scene glazed_scene() {
   return scene;
 }
 
+// OpenCL alone, with a fault planted in its kernels' text. planted: in how many kernels.
+inline std::unique_ptr<Renderer> faulty_renderer(std::string_view right, std::string_view wrong, int& planted) {
+  auto renderer = std::make_unique<Renderer>("", GlBackend::none);
+  renderer->kernels->alter([right, wrong, &planted](std::string text) {
+    const size_t at = text.find(right);
+    if (at == text.npos) return text;
+    ++planted;
+    return text.replace(at, right.size(), wrong);
+  });
+  return renderer;
+}
+
 }  // namespace lightgrid

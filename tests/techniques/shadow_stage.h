@@ -77,4 +77,20 @@ inline bool same_bits(const HostShadows& a, const HostShadows& b) {
   return a.cells == b.cells && a.indices == b.indices && a.bits == b.bits;
 }
 
+struct ShadowWay {
+  const Technique* technique;
+  RasterApi raster;
+};
+
+// Every technique with both rasterisers, if it leaves the choice.
+inline std::vector<ShadowWay> shadow_ways() {
+  std::vector<ShadowWay> all;
+  for (const Technique* t : techniques()) {
+    if (t->name == std::string("voxel_lights")) continue;  // it has none
+    all.push_back({t, RasterApi::opengl});
+    if (reads_setting(*t, "raster")) all.push_back({t, RasterApi::opencl});
+  }
+  return all;
+}
+
 }  // namespace lightgrid

@@ -35,22 +35,6 @@ Pictures& pictures_of(const std::string& name) {
   return *pictures;
 }
 
-struct ShadowWay {
-  const Technique* technique;
-  RasterApi raster;
-};
-
-// Every technique with both rasterisers, if it leaves the choice.
-std::vector<ShadowWay> shadow_ways() {
-  std::vector<ShadowWay> all;
-  for (const Technique* t : techniques()) {
-    if (t->name == std::string("voxel_lights")) continue;  // it has none
-    all.push_back({t, RasterApi::opengl});
-    if (reads_setting(*t, "raster")) all.push_back({t, RasterApi::opencl});
-  }
-  return all;
-}
-
 struct Shadows : testing::TestWithParam<ShadowWay> {};
 
 // Sums are in forward's order.
