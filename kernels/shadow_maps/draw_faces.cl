@@ -17,7 +17,7 @@
 #include "kernels/rays/rays.h"
 #include "kernels/shadow_maps/draw_triangles.h"
 
-// Which face's tile: of those that are drawn the last that begins there or before.
+// The tile's face: the last drawn one whose tiles begin at this one or before.
 static inline uint2 face_of_tile(global const uint2* tiles, uint face_count, uint tile) {
   uint low = 0, high = face_count;
   while (high - low > 1) {
@@ -37,7 +37,7 @@ static inline void store_tile(const FaceTile* t, global Texel* texels) {
   }
 }
 
-// A child of a node, and no more than the distance of what is in it.
+// A child of a node. nearest: all that it holds is at least this far ahead.
 typedef struct Waiting {
   int child, count;
   float nearest;

@@ -59,7 +59,7 @@ static inline void bound_axis(const FaceTile* t, Real3 x, Real3 z, whole* first,
   *last = min(*last, TO_WHOLE(lane_max(lane_min(high, most), least)));
 }
 
-// Lanes of which an edge has all of their bounds outside. Roundings are monotonic: what draw_columns()
+// Lanes whose bounds all lie outside of one edge. Roundings are monotonic: what draw_columns()
 // computes there is no more than this.
 static inline mask_t out_of_edge(const FaceTile* t, Real3 p, const TriangleLanes* d) {
   const real u = t->first_u + t->step * TO_REAL(p.x > 0.0f ? d->right : d->left),
@@ -73,7 +73,8 @@ static inline Real3 edge_plane_of(Real3 a, Real3 b, real turn) {
   return scale3(cross3(add3(a, scale3(b, REAL(-1.0f))), add3(a, b)), turn);
 }
 
-// As may_change() says it of boxes: what a face holds then depends on no box of the tree.
+// The test that may_change() makes of boxes, of the triangle's own: what a face holds then depends on no box of
+// the tree.
 static inline mask_t in_range(const FaceTile* t, const Real3 corners[3]) {
   Real3 off = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
 #define OFF_BOX(axis)                                                                                     \
