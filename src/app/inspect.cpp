@@ -80,7 +80,7 @@ struct Subject {
   Settings settings;
   std::string technique;  // the chosen one
   TechniqueNeeds needs{};
-  std::unique_ptr<Renderer> renderer{};     // of `shadows`
+  std::unique_ptr<Renderer> renderer{};      // of `shadows`
   std::unique_ptr<FrameAndTruth> shadows{};  // where lights of the scene cast
   const View& view() const { return scene ? scene->view : frame.view; }
 };
@@ -145,8 +145,7 @@ int inspect_place(const InspectOptions& o, const Subject& subject, FrameCuller& 
   bool wrong = false;
   if (subject.shadows) {
     const Scene& scene = subject.scene->scene;
-    const PixelShadows here =
-        subject.shadows->frame.at(place.x, place.y, scene, subject.shadows->truth.occlusion());
+    const PixelShadows here = subject.shadows->frame.at(place.x, place.y, subject.shadows->truth.occlusion());
     wrong = add_shadows(pixel, scene, here) && says_exact(subject);
   }
   const int most = o.all ? std::numeric_limits<int>::max() : o.dropped;

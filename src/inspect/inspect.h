@@ -27,7 +27,7 @@ struct TestMargins {
 // Of a light that casts, at the pixel.
 struct ShadowVerdict {
   SightAnswer truth;
-  std::string by;                 // name of the instance that hides it
+  std::string by;                 // name of the instance that hides it; empty: several blended ones do
   bool shaded_as_hidden = false;  // by the frame
 
   bool leaked() const { return truth.sight == Sight::hidden && !shaded_as_hidden; }
@@ -76,8 +76,8 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
                               const std::vector<DepthInterval>& intervals, const Settings& settings, int x,
                               int y);
 
-// What each light that casts and is lit at the pixel meets on its way there. None where the pixel shows no
-// triangle. Returns whether the frame leaks one or has one dark though seen.
+// Sets the verdicts on the shadows of the lights that cast and are lit at the pixel; none if it shows no
+// triangle. Returns whether the frame leaks or acnes a light.
 bool add_shadows(PixelInspection& pixel, const Scene& scene, const PixelShadows& shadows);
 
 // `hidden by node 3 "column" triangle 12, 1.250 m from the light; the frame shades it: LEAKED`.

@@ -71,12 +71,12 @@ std::string shadow_line(const CapturedFrame& frame, int number, const ShadowVerd
 }
 
 json shadow_json(const ShadowVerdict& shadow) {
-  const bool hidden = shadow.truth.sight == Sight::hidden;
+  const bool by_one = shadow.truth.sight == Sight::hidden && shadow.truth.by.instance >= 0;
   return {{"sight", name_of(shadow.truth.sight)},
-          {"by", hidden ? json(shadow.by) : json()},
-          {"instance", hidden ? json(shadow.truth.by.instance) : json()},
-          {"triangle", hidden ? json(shadow.truth.by.triangle) : json()},
-          {"away", hidden ? number(shadow.truth.distance_m) : json()},
+          {"by", by_one ? json(shadow.by) : json()},
+          {"instance", by_one ? json(shadow.truth.by.instance) : json()},
+          {"triangle", by_one ? json(shadow.truth.by.triangle) : json()},
+          {"away", by_one ? number(shadow.truth.distance_m) : json()},
           {"shaded_as_hidden", shadow.shaded_as_hidden}};
 }
 
@@ -85,7 +85,8 @@ json shadow_json(const ShadowVerdict& shadow) {
 std::string shadow_words(const ShadowVerdict& shadow, const Light& light) {
   const SightAnswer& truth = shadow.truth;
   std::string text = name_of(truth.sight);
-  if (truth.sight == Sight::hidden)
+  if (truth.sight == Sight::hidden && truth.by.instance < 0) text += " by blended surfaces together";
+  if (truth.sight == Sight::hidden && truth.by.instance >= 0)
     text += fmt::format(" by node {} \"{}\" triangle {}, {:.3f} m from the {}", truth.by.instance, shadow.by,
                         truth.by.triangle, truth.distance_m, is_directional(light) ? "surface" : "light");
   if (truth.sight == Sight::either) text += ": its answer turns on rounding";

@@ -61,8 +61,8 @@ uint32_t length_of_list(const ListedLights& lists, uint32_t cell) {
   return cell < lists.count.size() ? lists.count[cell] : 0;
 }
 
-// A pair in range, by what hides its light. Returns whether it is lit. listed: or left out as hidden, which
-// then is set.
+// Counts a pair in range, by what hides its light. Returns whether it is lit. Sets `listed` if the list lacks
+// the light because the frame finds it wholly hidden.
 bool tally_shadow(const PairShadows& shadows, int width, uint32_t pixel, uint32_t light, bool& listed,
                   Tally& tally, LitPairs& out) {
   const bool hidden =
@@ -92,6 +92,8 @@ Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered,
   for (const size_t i : order)
     pixels.push_back(covered[tile.indices[i]]), positions.push_back(tile.positions[i]);
 
+  const bool local_alone = shadows && shadows->shaded && shadows->shaded->local_alone;
+  const uint32_t directional = shadows && !local_alone ? shadows->directional : 0;
   Tally tally;
   Membership listed(lights.size());
   for (size_t begin = 0, end = 0; begin < pixels.size(); begin = end) {
@@ -99,9 +101,8 @@ Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered,
     while (end < pixels.size() && cell_of(lists, pixels[end]) == cell) ++end;
     tally.wrong += listed.read(lists, cell) * (end - begin);
     tally.listed += uint64_t(length_of_list(lists, cell)) * (end - begin);
-    for (size_t i = begin; shadows && i < end; ++i) {
-      const bool local_alone = shadows->shaded && shadows->shaded->local_alone;
-      for (uint32_t d = 0; d < (local_alone ? 0 : shadows->directional); ++d) {
+    for (size_t i = begin; i < end; ++i) {
+      for (uint32_t d = 0; d < directional; ++d) {
         bool is_listed = true;
         tally_shadow(*shadows, width, pixels[i], uint32_t(lights.size()) + d, is_listed, tally, out);
       }

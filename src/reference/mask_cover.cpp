@@ -61,7 +61,8 @@ Cover MaskCover::at(int instance, uint32_t triangle, const dvec3& weights, const
   const Material& m = material_of(scene_, instance);
   if (m.alpha_mode != AlphaMode::mask) return Cover::opaque;
   const Range range = alpha(instance, triangle, weights, error);
-  return range.least >= m.alpha_cutoff ? Cover::opaque : range.most < m.alpha_cutoff ? Cover::clear : Cover::either;
+  if (range.least >= m.alpha_cutoff) return Cover::opaque;
+  return range.most < m.alpha_cutoff ? Cover::clear : Cover::either;
 }
 
 MaskCover::Range MaskCover::alpha(int instance, uint32_t triangle, const dvec3& weights,

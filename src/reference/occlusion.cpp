@@ -215,11 +215,13 @@ SightAnswer Occlusion::sight_of(const Light& light, const Receiver& r, const Cor
 }
 
 SightAnswer Occlusion::sight(const Light& light, const Receiver& r, int* last) const {
-  const SightAnswer answer =
-      sight_of(light, r, corners_of(r.own), last,
-               [&](const RoundedPoint& from, const RoundedPoint& to, double reach, const auto& visit) {
-                 tree_.walk(from.place, to.place, reach, visit);
-               });
+  return through_veil(light, r,
+                      sight_of(light, r, corners_of(r.own), last,
+                               [&](const RoundedPoint& from, const RoundedPoint& to, double reach,
+                                   const auto& visit) { tree_.walk(from.place, to.place, reach, visit); }));
+}
+
+SightAnswer Occlusion::through_veil(const Light& light, const Receiver& r, const SightAnswer& answer) const {
   if (by_blended_ != BlendedCasters::alpha || answer.sight != Sight::seen) return answer;
   constexpr double of_byte = 1.0 / 255;
   const Veil hidden = veil(light, r);
@@ -229,7 +231,8 @@ SightAnswer Occlusion::sight(const Light& light, const Receiver& r, int* last) c
 
 bool Occlusion::is_veil(const CastingTriangle& t) const {
   if (by_blended_ != BlendedCasters::alpha) return false;
-  return scene_.materials[scene_.meshes[scene_.instances[t.instance].mesh].material].alpha_mode == AlphaMode::blend;
+  const Mesh& mesh = scene_.meshes[scene_.instances[t.instance].mesh];
+  return scene_.materials[mesh.material].alpha_mode == AlphaMode::blend;
 }
 
 Veil Occlusion::veil(const Light& light, const Receiver& r) const {
@@ -279,14 +282,15 @@ void Occlusion::sights(const Light& light, std::span<const Receiver* const> rece
   for (size_t i = 0; i < receivers.size(); ++i) {
     const Receiver& r = *receivers[i];
     if (r.own != known) own = corners_of(r.own), known = r.own;
-    answers[i] =
+    answers[i] = through_veil(
+        light, r,
         sight_of(light, r, own, last,
                  [&](const RoundedPoint& from, const RoundedPoint& to, double reach, const auto& visit) {
                    if (!around) look_around();
                    for (const int triangle : *around) {
                      if (tree_.is_near(triangle, from.place, to.place, reach) && visit(triangle)) return;
                    }
-                 });
+                 }));
   }
 }
 

@@ -26,9 +26,9 @@ struct CastingTriangle {
 // The visible point of a pixel, in the plane of the triangle that it shows.
 struct Receiver {
   CastingTriangle own;
-  RoundedPoint place;  // world
-  double gap_m = 0;    // the end of a segment that hides nothing
-  RoundedPoint eye;    // world; of an orthographic view far away
+  RoundedPoint place;     // world
+  double gap_m = 0;       // the end of a segment that hides nothing
+  RoundedPoint eye;       // world; of an orthographic view far away
   bool own_hides = true;  // lights behind its own triangle; a blended one lets them through
 };
 
@@ -38,13 +38,14 @@ struct SightAnswer {
   double distance_m = 0;  // from the light to where it does; of a directional light from the receiver
 };
 
-// The share of a light that blended triangles hide, which is known to lie between these.
+// Bounds of the share of a light that blended triangles hide.
 struct Veil {
   double least = 0, most = 0;
 };
 
-// Opaque and masked triangles hide lights, from both sides, but those of instances that cast no shadow. by_blended:
-// what blended ones hide; with alpha a light of which more than half is hidden counts as hidden.
+// Opaque and masked triangles hide lights, from both sides, but those of instances that cast no shadow.
+// by_blended: what blended ones hide; with alpha a light of which more than half is hidden counts as hidden,
+// by no triangle that an answer could name.
 class Occlusion {
  public:
   // The scene outlives it, and does not move meanwhile.
@@ -63,7 +64,8 @@ class Occlusion {
   void sights(const Light& light, std::span<const Receiver* const> receivers, std::span<SightAnswer> answers,
               int* last) const;
 
-  // What blended triangles hide by their alpha: 1 less the product of 1 - alpha of all but the receiver's own.
+  // What blended triangles hide by their alpha: 1 less the product of 1 - alpha of all but the receiver's
+  // own. With BlendedCasters::alpha; else nothing.
   Veil veil(const Light& light, const Receiver& receiver) const;
 
   double vertex_error_m() const { return vertex_error_m_; }
@@ -75,8 +77,8 @@ class Occlusion {
   struct Met {
     Meeting meeting = Meeting::none;
     int of_edge = -1;
-    int light_side = 0;  // of the plane
-    double share = 0;    // of the segment, from the light to the plane
+    int light_side = 0;                      // of the plane
+    double share = 0;                        // of the segment, from the light to the plane
     glm::dvec3 weights{1.0 / 3}, errors{1};  // of the corners, where the segment meets it
   };
   Corners corners_of(const CastingTriangle& triangle) const;
@@ -90,7 +92,9 @@ class Occlusion {
   Met meet(int number, const RoundedPoint& light, const RoundedPoint& end) const;
   bool share_an_edge(int a, const Met& met_a, int b, const Met& met_b) const;
 
-  bool is_veil(const CastingTriangle& triangle) const;
+  bool is_veil(const CastingTriangle& triangle) const;  // it hides by its alpha
+  // answer: of all other triangles.
+  SightAnswer through_veil(const Light& light, const Receiver& r, const SightAnswer& answer) const;
 
   const Scene& scene_;
   BlendedCasters by_blended_;

@@ -26,8 +26,8 @@ AlphaMode alpha_mode_of(const Scene& scene, const Instance& instance) {
 }
 
 bool shows_masks(const Scene& scene) {
-  return std::ranges::any_of(
-      scene.instances, [&](const Instance& i) { return alpha_mode_of(scene, i) == AlphaMode::mask; });
+  return std::ranges::any_of(scene.instances,
+                             [&](const Instance& i) { return alpha_mode_of(scene, i) == AlphaMode::mask; });
 }
 
 void set_ray_meshes(const Scene& scene, RayScene& rays) {
@@ -53,7 +53,8 @@ void set_ray_instances(const Scene& scene, BlendedCasters by_blended, RayScene& 
 }
 
 // Materials and alphas of their own, since blending needs no chain of alphas.
-RayMasks masks_with_blended(ClDevice& device, const Scene& scene, TexelLayout layout, const cl::Buffer& vertices) {
+RayMasks masks_with_blended(ClDevice& device, const Scene& scene, TexelLayout layout,
+                            const cl::Buffer& vertices) {
   std::vector<bool> used(scene.materials.size());
   for (const Instance& instance : scene.instances)
     used[size_t(scene.meshes[instance.mesh].material)] = alpha_mode_of(scene, instance) != AlphaMode::opaque;

@@ -36,9 +36,9 @@ class GpuScene {
   // from in_cl(layout), which are alike in each layout. One for all views; freed with the last that holds it.
   std::shared_ptr<RasterScene> in_raster(TexelLayout layout);
 
-  // The same scene for shadow rays, triangles by instance in scene order. Instances that cast no shadow hide no
-  // light; by_blended: what blended ones hide. Refitted where it moved. Throws Error(machine) if the device has
-  // no doubles.
+  // The same scene for shadow rays, triangles by instance in scene order. Instances that cast no shadow hide
+  // no light; by_blended: what blended ones hide. Refitted where it moved. Throws Error(machine) if the
+  // device has no doubles.
   std::shared_ptr<RayScene> in_rays(TexelLayout layout, BlendedCasters by_blended);
 
   // The light lists of world_grid with these settings, shared by all views that hold them; not yet built.
@@ -70,7 +70,7 @@ class GpuScene {
   std::map<BlendedCasters, HeldRays> in_rays_;
   std::vector<std::pair<WorldGridKey, std::weak_ptr<SharedWorldGrid>>> world_grids_;
   int shape_version_ = 0, instances_version_ = 0, lights_version_ = 0;
-  std::vector<int> mesh_versions_;  // updates that deformed each; of the first ones
+  std::vector<int> mesh_versions_;               // updates that deformed each; of the first ones
   std::deque<std::vector<int>> changed_lights_;  // of the last updates that moved any
 };
 

@@ -1,9 +1,13 @@
+// The setting shadow-blended.
 #pragma once
 
 namespace lightgrid {
 
-// What blended surfaces hide of a light: nothing, all of it as opaque ones do, or the share alpha of what is left of
-// it behind those before.
-enum class BlendedCasters { none, opaque, alpha };
+// What a blended surface hides of a light.
+enum class BlendedCasters {
+  none,    // nothing
+  opaque,  // all of it, as an opaque one does
+  alpha    // the share alpha of what other blended surfaces let through
+};
 
 }  // namespace lightgrid

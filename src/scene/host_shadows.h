@@ -22,11 +22,11 @@ struct HostShadows {
   std::vector<uint32_t> bits;   // `words` an entry of indices: the light, or more than half of it, is hidden
   std::vector<uint8_t> shares;  // the hidden share times 255, in the same order; empty: bits say all
   bool local_alone = false;     // those of directional lights are elsewhere
-  bool drops_hidden = false;    // lights are in no list of lights at a pixel that they are wholly hidden from
+  bool drops_hidden = false;    // a pixel's list lacks lights that are wholly hidden there
 };
 
-// The shadows of one layer of blended surfaces, and the fragments that it holds: of each pixel, row 0 at the bottom,
-// depth (0: no fragment), the scene's instance (-1) and the triangle of its mesh.
+// The shadows of one layer of blended surfaces, and the fragments that it holds: of each pixel, row 0 at the
+// bottom, depth (0: no fragment), the scene's instance (-1) and the triangle of its mesh.
 struct HostShadowLayer {
   HostShadows shadows;
   std::vector<float> depth;

@@ -6,16 +6,17 @@
 
 namespace lightgrid {
 
-PixelShadows FrameShadows::at(int x, int y, const Scene& scene, const Occlusion& occlusion) const {
+PixelShadows FrameShadows::at(int x, int y, SceneOcclusion& occlusion) const {
   const size_t pixel = view.grid().index(x, y);
-  const CastingTriangle own = casting_triangles(scene, {shown[pixel]}).front();
-  PixelShadows here{occlusion, {}, shaded ? &*shaded : nullptr};
-  if (own.instance >= 0) here.receiver = occlusion.receiver(view, x, y, double(depth[pixel]), own);
+  const CastingTriangle own = casting_triangles(occlusion.scene(), {shown[pixel]}).front();
+  PixelShadows here{occlusion.get(by_blended), {}, shaded ? &*shaded : nullptr};
+  if (own.instance >= 0) here.receiver = here.occlusion.receiver(view, x, y, double(depth[pixel]), own);
   return here;
 }
 
 FrameShadows read_frame_shadows(TechniqueRun& run) {
-  FrameShadows frame{run.view().view, read_depth(run), shown_triangles(run), {}};
+  const RenderView& v = run.view();
+  FrameShadows frame{v.view, read_depth(run), shown_triangles(run), {}, v.plan.settings.shadow_blended};
   if (run.frame().shadows) frame.shaded = run.frame().shadows();
   return frame;
 }

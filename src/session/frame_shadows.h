@@ -6,6 +6,7 @@
 #include "passes/read_outs.h"
 #include "reference/lit_set.h"
 #include "reference/seen_pairs.h"
+#include "session/scene_occlusion.h"
 #include "session/technique_run.h"
 
 namespace lightgrid {
@@ -14,11 +15,12 @@ namespace lightgrid {
 struct FrameShadows {
   View view{};
   std::vector<float> depth;
-  std::vector<SceneTriangle> shown;   // the nearest opaque one of each pixel
-  std::optional<HostShadows> shaded;  // none: every light is shaded
+  std::vector<SceneTriangle> shown;                  // the nearest opaque one of each pixel
+  std::optional<HostShadows> shaded;                 // none: every light is shaded
+  BlendedCasters by_blended = BlendedCasters::none;  // the run's setting, which the oracle has too
 
-  // This, the scene and the oracle outlive it.
-  PixelShadows at(int x, int y, const Scene& scene, const Occlusion& occlusion) const;
+  // This and the oracle outlive it.
+  PixelShadows at(int x, int y, SceneOcclusion& occlusion) const;
 };
 
 // Of the run's last frame.

@@ -29,7 +29,7 @@ ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth);
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth,
                             const SeenPairs* seen = nullptr);
 
-// The same for each layer of its blended surfaces, added up: of every light, whatever lists blended surfaces have.
+// The sum over the layers of its blended surfaces, with every light: what their lists lack is not counted.
 // None if no light casts or nothing blended is in view.
 std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& truth);
 

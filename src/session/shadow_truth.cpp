@@ -56,32 +56,23 @@ CastingLights casting_lights(const Scene& scene, const View& view, const LightRa
 
 bool ShadowTruth::casts() const { return std::ranges::any_of(scene_.lights, &Light::casts_shadow); }
 
-const Occlusion& ShadowTruth::occlusion(BlendedCasters by_blended) {
-  if (!occlusion_ || by_blended_ != by_blended) {
-    moved(false);
-    occlusion_ = std::make_unique<Occlusion>(scene_, by_blended), by_blended_ = by_blended;
-  }
-  return *occlusion_;
-}
-
 const SeenPairs* ShadowTruth::pairs(const Seen& v, const std::vector<float>& depth,
                                     const std::vector<SceneTriangle>& triangles) {
   if (!casts()) return nullptr;
-  const Occlusion& truth = occlusion(v.plan.settings.shadow_blended);
+  const Model model = model_of(v);
   for (const Decided& d : decided_) {
-    if (d.pairs && d.ranges == v.plan.settings.ranges && d.depth == depth && d.triangles == triangles)
-      return d.pairs.get();
+    if (d.pairs && d.model == model && d.depth == depth && d.triangles == triangles) return d.pairs.get();
   }
   const std::vector<CastingTriangle> casting = casting_triangles(scene_, triangles);
   std::vector<int> places = v.plan.local;
   places.insert(places.end(), v.plan.directional_lights.begin(), v.plan.directional_lights.end());
-  const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, places);
+  const CastingLights lights = casting_lights(scene_, v.view, model.ranges, places);
   const ShownSurfaces shown{v.view, depth, casting};
   Decided& d = decided_[next_];
   next_ = 1 - next_;
-  d = {
-      v.plan.settings.ranges, depth, triangles,
-      std::make_unique<SeenPairs>(truth, shown, lights, affordable_pixels(shown, lights, most_pairs_))};
+  d = {model, depth, triangles,
+       std::make_unique<SeenPairs>(occlusion_->get(model.by_blended), shown, lights,
+                                   affordable_pixels(shown, lights, most_pairs_))};
   return d.pairs.get();
 }
 
@@ -92,31 +83,31 @@ std::unique_ptr<SeenPairs> ShadowTruth::at_pixels(const Seen& v, const std::vect
   std::vector<int> all(scene_.lights.size());
   std::iota(all.begin(), all.end(), 0);
   const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, all);
-  return std::make_unique<SeenPairs>(occlusion(v.plan.settings.shadow_blended), ShownSurfaces{v.view, depth, triangles}, lights, pixels,
-                                     in_range);
+  return std::make_unique<SeenPairs>(occlusion_->get(v.plan.settings.shadow_blended),
+                                     ShownSurfaces{v.view, depth, triangles}, lights, pixels, in_range);
 }
 
 const SeenPairs* ShadowTruth::of_layer(const Seen& v, const HostShadowLayer& layer) {
   if (!casts()) return nullptr;
-  const Occlusion& truth = occlusion(v.plan.settings.shadow_blended);
+  const Model model = model_of(v);
   for (const DecidedLayer& d : layers_) {
-    if (d.depth == layer.depth && d.triangles == layer.triangles) return d.pairs.get();
+    if (d.model == model && d.depth == layer.depth && d.triangles == layer.triangles) return d.pairs.get();
   }
   std::vector<CastingTriangle> triangles;
   for (const glm::ivec2& t : layer.triangles) triangles.push_back({t.x, uint32_t(t.y)});
-  const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, v.plan.local);
+  const CastingLights lights = casting_lights(scene_, v.view, model.ranges, v.plan.local);
   const ShownSurfaces shown{v.view, layer.depth, triangles};
   if (layers_.size() >= most_layers) layers_.clear();
-  layers_.push_back(
-      {layer.depth, layer.triangles,
-       std::make_unique<SeenPairs>(truth, shown, lights, affordable_pixels(shown, lights, most_pairs_))});
+  layers_.push_back({model, layer.depth, layer.triangles,
+                     std::make_unique<SeenPairs>(occlusion_->get(model.by_blended), shown, lights,
+                                                 affordable_pixels(shown, lights, most_pairs_))});
   return layers_.back().pairs.get();
 }
 
 void ShadowTruth::moved(bool geometry) {
   for (Decided& d : decided_) d = {};
   layers_.clear();
-  if (geometry) occlusion_.reset();
+  if (geometry) occlusion_->scene_moved();
 }
 
 }  // namespace lightgrid

@@ -7,6 +7,7 @@
 #include "passes/read_outs.h"
 #include "reference/seen_pairs.h"
 #include "renderer/work.h"
+#include "session/scene_occlusion.h"
 
 namespace lightgrid {
 
@@ -22,10 +23,11 @@ CastingLights casting_lights(const Scene& scene, const View& view, const LightRa
 class ShadowTruth {
  public:
   // most_pairs: in each view; of more, an even sample of the pixels is taken. The scene outlives it.
-  ShadowTruth(const Scene& scene, uint64_t most_pairs) : scene_(scene), most_pairs_(most_pairs) {}
+  ShadowTruth(const Scene& scene, uint64_t most_pairs)
+      : scene_(scene), most_pairs_(most_pairs), occlusion_(std::make_unique<SceneOcclusion>(scene)) {}
 
   bool casts() const;  // some light of the scene
-  const Occlusion& occlusion(BlendedCasters by_blended = BlendedCasters::none);
+  SceneOcclusion& occlusion() { return *occlusion_; }
 
   // Of point and spot lights, as lists have them, then of directional ones. Null if no light casts; until the
   // next call but one. triangles: the nearest opaque one of each pixel.
@@ -38,32 +40,39 @@ class ShadowTruth {
                                        const std::vector<CastingTriangle>& triangles,
                                        const std::vector<uint32_t>& pixels, bool in_range = true);
 
-  // Of point and spot lights at the fragments of a layer of blended surfaces. Null if no light casts; until the
-  // view moves, or more layers were decided than are kept.
+  // Of point and spot lights at the fragments of a layer of blended surfaces. Null if no light casts; until
+  // the next call.
   const SeenPairs* of_layer(const Seen& v, const HostShadowLayer& layer);
 
   // Another view, and `geometry`: whether instances moved or meshes deformed.
   void moved(bool geometry);
 
  private:
-  struct Decided {
+  // Settings that decide which pairs there are, and which of them are hidden.
+  struct Model {
     LightRanges ranges;
+    BlendedCasters by_blended = BlendedCasters::none;
+    bool operator==(const Model&) const = default;
+  };
+  static Model model_of(const Seen& v) { return {v.plan.settings.ranges, v.plan.settings.shadow_blended}; }
+  struct Decided {
+    Model model;
     std::vector<float> depth;
     std::vector<SceneTriangle> triangles;
     std::unique_ptr<SeenPairs> pairs;
   };
-  const Scene& scene_;
-  uint64_t most_pairs_;
-  std::unique_ptr<Occlusion> occlusion_;
-  BlendedCasters by_blended_ = BlendedCasters::none;  // of it
   struct DecidedLayer {
+    Model model;
     std::vector<float> depth;
     std::vector<glm::ivec2> triangles;
     std::unique_ptr<SeenPairs> pairs;
   };
   static constexpr size_t most_layers = 64;
 
-  Decided decided_[2];  // OpenGL's surfaces, and those drawn in OpenCL
+  const Scene& scene_;
+  uint64_t most_pairs_;
+  std::unique_ptr<SceneOcclusion> occlusion_;  // it does not move
+  Decided decided_[2];                         // OpenGL's surfaces, and those drawn in OpenCL
   std::vector<DecidedLayer> layers_;
   int next_ = 0;
 };

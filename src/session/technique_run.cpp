@@ -34,8 +34,9 @@ void TechniqueRun::draw_frame() {
   const bool opengl = view_.renderer.gl != nullptr;
   if (opengl) reset_gl_state();
   begin_shadow_bands(view_, view_.caches.shadow_bits);
-  do frame_ = technique_.render(view_);
-  while (next_shadow_band(view_, view_.caches.shadow_bits, frame_.image));
+  do {
+    frame_ = technique_.render(view_);
+  } while (next_shadow_band(view_, view_.caches.shadow_bits, frame_.image));
   tell_shadows(view_, view_.caches.shadow_bits, frame_);
   if (opengl) check_gl(technique_.name);
 }
@@ -91,10 +92,10 @@ static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Fr
   if (frame.shadow_figures) {
     const ShadowFigures figures = frame.shadow_figures();
     result.lights = figures.lights, result.maps = figures.maps, result.drawn = figures.drawn;
-    result.kept = figures.kept, result.certified = figures.certified, result.bytes = figures.bytes,
-    result.rays = figures.rays;
+    result.kept = figures.kept, result.certified = figures.certified, result.bytes = figures.bytes;
+    result.rays = figures.rays, result.undecided = figures.undecided;
+    result.halvings = figures.halvings, result.bands = figures.bands;
     unchanged = figures.unchanged;
-    result.undecided = figures.undecided, result.halvings = figures.halvings, result.bands = figures.bands;
   }
   result.dim_steps = plan.dim_steps;
   if (plan.settings.everything_on) return result;

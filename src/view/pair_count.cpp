@@ -20,14 +20,6 @@ ListedFrame read_listed_frame(TechniqueRun& run) {
   return listed;
 }
 
-const Occlusion& SceneOcclusion::get() {
-  std::lock_guard lock(building_);
-  if (!built_) built_ = std::make_unique<Occlusion>(scene_);
-  return *built_;
-}
-
-void SceneOcclusion::scene_moved() { built_.reset(); }
-
 // Directional lights are listed everywhere, after all others, as shadows have them.
 void PairCount::count_light_alone(Job& job, const TechniqueRun& run) {
   const Seen& v = run.view();
@@ -64,8 +56,10 @@ void PairCount::start(TechniqueRun& run, const CountChoice& choice) {
   job_->choice = choice;
   job_->listed = read_listed_frame(run);
   job_->places = run.view().plan.local;
-  if (choice.light) count_light_alone(*job_, run);
-  else job_->directional = run.view().plan.directional_lights;
+  if (choice.light)
+    count_light_alone(*job_, run);
+  else
+    job_->directional = run.view().plan.directional_lights;
   if (choice.shadows) {
     job_->shadows = read_frame_shadows(run);
     job_->tiles =
@@ -92,12 +86,14 @@ std::optional<LitPairs> PairCount::count(Job& job, SceneOcclusion& occlusion) {
       }
     }
     const std::vector<CastingTriangle> triangles = casting_triangles(scene, job.shadows->shown);
-    seen.emplace(occlusion.get(), ShownSurfaces{frame.view, frame.depth, triangles}, lights,
-                 covered_pixels(frame.depth), true, [&] { return ++job.tiles_done, job.stops.load(); });
+    seen.emplace(occlusion.get(job.shadows->by_blended), ShownSurfaces{frame.view, frame.depth, triangles},
+                 lights, covered_pixels(frame.depth), true,
+                 [&] { return ++job.tiles_done, job.stops.load(); });
   }
   if (job.stops) return {};
   std::optional<PairShadows> shadows;
-  if (seen) shadows.emplace(PairShadows{*seen, job.shadows->shaded ? &*job.shadows->shaded : nullptr,
+  if (seen)
+    shadows.emplace(PairShadows{*seen, job.shadows->shaded ? &*job.shadows->shaded : nullptr,
                                 uint32_t(job.directional.size())});
   return count_pairs(frame.view, frame.depth, job.listed.lights, job.listed.lists,
                      shadows ? &*shadows : nullptr);

@@ -24,21 +24,6 @@ struct ListedFrame {
 };
 ListedFrame read_listed_frame(TechniqueRun& run);
 
-// The oracle of shadows of the scene as it stands, built at first use. For several threads.
-class SceneOcclusion {
- public:
-  // The scene outlives it.
-  explicit SceneOcclusion(const Scene& scene) : scene_(scene) {}
-  const Occlusion& get();
-  void scene_moved();  // what get() returned must not be in use
-  const Scene& scene() const { return scene_; }
-
- private:
-  const Scene& scene_;
-  std::mutex building_;
-  std::unique_ptr<Occlusion> built_;
-};
-
 // What is counted.
 struct CountChoice {
   size_t picture = 0;        // number of the side's

@@ -86,7 +86,7 @@ void figures(const Timings& timings, const std::vector<std::string>& names) {
 constexpr size_t most_rows = 200;
 constexpr float lines_high = 16;  // always, so that what is below stays where it is
 
-// Of a light in range that is seen; hidden or not in range; and where something is wrong with it.
+// Lights in range; those out of range; hidden ones; lost, leaked and acned ones.
 const ImVec4 lit_colour(1, 0.95f, 0.7f, 1), dark_colour(0.55f, 0.55f, 0.55f, 1),
     hidden_colour(0.55f, 0.7f, 1, 1), wrong_colour(1, 0.3f, 0.3f, 1);
 

@@ -27,11 +27,11 @@ std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const CapturedFr
 // cell first.
 void add_margins(PixelInspection& lights, const PixelInspection& inspection, int most_dropped);
 
-// "lamp 3 1.20 of 3.00 m", "kept by aabb +0.430 m", and of a light that casts a shadow what it meets, as
-// shadow_words has it: the lines of a light. The last two may be empty.
+// The lines of a light: "lamp 3 1.20 of 3.00 m", "kept by aabb +0.430 m", and shadow_words if it casts a
+// shadow. The last two may be empty.
 std::array<std::string, 3> lines_of(const LightVerdict& verdict, const Scene& scene);
 std::array<std::string, 2> lines_of(const DirectionalShadow& verdict, const Scene& scene);
-// Of the others than lost ones puts first what the frame leaks or acnes, then what is hidden.
+// Sorts: lost lights, those that the frame leaks or acnes, hidden ones, all others.
 void put_hidden_first(PixelInspection& pixel);
 // "3 of 5 that cast are hidden"; empty if none casts.
 std::string shadows_at_pixel(const PixelInspection& pixel);

@@ -25,11 +25,11 @@ TEST(InspectedShadows, NameWhatHidesALight) {
   TechniqueRun run(software_devices(), s.scene, view, {}, find_technique("visibility"));
   run.draw_frame();
   const FrameShadows shadows = read_frame_shadows(run);
-  const Occlusion occlusion(s.scene);
+  SceneOcclusion occlusion(s.scene);
   const auto verdict_at = [&](int x, int y) {
     PixelInspection pixel{.x = x, .y = y};
     pixel.lights = {{.lit = true}};
-    EXPECT_FALSE(add_shadows(pixel, s.scene, shadows.at(x, y, s.scene, occlusion)));
+    EXPECT_FALSE(add_shadows(pixel, s.scene, shadows.at(x, y, occlusion)));
     return pixel.lights[0].shadow;
   };
   const auto pixel_of = [&](const glm::dvec3& p) {
@@ -51,7 +51,7 @@ TEST(InspectedShadows, NameWhatHidesALight) {
   unhidden.shaded.reset();
   PixelInspection pixel{.x = dark.x, .y = dark.y};
   pixel.lights = {{.lit = true}};
-  EXPECT_TRUE(add_shadows(pixel, s.scene, unhidden.at(dark.x, dark.y, s.scene, occlusion)));
+  EXPECT_TRUE(add_shadows(pixel, s.scene, unhidden.at(dark.x, dark.y, occlusion)));
   EXPECT_TRUE(pixel.lights[0].shadow->leaked());
 }
 
@@ -68,12 +68,12 @@ TEST(InspectedShadows, AreToldOfDirectionalLights) {
   TechniqueRun run(software_devices(), s.scene, view, {}, find_technique("visibility"));
   run.draw_frame();
   const FrameShadows shadows = read_frame_shadows(run);
-  const Occlusion occlusion(s.scene);
+  SceneOcclusion occlusion(s.scene);
   const auto sun_at = [&](const glm::dvec3& p) {
     const glm::dvec4 clip = view.clip_from_view * glm::dvec4(p, 1);
     const glm::ivec2 at((glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(128, 96));
     PixelInspection pixel{.x = at.x, .y = at.y};
-    EXPECT_FALSE(add_shadows(pixel, s.scene, shadows.at(at.x, at.y, s.scene, occlusion)));
+    EXPECT_FALSE(add_shadows(pixel, s.scene, shadows.at(at.x, at.y, occlusion)));
     EXPECT_EQ(pixel.directional_shadows.size(), 1u);
     return pixel.directional_shadows.at(0);
   };
@@ -85,6 +85,39 @@ TEST(InspectedShadows, AreToldOfDirectionalLights) {
   EXPECT_FALSE(lit.shadow.shaded_as_hidden);
   EXPECT_THAT(shadow_words(dark.shadow, sun),
               AllOf(HasSubstr("hidden by node 1 \"ball\" triangle "), HasSubstr(" m from the surface")));
+}
+
+// The verdicts are of what blended surfaces hide in the frame: a pane that hides more than half counts, but
+// is no triangle to name.
+TEST(InspectedShadows, KnowWhatBlendedSurfacesHide) {
+  SmallScene s = small_scene_of_casters();
+  add_pane_before_wall(s, 0.7f);
+  for (Light& light : s.scene.lights) light.radius_m = 8;  // all are in range everywhere
+  SceneOcclusion occlusion(s.scene);
+  for (const char* setting : {"shadow-blended=none", "shadow-blended=opaque", "shadow-blended=alpha"}) {
+    SCOPED_TRACE(setting);
+    Settings settings;
+    apply_setting(settings, setting);
+    TechniqueRun run(software_devices(), s.scene, small_view(64, 48), settings, find_technique("visibility"));
+    run.draw_frame();
+    const FrameShadows shadows = read_frame_shadows(run);
+    int by_pane = 0, by_several = 0;
+    for (int i = 0; i < 64 * 48; i += 7) {
+      PixelInspection pixel{.x = i % 64, .y = i / 64};
+      for (uint32_t light = 0; light < 6; ++light)
+        pixel.lights.push_back({.index = light, .light = int(light), .lit = true});
+      EXPECT_FALSE(add_shadows(pixel, s.scene, shadows.at(pixel.x, pixel.y, occlusion))) << i;
+      for (const LightVerdict& light : pixel.lights) {
+        if (!light.shadow || light.shadow->truth.sight != Sight::hidden) continue;
+        by_pane += light.shadow->by == "pane";
+        if (light.shadow->truth.by.instance >= 0) continue;
+        EXPECT_EQ(shadow_words(*light.shadow, s.scene.lights[0]), "hidden by blended surfaces together");
+        ++by_several;
+      }
+    }
+    EXPECT_EQ(by_pane > 50, settings.shadow_blended == BlendedCasters::opaque) << by_pane;
+    EXPECT_EQ(by_several > 50, settings.shadow_blended == BlendedCasters::alpha) << by_several;
+  }
 }
 
 CapturedFrame frame_of_one_light() {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "reference/lit_set.h"
 #include "reference/position.h"
 #include "reference/shadow_scenes.h"
@@ -110,6 +112,33 @@ TEST(SeenPairs, OfAnyLightAreThoseOfEachPairAlone) {
   EXPECT_GT(hidden[3], side);
 }
 
+// Of two panes that let 0.6 of the light through, 0.36 comes through both: less than half.
+TEST(SeenPairs, KnowWhatBlendedTrianglesHideTogether) {
+  RoofFromAbove roof;
+  Material glass;
+  glass.alpha_mode = AlphaMode::blend, glass.base_color.a = 0.4f;
+  roof.scene.materials.push_back(glass);
+  roof.scene.meshes[1].material = 1;
+  const auto hidden_columns = [&](BlendedCasters by_blended) {
+    const Occlusion occlusion(roof.scene, by_blended);
+    const std::vector<uint32_t> pixels = covered_pixels(roof.depth);
+    const SeenPairs seen(occlusion, {roof.view, roof.depth, roof.triangles}, roof.lights, pixels);
+    std::set<int> columns;
+    for (const uint32_t p : pixels) {
+      if (seen.at(p, 0) == Sight::hidden) columns.insert(int(p) % side);
+    }
+    return columns;
+  };
+  const std::set<int> under = {9, 10, 11, 12}, none;
+  EXPECT_EQ(hidden_columns(BlendedCasters::none), none);
+  EXPECT_EQ(hidden_columns(BlendedCasters::opaque), under);
+  EXPECT_EQ(hidden_columns(BlendedCasters::alpha), none) << "one pane alone";
+  Instance lower = roof.scene.instances[1];
+  lower.world_from_object[3].y = -0.5;  // in its shadow are the same columns
+  roof.scene.instances.push_back(lower);
+  EXPECT_EQ(hidden_columns(BlendedCasters::alpha), under);
+}
+
 TEST(SeenPairs, APixelWithoutATriangleIsUndecidable) {
   RoofFromAbove roof;
   roof.triangles[42] = {};
@@ -189,7 +218,6 @@ TEST(SeenPairs, CountsOfASampleAreOfItsPixels) {
   EXPECT_EQ(pairs.lit, 2u * (side * side - 1) - 3);
 }
 
-}  // namespace
 // Lists hold light 0 alone; light 1 comes after them, as directional lights do, and a frame darkens it under
 // the roof, where it is seen.
 TEST(SeenPairs, DirectionalLightsAreCountedWithoutLists) {
@@ -204,4 +232,5 @@ TEST(SeenPairs, DirectionalLightsAreCountedWithoutLists) {
   EXPECT_EQ(pairs.lit, side * side - 1u - 4 * side) << "as lists have them";
 }
 
+}  // namespace
 }  // namespace lightgrid

@@ -13,11 +13,9 @@
 namespace lightgrid {
 namespace {
 
-// The ball stands between most lamps and a part of the wall. Light 0 casts nothing: numbers of maps are not
-// those of lights.
+// Light 0 casts nothing: numbers of maps are not those of lights.
 SmallScene shadowed_scene_of_maps() {
-  SmallScene s = small_scene();
-  for (Light& light : s.scene.lights) light.casts_shadow = true, light.radius_m = 4;
+  SmallScene s = small_scene_of_casters();
   s.scene.lights[0].casts_shadow = false;
   return s;
 }

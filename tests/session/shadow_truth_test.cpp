@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "session/compare.h"
+#include "session/oracle.h"
 #include "session/oracle_sample.h"
 #include "session/surfaces_in_double.h"
 #include "support/devices.h"
@@ -13,13 +14,6 @@
 
 namespace lightgrid {
 namespace {
-
-// The ball stands between most lamps and a part of the wall.
-SmallScene shadowed_scene() {
-  SmallScene s = small_scene();
-  for (Light& light : s.scene.lights) light.casts_shadow = true, light.radius_m = 4;
-  return s;
-}
 
 struct Shown {
   explicit Shown(const Scene& scene, const char* technique)
@@ -34,7 +28,7 @@ struct Shown {
 };
 
 TEST(ShadowTruth, IsTheSameOnTheSurfacesOfBothRasterisers) {
-  const SmallScene s = shadowed_scene();
+  const SmallScene s = small_scene_of_casters();
   ShadowTruth truth(s.scene, 1'000'000);
   Shown gl(s.scene, "forward"), cl(s.scene, "visibility");
   const SeenPairs &of_gl = *truth.pairs(gl.run.view(), gl.depth, gl.triangles),
@@ -56,7 +50,7 @@ TEST(ShadowTruth, IsTheSameOnTheSurfacesOfBothRasterisers) {
 }
 
 TEST(ShadowTruth, TakesAnEvenSampleOfMorePairsThanItMay) {
-  const SmallScene s = shadowed_scene();
+  const SmallScene s = small_scene_of_casters();
   ShadowTruth truth(s.scene, 1000);
   Shown gl(s.scene, "forward");
   const SeenPairs& sample = *truth.pairs(gl.run.view(), gl.depth, gl.triangles);
@@ -66,7 +60,7 @@ TEST(ShadowTruth, TakesAnEvenSampleOfMorePairsThanItMay) {
 
 // A run with other ranges has other pairs on the same surfaces.
 TEST(ShadowTruth, IsOfTheRangesOfTheRun) {
-  const SmallScene s = shadowed_scene();
+  const SmallScene s = small_scene_of_casters();
   ShadowTruth truth(s.scene, 1'000'000);
   Shown gl(s.scene, "forward");
   const uint64_t in_range = truth.pairs(gl.run.view(), gl.depth, gl.triangles)->pairs();
@@ -78,8 +72,35 @@ TEST(ShadowTruth, IsOfTheRangesOfTheRun) {
   EXPECT_EQ(truth.pairs(gl.run.view(), gl.depth, gl.triangles)->pairs(), in_range);
 }
 
+// Runs of each setting shadow-blended are held to the same setting of the oracle.
+TEST(ShadowTruth, IsOfWhatBlendedSurfacesHideInTheRun) {
+  SmallScene s = small_scene_of_casters();
+  add_pane_before_wall(s, 0.7f);
+  ShadowTruth truth(s.scene, 1'000'000);
+  std::map<std::string, uint64_t> hidden;
+  for (const char* blended : {"none", "opaque", "alpha", "none"}) {
+    Settings settings;
+    apply_setting(settings, std::string("shadow-blended=") + blended);
+    TechniqueRun run(software_devices(), s.scene, small_view(131, 77), settings,
+                     find_technique("visibility"));
+    run.run_frame();
+    const std::vector<float> depth = read_depth(run);
+    const LitPairs pairs =
+        count_listed_pairs(run, depth, truth.pairs(run.view(), depth, shown_triangles(run)));
+    EXPECT_EQ(pairs.leaked + pairs.acned, 0u) << blended;
+    EXPECT_LT(pairs.either, pairs.hidden / 10) << blended;
+    const LitPairs on_pane = count_blended_pairs(run, truth).value();
+    EXPECT_EQ(on_pane.leaked + on_pane.acned, 0u) << blended;
+    EXPECT_GT(on_pane.lit, 1000u) << blended;
+    const auto first = hidden.emplace(blended, pairs.hidden).first;
+    EXPECT_EQ(first->second, pairs.hidden) << blended;
+  }
+  EXPECT_GT(hidden["opaque"], hidden["none"] + 1000);
+  EXPECT_GT(hidden["alpha"], hidden["none"] + 1000) << "of each light 0.7 is hidden";
+}
+
 TEST(ShadowTruth, IsNoneWhereNoLightCasts) {
-  SmallScene s = shadowed_scene();
+  SmallScene s = small_scene_of_casters();
   for (Light& light : s.scene.lights) light.casts_shadow = false;
   ShadowTruth truth(s.scene, 1000);
   EXPECT_FALSE(truth.casts());
@@ -92,7 +113,7 @@ TEST(ShadowTruth, IsNoneWhereNoLightCasts) {
 // A pixel on the wall that light 0 alone would light: in double it has ambient light alone where the ball
 // hides it.
 TEST(ShadowTruth, RadianceInDoubleHasShadows) {
-  SmallScene s = shadowed_scene();
+  SmallScene s = small_scene_of_casters();
   s.scene.lights.resize(1);
   s.scene.lights[0].position = {0.3, -0.2, -1.5};
   Shown gl(s.scene, "forward");

@@ -165,7 +165,8 @@ TEST(SoftShadows, LightsMayHaveARadiusOfTheirOwn) {
   for (Light& light : own.lights) light.source_m = 0;
   const Shaded points(own, "visibility", {"shadow-rays=16"});
   EXPECT_GT(std::ranges::count(points.shadows.shares, 255), 100);
-  EXPECT_TRUE(std::ranges::all_of(points.shadows.shares, [](int share) { return share == 0 || share == 255; }));
+  EXPECT_TRUE(
+      std::ranges::all_of(points.shadows.shares, [](int share) { return share == 0 || share == 255; }));
 }
 
 // A pixel's lights by what they add to a Lambert surface.

@@ -45,6 +45,21 @@ inline SmallScene small_scene(bool lights = true) {
   return s;
 }
 
+// All lamps cast shadows. The ball stands between most of them and a part of the wall.
+inline SmallScene small_scene_of_casters() {
+  SmallScene s = small_scene();
+  for (Light& light : s.scene.lights) light.casts_shadow = true, light.radius_m = 4;
+  return s;
+}
+
+// Glass between the lamps and a part of the wall, which casts a shadow with the setting shadow-blended.
+inline void add_pane_before_wall(SmallScene& s, float alpha) {
+  const int glass = add_material(s.scene, "glass", {0.5f, 0.8f, 0.9f}, 0, 0.4f);
+  Material& m = s.scene.materials[size_t(glass)];
+  m.base_color.a = alpha, m.alpha_mode = AlphaMode::blend, m.double_sided = true;
+  add_instance(s.scene, "pane", add_mesh(s.scene, wall_mesh({-0.5f, 0.3f, -3.8f}, 0.6f, glass, "pane")));
+}
+
 inline View small_view(int width, int height) {
   return make_view(look_at({0, 0, 0}, {0, 0, -1}), width, height);
 }

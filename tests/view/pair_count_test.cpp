@@ -14,26 +14,28 @@
 namespace lightgrid {
 namespace {
 
-// The ball stands between most lamps and a part of the wall. Light 0 casts nothing; between lamps there are
-// two suns, of which the second casts.
-Scene shadowed_scene() {
-  SmallScene s = small_scene();
-  for (Light& light : s.scene.lights) light.casts_shadow = true, light.radius_m = 4;
+// Light 0 casts nothing; between lamps there are two suns, of which the second casts.
+Scene scene_with_suns() {
+  SmallScene s = small_scene_of_casters();
   s.scene.lights[0].casts_shadow = false;
   for (const int i : {2, 4}) s.scene.lights[size_t(i)].type = LightType::directional;
   s.scene.lights[2].casts_shadow = false;
   s.scene.lights[4].direction = glm::normalize(glm::vec3(-1, 0, -1));
+  add_pane_before_wall(s, 0.7f);
   return s.scene;
 }
 
+const std::vector<std::string> leaking_maps = {"shadows=map", "shadow-size=16"};  // which leak and acne
+
 struct CountedRun {
-  CountedRun()
-      : run(software_devices(), scene, small_view(67, 41), coarse_maps(), find_technique("visibility")) {
+  explicit CountedRun(const std::vector<std::string>& assignments = leaking_maps)
+      : run(software_devices(), scene, small_view(67, 41), settings_of(assignments),
+            find_technique("visibility")) {
     run.draw_frame();
   }
-  static Settings coarse_maps() {  // which leak and acne
+  static Settings settings_of(const std::vector<std::string>& assignments) {
     Settings settings;
-    for (const char* assignment : {"shadows=map", "shadow-size=16"}) apply_setting(settings, assignment);
+    for (const std::string& assignment : assignments) apply_setting(settings, assignment);
     return settings;
   }
   const LitPairs* counted(const CountChoice& choice) {
@@ -41,7 +43,14 @@ struct CountedRun {
     return count.result(choice, true);
   }
 
-  Scene scene = shadowed_scene();
+  // By a comparison's oracle.
+  LitPairs compared() {
+    const std::vector<float> depth = read_depth(run);
+    ShadowTruth truth(scene, 1'000'000);
+    return count_listed_pairs(run, depth, truth.pairs(run.view(), depth, shown_triangles(run)));
+  }
+
+  Scene scene = scene_with_suns();
   TechniqueRun run;
   SceneOcclusion occlusion{scene};
   PairCount count{occlusion};
@@ -51,10 +60,7 @@ TEST(PairCount, IsThatOfAComparison) {
   CountedRun c;
   const LitPairs* pairs = c.counted({1, {}, true});
   ASSERT_TRUE(pairs);
-  const std::vector<float> depth = read_depth(c.run);
-  ShadowTruth truth(c.scene, 1'000'000);
-  const LitPairs expected =
-      count_listed_pairs(c.run, depth, truth.pairs(c.run.view(), depth, shown_triangles(c.run)));
+  const LitPairs expected = c.compared();
   EXPECT_GT(expected.leaked, 0u);
   EXPECT_GT(expected.acned, 0u);
   EXPECT_EQ(pairs->lit, expected.lit);
@@ -64,6 +70,21 @@ TEST(PairCount, IsThatOfAComparison) {
   EXPECT_EQ(pairs->leaked_of_pixel, expected.leaked_of_pixel);
   EXPECT_EQ(pairs->acned_of_pixel, expected.acned_of_pixel);
   EXPECT_EQ(c.count.progress(), 1);
+}
+
+// Of an exact frame nothing leaks or acnes, whatever blended surfaces hide.
+TEST(PairCount, IsOfWhatBlendedSurfacesHideInTheRun) {
+  CountedRun plain({"shadow-blended=none"});
+  const uint64_t without = plain.counted({1, {}, true})->hidden;
+  for (const char* setting : {"shadow-blended=opaque", "shadow-blended=alpha"}) {
+    SCOPED_TRACE(setting);
+    CountedRun c({setting});
+    const LitPairs* pairs = c.counted({1, {}, true});
+    ASSERT_TRUE(pairs);
+    EXPECT_EQ(pairs->leaked + pairs->acned, 0u);
+    EXPECT_GT(pairs->hidden, without + 200);
+    EXPECT_EQ(pairs->hidden_of_pixel, c.compared().hidden_of_pixel);
+  }
 }
 
 TEST(PairCount, OfLightsAloneIsThatOfAllInParts) {

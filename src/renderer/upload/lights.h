@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "cl/launch.h"
 #include "cl/buffers.h"
+#include "cl/launch.h"
 #include "gl/bindings.h"
 #include "gl/objects.h"
 #include "plan/frame_plan.h"
@@ -71,8 +71,8 @@ class ClLights {
 // A frame's shadows, which passes/find_shadows.h fills. Only where the plan's `light_reaches` is set.
 struct ShadowMemory {
   SharedTexture tiles, bits;  // shared/shadow_bits.h
-  // Of blended surfaces: images of triangles' numbers, and of depths after them, `layer_count` each. In OpenGL
-  // numbers are those of rays, and `first_triangles` has that of each instance's first.
+  // Of blended surfaces: images of triangles' numbers, and of depths after them, `layer_count` each. In
+  // OpenGL numbers are those of rays, and `first_triangles` has that of each instance's first.
   SharedTexture layers;
   uint32_t layer_count = 0;
   std::vector<uint32_t> first_triangles;

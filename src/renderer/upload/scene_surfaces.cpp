@@ -70,9 +70,9 @@ class TexelWriter {
       record.flags |= SURFACE_PACKED;
       record.maps[0] = map(*packed_maps(m).front(), packed_chain(m));
     }
-    const bool alphas = m.alpha_mode == AlphaMode::mask || (blended_alphas_ && m.alpha_mode == AlphaMode::blend);
-    if (alphas && m.base_color_map.texture >= 0)
-      record.alpha_base = alphas_of(m.base_color_map.texture);
+    const bool alphas =
+        m.alpha_mode == AlphaMode::mask || (blended_alphas_ && m.alpha_mode == AlphaMode::blend);
+    if (alphas && m.base_color_map.texture >= 0) record.alpha_base = alphas_of(m.base_color_map.texture);
   }
 
  private:
@@ -222,8 +222,8 @@ SurfaceMaterial factors_of(const Material& m, int model) {
 
 }  // namespace
 
-SurfaceTexels surface_texels(const Scene& scene, const std::vector<bool>& used_materials,
-                             TexelLayout layout, bool blended_alphas) {
+SurfaceTexels surface_texels(const Scene& scene, const std::vector<bool>& used_materials, TexelLayout layout,
+                             bool blended_alphas) {
   SurfaceTexels texels;
   TexelWriter writer(scene, layout, blended_alphas, texels);
   const std::vector<MaterialModel> models = material_models(scene);

@@ -20,7 +20,8 @@ struct SurfaceTexels {
   // The same chains with TexelLayout::packed_8, in bytes: base colours as their square roots, whose steps the
   // eye sees alike.
   std::vector<uint8_t> small_texels_8;
-  std::vector<uint32_t> alphas;  // chains of alpha_quads, for masked materials, and for blended ones if asked for
+  std::vector<uint32_t>
+      alphas;  // chains of alpha_quads, for masked materials, and for blended ones if asked for
 };
 
 // Textures that no used material has are left out. A texture or a set of packed ones is there once, however
