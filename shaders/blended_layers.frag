@@ -1,8 +1,8 @@
 // Puts the fragments of blended surfaces into layers, in any order (shared/shadow_bits.h).
-//   object    the number of the object's first triangle; its mesh is drawn whole, in the order of its triangles
+//   object    the number of the object's first triangle; its mesh is drawn whole, triangles in their order
 //   capacity  layers that there is room for; fragments past them are only counted
-//   layers    at image unit 0: numbers, then depths, a layer each; then the number of fragments of each pixel, and
-//             the greatest of these
+//   layers    at image unit 0: numbers, then depths, one layer after the other; then the number of fragments
+//             of each pixel, and the greatest of these
 #include "shared/shadow_bits.h"
 #include "shared/view_params.h"
 

@@ -1,5 +1,5 @@
-// The share of one light that is hidden at each pixel, as the light index images or their shading have
-// it: for the oracle.
+// The share of one light that is hidden at each pixel, as light index images or shading have it: for the
+// oracle.
 #include "shaders/common/position.glsl"
 #include "shaders/common/receiver.glsl"
 #include "shaders/common/index_shadow.glsl"

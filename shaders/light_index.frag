@@ -1,6 +1,6 @@
 // Writes a light's index into the light index images; the packing's blending combines it with earlier ones.
-//   INDEX_SHADOWS: nothing where the light is hidden (common/index_shadow.glsl)
-//   LIDR_SHARE_BITS: with the share of it that is, and nothing where that is all of it
+//   INDEX_SHADOWS: writes nothing where the light is hidden (common/index_shadow.glsl)
+//   LIDR_SHARE_BITS: writes its hidden share beside the index, and nothing where all of it is hidden
 flat in vec4 channels[LIDR_TARGETS];
 
 layout(location = 0) out vec4 images[LIDR_TARGETS];

@@ -1,5 +1,5 @@
 // The volume of a light and its index.
-//   INDEX_SHADOWS: and its number
+//   INDEX_SHADOWS: also passes on the light's number
 #include "shaders/common/light_volume.glsl"
 #include "shaders/common/light_index.glsl"
 

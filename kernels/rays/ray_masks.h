@@ -41,7 +41,8 @@ static inline real alpha_of_hit(const RayMasks* masks, int place, real first, re
 
 // Lanes of which it hides the light.
 static inline mask_t hides_by_mask(const RayMasks* masks, int place, real first, real second, real third) {
-  return passes_mask(&masks->alphas, masks->of_place[place].x, alpha_of_hit(masks, place, first, second, third));
+  return passes_mask(&masks->alphas, masks->of_place[place].x & ~RAY_BLENDS,
+                     alpha_of_hit(masks, place, first, second, third));
 }
 
 #ifdef RAYS_VEILS

@@ -2,7 +2,7 @@
 // (passes/light_index/index_shadows.h). After receiver.glsl.
 //   SHADOW_VOLUMES: by the stencil; else by its shadow map
 //   LIDR_SHARE_BITS: of a share beside an index
-// Two texels each: position, range; 1 if it has a shadow, first face, number of faces.
+// shadow_lights: two texels each: position, range; 1 if it has a shadow, first face, number of faces.
 uniform usamplerBuffer shadow_lights;
 #ifdef SHADOW_VOLUMES
 uniform usampler2D shadow_stencil;  // 0: out of every shadow volume of the light

@@ -1,6 +1,6 @@
-// The point that a pixel shades, moved onto the plane of its own triangle, as
-// kernels/shadows/receivers.h has it but for doubles. Relative to the origin of the rays' scene
-// (rays/ray_scene.h), axes of the world, metres.
+// The point that a pixel shades, moved onto the plane of its own triangle: as in kernels/shadows/receivers.h,
+// but in float. Relative to the origin of the rays' scene (rays/ray_scene.h), along the world's axes, in
+// metres.
 uniform usampler2D receiver_triangles;   // the rays' number of the triangle that a pixel shows
 uniform samplerBuffer triangle_corners;  // three texels each, by these numbers
 

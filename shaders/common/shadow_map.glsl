@@ -1,6 +1,6 @@
-// The share of a light that its shadow map hides from a receiver: what kernels/shadow_maps/shadow_maps.h
-// answers for point and spot lights. LidrShadows.MapsAnswerInOpenGlAsInOpenCl holds both to each other.
-//   SHADOW_BITS: of a texel: 16, 24 or 32; SHADOW_TAPS: texels a side that are asked
+// The share of a light that its shadow map hides from a receiver, as kernels/shadow_maps/shadow_maps.h finds
+// it for point and spot lights. LidrShadows.MapsAnswerInOpenGlAsInOpenCl holds both to each other.
+//   SHADOW_BITS: of a texel: 16, 24 or 32; SHADOW_TAPS: texels a side that are looked up
 uniform usamplerBuffer shadow_faces;  // four texels each: from, extent; right, range; up, size; ahead, first
 #if SHADOW_BITS == 32
 uniform samplerBuffer shadow_texels;

@@ -1,5 +1,5 @@
-// Directional lights reach every pixel, but for shadows: they are in no grid, and every technique adds them the
-// same way.
+// Directional lights reach every pixel, but for shadows: they are in no grid, and every technique adds them
+// the same way.
 //   DIRECTIONAL_SHADOWS: some of them casts a shadow
 #include "shared/shadow_bits.h"
 

@@ -14,7 +14,7 @@ vec4 texel_of(uint target) { return texelFetch(light_index_images[target], ivec2
 uint lidr_before = 0u;
 
 #if defined(INDEX_SHADOWS) && !defined(BLEND)
-#define MAPS_ASKED
+#define READS_MAPS
 #include "shaders/common/receiver.glsl"
 #include "shaders/common/index_shadow.glsl"
 Receiver lidr_receiver;
@@ -36,7 +36,7 @@ vec3 light_of(ShadingPoint p, uint entry) {
 #ifdef LIDR_SHARE_BITS
   light *= 1.0 - hidden;
 #endif
-#ifdef MAPS_ASKED
+#ifdef READS_MAPS
   if (light != vec3(0.0)) {
     float by_map = hidden_share(index - 1u, lidr_receiver, ivec2(gl_FragCoord.xy));
     light = by_map == 1.0 ? vec3(0.0) : light * (1.0 - by_map);  // infinity times 0 is NaN
@@ -46,7 +46,7 @@ vec3 light_of(ShadingPoint p, uint entry) {
 }
 
 void begin_lights(ShadingPoint p) {
-#ifdef MAPS_ASKED
+#ifdef READS_MAPS
   lidr_receiver = receiver_at(ivec2(gl_FragCoord.xy), p.position);
 #endif
 }

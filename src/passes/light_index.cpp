@@ -230,7 +230,7 @@ ListedLights read_light_index(Work& work, Cached<LightIndexOrder>& cache) {
 }  // namespace
 
 LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache,
-                        Cached<IndexShadows>& shadow_cache) {
+                        Cached<IndexShadows>& shadow_cache, bool numbered) {
   LightIndexOrder& state = cache.of(work);
   LightVolumes& volumes = volume_cache.of(work);
   const std::vector<GLuint> images = index_images(work, state.layout);
@@ -242,7 +242,7 @@ LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<Light
     state.order = std::move(order);
   }
   IndexShadows* shadows = work.plan.own_shadows ? &shadow_cache.of(work) : nullptr;
-  if (shadows) shadows->find(work);
+  if (shadows) shadows->find(work, numbered);
   auto pass = work.timer.pass("light_index", "gl");
   draw_volumes(work, state, volumes, state.order, framebuffer, drops_hidden(work) ? shadows : nullptr);
   const size_t values = work.grid().values();

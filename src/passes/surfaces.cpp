@@ -31,6 +31,7 @@ void find_shadows(RenderView& v, Surfaces& surfaces) {
   find_shadows(v, v.caches, surfaces.visible ? &*surfaces.visible : nullptr,
                v.plan.shadows ? depth_of(v, surfaces) : DepthBuffer(),
                surfaces.blended ? &*surfaces.blended : nullptr);
+  surfaces.numbered = v.plan.shadows && v.plan.opengl;
 }
 
 const DepthBuffer& depth_of(RenderView& v, Surfaces& surfaces) {

@@ -15,6 +15,7 @@ struct Surfaces {
   DrawList drawn;  // all that no tile's depth hides
 
   DepthBuffer depth;  // in OpenCL; null: only OpenGL has it so far
+  bool numbered = false;  // find_shadows drew triangle numbers (shadows/triangle_numbers.h) in this frame
   std::optional<BlendedTriangles> blended;  // listed in OpenCL, where a pass before blending needed them
   std::optional<DepthBounds> bounds;
   std::optional<TileDistances> distances;

@@ -22,7 +22,7 @@ struct Receiver {
 // What the light may add to a receiver, by its number.
 using Additions = std::vector<std::pair<size_t, double>>;
 
-Additions additions_of(const LightReach& reach, const Light& light, const Settings& settings,
+Additions additions_of(const GrownLightBounds& reach, const Light& light, const Settings& settings,
                        const std::vector<Receiver>& receivers, const PixelErrors& errors) {
   Additions all;
   for (size_t i = 0; i < receivers.size(); ++i) {
@@ -78,17 +78,16 @@ double leave_out_dim_lights(const Scene& scene, const View& view, const Settings
   if (!settings.display_ev)
     throw input_error(
         "set shadow-threshold: counts steps of the exposed picture, whose exposure is chosen from the "
-        "picture "
-        "itself; give --exposure a number");
+        "picture itself; give --exposure a number");
   const double step = display_step(*settings.display_ev), most = settings.shadow_threshold * step;
   const PixelErrors errors(view);
   std::vector<Receiver> receivers;
-  double diameter_m = 0;
+  double farthest_m = 0;  // from the eye
   for (const auto* instances : {&opaque, &blended}) {
     for (const int i : *instances) {
       Receiver& r =
           receivers.emplace_back(Receiver{box_of(scene, i, view), most_reflected(scene, i, settings.brdf)});
-      diameter_m = std::max(diameter_m, farthest_from(r.box, view.eye));
+      farthest_m = std::max(farthest_m, farthest_from(r.box, view.eye));
     }
   }
   struct Candidate {
@@ -101,7 +100,7 @@ double leave_out_dim_lights(const Scene& scene, const View& view, const Settings
     const Light& light = scene.lights[size_t(of.light)];
     if (of.need != ShadowNeed::rays || is_directional(light)) continue;
     const LightBounds bounds = bounds_of(light, range_of(light, size_t(of.light), settings.ranges));
-    const double slack_m = (diameter_m + glm::length(light.position - view.eye)) * 0x1p-19;
+    const double slack_m = (farthest_m + glm::length(light.position - view.eye)) * 0x1p-19;
     Additions additions = additions_of({bounds, slack_m}, light, settings, receivers, errors);
     const double of_light = largest(additions);
     if (of_light < most) candidates.push_back({&of, std::move(additions), of_light});

@@ -186,8 +186,8 @@ size_t place_of_light(const FramePlan& plan, int light) {
   return plan.local.size() + size_t(directional - plan.directional_lights.begin());
 }
 
-// Hands the shadows of point and spot lights over to the technique, of those of most influence if there are
-// too many.
+// Hands the shadows of point and spot lights over to the technique; if it takes fewer, those of the lights of
+// most influence.
 void take_own_shadows(const Scene& scene, const View& view, const TechniqueNeeds& needs, FramePlan& plan) {
   const auto casts = [&](int i) { return scene.lights[size_t(i)].casts_shadow; };
   plan.own_shadows = needs.most_own_shadows > 0 && std::ranges::any_of(plan.local, casts);
@@ -236,8 +236,10 @@ void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& ne
     }
     if (!plan.shadows) plan.shadowed.clear();
   }
-  plan.shadows_by = plan.settings.shadows == ShadowMethod::map ? "maps" : needs.shadows_by;
-  if (needs.own_shadows) take_own_shadows(scene, view, needs, plan), plan.shadows_by = needs.shadows_by;
+  plan.shadows_by = plan.settings.shadows == ShadowMethod::map ? "maps" : "rays";
+  if (needs.own_shadows) take_own_shadows(scene, view, needs, plan);
+  // Shadows of directional lights are found by the pass.
+  if (!plan.own_shadowed.empty()) plan.shadows_by = needs.shadows_by;
   const auto rays = std::ranges::find(plan.casting, ShadowNeed::rays, &LightShadow::need);
   plan.decisions.push_back(
       {"shadows", plan.shadows || !plan.own_shadowed.empty(),

@@ -55,7 +55,7 @@ double farthest_from(const InstanceBox& box, const dvec3& point) {
   return glm::length(glm::max(glm::abs(box.min - point), glm::abs(box.max - point)));
 }
 
-bool may_reach(const LightReach& reach, const InstanceBox& box) {
+bool may_reach(const GrownLightBounds& reach, const InstanceBox& box) {
   const LightBounds& light = reach.light;
   if (!(light.radius_m > 0) || distance_to(box, light.position) > light.radius_m + reach.slack_m)
     return false;
@@ -81,7 +81,7 @@ PixelErrors::PixelErrors(const View& view)
            std::hypot(1, (1 + std::abs(clip[2][0])) / clip[0][0], (1 + std::abs(clip[2][1])) / clip[1][1]);
 }
 
-double PixelErrors::displaced_m(const LightReach& reach, const InstanceBox& box) const {
+double PixelErrors::displaced_m(const GrownLightBounds& reach, const InstanceBox& box) const {
   const double light_m = glm::dot(ahead_, reach.light.position - eye_),
                nearest_m = std::max(box.nearest_m, near_m_),
                z = std::max(nearest_m,

@@ -26,14 +26,14 @@ double farthest_from(const InstanceBox& box, const glm::dvec3& point);
 
 // A light's bounds, grown by what rounding may move positions, and by the sphere's radius: segments to a
 // sphere's points are no further than that from those to its centre.
-struct LightReach {
+struct GrownLightBounds {
   LightBounds light;
   double slack_m = 0, source_m = 0;
 
-  LightReach grown(double by_m) const { return {light, slack_m + by_m, source_m}; }
+  GrownLightBounds grown(double by_m) const { return {light, slack_m + by_m, source_m}; }
 };
 
-bool may_reach(const LightReach& reach, const InstanceBox& box);
+bool may_reach(const GrownLightBounds& reach, const InstanceBox& box);
 
 // How far a pixel's point, within a light's reach, may lie from the triangle of an instance that it shows.
 // Rasterisers move vertices to 1/256 pixel: by at most half of that and never in depth, so that a point at
@@ -43,7 +43,7 @@ bool may_reach(const LightReach& reach, const InstanceBox& box);
 class PixelErrors {
  public:
   explicit PixelErrors(const View& view);
-  double displaced_m(const LightReach& reach, const InstanceBox& box) const;
+  double displaced_m(const GrownLightBounds& reach, const InstanceBox& box) const;
 
  private:
   glm::dvec3 eye_, ahead_;

@@ -164,8 +164,7 @@ std::vector<Setting>& all_settings() {
       {"lidr-shadows",
        "shadows of point and spot lights: exact, by the pass of all techniques; none; or where light volumes "
        "are drawn by shadow volumes or shadow maps, hard or as a share beside each index, or by shadow maps "
-       "of "
-       "a few lights where surfaces are shaded",
+       "of a few lights where surfaces are shaded",
        named(&Settings::lidr_shadows, {{"pass", LidrShadows::pass},
                                        {"none", LidrShadows::none},
                                        {"volumes", LidrShadows::volumes},
@@ -230,7 +229,7 @@ std::vector<Setting>& all_settings() {
        numbers(&Settings::shadow_size, {"256", "16", "32", "64", "128", "512", "1024", "2048"})},
       {"shadow-bits", "of a shadow map's texel: 32 is float",
        numbers(&Settings::shadow_bits, {"32", "16", "24"})},
-      {"shadow-filter", "texels that a pixel asks: its own, or the mean of 3 x 3 or 5 x 5",
+      {"shadow-filter", "texels that a pixel looks up: its own, or the mean of 3 x 3 or 5 x 5",
        named(&Settings::shadow_taps, {{"none", 1}, {"pcf3", 3}, {"pcf5", 5}})},
       {"shadow-rays",
        "rays for each pixel and light that casts a shadow: one to its centre, or so many to a sphere around "
@@ -253,8 +252,7 @@ std::vector<Setting>& all_settings() {
        named(&Settings::shadow_threshold, {{"off", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}})},
       {"shadow-memory",
        "most memory of a frame's shadows, and as much again of shadow maps: where bits take more, the frame "
-       "is "
-       "shaded in bands; maps get smaller",
+       "is shaded in bands; maps get smaller",
        named(&Settings::shadow_memory, {{"256M", size_t(256) << 20},
                                         {"1M", size_t(1) << 20},
                                         {"4M", size_t(4) << 20},

@@ -121,7 +121,7 @@ struct Settings {
     return shadows == ShadowMethod::exact && shadow_rays > 1 && shadow_source_m > 0;
   }
 
-  // Shadow maps know no share of a light.
+  // A shadow map has no share of a light for alpha to hide.
   BlendedCasters blended_casters() const {
     const bool shares = shadow_blended == BlendedCasters::alpha && shadows == ShadowMethod::map;
     return shares ? BlendedCasters::none : shadow_blended;

@@ -49,8 +49,8 @@ bool overlap(const dvec3& min, const dvec3& max, const InstanceBox& box) {
 // is more than rounding moves casters and the ray's end, then the receiver's own triangles do not meet the
 // ray, nor does what lies in the plane or below it. Floats relative to the scene's middle err by less than
 // 2^-21.
-bool nothing_hides(const InstanceBox& receiver, const LightReach& reach, const dvec3& eye, double diameter_m,
-                   const std::vector<const InstanceBox*>& casters) {
+bool nothing_hides(const InstanceBox& receiver, const GrownLightBounds& reach, const dvec3& eye,
+                   double diameter_m, const std::vector<const InstanceBox*>& casters) {
   constexpr double gap_m = 0.001;
   const int axis = receiver.flat_axis;
   const dvec3& light = reach.light.position;
@@ -89,7 +89,7 @@ LightShadow plan_light(const LightBounds& light, int number, const View& view, c
   // Positions are floats relative to the eye or to the scene's middle. What is computed with them together
   // errs by less than 2^-19 of the distances.
   const double rounding_m = (boxes.diameter_m + glm::length(light.position - view.eye)) * 0x1p-19;
-  const LightReach reach{light, rounding_m + source_m, source_m};
+  const GrownLightBounds reach{light, rounding_m + source_m, source_m};
   const dvec3 position_view = glm::dmat3(view.view_from_world) * (light.position - view.eye);
   if (!may_see_sphere(frustum_of(view), position_view, light.radius_m + reach.slack_m))
     return {number, ShadowNeed::no_receiver};
@@ -101,7 +101,7 @@ LightShadow plan_light(const LightBounds& light, int number, const View& view, c
     if (!may_reach(reach.grown(of_box_m), box)) continue;
     receivers.push_back(&box), beside_m = std::max(beside_m, of_box_m);
   }
-  const LightReach beside = reach.grown(beside_m);
+  const GrownLightBounds beside = reach.grown(beside_m);
   const auto in_reach = [&](const InstanceBox& box) { return may_reach(beside, box); };
   const InstanceBox* caster = first_caster(boxes, in_reach);
   if (!caster) return {number, ShadowNeed::no_caster};

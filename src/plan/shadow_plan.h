@@ -53,8 +53,8 @@ inline double source_of(const Light& light, double source_m) {
 }
 
 // All lights that cast, in the scene's order. `opaque` (masked ones too) and `blended`: the instances in
-// view. source_m: as source_of has it; what hides any part of a light's sphere counts. by_blended: what blended
-// instances hide.
+// view. source_m: as source_of has it; what hides any part of a light's sphere counts. by_blended: what
+// blended instances hide.
 std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view, const LightRanges& ranges,
                                             const std::vector<int>& opaque, const std::vector<int>& blended,
                                             double source_m = 0,

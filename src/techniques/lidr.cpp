@@ -22,8 +22,8 @@ static Frame render(RenderView& v) {
   refuse_impossible(v.plan.settings);
   const Surfaces surfaces = find_surfaces(v);
   if (v.plan.local.empty()) return shade_every_light(v, surfaces);
-  const LightSource lights =
-      light_index(v, v.caches.light_index, v.caches.light_volumes, v.caches.index_shadows);
+  const LightSource lights = light_index(v, v.caches.light_index, v.caches.light_volumes,
+                                         v.caches.index_shadows, surfaces.numbered);
   const ShadedImage image = shade(v, surfaces, lights);
   // Stencil marks opaque surfaces only, and only from these are lights hidden.
   const bool as_opaque = !v.plan.own_shadows || v.plan.settings.lidr_shadows == LidrShadows::final_pass;

@@ -37,7 +37,7 @@ void CasterDraws::begin_frame(Work& work, const RayScene& rays) {
   glTextureParameteri(stencil_, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);
   glTextureParameteri(stencil_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(stencil_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  const auto [width, height] = std::pair(work.grid().width, work.grid().height);
+  const int width = work.grid().width, height = work.grid().height;
   glDepthMask(GL_TRUE);
   glBlitNamedFramebuffer(work.depth_framebuffer(), framebuffer_, 0, 0, width, height, 0, 0, width, height,
                          GL_DEPTH_BUFFER_BIT, GL_NEAREST);
@@ -64,7 +64,7 @@ void CasterDraws::draw(Work& work, std::span<const LightVolume> lights) const {
     glScissor(volume.first.x, volume.first.y, size.x, size.y);
     glClearNamedFramebufferiv(framebuffer_, GL_STENCIL, 0, &none);
     const CasterVolumes::Range& range = of_light_[volume.light];
-    if (work.plan.own_shadowed.empty() || !work.plan.own_shadowed[volume.light] || range.count == 0) continue;
+    if (!has_own_shadow(work.plan, volume.light) || range.count == 0) continue;
     glUniform1ui(light, volume.light);
     glDrawElementsBaseVertex(GL_TRIANGLES, GLsizei(range.count), GL_UNSIGNED_INT,
                              reinterpret_cast<const void*>(range.first * sizeof(uint32_t)), 0);

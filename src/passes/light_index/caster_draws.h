@@ -1,5 +1,5 @@
-// Shadow volumes in a stencil of their own, of which shaders read whether a light is hidden: the depth
-// image's counts the free slots of light indices.
+// Draws shadow volumes into a stencil image, from which shaders read whether a light is hidden. It is not the
+// depth image's stencil: that one counts the free slots of light indices.
 #pragma once
 
 #include "passes/light_volumes/light_volumes.h"
@@ -7,12 +7,17 @@
 
 namespace lightgrid {
 
+// light: an index into FramePlan::local.
+inline bool has_own_shadow(const FramePlan& plan, size_t light) {
+  return !plan.own_shadowed.empty() && plan.own_shadowed[light];
+}
+
 class CasterDraws {
  public:
   explicit CasterDraws(Work& work);
   size_t memory_bytes() const { return index_bytes_; }
 
-  // Once a frame: makes the volumes anew if a light, an instance or a mesh moved, and copies the depth image.
+  // Once a frame: makes volumes again if a light, an instance or a mesh moved, and copies the depth image.
   void begin_frame(Work& work, const RayScene& rays);
 
   // A stencil value for each pixel in the rectangles of these light volumes, which share no pixel: not 0
@@ -30,7 +35,7 @@ class CasterDraws {
   GlBuffer indices_;
   GlVertexArray array_;
   size_t index_bytes_ = 0;
-  int shape_ = -1, instances_ = -1, lights_ = -1;  // versions of the scene that the volumes are of, and
+  int shape_ = -1, instances_ = -1, lights_ = -1;  // versions of the scene that the volumes have
   std::optional<LightRanges> ranges_;
   GLuint stencil_ = 0, framebuffer_ = 0;  // of the frame
   glm::mat4 clip_from_rays_{1};

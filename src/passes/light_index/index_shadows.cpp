@@ -32,10 +32,6 @@ void add(std::vector<uint32_t>& words, const float (&v)[3]) {
   for (const float each : v) words.push_back(std::bit_cast<uint32_t>(each));
 }
 
-bool is_shadowed(const FramePlan& plan, size_t light) {
-  return !plan.own_shadowed.empty() && plan.own_shadowed[light];
-}
-
 // As FramePlan::shadowed has them.
 std::vector<uint8_t> shadowed_of(const FramePlan& plan) {
   std::vector<uint8_t> shadowed = plan.own_shadowed;
@@ -52,7 +48,7 @@ std::vector<uint32_t> light_words(const Seen& seen, const glm::dvec3& origin, co
     const glm::vec3 at(light.position - origin);
     const float range = std::min(float(range_of(light, number, plan.settings.ranges)), 1e18f);
     add(words, {at.x, at.y, at.z}), words.push_back(std::bit_cast<uint32_t>(range));
-    words.push_back(is_shadowed(plan, i));
+    words.push_back(has_own_shadow(plan, i));
     words.push_back(atlas ? atlas->lights[i][0] : 0), words.push_back(atlas ? atlas->lights[i][1] : 0);
     words.push_back(0);
   }
@@ -92,7 +88,10 @@ IndexShadows::IndexShadows(Work& work) {
   }
 }
 
-bool IndexShadows::follow(Work&) { return followed_ = false, true; }
+bool IndexShadows::follow(Work&) {
+  view_uploaded_ = false;
+  return true;
+}
 
 size_t IndexShadows::memory_bytes() const {
   size_t bytes = corners_.bytes() + texels_.bytes() + lights_.bytes + faces_.bytes + least_table_bytes;
@@ -102,17 +101,20 @@ size_t IndexShadows::memory_bytes() const {
   return bytes;
 }
 
-void IndexShadows::find(Work& work) {
-  scene_ = work.gpu.in_rays(work.plan.settings.texels, work.plan.settings.blended_casters());
+void IndexShadows::find(Work& work, bool numbered) {
+  // A map has no share of a light for alpha to hide.
+  const bool opaque = work.plan.settings.shadow_blended == BlendedCasters::opaque;
+  scene_ =
+      work.gpu.in_rays(work.plan.settings.texels, opaque ? BlendedCasters::opaque : BlendedCasters::none);
   upload_corners(work);
-  if (!followed_) upload_view(work);
-  followed_ = true;
+  if (!view_uploaded_) upload_view(work);
+  view_uploaded_ = true;
   if (maps_) draw_maps(work);
   if (casters_) casters_->begin_frame(work, *scene_);
   triangles_ = work.targets.texture("triangle numbers", GL_R32UI);
   glTextureParameteri(triangles_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(triangles_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  if (work.plan.shadows) return;  // find_shadows drew them
+  if (numbered) return;
   auto pass = work.timer.pass("triangle_numbers", "gl");
   draw_triangle_numbers(work, *scene_);
   pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * 4);

@@ -1,6 +1,6 @@
 // Shadows of point and spot lights that lidr finds itself (docs/techniques/lidr.md#shadows): what shaders
-// read to decide whether a light is hidden from a pixel (shaders/common/index_shadow.glsl), of the lights
-// that the plan's own_shadowed names.
+// read to decide whether one of the plan's own_shadowed lights is hidden from a pixel
+// (shaders/common/index_shadow.glsl).
 #pragma once
 
 #include "passes/common/light_source.h"
@@ -9,8 +9,8 @@
 
 namespace lightgrid {
 
-// Of a share beside each index, with prepass-soft: 16 steps, as pcf3 has ten. Eight bits would take as much
-// room as an index does.
+// With prepass-soft, of the share beside each index: 16 values, since pcf3 has ten. Eight bits would take as
+// much room as an index does.
 constexpr uint32_t shadow_share_bits = 4;
 
 // 0: the view's light index images have no shares.
@@ -26,15 +26,16 @@ class IndexShadows : public PassCache {
   bool follow(Work& work) override;
   size_t memory_bytes() const override;
 
-  // Once a frame, after its depth image: the triangles that pixels show, and shadow maps. Throws
-  // Error(machine) if the device has no doubles, or an OpenGL cannot read as many bytes.
-  void find(Work& work);
+  // Once a frame, after its depth image: the triangles that pixels show, unless find_shadows has drawn them
+  // in this frame (numbered), and shadow maps or volumes. Throws Error(machine) if the device has no doubles,
+  // or if an OpenGL cannot read as many bytes.
+  void find(Work& work, bool numbered);
 
   // The defines and textures with which a program includes index_shadow.glsl.
   GlLightLoop input(Work& work) const;
 
-  // With shadow volumes: of these lights, which share no pixel, before a program asks for them. Leaves
-  // another framebuffer bound. After input() is bound.
+  // With shadow volumes: draws those of these lights, which share no pixel, before a program reads them.
+  // input() must be bound. Leaves another framebuffer bound.
   void draw_casters(Work& work, std::span<const LightVolume> lights) const {
     if (casters_) casters_->draw(work, lights);
   }
@@ -65,7 +66,7 @@ class IndexShadows : public PassCache {
   Table lights_, faces_;
   GlBuffer view_block_;
   GLuint triangles_ = 0;  // of the frame
-  bool followed_ = false;
+  bool view_uploaded_ = false;
 };
 
 }  // namespace lightgrid

@@ -1,4 +1,4 @@
-// What a frame's shadows are, drawn once more by the same shader text, a light after the other.
+// A frame's shadows, for the oracle: drawn once more by the same shader code, one light after the other.
 #include <fmt/format.h>
 #include <algorithm>
 
@@ -77,7 +77,7 @@ HostShadows IndexShadows::read(Work& work, const LightVolumes& volumes) const {
   const GlVertexArray nothing = make_vertex_array();
   std::vector<LightVolume> shadowed;
   for (const LightVolume& volume : volumes.volumes())
-    if (!work.plan.own_shadowed.empty() && work.plan.own_shadowed[volume.light]) shadowed.push_back(volume);
+    if (has_own_shadow(work.plan, volume.light)) shadowed.push_back(volume);
   std::ranges::sort(shadowed, {}, &LightVolume::light);
   for (const LightVolume& volume : shadowed) {
     reset_gl_state();

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "base/parallel.h"
+#include "plan/instance_boxes.h"
 
 namespace lightgrid {
 namespace {
@@ -113,8 +114,7 @@ CasterVolumes caster_volumes(const Scene& scene, const RayScene& rays, std::span
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
-    if (!instance.casts_shadow || scene.materials[size_t(mesh.material)].alpha_mode == AlphaMode::blend)
-      continue;
+    if (!instance.casts_shadow || is_blended(scene, int(i))) continue;
     const auto [found, added] = edges.try_emplace(instance.mesh);
     if (added) found->second = edges_of(mesh);
     casters.push_back(caster_of(mesh, found->second, instance.world_from_object, rays.first_triangle(i)));
