@@ -1,15 +1,29 @@
 #include "session/runs.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "results/words.h"
 
 namespace lightgrid {
 namespace {
 
+// The settings of exact shadows that decide which share of a light is hidden.
+auto shares_of(const Settings& s) {
+  const bool spheres = s.shadow_rays > 1 && s.shadow_source_m > 0;
+  return std::tuple(spheres ? s.shadow_rays : 1, spheres ? s.shadow_source_m : 0.0, s.shadow_pick);
+}
+
+Settings with_reference_shadows(const Compared& c, Settings settings) {
+  settings = with_exact_shadows(std::move(settings));
+  if (c.every_light.point_shadows) settings.shadow_rays = 1, settings.shadow_pick = 0;
+  return settings;
+}
+
 // A run for the reference alone, with the settings that all contestants share but their shadows.
 std::unique_ptr<TechniqueRun> make_own_run(const Compared& c) {
-  Settings common = c.contestants.empty() ? Settings{} : with_exact_shadows(c.contestants.front().settings);
+  Settings common =
+      c.contestants.empty() ? Settings{} : with_reference_shadows(c, c.contestants.front().settings);
   if (c.every_light.chosen_lights) common.lights = ShadedLights::all;
   return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, common, *c.every_light.technique);
 }
@@ -24,14 +38,17 @@ std::string time_in_words(double ms) {
 
 }  // namespace
 
-EveryLight every_light_technique(const Renderer& renderer) {
-  if (renderer.gl) return {&find_technique("forward"), false};
-  return {&find_technique("visibility"), true};
+EveryLight every_light_technique(const Renderer& renderer, const std::vector<Contestant>& contestants) {
+  const bool differ = std::ranges::any_of(contestants, [&](const Contestant& c) {
+    return shares_of(c.settings) != shares_of(contestants.front().settings);
+  });
+  if (renderer.gl) return {&find_technique("forward"), false, differ};
+  return {&find_technique("visibility"), true, differ};
 }
 
 std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& c, Settings settings) {
   settings.lights = ShadedLights::all;
-  return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, with_exact_shadows(settings),
+  return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, with_reference_shadows(c, settings),
                                         find_technique("visibility"));
 }
 

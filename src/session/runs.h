@@ -17,17 +17,21 @@ namespace lightgrid {
 // The technique that shades every light at every pixel, and its settings.
 struct EveryLight {
   const Technique* technique;
-  bool chosen_lights;  // only with lights=all
+  bool chosen_lights;          // only with lights=all
+  bool point_shadows = false;  // only with one ray to each light
 
   bool is(const Technique& other, const Settings& settings) const {
     return other.name == std::string(technique->name) &&
            (!chosen_lights || settings.lights == ShadedLights::all) &&
+           (!point_shadows || (!settings.soft_shadows() && !settings.picks_shadows())) &&
            settings.shadows == ShadowMethod::exact && settings.shadow_threshold == 0;
   }
   std::string name() const { return technique->name + std::string(chosen_lights ? ":lights=all" : ""); }
 };
 
-EveryLight every_light_technique(const Renderer& renderer);
+// Its shadows are those of points unless all contestants have the same rays, sources and picks: the errors
+// would otherwise depend on the contestants' order.
+EveryLight every_light_technique(const Renderer& renderer, const std::vector<Contestant>& contestants = {});
 
 // What is compared, on which view.
 struct Compared {
@@ -36,7 +40,7 @@ struct Compared {
   const View& view;
   const std::vector<Contestant>& contestants;
   const CompareOptions& options;
-  const EveryLight every_light = every_light_technique(renderer);
+  const EveryLight every_light = every_light_technique(renderer, contestants);
 
   void tell(double done, const std::string& step) const {
     if (options.progress) options.progress(done, step);

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Of a sweep with shadows (lightgrid frontier SCENE… --shadows all), what the settings of `visibility` cost and get wrong.
+"""What settings of `visibility` cost and get wrong, from a sweep with shadows.
 
+    lightgrid frontier SCENE… --shadows all -o FOLDER
     tests/benchmarks/shadow_frontier.py FOLDER/frontier.json [--page PAGE --mark NAME]
 
-Prints a table a scene, by time; with --page they replace what stands there between <!-- NAME --> and <!-- /NAME -->.
+Prints a table a scene, by time; with --page they replace the text there between <!-- NAME --> and
+<!-- /NAME -->.
 """
-import argparse
 import json
-import sys
 
-from shadow_lights import replace, table
+from shadow_lights import report, table
 
 
 def number(value, form):
@@ -17,38 +17,33 @@ def number(value, form):
 
 
 def rows_of(answer, scene):
-    points = [p for p in answer["points"] if p["scene"] == scene and p["technique"] == "visibility" and p["ratio"]["median"]]
+    points = [p for p in answer["points"]
+              if p["scene"] == scene and p["technique"] == "visibility" and p["ratio"]["median"]]
     exact = next((p for p in points if p["label"] == "visibility"), None)
     for p in sorted(points, key=lambda p: p["ratio"]["median"]):
         total = p["error"]["total"]
-        settings = p["label"].partition(":")[2].split(",")  # all have the source
+        settings = p["label"].partition(":")[2].split(",")  # the source is left out: all have it
         name = ", ".join(s for s in settings if not s.startswith("shadow-source")) or "exact"
-        yield [f"`{name}`" if name != "exact" else name, f"{p['ratio']['median'] / exact['ratio']['median']:.3g}" if exact else "–",
-               f"{p['frame_ms']['median']:.3g}", number(total["rmse_rel"], "{:.1e}"), number(total["flip_mean"], "{:.3f}"),
+        yield [f"`{name}`" if name != "exact" else name,
+               f"{p['ratio']['median'] / exact['ratio']['median']:.3g}" if exact else "–",
+               f"{p['frame_ms']['median']:.3g}", number(total["rmse_rel"], "{:.1e}"),
+               number(total["flip_mean"], "{:.3f}"),
                number(p["error"]["temporal_rmse_rel"], "{:.1e}"), number(p.get("leaked_percent"), "{:.2f}"),
                number(p.get("acned_percent"), "{:.2f}")]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("answer")
-    parser.add_argument("--page")
-    parser.add_argument("--mark")
-    o = parser.parse_args()
-    with open(o.answer) as file:
+def tables(path):
+    with open(path) as file:
         answer = json.load(file)
     parts = [f"Commit {answer['commit']}; {answer['machine']['cl_device']}."]
     head = ["setting", "times exact", "ms", "RMSE", "FLIP", "flicker", "leaked, %", "acned, %"]
     for scene in answer["scenes"]:
         of_scene = [p for p in answer["points"] if p["scene"] == scene]
         views, size = max(p["views"] for p in of_scene), of_scene[0]["size"]
-        parts += [f"`{scene}`, {size[0]} × {size[1]}, {views} view{'s' if views > 1 else ''}:", table(head, list(rows_of(answer, scene)))]
-    text = "\n\n".join(parts)
-    if o.page:
-        replace(o.page, o.mark, text)
-    else:
-        print(text)
+        parts += [f"`{scene}`, {size[0]} × {size[1]}, {views} view{'s' if views > 1 else ''}:",
+                  table(head, list(rows_of(answer, scene)))]
+    return "\n\n".join(parts)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    report(__doc__, tables)

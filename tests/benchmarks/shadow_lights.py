@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""What shadow_lights measured (tests/benchmarks/shadow_lights.cpp), as the tables of docs/results/shadows.md.
+"""The tables of docs/results/shadows.md from the measurements of tests/benchmarks/shadow_lights.cpp.
 
     tests/benchmarks/shadow_lights.py CSV [--page PAGE --mark NAME]
 
-Prints the tables of one machine; with --page they replace what stands there between <!-- NAME --> and <!-- /NAME -->.
+Prints the tables of one machine; with --page they replace the text there between <!-- NAME --> and
+<!-- /NAME -->.
 """
 import argparse
 import csv
@@ -18,7 +19,7 @@ NAMES = {NONE: "none", EXACT: "exact", KEPT: "kept", MAPS[64]: "maps of 64", MAP
 
 
 class Series:
-    """Of one scene and size: rows by setting, then by number of lights."""
+    """The rows of one scene and size, by setting, then by number of lights."""
 
     def __init__(self):
         self.rows = {}
@@ -98,7 +99,7 @@ def times(groups, column):
 
 
 def break_even(groups):
-    """From the kernels of the most lights with all of these: what a ray, a look-up and a light's maps take."""
+    """Times of a ray, a look-up and a light's maps, by kernels, at the most lights that all of these have."""
     head = ["scene, size", "lights", "a ray, ns", "pairs a light"]
     for size in MAPS:
         head += [f"maps of {size}: a light, µs", "a look-up, ns", "pay from pairs a light"]
@@ -135,22 +136,32 @@ def replace(page, mark, text):
         file.write(whole.split(begin)[0] + begin + "\n" + text + "\n\n" + end + whole.split(end)[1])
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("csv")
+def report(description, text_of):
+    """Prints what `text_of` makes of the named file, or writes it into --page at --mark."""
+    parser = argparse.ArgumentParser(description=description,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file")
     parser.add_argument("--page")
     parser.add_argument("--mark")
     o = parser.parse_args()
-    groups, machine = read(o.csv)
-    text = "\n\n".join([machine, "Lights that fit, by a frame's time:", lights_that_fit(groups, "frame_ms"),
-                        "By the time of its kernels:", lights_that_fit(groups, "kernels_ms"),
-                        f"Times of a frame of {TABLED.replace('x', ' × ')}, ms:", times(groups, "frame_ms"), "Where maps begin to pay, by kernels:",
-                        break_even(groups)])
-    if not o.page:
+    if bool(o.page) != bool(o.mark):
+        parser.error("--page and --mark go together")
+    text = text_of(o.file)
+    if o.page:
+        replace(o.page, o.mark, text)
+    else:
         print(text)
-        return
-    replace(o.page, o.mark, text)
+
+
+def tables(path):
+    groups, machine = read(path)
+    return "\n\n".join([
+        machine,
+        "Lights that fit, by a frame's time:", lights_that_fit(groups, "frame_ms"),
+        "By the time of its kernels:", lights_that_fit(groups, "kernels_ms"),
+        f"Times of a frame of {TABLED.replace('x', ' × ')}, ms:", times(groups, "frame_ms"),
+        "Where maps begin to pay, by kernels:", break_even(groups)])
 
 
 if __name__ == "__main__":
-    main()
+    report(__doc__, tables)

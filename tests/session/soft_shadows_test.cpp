@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "reference/position.h"
+#include "session/compare.h"
 #include "session/oracle.h"
 #include "session/oracle_sample.h"
 #include "session/shadow_truth.h"
@@ -167,6 +168,39 @@ TEST(SoftShadows, LightsMayHaveARadiusOfTheirOwn) {
   EXPECT_GT(std::ranges::count(points.shadows.shares, 255), 100);
   EXPECT_TRUE(
       std::ranges::all_of(points.shadows.shares, [](int share) { return share == 0 || share == 255; }));
+}
+
+// The reference has the contestants' rays only if all have the same.
+TEST(SoftShadows, DoNotMakeErrorsDependOnTheOrderOfRows) {
+  const Scene scene = soft_scene();
+  const Settings soft = settings_of({"shadow-rays=16"}), picked = settings_of({"shadow-pick=4"});
+  const Technique &forward = find_technique("forward"), &visibility = find_technique("visibility");
+  const auto rows_of = [&](const std::vector<Contestant>& contestants) {
+    const CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 10};
+    return compare_techniques(software_devices(), scene, small_view(71, 37), contestants, options).rows;
+  };
+  const auto rows = rows_of({{&forward, soft}, {&visibility, picked}, {&forward, {}}, {&visibility, {}}});
+  const auto turned = rows_of({{&visibility, {}}, {&forward, {}}, {&visibility, picked}, {&forward, soft}});
+  ASSERT_EQ(rows.size(), 4u);
+  ASSERT_EQ(turned.size(), 4u);
+  for (size_t i = 0; i < 4; ++i) {
+    const RunResult &one = rows[i], &other = turned[3 - i];
+    EXPECT_EQ(one.error->rmse_rel, other.error->rmse_rel) << i;
+    EXPECT_EQ(one.same_surfaces.has_value(), other.same_surfaces.has_value()) << i;
+    if (one.same_surfaces && other.same_surfaces) {
+      EXPECT_EQ(one.same_surfaces->rmse_rel, other.same_surfaces->rmse_rel) << i;
+    }
+  }
+  EXPECT_GT(rows[0].error->rmse_rel, 1e-4);
+  ASSERT_TRUE(rows[1].same_surfaces && rows[3].same_surfaces);
+  EXPECT_GT(rows[1].same_surfaces->rmse_rel, 1e-4);
+  EXPECT_EQ(rows[2].error->rmse_rel, 0);
+  EXPECT_LT(rows[3].same_surfaces->rmse_rel, 1e-5);
+
+  const auto all_soft = rows_of({{&find_technique("forward_plus"), soft}, {&visibility, soft}});
+  EXPECT_EQ(all_soft[0].error->rmse_rel, 0);
+  ASSERT_TRUE(all_soft[1].same_surfaces);
+  EXPECT_LT(all_soft[1].same_surfaces->rmse_rel, 1e-5);
 }
 
 // A pixel's lights by what they add to a Lambert surface.
