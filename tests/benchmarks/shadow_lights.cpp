@@ -34,7 +34,6 @@ constexpr int least_frames = 3, most_frames = 25;
 struct SettingRun {
   std::string name;
   std::unique_ptr<TechniqueRun> run;
-  bool left_out = false;  // frames of fewer lights took too long
 };
 
 double kernel_ms(const PassRecord& pass, const std::string& name) {
