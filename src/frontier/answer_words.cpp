@@ -59,7 +59,7 @@ const PointFigures* baseline_of(const FrontierAnswer& answer, const std::string&
 int fastest_same_picture(const FrontierAnswer& answer, const std::string& scene) {
   const PointFigures* baseline = baseline_of(answer, scene);
   int best = -1;
-  // With point lights among spheres the baseline's picture is another one itself.
+  // A baseline whose lights are points differs from a truth of spheres: no point then has the same picture.
   if (baseline && !(baseline->errors.technique.max_rel <= same_picture)) baseline = nullptr;
   for (size_t i = 0; baseline && i < answer.points.size(); ++i) {
     const PointFigures& p = answer.points[i];
@@ -228,11 +228,7 @@ void add_truth(const FrontierAnswer& answer, const std::string& scene, std::vect
                                       : ""));
 }
 
-std::string share_in_words(const std::optional<double>& percent) {
-  return percent ? three_digits(*percent) + " %" : "an unknown share";
-}
-
-// Of the points whose shadows are wrong in places, the cheapest, and the one with the fewest wrong pairs.
+// Names the cheapest of the points that have wrong shadows, and the one with the fewest wrong pairs.
 void add_shadows(const FrontierAnswer& answer, const std::string& scene,
                  std::vector<std::string>& sentences) {
   const PointFigures *cheapest = nullptr, *best = nullptr;
@@ -246,14 +242,15 @@ void add_shadows(const FrontierAnswer& answer, const std::string& scene,
   if (!best) return;
   const auto words = [](const PointFigures& p) {
     return fmt::format(
-        "{} ({} of the pairs of a pixel and a light leaked, {} acned, at {} times the "
+        "{} ({} % of the pairs of a pixel and a light leaked, {} % acned, at {} times the "
         "baseline's time)",
-        p.point.label, share_in_words(leaked_percent(p.pairs)), share_in_words(acned_percent(p.pairs)),
+        p.point.label, three_digits(*leaked_percent(p.pairs)), three_digits(*acned_percent(p.pairs)),
         three_digits(p.ratio.median));
   };
-  sentences.push_back(fmt::format("Of the points in {} whose shadows are wrong somewhere the cheapest is {}.",
-                                  scene_in_words(scene), words(*cheapest)));
-  if (best != cheapest) sentences.push_back(fmt::format("The fewest wrong pairs has {}.", words(*best)));
+  sentences.push_back(fmt::format("The cheapest point in {} with wrong shadows is {}.", scene_in_words(scene),
+                                  words(*cheapest)));
+  if (best != cheapest)
+    sentences.push_back(fmt::format("The one with the fewest wrong pairs is {}.", words(*best)));
 }
 
 }  // namespace

@@ -13,9 +13,9 @@
 
 namespace lightgrid {
 
-// What a sweep's pictures are held to. Where lights cast, the lights keep their ranges unless `own_ranges`
-// says otherwise: shadows are then what is in question. Where the settings also give shadows a source
-// (shadow-source, or shadow-rays), lights are spheres.
+// The truth that a sweep's pictures are compared with. Where lights cast, all lights keep their ranges unless
+// `own_ranges` says otherwise, so that the error of ranges does not cover that of shadows. Where the settings
+// also give shadows a source (shadow-source, or shadow-rays), lights that cast are spheres.
 FrontierTruth chosen_truth(const Settings& common, bool casts, std::optional<bool> own_ranges = {});
 
 // Whether the oracle can tell whether a pair's shadow is right: not where a light is partly hidden, or a

@@ -46,7 +46,7 @@ class PointRun {
   const ChosenPoint& point() const { return point_; }
   const std::string& refused() const { return refused_; }  // empty: it runs
   TechniqueRun& run() { return *run_; }
-  // What is known of shadows is kept from frame to frame.
+  // Certificates of shadows are kept from frame to frame.
   bool keeps_shadows() const;
 
   void look(const View& view);

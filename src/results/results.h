@@ -32,7 +32,7 @@ struct PassResult {
 struct ShadowPairs {
   uint64_t leaked = 0, acned = 0, either = 0;
   uint64_t pixels = 0;     // at which they were decided
-  uint64_t pairs = 0;      // of these pixels and lights that cast and are in range
+  uint64_t pairs = 0;      // of these pixels and lights that cast and are in range, directional ones too
   bool says_exact = true;  // the technique and its settings: leaked and acned must be 0
 
   ShadowPairs& operator+=(const ShadowPairs& other);
@@ -40,7 +40,7 @@ struct ShadowPairs {
   uint64_t faults() const { return says_exact ? leaked + acned : 0; }
 };
 
-// The same of fragments of blended surfaces and lights.
+// The same, for pairs of a fragment of a blended surface and a light.
 struct BlendedPairs {
   uint64_t lit = 0, leaked = 0, acned = 0, either = 0;
   bool says_exact = true;

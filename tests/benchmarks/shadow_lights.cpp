@@ -34,7 +34,6 @@ constexpr int least_frames = 3, most_frames = 25;
 struct SettingRun {
   std::string name;
   std::unique_ptr<TechniqueRun> run;
-  bool left_out = false;  // frames of fewer lights took too long
 };
 
 double kernel_ms(const PassRecord& pass, const std::string& name) {
@@ -68,10 +67,10 @@ void print_row(const SettingRun& s, const Scene& scene, const View& view, const 
   const Frame& frame = s.run->frame();
   const ShadowFigures f = frame.shadow_figures ? frame.shadow_figures() : ShadowFigures{};
   const Spread ms = spread_of(s.run->frame_ms());
-  fmt::print("{},\"{}\",{},{}x{},{},{:g},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{}\n",
+  fmt::print("{},\"{}\",{},{}x{},{},{:g},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{},{}\n",
              commit_of_build(), device.name, scene.name, view.width, view.height, scene.lights.size(),
              median_radius(scene.lights), s.name, s.run->frame_ms().size(), ms.min, ms.median, kernels, found,
-             drawn, pairs, f.lights, f.rays, f.maps, f.drawn, f.kept, f.bytes);
+             drawn, pairs, f.lights, f.rays, f.maps, f.drawn, f.kept, f.certified, f.bytes);
   std::fflush(stdout);
 }
 
@@ -129,7 +128,7 @@ void measure(const std::string& device, double seconds, const std::vector<std::s
   Renderer renderer(device, GlBackend::none);
   fmt::print(
       "commit,device,scene,size,lights,radius_m,shadows,frames,least_ms,frame_ms,kernels_ms,"
-      "find_shadows_ms,draw_maps_ms,pairs,lights_found,rays,maps,maps_drawn,kept,bytes\n");
+      "find_shadows_ms,draw_maps_ms,pairs,lights_found,rays,maps,maps_drawn,maps_kept,certified,bytes\n");
   const std::vector<int> series = {4, 16, 64, 256, 1024, 4096};
   const std::vector<std::pair<const char*, std::vector<int>>> sizes = {
       {"640x360", series}, {"1280x720", series}, {"3840x2160", {64}}};

@@ -75,7 +75,7 @@ TEST(FrontierTruths, CountPairsOfHardShadowsOfPointsAlone) {
     EXPECT_FALSE(counts_shadow_pairs(settings_with({partly}), points)) << partly;
 }
 
-// Two views of exact shadows, of maps and of none; drawn lights have no such pairs.
+// Two views each of exact shadows, maps, no shadows, and shadow-pick, whose pairs are not counted.
 FrontierPart sweep_with_shadows() {
   std::vector<FrontierRecord> records;
   for (int view = 0; view < 2; ++view) {
@@ -134,7 +134,7 @@ TEST(FrontierShadowFigures, ArePerCentOfAllPairsOverTheViewsAndAbsentWhereNotCou
   EXPECT_EQ(table[3].at("truth_own_ranges"), "true");
 }
 
-// Directional lights are in no list: nothing is known of their pairs.
+// A view may show nothing that is in range of a light that casts.
 TEST(FrontierShadowFigures, AreUnknownWithoutAPair) {
   FrontierPart part = sweep_with_shadows();
   for (FrontierRecord& r : part.records)
