@@ -1,6 +1,6 @@
 // Where a masked triangle lets light through: below its material's cutoff, as shading looks alpha up, but at
-// the base level, since a shadow has no pixel to filter for. Blended triangles hide the share alpha of a light
-// everywhere (veils).
+// the base level, since a shadow has no pixel to filter for. Blended triangles hide the share alpha of a
+// light everywhere (veils).
 //
 // -DRAYS_MASKS  some casting triangle has an alpha material
 // -DRAYS_VEILS  some is blended
@@ -46,8 +46,8 @@ static inline mask_t hides_by_mask(const RayMasks* masks, int place, real first,
 }
 
 #ifdef RAYS_VEILS
-// Triangles that are met one after the other let the product of 1 - alpha through. It is kept as the sum of its
-// binary logarithms in whole numbers, 2^-16 each, negated: no order of the triangles changes a bit.
+// Triangles that are met one after the other let the product of 1 - alpha through. It is kept as the sum of
+// its binary logarithms in whole numbers, 2^-16 each, negated: no order of the triangles changes a bit.
 #define MOST_VEIL (24 << 16)
 
 #if LANES == 1
@@ -64,11 +64,14 @@ static inline whole veil_of(real alpha) {
   const whole bits = AS_WHOLE(through);
   const real mantissa = AS_REAL((bits & 0x7fffff) | 0x3f800000);
   const mask_t high = mantissa > 1.41421356f;
-  const real m = high ? mantissa * 0.5f : mantissa, power = TO_REAL((bits >> 23) - 127) + (high ? REAL(1.0f) : REAL(0.0f));
+  const real m = high ? mantissa * 0.5f : mantissa,
+             power = TO_REAL((bits >> 23) - 127) + (high ? REAL(1.0f) : REAL(0.0f));
   const real s = (m - 1.0f) / (m + 1.0f), q = s * s;
-  const real series = fma(fma(fma(REAL(0.41219858f), q, REAL(0.57707802f)), q, REAL(0.96179669f)), q, REAL(2.8853901f));
+  const real series =
+      fma(fma(fma(REAL(0.41219858f), q, REAL(0.57707802f)), q, REAL(0.96179669f)), q, REAL(2.8853901f));
   const real veil = -65536.0f * fma(series, s, power);
-  return through > 0x1p-24f ? min(TO_WHOLE(lane_max(veil, REAL(0.0f)) + 0.5f), (whole)(MOST_VEIL)) : (whole)(MOST_VEIL);
+  return through > 0x1p-24f ? min(TO_WHOLE(lane_max(veil, REAL(0.0f)) + 0.5f), (whole)(MOST_VEIL))
+                            : (whole)(MOST_VEIL);
 }
 
 // 255ths of a light that a veil hides: 2^-x by Taylor's series, within 2e-7.

@@ -188,8 +188,8 @@ static inline uint take_octant(RayPacket* p, const RayOctants* o, uint left) {
 
 // Lanes of `active` whose segment from the light to `to`, less its last `gap` metres, meets a triangle other
 // than number `own` (below 0: any). `to` is relative to the scene's origin. The triangle that hid a lane last
-// is tried first: *last_blocker, which is -1 at first, and does not change the answer. *veil: of lanes that are
-// not hidden, that of blended triangles; unchanged without -DRAYS_VEILS.
+// is tried first: *last_blocker, which is -1 at first, and does not change the answer. *veil: of lanes that
+// are not hidden, that of blended triangles; unchanged without -DRAYS_VEILS.
 static inline mask_t rays_veiled(const RayScene* scene, RaySource light, Real3 to, real gap, mask_t active,
                                  whole own, int* last_blocker, whole* veil) {
   mask_t hidden = (mask_t)(0);
@@ -221,8 +221,8 @@ static inline mask_t rays_hidden(const RayScene* scene, RaySource light, Real3 t
 }
 
 // 255ths of the light that are hidden from each lane: 0 or 255 without blended triangles.
-static inline whole rays_share(const RayScene* scene, RaySource light, Real3 to, real gap, mask_t active, whole own,
-                               int* last_blocker) {
+static inline whole rays_share(const RayScene* scene, RaySource light, Real3 to, real gap, mask_t active,
+                               whole own, int* last_blocker) {
   whole veil = (whole)(0);
   const mask_t hidden = rays_veiled(scene, light, to, gap, active, own, last_blocker, &veil);
 #ifdef RAYS_VEILS

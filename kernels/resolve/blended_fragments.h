@@ -1,5 +1,5 @@
-// The fragments of blended surfaces, in drawing order: what kernels that lay them over the image, and those that
-// list them, go through alike.
+// The fragments of blended surfaces, in drawing order: what kernels that lay them over the image, and those
+// that list them, go through alike.
 #pragma once
 
 #include "kernels/raster/raster_blocks.h"
@@ -8,8 +8,8 @@
 #if LANES == 16
 #include "kernels/common/image_blocks.h"
 
-// Lanes of a block of 4 x 4 pixels, (x, y) of the image and (bx, by) of the tile, that show the record in front
-// of the opaque surfaces, and its depth there.
+// Lanes of a block of 4 x 4 pixels, (x, y) of the image and (bx, by) of the tile, that show the record in
+// front of the opaque surfaces, and its depth there.
 static inline mask_t fragments_in_block(const TileRecord* r, int bx, int by, uint x, uint y,
                                         global const float* depths, uint width, uint height, real* depth) {
   const int16 across = LANE_INDEX & 3, up = LANE_INDEX >> 2;
@@ -35,7 +35,8 @@ static inline whole next_layers(FragmentCounts* counts, int bx, int by, mask_t s
 }
 #else
 // Of one pixel, (dx, dy) of the block.
-static inline bool is_fragment(const TileRecord* r, int bx, int by, int dx, int dy, float opaque, float* depth) {
+static inline bool is_fragment(const TileRecord* r, int bx, int by, int dx, int dy, float opaque,
+                               float* depth) {
   if (!covered_pixels(r, bx, by, dx, dy)) return false;
   *depth = depth_at(r, bx, by, (float)dx, (float)dy);
   return *depth >= opaque && *depth >= FLT_MIN;

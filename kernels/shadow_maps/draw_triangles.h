@@ -73,8 +73,8 @@ static inline Real3 edge_plane_of(Real3 a, Real3 b, real turn) {
   return scale3(cross3(add3(a, scale3(b, REAL(-1.0f))), add3(a, b)), turn);
 }
 
-// The test that may_change() makes of boxes, of the triangle's own: what a face holds then depends on no box of
-// the tree.
+// The test that may_change() makes of boxes, of the triangle's own: what a face holds then depends on no box
+// of the tree.
 static inline mask_t in_range(const FaceTile* t, const Real3 corners[3]) {
   Real3 off = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
 #define OFF_BOX(axis)                                                                                     \

@@ -64,8 +64,8 @@ static inline void disc_samples(whole i, uint count, uint turned, float u, real*
 
 // Of samples of which `away` are hidden without a ray, those that are hidden in all; with blended casters in
 // 255ths.
-static inline uint hidden_in_samples(const RayScene* scene, RaySource origin, Real3 to, mask_t active, mask_t away,
-                                     int own, int* last_blocker) {
+static inline uint hidden_in_samples(const RayScene* scene, RaySource origin, Real3 to, mask_t active,
+                                     mask_t away, int own, int* last_blocker) {
 #ifdef RAYS_VEILS
   const whole shares = rays_share(scene, origin, to, REAL(0.0f), active, (whole)(own), last_blocker);
   uint hidden = 255u * popcount(lane_bits(away));
@@ -127,7 +127,8 @@ static inline uint hidden_samples(const RayScene* scene, const SoftReceiver* r, 
 static inline SoftReceiver soft_receiver(const Receivers* r, uint lane) {
 #define LANE_OF(v) ((const float*)&(v))[lane]
   const float x = LANE_OF(r->normal.x), y = LANE_OF(r->normal.y), z = LANE_OF(r->normal.z);
-  const float length = sqrt(dot_of(x, y, z, x, y, z)), inverse = length > 0.0f && r->own_hides ? 1.0f / length : 0.0f;
+  const float length = sqrt(dot_of(x, y, z, x, y, z)),
+              inverse = length > 0.0f && r->own_hides ? 1.0f / length : 0.0f;
   const SoftReceiver s = {LANE_OF(r->at.x), LANE_OF(r->at.y), LANE_OF(r->at.z), LANE_OF(r->gap),
                           x * inverse,      y * inverse,      z * inverse,      ((const int*)&r->own)[lane]};
   return s;

@@ -43,8 +43,8 @@ bool tell_failures(const CompareReport& report, const std::string& view) {
       fmt::print(stderr, "lightgrid: {}{}: {} leaked and {} acned pairs; exact shadows have none\n", view,
                  names[i], row.pairs->shadows->leaked, row.pairs->shadows->acned);
     if (row.pairs->blended && row.pairs->blended->faults() > 0)
-      fmt::print(stderr, "lightgrid: {}{}: {} leaked and {} acned pairs of blended surfaces\n", view, names[i],
-                 row.pairs->blended->leaked, row.pairs->blended->acned);
+      fmt::print(stderr, "lightgrid: {}{}: {} leaked and {} acned pairs of blended surfaces\n", view,
+                 names[i], row.pairs->blended->leaked, row.pairs->blended->acned);
     if (row.unshaded.value_or(0) > most_unshaded)
       fmt::print(stderr,
                  "lightgrid: {}{}: its lists hold every light, but its image lacks {:.3g} % of their light\n",

@@ -1,5 +1,5 @@
-// Fragments into layers, by a kernel or by OpenGL. How many layers there are is known afterwards: with too little
-// room they are counted, and found once more.
+// Fragments into layers, by a kernel or by OpenGL. How many layers there are is known afterwards: with too
+// little room they are counted, and found once more.
 #include "passes/blended_layers.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,8 @@ cl::Buffer& room_for(Work& work, size_t layers) {
   const size_t bytes = bytes_of_layers(work, layers);
   if (work.plan.opengl && bytes > most_texture_bytes(GL_R32UI)) {
     throw machine_error(
-        "shadows: {} bytes of {} blended surfaces one behind the other are more than the {} that a buffer texture "
+        "shadows: {} bytes of {} blended surfaces one behind the other are more than the {} that a buffer "
+        "texture "
         "may have in this OpenGL; use raster=opencl or a smaller picture",
         bytes, layers, most_texture_bytes(GL_R32UI));
   }
@@ -38,7 +39,8 @@ uint32_t triangles_of(const Scene& scene, int instance) {
 cl::Buffer part_of(const cl::Buffer& buffer, size_t begin, size_t bytes) {
   const cl_buffer_region region{begin, bytes};
   cl_int failed = CL_SUCCESS;
-  const cl_mem part = clCreateSubBuffer(buffer(), CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region, &failed);
+  const cl_mem part =
+      clCreateSubBuffer(buffer(), CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region, &failed);
   if (failed != CL_SUCCESS) throw machine_error("shadows: a part of a buffer: OpenCL error {}", failed);
   return cl::Buffer(part);
 }
@@ -72,11 +74,12 @@ class FragmentLayers : public PassCache {
   // All of OpenCL's. Returns the most fragments of a pixel.
   size_t list(Work& work, const BlendedTriangles& blended, const DepthBuffer& depth) {
     ClDevice& device = *work.renderer.cl;
-    const size_t bytes = capacity_ * stride_of(work) * 4, tiles = blended.lists.tiles_x * blended.lists.tiles_y;
+    const size_t bytes = capacity_ * stride_of(work) * 4,
+                 tiles = blended.lists.tiles_x * blended.lists.tiles_y;
     const cl::Buffer& room = room_for(work, capacity_);
     const cl::Buffer& most = most_.at_least(device, tiles * sizeof(cl_uint));
-    // All through the buffer itself. NVIDIA's driver loses what is written through a part of a buffer that was
-    // not in use before: in a view's first frame.
+    // All through the buffer itself. NVIDIA's driver loses what is written through a part of a buffer that
+    // was not in use before: in a view's first frame.
     fill_buffer(device, "clearing layers", room, 0, 2 * bytes);
     fill_buffer(device, "clearing layers", room, SHADOW_NO_TRIANGLE, bytes);
     fill_buffer(device, "clearing layers", most, 0, tiles * sizeof(cl_uint));
@@ -120,7 +123,10 @@ class FragmentLayers : public PassCache {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GEQUAL);
     glBindImageTexture(only_image, layers.texture.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
-    const SceneProgram& program = work.programs({"shaders/scene.vert", "shaders/blended_layers.frag", {}, true,
+    const SceneProgram& program = work.programs({"shaders/scene.vert",
+                                                 "shaders/blended_layers.frag",
+                                                 {},
+                                                 true,
                                                  [](uint32_t) -> uint32_t { return 0; }})
                                       .of(0);
     const GLint capacity = glGetUniformLocation(program.name, "capacity");
@@ -132,9 +138,11 @@ class FragmentLayers : public PassCache {
       glUniform1ui(capacity, GLuint(capacity_));
       drawer.draw(item.ranges);
     }
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
     GLuint most = 0;
-    glGetNamedBufferSubData(buffer, GLintptr((2 * capacity_ * stride + work.grid().values()) * 4), sizeof most, &most);
+    glGetNamedBufferSubData(buffer, GLintptr((2 * capacity_ * stride + work.grid().values()) * 4),
+                            sizeof most, &most);
     if (most <= capacity_) layers.buffer->hand_to_cl(bytes);
     return most;
   }
@@ -172,7 +180,8 @@ std::vector<HostShadowLayer> read_fragments(Work& work, const BlendedLayers& lay
   for (size_t i = 0; i < read.size(); ++i) {
     read[i].depth.resize(numbers.size());
     read_buffer(*work.renderer.cl, "reading layers", layers.numbers[i], numbers.data(), numbers.size() * 4);
-    read_buffer(*work.renderer.cl, "reading layers", layers.depths[i], read[i].depth.data(), numbers.size() * 4);
+    read_buffer(*work.renderer.cl, "reading layers", layers.depths[i], read[i].depth.data(),
+                numbers.size() * 4);
     for (const uint32_t number : numbers) {
       glm::ivec2 triangle(-1, 0);
       for (const auto& [first, instance] : layers.first_numbers) {

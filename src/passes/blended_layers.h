@@ -1,5 +1,5 @@
-// The fragments of blended surfaces that lie in front of opaque ones, in layers: images with at most one fragment
-// of each pixel. Each layer then has shadows as the opaque surfaces have.
+// The fragments of blended surfaces that lie in front of opaque ones, in layers: images with at most one
+// fragment of each pixel. Each layer then has shadows as the opaque surfaces have.
 #pragma once
 
 #include "passes/rasterize.h"
@@ -13,8 +13,8 @@ struct BlendedLayers {
   size_t bytes = 0;
 };
 
-// blended: of OpenCL's rasteriser, whose numbers triangles then have; null: OpenGL draws them here over the depth
-// image, by the rays' numbers, which Work::shadows has. None where nothing blended is in view. Waits.
+// blended: of OpenCL's rasteriser, whose numbers triangles then have; null: OpenGL draws them here over the
+// depth image, by the rays' numbers, which Work::shadows has. None where nothing blended is in view. Waits.
 BlendedLayers find_layers(Work& work, Cached<FragmentLayers>& cache, const BlendedTriangles* blended,
                           const DepthBuffer& depth);
 

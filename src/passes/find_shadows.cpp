@@ -289,8 +289,9 @@ class ShadowBits : public PassCache {
     ShadowView seen_from = shadow_view(work, rays.origin());
     if (kept_bytes != 0) {
       if (!certificates_) certificates_.emplace(device, kept_bytes);
-      certificates_->follow(work, rays, shining,
-                            {seen_from, work.params, layers_.numbers.size(), offsets, defines_of(work, visible)});
+      certificates_->follow(
+          work, rays, shining,
+          {seen_from, work.params, layers_.numbers.size(), offsets, defines_of(work, visible)});
       for (size_t i = 0; i < records.size(); ++i) records[i].stamp = certificates_->stamp(i);
       seen_from.stamp = certificates_->sight_stamp();
     }
@@ -312,8 +313,9 @@ class ShadowBits : public PassCache {
 
   size_t kept_bytes_of(const Seen& seen) const {
     const Settings& settings = seen.plan.settings;
-    const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact && !settings.soft_shadows() &&
-                       !settings.picks_shadows() && !has_veils(seen.scene, settings.blended_casters());
+    const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact &&
+                       !settings.soft_shadows() && !settings.picks_shadows() &&
+                       !has_veils(seen.scene, settings.blended_casters());
     return keeps ? ShadowCertificates::bytes_of(settings) : 0;
   }
 

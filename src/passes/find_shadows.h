@@ -9,9 +9,9 @@ namespace lightgrid {
 
 // For light loops of this frame, of opaque and of blended surfaces. `visible`: of OpenCL's rasteriser; null:
 // OpenGL drew the depth image, and draws its triangles' numbers here. depth: of the same surfaces, read only
-// where the plan's `shadows` is set. blended: of OpenCL's rasteriser; null: OpenGL draws them here, or none is in
-// view. Throws Error(machine) if the device has no doubles, Error(input) if a tile's bits alone take more memory
-// than there may be.
+// where the plan's `shadows` is set. blended: of OpenCL's rasteriser; null: OpenGL draws them here, or none
+// is in view. Throws Error(machine) if the device has no doubles, Error(input) if a tile's bits alone take
+// more memory than there may be.
 void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visible, const DepthBuffer& depth,
                   const BlendedTriangles* blended);
 

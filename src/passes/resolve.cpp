@@ -210,18 +210,19 @@ void blend_resolved(Work& work, Cached<Resolver>& cache, const BlendedTriangles&
   NamedKernel& kernel = r.kernel(work, "blend", lights.in_cl->defines);
   const PixelRange pixels = r.pixels(work);
   auto pass = work.timer.pass("blend_resolved", "cl");
-  kernel.launch(*work.renderer.cl, "blend_resolved",
-                r.lanes() ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : pixels.items,
-                r.lanes() ? cl::NDRange(1) : pixels.group,
-                ClArguments{{"records", blended.lists.records},
-                            {"tile_begin", blended.lists.tile_begin},
-                            {"lists", blended.lists.lists},
-                            {"tiles_x", cl_uint(blended.lists.tiles_x)},
-                            {"depths", depth.values}} +
-                    (work.plan.light_reaches ? ClArguments{{"shadow_layers", cl_uint(work.shadows.layer_count)}}
-                                             : ClArguments()) +
-                    r.arguments(work, blended.raster, blended.surfaces, *lights.in_cl) +
-                    ClArguments{{"image", r.image.cl_buffer()}});
+  kernel.launch(
+      *work.renderer.cl, "blend_resolved",
+      r.lanes() ? cl::NDRange(blended.lists.tiles_x * blended.lists.tiles_y) : pixels.items,
+      r.lanes() ? cl::NDRange(1) : pixels.group,
+      ClArguments{{"records", blended.lists.records},
+                  {"tile_begin", blended.lists.tile_begin},
+                  {"lists", blended.lists.lists},
+                  {"tiles_x", cl_uint(blended.lists.tiles_x)},
+                  {"depths", depth.values}} +
+          (work.plan.light_reaches ? ClArguments{{"shadow_layers", cl_uint(work.shadows.layer_count)}}
+                                   : ClArguments()) +
+          r.arguments(work, blended.raster, blended.surfaces, *lights.in_cl) +
+          ClArguments{{"image", r.image.cl_buffer()}});
   pass.moves(work.grid().values() * 20 + lights.bytes, work.grid().pixels() * 16);
 }
 

@@ -110,7 +110,8 @@ void RayScene::set_instances(std::span<const RayInstance> instances) {
   State& s = *state_;
   check_ray_instances(instances, s.meshes);
   const auto same_triangles = [](const RayInstance& a, const RayInstance& b) {
-    return a.mesh == b.mesh && a.alpha_material == b.alpha_material && a.casts == b.casts && a.blends == b.blends;
+    return a.mesh == b.mesh && a.alpha_material == b.alpha_material && a.casts == b.casts &&
+           a.blends == b.blends;
   };
   const RayBounds bounds = ray_bounds(instances, s.meshes);
   // Where something fails on the way, the next call builds anew.

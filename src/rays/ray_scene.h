@@ -52,7 +52,8 @@ struct RayInstance {
   glm::dmat4 world_from_object{1};  // affine, finite
   int alpha_material = -1;          // 0 or more: the material whose alpha decides where it lets light through
   bool casts = true;                // false: its triangles have numbers and hide nothing
-  bool blends = false;  // alpha hides that share of a light, in place of a cutoff: for kernels (rays_share) alone
+  bool blends =
+      false;  // alpha hides that share of a light, in place of a cutoff: for kernels (rays_share) alone
 };
 
 struct RayOptions {

@@ -21,8 +21,8 @@ class ShadowMaps {
   // All triangles that cast and that a face sees, from both sides. Faces whose `kept` is set are not drawn,
   // if their texels are still there: they lie where an atlas that was drawn before had the same face, of
   // which no triangle in the light's range moved. Does not wait for the queue. Throws machine where a face's
-  // texels have no 32-bit numbers. texels: where to, of atlas.bytes, into which all faces are drawn; null: into
-  // a buffer of its own, which look_up() and arguments() read.
+  // texels have no 32-bit numbers. texels: where to, of atlas.bytes, into which all faces are drawn; null:
+  // into a buffer of its own, which look_up() and arguments() read.
   void draw(const RayScene& rays, const ShadowAtlas& atlas, const std::vector<uint8_t>& kept = {},
             const cl::Buffer& texels = {});
 

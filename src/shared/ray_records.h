@@ -5,7 +5,8 @@
 
 #define RAY_STACK 64      // entries: no path from the root down is longer
 #define RAY_MASKED 0x80000000u  // in RayTriangle::number: its material's alpha may let light through
-#define RAY_BLENDS 0x80000000u  // in a mask's material: its alpha hides that share of a light, in place of a cutoff
+#define RAY_BLENDS \
+  0x80000000u             // in a mask's material: its alpha hides that share of a light, in place of a cutoff
 #define RAY_NOTHING (-1)  // the count of a child that is not there
 
 #if !defined(__OPENCL_VERSION__)

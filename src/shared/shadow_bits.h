@@ -11,9 +11,10 @@
 //
 // A light that is not listed is hidden nowhere in the tile. Directional lights follow point and spot lights.
 //
-// Blended surfaces (BLEND) follow in layers: a pixel's fragments in any order, one a layer, and each layer has
-// rows of its own for the same tiles, after those of opaque surfaces. The image of layer i, of LAYER_STRIDE(pixels) values, has
-// the number of the triangle that the fragment belongs to, or SHADOW_NO_TRIANGLE.
+// Blended surfaces (BLEND) follow in layers: a pixel's fragments in any order, one a layer, and each layer
+// has rows of its own for the same tiles, after those of opaque surfaces. The image of layer i, of
+// LAYER_STRIDE(pixels) values, has the number of the triangle that the fragment belongs to, or
+// SHADOW_NO_TRIANGLE.
 #pragma once
 
 #include "shared/real.h"
@@ -38,7 +39,7 @@ uniform usamplerBuffer shadow_bits;   // entries
 
 #ifdef BLEND
 uniform usamplerBuffer shadow_layers;  // numbers of triangles, layer after layer
-uniform uvec2 layers_of_draw;          // the number of the object's first triangle, and how many layers there are
+uniform uvec2 layers_of_draw;  // the number of the object's first triangle, and how many layers there are
 
 // The fragment's own; past the last: it has none.
 uint find_layer() {

@@ -3,8 +3,8 @@
 
 #include "shared/language.h"
 
-// Texels a side of the part of a face that a work-item draws. CPUs (LANES 16): few walks through the tree. GPUs:
-// many work-items, with their texels in registers.
+// Texels a side of the part of a face that a work-item draws. CPUs (LANES 16): few walks through the tree.
+// GPUs: many work-items, with their texels in registers.
 #define FACE_TILE_LANES 64
 #define FACE_TILE_GROUP 4
 

@@ -284,7 +284,8 @@ TEST(LidrShadows, MapsHaveBlendedCastersOnlyIfTheyAreOpaque) {
     return Way({"lidr-shadows=final", "lidr-maps=256", of_blended}, *blended_fence).shadows();
   };
   const HostShadows none = shadows("none");
-  const Agreement alpha = agreement(shadows("alpha"), none, 0), opaque = agreement(shadows("opaque"), none, 0);
+  const Agreement alpha = agreement(shadows("alpha"), none, 0),
+                  opaque = agreement(shadows("opaque"), none, 0);
   EXPECT_EQ(alpha.other, 0u) << alpha.pairs;
   EXPECT_GT(opaque.other, 0u);
 }

@@ -1,5 +1,5 @@
-// Blended surfaces that cast, with the setting shadow-blended: as opaque ones, or by their alpha, whose product along
-// each ray is compared with that in double.
+// Blended surfaces that cast, with the setting shadow-blended: as opaque ones, or by their alpha, whose
+// product along each ray is compared with that in double.
 #include "reference/lit_set.h"
 #include "reference/position.h"
 #include "techniques/glazed_stage.h"
@@ -56,14 +56,16 @@ void add_shares(TechniqueRun& run, const HostShadowLayer& layer, Shares& sum) {
         stage.by_alpha.receiver(v.view, x, y, double(layer.depth[p]), {own.x, uint32_t(own.y)});
     for (uint32_t i = 0; i < lights.size(); ++i) {
       const Light& light = v.scene.lights[size_t(v.plan.local[i])];
-      if (!light.casts_shadow || !is_lit(lights[i], position_from_depth(v.view, x, y, layer.depth[p]))) continue;
+      if (!light.casts_shadow || !is_lit(lights[i], position_from_depth(v.view, x, y, layer.depth[p])))
+        continue;
       const Sight sight = stage.without.sight(light, receiver).sight;
       const Veil veil = sight == Sight::hidden ? Veil{1, 1} : stage.by_alpha.veil(light, receiver);
       if (sight == Sight::either || veil.most - veil.least > 0.5 / 255) {
         ++sum.undecided;
         continue;
       }
-      const double share = hidden_share_at(layer.shadows, x, y, i), slack = 0.51 / 255;  // half a step of a byte
+      const double share = hidden_share_at(layer.shadows, x, y, i),
+                   slack = 0.51 / 255;  // half a step of a byte
       const bool right = share >= veil.least - slack && share <= veil.most + slack;
       sum.right += right, sum.wrong += !right;
       sum.partial += right && share > 0.02 && share < 0.98;
@@ -163,9 +165,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(VeilFault{"of_lanes_that_miss", "(met ? veil : (whole)(0))", "veil"},
                     VeilFault{"of_the_greatest", "p->veil + (met ? veil : (whole)(0))",
                               "max(p->veil, met ? veil : (whole)(0))"},
-                    VeilFault{"without_texture",
-                              "return alpha * bilinear_alpha(s->alphas + m->alpha_base, f) * (1.0f / 255.0f);",
-                              "return alpha;"}),
+                    VeilFault{
+                        "without_texture",
+                        "return alpha * bilinear_alpha(s->alphas + m->alpha_base, f) * (1.0f / 255.0f);",
+                        "return alpha;"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

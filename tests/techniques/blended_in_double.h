@@ -1,5 +1,5 @@
-// What blended surfaces make of a picture, in double: which fragments a pixel has comes from the run's own layers,
-// all else from the scene.
+// What blended surfaces make of a picture, in double: which fragments a pixel has comes from the run's own
+// layers, all else from the scene.
 #pragma once
 
 #include <map>
@@ -48,7 +48,8 @@ inline BlendedInDouble blended_in_double(TechniqueRun& run, ShadowTruth& truth) 
     for (uint32_t p = 0; p < depth.size(); ++p) {
       const glm::ivec2 own = layer.triangles[p];
       if (own.x < 0) continue;
-      const std::vector<uint32_t>& indices = v.scene.meshes[size_t(v.scene.instances[size_t(own.x)].mesh)].indices;
+      const std::vector<uint32_t>& indices =
+          v.scene.meshes[size_t(v.scene.instances[size_t(own.x)].mesh)].indices;
       const uint32_t* corners = &indices[3 * size_t(own.y)];
       const TriangleInView t = surfaces.triangle(own.x, {corners[0], corners[1], corners[2]});
       const glm::dvec2 centre(int(p) % v.view.width + 0.5, int(p) / v.view.width + 0.5);
@@ -68,7 +69,8 @@ inline BlendedInDouble blended_in_double(TechniqueRun& run, ShadowTruth& truth) 
     for (size_t i = 0; i < pixels.size(); ++i) {
       const uint32_t p = pixels[i];
       if (seen->has_either(p)) undecided.insert(p);
-      fragments[p][{order.at(triangles[p].instance), int(triangles[p].triangle)}] = {radiance[i], alpha.at(p)};
+      fragments[p][{order.at(triangles[p].instance), int(triangles[p].triangle)}] = {radiance[i],
+                                                                                     alpha.at(p)};
     }
   }
   BlendedInDouble found;

@@ -1,12 +1,13 @@
-// Shadows on blended surfaces, in every technique: each pair of a fragment and a light against the oracle, and the
-// picture in double.
+// Shadows on blended surfaces, in every technique: each pair of a fragment and a light against the oracle,
+// and the picture in double.
 #include "techniques/blended_in_double.h"
 #include "techniques/glazed_stage.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr double own_bound = 5e-3;  // of pictures of OpenCL's surfaces, as opaque ones have it (shadow_test.cpp)
+constexpr double own_bound =
+    5e-3;  // of pictures of OpenCL's surfaces, as opaque ones have it (shadow_test.cpp)
 
 struct Glazed : ShadowStage {
   Glazed() : ShadowStage{glazed_scene(), small_view(glazed_width, glazed_height)} {}
@@ -66,7 +67,8 @@ std::unique_ptr<TechniqueRun> glazed_run(const char* technique, const std::vecto
   Glazed& stage = glazed();
   Settings chosen;
   for (const std::string& setting : settings) apply_setting(chosen, setting);
-  auto run = std::make_unique<TechniqueRun>(test_devices(), stage.gpu, stage.view, chosen, find_technique(technique));
+  auto run = std::make_unique<TechniqueRun>(test_devices(), stage.gpu, stage.view, chosen,
+                                            find_technique(technique));
   run->run_frame();
   return run;
 }
@@ -115,7 +117,8 @@ TEST(BlendedShadowBits, CostNothingWithoutBlendedSurfacesInView) {
     Scene scene = glazed_scene();
     for (Material& m : scene.materials)
       if (m.alpha_mode == AlphaMode::blend) m.alpha_mode = AlphaMode::opaque;
-    TechniqueRun run(test_devices(), scene, small_view(glazed_width, glazed_height), {}, find_technique(technique));
+    TechniqueRun run(test_devices(), scene, small_view(glazed_width, glazed_height), {},
+                     find_technique(technique));
     run.view().timer.enabled = true;
     run.run_frame();
     for (const PassRecord& pass : run.view().timer.records()) EXPECT_NE(pass.name, "blended_layers");
@@ -148,11 +151,12 @@ TEST_P(FaultyLayers, AreFound) {
 
 INSTANTIATE_TEST_SUITE_P(
     Planted, FaultyLayers,
-    testing::Values(
-        LayerFault{"own_triangle_is_opaque", "if (!r->own_hides) return (mask_t)(0);", "", true},
-        LayerFault{"first_layer_for_all", "(size_t)(layer + 1) * here->layer_words", "here->layer_words", false},
-        LayerFault{"fragments_uncounted", "vstore16(convert_ushort16(layer - shown), block, counts->of);", "", false},
-        LayerFault{"entries_of_opaque_surfaces", "here->y = number", "here->y = i", false}),
+    testing::Values(LayerFault{"own_triangle_is_opaque", "if (!r->own_hides) return (mask_t)(0);", "", true},
+                    LayerFault{"first_layer_for_all", "(size_t)(layer + 1) * here->layer_words",
+                               "here->layer_words", false},
+                    LayerFault{"fragments_uncounted",
+                               "vstore16(convert_ushort16(layer - shown), block, counts->of);", "", false},
+                    LayerFault{"entries_of_opaque_surfaces", "here->y = number", "here->y = i", false}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

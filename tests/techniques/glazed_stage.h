@@ -8,8 +8,8 @@ namespace lightgrid {
 
 inline constexpr int glazed_width = 61, glazed_height = 43;
 
-// Panes one behind the other, of which one's vertices have alpha and its matrix mirrors, and a bubble with both
-// sides, between lamps, ball and fence.
+// Panes one behind the other, of which one's vertices have alpha and its matrix mirrors, and a bubble with
+// both sides, between lamps, ball and fence.
 inline Scene glazed_scene() {
   Scene scene = shadowed_scene();
   const auto glass = [&](const char* name, glm::vec3 color, float alpha) {
@@ -36,7 +36,8 @@ inline Scene glazed_scene() {
 }
 
 // OpenCL alone, with a fault planted in its kernels' text. planted: in how many kernels.
-inline std::unique_ptr<Renderer> faulty_renderer(std::string_view right, std::string_view wrong, int& planted) {
+inline std::unique_ptr<Renderer> faulty_renderer(std::string_view right, std::string_view wrong,
+                                                 int& planted) {
   auto renderer = std::make_unique<Renderer>("", GlBackend::none);
   renderer->kernels->alter([right, wrong, &planted](std::string text) {
     const size_t at = text.find(right);

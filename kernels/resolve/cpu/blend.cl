@@ -5,7 +5,7 @@
 // tiles_x     of these tiles
 // depths      of opaque surfaces, a pixel each, reversed; row 0 at the bottom
 // RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h; the grid is that of blended surfaces
-// shadow_layers  with -DSHADOWS: layers of shadows, by the order of a pixel's fragments (shared/shadow_bits.h)
+// shadow_layers  with -DSHADOWS: layers of shadows, in the order of a pixel's fragments
 // image       in and out: RGBA a pixel, linear, row 0 at the bottom
 // -DTILE      of the light grid, pixels a side, a multiple of 8 (default 16)
 // -DORTHOGRAPHIC, and what kernels/resolve/resolve.h and resolve_light.h name

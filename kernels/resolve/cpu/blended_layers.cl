@@ -1,5 +1,6 @@
-// The fragments of blended surfaces in layers, of which each has shadows of its own, for CPUs: a work-item takes a
-// tile of 64 x 64 pixels. A pixel's fragments are in drawing order, as kernels/resolve/cpu/blend.cl counts them.
+// The fragments of blended surfaces in layers, of which each has shadows of its own, for CPUs: a work-item
+// takes a tile of 64 x 64 pixels. A pixel's fragments are in drawing order, as kernels/resolve/cpu/blend.cl
+// counts them.
 //
 // records, tile_begin, lists, tiles_x, depths  as blend.cl has them
 // capacity  layers that there is room for; fragments past them are only counted

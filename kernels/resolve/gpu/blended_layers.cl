@@ -1,5 +1,5 @@
-// The fragments of blended surfaces in layers, for GPUs: a work-item a pixel. As resolve/cpu/blended_layers.cl, with
-// the same arguments; `most` is 0 before.
+// The fragments of blended surfaces in layers, for GPUs: a work-item a pixel. As
+// resolve/cpu/blended_layers.cl, with the same arguments; `most` is 0 before.
 #define LANES 1
 #include "kernels/resolve/blended_fragments.h"
 #include "shared/shadow_bits.h"
@@ -20,8 +20,10 @@ kernel void blended_layers(global const RasterRecord* records, global const uint
     const TileRecord r = in_tile(records + lists[i], tile_x, tile_y);
     float depth;
     if (!is_fragment(&r, bx, by, dx, dy, opaque, &depth)) continue;
-    if (layer < capacity)
-      layers[layer * stride + pixel] = r.triangle, layers[(capacity + layer) * stride + pixel] = as_uint(depth);
+    if (layer < capacity) {
+      layers[layer * stride + pixel] = r.triangle;
+      layers[(capacity + layer) * stride + pixel] = as_uint(depth);
+    }
     ++layer;
   }
   if (layer != 0) atomic_max(most + number, layer);

@@ -116,8 +116,8 @@ kernel void find_shadows(ALL_ARGUMENTS) {
     batch.count = 0;
     bool has_pieces = false;
     uint covered;
-    const bool same = follow_surfaces(kept_surfaces + (size_t)own_tile * KEPT_SURFACE_WORDS, triangles, depths,
-                                      tile_x, tile_y, view->width, view->height, &covered) &&
+    const bool same = follow_surfaces(kept_surfaces + (size_t)own_tile * KEPT_SURFACE_WORDS, triangles,
+                                      depths, tile_x, tile_y, view->width, view->height, &covered) &&
                       kept_tiles[own_tile].view == shadow_view->stamp;
     uint at = kept_tiles[own_tile].first;
     const uint end = same ? at + kept_tiles[own_tile].count : at;
@@ -147,8 +147,9 @@ kernel void find_shadows(ALL_ARGUMENTS) {
       }
       if (batch.count == 16 || (batch.count != 0 && i + 1 == range.x + range.y)) {
         if (!has_pieces) {
-          const uint used = receivers_of_tile(receivers, &scene, tile_x, tile_y, triangles, depths,
-                                              triangle_instance, number_offsets, own_hides, shadow_view, view);
+          const uint used =
+              receivers_of_tile(receivers, &scene, tile_x, tile_y, triangles, depths, triangle_instance,
+                                number_offsets, own_hides, shadow_view, view);
           if (range.y < LEAST_LIGHTS)
             set_no_pieces(&pieces, receivers, used);
           else

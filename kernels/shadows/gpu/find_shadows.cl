@@ -32,7 +32,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   for (uint i = range.x + item; i < range.x + lights_here; i += GROUP) {
     const uint index = indices[i];
     atomic_or((global volatile uint*)(listed + index / 32 * 2), 1u << (index & 31u));
-    if (i == range.x || indices[i - 1] / 32 != index / 32) listed[index / 32 * 2 + 1] = i - range.x + own_entry;
+    if (i == range.x || indices[i - 1] / 32 != index / 32)
+      listed[index / 32 * 2 + 1] = i - range.x + own_entry;
   }
   const bool inside = x < width && y < height;
   const size_t at = inside ? (size_t)y * width + x : 0;

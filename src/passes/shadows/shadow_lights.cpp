@@ -18,7 +18,8 @@ ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dv
   ShadowLight s{at.x, at.y, at.z, 1, float(light.direction.x), float(light.direction.y),
                 float(light.direction.z), float(light.cos_outer), 0, 0, float(light.radius_m)};
   if (light.cos_outer < -1) s.cos_outer = -1;
-  const double slack = 0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
+  const double slack =
+      0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
   const double reach = light.radius_m * (1 + 1e-5) + slack;
   s.reach_squared = float(std::min(reach * reach, double(std::numeric_limits<float>::infinity())));
   s.slack = float(std::min(slack, double(std::numeric_limits<float>::max())));
@@ -33,7 +34,9 @@ ShadowLight shadow_light(const Light& directional) {
 
 }  // namespace
 
-size_t shadow_light_count(const FramePlan& plan) { return plan.local.size() + plan.directional_lights.size(); }
+size_t shadow_light_count(const FramePlan& plan) {
+  return plan.local.size() + plan.directional_lights.size();
+}
 
 size_t shadow_table_words(const FramePlan& plan) { return (shadow_light_count(plan) + 31) / 32; }
 

@@ -25,7 +25,9 @@ class ShadowLists {
   size_t bytes() const;                             // of the lists
   size_t memory_bytes() const { return bytes() + (culler_ ? culler_->memory_bytes() : 0); }
 
-  const cl::Buffer& cells(size_t image) { return images_[image]->storage.cells(images_[image]->grid.cell_bytes); }
+  const cl::Buffer& cells(size_t image) {
+    return images_[image]->storage.cells(images_[image]->grid.cell_bytes);
+  }
   const cl::Buffer& indices(size_t image) {
     return images_[image]->storage.indices(images_[image]->grid.index_bytes);
   }
@@ -33,8 +35,8 @@ class ShadowLists {
   size_t first_entry(size_t image) const { return images_[image]->first_entry; }  // where there is one band
   HostGrid read(ClDevice& device, size_t image);
 
-  // How the frame's shadows fit into memory, and how much of it a band takes. All images' shadows of a tile are
-  // in the same band.
+  // How the frame's shadows fit into memory, and how much of it a band takes. All images' shadows of a tile
+  // are in the same band.
   ShadowBands bands(Work& work, ShadowRoom& room);
 
  private:
