@@ -133,6 +133,7 @@ struct FramePlan {
                           // exist
 
   std::vector<int> local, directional_lights;  // light indices by kind, in scene order
+  int virtual_count = 0;                       // of the scene's lights: virtual point lights
   int lights_in_view = 0;                      // lights whose range touches the view's frustum
 
   std::vector<Decision> decisions;

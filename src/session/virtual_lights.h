@@ -19,7 +19,7 @@ class VirtualLights {
                 const VirtualLightSettings& choice);
 
   // Puts the virtual lights behind the scene's other lights, in place of those that it had. Equal scenes give
-  // equal bytes, on every device and in every kernel shape. Nothing without a light that is reflected.
+  // equal bytes, in every kernel shape. Nothing without a light that is reflected.
   void place();
   // The same after the scene changed; the changes with those of the virtual lights.
   SceneChanges follow(SceneChanges changes);

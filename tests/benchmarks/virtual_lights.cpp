@@ -1,6 +1,6 @@
 // Virtual lights by count and clamp: error against the truth of one bounce, and time against a frame without
 // them, as CSV. Needs Embree. docs/fake_radiosity.md has the tables.
-//   virtual_lights SCENE LIGHTS_FILE CAMERA [BRDF]
+//   virtual_lights errors|times SCENE LIGHTS_FILE CAMERA [BRDF]
 #include <fmt/format.h>
 
 #include "base/timer.h"
@@ -32,34 +32,44 @@ void tell_errors(Renderer& renderer, const char* const* arguments, const Setting
   const ChosenScene chosen = load("160x90", arguments);
   OneBounceView seen(renderer, chosen.scene, chosen.view, settings, 1500, 1024);
   fmt::print("truth: mean {:.4g}, noise of a pixel {:.3g} of it\n", seen.truth_mean(), seen.truth_noise());
-  fmt::print("count,nearest,shadows,bias,rms,spread\n");
+  fmt::print("count,nearest,shadows,cutoff,bias,mean_abs,rms,spread\n");
+  const auto tell = [&](int count, double nearest, bool shadows, const char* cutoff) {
+    Settings s = settings;
+    if (cutoff) apply_setting(s, "range=cutoff"), apply_setting(s, std::string("cutoff=") + cutoff);
+    seen.set_ranges(s.ranges);
+    const VirtualLightError e = seen.error({.count = count, .nearest_m = nearest}, shadows, 4);
+    fmt::print("{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f}\n", count,
+               nearest < 0 ? "auto" : fmt::format("{:g}", nearest), shadows ? "exact" : "none",
+               cutoff ? cutoff : "", e.bias, e.mean_abs, e.rms, e.spread);
+    std::fflush(stdout);
+  };
   for (const int count : counts) {
-    for (const double nearest : {0.0, -1.0, 0.1, 0.5, 1.0}) {
-      for (const bool shadows : {true, false}) {
-        if (count == 4096 && nearest > 0 && nearest != 0.5) continue;
-        const VirtualLightError e = seen.error({.count = count, .nearest_m = nearest}, shadows, 4);
-        fmt::print("{},{},{},{:.4f},{:.4f},{:.4f}\n", count,
-                   nearest < 0 ? "auto" : fmt::format("{:g}", nearest), shadows ? "exact" : "none", e.bias,
-                   e.rms, e.spread);
-        std::fflush(stdout);
-      }
-    }
+    for (const double nearest : {0.0, 0.25, 1.0, -1.0}) tell(count, nearest, true, nullptr);
+    tell(count, -1, false, nullptr);
   }
+  for (const char* technique : {"forward_plus", "lidr"}) {  // lidr: with room for 8 lights a pixel
+    seen.set_technique(technique);
+    fmt::print("{}: ", technique);
+    tell(1024, -1, false, nullptr);
+  }
+  seen.set_technique("visibility");
+  for (const char* cutoff : {"0.02", "0.005", "0.001", "0.0002"}) tell(1024, -1, true, cutoff);
 }
 
-// Frames of all counts in turn, over those without virtual lights.
+// Frames of all counts in turn, over those without virtual lights. The cutoff falls with the lights' flux, so
+// that their ranges do not depend on the count.
 void tell_times(Renderer& renderer, const char* const* arguments, const Settings& given) {
   fmt::print("technique,range,count,frame over none,placing over a frame of none\n");
   for (const char* range : {"range=scene", "range=cutoff"}) {
-    Settings settings = given;
-    apply_setting(settings, range);
-    apply_setting(settings, "cutoff=0.005");
     for (const char* technique : {"forward_plus", "visibility", "lidr"}) {
       std::vector<std::unique_ptr<Scene>> scenes;
       std::vector<std::unique_ptr<TechniqueRun>> runs;
       std::vector<double> placing;
       const ChosenScene chosen = load("640x360", arguments);
       for (const int count : {0, 64, 256, 1024, 4096}) {
+        Settings settings = given;
+        apply_setting(settings, range);
+        apply_setting(settings, fmt::format("cutoff={:g}", 0.2 / std::max(count, 64)));
         scenes.push_back(std::make_unique<Scene>(chosen.scene));
         Scene& scene = *scenes.back();
         for (Light& light : scene.lights) light.casts_shadow = false;
@@ -93,15 +103,14 @@ void tell_times(Renderer& renderer, const char* const* arguments, const Settings
 }
 
 int run(int argc, char** argv) {
-  if (argc < 4) {
-    fmt::print(stderr, "virtual_lights SCENE LIGHTS_FILE CAMERA [BRDF]\n");
+  if (argc < 5) {
+    fmt::print(stderr, "virtual_lights errors|times SCENE LIGHTS_FILE CAMERA [BRDF]\n");
     return 2;
   }
   Renderer renderer("", GlBackend::osmesa);
   Settings settings;
-  apply_setting(settings, std::string("brdf=") + (argc > 4 ? argv[4] : "lambert"));
-  tell_errors(renderer, argv + 1, settings);
-  if (argc < 6) tell_times(renderer, argv + 1, settings);
+  apply_setting(settings, std::string("brdf=") + (argc > 5 ? argv[5] : "lambert"));
+  (argv[1] == std::string("times") ? tell_times : tell_errors)(renderer, argv + 2, settings);
   return 0;
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <nlohmann/json.hpp>
+
 #include "scene/builtin.h"
 #include "session/scene_choice.h"
 #include "support/devices.h"
@@ -165,6 +167,7 @@ TEST(PlacedVirtualLights, FollowALightThatMoves) {
   TechniqueRun run(software_devices(), gpu, view, lambert(), find_technique("forward_plus"));
   run.run_frame();
   const Image before = run.image();
+  EXPECT_EQ(to_json(run.result())["lights"]["virtual"], 64);
   EXPECT_TRUE(placed.follow({}).empty()) << "nothing moved";
   scene.lights[0].position = {-1, 1, 1.5};
   const SceneChanges changes = placed.follow({.lights = {0}});

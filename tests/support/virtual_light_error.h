@@ -15,6 +15,7 @@ namespace lightgrid {
 // Relative to the mean of the truth. Channels count alike.
 struct VirtualLightError {
   double bias = 0;    // of the sum over all pixels
+  double mean_abs = 0;  // of pixels, of single placements; with the truth's noise
   double rms = 0;     // over pixels, of single placements; without the truth's own noise
   double spread = 0;  // the part of it that changes from one placement to the next: the root of the variance
 };
@@ -53,6 +54,11 @@ class OneBounceView {
     for (const glm::dvec3& t : truth_) mean_ += (t.x + t.y + t.z) / 3 / double(truth_.size());
   }
 
+  // Of what draws virtual lights from here on; visibility unless set.
+  void set_technique(const char* technique) { technique_ = technique; }
+  // Of virtual lights from here on.
+  void set_ranges(const LightRanges& ranges) { settings_.ranges = ranges; }
+
   double truth_mean() const { return mean_; }
   double truth_noise() const { return std::sqrt(noise_) / mean_; }  // of a pixel
   const std::vector<glm::dvec3>& truth() const { return truth_; }
@@ -69,7 +75,7 @@ class OneBounceView {
 
   std::vector<glm::dvec3> added(const VirtualLightSettings& choice, bool shadows) {
     with_virtual(choice, shadows);
-    TechniqueRun run(renderer_, scene_, view_, settings_, find_technique("visibility"));
+    TechniqueRun run(renderer_, scene_, view_, settings_, find_technique(technique_));
     run.run_frame();
     std::vector<glm::dvec3> all;
     for (const uint32_t p : pixels_)
@@ -87,12 +93,13 @@ class OneBounceView {
       for (size_t i = 0; i < now.size(); ++i) {
         const glm::dvec3 d = now[i] - truth_[i];
         e.bias += (d.x + d.y + d.z) / 3;
+        e.mean_abs += (std::abs(d.x) + std::abs(d.y) + std::abs(d.z)) / 3;
         squared += glm::dot(d, d) / 3;
         sum[i] += now[i], squares[i] += now[i] * now[i];
       }
     }
     const double n = double(pixels_.size()) * seeds;
-    e.bias /= n * mean_;
+    e.bias /= n * mean_, e.mean_abs /= n * mean_;
     e.rms = std::sqrt(std::max(squared / n - noise_, 0.0)) / mean_;
     double variance = 0;
     for (size_t i = 0; i < sum.size() && seeds > 1; ++i) {
@@ -109,6 +116,7 @@ class OneBounceView {
   Light light_;
   View view_;
   Settings settings_;
+  const char* technique_ = "visibility";
   Image dark_;
   std::vector<uint32_t> pixels_;
   std::vector<glm::dvec3> truth_;
