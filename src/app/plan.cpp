@@ -55,6 +55,7 @@ int plan(PlanOptions o) {
   nlohmann::ordered_json json = {{"scene", chosen.scene.name},
                                  {"technique", technique.name},
                                  {"decisions", nlohmann::ordered_json::array()}};
+  if (plan.virtual_lights) json["lights_virtual"] = plan.virtual_count;
   for (const Decision& d : plan.decisions) {
     json["decisions"].push_back({{"effect", d.effect}, {"needed", d.needed}, {"why", d.why}});
   }

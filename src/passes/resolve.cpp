@@ -204,6 +204,22 @@ ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const Visibil
   return {0, &r.image};
 }
 
+ReflectedLight resolve_reflected(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+                                 uint32_t light) {
+  Resolver& r = resolving(work, cache);
+  const ReflectedLight reflected{&work.shared_pixels("reflected flux", 16),
+                                 &work.shared_pixels("reflecting places", 16)};
+  NamedKernel& kernel = r.kernel(work, "resolve_reflected");
+  auto pass = work.timer.pass("resolve_reflected", "cl");
+  r.launch(work, kernel, "resolve_reflected",
+           visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) +
+               ClArguments{{"light", cl_uint(light)},
+                           {"flux", reflected.flux->cl_buffer()},
+                           {"places", reflected.places->cl_buffer()}});
+  pass.moves(work.grid().pixels() * 8 + r.scene(work).memory_bytes(), work.grid().pixels() * 32);
+  return reflected;
+}
+
 void blend_resolved(Work& work, Cached<Resolver>& cache, const BlendedTriangles& blended,
                     const DepthBuffer& depth, const LightSource& lights) {
   Resolver& r = resolving(work, cache);

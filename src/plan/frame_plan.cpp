@@ -142,7 +142,7 @@ double plan_surfaces(const Scene& scene, const View& view, PlannedInstances inst
 void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   const Frustum frustum = frustum_of(view);
   const std::vector<ViewLight> lights = lights_in_view(scene, view, plan.settings.ranges);
-  int first_spot = -1;
+  int first_spot = -1, first_virtual = -1;
   for (int i = 0; i < int(lights.size()); ++i) {
     const bool directional = is_directional(lights[i]);
     (directional ? plan.directional_lights : plan.local).push_back(i);
@@ -150,9 +150,12 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
     plan.lights_in_view += seen;
     // A spot out of view still needs its cone: the cone makes its contribution zero in view.
     if (has_cone(lights[i]) && first_spot < 0) first_spot = i;
+    if (!scene.lights[size_t(i)].is_virtual) continue;
+    if (plan.virtual_count++ == 0) first_virtual = i;
   }
   plan.local_lights = !plan.local.empty();
   plan.spots = first_spot >= 0;
+  plan.virtual_lights = plan.virtual_count > 0;
   plan.directional = !plan.directional_lights.empty();
   plan.index_bits = plan.local.size() <= 65536 ? 16 : 32;
   const auto& local = plan.local;
@@ -160,6 +163,11 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
                             plan.local_lights ? light_witness(scene, local[0]) : "no light has a place"});
   plan.decisions.push_back(
       {"spot cones", plan.spots, plan.spots ? light_witness(scene, first_spot) : "no light is a spot"});
+  plan.decisions.push_back({"virtual lights", plan.virtual_lights,
+                            plan.virtual_lights
+                                ? fmt::format("{} of {} lights, the first of them {}", plan.virtual_count,
+                                              lights.size(), light_witness(scene, first_virtual))
+                                : "no light is virtual"});
   plan.decisions.push_back(
       {"directional lights", plan.directional,
        plan.directional ? light_witness(scene, plan.directional_lights[0]) : "no light is directional"});
@@ -276,7 +284,8 @@ void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_
 void turn_everything_on(const Scene& scene, const View& view, FramePlan& plan, const TechniqueNeeds& needs) {
   plan.light_grid = plan.blend_grid = needs.light_grid;
   plan.world_grid = needs.world_grid;
-  plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
+  plan.local_lights = plan.spots = plan.virtual_lights = plan.directional = plan.base_lighting = plan.blend =
+      plan.mask = true;
   if (needs.shadows && plan.settings.shadows != ShadowMethod::none) {
     shadow_all(scene, plan);
     if (needs.own_shadows) take_own_shadows(scene, view, needs, plan);

@@ -96,6 +96,7 @@ struct FramePlan {
   bool world_grid = false;    // lists in cells of the world
   bool local_lights = false;  // at least one point or spot light
   bool spots = false;         // compile cone code
+  bool virtual_lights = false;  // at least one light is a virtual point light
   // Some light of the scene casts a shadow: light loops ask whether it reaches a point
   // (shared/light_table.h). The same for every view and time, so that a camera that moves compiles nothing.
   bool light_reaches = false;
@@ -132,6 +133,7 @@ struct FramePlan {
                           // exist
 
   std::vector<int> local, directional_lights;  // light indices by kind, in scene order
+  int virtual_count = 0;                       // of the scene's lights: virtual point lights
   int lights_in_view = 0;                      // lights whose range touches the view's frustum
 
   std::vector<Decision> decisions;

@@ -217,6 +217,7 @@ json to_json(const RunResult& result) {
               {"inf_pixels", result.inf_pixels},
               {"overflow", result.overflow},
               {"skipped", skipped}};
+  if (result.lights_virtual > 0) out["lights"]["virtual"] = result.lights_virtual;
   for (const auto& pass : result.passes) {
     if (pass.name == result.built_by) out["build"] = build_json(pass, result);
   }

@@ -158,6 +158,7 @@ struct RunResult {
   std::string refused;  // why the machine or the technique cannot do this; empty if it ran
   std::map<std::string, std::string> settings;
   int lights_total = 0, lights_in_view = 0;
+  int lights_virtual = 0;  // of lights_total
   Spread frame_ms;
   std::vector<PassResult> passes;
   size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;

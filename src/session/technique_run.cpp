@@ -113,6 +113,7 @@ RunResult TechniqueRun::result() const {
   result.settings = settings_of(technique_, view_.plan.settings);
   result.lights_total = int(view_.scene.lights.size());
   result.lights_in_view = view_.plan.lights_in_view;
+  result.lights_virtual = view_.plan.virtual_count;
   result.frame_ms = spread_of(frame_ms_);
   for (const PassRecord& record : view_.timer.records()) {
     result.passes.push_back({record.name, record.on, spread_of(record.ms).median, record.bytes_read,

@@ -217,18 +217,19 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
   for (std::sregex_iterator at(table.begin(), table.end(), row), end; at != end; ++at) {
     const std::string member = (*at)[1], array = (*at)[2];
     all.insert(member);
-    texts[member] = {array, "glm::vec4 " + member + "("};
+    texts[member] = {array, "glm::vec4 " + member + "(", "float " + member + "(const ViewLight"};
   }
-  EXPECT_THAT(all, testing::IsSupersetOf({"position", "color", "cone"}));
-  // All that names the newest column. The others are read by every light loop.
+  EXPECT_THAT(all, testing::IsSupersetOf({"position", "color", "cone", "most_falloff"}));
+  // All that names the newest columns. The others are read by every light loop.
   texts["cone"].push_back("light.cone.");
+  texts["most_falloff"].push_back("REAL(light.most_falloff");
   const Naming expected = {
       {"src/shared/light_table.h", all},
       {"src/renderer/upload/lights.cpp", all},
       // Readers: the range alone; a cone's part in what arrives.
       {"shaders/lights/blocks.glsl", {"position"}},
-      {"src/shared/punctual_light.h", {"cone"}},
-      {"src/shared/voxel_exact.h", {"cone"}},
+      {"src/shared/punctual_light.h", {"cone", "most_falloff"}},
+      {"src/shared/voxel_exact.h", {"cone", "most_falloff"}},
       // A record of the culler's own, from LightBounds.
       {"kernels/culling/gpu/cull_lights.cl", {"cone"}},
   };
@@ -255,6 +256,7 @@ TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
       {"shaders/light_buffer.frag", {"arrives", "asks"}},
       {"kernels/resolve/shade_pixels.h", {"arrives", "asks"}},
       {"kernels/resolve/light_buffer.h", {"arrives", "asks"}},
+      {"kernels/resolve/reflected_light.h", {"arrives", "asks"}},
       {"kernels/voxels/voxel_light.h", {"arrives"}},
       {"kernels/voxels/gpu/build_voxels.cl", {"arrives"}},
       {"src/reference/shading.cpp", {"arrives", "asks"}},

@@ -52,11 +52,15 @@ glm::vec4 cone(const ViewLight& light) {
   return {glm::vec3(light.direction * scale), float(-light.cos_outer * scale)};
 }
 
+float most_falloff(const ViewLight& light) { return float(light.most_falloff); }
+
 // The conditions of LIGHT_TABLE.
 constexpr bool FramePlan::*IF_LIGHTS = &FramePlan::local_lights;
 constexpr bool FramePlan::*IF_SPOTS = &FramePlan::spots;
+constexpr bool FramePlan::*IF_VIRTUAL = &FramePlan::virtual_lights;
 
 constexpr GLenum format_of(const glm::vec4&) { return GL_RGBA32F; }
+constexpr GLenum format_of(float) { return GL_R32F; }
 
 template <typename T>
 LightColumn column(T (*value)(const ViewLight&), bool needed, Sampler sampler,
@@ -90,6 +94,7 @@ LightTable light_table(const Seen& seen) {
 std::vector<const char*> light_table_defines(const FramePlan& plan) {
   std::vector<const char*> defines;
   if (plan.spots) defines.push_back("SPOTS");
+  if (plan.virtual_lights) defines.push_back("VIRTUAL_LIGHTS");
   const LightRanges& ranges = plan.settings.ranges;
   if (window_of(ranges) == RangeWindow::smooth) defines.push_back("WINDOW_SMOOTH");
   if (window_of(ranges) == RangeWindow::none) defines.push_back("WINDOW_NONE");
