@@ -24,6 +24,24 @@ ShadedImage shade_forward(Work& work, const DrawList& surfaces, const LightSourc
   return image;
 }
 
+void add_lights_forward(Work& work, const DrawList& surfaces, const LightSource& lights,
+                        const ShadedImage& image) {
+  GlLightLoop loop = lights.in_gl();
+  loop.defines.emplace_back("ADDED");
+  auto pass = work.timer.pass("shade_forward", "gl");
+  glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
+  glEnable(GL_DEPTH_TEST), glDepthFunc(GL_EQUAL), glDepthMask(GL_FALSE);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
+  loop.bind(work);
+  draw_list(work, surfaces, DrawStreams::all,
+            work.programs({"shaders/scene.vert", "shaders/forward.frag", loop.defines}));
+  glDisable(GL_BLEND);
+  pass.moves(work.gpu.in_gl().geometry_bytes() + work.grid().values() * 20 + lights.bytes,
+             work.grid().values() * 16);
+}
+
 namespace {
 
 uint32_t features_of_limit(uint32_t features) { return features & features_of_base_color; }

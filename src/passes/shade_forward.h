@@ -9,6 +9,10 @@ namespace lightgrid {
 // Shades opaque surfaces with each pixel's lights, at the prepass' depth.
 ShadedImage shade_forward(Work& work, const DrawList& surfaces, const LightSource& lights);
 
+// Adds these point and spot lights to an image of shade_forward, in another pass over the surfaces.
+void add_lights_forward(Work& work, const DrawList& surfaces, const LightSource& lights,
+                        const ShadedImage& image);
+
 // The image, cleared to the background and ready for surfaces at the prepass' depth.
 inline ShadedImage begin_shading(Work& work) {
   const ShadedImage image{work.color_framebuffer()};

@@ -146,7 +146,8 @@ std::vector<Setting>& all_settings() {
        "channel each",
        named(&Settings::lidr_packing, {{"bitshift", LidrPacking::bitshift},
                                        {"maxblend", LidrPacking::maxblend},
-                                       {"sort", LidrPacking::sort}})},
+                                       {"sort", LidrPacking::sort},
+                                       {"maxblend-sort", LidrPacking::maxblend_sort}})},
       {"lidr-overlap",
        "capacity of a pixel in light indices; auto: the most that the packing can hold for these lights",
        named(&Settings::lidr_overlap, {{"auto", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}})},
@@ -159,6 +160,15 @@ std::vector<Setting>& all_settings() {
              {{"stencil", LidrVolumes::stencil}, {"front-faces", LidrVolumes::front_faces}})},
       {"lidr-unpack", "light indices are unpacked with integers, or in float as the article does",
        named(&Settings::lidr_unpack, {{"integer", LidrUnpack::integers}, {"float", LidrUnpack::floats}})},
+      {"lidr-sort",
+       "sorted packings: lights in view are put into groups for each view, or all lights once, while they "
+       "are "
+       "at rest",
+       named(&Settings::lidr_sort, {{"view", LidrSort::view}, {"still", LidrSort::still}})},
+      {"lidr-passes",
+       "sorted packings: the most passes over the surfaces; lights that find no group are drawn in the next, "
+       "after the last they are left out",
+       numbers(&Settings::lidr_passes, {"1", "2", "4", "8", "16"})},
       {"lidr-order", "the lights kept if a pixel has too many: those of most influence, or the scene's first",
        named(&Settings::lidr_order, {{"priority", LidrOrder::priority}, {"scene", LidrOrder::scene}})},
       {"lidr-shadows",

@@ -18,13 +18,13 @@ IndexDrawing::IndexDrawing(const Seen& seen, const LightIndexLayout& layout, con
       inside_(seen.plan.settings.lidr_volumes == LidrVolumes::stencil) {}
 
 GLint IndexDrawing::cleared_stencil() const {
-  if (layout_.packing == LidrPacking::sort) return 255;
+  if (layout_.sorted()) return 255;
   return GLint(inside_ ? 2 * (has_room / 2 - 1 + layout_.overlap) + not_inside
                        : has_room - 1 + layout_.overlap);
 }
 
 void IndexDrawing::draw(const VolumeBatch& batch) const {
-  const bool counted = layout_.packing != LidrPacking::sort;
+  const bool counted = !layout_.sorted();
   if (inside_) mark_inside(batch);
   glUseProgram(programs_.write);
   // Later groups first: otherwise a light that fills one group's last slot would also be written to the
