@@ -1,6 +1,8 @@
 #include "passes/light_index/draw_order.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <tuple>
 
@@ -19,11 +21,14 @@ LightExtent extent_on_screen(const LightVolume& v) {
 
 bool on_screen(const Seen& seen) { return seen.plan.settings.lidr_volumes == LidrVolumes::front_faces; }
 
-// Contains every mesh that a view draws for a light, whatever its distance, as long as rounding adds less
-// than 3 % (docs/light_volumes.md). The coarsest ball has its corners at 1.263 of the radius; the corners of
-// a box, and of a cone moved back from its apex, at 1.74.
+// Contains every mesh that a view draws for a light, whatever its distance, as long as slack is at most 1/64
+// of the range (light_volumes.cpp). The coarsest ball has its corners at 1.263 of the radius; a box, and a
+// cone moved back by slack / sin(angle), at 1.74.
 double still_radius(const LightBounds& bounds, VolumeMeshes meshes) {
-  return bounds.radius_m * (bounds.has_cone() || meshes == VolumeMeshes::box ? 1.8 : 1.3);
+  const double angle = bounds.widened_angle_rad();
+  const bool cone = angle < std::numbers::pi / 2 && meshes != VolumeMeshes::box;
+  if (!cone) return bounds.radius_m * (meshes == VolumeMeshes::box ? 1.8 : 1.3);
+  return bounds.radius_m * 1.8 * (1 + (1 + 1 / std::sin(angle)) / 64);
 }
 
 // In world space, so that they do not depend on the camera.
