@@ -75,11 +75,11 @@ void draw_volumes(Work& work, const LightIndexOrder& state, const LightVolumes& 
   glDisable(GL_STENCIL_TEST), glCullFace(GL_BACK);
 }
 
-bool may_repeat(const Seen& seen) { return seen.plan.settings.lidr_volumes == LidrVolumes::front_faces; }
+bool may_repeat(const Seen& seen) { return seen.plan.settings.lidr_volumes != LidrVolumes::stencil; }
 
 // shadows: of lights that are listed where they are hidden too.
 GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::vector<GLuint>& images,
-                       const IndexShadows* shadows) {
+                       const IndexShadows* shadows, bool points_alone) {
   GlLightLoop loop = light_loop(seen);
   if (shadows) {
     const GlLightLoop input = shadows->input(seen);
@@ -88,6 +88,7 @@ GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::ve
   }
   for (std::string& define : layout.defines()) loop.defines.push_back(std::move(define));
   loop.defines.emplace_back("LIGHTS_LIDR");
+  if (points_alone) loop.defines.emplace_back("NO_CONES");
   if (seen.plan.settings.lidr_unpack == LidrUnpack::floats) loop.defines.emplace_back("LIDR_FLOAT");
   if (may_repeat(seen)) loop.defines.emplace_back("LIDR_REPEATS");
   for (size_t i = 0; i < images.size(); ++i)
@@ -100,7 +101,7 @@ ListedLights read_light_index(Work& work, const LightIndexOrder& state,
                               const std::function<void(uint32_t pass)>& redraw) {
   const LightIndexLayout& layout = state.layout();
   const size_t stride = layout.targets() * 4, pixels = work.grid().pixels();
-  const uint32_t passes = state.batches().passes;
+  const uint32_t passes = uint32_t(state.batches().passes.size());
   std::vector<std::vector<uint16_t>> of_pass;
   for (uint32_t pass = 0; pass < passes; ++pass) {
     if (passes > 1) redraw(pass);
@@ -131,7 +132,7 @@ uint32_t order_light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<Li
   LightVolumes& volumes = volume_cache.of(work);
   state.order(work, volumes.update(work));
   volumes.upload_volumes(state.batches().volumes);
-  return state.batches().passes;
+  return uint32_t(state.batches().passes.size());
 }
 
 LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache,
@@ -152,7 +153,8 @@ LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<Light
   const size_t values = work.grid().values();
   pass.moves(values * 5 + volumes.memory_bytes(), values * (layout.pixel_bytes() + 1));
   if (drops_hidden(work)) shadows = nullptr;
-  return LightSource([&work, &layout, images, shadows] { return index_loop(work, layout, images, shadows); },
+  const bool points_alone = state.batches().passes[number].points_alone;
+  return LightSource([=, &work, &layout] { return index_loop(work, layout, images, shadows, points_alone); },
                      {}, work.targets.bytes(TargetUse::light_index),
                      [&work, &state, draw](auto&) { return read_light_index(work, state, draw); });
 }

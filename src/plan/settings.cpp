@@ -155,11 +155,17 @@ std::vector<Setting>& all_settings() {
        named(&Settings::lidr_lights, {{"auto", 0}, {"15", 15}, {"255", 255}, {"65535", 65535}})},
       {"lidr-volumes",
        "marks surfaces inside light volumes, by a stencil; or all behind their front faces, which serves "
-       "blended surfaces too",
-       named(&Settings::lidr_volumes,
-             {{"stencil", LidrVolumes::stencil}, {"front-faces", LidrVolumes::front_faces}})},
+       "blended surfaces too, also without a depth prepass: whatever is behind",
+       named(&Settings::lidr_volumes, {{"stencil", LidrVolumes::stencil},
+                                       {"front-faces", LidrVolumes::front_faces},
+                                       {"no-prepass", LidrVolumes::no_prepass}})},
       {"lidr-unpack", "light indices are unpacked with integers, or in float as the article does",
        named(&Settings::lidr_unpack, {{"integer", LidrUnpack::integers}, {"float", LidrUnpack::floats}})},
+      {"lidr-types",
+       "point and spot lights: in the same images, told apart by the light's data; or a pass over the "
+       "surfaces "
+       "for each, with images and a light loop of its own",
+       named(&Settings::lidr_types, {{"flag", LidrTypes::flag}, {"passes", LidrTypes::passes}})},
       {"lidr-sort",
        "sorted packings: lights in view are put into groups for each view, or all lights once, while they "
        "are "

@@ -49,6 +49,7 @@ void light_indices(Check& c, Scene scene, const std::vector<View>& views,
     }
     const bool box = settings.volume_mesh == VolumeMeshes::box;
     const bool behind = settings.lidr_volumes == LidrVolumes::front_faces;
+    const bool anywhere = settings.lidr_volumes == LidrVolumes::no_prepass;  // along the sight, or past it
     const std::vector<LightIndexImage> images = c.engine.light_indices(scene, views, settings);
     if (images.empty()) return c.skip("the engine draws no light volumes");
     for (size_t i = 0; i < views.size(); ++i) {
@@ -66,7 +67,8 @@ void light_indices(Check& c, Scene scene, const std::vector<View>& views,
         const size_t cell = lists.cell_of_pixel[pixel];
         for (uint32_t k = 0; k < lists.count[cell]; ++k) {
           const uint32_t light = lists.indices[lists.first[cell] + k];
-          out_of_reach += light < lights.size() && !may_be_listed(view, lights[light], p, behind, box);
+          out_of_reach +=
+              light < lights.size() && !anywhere && !may_be_listed(view, lights[light], p, behind, box);
         }
       }
       c.trials(pairs.listed + pairs.lit);
@@ -217,7 +219,8 @@ void cut_images(Check& c) {
                 {{"lidr-overlap=8"},
                  {"lidr-packing=sort lidr-overlap=8"},
                  {"lidr-packing=maxblend-sort lidr-overlap=4 lidr-passes=2"},
-                 {"lidr-overlap=8 lidr-volumes=front-faces"}});
+                 {"lidr-overlap=8 lidr-volumes=front-faces"},
+                 {"lidr-overlap=8 lidr-volumes=no-prepass"}});
 }
 
 // Cones of 0.01 to pi rad, ranges of 1 mm to infinity, and cameras that see them from 0.3 m to 300 m away.

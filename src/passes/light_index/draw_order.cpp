@@ -19,7 +19,7 @@ LightExtent extent_on_screen(const LightVolume& v) {
   return {glm::dvec3(v.low_px, 0), glm::dvec3(v.high_px, 0)};
 }
 
-bool on_screen(const Seen& seen) { return seen.plan.settings.lidr_volumes == LidrVolumes::front_faces; }
+bool on_screen(const Seen& seen) { return seen.plan.settings.lidr_volumes != LidrVolumes::stencil; }
 
 // Contains every mesh that a view draws for a light, whatever its distance, as long as slack is at most 1/64
 // of the range (light_volumes.cpp). The coarsest ball has its corners at 1.263 of the radius; a box, and a
@@ -65,11 +65,17 @@ bool LightIndexOrder::follow(Work& work) {
 }
 
 void LightIndexOrder::find_influence(const Seen& seen) {
-  influence_.clear();
+  influence_.clear(), type_.clear();
   for (const ViewLight& light :
        lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local)) {
     influence_.push_back(influence_of(light));
+    type_.push_back(seen.plan.settings.lidr_types == LidrTypes::passes && light.type == LightType::spot);
   }
+}
+
+// Groups in all passes of a type.
+static uint32_t groups_of_type(const LightIndexLayout& layout, const Seen& seen) {
+  return layout.groups * uint32_t(seen.plan.settings.lidr_passes);
 }
 
 // The groups of all lights in the scene. False if a volume is larger than its extent there: far away, where
@@ -79,27 +85,44 @@ bool LightIndexOrder::put_in_still_groups(const Seen& seen, const std::vector<Li
   for (const LightVolume& v : volumes) {
     if (!contains(v, still_radius(v.bounds, settings.volume_mesh))) return false;
   }
-  std::vector<uint32_t> order(influence_.size());
-  std::iota(order.begin(), order.end(), 0u);
-  if (settings.lidr_order == LidrOrder::priority)
-    std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) { return before(a, b); });
-  group_of_light_ =
-      still_.of(still_extents(seen), order, layout_.groups * uint32_t(settings.lidr_passes), layout_.slots);
+  const std::vector<LightExtent> extents = still_extents(seen);
+  const uint32_t groups = groups_of_type(layout_, seen);
+  for (uint32_t type = 0; type < light_types; ++type) {
+    std::vector<uint32_t> order;
+    for (uint32_t i = 0; i < type_.size(); ++i) {
+      if (type_[i] == type) order.push_back(i);
+    }
+    if (settings.lidr_order == LidrOrder::priority)
+      std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) { return before(a, b); });
+    const std::vector<uint32_t>& found = still_[type].of(extents, order, groups, layout_.slots);
+    for (const uint32_t i : order)
+      group_of_light_[i] = found[i] == no_group ? no_group : type * groups + found[i];
+  }
   return true;
+}
+
+void LightIndexOrder::put_in_groups_of_view(const Seen& seen, const std::vector<LightVolume>& volumes) {
+  const uint32_t groups = groups_of_type(layout_, seen);
+  for (uint32_t type = 0; type < light_types; ++type) {
+    std::vector<LightExtent> extents;
+    std::vector<uint32_t> lights;
+    for (const LightVolume& v : volumes) {
+      if (type_[v.light] != type) continue;
+      extents.push_back(on_screen(seen) ? extent_on_screen(v) : extent_in_space(v));
+      lights.push_back(v.light);
+    }
+    const std::vector<uint32_t> found = group_lights(extents, groups, layout_.slots);
+    for (size_t i = 0; i < found.size(); ++i)
+      group_of_light_[lights[i]] = found[i] == no_group ? no_group : type * groups + found[i];
+  }
 }
 
 // With stencil, lights that do not touch in space share no pixel, whatever the camera; with front faces, the
 // rectangles on screen must not touch.
 void LightIndexOrder::put_in_groups(const Seen& seen, std::vector<LightVolume>& volumes) {
-  const Settings& settings = seen.plan.settings;
-  const bool still = settings.lidr_sort == LidrSort::still && !grouped_ && put_in_still_groups(seen, volumes);
-  if (!still && (on_screen(seen) || !grouped_)) {
-    std::vector<LightExtent> extents;
-    for (const LightVolume& v : volumes)
-      extents.push_back(on_screen(seen) ? extent_on_screen(v) : extent_in_space(v));
-    const std::vector<uint32_t> groups =
-        group_lights(extents, layout_.groups * uint32_t(settings.lidr_passes), layout_.slots);
-    for (size_t i = 0; i < groups.size(); ++i) group_of_light_[volumes[i].light] = groups[i];
+  if (on_screen(seen) || !grouped_) {
+    const bool still = seen.plan.settings.lidr_sort == LidrSort::still && put_in_still_groups(seen, volumes);
+    if (!still) put_in_groups_of_view(seen, volumes);
   }
   grouped_ = true;
   const auto group = [&](const LightVolume& v) { return group_of_light_[v.light]; };
@@ -130,25 +153,36 @@ void LightIndexOrder::order(const Seen& seen, std::vector<LightVolume> volumes) 
   const std::vector<uint32_t> rounds = rounds_of(seen, volumes);
   // Within a round of a group any order gives the same image; this one needs few calls. If there is only one
   // round, the order decides which lights are kept when slots run out.
+  const bool any_order = sorted || !on_screen(seen) || layout_.groups > 1;
   const auto batch_of = [&](uint32_t i) {
-    return std::tuple(sorted ? group_of_light_[volumes[i].light] : 0, rounds[i], volumes[i].crosses_near,
+    const uint32_t light = volumes[i].light;
+    return std::tuple(sorted ? group_of_light_[light] : type_[light], rounds[i], volumes[i].crosses_near,
                       volumes[i].mesh);
   };
   std::vector<uint32_t> order(volumes.size());
   std::iota(order.begin(), order.end(), 0u);
-  const bool any_order = sorted || !on_screen(seen) || layout_.groups > 1;
-  if (any_order)
-    std::stable_sort(order.begin(), order.end(),
-                     [&](uint32_t a, uint32_t b) { return batch_of(a) < batch_of(b); });
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    return any_order ? batch_of(a) < batch_of(b) : std::get<0>(batch_of(a)) < std::get<0>(batch_of(b));
+  });
   batches_ = {};
+  uint32_t last_pass = 0;  // those without lights count
   for (size_t i = 0; i < order.size(); ++i) {
     const auto [group, round, crosses, mesh] = batch_of(order[i]);
     const auto [last_group, last_round, last_crosses, last_mesh] = batch_of(order[i ? i - 1 : 0]);
+    const uint32_t pass = sorted ? group / layout_.groups : group;
+    if (i == 0) {
+      batches_.passes = {{}};
+    } else if (pass != last_pass) {
+      batches_.passes.emplace_back();
+    }
+    last_pass = pass;
     if (i == 0 || group != last_group || round != last_round || crosses != last_crosses)
-      batches_.batches.push_back({i, 0, group % layout_.groups, group / layout_.groups});
+      batches_.batches.push_back(
+          {i, 0, sorted ? group % layout_.groups : 0, uint32_t(batches_.passes.size()) - 1});
     ++batches_.batches.back().count;
-    batches_.passes = batches_.batches.back().pass + 1;
     batches_.volumes.push_back(volumes[order[i]]);
+    batches_.passes.back().points_alone &=
+        seen.plan.settings.lidr_types == LidrTypes::passes && type_[volumes[order[i]].light] == 0;
   }
 }
 

@@ -41,7 +41,7 @@ class IndexDrawing {
   const LightIndexLayout& layout_;
   const LightVolumes& volumes_;
   Programs programs_;
-  bool inside_;
+  bool inside_, before_depth_;
 };
 
 }  // namespace lightgrid
