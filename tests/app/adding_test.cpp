@@ -86,6 +86,8 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       // Messages of its own passes.
       {"src/passes/light_index/blending.cpp", {"lidr"}},
       {"src/passes/light_index/layout.cpp", {"lidr"}},
+      // Its hard cases.
+      {"src/verify/device_engine.cpp", {"lidr"}},
       // What is varied, and a sentence about two.
       {"src/frontier/points.cpp",
        {"deferred_tiled", "forward_plus", "lidr", "visibility", "voxel_lights", "world_grid"}},
