@@ -64,6 +64,10 @@ GLuint Work::color_framebuffer() {
 }
 
 SharedBuffer& Work::shared_pixels(const std::string& name, size_t bytes, TargetUse use) {
+  return targets.buffer(*renderer.cl, renderer.bridge, name, (grid().pixels() + spare_pixels) * bytes, use);
+}
+
+SharedBuffer& Work::shared_samples(const std::string& name, size_t bytes, TargetUse use) {
   return targets.buffer(*renderer.cl, renderer.bridge, name, (grid().values() + spare_pixels) * bytes, use);
 }
 

@@ -10,15 +10,20 @@
 
 namespace lightgrid {
 
+static const TechniqueNeeds& checked_needs(const Technique& technique, const Settings& settings) {
+  check_samples(technique, settings);
+  return technique.needs;
+}
+
 TechniqueRun::TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
                            const Technique& technique, std::shared_ptr<TargetPool> pool)
-    : technique_(technique), view_(renderer, gpu, view, settings, technique.needs, std::move(pool)) {}
+    : technique_(technique), view_(renderer, gpu, view, settings, checked_needs(technique, settings), std::move(pool)) {}
 
 TechniqueRun::TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
                            const Technique& technique)
     : technique_(technique),
       own_scene_(std::make_unique<GpuScene>(renderer, scene)),
-      view_(renderer, *own_scene_, view, settings, technique.needs) {}
+      view_(renderer, *own_scene_, view, settings, checked_needs(technique, settings)) {}
 
 void TechniqueRun::prepare() {
   view_.prepare([&] { draw_frame(); });
