@@ -53,7 +53,7 @@ const TileDistances& distances_of(RenderView& v, Surfaces& surfaces) {
 Frame frame_of(const Surfaces& surfaces) {
   Frame frame;
   if (surfaces.visible) {
-    frame.depth = surfaces.visible->depth();
+    frame.depth = surfaces.visible->pixel_depth();
     frame.triangles = surfaces.visible->triangles();
   }
   return frame;

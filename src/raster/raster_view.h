@@ -66,6 +66,12 @@ struct RasterInstance {
 // locations of Vulkan 1.3, "Multisampling", and Direct3D 11; its y goes down).
 constexpr glm::ivec2 raster_samples_of_4[4] = {{-32, 96}, {96, 32}, {-96, -32}, {32, -96}};
 
+// The places of each number of samples.
+inline std::span<const glm::ivec2> raster_samples(int samples) {
+  (void)samples;
+  return raster_samples_of_4;
+}
+
 struct RasterCamera {
   // 1 to 16,384 pixels a side. A pixel has 1 sample, at its centre, or 4, for each of which the view is drawn
   // once. Masks are looked up at centres.
