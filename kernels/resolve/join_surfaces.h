@@ -1,5 +1,5 @@
-// Triangles that one pixel's samples see and that are one surface: triangles of an instance that share an edge
-// and turn the same way on the screen. Attributes and positions go on across a shared edge, and such
+// Triangles that one pixel's samples see and that are one surface: triangles of an instance that share an
+// edge and turn the same way on the screen. Attributes and positions go on across a shared edge, and such
 // triangles lie on opposite sides of it in the image, so that none hides the other within the pixel. A
 // silhouette, a crease or a seam whose corners have vertices of their own, and another instance, stay apart.
 //
@@ -34,7 +34,8 @@ static inline SeenTriangle seen_triangle(const SeenTriangles* s, uint number) {
     global const float4* clip = s->clip + r->first_clip_vertex;
     const float4 a = clip[t.a], b = clip[t.b], c = clip[t.c];
     // The determinant of (x, y, w), which is linear homogeneous coordinates' signed area.
-    const float x = fma(b.y, c.w, -(c.y * b.w)), y = fma(b.w, c.x, -(c.w * b.x)), w = fma(b.x, c.y, -(c.x * b.y));
+    const float x = fma(b.y, c.w, -(c.y * b.w)), y = fma(b.w, c.x, -(c.w * b.x)),
+                w = fma(b.x, c.y, -(c.x * b.y));
     t.turns_left = fma(a.x, x, fma(a.y, y, a.w * w)) > 0.0f;
   }
   return t;

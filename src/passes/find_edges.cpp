@@ -1,6 +1,7 @@
 #include "passes/find_edges.h"
 
-#include <bit>
+#include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -54,7 +55,8 @@ class PixelEdges : public PassCache {
 std::string sample_defines(int samples) {
   if (samples == 1) return "";
   std::string places;
-  for (const glm::ivec2& p : raster_samples(samples)) places += fmt::format("{}{},{}", places.empty() ? "" : ",", p.x, p.y);
+  for (const glm::ivec2& p : raster_samples(samples))
+    places += fmt::format("{}{},{}", places.empty() ? "" : ",", p.x, p.y);
   return fmt::format(" -DSAMPLES={} -DSAMPLE_PLACES={}", samples, places);
 }
 
@@ -66,12 +68,27 @@ PixelSurfaces find_edges(Work& work, Cached<PixelEdges>& cache, const Visibility
   return edges.find(work, image, raster);
 }
 
-size_t count_edges(Work& work, const PixelSurfaces& surfaces) {
-  std::vector<uint16_t> bits((work.grid().pixels() + 15) / 16);
-  read_buffer(*work.renderer.cl, "counting pixels at edges", surfaces.edges, bits.data(), bits.size() * 2);
-  size_t count = 0;
-  for (const uint16_t some : bits) count += size_t(std::popcount(some));
-  return count;
+SampleFigures sample_figures(Work& work, const Visibility& image, const PixelSurfaces& surfaces) {
+  const PixelGrid grid = work.grid();
+  const auto read = [&](const cl::Buffer& buffer, auto& values) {
+    read_buffer(*work.renderer.cl, "counting pixels at edges", buffer, values.data(),
+                values.size() * sizeof values[0]);
+  };
+  std::vector<uint16_t> edges((grid.pixels() + 15) / 16);
+  std::vector<uint32_t> seen(grid.values());
+  read(surfaces.edges, edges), read(image.triangle, seen);
+  SampleFigures figures;
+  for (size_t i = 0; i < grid.pixels(); ++i) {
+    const std::span<const uint32_t> of(seen.data() + i * size_t(grid.samples), size_t(grid.samples));
+    figures.edge_pixels += edges[i / 16] >> (i % 16) & 1;
+    std::set<uint32_t> distinct(of.begin(), of.end());
+    distinct.erase(no_triangle);
+    figures.shadings += distinct.size();
+    figures.covered += of.size() - size_t(std::ranges::count(of, no_triangle));
+  }
+  figures.bytes =
+      grid.values() * 8 + bytes_of(surfaces.triangles) + bytes_of(surfaces.depths) + bytes_of(surfaces.edges);
+  return figures;
 }
 
 }  // namespace lightgrid

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cl/buffers.h"
+#include "passes/common/frame.h"
 #include "raster/raster_view.h"
 #include "renderer/work.h"
 
@@ -22,7 +23,7 @@ PixelSurfaces find_edges(Work& work, Cached<PixelEdges>& cache, const Visibility
 // -DSAMPLES and -DSAMPLE_PLACES of kernels/resolve/samples.h.
 std::string sample_defines(int samples);
 
-// How many pixels are at edges; waits.
-size_t count_edges(Work& work, const PixelSurfaces& surfaces);
+// Waits.
+SampleFigures sample_figures(Work& work, const Visibility& image, const PixelSurfaces& surfaces);
 
 }  // namespace lightgrid

@@ -122,7 +122,7 @@ class DeviceEngine : public CullEngine {
     std::vector<ShadowImage> images;
     for (const View& view : views) {
       if (!images.empty()) v.look(view);
-      Frame frame = frame_of(find_surfaces(v));
+      Frame frame = frame_of(v, find_surfaces(v));
       tell_shadows(v, v.caches.shadow_bits, frame);
       ShadowImage& image = images.emplace_back();
       image.lights = v.plan.local, image.shadows = frame.shadows();

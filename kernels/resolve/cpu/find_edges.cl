@@ -1,8 +1,10 @@
 // Pixels whose samples all see one surface, and those at edges, whose samples see more: a work-item takes
 // EDGE_RUN pixels of the image, 16 at a time.
 //
-// triangles, depths  SAMPLES a pixel, side by side: a triangle number or SURFACE_NONE; reversed depth. Numbers
-//                    of triangles that are one surface in a pixel become one (kernels/resolve/join_surfaces.h)
+// triangles, depths  SAMPLES a pixel, side by side: a triangle number or SURFACE_NONE; reversed depth.
+// Numbers
+//                    of triangles that are one surface in a pixel become one
+//                    (kernels/resolve/join_surfaces.h)
 // triangle_instance, instances, indices, clip  what a triangle number leads to
 // pixels             of the image
 // pixel_triangles, pixel_depths  out: of pixels with one surface as of one sample at the centre; of others
@@ -24,7 +26,8 @@ static inline void by_sample(const uint16* v, uint16* of) {
   of[0] = HALF(v, 0), of[1] = OTHER_HALF(v, 0);
 #else
   uint16 evens[SAMPLES];  // of even samples, then of odd ones
-  for (uint i = 0; i < SAMPLES / 2; ++i) evens[i] = HALF(v, 2 * i), evens[SAMPLES / 2 + i] = OTHER_HALF(v, 2 * i);
+  for (uint i = 0; i < SAMPLES / 2; ++i)
+    evens[i] = HALF(v, 2 * i), evens[SAMPLES / 2 + i] = OTHER_HALF(v, 2 * i);
 #if SAMPLES == 4
   of[0] = HALF(evens, 0), of[2] = OTHER_HALF(evens, 0);
   of[1] = HALF(evens, 2), of[3] = OTHER_HALF(evens, 2);
@@ -90,7 +93,8 @@ kernel void find_edges(global uint* triangles, global const float* depths,
       vstore16(depth, 0, pixel_depths + at);
     } else {
       for (uint i = 0; i < count; ++i)
-        pixel_triangles[at + i] = ((const uint*)&triangle)[i], pixel_depths[at + i] = ((const float*)&depth)[i];
+        pixel_triangles[at + i] = ((const uint*)&triangle)[i],
+                             pixel_depths[at + i] = ((const float*)&depth)[i];
     }
     edges[at / 16] = (ushort)edge_bits;
   }

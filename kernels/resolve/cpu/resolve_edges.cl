@@ -1,7 +1,7 @@
-// Radiance of pixels at edges, for CPUs: a work-item takes a tile, and of it squares of EDGE_BLOCK pixels. The
-// surfaces of a square's edge pixels (kernels/resolve/samples.h) are put into the order of their triangles,
-// whatever their pixels, and 16 are shaded at a time: along an edge a few triangles meet again and again.
-// Other pixels keep their colours: they cost the test of a bit.
+// Radiance of pixels at edges, for CPUs: a work-item takes a tile, and of it squares of EDGE_BLOCK pixels.
+// The surfaces of a square's edge pixels (kernels/resolve/samples.h) are put into the order of their
+// triangles, whatever their pixels, and 16 are shaded at a time: along an edge a few triangles meet again and
+// again. Other pixels keep their colours: they cost the test of a bit.
 //
 // triangles, depths  SAMPLES a pixel, side by side: a triangle number or SURFACE_NONE; reversed depth
 // edges              a bit a pixel, 16 in a value, of find_edges
@@ -43,8 +43,9 @@ static inline void sort_by_triangle(EdgeSurfaces* e) {
 }
 
 // Surfaces first to first + 15 of the order.
-static inline void shade_surfaces(EdgeSurfaces* e, uint first, uint base_x, uint base_y, const ResolveScene* scene,
-                                  ResolveLights* lights, constant float* bin_edges, constant ViewParams* view) {
+static inline void shade_surfaces(EdgeSurfaces* e, uint first, uint base_x, uint base_y,
+                                  const ResolveScene* scene, ResolveLights* lights, constant float* bin_edges,
+                                  constant ViewParams* view) {
   uint16 triangle;
   real dx, dy, depth;
   for (uint i = 0; i < 16; ++i) {
@@ -62,16 +63,17 @@ static inline void shade_surfaces(EdgeSurfaces* e, uint first, uint base_x, uint
   }
   Surface s = {0};
   add_materials(&s, &a, scene, covered);
-  const Real3 shown = radiance(&a, &s, (float)base_x + 0.5f + dx, (float)base_y + 0.5f + dy, depth, covered, lights,
-                               bin_edges, view);
+  const Real3 shown = radiance(&a, &s, (float)base_x + 0.5f + dx, (float)base_y + 0.5f + dy, depth, covered,
+                               lights, bin_edges, view);
   for (uint i = 0; i < 16 && first + i < e->count; ++i) {
     const ushort one = e->order[first + i];
     e->red[one] = LANE(shown.x, i), e->green[one] = LANE(shown.y, i), e->blue[one] = LANE(shown.z, i);
   }
 }
 
-kernel void resolve_edges(global const uint* triangles, global const float* depths, global const ushort* edges,
-                          RESOLVE_ARGUMENTS, float4 background, global float* image) {
+kernel void resolve_edges(global const uint* triangles, global const float* depths,
+                          global const ushort* edges, RESOLVE_ARGUMENTS, float4 background,
+                          global float* image) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
@@ -107,7 +109,8 @@ kernel void resolve_edges(global const uint* triangles, global const float* dept
       }
       if (e.count == 0) continue;
       sort_by_triangle(&e);
-      for (uint i = 0; i < e.count; i += 16) shade_surfaces(&e, i, base_x, base_y, &scene, &lights, bin_edges, view);
+      for (uint i = 0; i < e.count; i += 16)
+        shade_surfaces(&e, i, base_x, base_y, &scene, &lights, bin_edges, view);
       for (uint i = 0, one = 0; i < found; ++i) {
         float4 color = colors[i];
         for (; one < ends[i]; ++one) {
