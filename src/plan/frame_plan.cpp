@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "plan/dim_lights.h"
 #include "plan/visibility.h"
 
@@ -281,6 +282,18 @@ void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_
                                               : "no light grid"});
 }
 
+// After shadows.
+void plan_samples(const Scene& scene, FramePlan& plan) {
+  const int samples = plan.settings.samples;
+  if (samples == 1) return;
+  plan.decisions.push_back({"samples", true, fmt::format("samples={}", samples)});
+  if (!plan.light_reaches) return;
+  const auto caster = std::ranges::find_if(scene.lights, &Light::casts_shadow);
+  throw input_error("set samples={}: light {} \"{}\" casts a shadow, and shadows are found for one sample a "
+                    "pixel; choose samples=1 or shadows=none",
+                    samples, caster - scene.lights.begin(), caster->name);
+}
+
 void turn_everything_on(const Scene& scene, const View& view, FramePlan& plan, const TechniqueNeeds& needs) {
   plan.light_grid = plan.blend_grid = needs.light_grid;
   plan.world_grid = needs.world_grid;
@@ -388,6 +401,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   }
   plan_slices(view, needs, farthest_m, plan);
   plan_shadows(scene, view, needs, instances, plan);
+  plan_samples(scene, plan);
   plan.shadow_bytes = settings.soft_shadows() || settings.picks_shadows() ||
                       (settings.shadows == ShadowMethod::map && settings.shadow_taps > 1) ||
                       (plan.light_reaches && has_veils(scene, settings.blended_casters()));

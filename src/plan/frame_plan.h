@@ -68,6 +68,7 @@ struct TechniqueNeeds {
   bool chosen_raster = false;       // draws with OpenGL, or with the setting raster=opencl without
   bool world_grid = false;          // light lists in cells of the world
   bool shadows = true;              // light loops ask for shadows
+  int most_samples = 1;             // a pixel, that its passes can take
   // The technique finds those of point and spot lights itself, of so many lights at most; the pass that all
   // techniques share is then left those of directional lights.
   bool own_shadows = false;

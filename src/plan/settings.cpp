@@ -195,6 +195,10 @@ std::vector<Setting>& all_settings() {
                                       {"box", VolumeMeshes::box}})},
       {"raster", "who draws triangles: OpenGL, or OpenCL alone, as visibility does",
        named(&Settings::raster, {{"opengl", RasterApi::opengl}, {"opencl", RasterApi::opencl}})},
+      {"samples",
+       "a pixel, at which triangles are drawn: 1 is its centre; of more, each surface that they see is shaded "
+       "once and counts by its share of them",
+       numbers(&Settings::samples, {"1", "2", "4", "8"})},
       {"texels",
        "textures in OpenCL: the maps of a material in one texel of 16 or 8 bytes where their sizes agree, or "
        "each its own",

@@ -92,6 +92,7 @@ struct Settings {
   int prepass_shininess = 32;  // the lights' specular exponent: 2, 8, 32, 128 or 512
   NormalFormat normals = NormalFormat::floats;
   RasterApi raster = RasterApi::opengl;
+  int samples = 1;  // a pixel, at which triangles are drawn: 1, 2, 4 or 8
   TexelLayout texels = TexelLayout::packed;
   ShadedLights lights = ShadedLights::grid;
   VoxelSize voxel_size = VoxelSize::s128x128x16;

@@ -126,11 +126,11 @@ class DeviceEngine : public CullEngine {
     std::vector<ShadowImage> images;
     for (const View& view : views) {
       if (!images.empty()) v.look(view);
-      Frame frame = frame_of(find_surfaces(v));
+      Frame frame = frame_of(v, find_surfaces(v));
       tell_shadows(v, v.caches.shadow_bits, frame);
       ShadowImage& image = images.emplace_back();
       image.lights = v.plan.local, image.shadows = frame.shadows();
-      std::vector<uint32_t> numbers(v.grid().values());
+      std::vector<uint32_t> numbers(v.grid().pixels());
       image.depths.resize(numbers.size());
       read_buffer(*renderer_->cl, "triangles", frame.triangles->numbers, numbers.data(), numbers.size() * 4);
       read_buffer(*renderer_->cl, "depths", frame.depth->values, image.depths.data(), numbers.size() * 4);

@@ -53,7 +53,7 @@ std::vector<SixSums> filled_sums(Renderer& renderer, const Scene& scene, const V
                {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true});
   if (!v.plan.light_grid) return std::vector<SixSums>(v.grid().values(), SixSums{});
   ClDevice& device = *renderer.cl;
-  SharedBuffer& depth = v.shared_pixels("depth", 4);
+  SharedBuffer& depth = v.shared_samples("depth", 4);
   write_buffer(device, "writing depth", depth.cl_buffer(), input.depth.data(), v.grid().values() * 4);
   const NormalsInCl normals = normals_in_cl_of(v, TargetUse::gbuffer);
   write_buffer(device, "writing normals", normals.image->cl_buffer(), input.normals.data(),

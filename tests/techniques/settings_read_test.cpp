@@ -109,7 +109,7 @@ Assignments with(Assignments context, const Assignments& others) {
 Assignments not_declared(const Technique& technique, size_t value) {
   Assignments others;
   for (const SettingHelp& s : setting_help()) {
-    if (!reads_setting(technique, s.key))
+    if (!reads_setting(technique, s.key) && s.key != "samples")  // which is refused: Samples.*
       others.insert(s.key + "=" + s.values[std::min(value, s.values.size() - 1)]);
   }
   return others;
