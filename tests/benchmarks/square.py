@@ -43,7 +43,8 @@ def program(*arguments):
 
 
 def compare(folder, techniques, *more):
-    program("compare", "square", "--size", SIZE, "-t", ",".join(techniques), "--frames", FRAMES, "-o", folder, *more, *MORE)
+    program("compare", "square", "--size", SIZE, "-t", ",".join(techniques), "--frames", FRAMES, "--reference", "full",
+            "-o", folder, *more, *MORE)
     return json.load(open(f"{folder}/results.json"))
 
 
