@@ -169,7 +169,11 @@ void GlLights::bind() const {
 void ClLights::upload(ClDevice& device, const Seen& seen) {
   const LightTable table = light_table(seen);
   constexpr const char* what = "uploading lights";
-  for (size_t i = 0; i < light_column_count; ++i) columns_[i].put(device, what, table.columns[i].values);
+  for (size_t i = 0; i < light_column_count; ++i) {
+    // A column that no kernel of this view has read yet stays a null argument.
+    const LightColumn& column = table.columns[i];
+    if (column.needed || columns_[i].bytes() > 0) columns_[i].put(device, what, column.values);
+  }
   directional.put(device, what, table.directional);
   view.put(device, what, std::vector<ViewParams>{seen.params});
   const auto put_edges = [&](UploadedBuffer& to, int count, const auto& keys_of) {
