@@ -2,8 +2,6 @@
 // whose y goes down.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
@@ -31,8 +29,8 @@ inline std::string sample_defines(int samples) {
   if (samples == 1) return "";
   std::string places;
   for (const glm::ivec2& p : raster_samples(samples))
-    places += fmt::format("{}{},{}", places.empty() ? "" : ",", p.x, p.y);
-  return fmt::format(" -DSAMPLES={} -DSAMPLE_PLACES={}", samples, places);
+    places += (places.empty() ? "" : ",") + std::to_string(p.x) + ',' + std::to_string(p.y);
+  return " -DSAMPLES=" + std::to_string(samples) + " -DSAMPLE_PLACES=" + places;
 }
 
 }  // namespace lightgrid
