@@ -24,12 +24,16 @@ static uint32_t features_of_depth(uint32_t features) {
   return features & feature_mask ? features & (features_of_base_color | feature_mask) : 0;
 }
 
-DepthImage depth_prepass(Work& work) {
-  auto pass = work.timer.pass("depth_prepass", "gl");
-  const GLuint framebuffer = work.depth_framebuffer();
+void draw_depth(Work& work, GLuint framebuffer) {
   begin_depth(work, framebuffer, GL_GREATER);
   draw_list(work, work.opaque, DrawStreams::positions_where_possible,
             work.programs({"shaders/depth.vert", "shaders/depth.frag", {}, false, features_of_depth}));
+}
+
+DepthImage depth_prepass(Work& work) {
+  auto pass = work.timer.pass("depth_prepass", "gl");
+  const GLuint framebuffer = work.depth_framebuffer();
+  draw_depth(work, framebuffer);
   pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * 4);
   return {framebuffer};
 }

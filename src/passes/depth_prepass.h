@@ -7,6 +7,8 @@
 namespace lightgrid {
 
 DepthImage depth_prepass(Work& work);
+// The same into another framebuffer of the view's size, its depth cleared.
+void draw_depth(Work& work, GLuint framebuffer);
 
 // The same image, cleared: for a technique that finds depth as it shades.
 DepthImage no_depth_yet(Work& work);

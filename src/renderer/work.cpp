@@ -35,6 +35,7 @@ Work::Work(Seen seen, Renderer& renderer, GpuScene& gpu, std::shared_ptr<TargetP
 
 std::vector<std::string> Work::view_defines(std::vector<std::string> defines) const {
   if (view.orthographic) defines.emplace_back("ORTHOGRAPHIC");
+  if (plan.opengl && grid().samples > 1) defines.push_back(fmt::format("SAMPLES {}", grid().samples));
   if (plan.settings.everything_on) defines.emplace_back("EVERYTHING_ON");
   return defines;
 }

@@ -126,5 +126,58 @@ TEST_F(SamplesOfVisibility, AreRefusedWhereALightCastsAShadow) {
   EXPECT_NO_THROW(draw("samples=4 shadows=none"));
 }
 
+// OpenGL's coverage, shaded once a pixel and surface.
+class SamplesOfOpenGl : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"blend", "mask", "spot", "directional"}) effect(name).add(s_);
+    try {
+      draw("forward", 4);
+    } catch (const Error& error) {
+      GTEST_SKIP() << error.what();
+    }
+  }
+  Image draw(const char* technique, int samples) const {
+    Settings settings;
+    settings.samples = samples;
+    return render(s_.scene, small_view(67, 41), technique, settings);
+  }
+  SmallScene s_ = small_scene();
+};
+
+TEST_F(SamplesOfOpenGl, ShowTheImageOfForwardInEveryTechniqueThatTakesThem) {
+  const Image four = draw("forward", 4);
+  EXPECT_FALSE(same_bytes(four, draw("forward", 1)));
+  for (const char* technique : {"forward_plus", "clustered", "world_grid"})
+    EXPECT_TRUE(identical(draw(technique, 4), four)) << technique;
+  for (const char* technique : {"forward_multipass", "forward_zprepass"})
+    EXPECT_LT(compare_images(draw(technique, 4), four).max_rel, 1e-6) << technique;
+}
+
+TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesAndStaySmallInside) {
+  s_ = small_scene(false);
+  effect("directional").add(s_);
+  for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
+  const FineTruth truth(s_.scene, 67, 41);
+  const Image one = draw("forward", 1), four = draw("forward", 4);
+  // Random places would halve it.
+  EXPECT_LT(truth.error(four, true), truth.error(one, true) / 3);
+  // Where two triangles of the ball meet in a pixel each is shaded at a place of its own, which is none of its centre.
+  EXPECT_LT(truth.error(four, false), truth.error(four, true) / 10);
+  RecordProperty("errors", fmt::format("edges {:.5f} and {:.5f}, inside {:.5f} and {:.5f}", truth.error(one, true),
+                                       truth.error(four, true), truth.error(one, false), truth.error(four, false)));
+}
+
+TEST_F(SamplesOfOpenGl, AreRefusedWhereTheMachineHasOtherNumbers) {
+  for (const int samples : {2, 8}) {
+    try {
+      draw("forward_plus", samples);  // some machines have them
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::machine);
+      EXPECT_THAT(error.what(), HasSubstr(fmt::format("{} samples", samples)));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lightgrid
