@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "session/surfaces_in_double.h"
+#include "support/fine_truth.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -34,42 +34,9 @@ TEST(Samples, AreTakenByTechniquesThatDeclareThemAndRefusedByOthersByName) {
   }
 }
 
-// A picture drawn at `side` times the size: side * side samples a pixel in a grid, and whose instances each
-// sees.
-struct FineTruth {
-  FineTruth(const Scene& scene, int width, int height) : image(width, height), edges(image.pixels.size()) {
-    TechniqueRun run(test_devices(), scene, small_view(side * width, side * height), {},
-                     find_technique("visibility"));
-    run.run_frame();
-    const std::vector<SceneTriangle> shown = own_triangles(run);
-    std::vector<int> first(image.pixels.size(), no_instance);
-    for (int y = 0; y < side * height; ++y) {
-      for (int x = 0; x < side * width; ++x) {
-        const size_t pixel = size_t(y / side) * size_t(width) + size_t(x / side),
-                     fine = size_t(y) * size_t(side * width) + size_t(x);
-        image.pixels[pixel] += run.image().pixels[fine] / float(side * side);
-        int& instance = first[pixel];
-        if (instance == no_instance) instance = shown[fine].instance;
-        if (shown[fine].instance != instance) edges[pixel] = true;
-      }
-    }
-  }
-  // Root mean square of the brightest channel's difference over pixels at edges, or over those inside.
-  double error(const Image& other, bool at_edges) const {
-    double sum = 0;
-    size_t count = 0;
-    for (size_t i = 0; i < edges.size(); ++i) {
-      if (edges[i] != at_edges) continue;
-      const glm::vec3 d = glm::abs(glm::vec3(image.pixels[i]) - glm::vec3(other.pixels[i]));
-      sum += std::pow(double(std::max({d.r, d.g, d.b})), 2), ++count;
-    }
-    return std::sqrt(sum / double(count));
-  }
-
-  static constexpr int side = 16, no_instance = -2;
-  Image image;
-  std::vector<bool> edges;
-};
+FineTruth truth_of(const Scene& scene, int width, int height) {
+  return {test_devices(), scene, small_view(FineTruth::side * width, FineTruth::side * height)};
+}
 
 class SamplesOfVisibility : public testing::Test {
  protected:
@@ -102,7 +69,7 @@ TEST_F(SamplesOfVisibility, HaveErrorsThatFallAtEdgesAndStayInside) {
   s_ = small_scene(false);
   effect("directional").add(s_);
   for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
-  const FineTruth truth(s_.scene, 67, 41);
+  const FineTruth truth = truth_of(s_.scene, 67, 41);
   std::vector<double> at_edges, inside;
   for (const char* samples : {"samples=1", "samples=2", "samples=4", "samples=8"}) {
     const Image image = draw(samples);
@@ -158,7 +125,7 @@ TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesAndStaySmallInside) {
   s_ = small_scene(false);
   effect("directional").add(s_);
   for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
-  const FineTruth truth(s_.scene, 67, 41);
+  const FineTruth truth = truth_of(s_.scene, 67, 41);
   const Image one = draw("forward", 1), four = draw("forward", 4);
   // Random places would halve it.
   EXPECT_LT(truth.error(four, true), truth.error(one, true) / 3);
