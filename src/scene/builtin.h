@@ -15,7 +15,7 @@ struct BuiltinScene {
   Scene (*make)();
 };
 
-// hall, spheres, terrain, street, particles, gallery.
+// hall, spheres, terrain, street, particles, gallery, rooms.
 const std::vector<BuiltinScene>& builtin_scenes();
 
 // nullptr if there is none of that name.
@@ -27,5 +27,6 @@ Scene make_terrain();
 Scene make_street();
 Scene make_particles();
 Scene make_gallery();
+Scene make_rooms();
 
 }  // namespace lightgrid
