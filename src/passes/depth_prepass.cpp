@@ -1,6 +1,7 @@
 // Depth first, so that each pixel is shaded once and culling has depth bounds for each tile.
 #include "passes/depth_prepass.h"
 
+#include "passes/common/group_stencil.h"
 #include "renderer/drawing/draw.h"
 
 namespace lightgrid {
@@ -51,10 +52,16 @@ NormalImage fill_normals(Work& work) {
   glClearNamedFramebufferfv(normals.framebuffer, GL_COLOR, 0, nothing);
   std::vector<std::string> defines;
   if (normals.layout->define) defines.emplace_back(normals.layout->define);
-  draw_list(work, work.opaque, DrawStreams::all,
-            work.programs({"shaders/scene.vert", "shaders/normals.frag", std::move(defines), false,
-                           features_of_normals}));
-  pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * (4 + normals.layout->image.bytes));
+  if (normals.group_numbers) {
+    const GLuint number[4] = {0, 0, 0, 0};
+    glClearNamedFramebufferuiv(normals.framebuffer, GL_COLOR, 1, number);
+    defines.emplace_back("GROUP_LOCATION 1");
+  }
+  draw_grouped(work, work.opaque, normals.framebuffer,
+               work.programs({"shaders/scene.vert", "shaders/normals.frag", std::move(defines), false,
+                              features_of_normals}));
+  pass.moves(work.gpu.in_gl().geometry_bytes(),
+             work.grid().values() * (4 + normals.layout->image.bytes + group_number_bytes(work.plan)));
   return normals;
 }
 

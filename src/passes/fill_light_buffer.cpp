@@ -15,6 +15,7 @@ std::string defines_of_light_buffer(const Seen& seen, bool lanes) {
   defines += fmt::format(" -DBUFFER_BITS={}", s.buffer_bits);
   if (normal_layout(s).define) defines += fmt::format(" -D{}", normal_layout(s).define);
   if (has_fifth_term(s)) defines += " -DPREPASS_FIFTH_TERM";
+  defines += group_number_define(seen.plan);
   return defines;
 }
 
@@ -49,7 +50,12 @@ NormalsInCl normals_to_cl(Work& work, const NormalImage& normals) {
   auto pass = work.timer.pass("normals_to_cl", "gl");
   work.renderer.pixel_copies.to_buffer({normals.framebuffer, GL_COLOR_ATTACHMENT0, normals.texture},
                                        image.pixel, image.type, work.grid(), in_cl.image->gl_buffer());
-  in_cl.image->hand_to_cl(bytes);
+  std::vector<SharedBuffer::Written> written = {{in_cl.image, bytes}};
+  if (in_cl.group_numbers) {
+    copy_group_numbers(work, normals.framebuffer, 1, normals.group_numbers, *in_cl.group_numbers);
+    written.push_back({in_cl.group_numbers, work.grid().values() * group_number_bytes(work.plan)});
+  }
+  SharedBuffer::hand_to_cl(written);
   pass.moves(bytes, bytes);
   return in_cl;
 }
@@ -67,7 +73,7 @@ LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const No
   const auto [items, group] = over_pixels(work, s.kernels.lanes, 16, 16);
   kernel.launch(*work.renderer.cl, "fill_light_buffer", items, group,
                 ClArguments{{"normals", normals.image->cl_buffer()}, {"depth", depth.values}} +
-                    work.light_arguments() +
+                    group_number_arguments(work.plan, normals.group_numbers) + work.light_arguments() +
                     ClArguments{{"cells", lights.in_cl->cells},
                                 {"indices", lights.in_cl->indices},
                                 {"light_bins", lights.in_cl->z_bins},

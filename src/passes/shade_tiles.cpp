@@ -40,6 +40,7 @@ class TileShading : public PassCache {
     const Settings& settings = seen.plan.settings;
     std::string defines = fmt::format("-DBUFFER_BITS={}", settings.buffer_bits) +
                           light_defines(seen, kernels.lanes, settings.brdf);
+    defines += group_number_define(seen.plan);
     if (seen.plan.clearcoat) defines += " -DCLEARCOAT";
     if (seen.plan.specular) defines += " -DSPECULAR";
     for (const char* define : model_defines(seen.plan)) defines += fmt::format(" -D{}", define);
@@ -65,6 +66,7 @@ GBufferInCl gbuffer_to_cl(Work& work, const GBuffer& gbuffer) {
   for (const size_t i : in_cl.images)
     copies.push_back({in_cl.surfaces[i], values * gbuffer.layout->images[i].bytes});
   if (base_lighting) copies.push_back({in_cl.image, values * 16});
+  if (in_cl.group_numbers) copies.push_back({in_cl.group_numbers, values * in_cl.group_bytes});
   std::vector<SharedBuffer*> buffers;
   for (const SharedBuffer::Written& copy : copies) buffers.push_back(copy.buffer);
   SharedBuffer::take_for_gl(buffers);
@@ -74,6 +76,9 @@ GBufferInCl gbuffer_to_cl(Work& work, const GBuffer& gbuffer) {
   }
   if (base_lighting)
     copy_attachment(work, gbuffer, 2, work.targets.texture("color", GL_RGBA32F), GL_FLOAT, *in_cl.image);
+  if (in_cl.group_numbers)
+    copy_group_numbers(work, gbuffer.framebuffer, gbuffer.group_attachment(), gbuffer.group_numbers,
+                       *in_cl.group_numbers);
   SharedBuffer::hand_to_cl(copies);
   const size_t bytes = values * (gbuffer.bytes() + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
@@ -106,7 +111,7 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
                           {"specular", gbuffer.in_cl(gbuffer_specular)},
                           {"models", s.models.buffer()},
                           {"depth", depth.values}} +
-                  work.light_arguments() +
+                  group_number_arguments(work.plan, gbuffer.group_numbers) + work.light_arguments() +
                   ClArguments{{"cells", lights.in_cl->cells},
                               {"indices", lights.in_cl->indices},
                               {"light_bins", lights.in_cl->z_bins},

@@ -12,8 +12,8 @@ extern const Technique deferred_tiled{
     .summary = "a geometry buffer, lit in OpenCL from per-tile light lists",
     .source = "Lauritzen: Deferred Rendering for Current and Future Rendering Pipelines, SIGGRAPH 2010",
     .needs = {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true},
-    .settings = {"brdf", "buffer-bits", "cull-test", "depth-bounds", "tile", "slice-spacing", "z-bins",
-                 "raster", "texels", "kernel-shape", "portable", "group-size"},
+    .settings = {"brdf", "buffer-bits", "group-ids", "cull-test", "depth-bounds", "tile", "slice-spacing",
+                 "z-bins", "raster", "texels", "kernel-shape", "portable", "group-size"},
     .render = render};
 
 }  // namespace lightgrid

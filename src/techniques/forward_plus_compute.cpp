@@ -11,8 +11,8 @@ extern const Technique forward_plus_compute{
     .summary = "per-tile light lists, shaded in OpenCL",
     .source = "Harada, McKee, Yang: Forward+, Eurographics 2012; the loop as in Lauritzen, SIGGRAPH 2010",
     .needs = {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true},
-    .settings = {"brdf", "buffer-bits", "cull-test", "depth-bounds", "tile", "slice-spacing", "z-bins",
-                 "raster", "texels", "kernel-shape", "portable", "group-size"},
+    .settings = {"brdf", "buffer-bits", "group-ids", "cull-test", "depth-bounds", "tile", "slice-spacing",
+                 "z-bins", "raster", "texels", "kernel-shape", "portable", "group-size"},
     .render = render};
 
 }  // namespace lightgrid

@@ -68,7 +68,7 @@ static Frame render(RenderView& v) {
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
   if (prepass_lights.of(settings) == PrepassLights::tiles) return;
   needs.light_grid = false, needs.no_light_grid = "prepass-lights=volumes";
-  needs.stencil = settings.volume_culling == VolumeCulling::stencil;
+  needs.stencil = settings.volume_culling == VolumeCulling::stencil, needs.group_stencil = true;
 }
 
 extern const Technique light_prepass{
@@ -76,9 +76,11 @@ extern const Technique light_prepass{
     .summary = "depth and normals, then a buffer of light, then materials",
     .source = "Engel: Designing a Renderer for Multiple Lights: The Light Pre-Pass Renderer, ShaderX7, 2009",
     .needs = {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true, .adapt = adapt},
-    .settings = {"brdf", "prepass-lights", "prepass-specular", "prepass-shininess", "buffer-bits", "normals",
-                 "volume-culling", "volume-mesh", "cull-test", "depth-bounds", "tile", "slice-spacing",
-                 "z-bins", "raster", "texels", "kernel-shape", "portable", "group-size"},
+    .settings = {"brdf",          "prepass-lights", "prepass-specular", "prepass-shininess",
+                 "buffer-bits",   "normals",        "volume-culling",   "group-ids",
+                 "group-stencil", "volume-mesh",    "cull-test",        "depth-bounds",
+                 "tile",          "slice-spacing",  "z-bins",           "raster",
+                 "texels",        "kernel-shape",   "portable",         "group-size"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .approximate = true};

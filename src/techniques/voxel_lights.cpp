@@ -39,7 +39,12 @@ extern const Technique voxel_lights{
     .name = "voxel_lights",
     .summary = "a volume of irradiance and mean directions: lights cost by the sample, not by the pixel",
     .source = "Geldreich: Light Indexed Deferred Rendering, on Halo Wars, 2009",
-    .needs = {.light_grid = true, .lists = true, .chosen_raster = true, .adapt = adapt},
+    .needs = {.light_grid = true,
+              .lists = true,
+              .chosen_raster = true,
+              .adapt = adapt,
+              .groups_of =
+                  "; of directional and exact lights alone: the volume's light belongs to no surface"},
     .settings = {"brdf", "voxel-size", "voxel-space", "voxel-bits", "voxel-lights-exact", "voxel-reuse",
                  "cull-test", "depth-bounds", "tile", "raster", "texels", "kernel-shape", "portable",
                  "group-size"},

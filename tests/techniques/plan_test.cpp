@@ -114,6 +114,7 @@ TEST_P(EachEffect, CostsWhatItSaysAndNothingElse) {
       {"unlit", program},
       {"spot", light_array},  // cones; all programs are others, none is more
       {"directional", light_array},
+      {"groups", light_array},  // masks; none of the programs is another one
   };
   EXPECT_EQ(work_of(with().scene), plain_frame + added.at(effect.name));
 }

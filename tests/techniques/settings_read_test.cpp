@@ -61,7 +61,7 @@ std::vector<Assignments> contexts_of(const Technique& technique) {
 // A mask, glass, clearcoat, textures, point and spot lights and a sun.
 Scene scene_of_effects(bool shadows) {
   SmallScene s = small_scene();
-  for (const char* name : {"blend", "mask", "spot", "directional"}) effect(name).add(s);
+  for (const char* name : {"blend", "mask", "spot", "directional", "groups"}) effect(name).add(s);
   s.scene.lights[2].casts_shadow = s.scene.lights[0].casts_shadow = shadows;
   // Too dim for any step of the display.
   if (shadows) add_point(s.scene, "ember", {0, 0, -1}, {1, 1, 1}, 1e-9f, 4).casts_shadow = true;
