@@ -40,7 +40,7 @@ typedef struct VoxelLights {
   global const float4* colors;  // radiant intensity, and the least 1 / distance^2
 #ifdef SPOTS
   // scale 0: no cone. Axis times scale, offset (shared/punctual_light.h), scale, 1 - cosine and
-  // squared sine of the half-angle
+  // squared sine of the half-angle, the most falloff of a virtual light
   global const float8* cones;
 #endif
 } VoxelLights;
@@ -126,7 +126,12 @@ static inline real voxel_cone(float8 cone, Real3 d, real inverse_squared, real i
   const real root = lane_max(sqrt(x * x + soft_squared) + fabs(x), REAL(1e-30f));
   const real y = x > REAL(0.0f) ? 0.5f * root : 0.5f * soft_squared / root;
   const real angular = x < -4.0f * cone.s4 * sqrt(q) ? REAL(0.0f) : lane_min(y, REAL(1.0f));
-  return (angular * angular) * (cone.s5 / (cone.s5 + 0.5f * q));
+#ifdef VIRTUAL_LIGHTS
+  const real fade = cone.s7 > 0.0f ? angular : angular * angular;
+#else
+  const real fade = angular * angular;
+#endif
+  return fade * (cone.s5 / (cone.s5 + 0.5f * q));
 }
 
 // What a light is attenuated by at samples, 0 out of its reach or its cone, and 1 / distance. d: to the
@@ -151,6 +156,9 @@ static inline VoxelArrival voxel_arrival(Real3 position, float3 place, Real3 d, 
   const real inverse_squared = 1.0f / lane_max(squared, REAL(1.2e-38f));
   a.inverse = sqrt(inverse_squared);
   real falloff = lane_min(inverse_squared, REAL(1.0f / slice->core_squared));
+#ifdef VIRTUAL_LIGHTS
+  if (cone.s7 > 0.0f) falloff = lane_min(falloff, REAL(cone.s7));
+#endif
 #ifdef LEAST_FALLOFF
   falloff = lane_max(falloff, REAL(color.w));
 #endif

@@ -1,4 +1,8 @@
 // The point and spot lights by index.
+//   NO_CONES: point lights alone are read, whatever the scene has
+#if defined(NO_CONES) && defined(SPOTS)
+#undef SPOTS
+#endif
 #include "shared/punctual_light.h"
 
 LIGHT_TABLE(LIGHT_TEXTURE)

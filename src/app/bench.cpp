@@ -59,7 +59,7 @@ std::vector<BenchCase> replayed_cases(const BenchCommand& o) {
 class SceneFrames {
  public:
   SceneFrames(const SceneChoice& choice, const DeviceOptions& devices)
-      : choice_(with_scene(choice)),
+      : choice_(with_scene(choice, devices)),
         settings_(chosen_settings(choice_)),
         chosen_(load_chosen_scene(choice_)),
         path_(chosen_path(chosen_.scene, chosen_.view, choice_)),
@@ -80,7 +80,8 @@ class SceneFrames {
   }
 
  private:
-  static SceneChoice with_scene(SceneChoice choice) {
+  static SceneChoice with_scene(SceneChoice choice, const DeviceOptions& devices) {
+    choice.device = devices.device;
     if (choice.scene.empty()) choice.scene = SceneChoice().scene;
     return choice;
   }
@@ -99,8 +100,8 @@ class SceneFrames {
 bool chooses_scene(const SceneChoice& o) {
   const SceneChoice plain;
   return !o.scene.empty() || !o.camera_path.empty() || !o.camera.empty() || !o.lights_file.empty() ||
-         !o.light_radius.empty() || !o.ambient.empty() || !o.shadows.empty() || !o.time.empty() ||
-         o.lights >= 0 || o.size != plain.size || o.seed != plain.seed ||
+         !o.light_radius.empty() || o.virtual_lights > 0 || !o.ambient.empty() || !o.shadows.empty() ||
+         !o.time.empty() || o.lights >= 0 || o.size != plain.size || o.seed != plain.seed ||
          o.light_motion != plain.light_motion;
 }
 

@@ -70,6 +70,7 @@ int capture(CaptureOptions o) {
     grid_needs(o.technique, settings);  // what is wrong with the technique is said before the work
   parse_gl_backend(o.devices.gl);
   if (!o.json.empty()) check_output_file("--json", o.json);
+  o.scene.device = o.devices.device;
   ChosenScene chosen = load_chosen_scene(o.scene);
   const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
   return with_output_folder(o.output, [&] { return capture_all(o, settings, chosen, path); });

@@ -55,7 +55,7 @@ Shard parse_shard(const std::string& text) {
 
 SceneChoice choice_of(const FrontierCommand& o, const std::string& scene) {
   SceneChoice choice = o.scene;
-  choice.scene = scene;
+  choice.scene = scene, choice.device = o.devices.device;
   return choice;
 }
 
@@ -95,6 +95,7 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
                             {"seed", s.seed},
                             {"views", o.views}};
   if (!s.ambient.empty()) request["ambient"] = s.ambient;
+  if (s.virtual_lights > 0) request["virtual"] = {s.virtual_lights, s.virtual_from, s.virtual_nearest};
   if (!s.shadows.empty()) request["shadows"] = s.shadows;
   if (!s.exposure.empty()) request["exposure"] = s.exposure;
   for (const ChosenPoint& point : points) {

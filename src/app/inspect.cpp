@@ -92,6 +92,7 @@ Subject load_frame(const SceneChoice& o) {
                                                 {"--lights", o.lights >= 0},
                                                 {"--lights-file", !o.lights_file.empty()},
                                                 {"--light-radius", !o.light_radius.empty()},
+                                                {"--virtual-lights", o.virtual_lights > 0},
                                                 {"--ambient", !o.ambient.empty()},
                                                 {"--shadows", !o.shadows.empty()}};
   for (const auto& [option, is_given] : given) {
@@ -217,6 +218,7 @@ int inspect(InspectOptions o) {
   culling_contestants(given, o.compare, most_compared);
   parse_gl_backend(o.devices.gl);
   if (!o.json.empty()) check_output_file("--json", o.json);
+  o.scene.device = o.devices.device;
   Subject subject = load_subject(o.scene);
   if (place) check_place(*place, subject.view());
   if (!o.output.empty()) make_folder(o.output);

@@ -26,7 +26,13 @@ void add_view_options(Subcommand& command, SceneChoice& o) {
   command.option("--ambient", o.ambient, "radiance from all sides instead of the scene's own; 0: none");
   command.option("--shadows", o.shadows,
                  "lights that cast shadows: the N most important, all or none (default: as the scene says)");
-  command.option("--seed", o.seed, "seed of the scatter");
+  command.option("--virtual-lights", o.virtual_lights,
+                 "places N virtual point lights where surfaces reflect the others", 0, most_virtual_lights);
+  command.option("--virtual-from", o.virtual_from,
+                 "lights that are reflected: the N most important, or all (default)");
+  command.option("--virtual-nearest", o.virtual_nearest,
+                 "virtual lights count as no nearer, in metres, or auto: by what each stands for (default)");
+  command.option("--seed", o.seed, "seed of the scatter, and of the places of virtual lights");
   command.option("--brdf", o.brdf, "ggx, blinn or lambert: short for --set brdf=…");
   command.option("--time", o.time, "seconds into the animations of the file; not given: at rest");
   command.list("--set", o.set, "a setting, KEY=VALUE; may be repeated");

@@ -41,6 +41,7 @@ int plan(PlanOptions o) {
   const Technique& technique = find_technique(o.technique);
   const Settings settings = chosen_settings(o.scene);
   check_given_settings(settings, {&technique});
+  check_samples(technique, settings);
   if (!o.json.empty()) check_output_file("--json", o.json);
   const ChosenScene chosen = load_chosen_scene(o.scene);
   const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
@@ -55,6 +56,7 @@ int plan(PlanOptions o) {
   nlohmann::ordered_json json = {{"scene", chosen.scene.name},
                                  {"technique", technique.name},
                                  {"decisions", nlohmann::ordered_json::array()}};
+  if (plan.virtual_lights) json["lights_virtual"] = plan.virtual_count;
   for (const Decision& d : plan.decisions) {
     json["decisions"].push_back({{"effect", d.effect}, {"needed", d.needed}, {"why", d.why}});
   }

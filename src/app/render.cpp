@@ -63,6 +63,7 @@ int render(RenderOptions o) {
   check_output_file("-o", o.output);
   if (!o.json.empty()) check_output_file("--json", o.json);
   parse_gl_backend(o.devices.gl);
+  o.scene.device = o.devices.device;
   ChosenScene chosen = load_chosen_scene(o.scene);
   const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
   Renderer renderer = open_devices(o.devices, o.technique, settings);

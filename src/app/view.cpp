@@ -29,8 +29,11 @@ std::string scene_words(const ViewOptions& o) {
   if (s.lights >= 0) words += fmt::format(" --lights {}", s.lights);
   if (!s.lights_file.empty()) words += " --lights-file " + shell_word(s.lights_file);
   if (!s.light_radius.empty()) words += " --light-radius " + shell_word(s.light_radius);
+  if (s.virtual_lights > 0) words += fmt::format(" --virtual-lights {}", s.virtual_lights);
+  if (!s.virtual_from.empty()) words += " --virtual-from " + s.virtual_from;
+  if (!s.virtual_nearest.empty()) words += " --virtual-nearest " + s.virtual_nearest;
   if (!s.ambient.empty()) words += " --ambient " + shell_word(s.ambient);
-  if (s.lights >= 0 && s.lights_file.empty() && s.seed != SceneChoice().seed)
+  if (((s.lights >= 0 && s.lights_file.empty()) || s.virtual_lights > 0) && s.seed != SceneChoice().seed)
     words += fmt::format(" --seed {}", s.seed);
   if (!s.exposure.empty()) words += " --exposure " + s.exposure;
   if (!o.device.empty()) words += " --device " + shell_word(o.device);
@@ -62,6 +65,7 @@ ViewJob make_job(const ViewOptions& o) {
 // The window chooses the lights that cast, so that the scene's own can be chosen again.
 void load(ViewJob& job, SceneChoice choice) {
   choice.shadows.clear();
+  job.reflect = [choice](Scene& scene) { return chosen_virtual_lights(scene, choice); };
   ChosenScene chosen = load_chosen_scene(choice);
   job.scene = std::move(chosen.scene);
   job.view = chosen.view;
@@ -71,8 +75,11 @@ void load(ViewJob& job, SceneChoice choice) {
 ViewJob load_other(ViewOptions o, const std::string& scene) {
   o.scene.scene = scene;
   o.scene.camera = o.scene.lights_file = o.scene.time = "";
+  o.scene.device = o.device;
   ViewJob job = make_job(o);
-  load(job, o.scene);
+  SceneChoice choice = o.scene;
+  choice.device = o.device;
+  load(job, choice);
   job.load = [o](const std::string& name) { return load_other(o, name); };
   return job;
 }
@@ -92,7 +99,9 @@ int view(const ViewOptions& o) {
   const char* beside = context->software ? "visibility" : "forward_plus";
   job.controls.sides = {{{o.left.empty() ? "visibility" : find_technique(o.left).name, settings},
                          {o.right.empty() ? beside : find_technique(o.right).name, settings}}};
-  load(job, o.scene);
+  SceneChoice choice = o.scene;
+  choice.device = o.device;
+  load(job, choice);
   job.load = [o](const std::string& name) { return load_other(o, name); };
   Renderer renderer(o.device, std::move(context));
   for (std::optional<ViewJob> next = std::move(job); next;) {

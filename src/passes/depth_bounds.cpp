@@ -6,7 +6,7 @@ namespace lightgrid {
 DepthBuffer depth_to_cl(Work& work, const DepthImage& depth) {
   const size_t bytes = work.grid().values() * 4;
   auto pass = work.timer.pass("depth_to_cl", "gl");
-  SharedBuffer& copy = work.shared_pixels("depth", 4);
+  SharedBuffer& copy = work.shared_samples("depth", 4);
   work.renderer.pixel_copies.to_buffer({depth.framebuffer, GL_DEPTH_ATTACHMENT, work.targets.depth()},
                                        GL_DEPTH_COMPONENT, GL_FLOAT, work.grid(), copy.gl_buffer());
   copy.hand_to_cl(bytes);

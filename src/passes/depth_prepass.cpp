@@ -35,6 +35,12 @@ DepthImage depth_prepass(Work& work) {
   return {framebuffer};
 }
 
+DepthImage no_depth_yet(Work& work) {
+  const GLuint framebuffer = work.depth_framebuffer();
+  begin_depth(work, framebuffer, GL_GREATER);
+  return {framebuffer};
+}
+
 // Masks and normal maps read more than vertices.
 static uint32_t features_of_normals(uint32_t features) {
   constexpr uint32_t places = feature_textured | feature_uv1 | feature_uv_transform;

@@ -8,6 +8,9 @@ namespace lightgrid {
 
 DepthImage depth_prepass(Work& work);
 
+// The same image, cleared: for a technique that finds depth as it shades.
+DepthImage no_depth_yet(Work& work);
+
 // Draws normals with the depth, in one pass over the geometry, in the format of the setting normals. Where
 // surfaces have equal depth it keeps the last one's normal, as the material pass shades it.
 NormalImage fill_normals(Work& work);

@@ -65,9 +65,9 @@ LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const No
   LightSums& s = cache.of(work);
   NamedKernel& kernel = s.kernels.of("light_buffer");
   LightBufferInCl buffer{&light_buffer_layout(work.plan.settings), nullptr, nullptr};
-  buffer.first = &work.shared_pixels("light buffer", buffer.layout->first.bytes, use);
+  buffer.first = &work.shared_samples("light buffer", buffer.layout->first.bytes, use);
   if (has_fifth_term(work.plan.settings))
-    buffer.second = &work.shared_pixels("light buffer 2", buffer.layout->second.bytes, use);
+    buffer.second = &work.shared_samples("light buffer 2", buffer.layout->second.bytes, use);
   const ClLights& table = work.cl_lights();
   auto pass = work.timer.pass("fill_light_buffer", "cl");
   const auto [items, group] = over_pixels(work, s.kernels.lanes, 16, 16);

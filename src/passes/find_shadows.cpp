@@ -364,7 +364,7 @@ namespace {
 const cl::Buffer& triangle_numbers_in_cl(Work& work, const RayScene& rays) {
   auto pass = work.timer.pass("triangle_numbers", "gl");
   const TriangleImage drawn = draw_triangle_numbers(work, rays);
-  SharedBuffer& copy = work.shared_pixels("triangle numbers", 4);
+  SharedBuffer& copy = work.shared_samples("triangle numbers", 4);
   const size_t bytes = work.grid().values() * 4;
   work.renderer.pixel_copies.to_buffer({drawn.framebuffer, GL_COLOR_ATTACHMENT0, drawn.image}, GL_RED_INTEGER,
                                        GL_UNSIGNED_INT, work.grid(), copy.gl_buffer());

@@ -2,131 +2,15 @@
 // (docs/techniques/lidr.md).
 #include "passes/light_index.h"
 
-#include <algorithm>
 #include <numeric>
-#include <tuple>
 
 #include "passes/light_index/blending.h"
-#include "passes/light_index/index_drawing.h"
+#include "passes/light_index/draw_order.h"
 #include "passes/light_index/index_shadows.h"
-#include "passes/light_index/light_groups.h"
 
 namespace lightgrid {
 
-struct Order {
-  std::vector<LightVolume> volumes;
-  std::vector<VolumeBatch> batches;
-};
-
-class LightIndexOrder : public PassCache {
- public:
-  explicit LightIndexOrder(Work& work)
-      : layout(light_index_layout(work.plan.settings, work.plan.local.size(), share_bits_of(work))),
-        group_of_light(work.plan.local.size(), no_group) {
-    require_exact_blending(work, layout);
-    find_influence(work);
-  }
-
-  // Lights that come into view need groups as well.
-  bool follow(Work& work) override {
-    if (group_of_light.size() != work.plan.local.size()) return false;
-    grouped = false;
-    find_influence(work);
-    return true;
-  }
-
-  LightIndexLayout layout;
-  std::vector<double> influence;         // of each light
-  std::vector<uint32_t> group_of_light;  // while it does not depend on the camera
-  bool grouped = false;
-  Order order;
-
- private:
-  void find_influence(const Seen& seen) {
-    influence.clear();
-    for (const ViewLight& light :
-         lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local)) {
-      influence.push_back(influence_of(light));
-    }
-  }
-};
-
 namespace {
-
-// Most influence first if lidr-order says so, else scene order.
-void put_in_order(const Seen& seen, const LightIndexOrder& state, std::vector<LightVolume>& volumes) {
-  if (seen.plan.settings.lidr_order == LidrOrder::scene) return;
-  std::stable_sort(volumes.begin(), volumes.end(), [&](const LightVolume& a, const LightVolume& b) {
-    return state.influence[a.light] > state.influence[b.light];
-  });
-}
-
-LightExtent extent_in_space(const LightVolume& v) {
-  return {v.center - v.radius, v.center + v.radius, v.center, v.radius};
-}
-LightExtent extent_on_screen(const LightVolume& v) {
-  return {glm::dvec3(v.low_px, 0), glm::dvec3(v.high_px, 0)};
-}
-
-// Sort: lights without a group are left out. With stencil, lights that do not touch in space share no pixel,
-// whatever the camera; with front faces, the rectangles on screen must not touch.
-void put_in_groups(const Seen& seen, LightIndexOrder& state, std::vector<LightVolume>& volumes) {
-  const bool on_screen = seen.plan.settings.lidr_volumes == LidrVolumes::front_faces;
-  if (on_screen || !state.grouped) {
-    std::vector<LightExtent> extents;
-    for (const LightVolume& v : volumes)
-      extents.push_back(on_screen ? extent_on_screen(v) : extent_in_space(v));
-    const std::vector<uint32_t> groups = group_lights(extents, state.layout.groups);
-    for (size_t i = 0; i < groups.size(); ++i) state.group_of_light[volumes[i].light] = groups[i];
-    state.grouped = true;
-  }
-  const auto group = [&](const LightVolume& v) { return state.group_of_light[v.light]; };
-  std::erase_if(volumes, [&](const LightVolume& v) { return group(v) == no_group; });
-  std::stable_sort(volumes.begin(), volumes.end(),
-                   [&](const LightVolume& a, const LightVolume& b) { return group(a) < group(b); });
-}
-
-// Rounds in which no two volumes share a pixel, because the stencil marks one volume at a time. A single
-// round if nothing is marked and each draw's channels are fixed.
-std::vector<uint32_t> rounds_of(const Seen& seen, const LightIndexLayout& layout,
-                                const std::vector<LightVolume>& volumes) {
-  const bool sorted = layout.packing == LidrPacking::sort,
-             marked = seen.plan.settings.lidr_volumes == LidrVolumes::stencil;
-  if (!marked && (sorted || layout.groups == 1)) return std::vector<uint32_t>(volumes.size(), 0);
-  std::vector<LightExtent> extents;
-  for (const LightVolume& v : volumes) extents.push_back(extent_on_screen(v));
-  return draw_rounds(extents);
-}
-
-Order order_of(const Seen& seen, LightIndexOrder& state, std::vector<LightVolume> volumes) {
-  const bool sorted = state.layout.packing == LidrPacking::sort;
-  put_in_order(seen, state, volumes);
-  if (sorted) put_in_groups(seen, state, volumes);
-  const std::vector<uint32_t> rounds = rounds_of(seen, state.layout, volumes);
-  // Within a round of a group any order gives the same image; this one needs few calls. If there is only one
-  // round, the order decides which lights are kept when slots run out.
-  const auto batch_of = [&](uint32_t i) {
-    return std::tuple(sorted ? state.group_of_light[volumes[i].light] : 0, rounds[i], volumes[i].crosses_near,
-                      volumes[i].mesh);
-  };
-  std::vector<uint32_t> order(volumes.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const bool any_order =
-      sorted || seen.plan.settings.lidr_volumes == LidrVolumes::stencil || state.layout.groups > 1;
-  if (any_order)
-    std::stable_sort(order.begin(), order.end(),
-                     [&](uint32_t a, uint32_t b) { return batch_of(a) < batch_of(b); });
-  Order out;
-  for (size_t i = 0; i < order.size(); ++i) {
-    const auto [group, round, crosses, mesh] = batch_of(order[i]);
-    const auto [last_group, last_round, last_crosses, last_mesh] = batch_of(order[i ? i - 1 : 0]);
-    if (i == 0 || group != last_group || round != last_round || crosses != last_crosses)
-      out.batches.push_back({i, 0, group});
-    ++out.batches.back().count;
-    out.volumes.push_back(volumes[order[i]]);
-  }
-  return out;
-}
 
 std::vector<GLuint> index_images(Work& work, const LightIndexLayout& layout) {
   std::vector<GLuint> images;
@@ -163,9 +47,10 @@ IndexDrawing::Programs programs_of(Work& work, const LightIndexLayout& layout, c
   return {program(shadows->defines), program(marked ? std::vector<std::string>() : shadows->defines)};
 }
 
-void draw_volumes(Work& work, const LightIndexOrder& state, const LightVolumes& volumes, const Order& order,
-                  GLuint framebuffer, const IndexShadows* shadows) {
-  const LightIndexLayout& layout = state.layout;
+// Draws the lights of one pass over the surfaces.
+void draw_volumes(Work& work, const LightIndexOrder& state, const LightVolumes& volumes, GLuint framebuffer,
+                  const IndexShadows* shadows, uint32_t pass) {
+  const LightIndexLayout& layout = state.layout();
   std::optional<GlLightLoop> input;
   if (shadows) input = shadows->input(work);
   const IndexDrawing drawing(work, layout, volumes, programs_of(work, layout, input ? &*input : nullptr));
@@ -175,9 +60,10 @@ void draw_volumes(Work& work, const LightIndexOrder& state, const LightVolumes& 
   clear(layout, framebuffer, drawing.cleared_stencil());
   glEnable(GL_DEPTH_TEST), glDepthMask(GL_FALSE), glEnable(GL_STENCIL_TEST);
   begin_light_indices(layout);
-  for (const VolumeBatch& batch : order.batches) {
+  for (const VolumeBatch& batch : state.batches().batches) {
+    if (batch.pass != pass) continue;
     if (shadows) {
-      shadows->draw_casters(work, std::span(order.volumes).subspan(batch.first, batch.count));
+      shadows->draw_casters(work, std::span(state.batches().volumes).subspan(batch.first, batch.count));
       glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     }
     volumes.begin();
@@ -189,11 +75,11 @@ void draw_volumes(Work& work, const LightIndexOrder& state, const LightVolumes& 
   glDisable(GL_STENCIL_TEST), glCullFace(GL_BACK);
 }
 
-bool may_repeat(const Seen& seen) { return seen.plan.settings.lidr_volumes == LidrVolumes::front_faces; }
+bool may_repeat(const Seen& seen) { return seen.plan.settings.lidr_volumes != LidrVolumes::stencil; }
 
 // shadows: of lights that are listed where they are hidden too.
 GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::vector<GLuint>& images,
-                       const IndexShadows* shadows) {
+                       const IndexShadows* shadows, bool points_alone) {
   GlLightLoop loop = light_loop(seen);
   if (shadows) {
     const GlLightLoop input = shadows->input(seen);
@@ -202,6 +88,7 @@ GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::ve
   }
   for (std::string& define : layout.defines()) loop.defines.push_back(std::move(define));
   loop.defines.emplace_back("LIGHTS_LIDR");
+  if (points_alone) loop.defines.emplace_back("NO_CONES");
   if (seen.plan.settings.lidr_unpack == LidrUnpack::floats) loop.defines.emplace_back("LIDR_FLOAT");
   if (may_repeat(seen)) loop.defines.emplace_back("LIDR_REPEATS");
   for (size_t i = 0; i < images.size(); ++i)
@@ -209,49 +96,67 @@ GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::ve
   return loop;
 }
 
-ListedLights read_light_index(Work& work, Cached<LightIndexOrder>& cache) {
-  const LightIndexLayout& layout = cache.of(work).layout;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER,
-                    work.targets.framebuffer(index_images(work, layout), work.targets.depth()));
-  const std::vector<uint16_t> channels = read_channels(layout, work.grid());
-  const size_t stride = layout.targets() * 4;
+// redraw: draws the images of a pass again, if there are several.
+ListedLights read_light_index(Work& work, const LightIndexOrder& state,
+                              const std::function<void(uint32_t pass)>& redraw) {
+  const LightIndexLayout& layout = state.layout();
+  const size_t stride = layout.targets() * 4, pixels = work.grid().pixels();
+  const uint32_t passes = uint32_t(state.batches().passes.size());
+  std::vector<std::vector<uint16_t>> of_pass;
+  for (uint32_t pass = 0; pass < passes; ++pass) {
+    if (passes > 1) redraw(pass);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER,
+                      work.targets.framebuffer(index_images(work, layout), work.targets.depth()));
+    of_pass.push_back(read_channels(layout, work.grid()));
+  }
   ListedLights lists;
-  lists.cell_of_pixel.resize(channels.size() / stride);
+  lists.cell_of_pixel.resize(pixels);
   std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
   std::vector<uint32_t> lights;
-  for (size_t pixel = 0; pixel < lists.cell_of_pixel.size(); ++pixel) {
-    unpack_light_index(layout, {&channels[pixel * stride], stride}, may_repeat(work), lights);
-    lists.first.push_back(lists.indices.size()), lists.count.push_back(uint32_t(lights.size()));
-    lists.indices.insert(lists.indices.end(), lights.begin(), lights.end());
+  for (size_t pixel = 0; pixel < pixels; ++pixel) {
+    lists.first.push_back(lists.indices.size());
+    for (const std::vector<uint16_t>& channels : of_pass) {
+      unpack_light_index(layout, {&channels[pixel * stride], stride}, may_repeat(work), lights);
+      lists.indices.insert(lists.indices.end(), lights.begin(), lights.end());
+    }
+    lists.count.push_back(uint32_t(lists.indices.size() - lists.first.back()));
   }
   return lists;
 }
 
 }  // namespace
 
-LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache,
-                        Cached<IndexShadows>& shadow_cache, bool numbered) {
+uint32_t order_light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache) {
+  auto pass = work.timer.pass("light_volumes", "gl");
   LightIndexOrder& state = cache.of(work);
   LightVolumes& volumes = volume_cache.of(work);
-  const std::vector<GLuint> images = index_images(work, state.layout);
+  state.order(work, volumes.update(work));
+  volumes.upload_volumes(state.batches().volumes);
+  return uint32_t(state.batches().passes.size());
+}
+
+LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache,
+                        Cached<IndexShadows>& shadow_cache, bool numbered, uint32_t number) {
+  const LightIndexOrder& state = cache.of(work);
+  const LightVolumes& volumes = volume_cache.of(work);
+  const LightIndexLayout& layout = state.layout();
+  const std::vector<GLuint> images = index_images(work, layout);
   const GLuint framebuffer = work.targets.framebuffer(images, work.targets.depth());
-  {
-    auto pass = work.timer.pass("light_volumes", "gl");
-    Order order = order_of(work, state, volumes.update(work));
-    volumes.upload_volumes(order.volumes);
-    state.order = std::move(order);
-  }
   IndexShadows* shadows = work.plan.own_shadows ? &shadow_cache.of(work) : nullptr;
-  if (shadows) shadows->find(work, numbered);
+  if (shadows && number == 0) shadows->find(work, numbered);
+  const IndexShadows* dropping = drops_hidden(work) ? shadows : nullptr;
   auto pass = work.timer.pass("light_index", "gl");
-  draw_volumes(work, state, volumes, state.order, framebuffer, drops_hidden(work) ? shadows : nullptr);
+  const auto draw = [&work, &state, &volumes, framebuffer, dropping](uint32_t which) {
+    draw_volumes(work, state, volumes, framebuffer, dropping, which);
+  };
+  draw(number);
   const size_t values = work.grid().values();
-  pass.moves(values * 5 + volumes.memory_bytes(), values * (state.layout.pixel_bytes() + 1));
+  pass.moves(values * 5 + volumes.memory_bytes(), values * (layout.pixel_bytes() + 1));
   if (drops_hidden(work)) shadows = nullptr;
-  return LightSource(
-      [&work, &state, images, shadows] { return index_loop(work, state.layout, images, shadows); }, {},
-      work.targets.bytes(TargetUse::light_index),
-      [&work, &cache](auto&) { return read_light_index(work, cache); });
+  const bool points_alone = state.batches().passes[number].points_alone;
+  return LightSource([=, &work, &layout] { return index_loop(work, layout, images, shadows, points_alone); },
+                     {}, work.targets.bytes(TargetUse::light_index),
+                     [&work, &state, draw](auto&) { return read_light_index(work, state, draw); });
 }
 
 void tell_index_shadows(Work& work, Cached<IndexShadows>& shadow_cache, Cached<LightVolumes>& volume_cache,

@@ -145,13 +145,22 @@ class BlendedTriangleLists : public PassCache {
   bool followed = false;
 };
 
-VisibilityBuffer rasterize(Work& work, PassCaches& caches) {
+static Visibility draw(Work& work, PassCaches& caches) {
   auto pass = work.timer.pass("rasterize", "cl");
-  OpaqueTriangles& opaque = caches.opaque_triangles.of(work);
-  InstanceRasterizer& r = opaque.of;
+  InstanceRasterizer& r = caches.opaque_triangles.of(work).of;
   const Visibility image = r.raster.draw([&] { caches.upload(work); });
   pass.moves(r.scene->geometry_bytes(), work.grid().values() * 8);
-  return {image, r.raster.buffers(), r.surfaces.buffer(), opaque.instances(work)};
+  return image;
+}
+
+VisibilityBuffer rasterize(Work& work, PassCaches& caches) {
+  const Visibility image = draw(work, caches);
+  OpaqueTriangles& opaque = caches.opaque_triangles.of(work);
+  VisibilityBuffer visible{image, {}, opaque.of.raster.buffers(), opaque.of.surfaces.buffer(),
+                           opaque.instances(work)};
+  if (work.grid().samples > 1)
+    visible.pixels = find_edges(work, caches.pixel_edges, image, visible.raster);
+  return visible;
 }
 
 BlendedTriangles list_blended(Work& work, Cached<BlendedTriangleLists>& cache) {

@@ -4,20 +4,24 @@
 #include <span>
 
 #include "passes/common/frame.h"
+#include "passes/find_edges.h"
 #include "raster/raster_view.h"
 
 namespace lightgrid {
 
-// The nearest opaque or masked triangle at each pixel, and what its number leads to. The view's own
+// The nearest opaque or masked triangle at each sample, and what its number leads to. The view's own
 // buffers: until the view's next rasterize().
 struct VisibilityBuffer {
   Visibility image;
+  std::optional<PixelSurfaces> pixels;  // of several samples a pixel
   RasterBuffers raster;
   cl::Buffer surfaces;             // SurfaceInstance each, in the order of raster.instances
   std::span<const int> instances;  // of the scene, in the same order
 
-  DepthBuffer depth() const { return {image.depth}; }
-  TriangleBuffer triangles() const { return {image.triangle, instances}; }
+  DepthBuffer depth() const { return {image.depth}; }  // of samples
+  // Of pixels; at edges none.
+  DepthBuffer pixel_depth() const { return {pixels ? pixels->depths : image.depth}; }
+  TriangleBuffer triangles() const { return {pixels ? pixels->triangles : image.triangle, instances}; }
 };
 
 VisibilityBuffer rasterize(Work& work, PassCaches& caches);

@@ -133,8 +133,9 @@ std::string specular_define(const Settings& settings) {
   return define ? fmt::format(" -D{}", define) : "";
 }
 
+// A surface a pixel.
 ClArguments visible_arguments(const VisibilityBuffer& visible) {
-  return {{"triangles", visible.image.triangle}, {"depths", visible.image.depth}};
+  return {{"triangles", visible.triangles().numbers}, {"depths", visible.pixel_depth().values}};
 }
 
 cl_float4 background(const Seen& seen) {
@@ -144,16 +145,33 @@ cl_float4 background(const Seen& seen) {
 
 }  // namespace
 
+// Over the image of resolve(): the pixels whose samples see several surfaces.
+static void resolve_edges(Work& work, Resolver& r, const VisibilityBuffer& visible, const LightSource& lights) {
+  NamedKernel& kernel =
+      r.kernel(work, "resolve_edges", lights.in_cl->defines + sample_defines(work.grid().samples));
+  auto pass = work.timer.pass("resolve_edges", "cl");
+  r.launch(work, kernel, "resolve_edges",
+           ClArguments{{"triangles", visible.image.triangle},
+                       {"depths", visible.image.depth},
+                       {"edges", visible.pixels->edges}} +
+               r.arguments(work, visible.raster, visible.surfaces, *lights.in_cl) +
+               ClArguments{{"background", background(work)}, {"image", r.image.cl_buffer()}});
+  pass.moves(work.grid().pixels() / 8 + lights.bytes + r.scene(work).memory_bytes(), 0);
+}
+
 ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                     const LightSource& lights) {
   Resolver& r = resolving(work, cache);
-  NamedKernel& kernel = r.kernel(work, "resolve", lights.in_cl->defines);
-  auto pass = work.timer.pass("resolve", "cl");
-  r.launch(work, kernel, "resolve",
-           visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces, *lights.in_cl) +
-               ClArguments{{"background", background(work)}, {"image", r.image.cl_buffer()}});
-  pass.moves(work.grid().values() * 8 + lights.bytes + r.scene(work).memory_bytes(),
-             work.grid().pixels() * 16);
+  {
+    NamedKernel& kernel = r.kernel(work, "resolve", lights.in_cl->defines);
+    auto pass = work.timer.pass("resolve", "cl");
+    r.launch(work, kernel, "resolve",
+             visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces, *lights.in_cl) +
+                 ClArguments{{"background", background(work)}, {"image", r.image.cl_buffer()}});
+    pass.moves(work.grid().pixels() * 8 + lights.bytes + r.scene(work).memory_bytes(),
+               work.grid().pixels() * 16);
+  }
+  if (visible.pixels) resolve_edges(work, r, visible, lights);
   return {0, &r.image};
 }
 
@@ -218,10 +236,26 @@ ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const Visibil
   return {0, &r.image};
 }
 
+ReflectedLight resolve_reflected(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+                                 uint32_t light) {
+  Resolver& r = resolving(work, cache);
+  const ReflectedLight reflected{&work.shared_pixels("reflected flux", 16),
+                                 &work.shared_pixels("reflecting places", 16)};
+  NamedKernel& kernel = r.kernel(work, "resolve_reflected");
+  auto pass = work.timer.pass("resolve_reflected", "cl");
+  r.launch(work, kernel, "resolve_reflected",
+           visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) +
+               ClArguments{{"light", cl_uint(light)},
+                           {"flux", reflected.flux->cl_buffer()},
+                           {"places", reflected.places->cl_buffer()}});
+  pass.moves(work.grid().pixels() * 8 + r.scene(work).memory_bytes(), work.grid().pixels() * 32);
+  return reflected;
+}
+
 void blend_resolved(Work& work, Cached<Resolver>& cache, const BlendedTriangles& blended,
                     const DepthBuffer& depth, const LightSource& lights) {
   Resolver& r = resolving(work, cache);
-  NamedKernel& kernel = r.kernel(work, "blend", lights.in_cl->defines);
+  NamedKernel& kernel = r.kernel(work, "blend", lights.in_cl->defines + sample_defines(work.grid().samples));
   const PixelRange pixels = r.pixels(work);
   auto pass = work.timer.pass("blend_resolved", "cl");
   kernel.launch(

@@ -24,6 +24,16 @@ NormalsInCl resolve_normals(Work& work, Cached<Resolver>& cache, const Visibilit
 ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                               const LightBufferInCl& sums);
 
+// Of a view whose eye is at a light: what each pixel reflects of it. Float4 each, row 0 at the bottom: flux
+// and area; normal and distance ahead (scene/virtual_lights.h: ReflectedPixel).
+struct ReflectedLight {
+  SharedBuffer *flux = nullptr, *places = nullptr;
+};
+
+// light: its place in FramePlan::local.
+ReflectedLight resolve_reflected(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+                                 uint32_t light);
+
 // Lays blended surfaces over the image of resolve() or of a light pass in OpenCL, where they are in front of
 // the opaque ones.
 void blend_resolved(Work& work, Cached<Resolver>& cache, const BlendedTriangles& blended,

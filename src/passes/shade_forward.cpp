@@ -11,17 +11,54 @@
 
 namespace lightgrid {
 
-ShadedImage shade_forward(Work& work, const DrawList& surfaces, const LightSource& lights) {
+static ShadedImage shade_opaque(Work& work, const DrawList& surfaces, const LightSource& lights,
+                                bool depth_too) {
   const GlLightLoop& loop = lights.in_gl();
   auto pass = work.timer.pass("shade_forward", "gl");
   const ShadedImage image = begin_shading(work);
+  if (depth_too) glDepthFunc(GL_GEQUAL), glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   loop.bind(work);
   draw_list(work, surfaces, DrawStreams::all,
             work.programs({"shaders/scene.vert", "shaders/forward.frag", loop.defines}));
+  glDepthMask(GL_FALSE);
   pass.moves(work.gpu.in_gl().geometry_bytes() + work.grid().values() * 4 + lights.bytes,
-             work.grid().values() * 16);
+             work.grid().values() * (depth_too ? 20 : 16));
   return image;
+}
+
+ShadedImage shade_forward(Work& work, const DrawList& surfaces, const LightSource& lights) {
+  return shade_opaque(work, surfaces, lights, false);
+}
+
+ShadedImage shade_forward_and_depth(Work& work, const DrawList& surfaces, const LightSource& lights) {
+  return shade_opaque(work, surfaces, lights, true);
+}
+
+// Of surfaces of one depth the last is visible, and light is added to it alone: all are drawn last to first,
+// and the stencil lets a pixel take one.
+void add_lights_forward(Work& work, const DrawList& surfaces, const LightSource& lights,
+                        const ShadedImage& image) {
+  GlLightLoop loop = lights.in_gl();
+  loop.defines.emplace_back("ADDED");
+  auto pass = work.timer.pass("shade_forward", "gl");
+  glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
+  const GLint none = 0;
+  glStencilMask(255);
+  glClearNamedFramebufferiv(image.framebuffer, GL_STENCIL, 0, &none);
+  glEnable(GL_STENCIL_TEST), glStencilFunc(GL_EQUAL, 0, 255), glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
+  glEnable(GL_DEPTH_TEST), glDepthFunc(GL_EQUAL), glDepthMask(GL_FALSE);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
+  loop.bind(work);
+  DrawList last_to_first(surfaces.rbegin(), surfaces.rend());
+  for (DrawItem& item : last_to_first) item.ranges = in_reverse(item.ranges, work.gpu.in_gl());
+  draw_list(work, last_to_first, DrawStreams::all,
+            work.programs({"shaders/scene.vert", "shaders/forward.frag", loop.defines}));
+  glDisable(GL_BLEND), glDisable(GL_STENCIL_TEST);
+  pass.moves(work.gpu.in_gl().geometry_bytes() + work.grid().values() * 21 + lights.bytes,
+             work.grid().values() * 17);
 }
 
 namespace {

@@ -9,6 +9,14 @@ namespace lightgrid {
 // Shades opaque surfaces with each pixel's lights, at the prepass' depth.
 ShadedImage shade_forward(Work& work, const DrawList& surfaces, const LightSource& lights);
 
+// The same without a prepass: finds the depth as well. The nearest surface is shown, of equal ones the last.
+ShadedImage shade_forward_and_depth(Work& work, const DrawList& surfaces, const LightSource& lights);
+
+// Adds these point and spot lights to an image of shade_forward, in another pass over the surfaces. Counts in
+// the stencil of the depth image. Requires reversed triangles.
+void add_lights_forward(Work& work, const DrawList& surfaces, const LightSource& lights,
+                        const ShadedImage& image);
+
 // The image, cleared to the background and ready for surfaces at the prepass' depth.
 inline ShadedImage begin_shading(Work& work) {
   const ShadedImage image{work.color_framebuffer()};

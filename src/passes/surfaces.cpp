@@ -50,11 +50,15 @@ const TileDistances& distances_of(RenderView& v, Surfaces& surfaces) {
   return surfaces.distances.emplace(tile_distances(v, v.culler(), bounds_of(v, surfaces)));
 }
 
-Frame frame_of(const Surfaces& surfaces) {
+Frame frame_of(RenderView& v, const Surfaces& surfaces) {
   Frame frame;
   if (surfaces.visible) {
-    frame.depth = surfaces.visible->depth();
+    frame.depth = surfaces.visible->pixel_depth();
     frame.triangles = surfaces.visible->triangles();
+    if (surfaces.visible->pixels)
+      frame.sample_figures = [&v, visible = *surfaces.visible] {
+        return sample_figures(v, visible.image, *visible.pixels);
+      };
   }
   return frame;
 }

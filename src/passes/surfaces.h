@@ -14,7 +14,7 @@ struct Surfaces {
   DepthImage image;
   DrawList drawn;  // all that no tile's depth hides
 
-  DepthBuffer depth;  // in OpenCL; null: only OpenGL has it so far
+  DepthBuffer depth;      // in OpenCL; null: only OpenGL has it so far
   bool numbered = false;  // find_shadows drew triangle numbers (shadows/triangle_numbers.h) in this frame
   std::optional<BlendedTriangles> blended;  // listed in OpenCL, where a pass before blending needed them
   std::optional<DepthBounds> bounds;
@@ -37,7 +37,7 @@ const DepthBounds& bounds_of(RenderView& v, Surfaces& surfaces);
 const TileDistances& distances_of(RenderView& v, Surfaces& surfaces);
 
 // A frame of these surfaces, without an image yet.
-Frame frame_of(const Surfaces& surfaces);
+Frame frame_of(RenderView& v, const Surfaces& surfaces);
 
 // The image of opaque surfaces under these lights.
 ShadedImage shade(RenderView& v, const Surfaces& surfaces, const LightSource& lights);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "plan/dim_lights.h"
 #include "plan/visibility.h"
 #include "scene/light_groups.h"
@@ -143,7 +144,7 @@ double plan_surfaces(const Scene& scene, const View& view, PlannedInstances inst
 void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   const Frustum frustum = frustum_of(view);
   const std::vector<ViewLight> lights = lights_in_view(scene, view, plan.settings.ranges);
-  int first_spot = -1;
+  int first_spot = -1, first_virtual = -1;
   for (int i = 0; i < int(lights.size()); ++i) {
     const bool directional = is_directional(lights[i]);
     (directional ? plan.directional_lights : plan.local).push_back(i);
@@ -151,9 +152,12 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
     plan.lights_in_view += seen;
     // A spot out of view still needs its cone: the cone makes its contribution zero in view.
     if (has_cone(lights[i]) && first_spot < 0) first_spot = i;
+    if (!scene.lights[size_t(i)].is_virtual) continue;
+    if (plan.virtual_count++ == 0) first_virtual = i;
   }
   plan.local_lights = !plan.local.empty();
   plan.spots = first_spot >= 0;
+  plan.virtual_lights = plan.virtual_count > 0;
   plan.directional = !plan.directional_lights.empty();
   plan.index_bits = plan.local.size() <= 65536 ? 16 : 32;
   const auto& local = plan.local;
@@ -161,6 +165,11 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
                             plan.local_lights ? light_witness(scene, local[0]) : "no light has a place"});
   plan.decisions.push_back(
       {"spot cones", plan.spots, plan.spots ? light_witness(scene, first_spot) : "no light is a spot"});
+  plan.decisions.push_back({"virtual lights", plan.virtual_lights,
+                            plan.virtual_lights
+                                ? fmt::format("{} of {} lights, the first of them {}", plan.virtual_count,
+                                              lights.size(), light_witness(scene, first_virtual))
+                                : "no light is virtual"});
   plan.decisions.push_back(
       {"directional lights", plan.directional,
        plan.directional ? light_witness(scene, plan.directional_lights[0]) : "no light is directional"});
@@ -308,10 +317,23 @@ void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_
                                               : "no light grid"});
 }
 
+// After shadows.
+void plan_samples(const Scene& scene, FramePlan& plan) {
+  const int samples = plan.settings.samples;
+  if (samples == 1) return;
+  plan.decisions.push_back({"samples", true, fmt::format("samples={}", samples)});
+  if (!plan.light_reaches) return;
+  const auto caster = std::ranges::find_if(scene.lights, &Light::casts_shadow);
+  throw input_error("set samples={}: light {} \"{}\" casts a shadow, and shadows are found for one sample a "
+                    "pixel; choose samples=1 or shadows=none",
+                    samples, caster - scene.lights.begin(), caster->name);
+}
+
 void turn_everything_on(const Scene& scene, const View& view, FramePlan& plan, const TechniqueNeeds& needs) {
   plan.light_grid = plan.blend_grid = needs.light_grid;
   plan.world_grid = needs.world_grid;
-  plan.local_lights = plan.spots = plan.directional = plan.base_lighting = plan.blend = plan.mask = true;
+  plan.local_lights = plan.spots = plan.virtual_lights = plan.directional = plan.base_lighting = plan.blend =
+      plan.mask = true;
   number_groups(scene, plan);
   if (needs.shadows && plan.settings.shadows != ShadowMethod::none) {
     shadow_all(scene, plan);
@@ -416,6 +438,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan_slices(view, needs, farthest_m, plan);
   plan_groups(scene, needs, plan);
   plan_shadows(scene, view, needs, instances, plan);
+  plan_samples(scene, plan);
   plan.shadow_bytes = settings.soft_shadows() || settings.picks_shadows() ||
                       (settings.shadows == ShadowMethod::map && settings.shadow_taps > 1) ||
                       (plan.light_reaches && has_veils(scene, settings.blended_casters()));

@@ -69,6 +69,7 @@ struct TechniqueNeeds {
   bool world_grid = false;          // light lists in cells of the world
   bool shadows = true;              // light loops ask for shadows
   bool group_stencil = false;       // that of light volumes may test them in the stencil
+  int most_samples = 1;             // a pixel, that its passes can take
   // The technique finds those of point and spot lights itself, of so many lights at most; the pass that all
   // techniques share is then left those of directional lights.
   bool own_shadows = false;
@@ -98,6 +99,7 @@ struct FramePlan {
   bool world_grid = false;    // lists in cells of the world
   bool local_lights = false;  // at least one point or spot light
   bool spots = false;         // compile cone code
+  bool virtual_lights = false;  // at least one light is a virtual point light
   // Some light of the scene casts a shadow: light loops ask whether it reaches a point
   // (shared/light_table.h). The same for every view and time, so that a camera that moves compiles nothing.
   bool light_reaches = false;
@@ -140,6 +142,7 @@ struct FramePlan {
                           // exist
 
   std::vector<int> local, directional_lights;  // light indices by kind, in scene order
+  int virtual_count = 0;                       // of the scene's lights: virtual point lights
   int lights_in_view = 0;                      // lights whose range touches the view's frustum
 
   std::vector<Decision> decisions;

@@ -150,7 +150,8 @@ std::vector<Setting>& all_settings() {
        "channel each",
        named(&Settings::lidr_packing, {{"bitshift", LidrPacking::bitshift},
                                        {"maxblend", LidrPacking::maxblend},
-                                       {"sort", LidrPacking::sort}})},
+                                       {"sort", LidrPacking::sort},
+                                       {"maxblend-sort", LidrPacking::maxblend_sort}})},
       {"lidr-overlap",
        "capacity of a pixel in light indices; auto: the most that the packing can hold for these lights",
        named(&Settings::lidr_overlap, {{"auto", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}})},
@@ -158,11 +159,26 @@ std::vector<Setting>& all_settings() {
        named(&Settings::lidr_lights, {{"auto", 0}, {"15", 15}, {"255", 255}, {"65535", 65535}})},
       {"lidr-volumes",
        "marks surfaces inside light volumes, by a stencil; or all behind their front faces, which serves "
-       "blended surfaces too",
-       named(&Settings::lidr_volumes,
-             {{"stencil", LidrVolumes::stencil}, {"front-faces", LidrVolumes::front_faces}})},
+       "blended surfaces too, also without a depth prepass: whatever is behind",
+       named(&Settings::lidr_volumes, {{"stencil", LidrVolumes::stencil},
+                                       {"front-faces", LidrVolumes::front_faces},
+                                       {"no-prepass", LidrVolumes::no_prepass}})},
       {"lidr-unpack", "light indices are unpacked with integers, or in float as the article does",
        named(&Settings::lidr_unpack, {{"integer", LidrUnpack::integers}, {"float", LidrUnpack::floats}})},
+      {"lidr-types",
+       "point and spot lights: in the same images, told apart by the light's data; or a pass over the "
+       "surfaces "
+       "for each, with images and a light loop of its own",
+       named(&Settings::lidr_types, {{"flag", LidrTypes::flag}, {"passes", LidrTypes::passes}})},
+      {"lidr-sort",
+       "sorted packings: lights in view are put into groups for each view, or all lights once, while they "
+       "are "
+       "at rest",
+       named(&Settings::lidr_sort, {{"view", LidrSort::view}, {"still", LidrSort::still}})},
+      {"lidr-passes",
+       "sorted packings: the most passes over the surfaces; lights that find no group are drawn in the next, "
+       "after the last they are left out",
+       numbers(&Settings::lidr_passes, {"1", "2", "4", "8", "16"})},
       {"lidr-order", "the lights kept if a pixel has too many: those of most influence, or the scene's first",
        named(&Settings::lidr_order, {{"priority", LidrOrder::priority}, {"scene", LidrOrder::scene}})},
       {"lidr-shadows",
@@ -183,6 +199,10 @@ std::vector<Setting>& all_settings() {
                                       {"box", VolumeMeshes::box}})},
       {"raster", "who draws triangles: OpenGL, or OpenCL alone, as visibility does",
        named(&Settings::raster, {{"opengl", RasterApi::opengl}, {"opencl", RasterApi::opencl}})},
+      {"samples",
+       "a pixel, at which triangles are drawn: 1 is its centre; of more, each surface that they see is shaded "
+       "once and counts by its share of them",
+       numbers(&Settings::samples, {"1", "2", "4", "8"})},
       {"texels",
        "textures in OpenCL: the maps of a material in one texel of 16 or 8 bytes where their sizes agree, or "
        "each its own",

@@ -22,9 +22,11 @@ enum class VolumeCulling { back_faces, stencil, scissor, depth_bounds };
 
 // Light-indexed deferred rendering (docs/techniques/lidr.md): how several light indices share a pixel, which
 // surfaces of a light's volume are drawn, and the order of the lights.
-enum class LidrPacking { bitshift, maxblend, sort };
-enum class LidrVolumes { stencil, front_faces };
+enum class LidrPacking { bitshift, maxblend, sort, maxblend_sort };
+enum class LidrVolumes { stencil, front_faces, no_prepass };
 enum class LidrUnpack { integers, floats };
+enum class LidrSort { view, still };
+enum class LidrTypes { flag, passes };
 enum class LidrOrder { priority, scene };
 // Who finds the shadows of point and spot lights: find_shadows, as for every technique; nobody; or lidr
 // itself, by shadow volumes or shadow maps (docs/techniques/lidr.md#shadows).
@@ -79,6 +81,9 @@ struct Settings {
                          // scene
   LidrVolumes lidr_volumes = LidrVolumes::stencil;
   LidrUnpack lidr_unpack = LidrUnpack::integers;
+  LidrSort lidr_sort = LidrSort::view;
+  LidrTypes lidr_types = LidrTypes::flag;
+  int lidr_passes = 1;  // sorted packings: at most 1, 2, 4, 8 or 16 passes over the surfaces
   LidrOrder lidr_order = LidrOrder::priority;
   LidrShadows lidr_shadows = LidrShadows::pass;
   int lidr_maps = 4;  // LidrShadows::final_pass: lights that have shadow maps: 1, 4, 16, 64 or 256
@@ -87,6 +92,7 @@ struct Settings {
   int prepass_shininess = 32;  // the lights' specular exponent: 2, 8, 32, 128 or 512
   NormalFormat normals = NormalFormat::floats;
   RasterApi raster = RasterApi::opengl;
+  int samples = 1;  // a pixel, at which triangles are drawn: 1, 2, 4 or 8
   TexelLayout texels = TexelLayout::packed;
   ShadedLights lights = ShadedLights::grid;
   VoxelSize voxel_size = VoxelSize::s128x128x16;

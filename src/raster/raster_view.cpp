@@ -48,8 +48,8 @@ void check_raster_camera(const RasterCamera& camera) {
     if (size < 1 || size > most_pixels)
       throw input_error("rasterizer: a view of {} pixels; 1 to {} will do", size, most_pixels);
   }
-  if (camera.grid.samples != 1 && camera.grid.samples != 4)
-    throw input_error("rasterizer: {} samples a pixel; 1 and 4 are possible", camera.grid.samples);
+  if (raster_samples(camera.grid.samples).empty())
+    throw input_error("rasterizer: {} samples a pixel; 1, 2, 4 and 8 are possible", camera.grid.samples);
   require_finite(camera.clip_from_view, "clip_from_view");
   require_finite(camera.view_from_world, "view_from_world");
   for (int i = 0; i < 3; ++i) {
@@ -339,8 +339,8 @@ void RasterView::run(bool image, const std::function<void()>& meanwhile) {
   const bool several = image && grid.samples > 1;
   for (int sample = 0; sample < (several ? grid.samples : 1); ++sample) {
     if (several) {
-      s.params.sample_x = raster_samples_of_4[sample].x;
-      s.params.sample_y = raster_samples_of_4[sample].y;
+      s.params.sample_x = raster_samples(grid.samples)[size_t(sample)].x;
+      s.params.sample_y = raster_samples(grid.samples)[size_t(sample)].y;
     }
     s.draw_sample(sample == 0 ? meanwhile : std::function<void()>(), counted);
     if (several) s.keep_sample(sample);

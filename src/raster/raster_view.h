@@ -62,13 +62,26 @@ struct RasterInstance {
   bool drawn = true;        // false: its triangles keep their numbers and are left out
 };
 
-// From a pixel's centre, 1/256 pixel, x to the right and y up: where each of 4 samples lies (the standard
-// locations of Vulkan 1.3, "Multisampling", and Direct3D 11; its y goes down).
+// From a pixel's centre, 1/256 pixel, x to the right and y up: where each sample lies (the standard locations
+// of Vulkan 1.3, "Multisampling", and Direct3D 11; its y goes down). Their mean is the centre.
+constexpr glm::ivec2 raster_samples_of_1[1] = {{0, 0}};
+constexpr glm::ivec2 raster_samples_of_2[2] = {{64, -64}, {-64, 64}};
 constexpr glm::ivec2 raster_samples_of_4[4] = {{-32, 96}, {96, 32}, {-96, -32}, {32, -96}};
+constexpr glm::ivec2 raster_samples_of_8[8] = {{16, 48},   {-16, -48}, {80, -16},  {-48, 80},
+                                               {-80, -80}, {-112, 16}, {48, -112}, {112, 112}};
+
+// samples: 1, 2, 4 or 8; empty for others.
+constexpr std::span<const glm::ivec2> raster_samples(int samples) {
+  if (samples == 1) return raster_samples_of_1;
+  if (samples == 2) return raster_samples_of_2;
+  if (samples == 4) return raster_samples_of_4;
+  if (samples == 8) return raster_samples_of_8;
+  return {};
+}
 
 struct RasterCamera {
-  // 1 to 16,384 pixels a side. A pixel has 1 sample, at its centre, or 4, for each of which the view is drawn
-  // once. Masks are looked up at centres.
+  // 1 to 16,384 pixels a side. A pixel has 1 sample, at its centre, or 2, 4 or 8, for each of which the view
+  // is drawn once. Masks are looked up at centres.
   PixelGrid grid;
   // As CullView's: m[column][row], depth zero to one, here always reversed (near 1, far 0); perspective or
   // orthographic, off-centre, far plane infinite or not.

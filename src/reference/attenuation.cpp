@@ -26,6 +26,8 @@ double attenuation(const ViewLight& light, const glm::dvec3& position, bool wind
   const glm::dvec3 offset = position - light.position;
   const double distance = length_of(offset.x, offset.y, offset.z);
   double result = 1 / std::max(distance * distance, std::numeric_limits<double>::min());
+  const bool by_cosine = light.most_falloff > 0;  // a virtual light
+  if (by_cosine) result = std::min(result, light.most_falloff);
   if (window && std::isfinite(light.radius_m)) {
     if (!(distance < light.radius_m)) return 0;  // before the ratio, which is 0 / 0 for a light of radius 0
     result *= window_at(light, distance) / probability(light, result);
@@ -33,7 +35,7 @@ double attenuation(const ViewLight& light, const glm::dvec3& position, bool wind
   if (has_cone(light)) {
     const double cosine = cos_from_axis(light, offset, distance);
     const double t = std::clamp((cosine - light.cos_outer) / (light.cos_inner - light.cos_outer), 0.0, 1.0);
-    result *= t * t;
+    result *= by_cosine ? t : t * t;
   }
   return result;
 }

@@ -24,7 +24,7 @@ double angular_part(const ViewLight& light, const glm::dvec3& to_light, double s
   const double root = std::hypot(x, soft);
   const double y = x > 0 ? (x + root) / 2 : soft * soft / (2 * (root - x));
   const double t = std::min(y / (light.cos_inner - light.cos_outer), 1.0);
-  return t * t * (1 - light.cos_outer) / (1 - light.cos_outer + 0.5 * q);
+  return (light.most_falloff > 0 ? t : t * t) * (1 - light.cos_outer) / (1 - light.cos_outer + 0.5 * q);
 }
 
 }  // namespace
@@ -70,7 +70,8 @@ VoxelSample voxel_sample(const glm::dvec3& at, const VoxelCell& cell, std::span<
     const double reach = radius * radius + cell.half_diagonal_squared;
     if (squared >= reach) continue;
     const double window = 1 - squared / reach * (squared / reach);
-    const double falloff = std::min(1 / squared, 1 / cell.core_squared);
+    double falloff = std::min(1 / squared, 1 / cell.core_squared);
+    if (light.most_falloff > 0) falloff = std::min(falloff, light.most_falloff);
     const double angular = angular_part(light, to_light, squared, cell.half_diagonal_squared);
     const double arrives = window * falloff * radius / std::sqrt(reach) * angular;
     const glm::dvec3 irradiance = glm::min(arrives * light.radiant_intensity, largest_of_a_light);

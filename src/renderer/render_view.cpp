@@ -50,7 +50,7 @@ void RenderView::look(const View& next, PlannedInstances instances) {
   params = params_of(view, plan, scene.ambient);
   if (resized || plan.stencil != before.stencil) {
     const auto pool = shared_pool_ ? shared_pool_ : std::make_shared<TargetPool>();
-    targets = Targets(pool, view.grid(), plan.stencil);
+    targets = Targets(pool, grid(), plan.stencil);
     caches.clear();
   }
   follow_view();

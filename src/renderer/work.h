@@ -26,7 +26,8 @@ struct Seen {
   std::vector<InstanceTransform> transforms;  // by instance; set for those in the plan
   DrawList opaque, blended;                   // nearest first; back to front. Empty unless OpenGL draws
 
-  PixelGrid grid() const { return view.grid(); }
+  // Of images that triangles are drawn into, with the setting samples.
+  PixelGrid grid() const { return {view.width, view.height, plan.settings.samples}; }
 };
 
 // Beside what is seen, the machine, the scene in its memory, and the view's images, programs and clock.
@@ -58,8 +59,10 @@ struct Work : Seen {
   ClArguments light_arguments();
   ShadowMemory shadows;
 
-  // Memory that OpenCL and OpenGL share, for `bytes` a sample and spare ones, by name (Targets::buffer).
+  // Memory that OpenCL and OpenGL share, for `bytes` a pixel or a sample and spare ones, by name
+  // (Targets::buffer).
   SharedBuffer& shared_pixels(const std::string& name, size_t bytes, TargetUse use = TargetUse::image);
+  SharedBuffer& shared_samples(const std::string& name, size_t bytes, TargetUse use = TargetUse::image);
 
  protected:
   bool preparing_ = false;  // programs() then compiles what every planned surface needs
@@ -103,6 +106,7 @@ class Cached {
 struct PassCaches {
   Cached<class OpaqueTriangles> opaque_triangles;  // passes/rasterize.cpp
   Cached<class BlendedTriangleLists> blended_triangles;
+  Cached<class PixelEdges> pixel_edges;                             // passes/find_edges.cpp
   Cached<class Resolver> resolver;                                  // passes/resolve.cpp
   Cached<class TileShading> tile_shading;                           // passes/shade_tiles.cpp
   Cached<class LightSums> light_sums;                               // passes/fill_light_buffer.cpp
@@ -121,7 +125,7 @@ struct PassCaches {
   size_t memory_bytes() const;
 
  private:
-  std::array<std::unique_ptr<PassCache>*, 14> all();
+  std::array<std::unique_ptr<PassCache>*, 15> all();
 };
 
 }  // namespace lightgrid

@@ -217,10 +217,17 @@ json to_json(const RunResult& result) {
               {"inf_pixels", result.inf_pixels},
               {"overflow", result.overflow},
               {"skipped", skipped}};
+  if (result.lights_virtual > 0) out["lights"]["virtual"] = result.lights_virtual;
   for (const auto& pass : result.passes) {
     if (pass.name == result.built_by) out["build"] = build_json(pass, result);
   }
   if (result.shadows) out["shadows"] = to_json(*result.shadows);
+  if (const auto& s = result.samples) {
+    out["samples"] = {{"edge_pixels", s->edge_pixels},
+                      {"shadings", s->shadings},
+                      {"covered", s->covered},
+                      {"bytes", s->bytes}};
+  }
   if (result.moving) out["moving"] = to_json(*result.moving);
   if (!result.refused.empty()) out["refused"] = result.refused;
   return out;

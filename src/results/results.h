@@ -51,7 +51,7 @@ struct BlendedPairs {
 // (pixel, light) pairs over the image. lit: according to the oracle.
 struct PairCounts {
   uint64_t listed = 0, lit = 0, lost = 0, wrong = 0;
-  std::optional<ShadowPairs> shadows = {};  // where some light casts
+  std::optional<ShadowPairs> shadows = {};   // where some light casts
   std::optional<BlendedPairs> blended = {};  // likewise, and where a blended surface is in view
 
   PairCounts& operator+=(const PairCounts& other);  // shadows: of those that have them; blended stay
@@ -147,7 +147,12 @@ struct ShadowResult {
   std::vector<Skipped> skipped;
   size_t certified = 0, bands = 0;  // as in ShadowFigures
   double dim_steps = 0;             // as in FramePlan
-  int halvings = 0;  // of all maps' sizes
+  int halvings = 0;                 // of all maps' sizes
+};
+
+// Of the last frame, with several samples a pixel: as SampleFigures.
+struct SampleResult {
+  size_t edge_pixels = 0, shadings = 0, covered = 0, bytes = 0;
 };
 
 // Half of a listed light is far more; 8-bit geometry buffers lose less.
@@ -158,6 +163,7 @@ struct RunResult {
   std::string refused;  // why the machine or the technique cannot do this; empty if it ran
   std::map<std::string, std::string> settings;
   int lights_total = 0, lights_in_view = 0;
+  int lights_virtual = 0;  // of lights_total
   Spread frame_ms;
   std::vector<PassResult> passes;
   size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
@@ -177,6 +183,7 @@ struct RunResult {
   uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
   std::vector<SkippedEffect> skipped;
   std::optional<ShadowResult> shadows;  // absent if no light casts a shadow
+  std::optional<SampleResult> samples;  // absent with one sample a pixel
   std::optional<MovingResult> moving;   // absent without a camera path
 };
 

@@ -13,9 +13,10 @@ struct BuiltinScene {
   const char* name;
   const char* summary;  // one line, for `lightgrid scenes`
   Scene (*make)();
+  bool large = false;  // millions of triangles: tests over all scenes leave it out, and it has its own
 };
 
-// hall, spheres, terrain, street, particles, gallery, rooms.
+// hall, spheres, terrain, street, particles, gallery, rooms, square.
 const std::vector<BuiltinScene>& builtin_scenes();
 
 // nullptr if there is none of that name.
@@ -27,6 +28,7 @@ Scene make_terrain();
 Scene make_street();
 Scene make_particles();
 Scene make_gallery();
+Scene make_square();
 Scene make_rooms();
 
 }  // namespace lightgrid

@@ -63,7 +63,9 @@ SceneChanges move_lights(Scene& scene, const LightRig& rig, double seconds) {
   SceneChanges changes;
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     Light& light = scene.lights[i];
-    if (light.type == LightType::directional || light.node >= 0 || rig.motion == LightMotion::none) continue;
+    if (light.type == LightType::directional || light.is_virtual || light.node >= 0 ||
+        rig.motion == LightMotion::none)
+      continue;
     Random random(Random::mix(uint64_t(i) + 1));
     const glm::dvec3 offset = rig.motion == LightMotion::orbit ? orbit_offset(light, random, seconds)
                                                                : drift_offset(light, random, seconds);

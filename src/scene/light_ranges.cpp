@@ -43,6 +43,11 @@ double least_falloff(const Light& light, const LightRanges& ranges) {
   return ranges.range == LightRange::stochastic && intensity > 0 ? ranges.alpha / intensity : 0;
 }
 
+double most_falloff(const Light& light) {
+  constexpr double largest = 1e31;  // shared/punctual_light.h: LARGEST_ATTENUATION
+  return 1 / std::max(double(light.nearest_m) * double(light.nearest_m), 1 / largest);
+}
+
 std::vector<Light> lights_with_ranges(const Scene& scene, const LightRanges& ranges) {
   std::vector<Light> lights = scene.lights;
   if (ranges.range == LightRange::scene) return lights;

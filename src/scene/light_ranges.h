@@ -42,6 +42,9 @@ double range_of(const Light& light, size_t index, const LightRanges& ranges);
 // range. 0: as it is.
 double least_falloff(const Light& light, const LightRanges& ranges);
 
+// The largest 1 / distance^2 of a virtual light, by its nearest_m. Finite.
+double most_falloff(const Light& light);
+
 // The scene's lights with their ranges as radius_m.
 std::vector<Light> lights_with_ranges(const Scene& scene, const LightRanges& ranges);
 

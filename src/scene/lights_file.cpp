@@ -9,6 +9,7 @@
 
 #include "base/json_file.h"
 #include "scene/light_groups.h"
+#include "scene/virtual_lights.h"
 
 namespace lightgrid {
 namespace {
@@ -141,12 +142,15 @@ class Fields {
   std::string where_, name_;
 };
 
+constexpr const char* virtual_type = "virtual";
+
 LightType light_type(const Fields& fields) {
   const std::string type = fields.text("type", "point");
+  if (type == virtual_type) return LightType::spot;
   if (type == "point") return LightType::point;
   if (type == "spot") return LightType::spot;
   if (type == "directional") return LightType::directional;
-  throw fields.error("type", "is not point, spot or directional", fmt::format("{:?}", type));
+  throw fields.error("type", "is not point, spot, directional or virtual", fmt::format("{:?}", type));
 }
 
 glm::vec3 direction(const Fields& fields) {
@@ -175,6 +179,7 @@ Light plain_light(const Fields& fields) {
   Light light;
   light.name = fields.name();
   light.type = light_type(fields);
+  if (fields.text("type", "") == virtual_type) make_virtual(light);
   if (light.type != LightType::directional) light.position = fields.vector("position", -max_float, max_float);
   if (light.type != LightType::point) light.direction = direction(fields);
   if (fields.has("color")) light.color = glm::vec3(fields.vector("color", 0, max_float));
@@ -185,6 +190,10 @@ Light plain_light(const Fields& fields) {
   }
   light.radius_m = float(fields.number("radius", light.radius_m, 0, max_float));
   if (fields.has("source_radius")) light.source_m = float(fields.number("source_radius", 0, 0, max_float));
+  if (light.is_virtual) {
+    light.nearest_m = float(fields.number("nearest", 0, 0, max_float));
+    return light;
+  }
   const double inner = fields.number("inner_cone", 0, 0, float(std::numbers::pi));
   const double outer = fields.number("outer_cone", light.outer_cone_rad, 0, float(std::numbers::pi));
   light.inner_cone_rad = float(inner), light.outer_cone_rad = float(outer);
@@ -236,13 +245,15 @@ Json to_json(const glm::vec3& v) { return {shortest(v.x), shortest(v.y), shortes
 nlohmann::ordered_json to_json(const Light& light) {
   nlohmann::ordered_json json;
   if (!light.name.empty()) json["name"] = light.name;
-  json["type"] = name_of(light.type);
+  json["type"] = light.is_virtual ? virtual_type : name_of(light.type);
   if (light.type != LightType::directional) {
     json["position"] = {light.position.x, light.position.y, light.position.z};
     if (std::isfinite(light.radius_m)) json["radius"] = shortest(light.radius_m);
   }
   if (light.type != LightType::point) json["direction"] = to_json(light.direction);
-  if (light.type == LightType::spot) {
+  if (light.is_virtual) {
+    if (light.nearest_m > 0) json["nearest"] = shortest(light.nearest_m);
+  } else if (light.type == LightType::spot) {
     json["inner_cone"] = shortest(light.inner_cone_rad);
     json["outer_cone"] = shortest(light.outer_cone_rad);
   }

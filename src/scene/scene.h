@@ -128,6 +128,10 @@ struct Light {
   float outer_cone_rad = 0.78539816f;
   bool casts_shadow = false;  // opaque and masked surfaces hide it from what lies behind them
   int node = -1;              // of the rig, which moves it; -1: static
+  // A virtual point light (scene/virtual_lights.h): a spot that emits with the cosine from its direction, and
+  // that counts as if it were no nearer than nearest_m.
+  bool is_virtual = false;
+  float nearest_m = 0;
   float source_m = -1;        // soft shadows are those of a sphere of this radius; below 0: of the setting's
   uint32_t groups = all_groups;
   bool operator==(const Light&) const = default;

@@ -19,6 +19,8 @@ struct ViewLight {
   RangeWindow window = RangeWindow::khr;
   double least_falloff = 0;  // 1 / m^2: scene/light_ranges.h
   uint32_t groups = all_groups;
+  double most_falloff =
+      0;  // 1 / m^2: of a virtual light, whose 1 / distance^2 is at most this; 0: no such light
 };
 
 // The integral of intensity / distance^2 over the range's ball, up to a factor.

@@ -37,6 +37,7 @@ std::vector<SceneChoice> chosen_views(const CompareChoice& choice) {
       for (const int lights : counts) {
         SceneChoice& view = views.emplace_back(choice.scene);
         view.scene = scene, view.size = size, view.lights = lights;
+        view.device = choice.devices.device;
       }
     }
   }
@@ -111,7 +112,7 @@ void run_comparison(const Comparison& comparison,
                            .path = chosen_path(scene, view.view, choice.scene),
                            .flip = choice.flip,
                            .all_may_refuse = count > 1};
-    if (!options.path.empty()) options.advance = chosen_motion(scene, choice.scene);
+    if (!options.path.empty()) options.advance = chosen_motion(scene, choices[i]);
     options.progress = [&](double done, const std::string& step) {
       if (progress) progress((before + done * cost) / total, which + step);
     };

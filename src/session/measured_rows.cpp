@@ -50,6 +50,28 @@ ImageError error_of(const Image& image, const Measured& m) {
 
 }  // namespace
 
+// Every light on the surfaces of this run; empty: it was not drawn.
+const Image& every_light_of(const TechniqueRun& run, const Measured& m) {
+  const bool own = run.frame().triangles && !m.reference.run().frame().triangles;
+  if (!own) return m.reference.image;
+  const auto other = m.every_light_with.find(run.view().plan.settings.samples);
+  return other == m.every_light_with.end() ? m.every_light_on_own : other->second;
+}
+
+// With each number of samples that a row has and the first image has not.
+void draw_every_light_with_samples(const Compared& compared, const std::vector<ContestantRun>& entries,
+                                   Measured& m) {
+  for (const ContestantRun& e : entries) {
+    const Settings& settings = e.contestant->settings;
+    if (!e.run || !own_surfaces(*e.contestant->technique, settings) || settings.samples == m.samples_on_own ||
+        m.every_light_with.contains(settings.samples))
+      continue;
+    const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, settings);
+    run->run_frame(true);
+    m.every_light_with[settings.samples] = run->take_image();
+  }
+}
+
 void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& compared,
                                       const std::vector<ContestantRun>& entries, Measured& m) {
   if (m.reference.run().frame().triangles) return;
@@ -67,11 +89,13 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
     const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, own->contestant->settings);
     run->run_frame(true);
     m.every_light_on_own = run->take_image();
+    m.samples_on_own = own->contestant->settings.samples;
     ImageError error = error_of(m.every_light_on_own, m);
     error.displayed = displayed_flip(m.every_light_on_own, m.reference.image, report.exposure);
     error.silhouettes =
         silhouette_error(m.every_light_on_own, own_triangles(*run), m.reference.image, m.triangles.shown);
     report.own_surfaces->error = std::move(error);
+    draw_every_light_with_samples(compared, entries, m);
   });
   if (failure) report.own_surfaces->why_not = failure->what(), m.every_light_on_own = {};
 }
@@ -79,13 +103,14 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
 namespace {
 
 // The row's error against the reference, and that of its light alone.
-void set_errors(RunResult& row, const Image& image, const CompareReport& report, const Measured& m) {
-  const Image& every_light = row.own_surfaces ? m.every_light_on_own : m.reference.image;
+void set_errors(RunResult& row, const Image& image, const Image& every_light, const CompareReport& report,
+                const Measured& m) {
   const bool other_surfaces = row.own_surfaces && !m.reference.run().frame().triangles;
   if (other_surfaces && !every_light.pixels.empty()) {
     row.same_surfaces = compare_images(image, every_light, report.brightest);
     row.same_surfaces->displayed = displayed_flip(image, every_light, report.exposure);
-    if (row.same_surfaces->bit_identical) row.error = report.own_surfaces->error;
+    if (row.same_surfaces->bit_identical && &every_light == &m.every_light_on_own)
+      row.error = report.own_surfaces->error;
   }
   if (!row.error) row.error = error_of(image, m);
   if (other_surfaces || m.reference.sampled()) return;
@@ -114,7 +139,8 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   const Image& image = is_reference ? reference.image : run.image();
   RunResult row = is_reference ? m.result : run.result();
   row.own_surfaces = run.frame().triangles.has_value();
-  set_errors(row, image, report, m);
+  const Image& every_light = every_light_of(run, m);
+  set_errors(row, image, every_light, report, m);
   std::vector<SceneTriangle> own;
   if (row.own_surfaces) {
     own = own_triangles(run);
@@ -133,8 +159,6 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   if (const std::optional<LitPairs> blended = count_blended_pairs(run, m.shadows))
     row.pairs->blended = {blended->lit, blended->leaked, blended->acned, blended->either, !run.approximate()};
   if (run.technique().limited_lists) row.overflow = pairs.lost;
-  const Image& every_light =
-      row.own_surfaces && !reference.run().frame().triangles ? m.every_light_on_own : reference.image;
   if (pairs.lost == 0 && !run.approximate() && !reference.sampled() && !every_light.pixels.empty())
     row.unshaded = missing_light(image, every_light);
   Image taken = run.take_image();

@@ -2,6 +2,7 @@
 // and the oracle.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct Measured {
   std::optional<FlipExposures> exposures{};
   bool shown = false;             // the report will have the reference's image
   Image every_light_on_own = {};  // surfaces, where rows have such and the reference has OpenGL's; or empty
+  int samples_on_own = 1;         // of that image
+  std::map<int, Image> every_light_with = {};  // the same with other samples a pixel, where rows have such
 };
 
 // Takes the reference's image from its run. flip: with exposures for it.

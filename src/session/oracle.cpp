@@ -46,7 +46,7 @@ Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
 std::vector<float> read_depth(TechniqueRun& run) {
   RenderView& v = run.view();
   if (!run.frame().depth) return read_depth(v);
-  std::vector<float> depth(v.grid().values());
+  std::vector<float> depth(v.grid().pixels());
   read_buffer(*v.renderer.cl, "reading depth", run.frame().depth->values, depth.data(),
               depth.size() * sizeof(float));
   return depth;

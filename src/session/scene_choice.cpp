@@ -87,7 +87,45 @@ void tell_endless_lights(const Scene& scene, const SceneChoice& choice) {
            : "");
 }
 
+VirtualLightSettings virtual_settings(const SceneChoice& choice) {
+  VirtualLightSettings s{.count = choice.virtual_lights, .seed = choice.seed};
+  for (const auto& [name, text] :
+       {std::pair("from", choice.virtual_from), {"nearest", choice.virtual_nearest}}) {
+    if (!text.empty() && choice.virtual_lights == 0)
+      throw input_error("virtual-{} {}: applies only to lights that \"virtual-lights\" places", name, text);
+  }
+  if (!choice.virtual_from.empty() && choice.virtual_from != "all") {
+    const auto from = parse_number<int>(choice.virtual_from);
+    if (!from || *from < 1 || *from > most_lights)
+      throw input_error("virtual-from {}: neither all nor a number of lights from 1 to {}",
+                        choice.virtual_from, most_lights);
+    s.from = size_t(*from);
+  }
+  if (!choice.virtual_nearest.empty() && choice.virtual_nearest != "auto") {
+    const auto nearest = parse_number<float>(choice.virtual_nearest);
+    if (!nearest || !(*nearest >= 0) || std::isinf(*nearest))
+      throw input_error("virtual-nearest {}: neither auto nor metres of 0 or more", choice.virtual_nearest);
+    s.nearest_m = double(*nearest);
+  }
+  return s;
+}
+
+void place_virtual_lights(Scene& scene, const SceneChoice& choice) {
+  const std::unique_ptr<VirtualLights> placed = chosen_virtual_lights(scene, choice);
+  if (!placed) return;
+  placed->place();
+  if (placed->reflected() == 0)
+    log_warning("virtual-lights {}: {} has no point or spot light that surfaces could reflect",
+                choice.virtual_lights, choice.scene);
+}
+
 }  // namespace
+
+std::unique_ptr<VirtualLights> chosen_virtual_lights(Scene& scene, const SceneChoice& choice) {
+  const VirtualLightSettings settings = virtual_settings(choice);
+  if (settings.count == 0) return nullptr;
+  return std::make_unique<VirtualLights>(scene, choice.device, chosen_settings(choice), settings);
+}
 
 std::optional<size_t> chosen_casters(const std::string& text) {
   if (text.empty()) return {};
@@ -172,6 +210,7 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
     scene.ambient = added.ambient;
   }
   if (!choice.ambient.empty()) scene.ambient = glm::vec3(parse_ambient(choice.ambient));
+  place_virtual_lights(scene, choice);
   if (const auto casters = chosen_casters(choice.shadows)) choose_shadow_casters(scene, *casters);
   tell_endless_lights(scene, choice);
   return view;
@@ -184,14 +223,15 @@ SceneMotion chosen_motion(Scene& scene, const SceneChoice& choice) {
   if (motion == LightMotion::none && !animated) return {};
   const double start = time.value_or(0);
   constexpr double frames_a_second = 30;
-  return [&scene, animated, start, rig = make_light_rig(scene, motion)](size_t frame) {
+  return [&scene, animated, start, rig = make_light_rig(scene, motion),
+          reflected = std::shared_ptr(chosen_virtual_lights(scene, choice))](size_t frame) {
     const double seconds = start + double(frame) / frames_a_second;
     SceneChanges changes;
     if (animated) changes = set_time(scene, looped_time(scene, seconds));
     const SceneChanges lights = move_lights(scene, rig, seconds);
     changes.lights.insert(changes.lights.end(), lights.lights.begin(), lights.lights.end());
     std::ranges::sort(changes.lights);
-    return changes;
+    return reflected ? reflected->follow(std::move(changes)) : changes;
   };
 }
 
@@ -209,6 +249,7 @@ ChosenScene load_chosen_scene(const SceneChoice& choice) {
   parse_exposure(choice);
   if (!choice.ambient.empty()) parse_ambient(choice.ambient);
   chosen_casters(choice.shadows);
+  virtual_settings(choice);
   ChosenScene chosen{load_scene(choice.scene), {}};
   chosen.view = choose_view(chosen.scene, choice);
   return chosen;

@@ -12,6 +12,7 @@
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "session/compare.h"
+#include "session/virtual_lights.h"
 
 namespace lightgrid {
 
@@ -28,6 +29,10 @@ struct SceneChoice {
   std::string light_radius;
   std::string ambient;  // radiance from all sides; empty: the scene's own
   std::string shadows;  // lights that cast: a number, all or none; empty: those that the scene says
+  int virtual_lights = 0;       // session/virtual_lights.h
+  std::string virtual_from;     // lights that are reflected: a number, or all; empty: all
+  std::string virtual_nearest;  // metres, or auto; empty: auto
+  std::string device;           // that places virtual lights: DeviceOptions::device
   uint64_t seed = 1;
   std::string brdf;  // empty: ggx, or from --set
   std::vector<std::string> set;
@@ -44,7 +49,7 @@ struct TimingOptions {
   int warmup = 1;
 };
 
-inline constexpr int most_lights = 10'000'000;
+inline constexpr int most_lights = 10'000'000, most_virtual_lights = 1'000'000;
 
 struct ImageSize {
   int width = 0, height = 0;
@@ -66,6 +71,8 @@ struct ChosenScene {
 };
 ChosenScene load_chosen_scene(const SceneChoice& choice);
 Settings chosen_settings(const SceneChoice& choice);
+// Null: none are chosen. The scene outlives it.
+std::unique_ptr<VirtualLights> chosen_virtual_lights(Scene& scene, const SceneChoice& choice);
 // How many lights cast, by SceneChoice::shadows; empty: those that the scene says.
 std::optional<size_t> chosen_casters(const std::string& shadows);
 // The exposure of a run's pictures; auto takes it from `image`, or 0 if that has no pixels.

@@ -90,7 +90,7 @@ std::vector<bool> near_blended(const std::vector<bool>& blended, const PixelGrid
 
 std::vector<SceneTriangle> own_triangles(TechniqueRun& run) {
   const RenderView& v = run.view();
-  std::vector<uint32_t> numbers(v.grid().values());
+  std::vector<uint32_t> numbers(v.grid().pixels());
   read_buffer(*v.renderer.cl, "reading triangles", run.frame().triangles->numbers, numbers.data(),
               numbers.size() * 4);
   const std::span<const int> instances = run.frame().triangles->instances;

@@ -10,15 +10,21 @@
 
 namespace lightgrid {
 
+static const TechniqueNeeds& checked_needs(const Technique& technique, const Settings& settings) {
+  check_samples(technique, settings);
+  return technique.needs;
+}
+
 TechniqueRun::TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
                            const Technique& technique, std::shared_ptr<TargetPool> pool)
-    : technique_(technique), view_(renderer, gpu, view, settings, technique.needs, std::move(pool)) {}
+    : technique_(technique),
+      view_(renderer, gpu, view, settings, checked_needs(technique, settings), std::move(pool)) {}
 
 TechniqueRun::TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
                            const Technique& technique)
     : technique_(technique),
       own_scene_(std::make_unique<GpuScene>(renderer, scene)),
-      view_(renderer, *own_scene_, view, settings, technique.needs) {}
+      view_(renderer, *own_scene_, view, settings, checked_needs(technique, settings)) {}
 
 void TechniqueRun::prepare() {
   view_.prepare([&] { draw_frame(); });
@@ -113,6 +119,7 @@ RunResult TechniqueRun::result() const {
   result.settings = settings_of(technique_, view_.plan.settings);
   result.lights_total = int(view_.scene.lights.size());
   result.lights_in_view = view_.plan.lights_in_view;
+  result.lights_virtual = view_.plan.virtual_count;
   result.frame_ms = spread_of(frame_ms_);
   for (const PassRecord& record : view_.timer.records()) {
     result.passes.push_back({record.name, record.on, spread_of(record.ms).median, record.bytes_read,
@@ -128,6 +135,10 @@ RunResult TechniqueRun::result() const {
     if (!decision.needed) result.skipped.push_back({decision.effect, decision.why});
   }
   result.shadows = shadow_result(view_.plan, frame_);
+  if (frame_.sample_figures) {
+    const SampleFigures f = frame_.sample_figures();
+    result.samples = {f.edge_pixels, f.shadings, f.covered, f.bytes};
+  }
   return result;
 }
 

@@ -2,6 +2,7 @@
 // of FramePlan::local. A row of LIGHT_TABLE is all that shaders, kernels and uploads know of a column; the
 // function of its member's name in renderer/light_table.cpp makes its values.
 //   SPOTS: at least one light has a cone.
+//   VIRTUAL_LIGHTS: at least one of those is a virtual point light.
 //   SHADOWS: some light of the scene casts a shadow (FramePlan::light_reaches).
 //   GROUPS: some light or instance lacks a light group (FramePlan::groups).
 #pragma once
@@ -22,6 +23,11 @@ namespace lightgrid {
 #else
 #define IF_SPOTS(text)
 #endif
+#ifdef VIRTUAL_LIGHTS
+#define IF_VIRTUAL(text) text
+#else
+#define IF_VIRTUAL(text)
+#endif
 
 #ifdef GROUPS
 #define IF_GROUPS(text) text
@@ -33,12 +39,15 @@ namespace lightgrid {
 //   position  view space, and 1 / radius^2 (next to 0: no range)
 //   color     radiant intensity, and the least 1 / distance^2
 //   cone      axis times scale, and offset: 1 inside, 0 outside
+//   most_falloff  of a virtual light, which fades with the cone's cosine itself and not with its square: the
+//             most 1 / distance^2; 0 of other lights
 //   groups    a bit each. After all lights follow directional ones, and then the masks of instances, by
 //             FramePlan::group_masks
 #define LIGHT_TABLE(ROW)                                           \
   ROW(IF_LIGHTS, Float4, position, light_positions, samplerBuffer) \
   ROW(IF_LIGHTS, Float4, color, light_colors, samplerBuffer)       \
   ROW(IF_SPOTS, Float4, cone, light_cones, samplerBuffer)          \
+  ROW(IF_VIRTUAL, float, most_falloff, light_falloffs, samplerBuffer) \
   ROW(IF_GROUPS, uint, groups, light_group_masks, usamplerBuffer)
 
 // With shadows a light knows its index, and in OpenCL the shadows at the pixels that read it.

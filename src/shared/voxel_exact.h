@@ -46,6 +46,9 @@ SHARED_FUNCTION Arrival arrival_at_sample(Real3 at, PunctualLight light VOXEL_AR
 #endif
   real inverse_squared = 1.0f / max_real(squared, REAL(1.2e-38f));
   real falloff = min_real(inverse_squared, 1.0f / core);
+#ifdef VIRTUAL_LIGHTS
+  falloff = min_real(falloff, REAL(light.most_falloff > 0.0f ? light.most_falloff : LARGEST_ATTENUATION));
+#endif
 #ifdef LEAST_FALLOFF
   falloff = max_real(falloff, REAL(light.color.w));
 #endif
@@ -65,8 +68,12 @@ SHARED_FUNCTION Arrival arrival_at_sample(Real3 at, PunctualLight light VOXEL_AR
     real root = max_real(sqrt_real(x * x + soft_squared) + size, REAL(1e-30f));
     real y = x > REAL(0.0f) ? 0.5f * root : 0.5f * soft_squared / root;
     real angular = x < -4.0f * scale * sqrt_real(q) ? REAL(0.0f) : min_real(y, REAL(1.0f));
-    arrival.attenuation =
-        arrival.attenuation * (angular * angular) * ((1.0f - cos_outer) / ((1.0f - cos_outer) + 0.5f * q));
+#ifdef VIRTUAL_LIGHTS
+    real fade = light.most_falloff > 0.0f ? angular : angular * angular;
+#else
+    real fade = angular * angular;
+#endif
+    arrival.attenuation = arrival.attenuation * fade * ((1.0f - cos_outer) / ((1.0f - cos_outer) + 0.5f * q));
   }
 #endif
   return arrival;

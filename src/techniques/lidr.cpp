@@ -1,6 +1,7 @@
 // Light-indexed deferred rendering: light volumes drawn into images of light indices, then forward shading of
 // the lights that a pixel's indices name (docs/techniques/lidr.md).
 #include "base/error.h"
+#include "passes/depth_prepass.h"
 #include "passes/find_object_lights.h"
 #include "passes/light_index.h"
 #include "passes/shade_forward.h"
@@ -8,26 +9,50 @@
 
 namespace lightgrid {
 
-// Shadow volumes mark the nearest surfaces; behind front faces lights are listed for all that lie before
-// them.
-static void refuse_impossible(const Settings& settings) {
-  if (settings.lidr_shadows == LidrShadows::volumes && settings.lidr_volumes == LidrVolumes::front_faces) {
+// Shadow volumes and groups of still lights are of the nearest surfaces; behind front faces lights are listed
+// for all that lie before them.
+static void refuse_impossible(const FramePlan& plan) {
+  const Settings& settings = plan.settings;
+  const bool front_faces = settings.lidr_volumes != LidrVolumes::stencil;
+  if (settings.lidr_shadows == LidrShadows::volumes && front_faces) {
     throw input_error(
         "lidr: shadow volumes mark opaque surfaces, but lidr-volumes=front-faces lists lights for all that "
         "lies before them; use lidr-volumes=stencil, or lidr-shadows=prepass");
   }
+  const bool sorted =
+      settings.lidr_packing == LidrPacking::sort || settings.lidr_packing == LidrPacking::maxblend_sort;
+  if (sorted && settings.lidr_sort == LidrSort::still && front_faces) {
+    throw input_error(
+        "lidr: behind front faces, lights of a group must not touch on the screen, which depends on the "
+        "camera; use lidr-sort=view, or lidr-volumes=stencil");
+  }
+  if (settings.lidr_volumes == LidrVolumes::no_prepass && (plan.light_reaches || plan.own_shadows)) {
+    throw input_error(
+        "lidr: shadows are found at the surfaces of a depth prepass; use lidr-volumes=front-faces, or "
+        "shadows=none");
+  }
 }
 
 static Frame render(RenderView& v) {
-  refuse_impossible(v.plan.settings);
-  const Surfaces surfaces = find_surfaces(v);
+  refuse_impossible(v.plan);
+  const bool prepass = v.plan.settings.lidr_volumes != LidrVolumes::no_prepass || v.plan.local.empty();
+  const Surfaces surfaces =
+      prepass ? find_surfaces(v) : Surfaces{.image = no_depth_yet(v), .drawn = v.opaque};
   if (v.plan.local.empty()) return shade_every_light(v, surfaces);
-  const LightSource lights = light_index(v, v.caches.light_index, v.caches.light_volumes,
-                                         v.caches.index_shadows, surfaces.numbered);
-  const ShadedImage image = shade(v, surfaces, lights);
+  const uint32_t passes = order_light_index(v, v.caches.light_index, v.caches.light_volumes);
+  const auto lights_of = [&](uint32_t pass) {
+    return light_index(v, v.caches.light_index, v.caches.light_volumes, v.caches.index_shadows,
+                       surfaces.numbered, pass);
+  };
+  const LightSource lights = lights_of(0);
+  const ShadedImage image =
+      prepass ? shade_forward(v, surfaces.drawn, lights) : shade_forward_and_depth(v, surfaces.drawn, lights);
+  for (uint32_t pass = 1; pass < passes; ++pass)
+    add_lights_forward(v, surfaces.drawn, lights_of(pass), image);
   // Stencil marks opaque surfaces only, and only from these are lights hidden.
   const bool as_opaque = !v.plan.own_shadows || v.plan.settings.lidr_shadows == LidrShadows::final_pass;
-  if (v.plan.settings.lidr_volumes == LidrVolumes::front_faces && as_opaque) {
+  // A blended surface takes all its lights at once, and images have those of one pass.
+  if (v.plan.settings.lidr_volumes != LidrVolumes::stencil && as_opaque && passes == 1) {
     blend(v, surfaces, lights, image);
   } else {
     shade_blended(v, image, find_blended_object_lights(v, v.caches.blended_object_lights));
@@ -38,6 +63,7 @@ static Frame render(RenderView& v) {
 }
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
+  needs.reversed_triangles = settings.lidr_passes > 1 || settings.lidr_types == LidrTypes::passes;
   const LidrShadows way = settings.lidr_shadows;
   if (way == LidrShadows::pass) return;
   needs.own_shadows = true, needs.shadows_by = way == LidrShadows::volumes ? "shadow volumes" : "maps";
@@ -51,8 +77,8 @@ extern const Technique lidr{
     .source = "Trebilco: Light-Indexed Deferred Rendering, ShaderX7 2.9, 2009",
     .needs = {.stencil = true, .adapt = adapt},
     .settings = {"brdf", "lidr-packing", "lidr-overlap", "lidr-lights", "lidr-volumes", "lidr-unpack",
-                 "lidr-order", "lidr-shadows", "lidr-maps", "volume-mesh", "depth-bounds", "tile",
-                 "kernel-shape"},
+                 "lidr-types", "lidr-sort", "lidr-passes", "lidr-order", "lidr-shadows", "lidr-maps",
+                 "volume-mesh", "depth-bounds", "tile", "kernel-shape"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .limited_lists = true};

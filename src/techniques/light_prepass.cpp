@@ -46,7 +46,7 @@ static Frame from_tiles(RenderView& v) {
     surfaces = find_surfaces(v);
     normals = resolve_normals(v, v.caches.resolver, *surfaces.visible);
   }
-  Frame frame = frame_of(surfaces);
+  Frame frame = frame_of(v, surfaces);
   frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds_of(v, surfaces));
   const LightSource lights = from_grid(v, *frame.grid);
   const TargetUse use = v.plan.opengl ? TargetUse::image : TargetUse::gbuffer;

@@ -35,7 +35,7 @@ GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces) {
 Frame shade_from_light_grid(RenderView& v) {
   Surfaces surfaces = find_surfaces(v);
   if (!v.plan.light_grid) return shade_every_light(v, surfaces);  // no light has a position: nothing to list
-  Frame frame = frame_of(surfaces);
+  Frame frame = frame_of(v, surfaces);
   frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds_of(v, surfaces));
   const LightSource lights = from_grid(v, *frame.grid);
   frame.image = shade(v, surfaces, lights);
@@ -44,7 +44,7 @@ Frame shade_from_light_grid(RenderView& v) {
 }
 
 Frame shade_every_light(RenderView& v, const Surfaces& surfaces) {
-  Frame frame = frame_of(surfaces);
+  Frame frame = frame_of(v, surfaces);
   const LightSource lights = every_light(v);
   frame.image = shade(v, surfaces, lights);
   blend(v, surfaces, lights, frame.image);
@@ -64,7 +64,7 @@ Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
   // image.
   if (!v.plan.light_grid && !v.plan.opengl) return shade_every_light(v, *surfaces);
   const GBuffer gbuffer = fill_gbuffer(v, surfaces);
-  Frame frame = frame_of(*surfaces);
+  Frame frame = frame_of(v, *surfaces);
   if (!v.plan.light_grid) {
     frame.image = gbuffer.image;
     blend(v, *surfaces, every_light(v), frame.image);

@@ -16,12 +16,15 @@ bool holds(const std::vector<const char*>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
+TechniqueNeeds adapted_needs(const Technique& technique, Settings settings) {
+  TechniqueNeeds needs = technique.needs;
+  if (needs.adapt) needs.adapt(needs, settings);
+  return needs;
+}
+
 // How the technique finds shadows itself; pass: it does not.
 LidrShadows own_shadows(const Technique& technique, const Settings& settings) {
-  TechniqueNeeds needs = technique.needs;
-  Settings adapted = settings;
-  if (needs.adapt) needs.adapt(needs, adapted);
-  return needs.own_shadows ? settings.lidr_shadows : LidrShadows::pass;
+  return adapted_needs(technique, settings).own_shadows ? settings.lidr_shadows : LidrShadows::pass;
 }
 
 // prepass: one texel decides.
@@ -101,6 +104,17 @@ bool is_approximate(const Technique& technique, const Settings& settings) {
   return technique.approximate || settings.shadows != ShadowMethod::exact || settings.soft_shadows() ||
          settings.picks_shadows() || settings.shadow_threshold > 0 ||
          own_shadows(technique, settings) != LidrShadows::pass;
+}
+
+int most_samples(const Technique& technique, const Settings& settings) {
+  return adapted_needs(technique, settings).most_samples;
+}
+
+void check_samples(const Technique& technique, const Settings& settings) {
+  const int most = most_samples(technique, settings);
+  if (settings.samples <= most) return;
+  throw input_error("set samples={}: {} with these settings takes {} a pixel", settings.samples,
+                    technique.name, most);
 }
 
 std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings) {

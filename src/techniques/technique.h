@@ -42,6 +42,11 @@ bool reads_setting(const Technique& technique, const std::string& key);
 // Whether with these settings its picture is not forward's, by nature, or its shadows are no exact ones.
 bool is_approximate(const Technique& technique, const Settings& settings);
 
+// The most samples a pixel that the technique can take with these settings.
+int most_samples(const Technique& technique, const Settings& settings);
+// Throws Error(input) where the setting samples is more.
+void check_samples(const Technique& technique, const Settings& settings);
+
 // The subset of `settings` that the technique reads, as to_strings returns them.
 std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings);
 

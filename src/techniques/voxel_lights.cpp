@@ -8,7 +8,7 @@ namespace lightgrid {
 static Frame render(RenderView& v) {
   Surfaces surfaces = find_surfaces(v);
   if (!v.plan.local_lights) return shade_every_light(v, surfaces);
-  Frame frame = frame_of(surfaces);
+  Frame frame = frame_of(v, surfaces);
   std::optional<LightSource> exact, exact_blended;  // without voxel-lights-exact there is no grid
   if (v.plan.light_grid) {
     const DepthBounds& bounds = bounds_of(v, surfaces);
@@ -18,8 +18,8 @@ static Frame render(RenderView& v) {
           v, frame.blend_grid.emplace(cull_lights_for_blended(v, v.culler(), v.blend_grid(), bounds)));
   }
   const TileDistances& distances = distances_of(v, surfaces);
-  const VoxelVolume voxels =
-      build_voxels(v, v.caches.voxels, distances, surfaces.visible ? surfaces.depth : DepthBuffer());
+  const VoxelVolume voxels = build_voxels(v, v.caches.voxels, distances,
+                                          surfaces.visible ? surfaces.visible->pixel_depth() : DepthBuffer());
   const LightSource lights = from_voxels(v, v.caches.voxels, voxels, exact ? &*exact : nullptr);
   frame.listed = exact ? exact->listed : lights.listed;
   frame.lights_in_volume = true;
@@ -30,6 +30,7 @@ static Frame render(RenderView& v) {
 }
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
+  if (settings.raster == RasterApi::opencl) needs.most_samples = 8;
   if (settings.voxel_lights_exact != 0) return;
   needs.light_grid = false, needs.no_light_grid = "voxel-lights-exact=0";
   needs.shadows = false, needs.no_shadows = "lights are added up where no pixel asks for one";
@@ -46,8 +47,8 @@ extern const Technique voxel_lights{
               .groups_of =
                   "; of directional and exact lights alone: the volume's light belongs to no surface"},
     .settings = {"brdf", "voxel-size", "voxel-space", "voxel-bits", "voxel-lights-exact", "voxel-reuse",
-                 "cull-test", "depth-bounds", "tile", "raster", "texels", "kernel-shape", "portable",
-                 "group-size"},
+                 "cull-test", "depth-bounds", "tile", "raster", "samples", "texels", "kernel-shape",
+                 "portable", "group-size"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .approximate = true};

@@ -9,7 +9,7 @@ static Frame render(RenderView& v) {
   const Surfaces surfaces = find_surfaces(v);
   if (!v.plan.world_grid) return shade_every_light(v, surfaces);
   const LightSource lights = build_world_grid(v, v.caches.world_grid);
-  Frame frame = frame_of(surfaces);
+  Frame frame = frame_of(v, surfaces);
   frame.listed = lights.listed;
   frame.image = shade(v, surfaces, lights);
   blend(v, surfaces, lights, frame.image);
@@ -19,14 +19,19 @@ static Frame render(RenderView& v) {
   return frame;
 }
 
+// In OpenCL, where surfaces are visibility's.
+static void adapt(TechniqueNeeds& needs, Settings& settings) {
+  if (settings.raster == RasterApi::opencl) needs.most_samples = 8;
+}
+
 extern const Technique world_grid{.name = "world_grid",
                                   .summary = "light lists in cells of the world, built once for all views",
                                   .source =
                                       "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009; "
                                       "Tegelaers: Forward and Deferred Hashed Shading",
-                                  .needs = {.chosen_raster = true, .world_grid = true},
+                                  .needs = {.chosen_raster = true, .world_grid = true, .adapt = adapt},
                                   .settings = {"brdf", "world-grid", "world-cell", "depth-bounds", "tile",
-                                               "raster", "texels", "kernel-shape", "portable"},
+                                               "raster", "samples", "texels", "kernel-shape", "portable"},
                                   .render = render};
 
 }  // namespace lightgrid

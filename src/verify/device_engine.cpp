@@ -5,8 +5,12 @@
 #include "cl/transfer.h"
 #include "culling/cull_pipeline.h"
 #include "culling/light_culler.h"
+#include "gl/bindings.h"
+#include "gl/gl.h"
 #include "passes/find_shadows.h"
+#include "passes/read_outs.h"
 #include "passes/surfaces.h"
+#include "techniques/technique.h"
 #include "verify/engine.h"
 
 namespace lightgrid::verify {
@@ -122,15 +126,36 @@ class DeviceEngine : public CullEngine {
     std::vector<ShadowImage> images;
     for (const View& view : views) {
       if (!images.empty()) v.look(view);
-      Frame frame = frame_of(find_surfaces(v));
+      Frame frame = frame_of(v, find_surfaces(v));
       tell_shadows(v, v.caches.shadow_bits, frame);
       ShadowImage& image = images.emplace_back();
       image.lights = v.plan.local, image.shadows = frame.shadows();
-      std::vector<uint32_t> numbers(v.grid().values());
+      std::vector<uint32_t> numbers(v.grid().pixels());
       image.depths.resize(numbers.size());
       read_buffer(*renderer_->cl, "triangles", frame.triangles->numbers, numbers.data(), numbers.size() * 4);
       read_buffer(*renderer_->cl, "depths", frame.depth->values, image.depths.data(), numbers.size() * 4);
       image.triangles = triangles_of(scene, *frame.triangles, numbers);
+    }
+    return images;
+  }
+
+  std::vector<LightIndexImage> light_indices(const Scene& scene, std::span<const View> views,
+                                             const Settings& settings) override {
+    if (!with_opengl_) with_opengl_ = std::make_unique<Renderer>(substring_, GlBackend::automatic);
+    if (!with_opengl_->gl) return {};
+    const Technique& technique = find_technique("lidr");
+    with_opengl_->gl->make_current();
+    GpuScene gpu(*with_opengl_, scene);
+    RenderView v(*with_opengl_, gpu, views.front(), settings, technique.needs);
+    std::vector<LightIndexImage> images;
+    for (const View& view : views) {
+      if (!images.empty()) v.look(view);
+      reset_gl_state();
+      const Frame frame = technique.render(v);
+      LightIndexImage& image = images.emplace_back();
+      image.depths = read_depth(v);
+      image.lists = frame.listed(image.depths);
+      check_gl(technique.name);
     }
     return images;
   }
@@ -180,7 +205,8 @@ class DeviceEngine : public CullEngine {
 
   const std::string substring_;
   const ProgramCache::Alter alter_;
-  std::unique_ptr<Renderer> renderer_;  // of shadows: made at first use
+  std::unique_ptr<Renderer> renderer_;     // of shadows: made at first use
+  std::unique_ptr<Renderer> with_opengl_;  // of light indices: likewise
   ClDevice device_;
   ProgramCache programs_;
   ClGridStorage storage_;

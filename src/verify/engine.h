@@ -14,6 +14,7 @@
 #include "raster/raster_view.h"
 #include "reference/occlusion.h"
 #include "scene/host_shadows.h"
+#include "scene/listed_lights.h"
 
 namespace lightgrid::verify {
 
@@ -50,6 +51,12 @@ struct RasterImage {
   std::vector<float> depths;
   std::vector<std::vector<glm::vec4>> clip;  // of each instance, its vertices in clip space
   uint64_t invalid_triangles = 0;
+};
+
+// Light indices, read back from their images.
+struct LightIndexImage {
+  std::vector<float> depths;  // a pixel, row 0 at the bottom; 0 for background
+  ListedLights lists;         // of opaque surfaces, one a pixel
 };
 
 // What a frame's light loops read where lights cast shadows, and the surfaces that they shade.
@@ -95,6 +102,12 @@ class CullEngine {
 
   // Nothing from an engine that only culls.
   virtual std::optional<RasterImage> rasterize(const RasterOptions&, const RasterInput&) { return {}; }
+
+  // What lidr lists at each pixel, a view after the other in one run. Nothing from an engine without OpenGL.
+  // No light of the scene may cast.
+  virtual std::vector<LightIndexImage> light_indices(const Scene&, std::span<const View>, const Settings&) {
+    return {};
+  }
 
   // An image for each view, by one renderer that moves from view to view. Nothing from an engine that only
   // culls. Some light of the scene has to cast.

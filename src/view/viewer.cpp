@@ -215,7 +215,11 @@ void Viewer::draw_sides() {
   const bool moves =
       controls_.playing || controls_.step || controls_.seconds || motion_.lights() != controls_.lights;
   if (moves) leave_scene();
-  const SceneChanges changes = motion_.follow(controls_, seconds_);
+  SceneChanges changes = motion_.follow(controls_, seconds_);
+  if (!changes.empty() && job_.reflect) {
+    if (!reflected_) reflected_ = job_.reflect(job_.scene);
+    if (reflected_) changes = reflected_->follow(std::move(changes));
+  }
   if (!changes.instances.empty() || !changes.meshes.empty()) occlusion_.scene_moved();
   if (!motion_.can_play()) controls_.playing = false;
   gpu_.update(changes);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/image.h"
+#include "session/virtual_lights.h"
 #include "view/clock.h"
 #include "view/controls.h"
 #include "view/panels.h"
@@ -28,6 +29,7 @@ struct ViewJob {
   std::string camera;             // the value of --camera
   std::optional<double> seconds;  // of the scene's animations; empty: at rest
   Controls controls;              // initial values
+  std::function<std::unique_ptr<VirtualLights>(Scene&)> reflect;  // null ones: none were chosen
   std::function<Exposure(const Image&)> expose;  // of the scene's pictures, by its first one
 
   bool scripted = false;  // no user: ends after `frames`, in steps of a sixtieth of a second
@@ -85,6 +87,7 @@ class Viewer {
   Controls& controls_;
   FlyCamera camera_;
   Motion motion_;
+  std::unique_ptr<VirtualLights> reflected_;  // of a scene that moves
   Pointer pointer_;
   Resolution resolution_;
   ReferencePicture reference_;

@@ -86,6 +86,8 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       // Messages of its own passes.
       {"src/passes/light_index/blending.cpp", {"lidr"}},
       {"src/passes/light_index/layout.cpp", {"lidr"}},
+      // Its hard cases.
+      {"src/verify/device_engine.cpp", {"lidr"}},
       // What is varied, and a sentence about two.
       {"src/frontier/points.cpp",
        {"deferred_tiled", "forward_plus", "lidr", "visibility", "voxel_lights", "world_grid"}},
@@ -217,18 +219,19 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
   for (std::sregex_iterator at(table.begin(), table.end(), row), end; at != end; ++at) {
     const std::string member = (*at)[1], array = (*at)[2];
     all.insert(member);
-    texts[member] = {array, "glm::vec4 " + member + "("};
+    texts[member] = {array, "glm::vec4 " + member + "(", "float " + member + "(const ViewLight"};
   }
-  EXPECT_THAT(all, testing::IsSupersetOf({"position", "color", "cone"}));
-  // All that names the newest column. The others are read by every light loop.
+  EXPECT_THAT(all, testing::IsSupersetOf({"position", "color", "cone", "most_falloff"}));
+  // All that names the newest columns. The others are read by every light loop.
   texts["cone"].push_back("light.cone.");
+  texts["most_falloff"].push_back("REAL(light.most_falloff");
   const Naming expected = {
       {"src/shared/light_table.h", all},
       {"src/renderer/upload/lights.cpp", all},
       // Readers: the range alone; a cone's part in what arrives.
       {"shaders/lights/blocks.glsl", {"position"}},
-      {"src/shared/punctual_light.h", {"cone"}},
-      {"src/shared/voxel_exact.h", {"cone"}},
+      {"src/shared/punctual_light.h", {"cone", "most_falloff"}},
+      {"src/shared/voxel_exact.h", {"cone", "most_falloff"}},
       // Groups of a light before it is read whole; of directional lights and of instances, which follow.
       {"shaders/lights/punctual.glsl", {"groups"}},
       {"shaders/lights/directional.glsl", {"groups"}},
@@ -262,6 +265,7 @@ TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
       {"shaders/light_buffer.frag", {"arrives", "asks"}},
       {"kernels/resolve/shade_pixels.h", {"arrives", "asks"}},
       {"kernels/resolve/light_buffer.h", {"arrives", "asks"}},
+      {"kernels/resolve/reflected_light.h", {"arrives", "asks"}},
       {"kernels/voxels/voxel_light.h", {"arrives"}},
       {"kernels/voxels/gpu/build_voxels.cl", {"arrives"}},
       {"src/reference/shading.cpp", {"arrives", "asks"}},

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "verify/run.h"
 #include "support/paths.h"
 #include "support/run_program.h"
+#include "verify/run.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -39,12 +39,14 @@ TEST_P(HardCasesOf, Hold) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Verify, HardCasesOf,
-                         testing::Values("depth", "camera", "lights", "lists", "agreement", "raster", "shadows"),
+                         testing::Values("depth", "camera", "lights", "lists", "agreement", "raster",
+                                         "shadows", "lidr"),
                          [](const auto& info) { return std::string(info.param); });
 
 // Each has a unique name and is in one of the groups that HardCasesOf.Hold runs.
 TEST(HardCases, HaveNamesOfTheirOwnAndAGroupThatIsRun) {
-  const std::set<std::string> groups = {"depth", "camera", "lights", "lists", "agreement", "raster", "shadows"};
+  const std::set<std::string> groups = {"depth",     "camera", "lights",  "lists",
+                                        "agreement", "raster", "shadows", "lidr"};
   std::set<std::string> names, used;
   for (const HardCase& c : hard_cases()) {
     EXPECT_TRUE(names.insert(c.name).second) << c.name;

@@ -1,6 +1,7 @@
 // Hard cases of the light buffer (docs/techniques/light_prepass.md): its six sums at each pixel, added up
 // from the lists of tiles, against the same sums over all lights in double.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cl/transfer.h"
@@ -13,6 +14,7 @@
 #include "reference/position.h"
 #include "renderer/render_view.h"
 #include "scene/random.h"
+#include "scene/virtual_lights.h"
 
 namespace lightgrid {
 namespace {
@@ -51,7 +53,7 @@ std::vector<SixSums> filled_sums(Renderer& renderer, const Scene& scene, const V
                {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true});
   if (!v.plan.light_grid) return std::vector<SixSums>(v.grid().values(), SixSums{});
   ClDevice& device = *renderer.cl;
-  SharedBuffer& depth = v.shared_pixels("depth", 4);
+  SharedBuffer& depth = v.shared_samples("depth", 4);
   write_buffer(device, "writing depth", depth.cl_buffer(), input.depth.data(), v.grid().values() * 4);
   const NormalsInCl normals = normals_in_cl_of(v, TargetUse::gbuffer);
   write_buffer(device, "writing normals", normals.image->cl_buffer(), input.normals.data(),
@@ -171,6 +173,20 @@ void thin_spots_in_tiles(PassCheck& c) {
   hold_wall(c, scene, "thin spots");
 }
 
+void virtual_lights_in_tiles(PassCheck& c) {
+  Scene scene = wall_scene();
+  Random random(5);
+  for (int i = 0; i < 60; ++i) {
+    Light& light =
+        add_point(scene, "virtual", {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-3.99f, 0)},
+                  {1, 0.7f, 0.9f}, 5, 4);
+    make_virtual(light);
+    light.direction = glm::vec3(any_direction(random));
+    light.nearest_m = std::array{0.0f, 0.3f, 2.0f}[size_t(i % 3)];
+  }
+  hold_wall(c, scene, "virtual lights");
+}
+
 void nothing_in_range(PassCheck& c) { hold_wall(c, wall_scene(), "no lights"); }
 
 // The sum of equal terms rounds once a term. Up to 65,535 lights have indices of 16 bits, as the other cases.
@@ -246,6 +262,8 @@ std::vector<PassCase> light_buffer_cases() {
       CASE(sums_of_any_brightness, "0, 10⁻³⁰, 10²⁰ and 3·10³⁸ candela",
            "∞ · 0 in a lobe; a sum past what materials take", "every sum as the oracle's, 10³⁰ at most"),
       CASE(thin_spots_in_tiles, "half-angles of 60 to 6·10⁻⁴ degrees", "a cone misses tiles' centres", sums),
+      CASE(virtual_lights_in_tiles, "cosine emitters, clamped at 0, 0.3 and 2 m",
+           "the square of a cosine; no clamp near a surface", sums),
       CASE(nothing_in_range, "0 lights in range", "a list that is not there is read", "sums of exactly 0"),
       CASE(many_in_one_place, "5·10⁴ lights in one place (10⁶ with LIGHTGRID_LONG_TESTS)", "a limit a tile",
            sums),

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "passes/light_index/light_groups.h"
-#include "passes/light_index/layout.h"
 #include "passes/light_index/blending.h"
+#include "passes/light_index/layout.h"
+#include "passes/light_index/light_groups.h"
 #include "scene/random.h"
 #include "shared/light_index.h"
 
@@ -38,19 +38,63 @@ TEST(LightIndexLayout, BytesOfAPixelInEachRow) {
     int overlap, lights;
     size_t bytes;
   };
-  for (const Row& row : {Row{LidrPacking::bitshift, 1, 15, 1}, {LidrPacking::bitshift, 2, 15, 1},
-                         {LidrPacking::bitshift, 4, 15, 2},    {LidrPacking::bitshift, 8, 15, 4},
-                         {LidrPacking::bitshift, 16, 15, 8},   {LidrPacking::bitshift, 1, 255, 1},
-                         {LidrPacking::bitshift, 2, 255, 2},   {LidrPacking::bitshift, 4, 255, 4},
-                         {LidrPacking::bitshift, 8, 255, 8},   {LidrPacking::bitshift, 16, 255, 16},
-                         {LidrPacking::bitshift, 1, 65535, 2}, {LidrPacking::bitshift, 2, 65535, 4},
-                         {LidrPacking::bitshift, 4, 65535, 8}, {LidrPacking::bitshift, 8, 65535, 16},
-                         {LidrPacking::maxblend, 1, 255, 1},   {LidrPacking::maxblend, 2, 255, 2},
-                         {LidrPacking::maxblend, 4, 255, 4},   {LidrPacking::maxblend, 4, 65535, 8},
-                         {LidrPacking::sort, 4, 15, 4},        {LidrPacking::sort, 16, 255, 16},
-                         {LidrPacking::sort, 8, 65535, 16}}) {
+  for (const Row& row : {Row{LidrPacking::bitshift, 1, 15, 1},
+                         {LidrPacking::bitshift, 2, 15, 1},
+                         {LidrPacking::bitshift, 4, 15, 2},
+                         {LidrPacking::bitshift, 8, 15, 4},
+                         {LidrPacking::bitshift, 16, 15, 8},
+                         {LidrPacking::bitshift, 1, 255, 1},
+                         {LidrPacking::bitshift, 2, 255, 2},
+                         {LidrPacking::bitshift, 4, 255, 4},
+                         {LidrPacking::bitshift, 8, 255, 8},
+                         {LidrPacking::bitshift, 16, 255, 16},
+                         {LidrPacking::bitshift, 1, 65535, 2},
+                         {LidrPacking::bitshift, 2, 65535, 4},
+                         {LidrPacking::bitshift, 4, 65535, 8},
+                         {LidrPacking::bitshift, 8, 65535, 16},
+                         {LidrPacking::maxblend, 1, 255, 1},
+                         {LidrPacking::maxblend, 2, 255, 2},
+                         {LidrPacking::maxblend, 4, 255, 4},
+                         {LidrPacking::maxblend, 4, 65535, 8},
+                         {LidrPacking::sort, 4, 15, 4},
+                         {LidrPacking::sort, 16, 255, 16},
+                         {LidrPacking::sort, 8, 65535, 16},
+                         {LidrPacking::maxblend_sort, 4, 255, 4},
+                         {LidrPacking::maxblend_sort, 16, 255, 16},
+                         {LidrPacking::maxblend_sort, 8, 65535, 16}}) {
     const LightIndexLayout layout = layout_of(row.packing, row.overlap, row.lights);
     EXPECT_EQ(layout.pixel_bytes(), row.bytes) << layout.name();
+  }
+}
+
+// Table 2.9.1 of the article: "2 x RGBA8 surfaces, light index split into 4 x 1-bit values, requires two
+// passes".
+TEST(LightIndexLayout, IsTheArticlesTable) {
+  struct Row {
+    int overlap, lights;
+    uint32_t targets, target_channels, parts, bits, passes;
+  };
+  for (const Row& row : {Row{2, 15, 1, 1, 1, 4, 1},
+                         {4, 15, 1, 2, 2, 2, 1},
+                         {8, 15, 1, 4, 4, 1, 1},
+                         {16, 15, 2, 4, 4, 1, 2},
+                         {1, 255, 1, 1, 1, 8, 1},
+                         {2, 255, 1, 2, 2, 4, 1},
+                         {4, 255, 1, 4, 4, 2, 1},
+                         {8, 255, 2, 4, 8, 1, 1},
+                         {16, 255, 4, 4, 8, 1, 2},
+                         {1, 65535, 1, 2, 2, 8, 1},
+                         {2, 65535, 1, 4, 4, 4, 1},
+                         {4, 65535, 2, 4, 8, 2, 1},
+                         {8, 65535, 4, 4, 16, 1, 1}}) {
+    const LightIndexLayout layout = layout_of(LidrPacking::bitshift, row.overlap, row.lights);
+    SCOPED_TRACE(layout.name());
+    EXPECT_EQ(layout.channel_bits, 8u);
+    EXPECT_EQ(layout.targets(), row.targets);
+    EXPECT_EQ(layout.target_channels(), row.target_channels);
+    EXPECT_EQ(layout.channels, row.parts) << "values that an index is split into";
+    EXPECT_EQ(layout.shift, row.bits);
+    EXPECT_EQ(layout.groups, row.passes);
   }
 }
 
@@ -67,9 +111,9 @@ using BlendOne = std::function<uint32_t(uint32_t source, uint32_t there)>;
 
 LightIndexBlender blender_of(const BlendOne& blend) {
   return [=](const LightIndexLayout& layout, const std::vector<std::vector<uint32_t>>& rounds) {
-    const uint32_t packing = layout.packing == LidrPacking::sort       ? LIDR_SORT
-                             : layout.packing == LidrPacking::maxblend ? LIDR_MAXBLEND
-                                                                       : LIDR_BITSHIFT;
+    const uint32_t packing = layout.packing == LidrPacking::sort ? LIDR_SORT
+                             : layout.maxblended()               ? LIDR_MAXBLEND
+                                                                 : LIDR_BITSHIFT;
     const size_t pixels = size_t(probe_size) * probe_size, stride = layout.targets() * 4;
     std::vector<uint16_t> channels(pixels * stride, 0);
     for (size_t r = 0; r < rounds.size(); ++r) {
@@ -87,12 +131,13 @@ LightIndexBlender blender_of(const BlendOne& blend) {
 
 // Each row with its own blending, exactly.
 BlendOne exact_blend(const LightIndexLayout& layout) {
-  if (layout.packing == LidrPacking::maxblend) return [](uint32_t s, uint32_t d) { return std::max(s, d); };
+  if (layout.maxblended()) return [](uint32_t s, uint32_t d) { return std::max(s, d); };
   return [shift = layout.shift](uint32_t s, uint32_t d) { return s + (d >> shift); };
 }
 
 TEST(LightIndexProbe, PassesBlendingThatKeepsEveryIndex) {
-  for (const LidrPacking packing : {LidrPacking::bitshift, LidrPacking::maxblend, LidrPacking::sort}) {
+  for (const LidrPacking packing :
+       {LidrPacking::bitshift, LidrPacking::maxblend, LidrPacking::sort, LidrPacking::maxblend_sort}) {
     for (const int lights : {15, 255, 65535}) {
       for (const int overlap : {1, 2, 4, 8, 16}) {
         if ((packing == LidrPacking::maxblend && overlap > 4) || (overlap == 16 && lights == 65535)) continue;
@@ -108,8 +153,17 @@ TEST(LightIndexLayout, HasRoomForSharesOrIsRefused) {
     int overlap, lights;
     size_t bytes;  // 0: refused
   };
-  for (const Row& row : {Row{1, 255, 2}, {2, 255, 4}, {4, 15, 4}, {4, 255, 8}, {8, 15, 8}, {8, 255, 12},
-                         {16, 15, 16}, {16, 255, 0}, {2, 65535, 8}, {4, 65535, 12}, {8, 65535, 0}}) {
+  for (const Row& row : {Row{1, 255, 2},
+                         {2, 255, 4},
+                         {4, 15, 4},
+                         {4, 255, 8},
+                         {8, 15, 8},
+                         {8, 255, 12},
+                         {16, 15, 16},
+                         {16, 255, 0},
+                         {2, 65535, 8},
+                         {4, 65535, 12},
+                         {8, 65535, 0}}) {
     const Settings settings{.lidr_overlap = row.overlap, .lidr_lights = row.lights};
     if (row.bytes == 0) {
       EXPECT_THROW(light_index_layout(settings, 1, 4), Error);
@@ -136,11 +190,11 @@ TEST(LightIndexLayout, HasRoomForSharesOrIsRefused) {
 TEST(LightIndexProbe, TellsMachinesApart) {
   const LightIndexLayout layout = layout_of(LidrPacking::bitshift, 4, 255);
   const auto fails = [&](double factor, bool truncates) {
-    return why_blending_fails(layout, blender_of([=](uint32_t s, uint32_t d) {
-                                const double down = d * factor;
-                                return std::min(255u, s + uint32_t(truncates ? std::floor(down)
-                                                                             : std::floor(down + 0.5)));
-                              }));
+    return why_blending_fails(
+        layout, blender_of([=](uint32_t s, uint32_t d) {
+          const double down = d * factor;
+          return std::min(255u, s + uint32_t(truncates ? std::floor(down) : std::floor(down + 0.5)));
+        }));
   };
   EXPECT_EQ(fails(0.25, false), "");
   EXPECT_EQ(fails(0.251, false), "");
@@ -215,6 +269,57 @@ TEST(LightGroups, HoldLightsThatDoNotTouchAndAsManyAsFit) {
     EXPECT_GT(left_out, 0u);
     EXPECT_LT(left_out, 580u);
   }
+}
+
+// With two slots a light is left out only where each group has two that touch it and each other.
+TEST(LightGroups, OfTwoSlotsHaveNoThreeThatTouchEachOther) {
+  for (const bool balls : {true, false}) {
+    const auto extents = random_extents(600, 5, balls);
+    const auto groups = group_lights(extents, 2, 2);
+    size_t left_out = 0, pairs = 0;
+    for (size_t i = 0; i < extents.size(); ++i) {
+      bool full[2] = {};
+      for (size_t j = 0; j < i; ++j) {
+        if (groups[j] == no_group || !plainly_touch(extents[i], extents[j])) continue;
+        pairs += groups[j] == groups[i];
+        for (size_t k = 0; k < j; ++k) {
+          if (groups[k] == groups[j] && plainly_touch(extents[i], extents[k]) &&
+              plainly_touch(extents[j], extents[k]))
+            full[groups[j]] = true;
+        }
+      }
+      if (groups[i] == no_group) {
+        ++left_out;
+        ASSERT_TRUE(full[0] && full[1]) << "there was room";
+      } else {
+        ASSERT_FALSE(full[groups[i]]) << "three touch each other";
+        ASSERT_TRUE(groups[i] == 0 || full[0]) << "the first group with room";
+      }
+    }
+    EXPECT_GT(left_out, 0u);
+    EXPECT_GT(pairs, 50u) << "groups hold no lights that touch";
+  }
+}
+
+TEST(LightGroups, OfStillLightsAreFoundOnce) {
+  auto extents = random_extents(300, 6, true);
+  std::vector<uint32_t> order(extents.size());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = uint32_t((7 * i) % order.size());
+  StillLightGroups still;
+  const std::vector<uint32_t> first = still.of(extents, order, 3, 1);
+  EXPECT_EQ(still.of(extents, order, 3, 1), first);
+  EXPECT_EQ(still.sorted(), 1);
+  for (size_t i = 0; i < extents.size(); ++i) {
+    for (size_t j = 0; j < i; ++j)
+      ASSERT_FALSE(first[i] != no_group && first[i] == first[j] && plainly_touch(extents[i], extents[j]));
+  }
+  EXPECT_EQ(first[order[0]], 0u) << "the first in order has the first group";
+  // One light moves onto another of its group.
+  const size_t other = size_t(std::find(first.begin() + 1, first.end(), first[0]) - first.begin());
+  extents[0] = extents[other];
+  const std::vector<uint32_t> moved = still.of(extents, order, 3, 1);
+  EXPECT_EQ(still.sorted(), 2);
+  EXPECT_TRUE(moved[0] == no_group || moved[0] != moved[other]);
 }
 
 TEST(LightGroups, RoundsKeepTheOrderOfWhatTouches) {

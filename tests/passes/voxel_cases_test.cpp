@@ -2,6 +2,7 @@
 // against the formulas of its page in double, and each point that a light reaches against the eight samples
 // around it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "passes/build_voxels.h"
@@ -9,6 +10,7 @@
 #include "reference/light_sums.h"
 #include "renderer/render_view.h"
 #include "scene/random.h"
+#include "scene/virtual_lights.h"
 
 namespace lightgrid {
 namespace {
@@ -222,6 +224,21 @@ void cones(PassCheck& c) {
   hold_voxels(c, of, "cones");
 }
 
+// Cosine emitters, some without a clamp and some with a wide one.
+void virtual_lights(PassCheck& c) {
+  VoxelCase of;
+  Random random(5);
+  for (int i = 0; i < 60; ++i) {
+    Light& light =
+        add_point(of.scene, "virtual", {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-4, 0)},
+                  {1, 0.7f, 0.9f}, 5, 4);
+    make_virtual(light);
+    light.direction = glm::vec3(any_direction(random));
+    light.nearest_m = std::array{0.0f, 0.3f, 2.0f}[size_t(i % 3)];
+  }
+  hold_voxels(c, of, "virtual lights");
+}
+
 void nothing_in_view(PassCheck& c) {
   VoxelCase of;
   of.view = make_view(look_at({0, 0, 2}, {0, 0, 3}), 40, 25);
@@ -282,6 +299,8 @@ std::vector<PassCase> voxel_cases() {
       CASE(many_in_one_voxel, "10⁵ lights in one place (10⁶ with LIGHTGRID_LONG_TESTS)",
            "a limit a voxel or a brick", samples),
       CASE(cones, "half-angles of 90 to 6·10⁻⁴ degrees", "a cone between samples is lost", samples),
+      CASE(virtual_lights, "cosine emitters, clamped at 0, 0.3 and 2 m",
+           "the square of a cosine; a clamp inside a voxel's core", samples),
       CASE(nothing_in_view, "the wall behind the eye", "a volume of no size", samples),
       CASE(bounds_that_move, "eyes from 1 cm to 70 m before the wall",
            "samples of the last volume; a near plane of 0", samples),

@@ -1,5 +1,6 @@
-// Four samples a pixel, each against the coverage oracle.
+// Several samples a pixel, each against the coverage oracle.
 #include <limits>
+#include <map>
 
 #include "culling/light_culler.h"
 #include "raster/random_triangles.h"
@@ -37,20 +38,32 @@ TEST_P(RasterSamples, EachShowsWhatCoversItsPlaceInThePixel) {
   EXPECT_GT(edges, 3000u) << "samples of a pixel show the same everywhere";
 }
 
+// As Vulkan 1.3 and Direct3D 11 list them: 1/16 pixel, y down.
+const std::map<int, std::vector<glm::ivec2>>& listed_locations() {
+  static const std::map<int, std::vector<glm::ivec2>> all = {
+      {2, {{4, 4}, {-4, -4}}},
+      {4, {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}}},
+      {8, {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}}}};
+  return all;
+}
+
 // What only one sample of a pixel meets: a triangle smaller than the distance between them.
 TEST_P(RasterSamples, ATinyTriangleCoversTheSampleThatItHolds) {
-  for (int s = 0; s < 4; ++s) {
-    TriangleScene scene = scene_of(plain_view(16, 16));
-    scene.camera.grid.samples = 4;
-    const double x = 5 + double(standard_locations[s].x) / 256, y = 9 + double(standard_locations[s].y) / 256;
-    add_triangle(scene.meshes[0], at(scene.camera, x - 0.1, y - 0.1, 1),
-                 at(scene.camera, x + 0.1, y - 0.1, 1), at(scene.camera, x, y + 0.1, 1));
-    const Drawn image = image_of(scene);
-    std::vector<size_t> shown;
-    for (size_t i = 0; i < image.triangles.size(); ++i) {
-      if (image.triangles[i] != no_triangle) shown.push_back(i);
+  for (const auto& [samples, locations] : listed_locations()) {
+    for (int s = 0; s < samples; ++s) {
+      TriangleScene scene = scene_of(plain_view(16, 16));
+      scene.camera.grid.samples = samples;
+      const glm::ivec2 place = locations[size_t(s)];
+      const double x = 5.5 + place.x / 16.0, y = 9.5 - place.y / 16.0;
+      add_triangle(scene.meshes[0], at(scene.camera, x - 0.1, y - 0.1, 1),
+                   at(scene.camera, x + 0.1, y - 0.1, 1), at(scene.camera, x, y + 0.1, 1));
+      const Drawn image = image_of(scene);
+      std::vector<size_t> shown;
+      for (size_t i = 0; i < image.triangles.size(); ++i) {
+        if (image.triangles[i] != no_triangle) shown.push_back(i);
+      }
+      EXPECT_EQ(shown, std::vector<size_t>{size_t(samples * (9 * 16 + 5) + s)}) << samples;
     }
-    EXPECT_EQ(shown, std::vector<size_t>{size_t(4 * (9 * 16 + 5) + s)});
   }
 }
 
@@ -96,7 +109,7 @@ TEST_P(RasterSamples, AreTheCullersDepths) {
 TEST(RasterSampleCounts, OthersAreRefused) {
   Rasterizer rasterizer(raster_device(), raster_programs());
   RasterCamera view = plain_view(8, 8);
-  view.grid.samples = 2;
+  view.grid.samples = 3;
   EXPECT_THROW(rasterizer.set_camera(view), Error);
 }
 

@@ -46,6 +46,16 @@ TEST(Attenuation, SpotFallsWithTheSquareBetweenItsCones) {
   EXPECT_EQ(attenuation(light, {0, 0, 5}, true), 0);
 }
 
+TEST(Attenuation, VirtualLightFallsWithTheCosineAndNotBelowItsNearestDistance) {
+  // Cosine 0.6 from the axis at distance 5: 3/5 * 1/25. At half the nearest distance as at the whole: 1/4.
+  ViewLight light{LightType::spot, {}, {0, 0, -1}, dvec3(1), infinity, 1, 0};
+  light.most_falloff = 0.25;
+  EXPECT_NEAR(attenuation(light, {4, 0, -3}, true), 0.6 / 25, 1e-17);
+  EXPECT_DOUBLE_EQ(attenuation(light, {0, 0, -1}, true), 0.25);
+  EXPECT_DOUBLE_EQ(attenuation(light, {0, 0, -2}, true), 0.25);
+  EXPECT_EQ(attenuation(light, {0, 0, 5}, true), 0);
+}
+
 TEST(Attenuation, DirectionalIsOneEverywhere) {
   EXPECT_EQ(attenuation({.type = LightType::directional}, {1e9, -4, 0}, true), 1);
 }

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/write_file.h"
 #include "scene/camera.h"
+#include "scene/virtual_lights.h"
 #include "support/shared_files.h"
 
 namespace lightgrid {
@@ -144,7 +145,7 @@ TEST_F(LightsFile, NamesTheLightAndTheField) {
       refused_light(R"("name": "sun", "position": [0, 0, 0], "color": [0, 1e20, 1], "intensity": 1e30)"),
       "light 1 \"sun\": intensity 1e+30 times color passes the largest float, 3.40282e+38");
   EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "type": "area")"),
-            "light 1: type \"area\" is not point, spot or directional");
+            "light 1: type \"area\" is not point, spot, directional or virtual");
   EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "type": 3)"), "light 1: type number is not a string");
   EXPECT_EQ(refused_light(R"("type": "directional", "direction": [0, 0, 0])"),
             "light 1: direction [0, 0, 0] is zero");
@@ -227,6 +228,18 @@ TEST(SharedLightsFiles, RedEclipseMapsAreRead) {
         load_lights_file(shared_folder() / "scenes/lights/redeclipse" / (std::string(map) + ".json")).size(),
         count);
   }
+}
+
+TEST_F(LightsFile, AVirtualLightIsReadBackAsItWas) {
+  Light light;
+  make_virtual(light);
+  light.position = {1, 2, 3}, light.direction = {0, 1, 0}, light.intensity = 0.5f, light.nearest_m = 0.25f;
+  const std::vector<Light> loaded = load(lights_file_text({light}));
+  ASSERT_EQ(loaded.size(), 1u);
+  EXPECT_EQ(loaded[0], light);
+  EXPECT_THAT(
+      refused_light(R"("type": "virtual", "position": [0, 0, 0], "direction": [0, 1, 0], "nearest": -1)"),
+      HasSubstr("nearest -1 is below 0"));
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ const Technique lists_alone{.name = "lists_alone",
                             .settings = {},
                             .render = [](RenderView& v) {
                               const Surfaces surfaces = find_surfaces(v);
-                              Frame frame = frame_of(surfaces);
+                              Frame frame = frame_of(v, surfaces);
                               frame.image =
                                   shade(v, surfaces, LightSource([&v] { return base_lighting(v); }));
                               return frame;

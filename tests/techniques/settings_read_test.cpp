@@ -29,6 +29,7 @@ const std::vector<Assignments>& contexts() {
       {"range=stochastic"},
       {"range=stochastic", "alpha=1"},
       {"lidr-overlap=2"},
+      {"lidr-overlap=1", "lidr-packing=sort"},
       {"lidr-volumes=front-faces"},
       {"prepass-lights=volumes"},
       {"prepass-specular=fifth-term"},
@@ -63,6 +64,8 @@ Scene scene_of_effects(bool shadows) {
   SmallScene s = small_scene();
   for (const char* name : {"blend", "mask", "spot", "directional", "groups"}) effect(name).add(s);
   s.scene.lights[2].casts_shadow = s.scene.lights[0].casts_shadow = shadows;
+  // Out of sight, but it takes room in groups of all lights.
+  add_spot(s.scene, "aside", {4.2, 1.3, -3.2}, {6, 1.3, -3.2}, {1, 1, 1}, 500, 1.5f, 10, 20);
   // Too dim for any step of the display.
   if (shadows) add_point(s.scene, "ember", {0, 0, -1}, {1, 1, 1}, 1e-9f, 4).casts_shadow = true;
   return s.scene;
@@ -106,7 +109,7 @@ Assignments with(Assignments context, const Assignments& others) {
 Assignments not_declared(const Technique& technique, size_t value) {
   Assignments others;
   for (const SettingHelp& s : setting_help()) {
-    if (!reads_setting(technique, s.key))
+    if (!reads_setting(technique, s.key) && s.key != "samples")  // which is refused: Samples.*
       others.insert(s.key + "=" + s.values[std::min(value, s.values.size() - 1)]);
   }
   return others;
@@ -134,8 +137,8 @@ std::map<std::string, std::string> read_but_not_declared(const Technique& techni
 
 // Whether a value of the setting changes what a run shows, beyond refusing to run.
 bool shows(const Technique& technique, const SettingHelp& setting) {
-  const bool shadows = setting.key.starts_with("shadow") || setting.key == "lidr-shadows" ||
-                       setting.key == "lidr-maps";
+  const bool shadows =
+      setting.key.starts_with("shadow") || setting.key == "lidr-shadows" || setting.key == "lidr-maps";
   for (size_t i = 1; i < setting.values.size(); ++i) {
     for (const Assignments& context : contexts_of(technique)) {
       if (holds_key(context, setting.key)) continue;

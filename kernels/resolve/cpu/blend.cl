@@ -3,7 +3,7 @@
 //
 // records, tile_begin, lists  RasterView::list(): triangles of each tile, in drawing order
 // tiles_x     of these tiles
-// depths      of opaque surfaces, a pixel each, reversed; row 0 at the bottom
+// depths      of opaque surfaces, a pixel or sample each, reversed; row 0 at the bottom
 // RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h; the grid is that of blended surfaces
 // shadow_layers  with -DSHADOWS: layers of shadows, in the order of a pixel's fragments
 // image       in and out: RGBA a pixel, linear, row 0 at the bottom
@@ -56,7 +56,10 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
       for (int bx = box.x0 & ~3; bx <= box.x1; bx += 4) {
         const uint x = tile_x + (uint)bx, y = tile_y + (uint)by;
         real depth = REAL(0.0f);
-        mask_t shown = fragments_in_block(&r, bx, by, x, y, depths, width, height, &depth);
+#ifdef SAMPLES
+        real share = REAL(1.0f);
+#endif
+        mask_t shown = fragments_in_block(&r, bx, by, x, y, depths, width, height, &depth SHARE_TO(share));
         if (!any_lane(shown)) continue;
 #ifdef SHADOWS
         light_pixels(&lights.lights, x, y, view);
@@ -71,6 +74,9 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
         take_list(&lights, light_indices, cells, y / TILE * view->tiles_x + x / TILE, view);
         const Real3 color = radiance(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,
                                      shown, &lights, bin_edges, view);
+#ifdef SAMPLES
+        s.alpha *= share;
+#endif
         blend_block(image, color, s.alpha, shown, x, y, width);
       }
     }

@@ -22,7 +22,10 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
   const int tile_x = (int)(x / RASTER_TILE * RASTER_TILE), tile_y = (int)(y / RASTER_TILE * RASTER_TILE);
   const int dx = (int)(x & 3u), dy = (int)(y & 3u), bx = (int)x - tile_x - dx, by = (int)y - tile_y - dy;
   const size_t at = (size_t)y * view->width + x;
-  const float opaque = depths[at];
+  const OpaqueDepth opaque = OPAQUE_DEPTH(depths, at);
+#ifdef SAMPLES
+  float share;
+#endif
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
   take_list(&lights, light_indices, cells, cell_of_pixel(x, y, view->tile_size, view->tiles_x), view);
@@ -34,7 +37,7 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
   for (uint i = tile_begin[number]; i < tile_begin[number + 1]; ++i) {
     const TileRecord r = in_tile(records + lists[i], tile_x, tile_y);
     float depth;
-    if (!is_fragment(&r, bx, by, dx, dy, opaque, &depth)) continue;
+    if (!is_fragment(&r, bx, by, dx, dy, opaque, &depth SHARE_TO(share))) continue;
 #ifdef SHADOWS
     light_layers(&lights.lights, layer++, 1, shadow_layers);
 #endif
@@ -45,6 +48,9 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
     if (s.alpha == 0.0f) continue;  // shows nothing
     const Real3 color =
         radiance(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depth, 1, &lights, bin_edges, view);
+#ifdef SAMPLES
+    s.alpha *= share;
+#endif
     under = blended((float4)(color.x, color.y, color.z, 1.0f), s.alpha, under);
   }
   ((global float4*)image)[at] = under;

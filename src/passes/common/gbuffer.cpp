@@ -47,7 +47,7 @@ GBufferInCl gbuffer_in_cl_of(Work& work, BaseLighting base_lighting, TargetUse u
                 .layout = &gbuffer_layout(work.plan.settings),
                 .images = images_of(work.plan)};
   for (const size_t i : g.images)
-    g.surfaces[i] = &work.shared_pixels(names[i], g.layout->images[i].bytes, use);
+    g.surfaces[i] = &work.shared_samples(names[i], g.layout->images[i].bytes, use);
   g.image = &work.shared_pixels("image", 16);
   g.group_numbers = group_numbers_in_cl(work, use), g.group_bytes = group_number_bytes(work.plan);
   return g;

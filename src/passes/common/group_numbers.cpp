@@ -44,7 +44,7 @@ GLuint group_number_image(Work& work) {
 SharedBuffer* group_numbers_in_cl(Work& work, TargetUse use) {
   if (!has_group_numbers(work.plan)) return nullptr;
   require_numbers_of(work);
-  return &work.shared_pixels("group numbers", group_number_format(work.plan.settings).bytes, use);
+  return &work.shared_samples("group numbers", group_number_format(work.plan.settings).bytes, use);
 }
 
 void copy_group_numbers(Work& work, GLuint framebuffer, int attachment, GLuint texture, SharedBuffer& to) {

@@ -75,7 +75,7 @@ NormalImage normal_image_of(Work& work) {
 
 NormalsInCl normals_in_cl_of(Work& work, TargetUse use) {
   const NormalLayout& layout = normal_layout(work.plan.settings);
-  return {&layout, &work.shared_pixels("normals", layout.image.bytes, use), group_numbers_in_cl(work, use)};
+  return {&layout, &work.shared_samples("normals", layout.image.bytes, use), group_numbers_in_cl(work, use)};
 }
 
 LightBuffer light_buffer_of(Work& work) {

@@ -15,7 +15,7 @@ void begin_light_indices(const LightIndexLayout& layout) {
   glDisable(GL_BLEND);
   if (layout.slots == 1) return;  // a single slot has nothing to shift
   glEnable(GL_BLEND);
-  if (layout.packing == LidrPacking::maxblend) {
+  if (layout.maxblended()) {
     glBlendEquation(GL_MAX);
     return;
   }
@@ -104,9 +104,9 @@ std::vector<uint32_t> all_indices(const LightIndexLayout& layout, uint32_t round
 std::vector<std::vector<uint32_t>> rounds_of(const LightIndexLayout& layout) {
   std::vector<std::vector<uint32_t>> rounds;
   for (uint32_t round = 0; round < layout.overlap; ++round) {
-    rounds.push_back(layout.packing == LidrPacking::bitshift   ? shifted_indices(layout, round)
-                     : layout.packing == LidrPacking::maxblend ? paired_indices(layout, round)
-                                                               : all_indices(layout, round));
+    rounds.push_back(layout.packing == LidrPacking::bitshift ? shifted_indices(layout, round)
+                     : layout.maxblended()                   ? paired_indices(layout, round)
+                                                             : all_indices(layout, round));
   }
   return rounds;
 }
@@ -121,7 +121,7 @@ std::vector<uint32_t> lights_drawn(const LightIndexLayout& layout,
     for (uint32_t r = first; r < first + layout.slots; ++r) {
       if (rounds[r][pixel] != 0) group.push_back(rounds[r][pixel] - 1);
     }
-    if (layout.packing == LidrPacking::maxblend) {
+    if (layout.maxblended()) {
       std::sort(group.begin(), group.end());
       group.erase(std::unique(group.begin(), group.end()), group.end());
     }

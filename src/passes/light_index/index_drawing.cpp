@@ -15,16 +15,17 @@ IndexDrawing::IndexDrawing(const Seen& seen, const LightIndexLayout& layout, con
     : layout_(layout),
       volumes_(volumes),
       programs_(programs),
-      inside_(seen.plan.settings.lidr_volumes == LidrVolumes::stencil) {}
+      inside_(seen.plan.settings.lidr_volumes == LidrVolumes::stencil),
+      before_depth_(seen.plan.settings.lidr_volumes == LidrVolumes::no_prepass) {}
 
 GLint IndexDrawing::cleared_stencil() const {
-  if (layout_.packing == LidrPacking::sort) return 255;
+  if (layout_.sorted()) return 255;
   return GLint(inside_ ? 2 * (has_room / 2 - 1 + layout_.overlap) + not_inside
                        : has_room - 1 + layout_.overlap);
 }
 
 void IndexDrawing::draw(const VolumeBatch& batch) const {
-  const bool counted = layout_.packing != LidrPacking::sort;
+  const bool counted = !layout_.sorted();
   if (inside_) mark_inside(batch);
   glUseProgram(programs_.write);
   // Later groups first: otherwise a light that fills one group's last slot would also be written to the
@@ -76,11 +77,11 @@ void IndexDrawing::write_marked(const VolumeBatch& batch) const {
 }
 
 // Writes to surfaces behind a front face or, if the near plane cuts holes into these, wherever there is a
-// back face.
+// back face. Without a depth prepass, wherever there is either.
 void IndexDrawing::write_behind_front_faces(const VolumeBatch& batch) const {
   glEnable(GL_CULL_FACE);
   glCullFace(crosses_near(batch) ? GL_FRONT : GL_BACK);
-  glDepthFunc(crosses_near(batch) ? GL_ALWAYS : GL_GEQUAL);
+  glDepthFunc(crosses_near(batch) || before_depth_ ? GL_ALWAYS : GL_GEQUAL);
   volumes_.draw(batch.first, batch.count);
 }
 

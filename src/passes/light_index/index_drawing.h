@@ -10,7 +10,8 @@ namespace lightgrid {
 // Volumes that one call draws.
 struct VolumeBatch {
   size_t first, count;
-  uint32_t group;  // sort: the group whose channels are written
+  uint32_t group;     // sorted packings: the group whose channels are written
+  uint32_t pass = 0;  // over the surfaces, in whose images they are
 };
 
 class IndexDrawing {
@@ -40,7 +41,7 @@ class IndexDrawing {
   const LightIndexLayout& layout_;
   const LightVolumes& volumes_;
   Programs programs_;
-  bool inside_;
+  bool inside_, before_depth_;
 };
 
 }  // namespace lightgrid

@@ -13,13 +13,14 @@ namespace {
 constexpr uint32_t most_targets = 4;
 
 const char* name_of(LidrPacking packing) {
-  return packing == LidrPacking::sort ? "sort" : packing == LidrPacking::maxblend ? "maxblend" : "bitshift";
+  return packing == LidrPacking::sort            ? "sort"
+         : packing == LidrPacking::maxblend      ? "maxblend"
+         : packing == LidrPacking::maxblend_sort ? "maxblend-sort"
+                                                 : "bitshift";
 }
 
-uint32_t number_of(LidrPacking packing) {
-  return packing == LidrPacking::sort       ? LIDR_SORT
-         : packing == LidrPacking::maxblend ? LIDR_MAXBLEND
-                                            : LIDR_BITSHIFT;
+uint32_t number_of(const LightIndexLayout& layout) {
+  return layout.maxblended() ? LIDR_MAXBLEND : layout.sorted() ? LIDR_SORT : LIDR_BITSHIFT;
 }
 
 // The layout of such a row, possible or not.
@@ -30,7 +31,7 @@ LightIndexLayout row_of(LidrPacking packing, uint32_t overlap, uint32_t lights, 
   if (packing == LidrPacking::sort) {
     row.groups = overlap, row.channels = index_bits > 8 ? 2 : 1;
     if (share_bits) row.share_shift = 8 * row.channels++;  // a channel of its own
-  } else if (packing == LidrPacking::maxblend) {
+  } else if (row.maxblended()) {
     row.slots = std::min(overlap, 2u), row.groups = overlap / row.slots;
     row.channels = row.slots, row.channel_bits = index_bits > 8 ? 16 : 8;
   } else {
@@ -43,12 +44,12 @@ LightIndexLayout row_of(LidrPacking packing, uint32_t overlap, uint32_t lights, 
 }
 
 std::string why_not(const LightIndexLayout& row) {
-  if (row.packing == LidrPacking::maxblend && row.share_bits) {
+  if (row.maxblended() && row.share_bits) {
     return "the greatest and least index of two lights leave no bits for shares; use lidr-packing=bitshift";
   }
   if (row.packing == LidrPacking::maxblend && row.groups > 2) {
     return "two passes find the greatest and least index of two lights each, four in all; use "
-           "lidr-packing=bitshift";
+           "lidr-packing=bitshift or maxblend-sort";
   }
   if (row.targets() > most_targets) {
     return fmt::format("it takes {} targets of {} channels, and {} is the most; use lidr-overlap={}",
@@ -75,11 +76,9 @@ GLenum LightIndexLayout::format() const {
 std::vector<std::string> LightIndexLayout::defines() const {
   // A missing channel reads as 0, or as 1 for alpha.
   const uint32_t present = target_channels() == 4 ? ~0u : (1u << 8 * target_channels()) - 1;
-  const char* kind = packing == LidrPacking::sort       ? "LIDR_APART"
-                     : packing == LidrPacking::maxblend ? "LIDR_GREATEST"
-                                                        : "LIDR_SHIFTED";
+  const char* kind = maxblended() ? "LIDR_GREATEST" : sorted() ? "LIDR_APART" : "LIDR_SHIFTED";
   std::vector<std::string> defines = {kind,
-                                      fmt::format("LIDR_PACKING {}u", number_of(packing)),
+                                      fmt::format("LIDR_PACKING {}u", number_of(*this)),
                                       fmt::format("LIDR_GROUPS {}u", groups),
                                       fmt::format("LIDR_SLOTS {}u", slots),
                                       fmt::format("LIDR_CHANNELS {}u", channels),
@@ -133,7 +132,7 @@ void unpack_light_index(const LightIndexLayout& layout, std::span<const uint16_t
       uint32_t entry = 0;
       for (uint32_t c = 0; c < layout.channels; ++c) entry |= uint32_t(own[c]) << 8 * c;
       take(entry);
-    } else if (layout.packing == LidrPacking::maxblend) {
+    } else if (layout.maxblended()) {
       const uint32_t least = own[0] && layout.slots > 1 ? layout.most() - own[1] : own[0];
       take(least);
       if (own[0] != least) take(own[0]);

@@ -24,6 +24,12 @@ struct LightIndexLayout {
   uint32_t share_bits = 0;
   uint32_t share_shift = 32;
 
+  // The host puts lights into groups: no pixel has more of a group than its slots.
+  bool sorted() const { return packing == LidrPacking::sort || packing == LidrPacking::maxblend_sort; }
+  // Slots hold the greatest and the least index.
+  bool maxblended() const {
+    return packing == LidrPacking::maxblend || packing == LidrPacking::maxblend_sort;
+  }
   uint32_t most() const { return (1u << channel_bits) - 1; }
   uint32_t targets() const { return (groups * channels + 3) / 4; }
   // Channels of each image: 1, 2 or 4.

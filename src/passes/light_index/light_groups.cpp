@@ -79,13 +79,27 @@ class Neighbours {
 
 }  // namespace
 
-std::vector<uint32_t> group_lights(const std::vector<LightExtent>& extents, uint32_t groups) {
+std::vector<uint32_t> group_lights(const std::vector<LightExtent>& extents, uint32_t groups, uint32_t slots) {
   std::vector<uint32_t> group_of(extents.size(), no_group);
   Neighbours placed(extents);
+  std::vector<std::vector<uint32_t>> touched(groups);  // earlier extents of each group
   for (uint32_t i = 0; i < extents.size(); ++i) {
+    for (auto& of_group : touched) of_group.clear();
     std::vector<bool> taken(groups, false);
     placed.near(extents[i], [&](uint32_t other) {
-      if (!taken[group_of[other]] && touch(extents[i], extents[other])) taken[group_of[other]] = true;
+      const uint32_t group = group_of[other];
+      if (taken[group] || !touch(extents[i], extents[other])) return;
+      if (slots == 1) {
+        taken[group] = true;
+        return;
+      }
+      // Boxes of which each two touch have a point in common (Helly); for balls this is conservative.
+      std::vector<uint32_t>& earlier = touched[group];
+      if (std::ranges::find(earlier, other) != earlier.end()) return;
+      for (const uint32_t one : earlier) {
+        if (touch(extents[one], extents[other])) taken[group] = true;
+      }
+      earlier.push_back(other);
     });
     const auto free = std::find(taken.begin(), taken.end(), false);
     if (free == taken.end()) continue;
@@ -93,6 +107,20 @@ std::vector<uint32_t> group_lights(const std::vector<LightExtent>& extents, uint
     placed.add(i);
   }
   return group_of;
+}
+
+const std::vector<uint32_t>& StillLightGroups::of(std::vector<LightExtent> extents,
+                                                  std::vector<uint32_t> order, uint32_t groups,
+                                                  uint32_t slots) {
+  if (sorted_ && extents == extents_ && order == order_) return groups_;
+  ++sorted_;
+  extents_ = std::move(extents), order_ = std::move(order);
+  std::vector<LightExtent> in_order;
+  for (const uint32_t light : order_) in_order.push_back(extents_[light]);
+  const std::vector<uint32_t> found = group_lights(in_order, groups, slots);
+  groups_.assign(extents_.size(), no_group);
+  for (size_t i = 0; i < found.size(); ++i) groups_[order_[i]] = found[i];
+  return groups_;
 }
 
 std::vector<uint32_t> draw_rounds(const std::vector<LightExtent>& extents) {

@@ -146,7 +146,7 @@ class VoxelLister {
 }  // namespace
 
 ListedLights list_voxels(Work& work, const ReadVoxels& read, const DepthBuffer& shaded_from) {
-  std::vector<float> depth(work.grid().values());
+  std::vector<float> depth(work.grid().pixels());
   if (shaded_from.values()) {
     read_buffer(*work.renderer.cl, "reading depth", shaded_from.values, depth.data(),
                 depth.size() * sizeof(float));

@@ -324,7 +324,7 @@ void GroupedLights::update(Work& work, const VoxelAxes& axes) {
     // Directions are those to the light: the axis is turned around.
     cones[2 * n] = glm::vec4(glm::vec3(-light.direction * scale), spot ? float(-light.cos_outer * scale) : 1);
     cones[2 * n + 1] = glm::vec4(float(scale), spot ? float(1 - light.cos_outer) : float(wide),
-                                 float(1 - light.cos_outer * light.cos_outer), 0);
+                                 float(1 - light.cos_outer * light.cos_outer), float(light.most_falloff));
   }
   const bool same =
       version_ > 0 && places == places_ && boxes == boxes_ && colors == colors_ && cones == cones_;

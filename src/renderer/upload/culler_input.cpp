@@ -55,6 +55,7 @@ CullerOptions culler_options(const FramePlan& plan) {
   options.depth_bounds = plan.settings.depth_bounds;
   options.shape = plan.settings.kernel_shape;
   options.tile = plan.settings.tile;
+  options.samples = plan.settings.samples;
   options.portable = plan.settings.portable;
   options.group_size = plan.settings.group_size;
   options.blend = plan.blend_grid;

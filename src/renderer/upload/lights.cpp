@@ -53,13 +53,16 @@ glm::vec4 cone(const ViewLight& light) {
 }
 
 uint32_t groups(const ViewLight& light) { return light.groups; }
+float most_falloff(const ViewLight& light) { return float(light.most_falloff); }
 
 // The conditions of LIGHT_TABLE.
 constexpr bool FramePlan::*IF_LIGHTS = &FramePlan::local_lights;
 constexpr bool FramePlan::*IF_SPOTS = &FramePlan::spots;
+constexpr bool FramePlan::*IF_VIRTUAL = &FramePlan::virtual_lights;
 constexpr bool FramePlan::*IF_GROUPS = &FramePlan::groups;
 
 constexpr GLenum format_of(const glm::vec4&) { return GL_RGBA32F; }
+constexpr GLenum format_of(float) { return GL_R32F; }
 constexpr GLenum format_of(uint32_t) { return GL_R32UI; }
 
 template <typename T>
@@ -108,6 +111,7 @@ LightTable light_table(const Seen& seen) {
 std::vector<const char*> light_table_defines(const FramePlan& plan) {
   std::vector<const char*> defines;
   if (plan.spots) defines.push_back("SPOTS");
+  if (plan.virtual_lights) defines.push_back("VIRTUAL_LIGHTS");
   const LightRanges& ranges = plan.settings.ranges;
   if (window_of(ranges) == RangeWindow::smooth) defines.push_back("WINDOW_SMOOTH");
   if (window_of(ranges) == RangeWindow::none) defines.push_back("WINDOW_NONE");
@@ -188,7 +192,11 @@ void GlLights::bind() const {
 void ClLights::upload(ClDevice& device, const Seen& seen) {
   const LightTable table = light_table(seen);
   constexpr const char* what = "uploading lights";
-  for (size_t i = 0; i < light_column_count; ++i) columns_[i].put(device, what, table.columns[i].values);
+  for (size_t i = 0; i < light_column_count; ++i) {
+    // A column that no kernel of this view has read yet stays a null argument.
+    const LightColumn& column = table.columns[i];
+    if (column.needed || columns_[i].bytes() > 0) columns_[i].put(device, what, column.values);
+  }
   directional.put(device, what, table.directional);
   view.put(device, what, std::vector<ViewParams>{seen.params});
   const auto put_edges = [&](UploadedBuffer& to, int count, const auto& keys_of) {

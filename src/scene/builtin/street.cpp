@@ -17,9 +17,6 @@ using namespace street;
 
 constexpr glm::vec3 sodium(1, 0.64f, 0.30f), white(0.92f, 0.95f, 1), tail(1, 0.10f, 0.06f),
     head(1, 0.93f, 0.80f);
-constexpr std::array<glm::vec3, 7> neon = {glm::vec3(1, 0.25f, 0.45f), {0.25f, 0.75f, 1}, {1, 0.75f, 0.30f},
-                                           {0.35f, 1, 0.60f},          {0.70f, 0.40f, 1}, {1, 0.45f, 0.20f},
-                                           {0.30f, 0.95f, 0.95f}};
 
 class Street {
  public:
@@ -130,7 +127,7 @@ class Street {
 
   Scene scene_;
   Random random_{17};
-  const street::Materials m_ = add_materials(scene_, neon);
+  const street::Materials m_ = street::add_materials(scene_);
   const std::vector<int> facades_ = added(street::facades(m_)), cars_ = added(car_bodies(m_)),
                          signs_ = added(sign_meshes(m_)), bulbs_ = added(bulb_meshes(m_)),
                          lit_windows_ = added(lit_windows(m_)), dark_windows_ = added(dark_windows(m_)),

@@ -29,7 +29,7 @@ int add_glowing(Scene& scene, const char* name, glm::vec3 color, float radiance)
 
 }  // namespace
 
-Materials add_materials(Scene& scene, const std::array<glm::vec3, 7>& neon) {
+Materials add_materials(Scene& scene) {
   Materials m;
   m.asphalt = add_material(scene, "asphalt", glm::vec3(1), 0, 1);
   use_maps(scene, m.asphalt, asphalt(), 6);

@@ -14,10 +14,6 @@ constexpr float half = house_m / 2, shop_top_m = 3, storey_m = 3.1f, first_store
 constexpr float shop_z0 = -3.4f, shop_z1 = 2.5f, door_z0 = 3.1f, door_z1 = 4.1f, shop_depth_m = 3,
                 sill_m = 0.5f;
 
-struct Rectangle {
-  float z0, z1, y0, y1;
-};
-
 // Facing -x at `x`.
 void add_panel(Mesh& mesh, float x, const Rectangle& r) {
   const std::vector<glm::vec3> lower = {{x, r.y0, r.z0}, {x, r.y0, r.z1}},
@@ -37,6 +33,8 @@ void add_hole(Mesh& mesh, const Rectangle& r, float depth) {
 
 int storeys(int kind) { return 2 + kind % 2; }
 
+}  // namespace
+
 std::vector<Rectangle> windows(int kind) {
   std::vector<Rectangle> all;
   for (int storey = 0; storey < storeys(kind); ++storey) {
@@ -47,6 +45,8 @@ std::vector<Rectangle> windows(int kind) {
 }
 
 float height_m(int kind) { return first_storey_m + storey_m * storeys(kind) + 0.4f; }
+
+namespace {
 
 Mesh facade(int kind, int material) {
   Mesh mesh;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -15,6 +16,10 @@ inline constexpr float lamp_spacing_m = 12;
 // The height of a string across the street. across: -1 to 1 from side to side.
 inline float garland_height_m(float across) { return 5.5f + 1.5f * across * across; }
 
+inline constexpr std::array<glm::vec3, 7> neon = {
+    glm::vec3(1, 0.25f, 0.45f), {0.25f, 0.75f, 1}, {1, 0.75f, 0.30f},    {0.35f, 1, 0.60f},
+    {0.70f, 0.40f, 1},          {1, 0.45f, 0.20f}, {0.30f, 0.95f, 0.95f}};
+
 struct Materials {
   int asphalt, paving, marking, iron, glass, warm_lamp, tyre, car_window, head_lamp, tail_lamp, interior,
       dark_window, lit_window;
@@ -22,11 +27,18 @@ struct Materials {
   int trim;
   std::array<int, 7> neon;
 };
-Materials add_materials(Scene& scene, const std::array<glm::vec3, 7>& neon);
+Materials add_materials(Scene& scene);
 
 Mesh road(const Materials& m);
 Mesh pavements(const Materials& m);
 Mesh markings(const Materials& m);
+
+// Across a house's front: z from its middle, y from the ground.
+struct Rectangle {
+  float z0, z1, y0, y1;
+};
+std::vector<Rectangle> windows(int kind);  // three a floor, from below
+float height_m(int kind);                  // of the facade
 
 // Houses of four kinds; kinds 1 and 3 have one more floor. Windows by kind % 2 and one of two patterns of lit
 // and dark: [2 * (kind % 2) + pattern].

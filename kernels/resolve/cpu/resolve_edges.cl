@@ -1,0 +1,126 @@
+// Radiance of pixels at edges, for CPUs: a work-item takes a tile, and of it squares of EDGE_BLOCK pixels.
+// The surfaces of a square's edge pixels (kernels/resolve/samples.h) are put into the order of their
+// triangles, whatever their pixels, and 16 are shaded at a time: along an edge a few triangles meet again and
+// again. Other pixels keep their colours: they cost the test of a bit.
+//
+// triangles, depths  SAMPLES a pixel, side by side: a triangle number or SURFACE_NONE; reversed depth
+// edges              a bit a pixel, 16 in a value, of find_edges
+// RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h
+// background         of samples without a surface
+// image              in and out: RGBA a pixel, linear, row 0 at the bottom
+// -DTILE             pixels a side, a multiple of 8 (default 16)
+// -DSAMPLES, -DSAMPLE_PLACES, and what kernels/resolve/resolve.h and resolve_light.h name
+#define FUSED  // shared/real.h
+#define LANES 16
+#include "kernels/resolve/resolve_block.h"
+#include "kernels/resolve/resolve_light.h"
+#include "kernels/resolve/samples.h"
+
+#define SIDE (TILE < EDGE_BLOCK ? TILE : EDGE_BLOCK)
+#define MOST_SURFACES (SIDE * SIDE * SAMPLES)
+
+// The surfaces of a square's edge pixels, pixel after pixel.
+typedef struct EdgeSurfaces {
+  uint count;
+  uint triangle[MOST_SURFACES];
+  float x[MOST_SURFACES], y[MOST_SURFACES];  // from the centre of the first pixel of its EDGE_BLOCK
+  float depth[MOST_SURFACES], share[MOST_SURFACES];
+  float red[MOST_SURFACES], green[MOST_SURFACES], blue[MOST_SURFACES];
+  ushort order[MOST_SURFACES + 16];  // by triangle
+} EdgeSurfaces;
+
+// Shell's method: mostly some dozens.
+static inline void sort_by_triangle(EdgeSurfaces* e) {
+  for (uint gap = 701; gap > 0; gap = gap * 4 / 9) {
+    for (uint i = gap; i < e->count; ++i) {
+      const ushort one = e->order[i];
+      const uint key = e->triangle[one];
+      uint to = i;
+      for (; to >= gap && e->triangle[e->order[to - gap]] > key; to -= gap) e->order[to] = e->order[to - gap];
+      e->order[to] = one;
+    }
+  }
+}
+
+// Surfaces first to first + 15 of the order.
+static inline void shade_surfaces(EdgeSurfaces* e, uint first, uint base_x, uint base_y,
+                                  const ResolveScene* scene, ResolveLights* lights, constant float* bin_edges,
+                                  constant ViewParams* view) {
+  uint16 triangle;
+  real dx, dy, depth;
+  for (uint i = 0; i < 16; ++i) {
+    const ushort one = e->order[min(first + i, e->count - 1)];
+    ((uint*)&triangle)[i] = e->triangle[one];
+    ((float*)&dx)[i] = e->x[one], ((float*)&dy)[i] = e->y[one], ((float*)&depth)[i] = e->depth[one];
+  }
+  const mask_t covered = LANE_INDEX < (int16)((int)(e->count - first));
+  Attributes a = {0};
+  for (uint left = mask_bits(covered); left != 0;) {
+    const uint one = ((const uint*)&triangle)[lowest_bit(left)];
+    const mask_t here = triangle == (uint16)(one);
+    left &= ~mask_bits(here);
+    add_triangle(&a, scene, one, here, (float)base_x, (float)base_y, dx, dy);
+  }
+  Surface s = {0};
+  add_materials(&s, &a, scene, covered);
+  const Real3 shown = radiance(&a, &s, (float)base_x + 0.5f + dx, (float)base_y + 0.5f + dy, depth, covered,
+                               lights, bin_edges, view);
+  for (uint i = 0; i < 16 && first + i < e->count; ++i) {
+    const ushort one = e->order[first + i];
+    e->red[one] = LANE(shown.x, i), e->green[one] = LANE(shown.y, i), e->blue[one] = LANE(shown.z, i);
+  }
+}
+
+kernel void resolve_edges(global const uint* triangles, global const float* depths,
+                          global const ushort* edges, RESOLVE_ARGUMENTS, float4 background,
+                          global float* image) {
+  const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
+  const ResolveScene scene = RESOLVE_SCENE;
+  ResolveLights lights = RESOLVE_LIGHTS;
+  take_list(&lights, light_indices, cells, tile_y * view->tiles_x + tile_x, view);
+  EdgeSurfaces e;
+  uint pixels[SIDE * SIDE];
+  float4 colors[SIDE * SIDE];
+  ushort ends[SIDE * SIDE];  // of each pixel's surfaces
+  for (uint y0 = tile_y * TILE; y0 < min(tile_y * TILE + TILE, height); y0 += SIDE) {
+    for (uint x0 = tile_x * TILE; x0 < min(tile_x * TILE + TILE, width); x0 += SIDE) {
+      const uint base_x = x0 & ~(EDGE_BLOCK - 1u), base_y = y0 & ~(EDGE_BLOCK - 1u);
+      uint found = 0;
+      e.count = 0;
+      for (uint y = y0; y < min(y0 + SIDE, height); ++y) {
+        for (uint x = x0; x < min(x0 + SIDE, width); ++x) {
+          const uint at = y * width + x;
+          if (!(edges[at / 16] >> (at & 15u) & 1u)) continue;
+          float4 color = 0.0f;
+          for (uint left = ALL_SAMPLES; left != 0;) {
+            const PixelSurface p =
+                next_surface(triangles + (size_t)at * SAMPLES, depths + (size_t)at * SAMPLES, &left);
+            if (p.triangle == SURFACE_NONE) {
+              color = (float4)(background.xyz * p.share, 0.0f);
+              continue;
+            }
+            const uint one = e.count++;
+            e.triangle[one] = p.triangle, e.share[one] = p.share, e.depth[one] = p.depth;
+            e.x[one] = (float)(x - base_x) + p.off_x, e.y[one] = (float)(y - base_y) + p.off_y;
+            e.order[one] = (ushort)one;
+          }
+          pixels[found] = at, colors[found] = color, ends[found++] = (ushort)e.count;
+        }
+      }
+      if (e.count == 0) continue;
+      sort_by_triangle(&e);
+      for (uint i = 0; i < e.count; i += 16)
+        shade_surfaces(&e, i, base_x, base_y, &scene, &lights, bin_edges, view);
+      for (uint i = 0, one = 0; i < found; ++i) {
+        float4 color = colors[i];
+        for (; one < ends[i]; ++one) {
+          color.x = fma(e.red[one], e.share[one], color.x);
+          color.y = fma(e.green[one], e.share[one], color.y);
+          color.z = fma(e.blue[one], e.share[one], color.z);
+        }
+        color.w = 1.0f;
+        vstore4(color, pixels[i], image);
+      }
+    }
+  }
+}

@@ -1,0 +1,28 @@
+// As resolve/cpu/find_edges.cl, with the same arguments: a work-item takes 16 pixels.
+#define LANES 1
+#include "kernels/resolve/join_surfaces.h"
+
+kernel void find_edges(global uint* triangles, global const float* depths,
+                       global const uint* triangle_instance, global const RasterInstanceRecord* instances,
+                       global const uint* indices, global const float4* clip, uint pixels,
+                       global uint* pixel_triangles, global float* pixel_depths, global ushort* edges) {
+  const SeenTriangles scene = {triangle_instance, instances, indices, clip};
+  const uint begin = (uint)get_global_id(0) * 16, end = min(begin + 16, pixels);
+  if (begin >= pixels) return;
+  uint bits = 0;
+  for (uint at = begin; at < end; ++at) {
+    const size_t first = (size_t)at * SAMPLES;
+    uint seen = triangles[first];
+    float depth = depths[first];
+    bool edge = false;
+    for (uint s = 1; s < SAMPLES; ++s) {
+      edge = edge || triangles[first + s] != seen;
+      depth += depths[first + s];
+    }
+    if (edge && join_surfaces(triangles + first, &scene)) edge = false, seen = triangles[first];
+    pixel_triangles[at] = edge ? SURFACE_NONE : seen;
+    pixel_depths[at] = edge ? 0.0f : depth * (1.0f / SAMPLES);
+    bits |= edge ? 1u << (at - begin) : 0u;
+  }
+  edges[begin / 16] = (ushort)bits;
+}

@@ -1,0 +1,42 @@
+// Radiance of pixels at edges, for GPUs: a work-item a pixel, surface after surface. As
+// resolve/cpu/resolve_edges.cl, with the same arguments.
+#define FUSED  // shared/real.h
+#define LANES 1
+#include "kernels/resolve/resolve_light.h"
+#include "kernels/resolve/samples.h"
+#include "shared/light_grid.h"
+
+kernel void resolve_edges(global const uint* triangles, global const float* depths,
+                          global const ushort* edges, RESOLVE_ARGUMENTS, float4 background,
+                          global float* image) {
+  const uint x = get_global_id(0), y = get_global_id(1);
+  if (x >= view->width || y >= view->height) return;
+  const uint at = y * view->width + x;
+  if (!(edges[at / 16] >> (at & 15u) & 1u)) return;
+  const ResolveScene scene = RESOLVE_SCENE;
+  ResolveLights lights = RESOLVE_LIGHTS;
+  take_list(&lights, light_indices, cells, cell_of_pixel(x, y, view->tile_size, view->tiles_x), view);
+  const uint base_x = x & ~(EDGE_BLOCK - 1u), base_y = y & ~(EDGE_BLOCK - 1u);
+  // The background comes first, as it does where it needs no shading.
+  float4 color = 0.0f;
+  for (uint s = 0; s < SAMPLES; ++s)
+    if (triangles[(size_t)at * SAMPLES + s] == SURFACE_NONE) color.w += 1.0f;
+  color = (float4)(background.xyz * (color.w * (1.0f / SAMPLES)), 0.0f);
+  for (uint left = ALL_SAMPLES; left != 0;) {
+    const PixelSurface p =
+        next_surface(triangles + (size_t)at * SAMPLES, depths + (size_t)at * SAMPLES, &left);
+    if (p.triangle == SURFACE_NONE) continue;
+    const float dx = (float)(x - base_x) + p.off_x, dy = (float)(y - base_y) + p.off_y;
+    Attributes a = {0};
+    Surface s = {0};
+    add_triangle(&a, &scene, p.triangle, 1, (float)base_x, (float)base_y, dx, dy);
+    add_material(&s, &a, &scene, (uint)a.material, 1);
+    const Real3 shown = radiance(&a, &s, (float)base_x + 0.5f + dx, (float)base_y + 0.5f + dy, p.depth, 1,
+                                 &lights, bin_edges, view);
+    color.x = fma(shown.x, p.share, color.x);
+    color.y = fma(shown.y, p.share, color.y);
+    color.z = fma(shown.z, p.share, color.z);
+  }
+  color.w = 1.0f;
+  ((global float4*)image)[at] = color;
+}

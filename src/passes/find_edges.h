@@ -1,0 +1,29 @@
+// With several samples a pixel: the pixels whose samples see more than one surface (docs/samples.md).
+#pragma once
+
+#include "cl/buffers.h"
+#include "passes/common/frame.h"
+#include "raster/raster_view.h"
+#include "renderer/work.h"
+
+namespace lightgrid {
+
+// One surface a pixel: of pixels whose samples all see the same one, as the rasteriser draws with one sample;
+// at edges none.
+struct PixelSurfaces {
+  cl::Buffer triangles, depths;
+  cl::Buffer edges;  // a bit a pixel, 16 in a ushort: 1 at edges
+};
+
+// Of an image of samples and what its numbers lead to. Numbers of neighbouring triangles that are one surface
+// in a pixel become one (kernels/resolve/join_surfaces.h).
+PixelSurfaces find_edges(Work& work, Cached<PixelEdges>& cache, const Visibility& image,
+                         const RasterBuffers& raster);
+
+// -DSAMPLES and -DSAMPLE_PLACES of kernels/resolve/samples.h.
+std::string sample_defines(int samples);
+
+// Waits.
+SampleFigures sample_figures(Work& work, const Visibility& image, const PixelSurfaces& surfaces);
+
+}  // namespace lightgrid

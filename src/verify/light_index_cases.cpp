@@ -1,0 +1,250 @@
+// Hard cases of light indices: lights, cameras and images for which an index is easily lost, or becomes
+// another.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reference/lit_set.h"
+#include "reference/position.h"
+#include "scene/view_lights.h"
+#include "verify/check.h"
+#include "verify/shadow_scenes.h"
+
+namespace lightgrid::verify {
+namespace {
+
+using glm::dvec3;
+
+constexpr int no_limit = 1 << 20;
+
+struct Listing {
+  const char* settings;  // assignments, split at spaces
+  int room = no_limit;   // lights that a pixel holds: further ones are lost
+};
+
+// Whether a light may be listed for a surface at p: its volume is at most so many times as large as its
+// range, and half a pixel for how corners are drawn. Behind front faces, the sight to p passes through it.
+bool may_be_listed(const View& view, const ViewLight& light, const dvec3& p, bool behind, bool box) {
+  const bool cone = light.type == LightType::spot && light.cos_outer > 0;
+  // A cone is grown by moving it back, by 1 / sin of its angle.
+  const double moved = cone ? 1 + 1 / std::sqrt(1 - light.cos_outer * light.cos_outer) : 1;
+  const double factor = cone ? 1.8 * (1 + moved / 64) : box ? 1.8 : 1.35;
+  const double half_pixel = glm::length(p) / (view.clip_from_view[1][1] * std::min(view.width, view.height));
+  const double along = behind ? std::clamp(glm::dot(light.position, p) / glm::dot(p, p), 0.0, 1.0) : 1;
+  return glm::length(along * p - light.position) <= factor * light.radius_m + (box ? 2 : moved) * half_pixel;
+}
+
+// Compares each pixel's list with the oracle: every light that lights it is there, as far as there is room,
+// no light occurs twice, and each may reach it.
+void light_indices(Check& c, Scene scene, const std::vector<View>& views,
+                   const std::vector<Listing>& listings) {
+  for (Light& light : scene.lights) light.casts_shadow = false;
+  for (const Listing& listing : listings) {
+    Settings settings;
+    for (size_t at = 0; listing.settings[at];) {
+      const std::string_view rest(listing.settings + at);
+      const std::string_view word = rest.substr(0, rest.find(' '));
+      apply_setting(settings, std::string(word));
+      at += word.size() + (word.size() < rest.size());
+    }
+    const bool box = settings.volume_mesh == VolumeMeshes::box;
+    const bool behind = settings.lidr_volumes == LidrVolumes::front_faces;
+    const bool anywhere = settings.lidr_volumes == LidrVolumes::no_prepass;  // along the sight, or past it
+    const std::vector<LightIndexImage> images = c.engine.light_indices(scene, views, settings);
+    if (images.empty()) return c.skip("the engine draws no light volumes");
+    for (size_t i = 0; i < views.size(); ++i) {
+      const View& view = views[i];
+      const std::vector<ViewLight> lights = lights_in_view(scene, view);
+      const std::vector<float>& depths = images[i].depths;
+      const ListedLights& lists = images[i].lists;
+      const LitPairs pairs = count_pairs(view, depths, lights, lists);
+      uint64_t past = 0, out_of_reach = 0;
+      for (size_t pixel = 0; pixel < depths.size(); ++pixel) {
+        if (!(depths[pixel] > 0)) continue;
+        past += uint64_t(std::max(0, int(pairs.lit_of_pixel[pixel]) - listing.room));
+        const dvec3 p =
+            position_from_depth(view, int(pixel) % view.width, int(pixel) / view.width, depths[pixel]);
+        const size_t cell = lists.cell_of_pixel[pixel];
+        for (uint32_t k = 0; k < lists.count[cell]; ++k) {
+          const uint32_t light = lists.indices[lists.first[cell] + k];
+          out_of_reach +=
+              light < lights.size() && !anywhere && !may_be_listed(view, lights[light], p, behind, box);
+        }
+      }
+      c.trials(pairs.listed + pairs.lit);
+      c.contacts(pairs.lit);
+      if (pairs.lost > past)
+        c.lost_pairs(pairs.lost - past, "{}, view {}: {} of {} pairs are not listed", listing.settings, i,
+                     pairs.lost - past, pairs.lit);
+      c.that(pairs.wrong == 0 && out_of_reach == 0,
+             "{}, view {}: {} entries are no light or listed twice, {} lights are far from their pixel",
+             listing.settings, i, pairs.wrong, out_of_reach);
+      c.that(listing.room == no_limit || past > 0, "{}, view {}: nothing is past the limit", listing.settings,
+             i);
+    }
+  }
+}
+
+Scene floor_scene() {
+  Scene scene = empty_shadow_scene();
+  add_triangles(scene, quad_of({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}, 2, 2));
+  add_triangles(scene, box_of({-1, 0, -1}, {-0.5f, 2, -0.5f}));
+  return scene;
+}
+View of_floor(int width = 64, int height = 48) {
+  return shadow_view({3, 2.5, 3.5}, {0, 0.3, 0}, width, height);
+}
+View from_above(int width = 64, int height = 48) {
+  return shadow_view({0, 6, 0.1}, {0, 0, 0}, width, height);
+}
+
+// Lights in clusters of `overlap`, which neither touch nor cover each other from above.
+Scene clusters(int overlap, int lights) {
+  Scene scene = floor_scene();
+  const int across = int(std::ceil(std::sqrt(lights / overlap + 1)));
+  const double apart = 6.0 / across;
+  for (int i = 0; i < lights; ++i) {
+    const int cluster = i / overlap;
+    const dvec3 at(-3 + apart * (cluster % across), 0.02 * apart, -3 + apart * (cluster / across));
+    add_lamp(scene, at + dvec3(1e-3 * apart * (i % overlap), 0, 0), float(0.3 * apart));
+  }
+  return scene;
+}
+
+// Index 0 means none, so that light i has index i + 1: the first light, the last one of each size of an
+// index, and those beside it.
+void first_and_last_index(Check& c) {
+  for (const int lights : {1, 14, 15, 16, 254, 255, 256, 257, 4099}) {
+    light_indices(c, clusters(4, lights), {from_above(160, 160)},
+                  {{"lidr-overlap=4"},
+                   {"lidr-overlap=4 lidr-packing=maxblend"},
+                   {"lidr-overlap=4 lidr-packing=sort"},
+                   {"lidr-overlap=4 lidr-packing=maxblend-sort"},
+                   {"lidr-overlap=4 lidr-volumes=front-faces"}});
+  }
+}
+
+// As many lights as there is room for, all with the same ball.
+Scene coincident(int lights) {
+  Scene scene = floor_scene();
+  for (int i = 0; i < lights; ++i) add_lamp(scene, {0.5, 0.5, 0.5}, 2.5f);
+  return scene;
+}
+void full_pixels(Check& c) {
+  for (const int room : {1, 2, 4, 8, 16}) {
+    const std::string overlap = fmt::format("lidr-overlap={}", room);
+    const std::string sorted = overlap + " lidr-packing=sort", both = overlap + " lidr-packing=maxblend-sort",
+                      faces = overlap + " lidr-volumes=front-faces";
+    light_indices(c, coincident(room), {of_floor()},
+                  {{overlap.c_str()}, {sorted.c_str()}, {both.c_str()}, {faces.c_str()}});
+  }
+}
+
+// More lights than a pixel has room for: some are lost, and none becomes another.
+void past_the_limit(Check& c) {
+  for (const int room : {1, 2, 4, 8}) {
+    const std::string overlap = fmt::format("lidr-overlap={}", room);
+    const std::string sorted = overlap + " lidr-packing=sort", both = overlap + " lidr-packing=maxblend-sort",
+                      faces = overlap + " lidr-volumes=front-faces";
+    light_indices(
+        c, coincident(room + 3), {of_floor()},
+        {{overlap.c_str(), room}, {sorted.c_str(), room}, {both.c_str(), room}, {faces.c_str(), room}});
+  }
+}
+
+// The eye in volumes, on their surfaces, and so close that the near plane cuts them.
+void eye_in_volumes(Check& c) {
+  Scene scene = floor_scene();
+  const View view = of_floor();
+  const dvec3 ahead = -glm::transpose(glm::dmat3(view.view_from_world))[2];
+  for (const double reach : {6.0, 5.0}) {
+    for (const double at : {0.0, 0.01, -1.0, 2.0}) add_lamp(scene, view.eye + ahead * at, float(reach));
+  }
+  for (const double off : {-0.02, -1e-6, 0.0, 1e-6, 0.02})
+    add_lamp(scene, view.eye + ahead * 4.0, float(4 + off));
+  light_indices(c, scene, {view},
+                {{""},
+                 {"lidr-volumes=front-faces"},
+                 {"volume-mesh=box"},
+                 {"lidr-packing=sort"},
+                 {"lidr-packing=maxblend-sort"}});
+}
+
+// Lights that touch, almost touch, coincide and contain each other: groups need passes for all of them.
+void groups_that_touch(Check& c) {
+  Random random(20261126);
+  Scene scene = floor_scene();
+  for (int i = 0; i < 12; ++i) {
+    for (const double gap : {-1e-9, 0.0, 1e-9}) add_lamp(scene, {-3 + 0.5 * i * (1 + gap), 0.1, 0.3}, 0.25f);
+  }
+  for (int i = 0; i < 20; ++i) {
+    const dvec3 at = in_cube(random, 2.5);
+    add_lamp(scene, {at.x, 0.2, at.z}, random.uniform(0.1f, 1.5f));
+  }
+  light_indices(c, scene, {of_floor(), from_above()},
+                {{"lidr-packing=sort lidr-overlap=4 lidr-passes=16"},
+                 {"lidr-packing=maxblend-sort lidr-overlap=4 lidr-passes=16"},
+                 {"lidr-packing=sort lidr-overlap=4 lidr-passes=16 lidr-sort=still"},
+                 {"lidr-packing=maxblend-sort lidr-overlap=4 lidr-passes=16 lidr-sort=still"},
+                 {"lidr-packing=sort lidr-overlap=4 lidr-passes=16 lidr-volumes=front-faces"}});
+}
+
+// A camera that moves from light to light: groups of still lights are found before most are seen.
+void groups_of_still_lights(Check& c) {
+  Random random(20261127);
+  Scene scene = floor_scene();
+  for (int i = 0; i < 60; ++i) {
+    const dvec3 at = in_cube(random, 3.5);
+    add_lamp(scene, {at.x, 0.1, at.z}, random.uniform(0.05f, 0.8f));
+  }
+  std::vector<View> views;
+  for (int i = 0; i < 6; ++i)
+    views.push_back(
+        shadow_view({3 * std::cos(i * 1.1), 0.3 + 0.4 * i, 3 * std::sin(i * 1.1)}, {0.2 * i, 0, 0}));
+  views.push_back(shadow_view({300, 200, 100}, {0, 0, 0}, 64, 48, 0.03));  // rounding grows volumes
+  light_indices(c, scene, views,
+                {{"lidr-packing=sort lidr-overlap=8 lidr-passes=8 lidr-sort=still"},
+                 {"lidr-packing=maxblend-sort lidr-overlap=4 lidr-passes=16 lidr-sort=still"},
+                 {"lidr-packing=sort lidr-overlap=8 lidr-passes=8"}});
+}
+
+// One view after the other: what an image of another size has left.
+void cut_images(Check& c) {
+  std::vector<View> views;
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), {17, 9}, {1, 33}, {33, 1}, {65, 63}, {31, 47}, {16, 16}})
+    views.push_back(of_floor(size.x, size.y));
+  views.push_back(shadow_view({3, 2.5, 3.5}, {9, 9, 9}, 33, 17));  // of nothing
+  views.push_back(of_floor(33, 17));
+  light_indices(c, coincident(8), views,
+                {{"lidr-overlap=8"},
+                 {"lidr-packing=sort lidr-overlap=8"},
+                 {"lidr-packing=maxblend-sort lidr-overlap=4 lidr-passes=2"},
+                 {"lidr-overlap=8 lidr-volumes=front-faces"},
+                 {"lidr-overlap=8 lidr-volumes=no-prepass"}});
+}
+
+// Cones of 0.01 to pi rad, ranges of 1 mm to infinity, and cameras that see them from 0.3 m to 300 m away.
+void cones_and_ranges(Check& c) {
+  Scene scene = floor_scene();
+  for (const double outer : {0.01, 0.3, 0.52, 0.53, 1.0, 1.5, 1.5707, 1.58, 3.0})
+    add_spot_lamp(scene, {2 - 1.5 * outer, 1.2, 0.4}, {2 - 1.6 * outer, 0, 0.3}, outer, 1.6f);
+  for (const float radius : {1e-3f, 0.05f, 3.0f, 1e4f, std::numeric_limits<float>::infinity()})
+    add_lamp(scene, {0.6, 0.04, 0.9}, radius);
+  light_indices(c, scene,
+                {of_floor(), shadow_view({0.6, 0.3, 1.1}, {0.6, 0, 0.9}),
+                 shadow_view({300, 250, 100}, {0, 0, 0}, 64, 48, 0.03)},
+                {{""},
+                 {"volume-mesh=box"},
+                 {"volume-mesh=icosahedron"},
+                 {"lidr-packing=sort"},
+                 {"lidr-packing=maxblend-sort"}});
+}
+
+}  // namespace
+
+std::vector<CaseRun> light_index_cases() {
+  return CASES(first_and_last_index, full_pixels, past_the_limit, eye_in_volumes, groups_that_touch,
+               groups_of_still_lights, cut_images, cones_and_ranges);
+}
+
+}  // namespace lightgrid::verify

@@ -1,0 +1,130 @@
+// The setting samples: which techniques take it, and the pictures of those that do.
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "session/surfaces_in_double.h"
+#include "support/small_scene.h"
+#include "techniques/rendering.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Samples, AreTakenByTechniquesThatDeclareThemAndRefusedByOthersByName) {
+  const SmallScene s = small_scene();
+  GpuScene gpu(test_devices(), s.scene);
+  for (const Technique* technique : techniques()) {
+    const bool declared = reads_setting(*technique, "samples");
+    Settings settings;
+    apply_setting(settings, "samples=8");
+    EXPECT_LE(most_samples(*technique, settings), declared ? 8 : 1) << technique->name;
+    if (declared) continue;
+    try {
+      TechniqueRun run(test_devices(), gpu, small_view(17, 9), settings, *technique);
+      ADD_FAILURE() << technique->name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      EXPECT_THAT(error.what(), HasSubstr("samples=8")) << technique->name;
+      EXPECT_THAT(error.what(), HasSubstr(technique->name));
+    }
+  }
+}
+
+// A picture drawn at `side` times the size: side * side samples a pixel in a grid, and whose instances each
+// sees.
+struct FineTruth {
+  FineTruth(const Scene& scene, int width, int height) : image(width, height), edges(image.pixels.size()) {
+    TechniqueRun run(test_devices(), scene, small_view(side * width, side * height), {},
+                     find_technique("visibility"));
+    run.run_frame();
+    const std::vector<SceneTriangle> shown = own_triangles(run);
+    std::vector<int> first(image.pixels.size(), no_instance);
+    for (int y = 0; y < side * height; ++y) {
+      for (int x = 0; x < side * width; ++x) {
+        const size_t pixel = size_t(y / side) * size_t(width) + size_t(x / side),
+                     fine = size_t(y) * size_t(side * width) + size_t(x);
+        image.pixels[pixel] += run.image().pixels[fine] / float(side * side);
+        int& instance = first[pixel];
+        if (instance == no_instance) instance = shown[fine].instance;
+        if (shown[fine].instance != instance) edges[pixel] = true;
+      }
+    }
+  }
+  // Root mean square of the brightest channel's difference over pixels at edges, or over those inside.
+  double error(const Image& other, bool at_edges) const {
+    double sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < edges.size(); ++i) {
+      if (edges[i] != at_edges) continue;
+      const glm::vec3 d = glm::abs(glm::vec3(image.pixels[i]) - glm::vec3(other.pixels[i]));
+      sum += std::pow(double(std::max({d.r, d.g, d.b})), 2), ++count;
+    }
+    return std::sqrt(sum / double(count));
+  }
+
+  static constexpr int side = 16, no_instance = -2;
+  Image image;
+  std::vector<bool> edges;
+};
+
+class SamplesOfVisibility : public testing::Test {
+ protected:
+  SamplesOfVisibility() {
+    for (const char* name : {"blend", "mask", "spot", "directional"}) effect(name).add(s_);
+  }
+  Image draw(const std::string& more, int width = 67, int height = 41) const {
+    Settings settings;
+    for (size_t begin = 0; begin < more.size();) {
+      const size_t end = std::min(more.find(' ', begin), more.size());
+      apply_setting(settings, more.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    return render(s_.scene, small_view(width, height), "visibility", settings);
+  }
+  SmallScene s_ = small_scene();
+};
+
+TEST_F(SamplesOfVisibility, HaveTheSameBytesInEveryShapeTileAndListOfLights) {
+  const Image four = draw("samples=4");
+  EXPECT_FALSE(same_bytes(four, draw("samples=1")));
+  for (const char* more : {"kernel-shape=group", "lights=all", "tile=8", "slices=8 z-bins=16"})
+    EXPECT_TRUE(identical(draw(std::string("samples=4 ") + more), four)) << more;
+}
+
+// Of a scene whose edges are all silhouettes: masks and blended surfaces cover pixels by their centres. In
+// the sun alone: a lamp close to the ball lights a spot of less than a pixel, which is no edge and would
+// outweigh them.
+TEST_F(SamplesOfVisibility, HaveErrorsThatFallAtEdgesAndStayInside) {
+  s_ = small_scene(false);
+  effect("directional").add(s_);
+  for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
+  const FineTruth truth(s_.scene, 67, 41);
+  std::vector<double> at_edges, inside;
+  for (const char* samples : {"samples=1", "samples=2", "samples=4", "samples=8"}) {
+    const Image image = draw(samples);
+    at_edges.push_back(truth.error(image, true)), inside.push_back(truth.error(image, false));
+    RecordProperty(samples, fmt::format("edges {:.5f}, inside {:.5f}", at_edges.back(), inside.back()));
+  }
+  // Of random places errors would fall by the square root of 2 a step; these places are spread evenly.
+  for (size_t i = 1; i < at_edges.size(); ++i) EXPECT_LT(at_edges[i], at_edges[i - 1] / std::sqrt(2.0)) << i;
+  const double slope = std::log2(at_edges.back() / at_edges.front()) / 3;
+  EXPECT_LT(slope, -0.6) << fmt::format("{}", fmt::join(at_edges, " "));
+  // Creases of the ball are inside, and fall a little with the first step.
+  for (const double error : inside) {
+    EXPECT_LE(error, inside.front());
+    EXPECT_GT(error, 0.7 * inside.front());
+  }
+}
+
+TEST_F(SamplesOfVisibility, AreRefusedWhereALightCastsAShadow) {
+  s_.scene.lights[0].casts_shadow = true;
+  EXPECT_THROW(draw("samples=4"), Error);
+  EXPECT_NO_THROW(draw("samples=4 shadows=none"));
+}
+
+}  // namespace
+}  // namespace lightgrid
