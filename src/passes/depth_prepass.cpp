@@ -25,14 +25,19 @@ static uint32_t features_of_depth(uint32_t features) {
   return features & feature_mask ? features & (features_of_base_color | feature_mask) : 0;
 }
 
-DepthImage depth_prepass(Work& work) {
+DepthImage depth_prepass(Work& work, GLuint group_numbers) {
   auto pass = work.timer.pass("depth_prepass", "gl");
-  const GLuint framebuffer = work.depth_framebuffer();
-  begin_depth(work, framebuffer, GL_GREATER);
+  const GLuint depth_alone = work.depth_framebuffer();
+  const GLuint framebuffer =
+      group_numbers ? work.targets.framebuffer({group_numbers}, work.targets.depth()) : depth_alone;
+  begin_depth(work, framebuffer, group_numbers ? GL_GEQUAL : GL_GREATER);
+  std::vector<std::string> defines;
+  if (group_numbers) defines.emplace_back("GROUP_LOCATION 0");
   draw_list(work, work.opaque, DrawStreams::positions_where_possible,
-            work.programs({"shaders/depth.vert", "shaders/depth.frag", {}, false, features_of_depth}));
-  pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * 4);
-  return {framebuffer};
+            work.programs({"shaders/depth.vert", "shaders/depth.frag", defines, false, features_of_depth}));
+  const size_t number_bytes = group_numbers ? group_number_bytes(work.plan) : 0;
+  pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * (4 + number_bytes));
+  return {depth_alone};
 }
 
 DepthImage no_depth_yet(Work& work) {

@@ -50,12 +50,7 @@ NormalsInCl normals_to_cl(Work& work, const NormalImage& normals) {
   auto pass = work.timer.pass("normals_to_cl", "gl");
   work.renderer.pixel_copies.to_buffer({normals.framebuffer, GL_COLOR_ATTACHMENT0, normals.texture},
                                        image.pixel, image.type, work.grid(), in_cl.image->gl_buffer());
-  std::vector<SharedBuffer::Written> written = {{in_cl.image, bytes}};
-  if (in_cl.group_numbers) {
-    copy_group_numbers(work, normals.framebuffer, 1, normals.group_numbers, *in_cl.group_numbers);
-    written.push_back({in_cl.group_numbers, work.grid().values() * group_number_bytes(work.plan)});
-  }
-  SharedBuffer::hand_to_cl(written);
+  in_cl.image->hand_to_cl(bytes);
   pass.moves(bytes, bytes);
   return in_cl;
 }

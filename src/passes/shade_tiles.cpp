@@ -66,7 +66,6 @@ GBufferInCl gbuffer_to_cl(Work& work, const GBuffer& gbuffer) {
   for (const size_t i : in_cl.images)
     copies.push_back({in_cl.surfaces[i], values * gbuffer.layout->images[i].bytes});
   if (base_lighting) copies.push_back({in_cl.image, values * 16});
-  if (in_cl.group_numbers) copies.push_back({in_cl.group_numbers, values * in_cl.group_bytes});
   std::vector<SharedBuffer*> buffers;
   for (const SharedBuffer::Written& copy : copies) buffers.push_back(copy.buffer);
   SharedBuffer::take_for_gl(buffers);
@@ -76,11 +75,8 @@ GBufferInCl gbuffer_to_cl(Work& work, const GBuffer& gbuffer) {
   }
   if (base_lighting)
     copy_attachment(work, gbuffer, 2, work.targets.texture("color", GL_RGBA32F), GL_FLOAT, *in_cl.image);
-  if (in_cl.group_numbers)
-    copy_group_numbers(work, gbuffer.framebuffer, gbuffer.group_attachment(), gbuffer.group_numbers,
-                       *in_cl.group_numbers);
   SharedBuffer::hand_to_cl(copies);
-  const size_t bytes = values * (gbuffer.bytes() + (base_lighting ? 16 : 0));
+  const size_t bytes = values * (gbuffer.bytes() - gbuffer.group_bytes + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
   return in_cl;
 }

@@ -199,6 +199,13 @@ std::string group_witness(const Scene& scene, size_t masks) {
                      std::ranges::count_if(scene.instances, lacks), scene.instances.size(), masks);
 }
 
+// OpenGL's surfaces have numbers of masks, of so many bits, and OpenCL's any mask.
+void plan_group_tiles(const TechniqueNeeds& needs, FramePlan& plan) {
+  const Settings& s = plan.settings;
+  plan.group_tiles = plan.groups && plan.light_grid && needs.group_tiles && s.group_tiles &&
+                     (!plan.opengl || plan.group_masks.size() <= size_t(1) << s.group_bits);
+}
+
 void plan_groups(const Scene& scene, const TechniqueNeeds& needs, FramePlan& plan) {
   if (calls_for_groups(scene)) number_groups(scene, plan);
   if (plan.groups && needs.group_stencil) {
@@ -206,6 +213,7 @@ void plan_groups(const Scene& scene, const TechniqueNeeds& needs, FramePlan& pla
         std::min(plan.settings.group_stencil, most_stencil_groups(plan.settings.volume_culling));
     plan.stencil = plan.stencil || plan.group_stencil > 0;
   }
+  plan_group_tiles(needs, plan);
   plan.decisions.push_back({"light groups", plan.groups,
                             plan.groups ? group_witness(scene, plan.group_masks.size()) + needs.groups_of
                                         : "not called for: every light and every instance has all groups"});
@@ -335,6 +343,7 @@ void turn_everything_on(const Scene& scene, const View& view, FramePlan& plan, c
   plan.local_lights = plan.spots = plan.virtual_lights = plan.directional = plan.base_lighting = plan.blend =
       plan.mask = true;
   number_groups(scene, plan);
+  plan_group_tiles(needs, plan);
   if (needs.shadows && plan.settings.shadows != ShadowMethod::none) {
     shadow_all(scene, plan);
     if (needs.own_shadows) take_own_shadows(scene, view, needs, plan);

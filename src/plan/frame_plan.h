@@ -68,6 +68,7 @@ struct TechniqueNeeds {
   bool chosen_raster = false;       // draws with OpenGL, or with the setting raster=opencl without
   bool world_grid = false;          // light lists in cells of the world
   bool shadows = true;              // light loops ask for shadows
+  bool group_tiles = false;         // its tiles may have the light groups of their surfaces
   bool group_stencil = false;       // that of light volumes may test them in the stencil
   int most_samples = 1;             // a pixel, that its passes can take
   // The technique finds those of point and spot lights itself, of so many lights at most; the pass that all
@@ -108,6 +109,7 @@ struct FramePlan {
   bool groups = false;
   std::vector<uint32_t> group_masks;        // with them: all different masks of instances, and
   std::vector<uint32_t> group_of_instance;  // of each of the scene's instances the index of its own
+  bool group_tiles = false;                 // tiles of the light grid have the groups of their surfaces
   int group_stencil = 0;                    // bits of the stencil that have groups; 0: shaders test them
   bool shadows = false;              // shadows of some light must be found in this frame
   std::vector<LightShadow> casting;  // all lights that cast, in scene order

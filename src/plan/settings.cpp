@@ -125,6 +125,8 @@ std::vector<Setting>& all_settings() {
        numbers(&Settings::group_bits, {"8", "16"})},
       {"group-stencil", "bits of the stencil that have the light groups of a pixel in place of that number",
        named(&Settings::group_stencil, {{"off", 0}, {"4", 4}, {"6", 6}, {"8", 8}})},
+      {"group-tiles", "tiles list only lights of groups that a surface in them has",
+       named(&Settings::group_tiles, {{"on", true}, {"off", false}})},
       {"prepass-specular",
        "the specular term of the light buffer: of the lights' shininess; or raised to the material's, after "
        "division by a fifth term, by the luminance of the diffuse ones, or as it is",

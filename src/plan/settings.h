@@ -113,6 +113,7 @@ struct Settings {
   int shadow_pick = 0;  // rays for each pixel to all its lights: 1, 4 or 16; 0: to each light
   BlendedCasters shadow_blended = BlendedCasters::none;
   int group_bits = 8;        // of the number of a mask of light groups beside a pixel's surface: 8 or 16
+  bool group_tiles = true;   // tiles list lights only of groups that their surfaces have
   int group_stencil = 0;     // bits of the stencil that have light groups instead: 4, 6 or 8; 0: none has
   int shadow_threshold = 0;  // steps of the display below which lights have no shadow: 1 to 16; 0: off
   // Exposure of pictures, in stops, by which these steps are counted; none: it is chosen from the picture.

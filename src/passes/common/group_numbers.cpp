@@ -47,10 +47,16 @@ SharedBuffer* group_numbers_in_cl(Work& work, TargetUse use) {
   return &work.shared_samples("group numbers", group_number_format(work.plan.settings).bytes, use);
 }
 
-void copy_group_numbers(Work& work, GLuint framebuffer, int attachment, GLuint texture, SharedBuffer& to) {
+SharedBuffer& group_numbers_to_cl(Work& work, GLuint framebuffer, int attachment, GLuint texture) {
+  const size_t bytes = work.grid().values() * group_number_bytes(work.plan);
+  auto pass = work.timer.pass("group_numbers_to_cl", "gl");
+  SharedBuffer& copy = *group_numbers_in_cl(work, TargetUse::image);
   work.renderer.pixel_copies.to_buffer({framebuffer, GL_COLOR_ATTACHMENT0 + GLenum(attachment), texture},
                                        GL_RED_INTEGER, group_number_format(work.plan.settings).type,
-                                       work.grid(), to.gl_buffer());
+                                       work.grid(), copy.gl_buffer());
+  copy.hand_to_cl(bytes);
+  pass.moves(bytes, bytes);
+  return copy;
 }
 
 ClArguments group_number_arguments(const FramePlan& plan, SharedBuffer* numbers) {

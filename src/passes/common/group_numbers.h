@@ -33,8 +33,8 @@ size_t group_number_bytes(const FramePlan& plan);
 GLuint group_number_image(Work& work);
 // The same as bytes in OpenCL's memory, row 0 at the bottom; null: there is none.
 SharedBuffer* group_numbers_in_cl(Work& work, TargetUse use);
-// Copies the image, which is this attachment of a framebuffer.
-void copy_group_numbers(Work& work, GLuint framebuffer, int attachment, GLuint texture, SharedBuffer& to);
+// Copies the image, which is this attachment of a framebuffer, into that memory.
+SharedBuffer& group_numbers_to_cl(Work& work, GLuint framebuffer, int attachment, GLuint texture);
 
 // GROUP_NUMBER_ARGUMENTS of kernels/resolve/group_numbers.h, and the define of its numbers.
 ClArguments group_number_arguments(const FramePlan& plan, SharedBuffer* numbers);
