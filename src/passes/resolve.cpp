@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cl/launch.h"
+#include "raster/raster_samples.h"
 #include "renderer/upload/lights.h"
 
 namespace lightgrid {
