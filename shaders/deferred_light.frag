@@ -1,12 +1,14 @@
 // One light on the surfaces of the geometry buffer, to be added to the image.
 //   LIGHT_VOLUME: the light comes with its volume (light_volume.vert), else as a uniform
 //   DEPTH_BOUNDS: nothing outside an interval of depth
+//   RESETS_STENCIL: the draw resets a mark at each pixel, which discarding would keep
 //   MARK: instead of light, the pair (pixel, light): a digit of base 4 for each of 48 lights, 12 a channel,
 //     so that sums are exact and count the invocations
 //   GBUFFER_8, GBUFFER_16, CLEARCOAT, SPECULAR, SKIN, MINNAERT: the layout (common/gbuffer.glsl)
 #include "shaders/common/read_gbuffer.glsl"
 #include "shared/brdf.h"
 #include "shaders/lights/punctual.glsl"
+#include "shaders/common/groups_of_pixel.glsl"
 
 #ifdef LIGHT_VOLUME
 flat in uint light;
@@ -21,6 +23,11 @@ uniform uint first_light;
 #endif
 
 layout(location = 0) out vec4 added;
+#ifdef RESETS_STENCIL
+#define ADD_NOTHING { added = vec4(0.0); return; }
+#else
+#define ADD_NOTHING discard
+#endif
 
 #ifdef MARK
 vec4 mark() {
@@ -40,12 +47,18 @@ void main() {
 #ifdef MARK
   added = mark();
 #else
-  vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
   PunctualLight from = light_at(int(light));
+#ifdef GROUPS
+  int groups = groups_of_pixel(pixel);
+  if (!groups_meet(from.groups, groups)) discard;
+#else
+  int groups = 0;
+#endif
+  vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
   Arrival arrival = arrival_at(position, from);
-  if (!(arrival.attenuation > 0.0)) discard;  // would add an exact zero
+  if (!(arrival.attenuation > 0.0)) ADD_NOTHING;  // would add an exact zero
   LitSurface s = surface_of_pixel(pixel);
-  if (!s.lit) discard;
+  if (!s.lit) ADD_NOTHING;
   vec3 to_viewer = direction_to_viewer(position);
   ShadingPoint p = shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness);
 #ifdef SPECULAR
@@ -63,7 +76,7 @@ void main() {
   Coat coat = coat_of_pixel(pixel, s.normal);
   p = with_coat(p, coat.normal, coat.factor, coat.roughness);
 #endif
-  arrival.attenuation *= light_reaches(from, position, NO_INSTANCE);
+  arrival.attenuation *= light_reaches(from, position, groups);
   added = vec4(radiance_of(p, arrival, from), 0.0);
 #endif
 }

@@ -9,7 +9,7 @@
 #include "kernels/raster/raster_blocks.h"
 #include "kernels/resolve/samples.h"
 #include "shared/real.h"
-#ifdef SAMPLES
+#if SAMPLES > 1
 #define SHARE , real* share
 #define SHARE_TO(to) , &to
 typedef global const float* OpaqueDepth;
@@ -33,7 +33,7 @@ static inline mask_t fragments_in_block(const TileRecord* r, int bx, int by, uin
   const mask_t covered = inside & covered_pixels(r, bx, by, across, up);
   if (!any_lane(covered)) return covered;
   *depth = depth_at(r, bx, by, convert_float16(across), convert_float16(up));
-#ifdef SAMPLES
+#if SAMPLES > 1
   *share = 0.0f;
   for (uint s = 0; s < SAMPLES; ++s) {
     real opaque = 0.0f;
@@ -69,7 +69,7 @@ static inline bool is_fragment(const TileRecord* r, int bx, int by, int dx, int 
                                float* depth SHARE) {
   if (!covered_pixels(r, bx, by, dx, dy)) return false;
   *depth = depth_at(r, bx, by, (float)dx, (float)dy);
-#ifdef SAMPLES
+#if SAMPLES > 1
   *share = 0.0f;
   for (uint s = 0; s < SAMPLES; ++s) {
     const float here = depth_at(r, bx, by, (float)dx + SAMPLE_X(s), (float)dy + SAMPLE_Y(s));
