@@ -13,7 +13,8 @@
 
 // A light that reaches none of the pixels, or that none of them faces, would add exact zeros.
 static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal, Real3 to_viewer,
-                                    whole groups, mask_t lit, uint index, const Lights* lights, float exponent) {
+                                    whole groups, mask_t lit, uint index, const Lights* lights,
+                                    float exponent) {
   const PunctualLight light = light_at(lights, index);
 #ifdef GROUPS
   if (!any_lane(lit & groups_meet(light.groups, groups))) return sum;

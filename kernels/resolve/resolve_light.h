@@ -221,8 +221,9 @@ static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const Res
     const float4 to_light = l->directional[2 * i], light = l->directional[2 * i + 1];
     Real3 back = reflected(*p, real3(REAL(to_light.x), REAL(to_light.y), REAL(to_light.z)));
 #ifdef GROUPS
-    back = scale3(back, groups_meet(l->lights.light_group_masks[view->light_count + i], p->groups) ? REAL(1.0f)
-                                                                                             : REAL(0.0f));
+    back =
+        scale3(back, groups_meet(l->lights.light_group_masks[view->light_count + i], p->groups) ? REAL(1.0f)
+                                                                                                : REAL(0.0f));
 #endif
 #ifdef DIRECTIONAL_SHADOWS
     back = scale3(back, seen_share(&l->lights.shadows, view->light_count + i));

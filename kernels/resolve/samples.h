@@ -6,8 +6,8 @@
 // the mean of the samples' depths is the centroid's. The standard places have their mean in the centre: a
 // pixel that one triangle covers is shaded at its centre, as with one sample.
 //
-// -DSAMPLES, -DSAMPLE_PLACES  kernels/common/sample_places.h; side by side in every image of samples. Without,
-// or with one, there is nothing here
+// -DSAMPLES, -DSAMPLE_PLACES  kernels/common/sample_places.h; side by side in every image of samples.
+// Without, or with one, there is nothing here
 #pragma once
 
 #include "kernels/common/sample_places.h"

@@ -19,7 +19,8 @@ bool sees_plane(float centre, const float* samples, std::span<const glm::ivec2> 
   double xx = 0, xy = 0, yy = 0, xd = 0, yd = 0, most = centre;
   for (size_t s = 0; s < places.size(); ++s) {
     const double x = places[s].x, y = places[s].y, d = double(samples[s]) - centre;
-    xx += x * x, xy += x * y, yy += y * y, xd += x * d, yd += y * d, most = std::max(most, double(samples[s]));
+    xx += x * x, xy += x * y, yy += y * y, xd += x * d, yd += y * d,
+        most = std::max(most, double(samples[s]));
   }
   // The gradient of least squares; of two samples the one along their line.
   const double determinant = xx * yy - xy * xy;
@@ -27,7 +28,8 @@ bool sees_plane(float centre, const float* samples, std::span<const glm::ivec2> 
                gy = determinant > 0 ? (yd * xx - xd * xy) / determinant : yd / (xx + yy);
   constexpr double rounding = 0x1p-20;
   for (size_t s = 0; s < places.size(); ++s) {
-    if (samples[s] == 0 || std::abs(centre + gx * places[s].x + gy * places[s].y - samples[s]) > rounding * most)
+    if (samples[s] == 0 ||
+        std::abs(centre + gx * places[s].x + gy * places[s].y - samples[s]) > rounding * most)
       return false;
   }
   return centre != 0;
@@ -41,13 +43,14 @@ GlTexture depth_of_centres(Work& work) {
 }
 
 // With one sample nothing: the frame's depth is that of centres.
-GlTexture centres_of_samples(Work& work) { return work.grid().samples > 1 ? depth_of_centres(work) : GlTexture(); }
+GlTexture centres_of_samples(Work& work) {
+  return work.grid().samples > 1 ? depth_of_centres(work) : GlTexture();
+}
 
 std::vector<float> read_depth_of_samples(Work& work) {
   SharedBuffer& copy = work.shared_samples("depth", 4);
-  work.renderer.pixel_copies.to_buffer(
-      {work.depth_framebuffer(), GL_DEPTH_ATTACHMENT, work.targets.depth()}, GL_DEPTH_COMPONENT, GL_FLOAT,
-      work.grid(), copy.gl_buffer());
+  work.renderer.pixel_copies.to_buffer({work.depth_framebuffer(), GL_DEPTH_ATTACHMENT, work.targets.depth()},
+                                       GL_DEPTH_COMPONENT, GL_FLOAT, work.grid(), copy.gl_buffer());
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   std::vector<float> samples(work.grid().values()), depth(work.grid().pixels());
   glGetNamedBufferSubData(copy.gl_buffer(), 0, GLsizeiptr(samples.size() * 4), samples.data());
@@ -273,7 +276,8 @@ class TriangleTarget {
       : work_(work),
         texture_(make_texture_2d(GL_RG32UI, work.grid().width, work.grid().height)),
         centres_(centres_of_samples(work)),
-        framebuffer_(make_framebuffer({texture_.name()}, centres_ ? centres_.name() : work.targets.depth())) {}
+        framebuffer_(make_framebuffer({texture_.name()}, centres_ ? centres_.name() : work.targets.depth())) {
+  }
 
   std::vector<glm::uvec2> drawn(const DrawList& list, GLenum depth_test) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());

@@ -147,7 +147,8 @@ cl_float4 background(const Seen& seen) {
 }  // namespace
 
 // Over the image of resolve(): the pixels whose samples see several surfaces.
-static void resolve_edges(Work& work, Resolver& r, const VisibilityBuffer& visible, const LightSource& lights) {
+static void resolve_edges(Work& work, Resolver& r, const VisibilityBuffer& visible,
+                          const LightSource& lights) {
   NamedKernel& kernel =
       r.kernel(work, "resolve_edges", lights.in_cl->defines + sample_defines(work.grid().samples));
   auto pass = work.timer.pass("resolve_edges", "cl");

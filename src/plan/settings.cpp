@@ -202,7 +202,8 @@ std::vector<Setting>& all_settings() {
       {"raster", "who draws triangles: OpenGL, or OpenCL alone, as visibility does",
        named(&Settings::raster, {{"opengl", RasterApi::opengl}, {"opencl", RasterApi::opencl}})},
       {"samples",
-       "a pixel, at which triangles are drawn: 1 is its centre; of more, each surface that they see is shaded "
+       "a pixel, at which triangles are drawn: 1 is its centre; of more, each surface that they see is "
+       "shaded "
        "once and counts by its share of them",
        numbers(&Settings::samples, {"1", "2", "4", "8"})},
       {"texels",

@@ -60,8 +60,8 @@ const Image& every_light_of(const TechniqueRun& run, const Measured& m) {
 }
 
 // With each number of samples that a row on these surfaces has, but `drawn`.
-void draw_every_light_with_samples(const Compared& compared, const std::vector<ContestantRun>& entries, bool own,
-                                   int drawn, Measured& m) {
+void draw_every_light_with_samples(const Compared& compared, const std::vector<ContestantRun>& entries,
+                                   bool own, int drawn, Measured& m) {
   for (const ContestantRun& e : entries) {
     const Settings& settings = e.contestant->settings;
     if (!e.run || own_surfaces(*e.contestant->technique, settings) != own || settings.samples == drawn ||
@@ -91,7 +91,8 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
   }
   compared.tell(0.8, fmt::format("reference: {}", every_light_on(true)));
   const auto failure = failure_of([&] {
-    const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, own->contestant->settings, true);
+    const std::unique_ptr<TechniqueRun> run =
+        make_run_of_every_light(compared, own->contestant->settings, true);
     run->run_frame(true);
     m.every_light_on_own = run->take_image();
     m.samples_on_own = own->contestant->settings.samples;

@@ -41,8 +41,8 @@ void tell(Renderer& renderer, const std::string& name) {
         TechniqueRun small(renderer, scene, view_of(name, width, height), settings, *technique);
         small.run_frame();
         Row& row = rows.emplace_back(Row{technique->name, samples, small.image(), {}});
-        row.run = std::make_unique<TechniqueRun>(renderer, scene, view_of(name, width * times, height * times),
-                                                 settings, *technique);
+        row.run = std::make_unique<TechniqueRun>(
+            renderer, scene, view_of(name, width * times, height * times), settings, *technique);
         row.run->run_frame(true);
       } catch (const Error& error) {
         fmt::print(stderr, "{} samples={}: {}\n", technique->name, samples, error.what());
@@ -68,7 +68,8 @@ void tell(Renderer& renderer, const std::string& name) {
 
 int run(int argc, char** argv) {
   Renderer renderer("", GlBackend::automatic);
-  fmt::print("scene,technique,samples,edge_share,edge_error,inside_error,time_of_one,frame_ms,more_bytes_a_pixel\n");
+  fmt::print(
+      "scene,technique,samples,edge_share,edge_error,inside_error,time_of_one,frame_ms,more_bytes_a_pixel\n");
   std::vector<std::string> scenes(argv + 1, argv + argc);
   if (scenes.empty()) scenes = {"hall", "street", "gallery"};
   for (const std::string& scene : scenes) tell(renderer, scene);

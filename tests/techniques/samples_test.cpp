@@ -129,10 +129,12 @@ TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesAndStaySmallInside) {
   const Image one = draw("forward", 1), four = draw("forward", 4);
   // Random places would halve it.
   EXPECT_LT(truth.error(four, true), truth.error(one, true) / 3);
-  // Where two triangles of the ball meet in a pixel each is shaded at a place of its own, which is none of its centre.
+  // Where two triangles of the ball meet in a pixel each is shaded at a place of its own, which is none of
+  // its centre.
   EXPECT_LT(truth.error(four, false), truth.error(four, true) / 10);
-  RecordProperty("errors", fmt::format("edges {:.5f} and {:.5f}, inside {:.5f} and {:.5f}", truth.error(one, true),
-                                       truth.error(four, true), truth.error(one, false), truth.error(four, false)));
+  RecordProperty("errors",
+                 fmt::format("edges {:.5f} and {:.5f}, inside {:.5f} and {:.5f}", truth.error(one, true),
+                             truth.error(four, true), truth.error(one, false), truth.error(four, false)));
 }
 
 TEST_F(SamplesOfOpenGl, AreRefusedWhereTheMachineHasOtherNumbers) {
