@@ -7,6 +7,7 @@
 
 #include "reference/position.h"
 #include "results/metrics.h"
+#include "session/area_error.h"
 #include "session/oracle_sample.h"
 
 namespace lightgrid {
@@ -248,6 +249,19 @@ std::vector<uint32_t> measure_against_oracle(CompareReport& report, Measured& m,
   return sample;
 }
 
+// Each image against the mean over pixels' areas, where some row has several samples.
+void measure_areas(CompareReport& report, const Compared& compared, Measured& m) {
+  const auto has_samples = [](const Contestant& c) { return c.settings.samples > 1; };
+  if (std::ranges::none_of(compared.contestants, has_samples)) return;
+  compared.tell(0.9, "oracle: 256 places a pixel");
+  const AreaTruth truth = area_truth(m.reference.run().view(), m.shadows.occlusion());
+  const double brightest = brightest_channel(m.reference.image), white = 1 / double(report.exposure.scale());
+  for (size_t i = 0; i < report.rows.size(); ++i) {
+    if (report.rows[i].error)
+      report.rows[i].error->area = area_error(image_of(report, i, m.reference), truth, brightest, white);
+  }
+}
+
 }  // namespace
 
 void measure_errors(CompareReport& report, const Compared& compared, Measured& m) {
@@ -260,6 +274,7 @@ void measure_errors(CompareReport& report, const Compared& compared, Measured& m
     const size_t most = affordable_samples(samples, compared.gpu.scene());
     measure_surfaces(report, m, sample_pixels(covered_pixels(m.depth), most));
   }
+  measure_areas(report, compared, m);
 }
 
 }  // namespace lightgrid
