@@ -51,26 +51,31 @@ ImageError error_of(const Image& image, const Measured& m) {
 
 }  // namespace
 
+SampledBy sampled_by(bool own_surfaces, const Settings& settings) {
+  return {own_surfaces, settings.samples,
+          settings.samples > 1 ? settings.samples_resolve : SamplesResolve::linear};
+}
+
 // Every light on the surfaces of this run; empty: it was not drawn.
 const Image& every_light_of(const TechniqueRun& run, const Measured& m) {
   const bool own = run.frame().triangles.has_value();
-  const int samples = run.view().plan.settings.samples;
-  const auto other = m.every_light_with.find({own, samples});
+  const auto other = m.every_light_with.find(sampled_by(own, run.view().plan.settings));
   if (other != m.every_light_with.end()) return other->second;
   return own && !m.reference.run().frame().triangles ? m.every_light_on_own : m.reference.image;
 }
 
-// With each number of samples that a row on these surfaces has, but `drawn`.
+// With the samples of each row on these surfaces that has others than `drawn`.
 void draw_every_light_with_samples(const Compared& compared, const std::vector<ContestantRun>& entries, bool own,
-                                   int drawn, Measured& m) {
+                                   const SampledBy& drawn, Measured& m) {
   for (const ContestantRun& e : entries) {
     const Settings& settings = e.contestant->settings;
-    if (!e.run || own_surfaces(*e.contestant->technique, settings) != own || settings.samples == drawn ||
-        m.every_light_with.contains({own, settings.samples}))
+    const SampledBy by = sampled_by(own, settings);
+    if (!e.run || own_surfaces(*e.contestant->technique, settings) != own || by == drawn ||
+        m.every_light_with.contains(by))
       continue;
     const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, settings, own);
     run->run_frame(true);
-    m.every_light_with[{own, settings.samples}] = run->take_image();
+    m.every_light_with[by] = run->take_image();
   }
 }
 
@@ -79,7 +84,7 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
   const bool reference_is_own = m.reference.run().frame().triangles.has_value();
   if (!m.reference.sampled())
     draw_every_light_with_samples(compared, entries, reference_is_own,
-                                  m.reference.run().view().plan.settings.samples, m);
+                                  sampled_by(reference_is_own, m.reference.run().view().plan.settings), m);
   if (reference_is_own) return;
   const auto own = std::ranges::find_if(entries, [](const ContestantRun& e) {
     return e.run && own_surfaces(*e.contestant->technique, e.contestant->settings);
@@ -95,13 +100,12 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
     const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, own->contestant->settings, true);
     run->run_frame(true);
     m.every_light_on_own = run->take_image();
-    m.samples_on_own = own->contestant->settings.samples;
     ImageError error = error_of(m.every_light_on_own, m);
     error.displayed = displayed_flip(m.every_light_on_own, m.reference.image, report.exposure);
     error.silhouettes =
         silhouette_error(m.every_light_on_own, own_triangles(*run), m.reference.image, m.triangles.shown);
     report.own_surfaces->error = std::move(error);
-    draw_every_light_with_samples(compared, entries, true, m.samples_on_own, m);
+    draw_every_light_with_samples(compared, entries, true, sampled_by(true, own->contestant->settings), m);
   });
   if (failure) report.own_surfaces->why_not = failure->what(), m.every_light_on_own = {};
 }

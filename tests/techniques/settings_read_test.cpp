@@ -23,6 +23,8 @@ const std::vector<Assignments>& contexts() {
   static const std::vector<Assignments> all = {
       {},
       {"raster=opencl"},
+      {"raster=opencl", "samples=4"},
+      {"lights=grid", "samples=4"},  // of visibility
       {"kernel-shape=group"},
       {"z-bins=16"},
       {"range=cutoff"},
