@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "session/contestants.h"
+#include "session/edge_share.h"
 #include "session/leaks.h"
 #include "techniques/technique.h"
 
@@ -47,8 +48,11 @@ int plan(PlanOptions o) {
   const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
   std::optional<Leaks> leaks;
   if (o.leaks) leaks = find_leaks(chosen.scene, chosen.view, settings.ranges);
+  std::optional<EdgeShare> edges;
+  if (settings.samples > 1) edges = find_edge_share(chosen.scene, chosen.view, settings.samples);
   if (o.json.empty()) {
     std::fputs(describe(plan, chosen.scene).c_str(), stdout);
+    if (edges) std::fputs(describe(*edges, chosen.view).c_str(), stdout);
     constexpr size_t most_leaks = 20;
     if (leaks) std::fputs(describe(*leaks, chosen.scene, most_leaks).c_str(), stdout);
     return 0;
@@ -71,6 +75,9 @@ int plan(PlanOptions o) {
                                {"volume", by("shadow volumes")},
                                {"why", words_of(light, chosen.scene)}});
   }
+  if (edges)
+    json["edges"] = {{"samples", edges->samples}, {"pixels", edges->pixels}, {"edge_pixels", edges->edges},
+                     {"covered", edges->covered}, {"shadings", edges->shaded}, {"saved", edges->saved()}};
   if (leaks) json["leaks"] = leaks_json(*leaks, chosen.scene);
   write_json(o.json, json.dump(1));
   return 0;

@@ -14,10 +14,11 @@ using glm::dvec2, glm::dvec3, glm::ivec2;
 
 constexpr int grid = 256, surface_grid = 16;  // parts of a pixel's side
 
-ivec2 cell_of(int number) {
+// Hammersley's point of this number, of `places` in all, a power of two: in the middle of its column and row.
+ivec2 cell_of(int number, int places) {
   int reversed = 0;
-  for (int bit = 0; bit < 8; ++bit) reversed |= (number >> bit & 1) << (7 - bit);
-  return {number, reversed};
+  for (int bit = 1, top = places / 2; top > 0; bit *= 2, top /= 2) reversed |= number & bit ? top : 0;
+  return ivec2(number, reversed) * (grid / places) + grid / places / 2;
 }
 
 View enlarged(View view, int times) {
@@ -47,14 +48,9 @@ int count_surfaces(std::vector<TriangleInView> left) {
   return count;
 }
 
-// Of `places` in all. Fewer than 256 are Hammersley's points of as many, but for a shift within their parts.
-int number_of_place(int k, int places) {
-  return places == places_of_area ? k : k * (places_of_area / places) | k;
-}
-
 }  // namespace
 
-dvec2 place_of_area(int number) { return (dvec2(cell_of(number)) + 0.5) / double(grid); }
+dvec2 place_of_area(int number) { return (dvec2(cell_of(number, places_of_area)) + 0.5) / double(grid); }
 
 struct AreaOracle::Seen {
   ivec2 place{0};  // pixel of of_places_
@@ -79,7 +75,7 @@ std::vector<AreaOracle::Seen> AreaOracle::seen_at(SceneSurfaces& surfaces, uint3
   std::vector<Seen> seen;
   for (int k = 0; k < places; ++k) {
     Seen& s = seen.emplace_back();
-    s.place = corner + cell_of(number_of_place(k, places));
+    s.place = corner + cell_of(k, places);
     s.hit = opaque_.at(surfaces, dvec2(s.place) + 0.5);
     if (s.hit) s.position = position_from_depth(of_places_, s.place.x, s.place.y, s.hit->depth);
   }

@@ -46,7 +46,7 @@ class AreaOracle {
   // 256th of the pixel's area. Each pixel takes 256 rays, on all cores.
   std::vector<PixelArea> at(std::span<const uint32_t> pixels) const;
 
-  // From 2, 4, 8 or 16 of the places, spread as evenly as all.
+  // From 2, 4, 8 or 16 places, as many of Hammersley's points.
   std::vector<SeenSurfaces> surfaces_at(std::span<const uint32_t> pixels, int places) const;
 
  private:
