@@ -47,6 +47,21 @@ TEST_F(ViewInDisplay, ShowsMovingLightsAsRenderDoes) {
   EXPECT_LE(greatest_difference(read_png(folder_.path / "view.png"), picture, 0, width - 2), 2);
 }
 
+// The map of edges is black but for pixels with several surfaces; with one sample it is black.
+TEST_F(ViewInDisplay, ShowsPixelsWithEdgesAsAMap) {
+  const std::string sides = "--left visibility:samples=4 --right visibility";
+  const CommandOutcome run = run_in_display(view_words(folder_, "0 map edges\n0 line 0.5\n", 6, sides));
+  ASSERT_EQ(run.status, 0) << run.output;
+  const PngPixels shot = read_png(folder_.path / "view.png");
+  int edges = 0, others = 0;
+  for (int y = label_rows; y < height; ++y) {
+    for (int x = 0; x < width / 2 - 2; ++x) (shot.at(x, y, 1) > 60 ? edges : others) += 1;
+  }
+  EXPECT_GT(edges, 100);
+  EXPECT_GT(others, 5 * edges);
+  EXPECT_LT(mean_of(shot, width / 2 + 2, width - 2), 1);
+}
+
 TEST_F(ViewInDisplay, DrawsLessWhileTheCameraMovesAndAllOfItAtRest) {
   const std::string move = "0 rate 100000\n0 line 1\n2 key down w\n";
   ASSERT_EQ(run_in_display(view_words(folder_, move, 8)).status, 0);
