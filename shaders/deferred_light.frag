@@ -1,7 +1,7 @@
 // One light on the surfaces of the geometry buffer, to be added to the image.
 //   LIGHT_VOLUME: the light comes with its volume (light_volume.vert), else as a uniform
 //   DEPTH_BOUNDS: nothing outside an interval of depth
-//   RESETS_STENCIL: the draw resets a mark at each pixel, which discarding would keep
+//   EARLY_TESTS: the stencil has light groups: it is tested, and its mark reset, before a pixel is shaded
 //   MARK: instead of light, the pair (pixel, light): a digit of base 4 for each of 48 lights, 12 a channel,
 //     so that sums are exact and count the invocations
 //   GBUFFER_8, GBUFFER_16, CLEARCOAT, SPECULAR, SKIN, MINNAERT: the layout (common/gbuffer.glsl)
@@ -23,10 +23,8 @@ uniform uint first_light;
 #endif
 
 layout(location = 0) out vec4 added;
-#ifdef RESETS_STENCIL
-#define ADD_NOTHING { added = vec4(0.0); return; }
-#else
-#define ADD_NOTHING discard
+#ifdef EARLY_TESTS
+layout(early_fragment_tests) in;
 #endif
 
 #ifdef MARK
@@ -56,9 +54,9 @@ void main() {
 #endif
   vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
   Arrival arrival = arrival_at(position, from);
-  if (!(arrival.attenuation > 0.0)) ADD_NOTHING;  // would add an exact zero
+  if (!(arrival.attenuation > 0.0)) discard;  // would add an exact zero
   LitSurface s = surface_of_pixel(pixel);
-  if (!s.lit) ADD_NOTHING;
+  if (!s.lit) discard;
   vec3 to_viewer = direction_to_viewer(position);
   ShadingPoint p = shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness);
 #ifdef SPECULAR

@@ -1,6 +1,6 @@
 // One light's part in the light buffer, to be added to it: light_prepass with prepass-lights=volumes.
 //   LIGHT_VOLUME, DEPTH_BOUNDS: as in deferred_light.frag
-//   RESETS_STENCIL: as in deferred_light.frag
+//   EARLY_TESTS: as in deferred_light.frag
 //   NORMALS_…: the format of normals; LIGHT_EXPONENT: the lights' shininess (shared/light_buffer.h)
 //   LIGHT_SCALE: a sum of this size is stored as 1
 //   PREPASS_FIFTH_TERM: there is a second image
@@ -26,12 +26,8 @@ layout(location = 0) out vec4 diffuse_specular;
 layout(location = 1) out vec2 weight_rim;
 #endif
 
-#if defined(RESETS_STENCIL) && defined(PREPASS_FIFTH_TERM)
-#define ADD_NOTHING { diffuse_specular = vec4(0.0); weight_rim = vec2(0.0); return; }
-#elif defined(RESETS_STENCIL)
-#define ADD_NOTHING { diffuse_specular = vec4(0.0); return; }
-#else
-#define ADD_NOTHING discard
+#ifdef EARLY_TESTS
+layout(early_fragment_tests) in;
 #endif
 
 vec3 normal_of_pixel(ivec2 pixel) {
@@ -49,7 +45,7 @@ void main() {
 #ifdef DEPTH_BOUNDS
   if (depth < depth_bounds.x || depth > depth_bounds.y) discard;
 #endif
-  if (!(depth > 0.0)) ADD_NOTHING;
+  if (!(depth > 0.0)) discard;
   PunctualLight from = light_at(int(light));
 #ifdef GROUPS
   int groups = groups_of_pixel(pixel);
@@ -59,7 +55,7 @@ void main() {
 #endif
   vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
   Arrival arrival = arrival_at(position, from);
-  if (!(arrival.attenuation > 0.0)) ADD_NOTHING;  // would add exact zeros
+  if (!(arrival.attenuation > 0.0)) discard;  // would add exact zeros
   arrival.attenuation *= light_reaches(from, position, groups);
   LightTerms terms =
       light_terms(normal_of_pixel(pixel), direction_to_viewer(position), arrival, from, LIGHT_EXPONENT);

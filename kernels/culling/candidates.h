@@ -4,7 +4,7 @@
 
 #include "kernels/culling/light_records.h"
 
-// -DGROUPS  tiles have the light groups of their surfaces, and a light is a candidate where it has one of them
+// -DGROUPS  tiles have the light groups of their surfaces, and a light is a candidate where it has one
 //   light_groups  bits, by light
 //   tile_groups   of a bin's tiles, by slot
 #ifdef GROUPS

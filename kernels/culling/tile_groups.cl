@@ -26,11 +26,13 @@
 
 kernel void tile_groups(
 #ifdef TRIANGLES
-    global const uint* triangles, global const uint* triangle_instance, global const SurfaceInstance* surfaces,
+    global const uint* triangles, global const uint* triangle_instance,
+    global const SurfaceInstance* surfaces,
 #else
     global const group_number_t* numbers, global const float* depths,
 #endif
-    global const uint* masks, uint last, global uint* groups, uint width, uint height, uint tile, uint bins_x) {
+    global const uint* masks, uint last, global uint* groups, uint width, uint height, uint tile,
+    uint bins_x) {
   const uint bin = get_global_id(0) / BIN_SIZE, slot = get_global_id(0) % BIN_SIZE;
   const uint x0 = (bin % bins_x * BIN_TILES + tile_x_of_slot(slot)) * tile;
   const uint y0 = (bin / bins_x * BIN_TILES + tile_y_of_slot(slot)) * tile;

@@ -24,9 +24,8 @@ CullPipeline& LightCuller::State::pipeline(const TileBounds& bounds) {
   options.groups = bounds.groups() != nullptr;
   options.index_bytes = options_.index_bits == 32 || light_count_ > 65536 ? 4 : 2;
   options.light_defines = fmt::format("-DCULL_TEST={}{}", int(options_.cull_test), cones_ ? " -DSPOTS" : "");
-  options.cell_defines =
-      fmt::format("{} -DDEPTH_MODE={}{}{}", options.light_defines, int(bounds.mode),
-                  options.slices ? " -DSLICES" : "", options.groups ? " -DGROUPS" : "");
+  options.cell_defines = fmt::format("{} -DDEPTH_MODE={}{}{}", options.light_defines, int(bounds.mode),
+                                     options.slices ? " -DSLICES" : "", options.groups ? " -DGROUPS" : "");
   std::unique_ptr<CullPipeline>& made = made_pipeline(bounds);
   if (!made || made->options != options) {
     made = options_.shape == KernelShape::lanes ? make_cull_cpu_pipeline(device_, programs_, options)

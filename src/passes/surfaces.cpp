@@ -61,10 +61,9 @@ DepthBounds cull_bounds_of(RenderView& v, Surfaces& surfaces) {
   DepthBounds bounds = bounds_of(v, surfaces);
   if (!v.plan.group_tiles) return bounds;
   const CullParams& tiles = v.culler().params();
-  bounds.opaque.groups =
-      surfaces.visible
-          ? tile_groups(v, v.caches.tile_groups, tiles, *surfaces.visible)
-          : tile_groups(v, v.caches.tile_groups, tiles, *surfaces.group_numbers, depth_of(v, surfaces));
+  bounds.opaque.groups = surfaces.visible ? tile_groups(v, v.caches.tile_groups, tiles, *surfaces.visible)
+                                          : tile_groups(v, v.caches.tile_groups, tiles,
+                                                        *surfaces.group_numbers, depth_of(v, surfaces));
   return bounds;
 }
 

@@ -17,8 +17,8 @@ class TileGroups : public PassCache {
 
   size_t memory_bytes() const override { return masks_.bytes() + groups_.bytes(); }
 
-  cl::Buffer find(Work& work, const CullParams& tiles, const std::string& defines, const ClArguments& surfaces,
-                  size_t bytes_a_pixel) {
+  cl::Buffer find(Work& work, const CullParams& tiles, const std::string& defines,
+                  const ClArguments& surfaces, size_t bytes_a_pixel) {
     const size_t all = size_t(tiles.bins_x) * tiles.bins_y * BIN_SIZE;
     ClDevice& device = *work.renderer.cl;
     if (!kernel_ || defines != defines_)

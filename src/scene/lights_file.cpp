@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -242,6 +243,13 @@ double shortest(float value) { return std::strtod(fmt::format("{}", value).c_str
 
 Json to_json(const glm::vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
 
+nlohmann::ordered_json to_json(uint32_t groups) {
+  nlohmann::ordered_json numbers = Json::array();
+  for (int i = 0; i < most_groups; ++i)
+    if (groups >> i & 1) numbers.push_back(i);
+  return numbers;
+}
+
 nlohmann::ordered_json to_json(const Light& light) {
   nlohmann::ordered_json json;
   if (!light.name.empty()) json["name"] = light.name;
@@ -261,12 +269,18 @@ nlohmann::ordered_json to_json(const Light& light) {
   json["intensity"] = shortest(light.intensity);
   if (light.casts_shadow) json["casts_shadow"] = true;
   if (light.source_m >= 0) json["source_radius"] = shortest(light.source_m);
-  if (light.groups != all_groups) {
-    json["groups"] = Json::array();
-    for (int i = 0; i < most_groups; ++i)
-      if (light.groups >> i & 1) json["groups"].push_back(i);
-  }
+  if (light.groups != all_groups) json["groups"] = to_json(light.groups);
   return json;
+}
+
+std::string line_of(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string lines_of(const std::vector<Light>& lights) {
+  std::string text;
+  for (size_t i = 0; i < lights.size(); ++i) text += (i ? ",\n  " : "\n  ") + line_of(to_json(lights[i]));
+  return text;
 }
 
 }  // namespace
@@ -302,11 +316,19 @@ std::string camera_of_lights_file(const std::filesystem::path& path) {
 }
 
 std::string lights_file_text(const std::vector<Light>& lights) {
-  std::string text = "{\"lights\": [";
-  for (size_t i = 0; i < lights.size(); ++i) {
-    text += (i ? ",\n  " : "\n  ") + to_json(lights[i]).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return "{\"lights\": [" + lines_of(lights) + "\n]}\n";
+}
+
+std::string lights_file_text(const Scene& scene) {
+  std::string instances;
+  std::set<std::string> told;
+  for (const Instance& instance : scene.instances) {
+    if (instance.groups == all_groups || instance.name.empty() || !told.insert(instance.name).second)
+      continue;
+    const nlohmann::ordered_json json = {{"name", instance.name}, {"groups", to_json(instance.groups)}};
+    instances += (instances.empty() ? "\n  " : ",\n  ") + line_of(json);
   }
-  return text + "\n]}\n";
+  return "{\"lights\": [" + lines_of(scene.lights) + "\n],\n\"instances\": [" + instances + "\n]}\n";
 }
 
 }  // namespace lightgrid

@@ -176,7 +176,8 @@ class DeviceEngine : public CullEngine {
       image.lights = v.plan.local, image.tile = v.plan.settings.tile;
       image.pixels = read_pixels(v, frame.image);
       image.depths = depths_of(v, frame);
-      image.lists = frame.listed ? frame.listed(image.depths) : list_every_light(uint32_t(image.lights.size()));
+      image.lists =
+          frame.listed ? frame.listed(image.depths) : list_every_light(uint32_t(image.lights.size()));
       if (image.lists.cell_of_pixel.empty()) image.lists.cell_of_pixel.resize(image.depths.size());
       image.groups = groups_shown(v, frame);
       if (renderer.gl) check_gl(technique.name);

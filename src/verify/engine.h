@@ -119,8 +119,8 @@ class CullEngine {
     return {};
   }
 
-  // A frame for each view in one run of a technique. Nothing from an engine that only culls, or without OpenGL
-  // where the technique draws with it.
+  // A frame for each view in one run of a technique. Nothing from an engine that only culls, or without
+  // OpenGL where the technique draws with it.
   virtual std::vector<GroupImage> group_images(const Scene&, const std::string& /*technique*/,
                                                std::span<const View>, const Settings&) {
     return {};

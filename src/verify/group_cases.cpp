@@ -1,6 +1,6 @@
-// Hard cases of light groups: masks, instances and pixels for which a light is easily seen where it should not
-// be, or lost. What a pixel must show is known without groups: the picture of the lights alone that share one
-// with its surface.
+// Hard cases of light groups: masks, instances and pixels for which a light is easily seen where it should
+// not be, or lost. What a pixel must show is known without groups: the picture of the lights alone that share
+// one with its surface.
 #include <algorithm>
 #include <set>
 #include <sstream>
@@ -19,7 +19,7 @@ using glm::dvec3;
 struct Way {
   const char *technique, *settings;  // assignments, with spaces between
   bool tiles = false;                // lists no light that no surface of the tile can have
-  double most = 0;                   // difference, of the brightest value: where groups change the sums' order
+  double most = 0;  // difference, of the brightest value: where groups change the sums' order
 };
 
 constexpr double rounding = 1e-6;
@@ -103,7 +103,8 @@ uint64_t entries_outside(const Scene& scene, const View& view, const GroupImage&
 // The largest difference at pixels of a mask, of the brightest value.
 double difference(const GroupImage& image, const GroupImage& expected, uint32_t mask) {
   double brightest = 0, most = 0;
-  for (const glm::vec4& p : expected.pixels) brightest = std::max({brightest, double(p.r), double(p.g), double(p.b)});
+  for (const glm::vec4& p : expected.pixels)
+    brightest = std::max({brightest, double(p.r), double(p.g), double(p.b)});
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     if (image.groups[i] != mask || !(image.depths[i] > 0)) continue;
     for (int c = 0; c < 3; ++c) {
@@ -133,8 +134,7 @@ void groups_shown(Check& c, Scene scene, const std::vector<View>& views,
       std::vector<ViewLight> lights;
       const std::vector<ViewLight> all = lights_in_view(scene, views[i]);
       for (const int light : image.lights) lights.push_back(all[size_t(light)]);
-      const LitPairs pairs =
-          count_pairs(views[i], image.depths, lights, image.lists, nullptr, image.groups);
+      const LitPairs pairs = count_pairs(views[i], image.depths, lights, image.lists, nullptr, image.groups);
       c.trials(pairs.listed + pairs.lit), c.contacts(pairs.lit);
       if (pairs.lost > 0)
         c.lost_pairs(pairs.lost, "{} {}, view {}: {} of {} pairs are not listed", way.technique, way.settings,
@@ -148,8 +148,8 @@ void groups_shown(Check& c, Scene scene, const std::vector<View>& views,
       const auto expected = c.engine.group_images(alone(scene, mask), way.technique, views, settings);
       for (size_t i = 0; i < images.size(); ++i) {
         const double apart = difference(images[i], expected[i], mask);
-        c.that(apart <= way.most, "{} {}, view {}: surfaces with the groups {:x} differ by {:.2g}", way.technique,
-               way.settings, i, mask, apart);
+        c.that(apart <= way.most, "{} {}, view {}: surfaces with the groups {:x} differ by {:.2g}",
+               way.technique, way.settings, i, mask, apart);
       }
     }
   }
@@ -168,7 +168,8 @@ Scene strips(const std::vector<uint32_t>& masks, float across = 4) {
   const float each = across / float(masks.size());
   for (size_t i = 0; i < masks.size(); ++i) {
     const float x = -0.5f * across + each * float(i);
-    add_triangles(scene, quad_of({x, -1.2f, 0.2f * float(i % 3)}, {each, 0, 0}, {0, 2.4f, 0})).groups = masks[i];
+    add_triangles(scene, quad_of({x, -1.2f, 0.2f * float(i % 3)}, {each, 0, 0}, {0, 2.4f, 0})).groups =
+        masks[i];
   }
   add_triangles(scene, quad_of({-3, -2, -1}, {6, 0, 0}, {0, 4, 0})).groups = masks.front();
   return scene;
@@ -200,7 +201,10 @@ void first_and_last_group(Check& c) {
 void no_group(Check& c) {
   Scene scene = strips({0, 1, all_groups, 0, 2});
   for (int i = 0; i < 8; ++i)
-    add_grouped(scene, {-1.7 + 0.5 * i, 0.2, 0.8}, i % 4 == 0 ? 0 : i % 4 == 1 ? all_groups : uint32_t(i % 4 - 1));
+    add_grouped(scene, {-1.7 + 0.5 * i, 0.2, 0.8},
+                i % 4 == 0   ? 0
+                : i % 4 == 1 ? all_groups
+                             : uint32_t(i % 4 - 1));
   groups_shown(c, scene, {of_strips()});
 }
 
@@ -221,8 +225,8 @@ void masked_lights_change_nothing(Check& c) {
     if (images.empty() || with_more.empty()) continue;
     for (const uint32_t mask : {1u, 2u, 3u, 1 | last}) {
       const double apart = difference(with_more[0], images[0], mask);
-      c.that(apart <= way.most, "{} {}: lights of no surface's groups change groups {:x} by {:.2g}", way.technique,
-             way.settings, mask, apart);
+      c.that(apart <= way.most, "{} {}: lights of no surface's groups change groups {:x} by {:.2g}",
+             way.technique, way.settings, mask, apart);
     }
     const uint64_t outside = way.tiles ? entries_outside(more, views[0], with_more[0]) : 0;
     c.that(outside == 0, "{} {}: {} entries are of groups that no surface has", way.technique, way.settings,
@@ -320,23 +324,29 @@ void random_masks(Check& c) {
     const auto mask = [&] {
       const uint64_t kind = random.next() % 6;
       const uint32_t bits = uint32_t(random.next());
-      return kind == 0 ? 0u : kind == 1 ? all_groups : kind == 2 ? bits : 1u << bits % 32 | 1u << (bits >> 8) % 4;
+      return kind == 0   ? 0u
+             : kind == 1 ? all_groups
+             : kind == 2 ? bits
+                         : 1u << bits % 32 | 1u << (bits >> 8) % 4;
     };
     std::vector<uint32_t> masks;
     for (uint64_t i = 2 + random.next() % 7; i > 0; --i) masks.push_back(mask());
     Scene scene = strips(masks);
     for (uint64_t i = random.next() % 6; i > 0; --i) {
       const dvec3 at = in_cube(random, 1.2);
-      add_triangles(scene, box_of(glm::vec3(at), glm::vec3(at) + random.uniform(0.05f, 0.6f))).groups = mask();
+      add_triangles(scene, box_of(glm::vec3(at), glm::vec3(at) + random.uniform(0.05f, 0.6f))).groups =
+          mask();
     }
     for (uint64_t i = 1 + random.next() % 12; i > 0; --i)
       add_grouped(scene, in_cube(random, 1.5), mask(), random.uniform(0.3f, 4));
     for (uint64_t i = random.next() % 3; i > 0; --i)
-      add_spot_lamp(scene, in_cube(random, 2), in_cube(random, 0.5), random.uniform(0.1f, 1.4f)).groups = mask();
+      add_spot_lamp(scene, in_cube(random, 2), in_cube(random, 0.5), random.uniform(0.1f, 1.4f)).groups =
+          mask();
     for (uint64_t i = random.next() % 3; i > 0; --i)
       add_sun(scene, {random.uniform(-1, 1), -0.7f, random.uniform(-1, 0)}, mask());
     std::vector<Way> ways = {every_way()[seed % every_way().size()], {"visibility", "", true}};
-    if (std::string_view(ways[0].settings).find("stencil") != std::string_view::npos) ways.erase(ways.begin());
+    if (std::string_view(ways[0].settings).find("stencil") != std::string_view::npos)
+      ways.erase(ways.begin());
     groups_shown(c, scene, {of_strips(), shadow_view(in_cube(random, 2.5), {0, 0, 0}, 47, 35)}, ways);
   }
 }

@@ -1,5 +1,5 @@
-// The hard cases of light groups distinguish right from wrong: each fault, planted into the text of the kernels,
-// is found by the cases that are meant for it.
+// The hard cases of light groups distinguish right from wrong: each fault, planted into the text of the
+// kernels, is found by the cases that are meant for it.
 #include <gtest/gtest.h>
 
 #include "verify/run.h"

@@ -1,5 +1,5 @@
-// Light groups: every way to know a pixel's groups shows one picture, and tiles list no light whose groups none
-// of their surfaces has.
+// Light groups: every way to know a pixel's groups shows one picture, and tiles list no light whose groups
+// none of their surfaces has.
 #include <gmock/gmock.h>
 
 #include <sstream>
@@ -183,7 +183,8 @@ TEST(TileGroups, ALightOutsideEveryGroupOfATileIsNotListed) {
 TEST(TileGroups, MoreMasksThanNumbersAreRefusedByName) {
   Scene scene = small_scene().scene;
   for (int i = 0; i < 300; ++i) {
-    add_instance(scene, "copy", scene.instances[1].mesh, placed({0.1 * (i % 20) - 1, 0.1 * (i / 20) - 1, -3}));
+    add_instance(scene, "copy", scene.instances[1].mesh,
+                 placed({0.1 * (i % 20) - 1, 0.1 * (i / 20) - 1, -3}));
     scene.instances.back().groups = uint32_t(1 + i);
   }
   scene.lights[0].groups = 1, scene.lights[1].groups = 1 << 8;
@@ -200,9 +201,8 @@ TEST(TileGroups, MoreMasksThanNumbersAreRefusedByName) {
   const Image forward = render(scene, view, "forward");
   EXPECT_TRUE(identical(render(scene, view, "forward_plus"), forward));
   EXPECT_TRUE(identical(render(scene, view, "forward_plus", {.group_bits = 16}), forward));
-  EXPECT_TRUE(
-      identical(render(scene, view, "deferred", assigned("group-ids=16")),
-                render(scene, view, "deferred", assigned("group-ids=16 volume-culling=scissor"))));
+  EXPECT_TRUE(identical(render(scene, view, "deferred", assigned("group-ids=16")),
+                        render(scene, view, "deferred", assigned("group-ids=16 volume-culling=scissor"))));
   EXPECT_TRUE(identical(render(scene, view, "visibility"),
                         render(scene, view, "visibility", assigned("lights=all"))));
 }

@@ -156,7 +156,8 @@ kernel void cull_lights(global const float* records, global const uint* lists, g
       const RegionLights lights = {lists + region * 3 * stride, stride, counts + region * runs, runs,
                                    p->light_stride / 16};
       cull_bin(bx, by, records, lights, light_groups, bounds + bin * BOUND_PLANES * BIN_SIZE,
-               tile_groups + bin * BIN_SIZE, slices, rooms, pool, staged, cell_counts + bin * BIN_SIZE * SLICE_COUNT, bins + bin, counters, p);
+               tile_groups + bin * BIN_SIZE, slices, rooms, pool, staged,
+               cell_counts + bin * BIN_SIZE * SLICE_COUNT, bins + bin, counters, p);
     }
   }
 }

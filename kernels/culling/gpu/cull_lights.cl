@@ -188,8 +188,8 @@ static inline void mark_cells(global const uint* ids, uint count, global const f
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cull_lights(
     global const float4* views, global const uint* light_marks, global const uint* light_groups,
-    global const float* bounds, global const uint* tile_groups, global const float2* slices, global uint* ids, global uint4* offsets, global ulong* totals,
-    global uint* marks, global uint2* cells, global volatile uint* counters, constant CullParams* p) {
+    global const float* bounds, global const uint* tile_groups, global const float2* slices, global uint* ids,
+    global uint4* offsets, global ulong* totals, global uint* marks, global uint2* cells, global volatile uint* counters, constant CullParams* p) {
   local uint scratch[PREFIX_SCRATCH], kept[LIGHT_WORDS], cell_marks[BLOCK_SIZE * MARK_STRIDE];
   local float spans[SPANS * BLOCK_SIZE];
   local TestCell made[BLOCK_SIZE];

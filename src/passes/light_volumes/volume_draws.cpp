@@ -28,8 +28,7 @@ VolumeDraws::VolumeDraws(Work& work, LightVolumes& volumes, const char* fragment
     : seen_(work), culling_(work.plan.settings.volume_culling), volumes_(volumes) {
   if (culling_ == VolumeCulling::depth_bounds) defines.emplace_back("DEPTH_BOUNDS");
   if (drawn_as_volumes()) defines.emplace_back("LIGHT_VOLUME");
-  if (work.plan.group_stencil > 0 && culling_ == VolumeCulling::stencil)
-    defines.emplace_back("RESETS_STENCIL");
+  if (work.plan.group_stencil > 0) defines.emplace_back("EARLY_TESTS");
   program_ = &work.program(drawn_as_volumes() ? "shaders/light_volume.vert" : "shaders/screen.vert", fragment,
                            defines);
   if (culling_ == VolumeCulling::stencil)

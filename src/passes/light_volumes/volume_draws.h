@@ -11,7 +11,7 @@ namespace lightgrid {
 class VolumeDraws {
  public:
   // fragment takes LIGHT_VOLUME (the light comes with its volume, else as a uniform `light`), DEPTH_BOUNDS
-  // (the uniform depth_bounds) and RESETS_STENCIL (it discards nothing) besides `defines`.
+  // (the uniform depth_bounds) and EARLY_TESTS (discarded pixels reset their mark too) besides `defines`.
   VolumeDraws(Work& work, LightVolumes& volumes, const char* fragment, std::vector<std::string> defines);
 
   const GlProgram& program() const { return *program_; }
