@@ -26,7 +26,7 @@ extern const Technique world_grid{.name = "world_grid",
                                       "Tegelaers: Forward and Deferred Hashed Shading",
                                   .needs = {.chosen_raster = true, .world_grid = true, .most_samples = 8},
                                   .settings = {"brdf", "world-grid", "world-cell", "depth-bounds", "tile",
-                                               "raster", "samples", "texels", "kernel-shape", "portable"},
+                                               "raster", "samples", "samples-resolve", "texels", "kernel-shape", "portable"},
                                   .render = render};
 
 }  // namespace lightgrid
