@@ -1,5 +1,5 @@
-// The average of the light of a pixel's surfaces, by their shares: a sum, begun with what the background adds,
-// from which light comes back. Linear without a define: the mean of light.
+// The average of the light of a pixel's surfaces, by their shares: a sum, begun with what the background
+// adds, from which light comes back. Linear without a define: the mean of light.
 //
 // -DAVERAGE_TONEMAPPED  the light that the tone map turns into the mean of what it makes of each surface's
 // -DAVERAGE_WEIGHTED    the mean weighted by the tone map's derivative, at the brightest channel
@@ -11,7 +11,8 @@
 #define TONE_DESATURATION 0.15f
 
 #if defined(AVERAGE_TONEMAPPED) || defined(AVERAGE_WEIGHTED)
-// Without the reflection of a white surrounding. Light beyond what a float tells from white counts as so bright.
+// Without the reflection of a white surrounding. Light beyond what a float tells from white counts as so
+// bright.
 static inline float3 without_reflection(float3 light) {
   light = clamp(light, 0.0f, 1e6f);
   const float darkest = min(light.x, min(light.y, light.z));

@@ -12,9 +12,9 @@ namespace lightgrid {
 
 inline constexpr int places_of_area = 256;
 
-// Of 0 to 255: within the pixel, 0 to 1 from its lower left corner. Hammersley's points in base 2: each part of
-// a 256th of the pixel's area, of sides that are powers of two, has one. The share of them on one side of a
-// line through the pixel's centre is off by at most 3 / 256 (PlacesOfArea in reference_tests).
+// Of 0 to 255: within the pixel, 0 to 1 from its lower left corner. Hammersley's points in base 2: each part
+// of a 256th of the pixel's area, of sides that are powers of two, has one. The share of them on one side of
+// a line through the pixel's centre is off by at most 3 / 256 (PlacesOfArea in reference_tests).
 glm::dvec2 place_of_area(int number);
 
 struct PixelArea {

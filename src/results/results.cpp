@@ -81,7 +81,8 @@ json to_json(const ImageError& error) {
                  {"silhouettes", silhouettes},
                  {"inside", inside},
                  {"surfaces", to_json(error.surfaces)}});
-  if (error.area) values["area"] = {{"edges", to_json(error.area->edges)}, {"inside", to_json(error.area->inside)}};
+  if (error.area)
+    values["area"] = {{"edges", to_json(error.area->edges)}, {"inside", to_json(error.area->inside)}};
   return values;
 }
 

@@ -81,9 +81,9 @@ struct SurfacesError {
   double max_rel = 0, rmse_rel = 0, p99_rel = 0;
 };
 
-// An image against the mean over each pixel's area in double (reference/pixel_area.h), at a sample of pixels, apart
-// where those have edges and where not. Relative to the brightest channel of the reference's image; shown: to
-// what a display shows as white, and light above that counts as white.
+// An image against the mean over each pixel's area in double (reference/pixel_area.h), at a sample of pixels,
+// apart where those have edges and where not. Relative to the brightest channel of the reference's image;
+// shown: to what a display shows as white, and light above that counts as white.
 struct AreaError {
   struct Part {
     uint64_t pixels = 0;

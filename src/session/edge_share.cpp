@@ -23,10 +23,11 @@ EdgeShare find_edge_share(const Scene& scene, const View& view, int samples, siz
 
 std::string describe(const EdgeShare& s, const View& view) {
   const double of_pixels = double(s.edges) / double(s.pixels);
-  return fmt::format("pixels with edges: {:.1f} % of {} sampled, about {:.0f} of {} with samples={}\n"
-                     "  shading each surface once a pixel takes {:.2f} shadings a sample: it saves {:.0f} %\n",
-                     100 * of_pixels, s.pixels, of_pixels * double(view.grid().pixels()), view.grid().pixels(),
-                     s.samples, 1 - s.saved(), 100 * s.saved());
+  return fmt::format(
+      "pixels with edges: {:.1f} % of {} sampled, about {:.0f} of {} with samples={}\n"
+      "  shading each surface once a pixel takes {:.2f} shadings a sample: it saves {:.0f} %\n",
+      100 * of_pixels, s.pixels, of_pixels * double(view.grid().pixels()), view.grid().pixels(), s.samples,
+      1 - s.saved(), 100 * s.saved());
 }
 
 }  // namespace lightgrid

@@ -129,8 +129,8 @@ class SamplesResolve : public testing::Test {
 TEST_F(SamplesResolve, AfterTheToneMapIsTheMeanOfWhatItShows) {
   const Image image = draw("tonemapped");
   const size_t edges = at_edges([&](double share, size_t i) {
-    const glm::dvec3 expected = glm::mix(glm::dvec3(tone_map_neutral(background_)),
-                                         glm::dvec3(tone_map_neutral(panel_)), share);
+    const glm::dvec3 expected =
+        glm::mix(glm::dvec3(tone_map_neutral(background_)), glm::dvec3(tone_map_neutral(panel_)), share);
     const glm::dvec3 shown(tone_map_neutral(glm::vec3(image.pixels[i])));
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], expected[c], 1e-6) << i << ' ' << share;
   });
@@ -164,7 +164,8 @@ TEST_F(SamplesResolve, HasTheSameBytesInBothShapesAndInside) {
     const Image image = draw(resolve);
     EXPECT_TRUE(identical(draw(resolve, "group"), image)) << resolve;
     for (size_t i = 0; i < image.pixels.size(); ++i) {
-      if (linear.pixels[i].r == 20 || linear.pixels[i].r == 0.1f) EXPECT_EQ(image.pixels[i], linear.pixels[i]);
+      if (linear.pixels[i].r == 20 || linear.pixels[i].r == 0.1f)
+        EXPECT_EQ(image.pixels[i], linear.pixels[i]);
     }
   }
 }
