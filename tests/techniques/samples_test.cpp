@@ -164,8 +164,9 @@ TEST_F(SamplesResolve, HasTheSameBytesInBothShapesAndInside) {
     const Image image = draw(resolve);
     EXPECT_TRUE(identical(draw(resolve, "group"), image)) << resolve;
     for (size_t i = 0; i < image.pixels.size(); ++i) {
-      if (linear.pixels[i].r == 20 || linear.pixels[i].r == 0.1f)
+      if (linear.pixels[i].r == 20 || linear.pixels[i].r == 0.1f) {
         EXPECT_EQ(image.pixels[i], linear.pixels[i]);
+      }
     }
   }
 }
