@@ -23,8 +23,8 @@
 #include "kernels/raster/raster_masks.h"
 
 typedef struct Image {
-  // A sample, those of a pixel side by side: its depth's bits << 32 | number, or 0 where nothing is. Depths of one sign are ordered as their
-  // bits.
+  // A sample, those of a pixel side by side: its depth's bits << 32 | number, or 0 where nothing is. Depths
+  // of one sign are ordered as their bits.
   global volatile ulong* keys;
   global volatile int* triangles;  // RASTER_NONE, where nothing is, is below every number
   global volatile uint* depths;
@@ -92,8 +92,8 @@ static inline size_t sample_place(const Image* image, int x, int y, int s) {
   return ((size_t)y * image->width + (size_t)x) * SAMPLES + (size_t)s;
 }
 
-// The pixel x to the right of (x0, y0) and y above it, below RASTER_TILE, where `inside`. Reads the samples of
-// a pixel of the image in any case, so that several reads can be on their way.
+// The pixel x to the right of (x0, y0) and y above it, below RASTER_TILE, where `inside`. Reads the samples
+// of a pixel of the image in any case, so that several reads can be on their way.
 static inline SeenPixel see_pixel(const PlacedTriangle* t, int x, int y, bool inside, const Image* image) {
   const Edge a = t->edges[0], b = t->edges[1], c = t->edges[2];
   const int of_a = a.a * x + a.b * y, of_b = b.a * x + b.b * y, of_c = c.a * x + c.b * y;

@@ -6,14 +6,15 @@
 // the mean of the samples' depths is the centroid's. The standard places have their mean in the centre: a
 // pixel that one triangle covers is shaded at its centre, as with one sample.
 //
-// -DSAMPLES, -DSAMPLE_PLACES  kernels/common/sample_places.h; side by side in every image of samples. Without,
-// there is nothing here
+// -DSAMPLES, -DSAMPLE_PLACES  kernels/common/sample_places.h; side by side in every image of samples.
+// Without, or with one, there is nothing here
 #pragma once
 
-#ifdef SAMPLES
 #include "kernels/common/sample_places.h"
 #include "shared/lanes.h"
 #include "shared/surface_records.h"
+
+#if SAMPLES > 1
 
 // Pixels a side of the squares whose edge pixels' attributes have one origin, whatever the tile's size.
 #define EDGE_BLOCK 16u

@@ -91,7 +91,9 @@ void PixelCopies::to_buffer(const Source& source, GLenum format, GLenum type, co
   glBindFramebuffer(GL_READ_FRAMEBUFFER, source.framebuffer);
   if (source.attachment != GL_DEPTH_ATTACHMENT) glReadBuffer(source.attachment);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);  // rows of an odd number of pixels of one byte or two
   glReadPixels(0, 0, grid.width, grid.height, format, type, nullptr);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 

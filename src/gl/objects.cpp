@@ -88,8 +88,8 @@ GlTexture make_texture_of_samples(GLenum format, int width, int height, int samp
     glGetTextureLevelParameteriv(name, 0, GL_TEXTURE_SAMPLES, &made);
   }
   if (error != GL_NO_ERROR)
-    throw machine_error("OpenGL has no room for a texture of {} x {} pixels with {} samples ({})", width, height,
-                        samples, gl_error_name(error));
+    throw machine_error("OpenGL has no room for a texture of {} x {} pixels with {} samples ({})", width,
+                        height, samples, gl_error_name(error));
   if (made != samples)
     throw machine_error("OpenGL on this machine has no {} samples a pixel; {} are possible", samples,
                         made ? made : most);

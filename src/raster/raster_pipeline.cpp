@@ -63,17 +63,19 @@ class RasterCpuPipeline : public RasterPipeline {
            job.clusters, job.frame, buckets_.get(), job.params_buffer);
     launch(device_, "raster_order", order_, one, one, buckets_.get(), visible_.get(), job.counters,
            job.params_buffer);
-    launch(device_, "raster_setup", kernel("raster_setup", job), cl::NDRange(p.chunks), one, visible_.get(), job.pairs,
-           job.clusters, job.instances, job.cluster_indices, job.cluster_triangles, job.clip, records_.get(),
-           next_block_.get(), chunks_.get(), tile_counts_.get(), job.counters, job.params_buffer);
+    launch(device_, "raster_setup", kernel("raster_setup", job), cl::NDRange(p.chunks), one, visible_.get(),
+           job.pairs, job.clusters, job.instances, job.cluster_indices, job.cluster_triangles, job.clip,
+           records_.get(), next_block_.get(), chunks_.get(), tile_counts_.get(), job.counters,
+           job.params_buffer);
     const cl::NDRange adders(device_.info().cpu ? 1 : RASTER_SCAN_GROUP);
     launch(device_, "raster_scan", scan_, adders, adders, tile_counts_.get(), tile_begin_.get(), job.counters,
            job.params_buffer);
-    launch(device_, "raster_fill", kernel("raster_fill", job), cl::NDRange(p.chunks), one, records_.get(), next_block_.get(),
-           chunks_.get(), tile_counts_.get(), lists_.get(), job.counters, job.params_buffer);
+    launch(device_, "raster_fill", kernel("raster_fill", job), cl::NDRange(p.chunks), one, records_.get(),
+           next_block_.get(), chunks_.get(), tile_counts_.get(), lists_.get(), job.counters,
+           job.params_buffer);
     if (!job.triangles()) return;
-    launch(device_, "raster_tiles",
-           kernel("raster_tiles", job, job.masks.alphas() ? " -DALPHA_MASKS" : ""), cl::NDRange(std::min(tiles, units)), one, records_.get(), tile_begin_.get(), lists_.get(),
+    launch(device_, "raster_tiles", kernel("raster_tiles", job, job.masks.alphas() ? " -DALPHA_MASKS" : ""),
+           cl::NDRange(std::min(tiles, units)), one, records_.get(), tile_begin_.get(), lists_.get(),
            job.instances, job.indices, job.clip, job.masks.vertices, job.masks.materials, job.masks.alphas,
            job.triangles, job.depths, job.counters, job.params_buffer);
   }
@@ -92,7 +94,8 @@ class RasterCpuPipeline : public RasterPipeline {
   cl::Kernel& kernel(const char* name, const RasterJob& job, const char* more = "") {
     cl::Kernel& kernel = kernels_[{name, job.samples, *more != 0}];
     if (!kernel())
-      kernel = programs_.kernel(std::string("raster/cpu/") + name, defines_ + sample_defines(job.samples) + more);
+      kernel =
+          programs_.kernel(std::string("raster/cpu/") + name, defines_ + sample_defines(job.samples) + more);
     return kernel;
   }
 
@@ -190,7 +193,8 @@ class RasterGpuPipeline : public RasterPipeline {
                           : pass == 0 ? "-DATOMICS=32 -DPASS=1"
                                       : "-DATOMICS=32 -DPASS=2";
     if (masks) defines += " -DALPHA_MASKS";
-    return kernel = programs_.kernel(std::string("raster/gpu/") + name, defines + sample_defines(job.samples));
+    return kernel =
+               programs_.kernel(std::string("raster/gpu/") + name, defines + sample_defines(job.samples));
   }
 
   ClDevice& device_;

@@ -47,7 +47,8 @@ EveryLight every_light_technique(const Renderer& renderer, const std::vector<Con
   return {&find_technique("visibility"), true, differ};
 }
 
-std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& c, Settings settings, bool own_surfaces) {
+std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& c, Settings settings,
+                                                      bool own_surfaces) {
   settings.lights = ShadedLights::all;
   return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, with_reference_shadows(c, settings),
                                         find_technique(own_surfaces ? "visibility" : "forward"));

@@ -14,8 +14,8 @@
 
 namespace lightgrid {
 
-// The technique that shades every light at every pixel, and its settings; of one sample a pixel, so that pixels have
-// one surface each.
+// The technique that shades every light at every pixel, and its settings; of one sample a pixel, so that
+// pixels have one surface each.
 struct EveryLight {
   const Technique* technique;
   bool chosen_lights;          // only with lights=all
@@ -95,8 +95,8 @@ struct Reference {
 // reference's technique are refused.
 Reference choose_reference(const Compared& compared, std::vector<ContestantRun>& entries);
 
-// A run of every light on the surfaces that are drawn in OpenCL, or on those of OpenGL, with the model, texels and
-// samples of `settings`.
+// A run of every light on the surfaces that are drawn in OpenCL, or on those of OpenGL, with the model,
+// texels and samples of `settings`.
 std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& compared, Settings settings,
                                                       bool own_surfaces);
 

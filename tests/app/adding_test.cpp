@@ -88,6 +88,10 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       {"src/passes/light_index/layout.cpp", {"lidr"}},
       // Its hard cases.
       {"src/verify/device_engine.cpp", {"lidr"}},
+      // Ways to draw light groups that hard cases compare.
+      {"src/verify/group_cases.cpp",
+       {"clustered", "deferred", "deferred_tiled", "forward", "forward_multipass", "forward_plus",
+        "forward_zprepass", "lidr", "light_prepass", "visibility", "world_grid"}},
       // What is varied, and a sentence about two.
       {"src/frontier/points.cpp",
        {"deferred_tiled", "forward_plus", "lidr", "visibility", "voxel_lights", "world_grid"}},
@@ -108,7 +112,7 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
 // --set and JSON files follow.
 TEST(Adding, ASettingOfATechniqueTakesItsFile) {
   std::map<std::string, std::vector<std::string>> texts;
-  Naming expected;
+  Naming expected = {{"src/verify/group_cases.cpp", {"prepass-lights"}}};  // of the ways that it compares
   const std::regex own("OwnSetting<(\\w+)> (\\w+)\\{\\s*\"([^\"]+)\"");
   for (const Technique* t : techniques()) {
     const std::string path = std::string("src/techniques/") + t->name + ".cpp", text = code_of(text_at(path));
@@ -232,6 +236,12 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
       {"shaders/lights/blocks.glsl", {"position"}},
       {"src/shared/punctual_light.h", {"cone", "most_falloff"}},
       {"src/shared/voxel_exact.h", {"cone", "most_falloff"}},
+      // Groups of a light before it is read whole; of directional lights and of instances, which follow.
+      {"shaders/lights/punctual.glsl", {"groups"}},
+      {"shaders/lights/directional.glsl", {"groups"}},
+      {"shaders/common/groups_of_pixel.glsl", {"groups"}},
+      {"kernels/resolve/resolve_light.h", {"groups"}},
+      {"kernels/resolve/group_numbers.h", {"groups"}},
       // A record of the culler's own, from LightBounds.
       {"kernels/culling/gpu/cull_lights.cl", {"cone"}},
   };
@@ -242,7 +252,8 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
 // loop: each asks already, and a new one that computes what arrives without asking fails here.
 TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
   const std::map<std::string, std::vector<std::string>> texts = {
-      {"answers", {"real light_reaches(", "double light_reaches(", "plan.light_reaches = "}},
+      {"answers",
+       {"real light_reaches(", "double light_reaches(", "plan.light_reaches = ", "plan.groups = "}},
       {"asks", {"* light_reaches(", "*= light_reaches(", "return light_reaches("}},
       {"arrives", {" arrival_at(", " voxel_arrival(", " attenuation(light", " arrival_at_sample("}},
   };

@@ -4,8 +4,10 @@
 
 #include <cmath>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "base/error.h"
-#include "session/surfaces_in_double.h"
+#include "support/fine_truth.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -34,42 +36,9 @@ TEST(Samples, AreTakenByTechniquesThatDeclareThemAndRefusedByOthersByName) {
   }
 }
 
-// A picture drawn at `side` times the size: side * side samples a pixel in a grid, and whose instances each
-// sees.
-struct FineTruth {
-  FineTruth(const Scene& scene, int width, int height) : image(width, height), edges(image.pixels.size()) {
-    TechniqueRun run(test_devices(), scene, small_view(side * width, side * height), {},
-                     find_technique("visibility"));
-    run.run_frame();
-    const std::vector<SceneTriangle> shown = own_triangles(run);
-    std::vector<int> first(image.pixels.size(), no_instance);
-    for (int y = 0; y < side * height; ++y) {
-      for (int x = 0; x < side * width; ++x) {
-        const size_t pixel = size_t(y / side) * size_t(width) + size_t(x / side),
-                     fine = size_t(y) * size_t(side * width) + size_t(x);
-        image.pixels[pixel] += run.image().pixels[fine] / float(side * side);
-        int& instance = first[pixel];
-        if (instance == no_instance) instance = shown[fine].instance;
-        if (shown[fine].instance != instance) edges[pixel] = true;
-      }
-    }
-  }
-  // Root mean square of the brightest channel's difference over pixels at edges, or over those inside.
-  double error(const Image& other, bool at_edges) const {
-    double sum = 0;
-    size_t count = 0;
-    for (size_t i = 0; i < edges.size(); ++i) {
-      if (edges[i] != at_edges) continue;
-      const glm::vec3 d = glm::abs(glm::vec3(image.pixels[i]) - glm::vec3(other.pixels[i]));
-      sum += std::pow(double(std::max({d.r, d.g, d.b})), 2), ++count;
-    }
-    return std::sqrt(sum / double(count));
-  }
-
-  static constexpr int side = 16, no_instance = -2;
-  Image image;
-  std::vector<bool> edges;
-};
+FineTruth truth_of(const Scene& scene, int width, int height) {
+  return {test_devices(), scene, small_view(FineTruth::side * width, FineTruth::side * height)};
+}
 
 class SamplesOfVisibility : public testing::Test {
  protected:
@@ -102,7 +71,7 @@ TEST_F(SamplesOfVisibility, HaveErrorsThatFallAtEdgesAndStayInside) {
   s_ = small_scene(false);
   effect("directional").add(s_);
   for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
-  const FineTruth truth(s_.scene, 67, 41);
+  const FineTruth truth = truth_of(s_.scene, 67, 41);
   std::vector<double> at_edges, inside;
   for (const char* samples : {"samples=1", "samples=2", "samples=4", "samples=8"}) {
     const Image image = draw(samples);
@@ -118,6 +87,97 @@ TEST_F(SamplesOfVisibility, HaveErrorsThatFallAtEdgesAndStayInside) {
     EXPECT_LE(error, inside.front());
     EXPECT_GT(error, 0.7 * inside.front());
   }
+}
+
+// Light of two surfaces of constant radiance and of the background, at pixels whose shares the linear mean
+// tells.
+class SamplesResolve : public testing::Test {
+ protected:
+  SamplesResolve() {
+    s_.scene.background = {0.1f, 0.2f, 0.3f};
+    Material& m = s_.scene.materials.emplace_back();
+    m.unlit = true, m.base_color = {20, 6, 1, 1};
+    add_instance(s_.scene, "panel", add_mesh(s_.scene, wall_mesh({0.13f, 0.07f, -4}, 1.03f, 0, "panel")));
+    s_.scene.instances[0].world_from_object = glm::rotate(glm::dmat4(1), 0.1, {0, 0, 1});
+  }
+  Image draw(const char* resolve, const char* shape = "lanes") const {
+    Settings settings;
+    settings.samples = 4;
+    apply_setting(settings, std::string("samples-resolve=") + resolve);
+    if (shape == std::string("group")) apply_setting(settings, "kernel-shape=group");
+    return render(s_.scene, small_view(41, 29), "visibility", settings);
+  }
+  // Calls check(share of the panel, pixel) at pixels of both.
+  template <typename Check>
+  size_t at_edges(const Check& check) const {
+    const Image linear = draw("linear");
+    size_t edges = 0;
+    for (size_t i = 0; i < linear.pixels.size(); ++i) {
+      const double share = (double(linear.pixels[i].r) - 0.1) / (20 - 0.1);
+      if (share < 0.1 || share > 0.9) continue;
+      EXPECT_NEAR(share * 4, std::round(share * 4), 1e-4);
+      check(share, i), ++edges;
+    }
+    return edges;
+  }
+  struct {
+    Scene scene;
+  } s_;
+  const glm::dvec3 panel_{20, 6, 1}, background_{0.1f, 0.2f, 0.3f};
+};
+
+TEST_F(SamplesResolve, AfterTheToneMapIsTheMeanOfWhatItShows) {
+  const Image image = draw("tonemapped");
+  const size_t edges = at_edges([&](double share, size_t i) {
+    const glm::dvec3 expected =
+        glm::mix(glm::dvec3(tone_map_neutral(background_)), glm::dvec3(tone_map_neutral(panel_)), share);
+    const glm::dvec3 shown(tone_map_neutral(glm::vec3(image.pixels[i])));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], expected[c], 1e-6) << i << ' ' << share;
+  });
+  EXPECT_GT(edges, 30u);
+}
+
+// The derivative of the tone map's brightest channel, as a difference of grey light, in which all channels
+// are alike.
+TEST_F(SamplesResolve, WeightedIsTheMeanByTheToneMapsDerivative) {
+  const auto weight = [](const glm::dvec3& light) {
+    const double least = std::min({light.r, light.g, light.b}), peak = std::max({light.r, light.g, light.b});
+    const double off = least < 0.08 ? least - 6.25 * least * least : 0.04;
+    const auto shown = [](double x) { return x < 0.76 ? x : 1 - 0.24 * 0.24 / (x + 0.24 - 0.76); };
+    return (shown(peak - off + 1e-4) - shown(peak - off - 1e-4)) / 2e-4;
+  };
+  const Image image = draw("weighted");
+  const double of_panel = weight(panel_), of_background = weight(background_);
+  EXPECT_NEAR(of_background, 1, 1e-6);
+  EXPECT_LT(of_panel, 1e-3);
+  const size_t edges = at_edges([&](double share, size_t i) {
+    const double a = share * of_panel, b = (1 - share) * of_background;
+    const glm::dvec3 expected = (panel_ * a + background_ * b) / (a + b);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.pixels[i][c], expected[c], 1e-5) << i << ' ' << share;
+  });
+  EXPECT_GT(edges, 30u);
+}
+
+TEST_F(SamplesResolve, HasTheSameBytesInBothShapesAndInside) {
+  const Image linear = draw("linear");
+  for (const char* resolve : {"linear", "tonemapped", "weighted"}) {
+    const Image image = draw(resolve);
+    EXPECT_TRUE(identical(draw(resolve, "group"), image)) << resolve;
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+      if (linear.pixels[i].r == 20 || linear.pixels[i].r == 0.1f) {
+        EXPECT_EQ(image.pixels[i], linear.pixels[i]);
+      }
+    }
+  }
+}
+
+TEST(SamplesResolves, IsRefusedWhereOpenGLAverages) {
+  Settings settings;
+  apply_setting(settings, "samples=4"), apply_setting(settings, "samples-resolve=tonemapped");
+  EXPECT_THROW(check_samples(find_technique("world_grid"), settings), Error);
+  EXPECT_NO_THROW(check_samples(find_technique("visibility"), settings));
+  apply_setting(settings, "raster=opencl");
+  EXPECT_NO_THROW(check_samples(find_technique("world_grid"), settings));
 }
 
 TEST_F(SamplesOfVisibility, AreRefusedWhereALightCastsAShadow) {
@@ -158,14 +218,16 @@ TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesAndStaySmallInside) {
   s_ = small_scene(false);
   effect("directional").add(s_);
   for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
-  const FineTruth truth(s_.scene, 67, 41);
+  const FineTruth truth = truth_of(s_.scene, 67, 41);
   const Image one = draw("forward", 1), four = draw("forward", 4);
   // Random places would halve it.
   EXPECT_LT(truth.error(four, true), truth.error(one, true) / 3);
-  // Where two triangles of the ball meet in a pixel each is shaded at a place of its own, which is none of its centre.
+  // Where two triangles of the ball meet in a pixel each is shaded at a place of its own, which is none of
+  // its centre.
   EXPECT_LT(truth.error(four, false), truth.error(four, true) / 10);
-  RecordProperty("errors", fmt::format("edges {:.5f} and {:.5f}, inside {:.5f} and {:.5f}", truth.error(one, true),
-                                       truth.error(four, true), truth.error(one, false), truth.error(four, false)));
+  RecordProperty("errors",
+                 fmt::format("edges {:.5f} and {:.5f}, inside {:.5f} and {:.5f}", truth.error(one, true),
+                             truth.error(four, true), truth.error(one, false), truth.error(four, false)));
 }
 
 TEST_F(SamplesOfOpenGl, AreRefusedWhereTheMachineHasOtherNumbers) {

@@ -9,9 +9,10 @@
 // background         of samples without a surface
 // image              in and out: RGBA a pixel, linear, row 0 at the bottom
 // -DTILE             pixels a side, a multiple of 8 (default 16)
-// -DSAMPLES, -DSAMPLE_PLACES, and what kernels/resolve/resolve.h and resolve_light.h name
+// -DSAMPLES, -DSAMPLE_PLACES, what kernels/resolve/average.h names, and what kernels/resolve/resolve.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
+#include "kernels/resolve/average.h"
 #include "kernels/resolve/resolve_block.h"
 #include "kernels/resolve/resolve_light.h"
 #include "kernels/resolve/samples.h"
@@ -118,7 +119,7 @@ kernel void resolve_edges(global const uint* triangles, global const float* dept
             const PixelSurface p =
                 next_surface(triangles + (size_t)at * SAMPLES, depths + (size_t)at * SAMPLES, &left);
             if (p.triangle == SURFACE_NONE) {
-              color = (float4)(background.xyz * p.share, 0.0f);
+              color = begun_with(background, p.share);
               continue;
             }
             const uint one = e.count++;
@@ -134,13 +135,9 @@ kernel void resolve_edges(global const uint* triangles, global const float* dept
         shade_surfaces(&e, i, base_x, base_y, &scene, &lights, bin_edges, view);
       for (uint i = 0, one = 0; i < found; ++i) {
         float4 color = colors[i];
-        for (; one < ends[i]; ++one) {
-          color.x = fma(e.red[one], e.share[one], color.x);
-          color.y = fma(e.green[one], e.share[one], color.y);
-          color.z = fma(e.blue[one], e.share[one], color.z);
-        }
-        color.w = 1.0f;
-        vstore4(color, pixels[i], image);
+        for (; one < ends[i]; ++one)
+          color = add_light(color, (float3)(e.red[one], e.green[one], e.blue[one]), e.share[one]);
+        vstore4(averaged(color), pixels[i], image);
       }
     }
   }
