@@ -9,7 +9,7 @@
 // background         of samples without a surface
 // image              in and out: RGBA a pixel, linear, row 0 at the bottom
 // -DTILE             pixels a side, a multiple of 8 (default 16)
-// -DSAMPLES, -DSAMPLE_PLACES, what kernels/resolve/average.h names, and what kernels/resolve/resolve.h and resolve_light.h name
+// -DSAMPLES, -DSAMPLE_PLACES, and what kernels/resolve/average.h, resolve.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
 #include "kernels/resolve/average.h"
@@ -112,7 +112,8 @@ kernel void resolve_edges(global const uint* triangles, global const float* dept
       e.count = 0;
       fetch_square(triangles, depths, edges, x0 + SIDE, y0, width, height);
       for (uint y = y0; y < min(y0 + SIDE, height); ++y) {
-        for (uint bits = edge_bits(edges, y * width + x0, min(SIDE, width - x0)); bits != 0; bits &= bits - 1) {
+        uint bits = edge_bits(edges, y * width + x0, min(SIDE, width - x0));
+        for (; bits != 0; bits &= bits - 1) {
           const uint x = x0 + lowest_bit(bits), at = y * width + x;
           float4 color = 0.0f;
           for (uint left = ALL_SAMPLES; left != 0;) {
