@@ -4,7 +4,6 @@
 
 #include "passes/common/gbuffer.h"
 #include "passes/depth_prepass.h"
-#include "raster/raster_samples.h"
 #include "renderer/drawing/draw.h"
 #include "renderer/upload/culler_input.h"
 #include "scene/grid_lists.h"
@@ -46,7 +45,7 @@ std::vector<float> read_depth_of_samples(Work& work) {
   const GlFramebuffer of_centres = make_framebuffer({}, centres.name());
   glBindFramebuffer(GL_READ_FRAMEBUFFER, of_centres.name());
   glReadPixels(0, 0, work.grid().width, work.grid().height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
-  const std::span<const glm::ivec2> places = raster_samples(work.grid().samples);
+  const std::vector<glm::ivec2> places = work.sample_places();
   for (size_t i = 0; i < depth.size(); ++i)
     if (!sees_plane(depth[i], &samples[i * places.size()], places)) depth[i] = 0;
   return depth;

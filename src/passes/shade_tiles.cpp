@@ -1,6 +1,9 @@
 #include "passes/shade_tiles.h"
 
 #include "cl/launch.h"
+#include "passes/resolve_samples.h"
+#include "passes/sample_edges.h"
+#include "raster/raster_samples.h"
 #include "renderer/upload/lights.h"
 #include "renderer/upload/scene_surfaces.h"
 
@@ -57,15 +60,24 @@ void copy_attachment(Work& work, const GBuffer& gbuffer, int attachment, GLuint 
       to.gl_buffer());
 }
 
+// The image of one value a pixel.
+PixelGrid pixels_of(const Work& work) { return {work.grid().width, work.grid().height}; }
+
+GLuint image_texture(Work& work) {
+  return work.grid().samples > 1 ? work.targets.resolved("resolved", GL_RGBA32F)
+                                 : work.targets.texture("color", GL_RGBA32F);
+}
+
 GBufferInCl gbuffer_to_cl(Work& work, const GBuffer& gbuffer) {
   const size_t values = work.grid().values();
   const GBufferInCl in_cl = gbuffer_in_cl_of(work, gbuffer.base_lighting, TargetUse::image);
   const bool base_lighting = holds_base_lighting(in_cl);
+  const ShadedImage base = base_lighting ? resolve_samples(work, gbuffer.image) : ShadedImage();
   auto pass = work.timer.pass("gbuffer_to_cl", "gl");
   std::vector<SharedBuffer::Written> copies;
   for (const size_t i : in_cl.images)
     copies.push_back({in_cl.surfaces[i], values * gbuffer.layout->images[i].bytes});
-  if (base_lighting) copies.push_back({in_cl.image, values * 16});
+  if (base_lighting) copies.push_back({in_cl.image, work.grid().pixels() * 16});
   std::vector<SharedBuffer*> buffers;
   for (const SharedBuffer::Written& copy : copies) buffers.push_back(copy.buffer);
   SharedBuffer::take_for_gl(buffers);
@@ -74,33 +86,40 @@ GBufferInCl gbuffer_to_cl(Work& work, const GBuffer& gbuffer) {
                     *in_cl.surfaces[i]);
   }
   if (base_lighting)
-    copy_attachment(work, gbuffer, 2, work.targets.texture("color", GL_RGBA32F), GL_FLOAT, *in_cl.image);
+    work.renderer.pixel_copies.to_buffer({base.framebuffer, GL_COLOR_ATTACHMENT0, image_texture(work)}, GL_RGBA,
+                                         GL_FLOAT, pixels_of(work), in_cl.image->gl_buffer());
   SharedBuffer::hand_to_cl(copies);
   const size_t bytes = values * (gbuffer.bytes() - gbuffer.group_bytes + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
   return in_cl;
 }
 
+// Each sample gets the light of its pixel.
 void image_to_gl(Work& work, SharedBuffer& image) {
-  const size_t bytes = work.grid().values() * 16;
+  const size_t bytes = work.grid().pixels() * 16;
   auto pass = work.timer.pass("image_to_gl", "gl");
   image.hand_to_gl(bytes);
-  work.renderer.pixel_copies.to_texture(image.gl_buffer(), GL_RGBA, GL_FLOAT, work.grid(),
-                                        work.targets.texture("color", GL_RGBA32F));
-  pass.moves(bytes, bytes);
+  work.renderer.pixel_copies.to_texture(image.gl_buffer(), GL_RGBA, GL_FLOAT, pixels_of(work),
+                                        image_texture(work));
+  pass.moves(bytes, work.grid().values() * 16);
+  if (work.grid().samples == 1) return;
+  const auto [width, height, samples] = work.grid();
+  glBlitNamedFramebuffer(work.targets.framebuffer({image_texture(work)}, 0), work.color_framebuffer(), 0, 0,
+                         width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffer, const DepthBuffer& depth,
-               const LightSource& lights) {
+               const LightSource& lights, const cl::Buffer& edges) {
   TileShading& s = cache.of(work);
   const ClLights& table = work.cl_lights();
   auto pass = work.timer.pass("shade_tiles", "cl");
   const auto [items, group] = over_pixels(work, s.kernels.lanes, 16, 16);
-  const bool base_lighting = holds_base_lighting(gbuffer);
+  const bool base_lighting = holds_base_lighting(gbuffer), several = work.grid().samples > 1;
+  const char* name = several ? "shade_tile_samples" : "shade_tiles";
   const glm::vec3 background =
       base_lighting ? glm::vec3(0) : work.scene.background;  // in the image already, or not
-  s.kernels.of("shade_tiles", base_lighting ? " -DBASE_LIGHTING" : "")
-      .launch(*work.renderer.cl, "shade_tiles", items, group,
+  s.kernels.of(name, (base_lighting ? " -DBASE_LIGHTING" : "") + sample_defines(work.sample_places()))
+      .launch(*work.renderer.cl, name, items, group,
               ClArguments{{"first", gbuffer.surfaces[0]->cl_buffer()},
                           {"second", gbuffer.surfaces[1]->cl_buffer()},
                           {"coats", gbuffer.in_cl(gbuffer_coat)},
@@ -114,7 +133,8 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
                               {"bin_edges", table.bin_edges.buffer()},
                               {"image", gbuffer.image->cl_buffer()},
                               {"background", cl_float4{{background.r, background.g, background.b, 0}}},
-                              {"view", table.view.buffer()}});
+                              {"view", table.view.buffer()}} +
+                  (several ? ClArguments{{"edges", edges}} : ClArguments()));
   const size_t values = work.grid().values();
   const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
   pass.moves(values * surface_bytes + lights.bytes, work.grid().pixels() * 16);
@@ -122,10 +142,19 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
 
 }  // namespace
 
-ShadedImage shade_tiles(Work& work, Cached<TileShading>& cache, const GBuffer& gbuffer,
-                        const DepthBuffer& depth, const LightSource& lights) {
+ShadedImage shade_tiles(Work& work, PassCaches& caches, const GBuffer& gbuffer, const DepthBuffer& depth,
+                        const LightSource& lights, Frame& frame) {
   const GBufferInCl in_cl = gbuffer.in_cl ? *gbuffer.in_cl : gbuffer_to_cl(work, gbuffer);
-  add_light(work, cache, in_cl, depth, lights);
+  cl::Buffer edges;
+  if (work.grid().samples > 1) {
+    StoredSurfaces surfaces{.bytes = in_cl.layout->images[0].bytes, .group_numbers = in_cl.group_numbers};
+    for (const size_t i : in_cl.images) surfaces.images.push_back(in_cl.surfaces[i]);
+    edges = sample_edges(work, caches.sample_edges, surfaces, depth);
+    frame.sample_figures = [&work, edges, depth, bytes = in_cl.bytes() + 4] {
+      return figures_of_edges(work, edges, depth, bytes);
+    };
+  }
+  add_light(work, caches.tile_shading, in_cl, depth, lights, edges);
   if (gbuffer.in_cl || !work.plan.blend) return {gbuffer.image.framebuffer, in_cl.image};
   image_to_gl(work, *in_cl.image);
   return gbuffer.image;

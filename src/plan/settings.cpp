@@ -206,6 +206,9 @@ std::vector<Setting>& all_settings() {
        "shaded "
        "once and counts by its share of them",
        numbers(&Settings::samples, {"1", "2", "4", "8"})},
+      {"samples-shading",
+       "of surfaces that are stored for each sample: samples are shaded apart at edges alone, or everywhere",
+       named(&Settings::samples_shading, {{"edges", SamplesShading::edges}, {"all", SamplesShading::all}})},
       {"samples-resolve",
        "average of a pixel's samples: of their light, of their light after the tone map, or of their light "
        "weighted by the tone map's derivative",

@@ -37,6 +37,7 @@ enum class LidrShadows { pass, none, volumes, prepass, prepass_soft, final_pass 
 enum class RasterApi { opengl, opencl };
 
 // How the light of a pixel's samples is averaged (docs/samples.md#averages).
+enum class SamplesShading { edges, all };
 enum class SamplesResolve { linear, tonemapped, weighted };
 
 // How the resolve passes keep a material's maps (upload/scene_surfaces.h), and which lights it adds up.
@@ -96,6 +97,7 @@ struct Settings {
   NormalFormat normals = NormalFormat::floats;
   RasterApi raster = RasterApi::opengl;
   int samples = 1;  // a pixel, at which triangles are drawn: 1, 2, 4 or 8
+  SamplesShading samples_shading = SamplesShading::edges;
   SamplesResolve samples_resolve = SamplesResolve::linear;
   TexelLayout texels = TexelLayout::packed;
   ShadedLights lights = ShadedLights::grid;

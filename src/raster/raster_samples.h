@@ -25,12 +25,13 @@ constexpr std::span<const glm::ivec2> raster_samples(int samples) {
 }
 
 // What kernels/common/sample_places.h is compiled with. Empty for one sample; begins with a space otherwise.
-inline std::string sample_defines(int samples) {
-  if (samples == 1) return "";
+inline std::string sample_defines(std::span<const glm::ivec2> of) {
+  if (of.size() == 1) return "";
   std::string places;
-  for (const glm::ivec2& p : raster_samples(samples))
+  for (const glm::ivec2& p : of)
     places += (places.empty() ? "" : ",") + std::to_string(p.x) + ',' + std::to_string(p.y);
-  return " -DSAMPLES=" + std::to_string(samples) + " -DSAMPLE_PLACES=" + places;
+  return " -DSAMPLES=" + std::to_string(of.size()) + " -DSAMPLE_PLACES=" + places;
 }
+inline std::string sample_defines(int samples) { return sample_defines(raster_samples(samples)); }
 
 }  // namespace lightgrid

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cl/transfer.h"
 
 namespace lightgrid {
@@ -64,6 +66,18 @@ GLuint Work::color_framebuffer() {
   return targets.framebuffer({targets.texture("color", GL_RGBA32F)}, targets.depth());
 }
 
+std::vector<glm::ivec2> Work::sample_places() {
+  if (grid().samples == 1) return {{0, 0}};
+  glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer());
+  std::vector<glm::ivec2> places;
+  for (GLuint s = 0; s < GLuint(grid().samples); ++s) {
+    float place[2] = {0.5f, 0.5f};
+    glGetMultisamplefv(GL_SAMPLE_POSITION, s, place);
+    places.emplace_back(int(std::lround((place[0] - 0.5f) * 256)), int(std::lround((place[1] - 0.5f) * 256)));
+  }
+  return places;
+}
+
 SharedBuffer& Work::shared_pixels(const std::string& name, size_t bytes, TargetUse use) {
   return targets.buffer(*renderer.cl, renderer.bridge, name, (grid().pixels() + spare_pixels) * bytes, use);
 }
@@ -83,13 +97,14 @@ ClArguments Work::light_arguments() {
   return plan.light_reaches ? cl_lights().columns() + shadows.arguments() : cl_lights().columns();
 }
 
-std::array<std::unique_ptr<PassCache>*, 16> PassCaches::all() {
+std::array<std::unique_ptr<PassCache>*, 17> PassCaches::all() {
   return {&opaque_triangles.made_, &blended_triangles.made_, &resolver.made_,
           &tile_shading.made_,     &light_sums.made_,        &light_volumes.made_,
           &light_index.made_,      &object_lights.made_,     &blended_object_lights.made_,
           &voxels.made_,           &world_grid.made_,        &shadow_bits.made_,
           &fragment_layers.made_,  &index_shadows.made_,
-          &pixel_edges.made_,      &tile_groups.made_};
+          &pixel_edges.made_,      &tile_groups.made_,
+          &sample_edges.made_};
 }
 
 void PassCaches::follow(Work& work) {

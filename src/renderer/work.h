@@ -46,6 +46,8 @@ struct Work : Seen {
                            std::vector<std::string> defines);
 
   GLuint depth_framebuffer() { return targets.framebuffer({}, targets.depth()); }
+  // Where OpenGL has the samples of a pixel: from its centre, 1/256 pixel, y up.
+  std::vector<glm::ivec2> sample_places();
   GLuint color_framebuffer();                 // linear RGBA, 32-bit float, over the depth image
   static constexpr size_t spare_pixels = 16;  // that kernels may read past an image's end
 
@@ -107,6 +109,7 @@ struct PassCaches {
   Cached<class OpaqueTriangles> opaque_triangles;  // passes/rasterize.cpp
   Cached<class BlendedTriangleLists> blended_triangles;
   Cached<class PixelEdges> pixel_edges;                             // passes/find_edges.cpp
+  Cached<class SampleEdges> sample_edges;                           // passes/sample_edges.cpp
   Cached<class TileGroups> tile_groups;                             // passes/tile_groups.cpp
   Cached<class Resolver> resolver;                                  // passes/resolve.cpp
   Cached<class TileShading> tile_shading;                           // passes/shade_tiles.cpp
@@ -126,7 +129,7 @@ struct PassCaches {
   size_t memory_bytes() const;
 
  private:
-  std::array<std::unique_ptr<PassCache>*, 16> all();
+  std::array<std::unique_ptr<PassCache>*, 17> all();
 };
 
 }  // namespace lightgrid

@@ -59,6 +59,10 @@ void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaqu
   blend(v, surfaces, from_grid(v, *frame.blend_grid), frame.image);
 }
 
+void store_samples_in_opengl(TechniqueNeeds& needs, Settings& settings) {
+  if (settings.raster == RasterApi::opencl) needs.most_samples = 1;
+}
+
 Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
   // If no light has a position, nothing adds to a geometry buffer. OpenGL fills it all the same, for its
   // image.
@@ -76,7 +80,7 @@ Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
         &group_numbers_to_cl(v, gbuffer.framebuffer, gbuffer.group_attachment(), gbuffer.group_numbers);
   frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), cull_bounds_of(v, *surfaces));
   const LightSource lights = from_grid(v, *frame.grid);
-  frame.image = shade_tiles(v, v.caches.tile_shading, gbuffer, depth, lights);
+  frame.image = shade_tiles(v, v.caches, gbuffer, depth, lights, frame);
   blend_from_grid(v, *surfaces, lights, frame);
   return frame;
 }

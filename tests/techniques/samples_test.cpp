@@ -197,9 +197,12 @@ class SamplesOfOpenGl : public testing::Test {
       GTEST_SKIP() << error.what();
     }
   }
-  Image draw(const char* technique, int samples) const {
+  Image draw(const char* technique, int samples, const char* shading = "edges",
+             const char* shape = "auto") const {
     Settings settings;
     settings.samples = samples;
+    apply_setting(settings, std::string("samples-shading=") + shading);
+    apply_setting(settings, std::string("kernel-shape=") + shape);
     return render(s_.scene, small_view(67, 41), technique, settings);
   }
   SmallScene s_ = small_scene();
@@ -228,6 +231,34 @@ TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesAndStaySmallInside) {
   RecordProperty("errors",
                  fmt::format("edges {:.5f} and {:.5f}, inside {:.5f} and {:.5f}", truth.error(one, true),
                              truth.error(four, true), truth.error(one, false), truth.error(four, false)));
+}
+
+// Surfaces that are stored for each sample: in GLSL and OpenCL, light by light and from lists.
+TEST_F(SamplesOfOpenGl, HaveOneImageInEveryTechniqueThatStoresThem) {
+  s_ = small_scene(false);  // blended surfaces are laid over the mean in one, and over each sample in the other
+  effect("directional").add(s_), effect("spot").add(s_);
+  const Image volumes = draw("deferred", 4);
+  for (const char* technique : {"deferred_tiled", "forward_plus_compute"}) {
+    const Image tiles = draw(technique, 4, "all");
+    EXPECT_LT(compare_images(tiles, volumes).max_rel, 1e-4) << technique;
+    EXPECT_TRUE(identical(draw(technique, 4, "all", "group"), tiles)) << technique;
+    const Image edges = draw(technique, 4, "edges");
+    EXPECT_TRUE(identical(draw(technique, 4, "edges", "group"), edges)) << technique;
+    EXPECT_FALSE(same_bytes(edges, tiles)) << technique;
+    EXPECT_LT(compare_images(edges, tiles).rmse_rel, 2e-3) << technique;
+  }
+}
+
+TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesWhereSurfacesAreStored) {
+  s_ = small_scene(false);
+  effect("directional").add(s_);
+  for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
+  const FineTruth truth = truth_of(s_.scene, 67, 41);
+  for (const char* technique : {"deferred", "deferred_tiled", "forward_plus_compute"}) {
+    const Image one = draw(technique, 1), four = draw(technique, 4);
+    EXPECT_LT(truth.error(four, true), truth.error(one, true) / 3) << technique;
+    EXPECT_LT(truth.error(four, false), truth.error(four, true) / 10) << technique;
+  }
 }
 
 TEST_F(SamplesOfOpenGl, AreRefusedWhereTheMachineHasOtherNumbers) {

@@ -1,0 +1,86 @@
+#include "passes/sample_edges.h"
+
+#include <algorithm>
+#include <span>
+
+#include "cl/buffers.h"
+#include "cl/launch.h"
+#include "passes/common/group_numbers.h"
+#include "raster/raster_samples.h"
+
+namespace lightgrid {
+
+// The kernel and its result.
+class SampleEdges : public PassCache {
+ public:
+  explicit SampleEdges(Work&) {}
+
+  bool follow(Work&) override { return true; }
+  size_t memory_bytes() const override { return edges_.bytes(); }
+
+  cl::Buffer find(Work& work, const StoredSurfaces& surfaces, const DepthBuffer& depth) {
+    const size_t values = work.grid().pixels() / 16 + 1;
+    ClDevice& device = *work.renderer.cl;
+    const std::string defines =
+        fmt::format("-DWORDS={}u{}{}{}", surfaces.bytes / 4, sample_defines(work.sample_places()),
+                    surfaces.group_numbers ? " -DGROUPS" : "", group_number_define(work.plan));
+    if (!kernel_ || defines != defines_)
+      kernel_ = NamedKernel(*work.renderer.kernels, "resolve/sample_edges", defines);
+    defines_ = defines;
+    auto pass = work.timer.pass("sample_edges", "cl");
+    const auto image = [&](size_t i) {
+      return i < surfaces.images.size() ? surfaces.images[i]->cl_buffer() : cl::Buffer();
+    };
+    kernel_.launch(device, "sample_edges", cl::NDRange(values), cl::NullRange,
+                   ClArguments{{"first", image(0)},
+                               {"second", image(1)},
+                               {"third", image(2)},
+                               {"fourth", image(3)}} +
+                       group_number_arguments(work.plan, surfaces.group_numbers) +
+                       ClArguments{{"depths", depth.values},
+                                   {"pixels", cl_uint(work.grid().pixels())},
+                                   {"edges", edges_.at_least(device, values * sizeof(cl_ushort))}});
+    pass.moves(work.grid().values() * (surfaces.bytes * surfaces.images.size() + 4),
+               values * sizeof(cl_ushort));
+    return edges_.get();
+  }
+
+ private:
+  GrowingBuffer edges_;
+  NamedKernel kernel_;
+  std::string defines_;
+};
+
+cl::Buffer sample_edges(Work& work, Cached<SampleEdges>& cache, const StoredSurfaces& surfaces,
+                        const DepthBuffer& depth) {
+  if (work.plan.settings.samples_shading == SamplesShading::all) return {};
+  return cache.of(work).find(work, surfaces, depth);
+}
+
+SampleFigures figures_of_edges(Work& work, const cl::Buffer& edges, const DepthBuffer& depth,
+                               size_t bytes_a_sample) {
+  const PixelGrid grid = work.grid();
+  const size_t samples = size_t(grid.samples);
+  std::vector<uint16_t> bits(grid.pixels() / 16 + 1, 0xffff);
+  std::vector<float> depths(grid.values());
+  const auto read = [&](const cl::Buffer& buffer, auto& values) {
+    read_buffer(*work.renderer.cl, "counting pixels at edges", buffer, values.data(),
+                values.size() * sizeof values[0]);
+  };
+  if (edges()) read(edges, bits);
+  read(depth.values, depths);
+  SampleFigures figures;
+  for (size_t i = 0; i < grid.pixels(); ++i) {
+    const std::span<const float> of(depths.data() + i * samples, samples);
+    const size_t covered = samples - size_t(std::ranges::count(of, 0.0f));
+    const bool edge = bits[i / 16] >> (i % 16) & 1;
+    figures.edge_pixels += edge;
+    figures.shadings += edge ? covered : covered > 0;
+    figures.covered += covered;
+    figures.surfaces.push_back(edge ? uint32_t(samples) : 0);
+  }
+  figures.bytes = grid.values() * bytes_a_sample + (edges() ? bits.size() * 2 : 0);
+  return figures;
+}
+
+}  // namespace lightgrid

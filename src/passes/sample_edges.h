@@ -1,0 +1,26 @@
+// Where OpenGL stored surfaces with several samples a pixel: the pixels whose samples are several surfaces.
+#pragma once
+
+#include <vector>
+
+#include "passes/common/frame.h"
+
+namespace lightgrid {
+
+// Images in OpenCL, of `bytes` a sample each: a multiple of 4. group_numbers: null without.
+struct StoredSurfaces {
+  std::vector<SharedBuffer*> images;
+  size_t bytes = 0;
+  SharedBuffer* group_numbers = nullptr;
+};
+
+// A bit a pixel, 16 in a ushort: 1 at edges (kernels/resolve/sample_edges.cl). Null with samples-shading=all, where
+// every sample is shaded.
+cl::Buffer sample_edges(Work& work, Cached<SampleEdges>& cache, const StoredSurfaces& surfaces,
+                        const DepthBuffer& depth);
+
+// Of these edges; null: all pixels are at one. Waits.
+SampleFigures figures_of_edges(Work& work, const cl::Buffer& edges, const DepthBuffer& depth,
+                               size_t bytes_a_sample);
+
+}  // namespace lightgrid
