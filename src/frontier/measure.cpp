@@ -136,8 +136,10 @@ class SceneSweep {
     double round_s = 0;
     for (const MeasuredPoint& m : measured_) {
       if (m.records.empty()) continue;
-      const int runs = m.slow ? std::min(rounds, slow_rounds) : rounds + 1;
-      round_s += (0.5 * baseline_s_ + m.picture_s) * runs;
+      const int runs = 1 + (m.slow ? std::min(rounds, slow_rounds) : rounds);
+      // Each timed picture follows one frame that is not.
+      const double frame_s = m.picture_s / m.run.point().frames;
+      round_s += (baseline_s_ + m.picture_s + frame_s) * runs;
     }
     return seconds() + more + round_s * views <= until();
   }

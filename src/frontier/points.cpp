@@ -240,7 +240,6 @@ void PointRun::go_to_frame(int number) {
   attempt([&] { run_->draw_ranges(seed(0)); });
 }
 
-bool PointRun::keeps_shadows() const { return ShadowCertificates::bytes_of(point_.contestant.settings) > 0; }
 
 void PointRun::look(const View& view) {
   attempt([&] { run_->look(view); });

@@ -46,8 +46,6 @@ class PointRun {
   const ChosenPoint& point() const { return point_; }
   const std::string& refused() const { return refused_; }  // empty: it runs
   TechniqueRun& run() { return *run_; }
-  // Certificates of shadows are kept from frame to frame.
-  bool keeps_shadows() const;
 
   void look(const View& view);
   // One picture: all of its frames, read back and averaged. Milliseconds; 0 if refused. A refusal is kept.

@@ -22,8 +22,9 @@ struct MeasuredPoint {
 constexpr int slow_rounds = 3;  // of slow points
 
 // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round.
-// A point counts with the baseline run beside it. Slow points are left out of late rounds. The first round
-// does not count, and has no slow points: drivers compile in it what they dropped.
+// A point counts with the baseline run beside it. Before each timed run, of the baseline too, the same point
+// looks at the view and draws a frame that does not count. Slow points are left out of late rounds. The first
+// round does not count: drivers compile in it what they dropped.
 struct TimeRounds {
   const FrontierJob& job;
   const Timer& timer;  // of the scene
@@ -39,7 +40,7 @@ struct TimeRounds {
 
  private:
   void time_view(int round, size_t view, std::vector<TimeOfRecord>& times);
-  double timed(MeasuredPoint& point, size_t view);
+  double timed(PointRun& run, size_t view);  // ms
   bool are_certain() const;
 };
 
