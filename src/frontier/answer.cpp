@@ -152,8 +152,11 @@ FrontierAnswer answer_of(const std::vector<FrontierPart>& parts) {
   for (const FrontierPart& part : parts) answer.machines.push_back(part.machine);
   const std::vector<FrontierRecord> records = on_one_machine(answer.part.records, answer.machines);
   answer.points = figures_of(records);
-  rank_points(answer.points);
-  answer.best_within = best_within_of(answer.points);
+  answer.controls = controls_of(records);
+  set_relative_times(answer.points, answer.controls);
+  rank_points(answer.points, answer.controls);
+  answer.cheapest_within = cheapest_within_of(answer.points, answer.controls);
+  answer.front_bands = front_bands_of(answer.points, answer.controls);
   answer.break_even = break_evens_of(records);
   answer.shading_costs = shading_costs_of(records);
   answer.growth = growth_of(records);

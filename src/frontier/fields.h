@@ -105,6 +105,7 @@ void visit_fields(T& r, Visit&& visit) {
   visit("refused", r.refused);
   visit("frame_ms", r.frame_ms);
   visit("baseline_ms", r.baseline_ms);
+  visit("processes", r.processes, FieldRule{.required = false});
   visit("pass_ms", r.pass_ms);
   visit("cull_ms", r.cull_ms);
   visit("bytes_moved", r.bytes_moved);

@@ -28,6 +28,9 @@ struct FromJson {
     value = fields.optional_number(key);
   }
   void read(const char* key, std::vector<double>& value, FieldRule) const { value = fields.numbers(key); }
+  void read(const char* key, std::vector<int>& values, FieldRule) const {
+    for (const double value : fields.numbers(key)) values.push_back(int(value));
+  }
   void read(const char* key, std::optional<FlipExposures>& value, FieldRule) const {
     const std::vector<double> flip = fields.numbers(key);
     if (flip.empty()) return;
@@ -87,6 +90,7 @@ FrontierRecord record_of(const json& line) {
   FrontierRecord r = read_from<FrontierRecord>(line);
   if (r.frame_ms.size() != r.baseline_ms.size())
     throw input_error("frame_ms: {} times beside {} of baseline_ms", r.frame_ms.size(), r.baseline_ms.size());
+  r.processes.resize(r.frame_ms.size(), 0);  // parts of earlier versions name none
   return r;
 }
 

@@ -116,6 +116,7 @@ void time_variant(const std::vector<ChosenPoint>& points, Renderer& renderer, Gp
   FrontierJob rounds = job;
   rounds.progress = nullptr;  // its steps are variants
   rounds.least_rounds = rounds.most_rounds = growth_rounds;
+  rounds.process = 0, rounds.processes = 1;
   const Timer timer;
   TimeRounds{rounds,   timer, std::numeric_limits<double>::infinity(), std::span(&view, 1), measured,
              baseline, file}
@@ -128,11 +129,19 @@ void time_variant(const std::vector<ChosenPoint>& points, Renderer& renderer, Gp
 int TimeRounds::run() {
   int done = 0;
   for (const MeasuredPoint& point : points) done = std::max(done, point.rounds());
+  // Each process takes its share, at least two rounds where there are several.
+  const int share = (job.most_rounds + job.processes - 1) / job.processes;
+  const int before_this = job.processes > 1 ? done : 0;
+  const int least = job.processes > 1 ? std::min(done + 2, done + share) : job.least_rounds;
+  const int most = before_this + share;
+  for (MeasuredPoint& point : points)
+    point.slow_until = (job.processes > 1 ? point.rounds() : 0) +
+                       (slow_rounds + job.processes - 1) / job.processes;
   double longest_s = 0;
-  for (bool warm_up = true; done < job.most_rounds; warm_up = false) {
+  for (bool warm_up = true; done < most; warm_up = false) {
     const double before = timer.elapsed_ms() / 1000;
-    if (done > 0 && before + longest_s > until_s) break;
-    if (done >= job.least_rounds && are_certain()) break;
+    if (done > before_this && before + longest_s > until_s) break;
+    if (done >= least && are_certain()) break;
     std::vector<TimeOfRecord> times;
     for (size_t view = 0; view < views.size(); ++view) time_view(warm_up ? 0 : done + 1, view, times);
     if (warm_up) continue;
@@ -149,7 +158,7 @@ int TimeRounds::run() {
 void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& times) {
   std::vector<size_t> order;
   for (size_t i = 0; i < points.size(); ++i) {
-    const bool out = points[i].slow && points[i].rounds() >= slow_rounds;
+    const bool out = points[i].slow && points[i].rounds() >= points[i].slow_until;
     if (!out && points[i].run.refused().empty()) order.push_back(i);
   }
   Random random(Random::mix(job.seed) + uint64_t(round) * 1000 + uint64_t(view));
@@ -181,7 +190,7 @@ double TimeRounds::timed(PointRun& run, size_t view) {
 bool TimeRounds::are_certain() const {
   return std::ranges::all_of(points, [&](const MeasuredPoint& point) {
     if (std::ranges::any_of(point.records, is_refused)) return true;
-    if (point.slow && point.rounds() >= slow_rounds) return true;
+    if (point.slow && point.rounds() >= point.slow_until) return true;
     const MedianInterval ratio = median_interval(ratios_of(point));
     return ratio.high - ratio.low <= job.interval_width * ratio.median;
   });
