@@ -234,7 +234,8 @@ int run_process(int index, int count) {
   pointers.push_back(nullptr);
   pid_t child = 0;
   const int failure = posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, pointers.data(), environ);
-  if (failure != 0) throw machine_error("process {} of {}: cannot be started: {}", index, count, strerror(failure));
+  if (failure != 0)
+    throw machine_error("process {} of {}: cannot be started: {}", index, count, strerror(failure));
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
@@ -351,14 +352,17 @@ void add_frontier(CommandLine& line) {
                  "times of each point and view, at most: fewer if the intervals are narrow before", 1, 1000);
   command.flag("--no-growth", o->no_growth, "leaves out how times grow with lights, pixels and ranges");
   command.option("--budget", o->budget, "minutes that measuring may take", 1, 100000);
-  command.option("--gate", o->gate,
-                 "an earlier frontier.json: exit 1 if an error grew, a light is lost, a time is worse or the baseline "
-                 "differs from itself");
-  command.option("--processes", o->processes,
-                 "runs of the program, one after the other, that share the rounds: with 5 or more, intervals hold "
-                 "what differs from run to run",
-                 1, 100);
-  command.option("--process", o->process, "I/N: only the I-th of N such runs; the last one completes the part");
+  command.option(
+      "--gate", o->gate,
+      "an earlier frontier.json: exit 1 if an error grew, a light is lost, a time is worse or the baseline "
+      "differs from itself");
+  command.option(
+      "--processes", o->processes,
+      "runs of the program, one after the other, that share the rounds: with 5 or more, intervals hold "
+      "what differs from run to run",
+      1, 100);
+  command.option("--process", o->process,
+                 "I/N: only the I-th of N such runs; the last one completes the part");
   command.option("--shard", o->shard,
                  "I/N: every N-th point from the I-th on, for a sweep of several processes");
   command.option("-o,--output", o->output, "folder of the parts and the answer");

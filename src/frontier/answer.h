@@ -20,8 +20,8 @@ struct MedianInterval {
 struct PointFigures {
   FrontierPoint point;
   int views = 0;
-  int width = 0, height = 0;  // pixels
-  MedianInterval frame_ms;    // of the sum over views, over their number
+  int width = 0, height = 0;      // pixels
+  MedianInterval frame_ms;        // of the sum over views, over their number
   double p95_ms = 0, p99_ms = 0;  // of the frames of all runs and views: the least that this share is within
   // By round: the sum of its times over the views over the same sum of the baseline's, of whose runs in that
   // round and view the median counts.
@@ -43,8 +43,8 @@ struct PointFigures {
 std::optional<double> leaked_percent(const PairCounts& pairs);
 std::optional<double> acned_percent(const PairCounts& pairs);
 
-// "If you can bear an error of … use …": the point of least time whose error.total.rmse_rel is at most `error`,
-// picked on one half of the rounds and reported on the other.
+// "If you can bear an error of … use …": the point of least time whose error.total.rmse_rel is at most
+// `error`, picked on one half of the rounds and reported on the other.
 struct CheapestWithin {
   std::string scene;
   double error = 0;
@@ -151,10 +151,10 @@ nlohmann::json read_frontier_json(const std::filesystem::path& path);
 
 // Points are the same if scene, label, averaged frames and size agree. Worse is: an error that is more
 // than 1.001 times the earlier one and 1e-9 larger, or finite no more; more pairs lost or wrong, or more
-// pixels with NaN, than earlier; a relative time whose 95 % interval lies above the earlier one's; a refusal of
-// what ran earlier; a control that did not pass, whatever it was earlier. A point of other views, or that is on one side only, is told. Throws Error(input) that names
-// `earlier_name` and the field if `earlier` is malformed, is of another seed or baseline, or has no point to
-// compare.
+// pixels with NaN, than earlier; a relative time whose 95 % interval lies above the earlier one's; a refusal
+// of what ran earlier; a control that did not pass, whatever it was earlier. A point of other views, or that
+// is on one side only, is told. Throws Error(input) that names `earlier_name` and the field if `earlier` is
+// malformed, is of another seed or baseline, or has no point to compare.
 GateResult held_against(const nlohmann::json& now, const nlohmann::json& earlier,
                         const std::string& earlier_name);
 

@@ -66,7 +66,8 @@ json cheapest_json(const CheapestWithin& b) {
 }
 
 json band_json(const FrontBand& b) {
-  return {{"scene", b.scene}, {"steps", array_of(b.steps, [](const BandStep& s) -> json {
+  return {{"scene", b.scene},
+          {"steps", array_of(b.steps, [](const BandStep& s) -> json {
              return {{"error", finite_number(s.error)}, {"ci95", pair_json(s.low, s.high)}};
            })}};
 }
@@ -89,8 +90,9 @@ json point_json(const PointFigures& p) {
   out["views"] = p.views;
   out["size"] = p.width > 0 ? json{p.width, p.height} : json();
   out["frame_ms"] = interval_json(p.frame_ms);
-  out["frame_ms_within"] = p.frame_ms.runs > 0 ? json{{"p95", finite_number(p.p95_ms)}, {"p99", finite_number(p.p99_ms)}}
-                                               : json{{"p95", nullptr}, {"p99", nullptr}};
+  out["frame_ms_within"] = p.frame_ms.runs > 0
+                               ? json{{"p95", finite_number(p.p95_ms)}, {"p99", finite_number(p.p99_ms)}}
+                               : json{{"p95", nullptr}, {"p99", nullptr}};
   out["relative_time"] = relative_time_json(p.relative_time);
   json& error = out["error"] = finite_json(p.errors);
   error["in_double"] = p.errors.in_double ? in_double_json(*p.errors.in_double) : json();

@@ -105,7 +105,7 @@ std::string percent_of(double error) { return fmt::format("{:g} %", 100 * error)
 
 // A line a step: from the largest error down, each point at the least error that it is the best within.
 void add_cheapest_within(const FrontierAnswer& answer, const std::string& scene,
-                     std::vector<std::string>& sentences) {
+                         std::vector<std::string>& sentences) {
   std::vector<const CheapestWithin*> steps;
   for (auto best = answer.cheapest_within.rbegin(); best != answer.cheapest_within.rend(); ++best) {
     if (best->scene != scene) continue;
@@ -114,11 +114,12 @@ void add_cheapest_within(const FrontierAnswer& answer, const std::string& scene,
   }
   for (const CheapestWithin* step : steps) {
     const PointFigures& p = answer.points[step->point];
-    sentences.push_back(fmt::format("Error up to {} (RMSE) in {}: {}, {} times {} (the cheapest with a "
-                                    "probability of {}).",
-                                    percent_of(step->error), scene_in_words(scene), p.point.label,
-                                    three_digits(step->relative_time.estimate), answer.part.baseline,
-                                    probability_in_words(step->probability)));
+    sentences.push_back(
+        fmt::format("Error up to {} (RMSE) in {}: {}, {} times {} (the cheapest with a "
+                    "probability of {}).",
+                    percent_of(step->error), scene_in_words(scene), p.point.label,
+                    three_digits(step->relative_time.estimate), answer.part.baseline,
+                    probability_in_words(step->probability)));
   }
 }
 
@@ -217,10 +218,11 @@ void add_truth(const FrontierAnswer& answer, const std::string& scene, std::vect
 void add_doubts(const FrontierAnswer& answer, const std::string& scene, std::vector<std::string>& sentences) {
   for (const Control& control : answer.controls) {
     if (control.scene != scene || control.passed()) continue;
-    sentences.push_back(fmt::format(
-        "Times in {} are in doubt: {} timed as a point takes {} its own time; all intervals are wider by {:.1f} %.",
-        scene_in_words(scene), answer.part.baseline, times_in_words(control.relative_time),
-        100 * (std::exp(control.widening()) - 1)));
+    sentences.push_back(
+        fmt::format("Times in {} are in doubt: {} timed as a point takes {} its own time; all intervals are "
+                    "wider by {:.1f} %.",
+                    scene_in_words(scene), answer.part.baseline, times_in_words(control.relative_time),
+                    100 * (std::exp(control.widening()) - 1)));
   }
   std::vector<std::string> bimodal;
   for (const PointFigures& p : answer.points) {

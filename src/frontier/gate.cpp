@@ -132,7 +132,8 @@ class PointComparison {
     const JsonFields ratio = point.object("relative_time");
     if (!ratio.has("estimate")) return {};
     const std::vector<double> interval = ratio.numbers("ci95");
-    if (interval.size() != 2) throw input_error("relative_time.ci95: {} numbers instead of 2", interval.size());
+    if (interval.size() != 2)
+      throw input_error("relative_time.ci95: {} numbers instead of 2", interval.size());
     return {ratio.number("estimate"), interval[0], interval[1]};
   }
 
@@ -178,9 +179,9 @@ void add_failed_controls(const json& now, GateResult& result) {
     if (control.value("passed", false)) return;
     const JsonFields time = fields.object("relative_time");
     const std::vector<double> interval = time.numbers("ci95");
-    result.worse.push_back(fmt::format("{}: the baseline as a point takes {:.4g} times its own time ({:.4g} to {:.4g})",
-                                       fields.text("scene"), time.number("estimate"), interval.at(0),
-                                       interval.at(1)));
+    result.worse.push_back(
+        fmt::format("{}: the baseline as a point takes {:.4g} times its own time ({:.4g} to {:.4g})",
+                    fields.text("scene"), time.number("estimate"), interval.at(0), interval.at(1)));
   });
 }
 

@@ -59,7 +59,8 @@ size_t second_mode(const std::vector<double>& sorted) {
   const size_t n = sorted.size(), least = std::max<size_t>(2, size_t(std::ceil(least_share * double(n))));
   for (size_t i = least; i + least <= n; ++i) {
     const double gap = sorted[i] - sorted[i - 1];
-    if (gap >= std::log(least_factor) && gap > sorted[i - 1] - sorted.front() && gap > sorted.back() - sorted[i])
+    if (gap >= std::log(least_factor) && gap > sorted[i - 1] - sorted.front() &&
+        gap > sorted.back() - sorted[i])
       return i;
   }
   return 0;
@@ -135,7 +136,8 @@ RelativeTime relative_time(const LogTimes& times, double widen) {
   r.runs = int(times.size());
   const LogTimes units = units_of(times);
   const Trimmed location = location_of(times, units);
-  const bool of_processes = units.size() != times.size() || times.begin()->first.process != times.rbegin()->first.process;
+  const bool of_processes =
+      units.size() != times.size() || times.begin()->first.process != times.rbegin()->first.process;
   r.processes = of_processes ? int(units.size()) : 1;
   if (of_processes) r.between_processes = deviation_of(values_of(units));
   double centre = location.mean, below = 0, above = 0;
@@ -164,7 +166,8 @@ std::vector<std::vector<double>> drawn_log_times(std::span<const LogTimes> point
     if (units.empty()) continue;
     d.location = location_of(times, units);
     d.modes = modes_of(times);
-    for (const auto& [block, value] : units) d.blocks.push_back(blocks.try_emplace(block, blocks.size()).first->second);
+    for (const auto& [block, value] : units)
+      d.blocks.push_back(blocks.try_emplace(block, blocks.size()).first->second);
     most_dof = std::max(most_dof, d.location.dof);
   }
   Normals normals(seed);
@@ -212,7 +215,8 @@ std::vector<double> front_probabilities(const std::vector<std::vector<double>>& 
   return shares;
 }
 
-std::vector<BandStep> front_band(const std::vector<std::vector<double>>& draws, std::span<const double> errors) {
+std::vector<BandStep> front_band(const std::vector<std::vector<double>>& draws,
+                                 std::span<const double> errors) {
   std::vector<size_t> order;
   for (size_t i = 0; i < errors.size(); ++i) {
     if (std::isfinite(errors[i])) order.push_back(i);

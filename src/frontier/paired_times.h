@@ -30,8 +30,8 @@ using LogTimes = std::map<TimeBlock, double>;
 // Of a time over the baseline's.
 struct RelativeTime {
   double estimate = 0;
-  double low = 0, high = 0;      // 95 % interval; the estimate with a single run
-  int runs = 0, processes = 0;   // rounds that count; processes that they are of
+  double low = 0, high = 0;                 // 95 % interval; the estimate with a single run
+  int runs = 0, processes = 0;              // rounds that count; processes that they are of
   std::optional<double> between_processes;  // standard deviation of the processes' means, as a share
   // Two groups of runs that are apart: the means of the faster and of the slower one, and the share of runs
   // in the slower. Empty otherwise. The estimate is then the mean of the larger group, and the interval holds
@@ -43,8 +43,8 @@ struct RelativeTime {
 // `widen`: the logarithm by which the interval is wider on either side.
 RelativeTime relative_time(const LogTimes& times, double widen = 0);
 
-// Draws from what the times leave open: `count` times, the logarithm of each point's time over the baseline's.
-// Points without times are infinite. Deterministic.
+// Draws from what the times leave open: `count` times, the logarithm of each point's time over the
+// baseline's. Points without times are infinite. Deterministic.
 std::vector<std::vector<double>> drawn_log_times(std::span<const LogTimes> points, double widen, int count,
                                                  uint64_t seed);
 
@@ -59,10 +59,11 @@ struct BandStep {
   double low = 0, high = 0;  // times over the baseline's
 };
 // One step an error of a point, from the smallest.
-std::vector<BandStep> front_band(const std::vector<std::vector<double>>& draws, std::span<const double> errors);
+std::vector<BandStep> front_band(const std::vector<std::vector<double>>& draws,
+                                 std::span<const double> errors);
 
-// The rounds of even and of odd number, over all processes: best-of picks are made on one half and reported on
-// the other, since the fastest of several is also the luckiest.
+// The rounds of even and of odd number, over all processes: best-of picks are made on one half and reported
+// on the other, since the fastest of several is also the luckiest.
 LogTimes half_of(const LogTimes& times, int parity);
 
 }  // namespace lightgrid

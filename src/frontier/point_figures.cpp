@@ -93,7 +93,8 @@ std::vector<double> means_of_runs(const Group& views) {
 // The least of the frame times that `share` of them are within.
 double percentile_of(const Group& views, double share) {
   std::vector<double> all;
-  for (const FrontierRecord* view : views) all.insert(all.end(), view->frame_ms.begin(), view->frame_ms.end());
+  for (const FrontierRecord* view : views)
+    all.insert(all.end(), view->frame_ms.begin(), view->frame_ms.end());
   if (all.empty()) return 0;
   std::ranges::sort(all);
   return all[size_t(std::ceil(share * double(all.size()))) - 1];
@@ -178,7 +179,8 @@ std::vector<PointFigures> figures_of(Records records) {
   const RoundBaselines baselines(records);
   std::vector<PointFigures> points;
   for (const Group& views : grouped(of_front, [](const FrontierRecord& r) { return point_key(r.point); })) {
-    if (!std::ranges::all_of(views, [](const FrontierRecord* view) { return view->refused.empty(); })) continue;
+    if (!std::ranges::all_of(views, [](const FrontierRecord* view) { return view->refused.empty(); }))
+      continue;
     points.push_back(over_views(views));
     points.back().log_times = baselines.log_times(views);
   }

@@ -240,7 +240,6 @@ void PointRun::go_to_frame(int number) {
   attempt([&] { run_->draw_ranges(seed(0)); });
 }
 
-
 void PointRun::look(const View& view) {
   attempt([&] { run_->look(view); });
 }

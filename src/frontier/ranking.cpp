@@ -60,14 +60,16 @@ int cheapest(const SceneTimes& scene, double error, const TimeOf& time_of) {
 }  // namespace
 
 bool Control::passed() const {
-  return relative_time.low <= 1 && relative_time.high >= 1 && std::abs(relative_time.estimate - 1) <= most_off;
+  return relative_time.low <= 1 && relative_time.high >= 1 &&
+         std::abs(relative_time.estimate - 1) <= most_off;
 }
 
 double Control::widening() const { return passed() ? 0 : std::abs(std::log(relative_time.estimate)); }
 
 std::vector<Control> controls_of(Records records) {
-  const Group timed = accepted(
-      records, [](const FrontierRecord& r) { return is_control(r) && r.refused.empty() && !r.frame_ms.empty(); });
+  const Group timed = accepted(records, [](const FrontierRecord& r) {
+    return is_control(r) && r.refused.empty() && !r.frame_ms.empty();
+  });
   const RoundBaselines baselines(records);
   std::vector<Control> controls;
   for (const Group& of_scene : grouped(timed, [](const FrontierRecord& r) { return r.point.scene; })) {
@@ -138,7 +140,8 @@ std::vector<CheapestWithin> cheapest_within_of(const std::vector<PointFigures>& 
       return half.empty() ? times : half;
     };
     for (const double error : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1}) {
-      const int best = cheapest(scene, error, [&](size_t i) { return relative_time(times_of(i, 0)).estimate; });
+      const int best =
+          cheapest(scene, error, [&](size_t i) { return relative_time(times_of(i, 0)).estimate; });
       if (best < 0) continue;
       CheapestWithin within{name, error, scene.indices[size_t(best)]};
       within.relative_time = relative_time(times_of(size_t(best), 1), widening);

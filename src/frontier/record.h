@@ -64,8 +64,8 @@ struct FrontierRecord {
   int width = 0, height = 0;  // pixels
   int lights = 0;             // of the scene
   double radius_scale = 1;    // of the lights' ranges, in the series "radius"
-  // Empty: a point of the front; "lights", "pixels", "radius": of a growth curve; "control 0", "control 1", …:
-  // the baseline, timed as a point.
+  // Empty: a point of the front; "lights", "pixels", "radius": of a growth curve; "control 0", "control 1",
+  // …: the baseline, timed as a point.
   std::string series;
   std::optional<FrontierTruth> truth;  // empty: every light without a range
 

@@ -87,7 +87,7 @@ class RecordFile {
   // is complete. All of these throw as append() does, and are whole or not there after a kill. Keys:
   // record_key of open records.
   void begin(const FrontierRecord& record);
-  void add_times(const std::vector<TimeOfRecord>& times);              // of a round; the first begins a process
+  void add_times(const std::vector<TimeOfRecord>& times);  // of a round; the first begins a process
   void add_cull_times(const std::map<std::string, double>& times_ms);  // likewise
   void complete(const std::vector<std::string>& keys);
   const std::map<std::string, FrontierRecord>& open_records() const { return lines_.open; }

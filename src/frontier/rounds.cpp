@@ -135,8 +135,8 @@ int TimeRounds::run() {
   const int least = job.processes > 1 ? std::min(done + 2, done + share) : job.least_rounds;
   const int most = before_this + share;
   for (MeasuredPoint& point : points)
-    point.slow_until = (job.processes > 1 ? point.rounds() : 0) +
-                       (slow_rounds + job.processes - 1) / job.processes;
+    point.slow_until =
+        (job.processes > 1 ? point.rounds() : 0) + (slow_rounds + job.processes - 1) / job.processes;
   double longest_s = 0;
   for (bool warm_up = true; done < most; warm_up = false) {
     const double before = timer.elapsed_ms() / 1000;
@@ -178,8 +178,9 @@ void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& ti
   }
 }
 
-// The baseline's frame and the point's have the same history, or their ratio would hold the difference: a look
-// leaves uploads to the next frame, and other techniques' frames between push programs out of drivers' caches.
+// The baseline's frame and the point's have the same history, or their ratio would hold the difference: a
+// look leaves uploads to the next frame, and other techniques' frames between push programs out of drivers'
+// caches.
 double TimeRounds::timed(PointRun& run, size_t view) {
   run.look(views[view]);
   run.draw_first_frame();

@@ -15,7 +15,7 @@ struct MeasuredPoint {
   PointRun run;
   std::vector<FrontierRecord> records;  // one a view, open in the file
   double picture_s = 0;
-  bool slow = false;  // far from the front: few rounds tell how far
+  bool slow = false;   // far from the front: few rounds tell how far
   int slow_until = 0;  // rounds that it then has, when this process ends
   int rounds() const { return int(records.front().frame_ms.size()); }
 };
@@ -35,8 +35,8 @@ struct TimeRounds {
   PointRun& baseline;
   RecordFile& file;
 
-  // Until the ratios are certain or the time is over, or this process has its share of the rounds. Returns the
-  // number of rounds that count: those that the points have from earlier processes too.
+  // Until the ratios are certain or the time is over, or this process has its share of the rounds. Returns
+  // the number of rounds that count: those that the points have from earlier processes too.
   int run();
 
  private:

@@ -25,12 +25,12 @@ TEST(FrontierJson, HasTheAgreedKeys) {
                             "cheapest_within", "front_bands", "break_even", "failures"}));
   EXPECT_EQ(frontier["schema_version"], 2);
   const json& point = frontier["points"][0];
-  EXPECT_THAT(keys(point),
-              IsSupersetOf({"scene", "technique", "settings", "views", "frame_ms", "frame_ms_within", "relative_time",
-                            "error", "pairs", "listed_per_lit", "memory_bytes", "front", "front_probability"}));
+  EXPECT_THAT(keys(point), IsSupersetOf({"scene", "technique", "settings", "views", "frame_ms",
+                                         "frame_ms_within", "relative_time", "error", "pairs",
+                                         "listed_per_lit", "memory_bytes", "front", "front_probability"}));
   EXPECT_THAT(keys(point["frame_ms"]), IsSupersetOf({"median", "ci95", "runs"}));
-  EXPECT_THAT(keys(point["relative_time"]),
-              IsSupersetOf({"estimate", "ci95", "runs", "processes", "between_processes", "modes", "slow_share"}));
+  EXPECT_THAT(keys(point["relative_time"]), IsSupersetOf({"estimate", "ci95", "runs", "processes",
+                                                          "between_processes", "modes", "slow_share"}));
   for (const char* kind : {"model", "precision", "technique", "total"}) {
     EXPECT_THAT(keys(point["error"][kind]), IsSupersetOf({"max_rel", "rmse_rel", "p99_rel", "flip_mean"}));
   }
@@ -80,9 +80,11 @@ TEST(FrontierJson, HoldsTheAnswer) {
   EXPECT_EQ(error["temporal_views"], 1);
   EXPECT_EQ(error["bias_rmse_rel"], 1e-5);
   EXPECT_EQ(error["deviation_rmse_rel"], 2e-5);
-  EXPECT_EQ(frontier["cheapest_within"],
-            (json{{{"scene", scene}, {"error", 1e-3}, {"point", 0}, {"probability", 0.5},
-                   {"relative_time", expected["relative_time"]}}}));
+  EXPECT_EQ(frontier["cheapest_within"], (json{{{"scene", scene},
+                                                {"error", 1e-3},
+                                                {"point", 0},
+                                                {"probability", 0.5},
+                                                {"relative_time", expected["relative_time"]}}}));
   EXPECT_EQ(frontier["front_bands"],
             (json{{{"scene", scene}, {"steps", {{{"error", 1e-3}, {"ci95", {0.25, 0.75}}}}}}}));
   const json& control = frontier["controls"][0];
@@ -122,8 +124,8 @@ TEST(FrontierJson, HasNullForWhatIsNotFinite) {
 
 TEST(FrontierJson, OfNothingHasEmptyLists) {
   const json frontier = to_json(FrontierAnswer{});
-  for (const char* list : {"scenes", "points", "controls", "cheapest_within", "front_bands", "break_even", "shading_costs", "growth",
-                           "failures", "sentences", "machines"}) {
+  for (const char* list : {"scenes", "points", "controls", "cheapest_within", "front_bands", "break_even",
+                           "shading_costs", "growth", "failures", "sentences", "machines"}) {
     EXPECT_EQ(frontier[list], json::array()) << list;
   }
 }

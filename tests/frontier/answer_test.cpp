@@ -61,7 +61,7 @@ TEST(Answer, SumsTimesOverViewsRunByRunAndJoinsErrors) {
   EXPECT_THAT(ratios, ElementsAre(DoubleNear(0.1, 1e-15), DoubleNear(0.2, 1e-15), DoubleNear(0.3, 1e-15)));
   EXPECT_NEAR(p.relative_time.estimate, std::cbrt(0.006), 1e-15);
   EXPECT_EQ(p.relative_time.runs, 3);
-  EXPECT_EQ(p.p95_ms, 30);  // of 10, 20, 30, 2, 4, 6, 8
+  EXPECT_EQ(p.p95_ms, 30);                    // of 10, 20, 30, 2, 4, 6, 8
   EXPECT_NEAR(p.frame_ms.median, 12, 1e-12);  // (20 + 4) / 2 views
   EXPECT_EQ(p.errors.total.max_rel, 0.3);
   EXPECT_NEAR(p.errors.total.rmse_rel, std::sqrt(0.00125), 1e-15);
@@ -107,11 +107,13 @@ TEST(Answer, PointsOfOneRoundArePairedInTheirProcess) {
   const FrontierAnswer answer = answer_from({a, b});
   const auto blocks = [&](size_t i) {
     std::vector<std::pair<int, int>> found;
-    for (const auto& [block, time] : answer.points[i].log_times) found.emplace_back(block.process, block.round);
+    for (const auto& [block, time] : answer.points[i].log_times)
+      found.emplace_back(block.process, block.round);
     return found;
   };
   using Block = std::pair<int, int>;
-  EXPECT_THAT(blocks(0), ElementsAre(Block(0, 0), Block(0, 1), Block(0, 2), Block(1, 0), Block(1, 1), Block(1, 2)));
+  EXPECT_THAT(blocks(0),
+              ElementsAre(Block(0, 0), Block(0, 1), Block(0, 2), Block(1, 0), Block(1, 1), Block(1, 2)));
   EXPECT_THAT(blocks(1), ElementsAre(Block(0, 0), Block(1, 0), Block(1, 1), Block(1, 2)));
   EXPECT_EQ(answer.points[0].relative_time.processes, 2);
   EXPECT_TRUE(answer.points[0].relative_time.between_processes.has_value());
@@ -123,8 +125,8 @@ TEST(Answer, FrontHasAProbabilityAndABand) {
   const auto of = [](const std::string& name, double ratio, double error) {
     return synthetic_record(synthetic_point("hall", name), ratio, error);
   };
-  const FrontierAnswer answer =
-      answer_from({of("fast", 0.1, 1e-2), of("first", 0.3, 1e-3), of("second", 0.3003, 1e-3), of("slow", 0.9, 1e-2)});
+  const FrontierAnswer answer = answer_from(
+      {of("fast", 0.1, 1e-2), of("first", 0.3, 1e-3), of("second", 0.3003, 1e-3), of("slow", 0.9, 1e-2)});
   EXPECT_GT(point_named(answer, "fast").front_probability, 0.999);
   EXPECT_EQ(point_named(answer, "slow").front_probability, 0);
   const double first = point_named(answer, "first").front_probability,
@@ -166,10 +168,12 @@ TEST(Answer, FindsTheCheapestPointWithinEachError) {
   const auto of = [](const std::string& name, double ratio, double error) {
     return synthetic_record(synthetic_point("hall", name), ratio, error);
   };
-  const FrontierAnswer answer =
-      answer_from({of("a", 0.1, 5e-2), of("b", 0.3, 1e-4), of("close, better", 0.301, 1e-5), of("c", 0.05, no_figure)});
+  const FrontierAnswer answer = answer_from(
+      {of("a", 0.1, 5e-2), of("b", 0.3, 1e-4), of("close, better", 0.301, 1e-5), of("c", 0.05, no_figure)});
   ASSERT_THAT(answer.cheapest_within, SizeIs(5));  // none within 1e-6
-  const auto best = [&](size_t i) { return answer.points[size_t(answer.cheapest_within[i].point)].point.label; };
+  const auto best = [&](size_t i) {
+    return answer.points[size_t(answer.cheapest_within[i].point)].point.label;
+  };
   EXPECT_EQ(answer.cheapest_within[0].error, 1e-5);
   EXPECT_EQ(best(0), "close, better");
   EXPECT_EQ(answer.cheapest_within[0].probability, 1);
@@ -329,20 +333,22 @@ TEST(Answer, SaysWhatTheFiguresSay) {
   ASSERT_THAT(answer.sentences, SizeIs(16));
   EXPECT_THAT(
       answer.sentences[0],
-      HasSubstr(
-          "In hall the fastest point that computes the same picture as forward_plus (to 1e-5 of the "
-          "brightest "
-          "channel) is visibility:range=scene: it takes 0.300 times (95 % interval 0.29"));
+      HasSubstr("In hall the fastest point that computes the same picture as forward_plus (to 1e-5 of the "
+                "brightest "
+                "channel) is visibility:range=scene: it takes 0.300 times (95 % interval 0.29"));
   EXPECT_EQ(answer.sentences[1],
-            "The largest error of visibility:range=scene is the model's (where a light's range ends, and its window): model 1.0e-4, "
+            "The largest error of visibility:range=scene is the model's (where a light's range ends, and its "
+            "window): model 1.0e-4, "
             "precision 0, "
             "technique 0 (RMSE over the brightest channel).");
   EXPECT_THAT(answer.sentences[2],
-              testing::MatchesRegex("Error up to 1 % \\(RMSE\\) in hall: visibility:cutoff=0.01,range=cutoff, 0.20[0-9] "
-                                    "times forward_plus \\(the cheapest with a probability of more than 99 %\\)."));
-  EXPECT_THAT(answer.sentences[3],
-              testing::MatchesRegex("Error up to 0.01 % \\(RMSE\\) in hall: visibility:range=scene, 0.30[0-9] times "
-                                    "forward_plus \\(the cheapest with a probability of more than 99 %\\)."));
+              testing::MatchesRegex(
+                  "Error up to 1 % \\(RMSE\\) in hall: visibility:cutoff=0.01,range=cutoff, 0.20[0-9] "
+                  "times forward_plus \\(the cheapest with a probability of more than 99 %\\)."));
+  EXPECT_THAT(
+      answer.sentences[3],
+      testing::MatchesRegex("Error up to 0.01 % \\(RMSE\\) in hall: visibility:range=scene, 0.30[0-9] times "
+                            "forward_plus \\(the cheapest with a probability of more than 99 %\\)."));
   EXPECT_THAT(answer.sentences[4], HasSubstr("Error up to 0.0001 % (RMSE) in hall: deferred, 0.50"));
   // 4 ns; exact over planes+aabb 3e6 / 6e5 = 5 ns, over sphere 3.5e6 / 2e6 = 1.75, planes+aabb over sphere
   // 0.5e6 / 1.4e6 = 0.36.

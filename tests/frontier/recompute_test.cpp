@@ -16,7 +16,8 @@ namespace {
 
 using testing::HasSubstr;
 
-// Ratios of few distinct medians, so that many points are close; errors of few values, so that some are equal.
+// Ratios of few distinct medians, so that many points are close; errors of few values, so that some are
+// equal.
 FrontierPart random_sweep(uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0, 0.05);

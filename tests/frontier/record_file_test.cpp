@@ -205,7 +205,8 @@ TEST(RecordFile, KeepsFiguresAndRoundsOfASceneThatIsBeingMeasured) {
 
   for (size_t size = whole.find('\n') + 1; size <= whole.size(); size += 97) {
     const std::string kept = whole.substr(0, size);
-    const auto lines = static_cast<size_t>(std::count(kept.begin(), kept.end(), '\n'));  // 1 + 4 + 1 + 1 + 1 + 1
+    const auto lines =
+        static_cast<size_t>(std::count(kept.begin(), kept.end(), '\n'));  // 1 + 4 + 1 + 1 + 1 + 1
     write_text(part.path, kept);
     const RecordFile file = part.open();
     EXPECT_TRUE(file.part().records.empty());

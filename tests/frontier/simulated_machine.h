@@ -24,7 +24,8 @@ struct SimulatedMachine {
 // The logarithms of times of points whose true ones are `truths`, over the median of `baselines` runs of a
 // baseline whose true time is 1. The first `bimodal` points have two modes; their truth is the fast one.
 inline std::vector<LogTimes> simulated_times(const SimulatedMachine& m, const std::vector<double>& truths,
-                                             std::mt19937_64& random, size_t bimodal = 0, int baselines = 21) {
+                                             std::mt19937_64& random, size_t bimodal = 0,
+                                             int baselines = 21) {
   std::normal_distribution<double> normal(0, 1);
   std::uniform_real_distribution<double> uniform(0, 1);
   const auto noise = [&] { return m.own_noise * normal(random) * (uniform(random) < m.heavy_tails ? 5 : 1); };

@@ -42,7 +42,8 @@ TEST(SimulatedMachine, IntervalsHoldTheTruth) {
   uint64_t seed = 1;
   for (const auto& [name, machine] : machines) {
     const Coverage c = coverage_on(machine, seed++);
-    const double share = double(c.held) / c.all, slack = trials() < 2000 ? three_deviations(0.95, c.all) : 0.02;
+    const double share = double(c.held) / c.all,
+                 slack = trials() < 2000 ? three_deviations(0.95, c.all) : 0.02;
     EXPECT_NEAR(share, 0.95, slack) << name;
     EXPECT_EQ(c.bimodal, 0) << name;
     RecordProperty(std::string("coverage of ") + name, std::to_string(share));
@@ -80,14 +81,16 @@ TEST(SimulatedMachine, TwoModesAreMarkedAndHeld) {
 // is on the front of the true times.
 TEST(SimulatedMachine, ProbabilitiesOfTheFrontAreCalibrated) {
   for (const SimulatedMachine& machine :
-       {SimulatedMachine{.rounds = 8}, SimulatedMachine{.processes = 5, .rounds = 3, .process_noise = 0.015}}) {
+       {SimulatedMachine{.rounds = 8},
+        SimulatedMachine{.processes = 5, .rounds = 3, .process_noise = 0.015}}) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> uniform(0, 1);
     constexpr int bins = 5;
     double stated[bins] = {}, found[bins] = {}, counted[bins] = {};
     for (int trial = 0; trial < trials(); ++trial) {
       std::vector<double> truths, errors;
-      for (int i = 0; i < 12; ++i) truths.push_back(std::exp(0.1 * uniform(random))), errors.push_back(uniform(random));
+      for (int i = 0; i < 12; ++i)
+        truths.push_back(std::exp(0.1 * uniform(random))), errors.push_back(uniform(random));
       const auto draws = drawn_log_times(simulated_times(machine, truths, random), 0, 400, random());
       const std::vector<double> p = front_probabilities(draws, errors);
       std::vector<double> log_truths;
@@ -101,7 +104,8 @@ TEST(SimulatedMachine, ProbabilitiesOfTheFrontAreCalibrated) {
     for (int bin = 0; bin < bins; ++bin) {
       ASSERT_GT(counted[bin], 50) << bin;
       const double p = stated[bin] / counted[bin];
-      EXPECT_NEAR(found[bin] / counted[bin], p, 0.02 + three_deviations(p, int(counted[bin]))) << "bin " << bin;
+      EXPECT_NEAR(found[bin] / counted[bin], p, 0.02 + three_deviations(p, int(counted[bin])))
+          << "bin " << bin;
       RecordProperty("front " + std::to_string(machine.processes) + " " + std::to_string(p),
                      std::to_string(found[bin] / counted[bin]));
     }
@@ -109,7 +113,8 @@ TEST(SimulatedMachine, ProbabilitiesOfTheFrontAreCalibrated) {
 }
 
 // The probability that the first of two points of equal error is the faster one, as the front has it.
-double first_is_faster(const SimulatedMachine& machine, double first, double second, std::mt19937_64& random) {
+double first_is_faster(const SimulatedMachine& machine, double first, double second,
+                       std::mt19937_64& random) {
   const auto draws = drawn_log_times(simulated_times(machine, {first, second}, random), 0, 1000, random());
   return front_probabilities(draws, std::vector<double>{0.1, 0.1})[0];
 }
@@ -151,7 +156,8 @@ TEST(SimulatedMachine, PicksAreReportedOnOtherRounds) {
 TEST(SimulatedMachine, WidenedIntervalsHoldAControlsError) {
   std::mt19937_64 random(11);
   const LogTimes control = simulated_times({}, {1.08}, random)[0];
-  const RelativeTime plain = relative_time(control), widened = relative_time(control, std::log(plain.estimate));
+  const RelativeTime plain = relative_time(control),
+                     widened = relative_time(control, std::log(plain.estimate));
   EXPECT_GT(plain.low, 1);
   EXPECT_LE(widened.low, 1);
   EXPECT_NEAR(std::log(widened.high / plain.high), std::log(plain.estimate), 1e-12);

@@ -108,7 +108,8 @@ inline FrontierAnswer some_answer() {
   answer.machines[1].cl_device = "another";
   answer.points = {some_point_figures(8), some_point_figures(16)};
   answer.cheapest_within = {{answer.points[0].point.scene, 1e-3, 0, answer.points[0].relative_time, 0.5}};
-  answer.controls = {{answer.points[0].point.scene, {.estimate = 1.0625, .low = 1, .high = 1.125, .runs = 8}, {1, 1.125}}};
+  answer.controls = {
+      {answer.points[0].point.scene, {.estimate = 1.0625, .low = 1, .high = 1.125, .runs = 8}, {1, 1.125}}};
   answer.front_bands = {{answer.points[0].point.scene, {{1e-3, 0.25, 0.75}}}};
   answer.break_even = {{"hall", "exact", "sphere", 0.25, 1.5, 1000, 0.125, 0.5, 12}};
   answer.shading_costs = {{"hall", "forward_plus", "ggx", 0.75, 0.5, 1}};

@@ -26,7 +26,7 @@ function bandElement(scene, xAxis, yAxis, area) {
     return [[at, y], [at, next]];
   });
   const outline = [...edge(0), ...edge(1).reverse()];
-  return make("polygon", { class: "band", points: outline.map(([px, py]) => `${px.toFixed(1)},${py.toFixed(1)}`).join(" ") });
+  return polyline(outline, { class: "band" });
 }
 
 // state: { points, x, y, hidden: set of techniques, selected: point }; choose(point) is called at a click. Returns a function that
