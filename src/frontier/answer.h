@@ -65,6 +65,15 @@ struct Control {
   double widening() const;
 };
 
+// What the machine did during the rounds of a process, of those in which it could be read.
+struct ProcessConditions {
+  int shard = 0, process = 0, rounds = 0;
+  // Largest and, of clock and power, least: least, largest.
+  std::optional<double> others_percent, steal_percent, temperature_c;
+  std::optional<std::pair<double, double>> clock_mhz, power_w;
+  int shared_rounds = 0, throttled_rounds = 0;  // is_shared, is_throttled
+};
+
 struct FrontBand {
   std::string scene;
   std::vector<BandStep> steps;
@@ -107,6 +116,7 @@ struct FrontierAnswer {
   std::vector<FrontierMachine> machines;
   std::vector<PointFigures> points;
   std::vector<Control> controls;
+  std::vector<ProcessConditions> processes;
   std::vector<CheapestWithin> cheapest_within;
   std::vector<FrontBand> front_bands;
   std::vector<BreakEven> break_even;

@@ -57,6 +57,20 @@ json control_json(const Control& c) {
           {"widened_by", finite_number(std::exp(c.widening()))}};
 }
 
+json process_json(const ProcessConditions& p) {
+  const auto range = [](const auto& r) { return r ? pair_json(r->first, r->second) : json(); };
+  return {{"shard", p.shard},
+          {"process", p.process},
+          {"rounds", p.rounds},
+          {"others_percent", finite_json(p.others_percent)},
+          {"steal_percent", finite_json(p.steal_percent)},
+          {"temperature_c", finite_json(p.temperature_c)},
+          {"clock_mhz", range(p.clock_mhz)},
+          {"power_w", range(p.power_w)},
+          {"shared_rounds", p.shared_rounds},
+          {"throttled_rounds", p.throttled_rounds}};
+}
+
 json cheapest_json(const CheapestWithin& b) {
   return {{"scene", b.scene},
           {"error", b.error},
@@ -290,6 +304,7 @@ json to_json(const FrontierAnswer& answer) {
           {"machines", finite_json(answer.machines)},
           {"machine", finite_json(answer.machines.empty() ? part.machine : answer.machines.front())},
           {"points", array_of(answer.points, point_json)},
+          {"processes", array_of(answer.processes, process_json)},
           {"controls", array_of(answer.controls, control_json)},
           {"cheapest_within", array_of(answer.cheapest_within, cheapest_json)},
           {"front_bands", array_of(answer.front_bands, band_json)},

@@ -43,6 +43,9 @@ std::vector<FrontierRecord> on_one_machine(std::vector<FrontierRecord> records,
 // Points that ran in each of their views, in the order of their first records; without points of a series.
 std::vector<PointFigures> figures_of(Records records);
 
+// One a process of a part that took times.
+std::vector<ProcessConditions> process_conditions_of(const std::vector<FrontierPart>& parts);
+
 // One a scene that has one.
 std::vector<Control> controls_of(Records records);
 // Sets the points' relative times, widened as their scenes' controls ask.

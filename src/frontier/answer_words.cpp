@@ -305,8 +305,22 @@ SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene
   return words;
 }
 
+// Of the whole sweep, where others used the machine or it was throttled.
+static std::string conditions_in_words(const FrontierAnswer& answer) {
+  int rounds = 0, shared = 0, throttled = 0;
+  for (const ProcessConditions& p : answer.processes)
+    rounds += p.rounds, shared += p.shared_rounds, throttled += p.throttled_rounds;
+  std::vector<std::string> parts;
+  if (shared > 0) parts.push_back(fmt::format("shared with others in {}", shared));
+  if (throttled > 0) parts.push_back(fmt::format("throttled in {}", throttled));
+  if (parts.empty()) return "";
+  return fmt::format("The machine was {} of {} rounds.", fmt::join(parts, " and "), rounds);
+}
+
 std::vector<std::string> sentences_of(const FrontierAnswer& answer) {
   std::vector<std::string> sentences;
+  if (const std::string conditions = conditions_in_words(answer); !conditions.empty())
+    sentences.push_back(conditions);
   for (const std::string& scene : scenes_of(answer)) {
     for (std::string& sentence : sentences_of_scene(answer, scene)) sentences.push_back(std::move(sentence));
   }

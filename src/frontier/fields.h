@@ -135,6 +135,18 @@ void visit_fields(T& m, Visit&& visit) {
   visit("shard", m.shard, may_miss);
 }
 
+template <Is<FrontierConditions> T, typename Visit>
+void visit_fields(T& c, Visit&& visit) {
+  const FieldRule may_miss{.required = false};
+  visit("process", c.process);
+  visit("others_percent", c.others_percent, may_miss);
+  visit("steal_percent", c.steal_percent, may_miss);
+  visit("clock_mhz", c.clock_mhz, may_miss);
+  visit("temperature_c", c.temperature_c, may_miss);
+  visit("power_w", c.power_w, may_miss);
+  visit("throttles", c.throttles, may_miss);
+}
+
 // The first line of a part.
 template <Is<FrontierPart> T, typename Visit>
 void visit_fields(T& p, Visit&& visit) {

@@ -115,6 +115,8 @@ void PartLines::take(const json& line, const std::string& place, const Notice& n
     open.insert_or_assign(record_key(record), record);
   } else if (is_of("process")) {
     ++part.processes;
+  } else if (is_of("conditions")) {
+    part.conditions.push_back(conditions_of(line["conditions"]));
   } else if (is_of("times")) {
     const JsonFields times = JsonFields(line).object("times");
     for (const std::string& key : times.names()) {

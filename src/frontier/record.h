@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "frontier/conditions.h"
 #include "results/flip.h"
 #include "results/results.h"
 
@@ -107,8 +108,9 @@ struct FrontierPart {
   int shard = 0, shards = 1;
   std::string baseline;  // label of the baseline point
   FrontierMachine machine;
-  int processes = 0;      // that took times
-  bool finished = false;  // nothing more was to be measured: RecordFile::finish
+  int processes = 0;                           // that took times
+  std::vector<FrontierConditions> conditions;  // one a round and process
+  bool finished = false;                       // nothing more was to be measured: RecordFile::finish
   std::vector<FrontierRecord> records;
 };
 

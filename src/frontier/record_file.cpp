@@ -120,6 +120,12 @@ void RecordFile::add_times(const std::vector<TimeOfRecord>& times) {
   add({{"times", entries}});
 }
 
+void RecordFile::add_conditions(const FrontierConditions& conditions) {
+  FrontierConditions of_this = conditions;
+  of_this.process = std::max(lines_.part.processes - 1, 0);
+  add({{"conditions", to_json(of_this)}});
+}
+
 void RecordFile::add_cull_times(const std::map<std::string, double>& times) {
   if (times.empty()) return;
   json entries = json::object();

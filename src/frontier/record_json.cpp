@@ -94,6 +94,10 @@ FrontierRecord record_of(const json& line) {
   return r;
 }
 
+json to_json(const FrontierConditions& conditions) { return ToJson{Numbers::finite}.json_of(conditions); }
+
+FrontierConditions conditions_of(const json& object) { return read_from<FrontierConditions>(object); }
+
 FrontierPart part_of(const json& header) {
   FrontierPart part = read_from<FrontierPart>(header);
   if (part.shard >= part.shards)

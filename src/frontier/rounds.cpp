@@ -137,6 +137,7 @@ int TimeRounds::run() {
   for (MeasuredPoint& point : points)
     point.slow_until =
         (job.processes > 1 ? point.rounds() : 0) + (slow_rounds + job.processes - 1) / job.processes;
+  ConditionsReader conditions;
   double longest_s = 0;
   for (bool warm_up = true; done < most; warm_up = false) {
     const double before = timer.elapsed_ms() / 1000;
@@ -144,8 +145,10 @@ int TimeRounds::run() {
     if (done >= least && are_certain()) break;
     std::vector<TimeOfRecord> times;
     for (size_t view = 0; view < views.size(); ++view) time_view(warm_up ? 0 : done + 1, view, times);
+    const FrontierConditions of_round = conditions.sample();
     if (warm_up) continue;
     file.add_times(times);
+    file.add_conditions(of_round);
     for (MeasuredPoint& point : points) {
       for (FrontierRecord& record : point.records) record = file.open_records().at(record_key(record));
     }

@@ -60,12 +60,19 @@ function showFailures() {
     make("li", {}, make("strong", {}, failure.label), ` in ${sceneTitle(failure.scene)}: ${failure.why}`)));
 }
 
+const inProcess = (p) => [`${p.rounds} rounds`, p.clock_mhz && `${wholeNumber(Math.round(p.clock_mhz[0]))} to ${wholeNumber(Math.round(p.clock_mhz[1]))} MHz`,
+  p.temperature_c !== null && `at most ${threeDigits(p.temperature_c)} \u00b0C`, p.power_w && `${threeDigits(p.power_w[0])} to ${threeDigits(p.power_w[1])} W`,
+  p.others_percent !== null && `others at most ${percentText(p.others_percent)} of the processors`, p.steal_percent > 0 && `${percentText(p.steal_percent)} stolen`,
+  p.shared_rounds > 0 && `shared in ${p.shared_rounds}`, p.throttled_rounds > 0 && `throttled in ${p.throttled_rounds}`].filter(Boolean).join(" \u00b7 ");
+
 function showMachines() {
+  const several = page.machines.length > 1;
+  const processes = page.processes.flatMap((p) => [make("dt", {}, `${several ? `Part ${p.shard}, ` : ""}Process ${p.process}`), make("dd", {}, inProcess(p))]);
   byId("errors").replaceChildren(...page.machines.flatMap((machine) => [
     make("dt", {}, page.machines.length > 1 ? `Part ${machine.shard}` : "This machine"),
     make("dd", {}, [machine.cpu, machine.clock_mhz > 0 && `${wholeNumber(Math.round(machine.clock_mhz))} MHz`, `governor ${machine.governor}`,
       `${machine.threads} threads`, `load ${machine.load_at_start} at the start, ${machine.load_at_end} at the end`,
-      `OpenCL: ${machine.cl_device}, ${machine.cl_driver}`, `OpenGL: ${machine.gl_device}, ${machine.gl_driver}`].filter(Boolean).join(" \u00b7 "))]));
+      `OpenCL: ${machine.cl_device}, ${machine.cl_driver}`, `OpenGL: ${machine.gl_device}, ${machine.gl_driver}`].filter(Boolean).join(" \u00b7 "))]), ...processes);
 }
 
 function pictureFigure(number, caption) {
