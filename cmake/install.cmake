@@ -34,7 +34,7 @@ set(public_headers
   shared/raster_instance.h shared/slices.h shared/view_params.h
   cl/device.h cl/launch.h cl/error.h cl/opencl.h cl/profiler.h cl/program_cache.h cl/transfer.h
   culling/cull_view.h culling/light_culler.h
-  raster/raster_scene.h raster/raster_view.h
+  raster/raster_samples.h raster/raster_scene.h raster/raster_view.h
   rays/ray_scene.h)
 foreach(header IN LISTS public_headers)
   cmake_path(GET header PARENT_PATH folder)

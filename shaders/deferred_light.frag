@@ -1,12 +1,14 @@
 // One light on the surfaces of the geometry buffer, to be added to the image.
 //   LIGHT_VOLUME: the light comes with its volume (light_volume.vert), else as a uniform
 //   DEPTH_BOUNDS: nothing outside an interval of depth
+//   EARLY_TESTS: the stencil has light groups: it is tested, and its mark reset, before a pixel is shaded
 //   MARK: instead of light, the pair (pixel, light): a digit of base 4 for each of 48 lights, 12 a channel,
 //     so that sums are exact and count the invocations
 //   GBUFFER_8, GBUFFER_16, CLEARCOAT, SPECULAR, SKIN, MINNAERT: the layout (common/gbuffer.glsl)
 #include "shaders/common/read_gbuffer.glsl"
 #include "shared/brdf.h"
 #include "shaders/lights/punctual.glsl"
+#include "shaders/common/groups_of_pixel.glsl"
 
 #ifdef LIGHT_VOLUME
 flat in uint light;
@@ -21,6 +23,9 @@ uniform uint first_light;
 #endif
 
 layout(location = 0) out vec4 added;
+#ifdef EARLY_TESTS
+layout(early_fragment_tests) in;
+#endif
 
 #ifdef MARK
 vec4 mark() {
@@ -40,8 +45,14 @@ void main() {
 #ifdef MARK
   added = mark();
 #else
-  vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
   PunctualLight from = light_at(int(light));
+#ifdef GROUPS
+  int groups = groups_of_pixel(pixel);
+  if (!groups_meet(from.groups, groups)) discard;
+#else
+  int groups = 0;
+#endif
+  vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
   Arrival arrival = arrival_at(position, from);
   if (!(arrival.attenuation > 0.0)) discard;  // would add an exact zero
   LitSurface s = surface_of_pixel(pixel);
@@ -63,7 +74,7 @@ void main() {
   Coat coat = coat_of_pixel(pixel, s.normal);
   p = with_coat(p, coat.normal, coat.factor, coat.roughness);
 #endif
-  arrival.attenuation *= light_reaches(from, position, NO_INSTANCE);
+  arrival.attenuation *= light_reaches(from, position, groups);
   added = vec4(radiance_of(p, arrival, from), 0.0);
 #endif
 }

@@ -1,7 +1,16 @@
 // The depth prepass writes depth alone; masked surfaces first test their mask.
 // LIMIT: the radiance that may lie behind a blended surface whose alpha is 1: src/passes/shade_forward.cpp.
+//   GROUP_LOCATION: as in gbuffer.frag
 #if defined(LIMIT) || defined(MASK)
 #include "shaders/common/material.glsl"
+#endif
+
+#ifdef GROUP_LOCATION
+layout(location = GROUP_LOCATION) out uint group_number;
+uniform uint group_number_of_draw;
+#define WRITE_GROUP group_number = group_number_of_draw;
+#else
+#define WRITE_GROUP
 #endif
 
 #if defined(LIMIT)
@@ -16,7 +25,8 @@ void main() {
 #elif defined(MASK)
 void main() {
   if (has(MATERIAL_MASK) && material_base_color().a < material.alpha_cutoff) discard;
+  WRITE_GROUP
 }
 #else
-void main() {}
+void main() { WRITE_GROUP }
 #endif

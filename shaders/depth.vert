@@ -4,14 +4,14 @@
 
 #ifdef MASK
 layout(location = 3) in vec2 uv0;
-out vec2 fragment_uv0;
+VARYING out vec2 fragment_uv0;
 #ifdef UV1
 layout(location = 4) in vec2 uv1;
-out vec2 fragment_uv1;
+VARYING out vec2 fragment_uv1;
 #endif
 #ifdef VERTEX_COLOR
 layout(location = 5) in vec4 color;
-out vec4 fragment_color;
+VARYING out vec4 fragment_color;
 #endif
 #endif
 

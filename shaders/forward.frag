@@ -9,6 +9,7 @@
 #include "shaders/common/surface.glsl"
 #include "shaders/common/position.glsl"
 #include "shared/shadow_bits.h"
+#include "shared/light_table.h"
 #include "shared/brdf.h"
 #include "shaders/common/point_of_surface.glsl"
 #ifdef LIGHTS

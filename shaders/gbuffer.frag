@@ -2,6 +2,7 @@
 // add.
 //   GBUFFER_8, GBUFFER_16: the layout (common/gbuffer.glsl)
 //   BASE_LIGHTING: there is an image to write
+//   GROUP_LOCATION: there is an image of numbers of light groups' masks, at this location
 //   COATS, SPECULAR_IMAGE: there is an image of coats; of specular reflectance
 #include "shaders/common/surface.glsl"
 #include "shaders/common/gbuffer.glsl"
@@ -40,6 +41,11 @@ layout(location = NEXT) out vec4 specular;
 #endif
 #endif
 
+#ifdef GROUP_LOCATION
+layout(location = GROUP_LOCATION) out uint group_number;
+uniform uint group_number_of_draw;
+#endif
+
 void main() {
   Surface s = surface_here();
 #ifdef MASK
@@ -67,6 +73,9 @@ void main() {
 #else
   specular = specular_texel(default_specular);
 #endif
+#endif
+#ifdef GROUP_LOCATION
+  group_number = group_number_of_draw;
 #endif
 #ifdef BASE_LIGHTING
   radiance = vec4(light_of(s), 1.0);

@@ -1,5 +1,6 @@
 // One light's part in the light buffer, to be added to it: light_prepass with prepass-lights=volumes.
 //   LIGHT_VOLUME, DEPTH_BOUNDS: as in deferred_light.frag
+//   EARLY_TESTS: as in deferred_light.frag
 //   NORMALS_…: the format of normals; LIGHT_EXPONENT: the lights' shininess (shared/light_buffer.h)
 //   LIGHT_SCALE: a sum of this size is stored as 1
 //   PREPASS_FIFTH_TERM: there is a second image
@@ -7,6 +8,7 @@
 #include "shared/light_buffer.h"
 #include "shared/stored_normal.h"
 #include "shaders/lights/punctual.glsl"
+#include "shaders/common/groups_of_pixel.glsl"
 
 uniform sampler2D normals;
 uniform sampler2D depth_image;
@@ -22,6 +24,10 @@ uniform vec2 depth_bounds;
 layout(location = 0) out vec4 diffuse_specular;
 #ifdef PREPASS_FIFTH_TERM
 layout(location = 1) out vec2 weight_rim;
+#endif
+
+#ifdef EARLY_TESTS
+layout(early_fragment_tests) in;
 #endif
 
 vec3 normal_of_pixel(ivec2 pixel) {
@@ -40,11 +46,17 @@ void main() {
   if (depth < depth_bounds.x || depth > depth_bounds.y) discard;
 #endif
   if (!(depth > 0.0)) discard;
-  vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
   PunctualLight from = light_at(int(light));
+#ifdef GROUPS
+  int groups = groups_of_pixel(pixel);
+  if (!groups_meet(from.groups, groups)) discard;
+#else
+  int groups = 0;
+#endif
+  vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
   Arrival arrival = arrival_at(position, from);
   if (!(arrival.attenuation > 0.0)) discard;  // would add exact zeros
-  arrival.attenuation *= light_reaches(from, position, NO_INSTANCE);
+  arrival.attenuation *= light_reaches(from, position, groups);
   LightTerms terms =
       light_terms(normal_of_pixel(pixel), direction_to_viewer(position), arrival, from, LIGHT_EXPONENT);
   diffuse_specular = vec4(terms.diffuse, terms.specular) * (1.0 / LIGHT_SCALE);

@@ -4,6 +4,11 @@
 #include "shared/stored_normal.h"
 
 layout(location = 0) out vec4 stored;
+//   GROUP_LOCATION: as in gbuffer.frag
+#ifdef GROUP_LOCATION
+layout(location = GROUP_LOCATION) out uint group_number;
+uniform uint group_number_of_draw;
+#endif
 
 void main() {
 #ifdef MASK
@@ -14,4 +19,7 @@ void main() {
   normal = steps_of_normal(normal) / NORMAL_CHANNEL_STEPS;
 #endif
   stored = vec4(normal, 0.0);
+#ifdef GROUP_LOCATION
+  group_number = group_number_of_draw;
+#endif
 }

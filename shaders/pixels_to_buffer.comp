@@ -4,8 +4,14 @@
 //   Pixels  storage buffer 0
 //   one of  FLOAT_1 (its first channel, or depth), FLOAT_4: 32 bits a channel
 //           UNORM8_4, UNORM16_2, UNORM16_4: the integers that the image stores
+//   SAMPLES: so many a pixel, which follow one another
 layout(local_size_x = 32, local_size_y = 8) in;
+#ifdef SAMPLES
+uniform sampler2DMS image;
+#else
 uniform sampler2D image;
+#define SAMPLES 1
+#endif
 
 #if defined(FLOAT_1)
 #define PIXEL uint
@@ -27,7 +33,14 @@ PIXEL pixel_of(vec4 texel) { return uvec2(packUnorm2x16(texel.rg), packUnorm2x16
 layout(std430) writeonly buffer Pixels { PIXEL pixels[]; };
 
 void main() {
-  ivec2 size = textureSize(image, 0), at = ivec2(gl_GlobalInvocationID.xy);
+#if SAMPLES > 1
+  ivec2 size = textureSize(image);
+#else
+  ivec2 size = textureSize(image, 0);
+#endif
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(at, size))) return;
-  pixels[at.y * size.x + at.x] = pixel_of(texelFetch(image, at, 0));
+  // Of one sample: level 0.
+  for (int s = 0; s < SAMPLES; ++s)
+    pixels[(at.y * size.x + at.x) * SAMPLES + s] = pixel_of(texelFetch(image, at, s));
 }

@@ -9,22 +9,25 @@
 #endif
 
 layout(location = 1) in vec3 normal;
-out vec3 normal_view;
+VARYING out vec3 normal_view;
+#ifdef SAMPLES
+VARYING out vec4 clip_here;
+#endif
 #ifdef TANGENTS
 layout(location = 2) in vec4 tangent;
-out vec4 tangent_view;
+VARYING out vec4 tangent_view;
 #endif
 #ifdef TEXTURED
 layout(location = 3) in vec2 uv0;
-out vec2 fragment_uv0;
+VARYING out vec2 fragment_uv0;
 #endif
 #ifdef UV1
 layout(location = 4) in vec2 uv1;
-out vec2 fragment_uv1;
+VARYING out vec2 fragment_uv1;
 #endif
 #ifdef VERTEX_COLOR
 layout(location = 5) in vec4 color;
-out vec4 fragment_color;
+VARYING out vec4 fragment_color;
 #endif
 
 uniform mat3 normal_from_object;
@@ -34,6 +37,9 @@ uniform mat3 view_from_object;
 
 void main() {
   gl_Position = clip_position();
+#ifdef SAMPLES
+  clip_here = gl_Position;
+#endif
   normal_view = normal_from_object * normal;
 #ifdef TANGENTS
   // A tangent transforms as a direction, not as a normal. A mirroring matrix inverts the cross product that

@@ -8,7 +8,7 @@
 // Readable up to a multiple of 16 lights.
 
 // Lights in view space, an array each: centre and radius with slack; the tiles they can
-// be seen in; the index; the cone.
+// be seen in; the index; the cone; with -DGROUPS the light's groups.
 #define VIEW_X 0
 #define VIEW_Y 1
 #define VIEW_D 2
@@ -17,9 +17,14 @@
 #define VIEW_ID 5
 #define VIEW_CONE 6   // four arrays
 #ifdef SPOTS
-#define VIEW_ARRAYS (VIEW_CONE + 4)
+#define VIEW_GROUPS (VIEW_CONE + 4)
 #else
-#define VIEW_ARRAYS VIEW_CONE
+#define VIEW_GROUPS VIEW_CONE
+#endif
+#ifdef GROUPS
+#define VIEW_ARRAYS (VIEW_GROUPS + 1)
+#else
+#define VIEW_ARRAYS VIEW_GROUPS
 #endif
 
 #if LANES == 16

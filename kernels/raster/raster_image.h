@@ -23,8 +23,8 @@
 #include "kernels/raster/raster_masks.h"
 
 typedef struct Image {
-  // A pixel: its depth's bits << 32 | number, or 0 where nothing is. Depths of one sign are ordered as their
-  // bits.
+  // A sample, those of a pixel side by side: its depth's bits << 32 | number, or 0 where nothing is. Depths
+  // of one sign are ordered as their bits.
   global volatile ulong* keys;
   global volatile int* triangles;  // RASTER_NONE, where nothing is, is below every number
   global volatile uint* depths;
@@ -81,35 +81,56 @@ static inline PlacedTriangle placed_triangle(const RasterRecord* r, int x0, int 
   return t;
 }
 
-// A pixel, and whether drawing the triangle there would change the image, masks apart.
+// A pixel, and whether drawing the triangle at its samples would change the image, masks apart.
 typedef struct SeenPixel {
   int x, y;
-  float depth;
-  bool changes;
+  float depth[SAMPLES];
+  bool changes[SAMPLES];
 } SeenPixel;
 
-// The pixel x to the right of (x0, y0) and y above it, below RASTER_TILE, where `inside`. Reads a pixel of
-// the image in any case, so that several reads can be on their way.
+static inline size_t sample_place(const Image* image, int x, int y, int s) {
+  return ((size_t)y * image->width + (size_t)x) * SAMPLES + (size_t)s;
+}
+
+// The pixel x to the right of (x0, y0) and y above it, below RASTER_TILE, where `inside`. Reads the samples
+// of a pixel of the image in any case, so that several reads can be on their way.
 static inline SeenPixel see_pixel(const PlacedTriangle* t, int x, int y, bool inside, const Image* image) {
   const Edge a = t->edges[0], b = t->edges[1], c = t->edges[2];
-  const bool covered =
-      inside & (((a.c + a.a * x + a.b * y) | (b.c + b.a * x + b.b * y) | (c.c + c.a * x + c.b * y)) >= 0);
+  const int of_a = a.a * x + a.b * y, of_b = b.a * x + b.b * y, of_c = c.a * x + c.b * y;
+  bool covered[SAMPLES], some = false;
+#pragma unroll
+  for (int s = 0; s < SAMPLES; ++s) {
+    covered[s] = inside & (((edge_of_sample(a, s) + of_a) | (edge_of_sample(b, s) + of_b) |
+                            (edge_of_sample(c, s) + of_c)) >= 0);
+    some |= covered[s];
+  }
   const float dx = t->dx + small_float((uint)x), dy = t->dy + small_float((uint)y);
   SeenPixel p;
-  p.depth = max(min(fma(t->zx, dx, fma(t->zy, dy, t->z0)), t->z_max), t->z_min);
-  p.x = t->x0 + (covered ? x : 0), p.y = t->y0 + (covered ? y : 0);
-  p.changes = covered & would_change(image, (size_t)p.y * image->width + (size_t)p.x, p.depth, t->triangle);
+  p.x = t->x0 + (some ? x : 0), p.y = t->y0 + (some ? y : 0);
+#pragma unroll
+  for (int s = 0; s < SAMPLES; ++s) {
+    p.depth[s] =
+        max(min(fma(t->zx, dx + SAMPLE_X(s), fma(t->zy, dy + SAMPLE_Y(s), t->z0)), t->z_max), t->z_min);
+    p.changes[s] =
+        covered[s] & would_change(image, sample_place(image, p.x, p.y, s), p.depth[s], t->triangle);
+  }
   return p;
 }
 
-static inline void draw_seen(const PlacedTriangle* t, SeenPixel p, const Image* image) {
-  if (!p.changes) return;
+static inline void draw_seen(const PlacedTriangle* t, const SeenPixel* p, const Image* image) {
 #ifdef ALPHA_MASKS
+  bool any = false;
+  for (int s = 0; s < SAMPLES; ++s) any |= p->changes[s];
+  if (!any) return;
+  // One look-up, at the pixel's centre, for all samples.
   if (t->alpha_material >= 0 &&
-      !shown_by_mask(&image->masks, t->triangle, t->instance, (uint)t->alpha_material, (float)(p.x & ~3),
-                     (float)(p.y & ~3), (float)(p.x & 3), (float)(p.y & 3))) {
+      !shown_by_mask(&image->masks, t->triangle, t->instance, (uint)t->alpha_material, (float)(p->x & ~3),
+                     (float)(p->y & ~3), (float)(p->x & 3), (float)(p->y & 3))) {
     return;
   }
 #endif
-  put_pixel(image, (size_t)p.y * image->width + (size_t)p.x, p.depth, t->triangle);
+#pragma unroll
+  for (int s = 0; s < SAMPLES; ++s) {
+    if (p->changes[s]) put_pixel(image, sample_place(image, p->x, p->y, s), p->depth[s], t->triangle);
+  }
 }

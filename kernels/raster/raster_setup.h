@@ -3,6 +3,7 @@
 // same record: docs/raster.md.
 #pragma once
 
+#include "kernels/common/sample_places.h"
 #include "shared/lanes.h"
 #include "shared/raster_instance.h"
 #include "shared/raster_params.h"
@@ -81,17 +82,17 @@ static inline mask_t set_up(const Corners* v, mask_t live, uint flags, RecordLan
   for (int k = 0; k < 3; ++k) {
     const real per_w = one / v[k].w, sx = fma(v[k].x * per_w, half_x, half_x),
                sy = fma(v[k].y * per_w, half_y, half_y);
-    // Moved so that the sample lies at the pixel's centre.
-    x[k] = TO_WHOLE(lane_rint(live ? sx : zero)) - p->sample_x;
-    y[k] = TO_WHOLE(lane_rint(live ? sy : zero)) - p->sample_y;
+    x[k] = TO_WHOLE(lane_rint(live ? sx : zero)), y[k] = TO_WHOLE(lane_rint(live ? sy : zero));
     z[k] = lane_max(lane_min(v[k].z * per_w, one), deepest);
   }
-  const whole low_x = whole_max((whole_min(x[0], whole_min(x[1], x[2])) + 127) >> 8, (whole)(0));
-  const whole low_y = whole_max((whole_min(y[0], whole_min(y[1], y[2])) + 127) >> 8, (whole)(0));
+  // Pixels of which the sample that lies farthest to a side may be covered.
+  const int right = most_gain(1, 0), left = most_gain(-1, 0), up = most_gain(0, 1), down = most_gain(0, -1);
+  const whole low_x = whole_max((whole_min(x[0], whole_min(x[1], x[2])) + (127 - right)) >> 8, (whole)(0));
+  const whole low_y = whole_max((whole_min(y[0], whole_min(y[1], y[2])) + (127 - up)) >> 8, (whole)(0));
   const whole high_x =
-      whole_min((whole_max(x[0], whole_max(x[1], x[2])) - 128) >> 8, (whole)((int)p->width - 1));
+      whole_min((whole_max(x[0], whole_max(x[1], x[2])) + (left - 128)) >> 8, (whole)((int)p->width - 1));
   const whole high_y =
-      whole_min((whole_max(y[0], whole_max(y[1], y[2])) - 128) >> 8, (whole)((int)p->height - 1));
+      whole_min((whole_max(y[0], whole_max(y[1], y[2])) + (down - 128)) >> 8, (whole)((int)p->height - 1));
 
   // Below 2^24, so exact as floats.
   const real ax = TO_REAL(x[1] - x[0]), ay = TO_REAL(y[1] - y[0]), bx = TO_REAL(x[2] - x[0]),

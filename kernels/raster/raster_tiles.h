@@ -1,28 +1,54 @@
 // The tiles that a record may cover a pixel of.
 #pragma once
 
+#include "kernels/common/sample_places.h"
 #include "shared/raster_params.h"
 
 // One edge of a record, as seen from a pixel: a x + b y + c >= 0 at pixels x right of it and y above it whose
-// centres the edge lets in, with the top-left rule. c is cut off where no pixel within a tile's size can
-// change the sign.
+// centres the edge lets in, with the top-left rule. c is cut off where no pixel within a tile's size, and no
+// sample of one, can change the sign. rest: what is below c, in 1/256 of it.
 typedef struct Edge {
   int a, b, c;
+#if SAMPLES > 1
+  int rest;
+#endif
 } Edge;
 
 static inline Edge edge_at(int x0, int y0, int x1, int y1, int pixel_x, int pixel_y) {
-  Edge e = {y0 - y1, x1 - x0, 0};
+  Edge e;
+  e.a = y0 - y1, e.b = x1 - x0;
   const bool holds_its_points = e.a > 0 || (e.a == 0 && e.b < 0);
   const long units = (long)e.a * (pixel_x * 256 + 128 - x0) + (long)e.b * (pixel_y * 256 + 128 - y0) -
                      (holds_its_points ? 0 : 1);
   e.c = (int)clamp(units >> 8, -(1L << 30), 1L << 30);
+#if SAMPLES > 1
+  e.rest = (int)(units & 255);
+#endif
   return e;
 }
 
-// Whether some pixel of the tile lies inside the edge.
+// c of a sample in place of the centre.
+static inline int edge_of_sample(Edge e, int s) {
+#if SAMPLES > 1
+  return e.c + ((e.rest + e.a * SAMPLE_UNITS_X(s) + e.b * SAMPLE_UNITS_Y(s)) >> 8);
+#else
+  return e.c;
+#endif
+}
+
+// c of the sample that lies farthest inside.
+static inline int edge_of_samples(Edge e) {
+#if SAMPLES > 1
+  return e.c + ((e.rest + most_gain(e.a, e.b)) >> 8);
+#else
+  return e.c;
+#endif
+}
+
+// Whether some sample of a pixel of the tile lies inside the edge.
 static inline bool edge_meets_tile(int x0, int y0, int x1, int y1, int tile_x, int tile_y) {
   const Edge e = edge_at(x0, y0, x1, y1, tile_x * RASTER_TILE, tile_y * RASTER_TILE);
-  return e.c + (max(e.a, 0) + max(e.b, 0)) * (RASTER_TILE - 1) >= 0;
+  return edge_of_samples(e) + (max(e.a, 0) + max(e.b, 0)) * (RASTER_TILE - 1) >= 0;
 }
 
 typedef struct TileBox {

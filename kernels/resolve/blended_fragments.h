@@ -1,15 +1,15 @@
 // The fragments of blended surfaces, in drawing order: what kernels that lay them over the image, and those
 // that list them, go through alike.
 //
-// -DSAMPLES, -DSAMPLE_PLACES  (kernels/resolve/samples.h) depths are those of samples. A blended triangle has a
-// fragment where it covers a pixel's centre, and hides what the samples behind it see: its alpha counts by
+// -DSAMPLES, -DSAMPLE_PLACES  (kernels/resolve/samples.h) depths are those of samples. A blended triangle has
+// a fragment where it covers a pixel's centre, and hides what the samples behind it see: its alpha counts by
 // their share of the pixel. Its depth is compared at each sample's place.
 #pragma once
 
 #include "kernels/raster/raster_blocks.h"
 #include "kernels/resolve/samples.h"
 #include "shared/real.h"
-#ifdef SAMPLES
+#if SAMPLES > 1
 #define SHARE , real* share
 #define SHARE_TO(to) , &to
 typedef global const float* OpaqueDepth;
@@ -27,13 +27,14 @@ typedef float OpaqueDepth;
 // Lanes of a block of 4 x 4 pixels, (x, y) of the image and (bx, by) of the tile, that show the record in
 // front of the opaque surfaces, and its depth there. share: with -DSAMPLES, of the samples behind it.
 static inline mask_t fragments_in_block(const TileRecord* r, int bx, int by, uint x, uint y,
-                                        global const float* depths, uint width, uint height, real* depth SHARE) {
+                                        global const float* depths, uint width, uint height,
+                                        real* depth SHARE) {
   const int16 across = LANE_INDEX & 3, up = LANE_INDEX >> 2;
   const int16 inside = (across < (int16)((int)(width - x))) & (up < (int16)((int)(height - y)));
   const mask_t covered = inside & covered_pixels(r, bx, by, across, up);
   if (!any_lane(covered)) return covered;
   *depth = depth_at(r, bx, by, convert_float16(across), convert_float16(up));
-#ifdef SAMPLES
+#if SAMPLES > 1
   *share = 0.0f;
   for (uint s = 0; s < SAMPLES; ++s) {
     real opaque = 0.0f;
@@ -41,7 +42,8 @@ static inline mask_t fragments_in_block(const TileRecord* r, int bx, int by, uin
       const uint i = lowest_bit(left);
       ((float*)&opaque)[i] = depths[((size_t)(y + i / 4) * width + x + i % 4) * SAMPLES + s];
     }
-    const real here = depth_at(r, bx, by, convert_float16(across) + SAMPLE_X(s), convert_float16(up) + SAMPLE_Y(s));
+    const real here =
+        depth_at(r, bx, by, convert_float16(across) + SAMPLE_X(s), convert_float16(up) + SAMPLE_Y(s));
     *share += here >= opaque ? REAL(1.0f / SAMPLES) : REAL(0.0f);
   }
   return covered & (*share > REAL(0.0f)) & (*depth >= REAL(FLT_MIN));
@@ -69,7 +71,7 @@ static inline bool is_fragment(const TileRecord* r, int bx, int by, int dx, int 
                                float* depth SHARE) {
   if (!covered_pixels(r, bx, by, dx, dy)) return false;
   *depth = depth_at(r, bx, by, (float)dx, (float)dy);
-#ifdef SAMPLES
+#if SAMPLES > 1
   *share = 0.0f;
   for (uint s = 0; s < SAMPLES; ++s) {
     const float here = depth_at(r, bx, by, (float)dx + SAMPLE_X(s), (float)dy + SAMPLE_Y(s));

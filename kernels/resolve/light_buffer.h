@@ -6,27 +6,33 @@
 // -DZ_BINS, -DSPOTS, -DLAMBERT  as kernels/resolve/shade_pixels.h says
 #pragma once
 
+#include "kernels/resolve/group_numbers.h"
 #include "kernels/resolve/light_sums.h"
 #include "kernels/resolve/shade_pixels.h"
 #include "kernels/resolve/stored_normals.h"
 
 // A light that reaches none of the pixels, or that none of them faces, would add exact zeros.
-static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal, Real3 to_viewer, mask_t lit,
-                                    uint index, const Lights* lights, float exponent) {
+static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal, Real3 to_viewer,
+                                    whole groups, mask_t lit, uint index, const Lights* lights,
+                                    float exponent) {
   const PunctualLight light = light_at(lights, index);
+#ifdef GROUPS
+  if (!any_lane(lit & groups_meet(light.groups, groups))) return sum;
+#endif
   if (!any_lane(lit & in_range(position, light))) return sum;
   Arrival arrival = arrival_at(position, light);
   const mask_t reached = (arrival.attenuation > REAL(0.0f)) & (dot3(normal, arrival.to_light) > REAL(0.0f));
   if (!any_lane(lit & reached)) return sum;
-  arrival.attenuation = arrival.attenuation * light_reaches(light, position, NO_INSTANCE);
+  arrival.attenuation = arrival.attenuation * light_reaches(light, position, groups);
 #ifdef SHADOWS
   if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
 #endif
   return add_terms(sum, light_terms(normal, to_viewer, arrival, light, REAL(exponent)));
 }
 
-// In the order of the list.
-static inline LightTerms terms_of_list(Real3 position, Real3 normal, mask_t lit, global const index_t* list,
+// In the order of the list. groups: of the surfaces; without -DGROUPS they are not read.
+static inline LightTerms terms_of_list(Real3 position, Real3 normal, whole groups, mask_t lit,
+                                       global const index_t* list,
                                        uint count, PixelBins bins, const Lights* lights, float exponent) {
   const Real3 to_viewer = direction_to_viewer(position);
   LightTerms sum = no_terms();
@@ -35,7 +41,7 @@ static inline LightTerms terms_of_list(Real3 position, Real3 normal, mask_t lit,
 #ifdef Z_BINS
     if (!bins_meet(lights->bins[index], bins.first, bins.last)) continue;
 #endif
-    sum = with_terms(sum, position, normal, to_viewer, lit, index, lights, exponent);
+    sum = with_terms(sum, position, normal, to_viewer, groups, lit, index, lights, exponent);
   }
   return sum;
 }

@@ -4,6 +4,8 @@
 //
 // -DTEXTURED, -DUV1, -DVERTEX_COLOR, -DNORMAL_MAP (of the base or the coat), -DCLEARCOAT, -DSPECULAR, -DSKIN,
 // -DMINNAERT  some surface of the scene has these; without, their code is not there
+// -DGROUPS    surfaces have light groups (shared/light_table.h)
+// -DGROUP_NUMBERS  of their masks the numbers are wanted, for a geometry buffer
 #pragma once
 
 #include "kernels/resolve/surface_attributes.h"
@@ -31,6 +33,9 @@
 typedef struct ResolveScene {
   RESOLVE_SCENE_LIST(MEMBER)
   float2 half_size;  // of the image, pixels
+#ifdef GROUPS
+  global const uint* group_masks;  // by number
+#endif
 } ResolveScene;
 
 // LANES pixels have these attributes of their triangles.
@@ -38,6 +43,12 @@ typedef struct Attributes {
   Real3 normal;  // view space, not yet unit
   whole material;
   real side;  // -1 on the back of a double-sided surface
+#ifdef GROUPS
+  whole groups;
+#ifdef GROUP_NUMBERS
+  whole group_number;
+#endif
+#endif
 #ifdef NORMAL_MAP
   Real3 tangent;
   real handedness;
@@ -95,6 +106,13 @@ static inline void add_triangle(Attributes* a, const ResolveScene* s, uint trian
   const Weights w = weights_at(&t, dx, dy);
   const CornerAttributes c = corner_attributes(s->vertices + r->first_vertex, i, j, k);
   KEEP(a->material, (whole)((int)surface->material));
+#ifdef GROUPS
+  const uint group = surface->flags >> INSTANCE_GROUP_SHIFT;
+  KEEP(a->groups, (whole)((int)s->group_masks[group]));
+#ifdef GROUP_NUMBERS
+  KEEP(a->group_number, (whole)((int)group));
+#endif
+#endif
   KEEP3(a->normal, turned(surface->normal, ATTRIBUTE(c, w, s0), ATTRIBUTE(c, w, s1), ATTRIBUTE(c, w, s2)));
   if (material->flags & SURFACE_DOUBLE_SIDED) {
     const float front = surface->flags & INSTANCE_MIRRORED ? -1.0f : 1.0f;

@@ -48,8 +48,16 @@
   LIGHT_ARGUMENTS global const float4 *directional, global const uint2 *cells, global const index_t *light_indices, \
       global const uint *light_bins, SOURCE_LIST(PARAMETER) constant float *bin_edges,                  \
       constant float *slice_edges, constant ViewParams *view
-#define RESOLVE_SCENE \
-  { RESOLVE_SCENE_LIST(GIVEN).half_size = (float2)(0.5f * (float)view->width, 0.5f * (float)view->height) }
+#ifdef GROUPS
+#define GIVEN_GROUP_MASKS .group_masks = light_group_masks + view->light_count + view->directional_count,
+#else
+#define GIVEN_GROUP_MASKS
+#endif
+#define RESOLVE_SCENE                                                                              \
+  {                                                                                                \
+    RESOLVE_SCENE_LIST(GIVEN) GIVEN_GROUP_MASKS                                                    \
+    .half_size = (float2)(0.5f * (float)view->width, 0.5f * (float)view->height)                   \
+  }
 #define RESOLVE_LIGHTS                                                                             \
   {                                                                                                \
     .lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS}, \
@@ -212,6 +220,11 @@ static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const Res
   for (uint i = 0; i < view->directional_count; ++i) {
     const float4 to_light = l->directional[2 * i], light = l->directional[2 * i + 1];
     Real3 back = reflected(*p, real3(REAL(to_light.x), REAL(to_light.y), REAL(to_light.z)));
+#ifdef GROUPS
+    back =
+        scale3(back, groups_meet(l->lights.light_group_masks[view->light_count + i], p->groups) ? REAL(1.0f)
+                                                                                                : REAL(0.0f));
+#endif
 #ifdef DIRECTIONAL_SHADOWS
     back = scale3(back, seen_share(&l->lights.shadows, view->light_count + i));
 #endif
@@ -242,6 +255,9 @@ static inline ShadingPoint resolved_point(const Attributes* a, const Surface* s,
   const Real3 to_viewer = direction_to_viewer(position);
   ShadingPoint p =
       shading_point(position, to_viewer, shading_normal(a, s), s->base_color, s->metallic, s->roughness);
+#ifdef GROUPS
+  p.groups = a->groups;
+#endif
 #ifdef SPECULAR
   p = with_specular(p, s->metallic, s->f0, s->f90);
 #endif

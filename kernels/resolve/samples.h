@@ -6,20 +6,17 @@
 // the mean of the samples' depths is the centroid's. The standard places have their mean in the centre: a
 // pixel that one triangle covers is shaded at its centre, as with one sample.
 //
-// -DSAMPLES        a pixel: 2, 4 or 8, side by side in every image of samples; without, there is nothing here
-// -DSAMPLE_PLACES  x and y of each, 1/256 pixel from the pixel's centre, y up
+// -DSAMPLES, -DSAMPLE_PLACES  kernels/common/sample_places.h; side by side in every image of samples.
+// Without, or with one, there is nothing here
 #pragma once
 
+#include "kernels/common/sample_places.h"
 #include "shared/surface_records.h"
 
-#ifdef SAMPLES
+#if SAMPLES > 1
+
 // Pixels a side of the squares whose edge pixels' attributes have one origin, whatever the tile's size.
 #define EDGE_BLOCK 16u
-
-constant int sample_places[2 * SAMPLES] = {SAMPLE_PLACES};
-
-#define SAMPLE_X(s) ((float)sample_places[2 * (s)] * (1.0f / 256))  // from the centre, pixels
-#define SAMPLE_Y(s) ((float)sample_places[2 * (s) + 1] * (1.0f / 256))
 
 // One surface of a pixel.
 typedef struct PixelSurface {
@@ -39,7 +36,7 @@ static inline PixelSurface next_surface(global const uint* triangles, global con
   for (uint s = first; s < SAMPLES; ++s) {
     if (!(*left >> s & 1u) || triangles[s] != p.triangle) continue;
     *left &= ~(1u << s);
-    ++count, x += sample_places[2 * s], y += sample_places[2 * s + 1];
+    ++count, x += SAMPLE_UNITS_X(s), y += SAMPLE_UNITS_Y(s);
     p.depth += depths[s];
   }
   const float mean = 1.0f / (float)count;

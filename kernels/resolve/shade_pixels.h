@@ -10,6 +10,7 @@
 // -DCLEARCOAT  some surface has a coat: shared/brdf.h
 // -DSPECULAR  some surface has a specular reflectance of its own: shared/brdf.h
 // -DSKIN, -DMINNAERT  some surface has that model: shared/material_models.h
+// -DGROUPS    light groups are asked for: shared/light_table.h
 // -DSHADOWS   some light casts a shadow: shared/shadow_bits.h
 #pragma once
 
@@ -92,6 +93,9 @@ static inline mask_t in_range(Real3 position, PunctualLight light) {
 static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uint index,
                                const Lights* lights) {
   const PunctualLight light = light_at(lights, index);
+#ifdef GROUPS
+  if (!any_lane(lit & groups_meet(light.groups, p->groups))) return sum;
+#endif
   if (!any_lane(lit & in_range(p->position, light))) return sum;
   Arrival arrival = arrival_at(p->position, light);
 #ifdef SKIN
@@ -104,7 +108,7 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
 #endif
   const mask_t reached = (arrival.attenuation > REAL(0.0f)) & facing;
   if (!any_lane(lit & reached)) return sum;
-  arrival.attenuation = arrival.attenuation * light_reaches(light, p->position, NO_INSTANCE);
+  arrival.attenuation = arrival.attenuation * light_reaches(light, p->position, GROUPS_AT(*p));
 #ifdef SHADOWS
   if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
 #endif

@@ -5,6 +5,7 @@
 //   OCCLUSION_MAP, EMISSIVE_MAP, MASK, UNLIT, CLEARCOAT, CLEARCOAT_MAP, CLEARCOAT_ROUGHNESS_MAP,
 //   CLEARCOAT_NORMAL_MAP, SKIN, MINNAERT, SPECULAR, SPECULAR_MAP, SPECULAR_COLOR_MAP
 
+#include "shaders/common/varying.glsl"
 #include "shared/material_params.h"
 
 #ifdef EVERYTHING_ON
@@ -14,13 +15,13 @@
 #endif
 
 #ifdef TEXTURED
-in vec2 fragment_uv0;
+VARYING in vec2 fragment_uv0;
 #endif
 #ifdef UV1
-in vec2 fragment_uv1;
+VARYING in vec2 fragment_uv1;
 #endif
 #ifdef VERTEX_COLOR
-in vec4 fragment_color;
+VARYING in vec4 fragment_color;
 #endif
 #ifdef BASE_COLOR_MAP
 uniform sampler2D base_color_map;

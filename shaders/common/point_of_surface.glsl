@@ -1,9 +1,20 @@
 // From the surface at a fragment to the point that light is reflected at. After surface.glsl,
 // position.glsl and shared/brdf.h.
+//   GROUPS: the object's are asked for (shared/light_table.h)
+#include "shaders/common/fragment_place.glsl"
+
+#ifdef GROUPS
+uniform int groups_of_draw;
+#endif
+
 ShadingPoint point_of_surface(Surface s) {
-  vec3 position = position_of_pixel(gl_FragCoord.xy, gl_FragCoord.z);
+  vec3 place = fragment_place();
+  vec3 position = position_of_pixel(place.xy, place.z);
   vec3 to_viewer = direction_to_viewer(position);
   ShadingPoint p = shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness);
+#ifdef GROUPS
+  p.groups = groups_of_draw;
+#endif
 #ifdef SPECULAR
   p = with_specular(p, s.metallic, s.f0, s.f90);
 #endif

@@ -2,10 +2,10 @@
 
 #include "shaders/common/material.glsl"
 
-in vec3 normal_view;
+VARYING in vec3 normal_view;
 #if defined(NORMAL_MAP) || defined(CLEARCOAT_NORMAL_MAP)
 #define TANGENTS
-in vec4 tangent_view;
+VARYING in vec4 tangent_view;
 #endif
 
 struct Surface {

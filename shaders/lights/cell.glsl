@@ -2,6 +2,7 @@
 //   SLICES: tiles are cut into depth slices.
 #include "shared/light_grid.h"
 #include "shared/slices.h"
+#include "shaders/common/fragment_place.glsl"
 
 uint cell_at(uvec2 pixel, float depth) {
   uint cell = cell_of_pixel(pixel.x, pixel.y, view.tile_size, view.tiles_x);
@@ -11,4 +12,4 @@ uint cell_at(uvec2 pixel, float depth) {
   return cell;
 }
 
-uint cell_here() { return cell_at(uvec2(gl_FragCoord.xy), gl_FragCoord.z); }
+uint cell_here() { return cell_at(uvec2(gl_FragCoord.xy), fragment_place().z); }

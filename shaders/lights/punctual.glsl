@@ -16,4 +16,9 @@ PunctualLight light_at(int index) {
   return light;
 }
 
-vec3 punctual_light(ShadingPoint p, int index) { return radiance_from(p, light_at(index)); }
+vec3 punctual_light(ShadingPoint p, int index) {
+#ifdef GROUPS
+  if (!groups_meet(texelFetch(light_group_masks, index).r, p.groups)) return vec3(0.0);
+#endif
+  return radiance_from(p, light_at(index));
+}

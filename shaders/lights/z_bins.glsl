@@ -2,11 +2,12 @@
 // exact zero.
 //   Z_BINS: there are z-bins.
 #include "shared/slices.h"
+#include "shaders/common/fragment_place.glsl"
 
 #ifdef Z_BINS
 uniform usamplerBuffer light_z_bins;
 
-uint z_bin_here() { return z_bin_of_key(-gl_FragCoord.z); }
+uint z_bin_here() { return z_bin_of_key(-fragment_place().z); }
 
 bool reaches_bin(uint light, uint bin) { return bins_hold(texelFetch(light_z_bins, int(light)).r, bin); }
 #else

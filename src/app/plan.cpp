@@ -7,8 +7,9 @@
 
 #include "app/commands.h"
 #include "app/options.h"
+#include "scene/lights_file.h"
 #include "session/contestants.h"
-#include "session/leaks.h"
+#include "session/group_proposal.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -16,11 +17,11 @@ namespace {
 
 struct PlanOptions {
   SceneChoice scene;
-  std::string technique = "forward_plus", json;
+  std::string technique = "forward_plus", json, groups;
   bool leaks = false;
 };
 
-nlohmann::ordered_json leaks_json(const Leaks& leaks, const Scene& scene) {
+nlohmann::ordered_json leaks_json(const Leaks& leaks, const GroupProposal& proposal, const Scene& scene) {
   nlohmann::ordered_json json = {{"pixels", leaks.pixels},
                                  {"lit", leaks.lit},
                                  {"leaked", leaks.leaked},
@@ -33,6 +34,11 @@ nlohmann::ordered_json leaks_json(const Leaks& leaks, const Scene& scene) {
                                {"node_name", scene.instances[size_t(leak.instance)].name},
                                {"pixels", leak.pixels}});
   }
+  json["groups"] = nlohmann::ordered_json::array();
+  for (const ProposedGroup& group : proposal.groups)
+    json["groups"].push_back(
+        {{"lights", group.lights}, {"exclude", group.exclude}, {"leaked", group.leaked}});
+  json["leaked_with_groups"] = proposal.left;
   return json;
 }
 
@@ -43,14 +49,20 @@ int plan(PlanOptions o) {
   check_given_settings(settings, {&technique});
   check_samples(technique, settings);
   if (!o.json.empty()) check_output_file("--json", o.json);
+  if (!o.groups.empty()) check_output_file("--propose-groups", o.groups);
   const ChosenScene chosen = load_chosen_scene(o.scene);
   const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
   std::optional<Leaks> leaks;
-  if (o.leaks) leaks = find_leaks(chosen.scene, chosen.view, settings.ranges);
+  if (o.leaks || !o.groups.empty()) leaks = find_leaks(chosen.scene, chosen.view, settings.ranges);
+  const GroupProposal proposal = leaks ? propose_groups(*leaks, chosen.scene) : GroupProposal();
+  if (!o.groups.empty()) write_json(o.groups, lights_file_text(with_groups(chosen.scene, proposal)));
   if (o.json.empty()) {
     std::fputs(describe(plan, chosen.scene).c_str(), stdout);
     constexpr size_t most_leaks = 20;
-    if (leaks) std::fputs(describe(*leaks, chosen.scene, most_leaks).c_str(), stdout);
+    if (leaks) {
+      std::fputs(describe(*leaks, chosen.scene, most_leaks).c_str(), stdout);
+      std::fputs(describe(proposal, chosen.scene).c_str(), stdout);
+    }
     return 0;
   }
   nlohmann::ordered_json json = {{"scene", chosen.scene.name},
@@ -71,7 +83,7 @@ int plan(PlanOptions o) {
                                {"volume", by("shadow volumes")},
                                {"why", words_of(light, chosen.scene)}});
   }
-  if (leaks) json["leaks"] = leaks_json(*leaks, chosen.scene);
+  if (leaks) json["leaks"] = leaks_json(*leaks, proposal, chosen.scene);
   write_json(o.json, json.dump(1));
   return 0;
 }
@@ -86,6 +98,8 @@ void add_plan(CommandLine& line) {
   add_technique_option(command, o->technique, technique_names());
   add_exposure_option(command, o->scene);
   command.flag("--leaks", o->leaks, "lists the light that goes through walls, by light and wall");
+  command.option("--propose-groups", o->groups,
+                 "writes a lights file with light groups that keep this light out; lists it too");
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 

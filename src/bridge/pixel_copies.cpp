@@ -1,8 +1,11 @@
 #include "bridge/pixel_copies.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <span>
 
+#include "base/error.h"
 #include "gl/bindings.h"
 
 namespace lightgrid {
@@ -71,19 +74,26 @@ const GlProgram& PixelCopies::program(const std::string& file, const std::vector
 void PixelCopies::to_buffer(const Source& source, GLenum format, GLenum type, const PixelGrid& grid,
                             GLuint buffer) {
   const size_t count = grid.values();
-  const auto* pixel = by_shader_ ? pixel_of<CopiedPixel>(copied_pixels, format, type, count) : nullptr;
+  const bool several = grid.samples > 1;  // which only shaders read
+  const auto* pixel =
+      by_shader_ || several ? pixel_of<CopiedPixel>(copied_pixels, format, type, count) : nullptr;
+  if (several && !pixel) throw machine_error("OpenGL's shaders write no {} samples to a buffer", count);
   if (pixel) {
+    std::vector<std::string> defines = {pixel->define};
+    if (several) defines.push_back(fmt::format("SAMPLES {}", grid.samples));
     bind_sampler_object(Sampler::image, 0);
     bind_texture(Sampler::image, source.texture);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, only_storage_block, buffer);
-    dispatch_pixels(program("shaders/pixels_to_buffer.comp", {pixel->define}), grid);
+    dispatch_pixels(program("shaders/pixels_to_buffer.comp", defines), grid);
     bind_texture(Sampler::image, 0);
     return;
   }
   glBindFramebuffer(GL_READ_FRAMEBUFFER, source.framebuffer);
   if (source.attachment != GL_DEPTH_ATTACHMENT) glReadBuffer(source.attachment);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);  // rows of an odd number of pixels of one byte or two
   glReadPixels(0, 0, grid.width, grid.height, format, type, nullptr);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
 }
 

@@ -14,18 +14,19 @@ namespace lightgrid {
 static constexpr uint mask_group = 64, z_bin_group = 64;
 static constexpr size_t most_entries = 0xffffffffu;
 
-CullPipeline& LightCuller::State::pipeline(DepthBoundsMode mode) {
+CullPipeline& LightCuller::State::pipeline(const TileBounds& bounds) {
   PipelineOptions options;
   // Depth bounds alone need no cull kernels: they are built at the first cull.
   options.portable = options_.portable;
   options.slices = params_.slices > 1;
   options.group_size = options_.group_size;
   options.cones = cones_;
+  options.groups = bounds.groups() != nullptr;
   options.index_bytes = options_.index_bits == 32 || light_count_ > 65536 ? 4 : 2;
   options.light_defines = fmt::format("-DCULL_TEST={}{}", int(options_.cull_test), cones_ ? " -DSPOTS" : "");
-  options.cell_defines = fmt::format("{} -DDEPTH_MODE={}{}", options.light_defines, int(mode),
-                                     options.slices ? " -DSLICES" : "");
-  std::unique_ptr<CullPipeline>& made = pipelines_[int(mode)];
+  options.cell_defines = fmt::format("{} -DDEPTH_MODE={}{}{}", options.light_defines, int(bounds.mode),
+                                     options.slices ? " -DSLICES" : "", options.groups ? " -DGROUPS" : "");
+  std::unique_ptr<CullPipeline>& made = made_pipeline(bounds);
   if (!made || made->options != options) {
     made = options_.shape == KernelShape::lanes ? make_cull_cpu_pipeline(device_, programs_, options)
                                                 : make_cull_gpu_pipeline(device_, programs_, options);
@@ -55,17 +56,28 @@ LightGrid LightCuller::State::cull(const TileBounds& bounds, GridStorage& storag
     finish_queue(device_, "light culling: cells");
   } else {
     follow_eye();
+    if (bounds.groups()) upload_groups();
     const Room before = room();
     try {
       cull_into(grid, bounds, storage, cells);
     } catch (...) {
       set_room(before);
-      pipelines_[int(bounds.mode)].reset();  // frees its buffers
+      made_pipeline(bounds).reset();  // frees its buffers
       throw;
     }
     if (options_.lists == GridLists::masks) make_masks(grid, storage);
   }
   return grid;
+}
+
+void LightCuller::State::upload_groups() {
+  if (groups_uploaded_) return;
+  std::vector<cl_uint> groups;
+  for (const CullLight& light : host_lights_) groups.push_back(light.groups);
+  const size_t bytes = groups.size() * sizeof groups[0];
+  write_buffer(device_, "light culling: light groups", light_groups_.at_least(device_, bytes), groups.data(),
+               bytes);
+  groups_uploaded_ = true;
 }
 
 void LightCuller::State::set_room(const Room& room) {
@@ -101,7 +113,7 @@ void LightCuller::State::cull_into(LightGrid& grid, const TileBounds& bounds, Gr
       run_kernels(grid, bounds, storage, cells, counters);
     } catch (const Error&) {
       if (room() == needed) throw;
-      pipelines_[int(bounds.mode)].reset();
+      made_pipeline(bounds).reset();
       set_room(needed);
       continue;
     }
@@ -118,7 +130,7 @@ void LightCuller::State::cull_into(LightGrid& grid, const TileBounds& bounds, Gr
       set_room(more);
     };
     if (counters[0] > params_.pool_batches) {
-      grow(counters[0], 16 * pipeline(bounds.mode).candidate_bytes(), "batches of 16 candidate lights",
+      grow(counters[0], 16 * pipeline(bounds).candidate_bytes(), "batches of 16 candidate lights",
            &Room::pool_batches);
     } else if (counters[1] > params_.staging_units) {
       grow(counters[1], 64, "units of 16 list entries", &Room::staging_units);
@@ -137,12 +149,12 @@ void LightCuller::State::cull_into(LightGrid& grid, const TileBounds& bounds, Gr
 void LightCuller::State::run_kernels(LightGrid& grid, const TileBounds& bounds, GridStorage& storage,
                                      const cl::Buffer& cells, uint32_t (&counters)[counter_count]) {
   const cl::Buffer indices = storage.indices(params_.index_capacity * size_t(grid.index_bits / 8));
-  CullPipeline& kernels = pipeline(bounds.mode);
+  CullPipeline& kernels = pipeline(bounds);
   upload_params();
   if (z_bin_count_ > 1) enqueue_z_bins(grid, storage);
   kernels.prepare(params_);
-  kernels.enqueue(
-      {params_, params_upload_.buffer(), lights_.get(), bounds.values, slices_, counters_, cells, indices});
+  kernels.enqueue({params_, params_upload_.buffer(), lights_.get(), light_groups_.get(), bounds.values,
+                   bounds.groups, slices_, counters_, cells, indices});
   read_buffer(device_, "light culling", counters_, counters, sizeof counters);
 }
 

@@ -56,16 +56,18 @@ class CullCpuPipeline : public CullPipeline {
     const size_t most = items_a_unit * size_t(device_.info().compute_units),
                  rounds = (quads + most - 1) / most;
     launch(device_, "cull_lights", cull_, cl::NDRange((quads + rounds - 1) / rounds), cl::NDRange(1),
-           records_.get(), lists_.get(), run_counts_.get(), runs_, cl_uint(spreading_step(quads)), job.bounds,
-           job.slices, pool_.get(), staged_.get(), cell_counts_.get(), bins_.get(), job.counters,
-           job.params_buffer);
+           records_.get(), lists_.get(), run_counts_.get(), runs_, cl_uint(spreading_step(quads)),
+           job.light_groups, job.bounds, job.tile_groups, job.slices, pool_.get(), staged_.get(),
+           cell_counts_.get(), bins_.get(), job.counters, job.params_buffer);
     const size_t run = (bins + most_write_items - 1) / most_write_items;
     launch(device_, "write_lists", write_, cl::NDRange((bins + run - 1) / run), cl::NDRange(1), bins_.get(),
            cl_uint(run), cell_counts_.get(), staged_.get(), job.cells, job.indices, job.counters,
            job.params_buffer);
   }
 
-  size_t candidate_bytes() const override { return (options.cones ? 10 : 6) * sizeof(float); }
+  size_t candidate_bytes() const override {
+    return ((options.cones ? 10 : 6) + options.groups) * sizeof(float);
+  }
 
   size_t memory_bytes() const override {
     return records_.bytes() + lists_.bytes() + run_counts_.bytes() + pool_.bytes() + staged_.bytes() +
@@ -125,8 +127,9 @@ class CullGpuPipeline : public CullPipeline {
            cl::NDRange(project_items), job.lights, views_.get(), light_marks_.get(), job.counters,
            job.params_buffer);
     launch(device_, "cull_lights", cull_, cl::NDRange(blocks(p) * cull_items_), cl::NDRange(cull_items_),
-           views_.get(), light_marks_.get(), job.bounds, job.slices, ids_.get(), places_.get(), totals_.get(),
-           cell_marks_.get(), job.cells, job.counters, job.params_buffer);
+           views_.get(), light_marks_.get(), job.light_groups, job.bounds, job.tile_groups, job.slices,
+           ids_.get(), places_.get(), totals_.get(), cell_marks_.get(), job.cells, job.counters,
+           job.params_buffer);
     launch(device_, "write_lists", write_, cl::NDRange(blocks(p) * write_items_), cl::NDRange(write_items_),
            ids_.get(), places_.get(), totals_.get(), cell_marks_.get(), job.cells, job.indices, job.counters,
            job.params_buffer);

@@ -38,6 +38,7 @@ struct CullLight {
   glm::dvec3 direction{0, 0, -1};  // unit, the spot's axis
   // Cosine of a spot's outer half-angle; below 0 (no cone, or one past 90 degrees) the sphere decides.
   double cos_outer = -1;
+  uint32_t groups = 0xffffffffu;  // bits: read where tiles have groups (TileBounds::groups)
   bool operator==(const CullLight&) const = default;
 };
 
@@ -67,6 +68,9 @@ struct TileBounds {
   cl::Buffer values;
   DepthBoundsMode mode = DepthBoundsMode::minmax;
   std::shared_ptr<const BoundsView> view;  // whose surfaces `values` are of now
+  // The groups of the surfaces in each tile, a word a tile in the order of `values`: a light that has none of
+  // them is not listed there. Null, as the culler gives it: every light may be. The caller sets and keeps it.
+  cl::Buffer groups{};
 };
 
 struct DepthBounds {

@@ -73,6 +73,29 @@ GlTexture make_texture_2d(GLenum format, int width, int height, int levels) {
   return texture;
 }
 
+GlTexture make_texture_of_samples(GLenum format, int width, int height, int samples) {
+  check_gl("seen when a texture was made");
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &name);
+  GlTexture texture(name);
+  GLint made = 0;
+  GLenum error = GL_NO_ERROR;
+  if (samples <= most) {
+    glTextureStorage2DMultisample(name, samples, format, width, height, GL_TRUE);
+    error = glGetError();
+    glGetTextureLevelParameteriv(name, 0, GL_TEXTURE_SAMPLES, &made);
+  }
+  if (error != GL_NO_ERROR)
+    throw machine_error("OpenGL has no room for a texture of {} x {} pixels with {} samples ({})", width,
+                        height, samples, gl_error_name(error));
+  if (made != samples)
+    throw machine_error("OpenGL on this machine has no {} samples a pixel; {} are possible", samples,
+                        made ? made : most);
+  return texture;
+}
+
 GlTexture make_buffer_texture(GLenum format, GLuint buffer) {
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);

@@ -1,6 +1,7 @@
 // Depth first, so that each pixel is shaded once and culling has depth bounds for each tile.
 #include "passes/depth_prepass.h"
 
+#include "passes/common/group_stencil.h"
 #include "renderer/drawing/draw.h"
 
 namespace lightgrid {
@@ -24,14 +25,25 @@ static uint32_t features_of_depth(uint32_t features) {
   return features & feature_mask ? features & (features_of_base_color | feature_mask) : 0;
 }
 
-DepthImage depth_prepass(Work& work) {
-  auto pass = work.timer.pass("depth_prepass", "gl");
-  const GLuint framebuffer = work.depth_framebuffer();
+void draw_depth(Work& work, GLuint framebuffer) {
   begin_depth(work, framebuffer, GL_GREATER);
   draw_list(work, work.opaque, DrawStreams::positions_where_possible,
             work.programs({"shaders/depth.vert", "shaders/depth.frag", {}, false, features_of_depth}));
-  pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * 4);
-  return {framebuffer};
+}
+
+DepthImage depth_prepass(Work& work, GLuint group_numbers) {
+  auto pass = work.timer.pass("depth_prepass", "gl");
+  const GLuint depth_alone = work.depth_framebuffer();
+  const GLuint framebuffer =
+      group_numbers ? work.targets.framebuffer({group_numbers}, work.targets.depth()) : depth_alone;
+  begin_depth(work, framebuffer, group_numbers ? GL_GEQUAL : GL_GREATER);
+  std::vector<std::string> defines;
+  if (group_numbers) defines.emplace_back("GROUP_LOCATION 0");
+  draw_list(work, work.opaque, DrawStreams::positions_where_possible,
+            work.programs({"shaders/depth.vert", "shaders/depth.frag", defines, false, features_of_depth}));
+  const size_t number_bytes = group_numbers ? group_number_bytes(work.plan) : 0;
+  pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * (4 + number_bytes));
+  return {depth_alone};
 }
 
 DepthImage no_depth_yet(Work& work) {
@@ -57,10 +69,16 @@ NormalImage fill_normals(Work& work) {
   glClearNamedFramebufferfv(normals.framebuffer, GL_COLOR, 0, nothing);
   std::vector<std::string> defines;
   if (normals.layout->define) defines.emplace_back(normals.layout->define);
-  draw_list(work, work.opaque, DrawStreams::all,
-            work.programs({"shaders/scene.vert", "shaders/normals.frag", std::move(defines), false,
-                           features_of_normals}));
-  pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * (4 + normals.layout->image.bytes));
+  if (normals.group_numbers) {
+    const GLuint number[4] = {0, 0, 0, 0};
+    glClearNamedFramebufferuiv(normals.framebuffer, GL_COLOR, 1, number);
+    defines.emplace_back("GROUP_LOCATION 1");
+  }
+  draw_grouped(work, work.opaque, normals.framebuffer,
+               work.programs({"shaders/scene.vert", "shaders/normals.frag", std::move(defines), false,
+                              features_of_normals}));
+  pass.moves(work.gpu.in_gl().geometry_bytes(),
+             work.grid().values() * (4 + normals.layout->image.bytes + group_number_bytes(work.plan)));
   return normals;
 }
 

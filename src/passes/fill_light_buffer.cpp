@@ -15,6 +15,7 @@ std::string defines_of_light_buffer(const Seen& seen, bool lanes) {
   defines += fmt::format(" -DBUFFER_BITS={}", s.buffer_bits);
   if (normal_layout(s).define) defines += fmt::format(" -D{}", normal_layout(s).define);
   if (has_fifth_term(s)) defines += " -DPREPASS_FIFTH_TERM";
+  defines += group_number_define(seen.plan);
   return defines;
 }
 
@@ -67,7 +68,7 @@ LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const No
   const auto [items, group] = over_pixels(work, s.kernels.lanes, 16, 16);
   kernel.launch(*work.renderer.cl, "fill_light_buffer", items, group,
                 ClArguments{{"normals", normals.image->cl_buffer()}, {"depth", depth.values}} +
-                    work.light_arguments() +
+                    group_number_arguments(work.plan, normals.group_numbers) + work.light_arguments() +
                     ClArguments{{"cells", lights.in_cl->cells},
                                 {"indices", lights.in_cl->indices},
                                 {"light_bins", lights.in_cl->z_bins},

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cl/transfer.h"
+#include "raster/raster_samples.h"
 
 namespace lightgrid {
 namespace {
@@ -51,14 +52,6 @@ class PixelEdges : public PassCache {
   PassKernels kernels_;
   GrowingBuffer triangles_, depths_, edges_;
 };
-
-std::string sample_defines(int samples) {
-  if (samples == 1) return "";
-  std::string places;
-  for (const glm::ivec2& p : raster_samples(samples))
-    places += fmt::format("{}{},{}", places.empty() ? "" : ",", p.x, p.y);
-  return fmt::format(" -DSAMPLES={} -DSAMPLE_PLACES={}", samples, places);
-}
 
 PixelSurfaces find_edges(Work& work, Cached<PixelEdges>& cache, const Visibility& image,
                          const RasterBuffers& raster) {

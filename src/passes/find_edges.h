@@ -20,9 +20,6 @@ struct PixelSurfaces {
 PixelSurfaces find_edges(Work& work, Cached<PixelEdges>& cache, const Visibility& image,
                          const RasterBuffers& raster);
 
-// -DSAMPLES and -DSAMPLE_PLACES of kernels/resolve/samples.h.
-std::string sample_defines(int samples);
-
 // Waits.
 SampleFigures sample_figures(Work& work, const Visibility& image, const PixelSurfaces& surfaces);
 

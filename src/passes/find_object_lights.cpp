@@ -9,9 +9,21 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "scene/light_groups.h"
 
 namespace lightgrid {
 namespace {
+
+// Those that the groups of the instance let in. All of them where nothing calls for groups.
+std::vector<uint32_t> lights_of_groups(const Seen& seen, int instance, const std::vector<uint32_t>& all) {
+  if (!seen.plan.groups) return all;
+  const uint32_t groups = seen.scene.instances[size_t(instance)].groups;
+  std::vector<uint32_t> met;
+  std::ranges::copy_if(all, std::back_inserter(met), [&](uint32_t light) {
+    return groups_meet(seen.scene.lights[size_t(seen.plan.local[light])].groups, groups);
+  });
+  return met;
+}
 
 std::vector<uint32_t> lights_reaching(const ViewBox& box, const std::vector<LightReach>& reaches,
                                       const std::vector<uint32_t>& candidates) {
@@ -35,7 +47,8 @@ void ObjectLights::update(Work& work, const DrawList& list) {
   for (const DrawItem& item : list) {
     const Aabb& bounds = work.scene.meshes[work.scene.instances[item.instance].mesh].bounds;
     const ViewBox whole = box_in_view(work.transforms[item.instance].view_from_object, bounds);
-    add_item(work, item, lights_reaching(whole, reaches_, every_light));
+    add_item(work, item,
+             lights_reaching(whole, reaches_, lights_of_groups(work, item.instance, every_light)));
   }
   for (Object& object : objects_) {
     object.ranges =

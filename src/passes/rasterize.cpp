@@ -47,6 +47,8 @@ void set_surface_instances(const Seen& seen, std::span<const int> instances,
     }
     record.material = uint(mesh.material);
     record.flags = t.mirrored ? INSTANCE_MIRRORED : 0;
+    if (seen.plan.groups)
+      record.flags |= seen.plan.group_of_instance[size_t(instances[k])] << INSTANCE_GROUP_SHIFT;
   }
 }
 

@@ -1,6 +1,10 @@
 #include "passes/read_outs.h"
 
+#include <cmath>
+
 #include "passes/common/gbuffer.h"
+#include "passes/depth_prepass.h"
+#include "raster/raster_samples.h"
 #include "renderer/drawing/draw.h"
 #include "renderer/upload/culler_input.h"
 #include "scene/grid_lists.h"
@@ -8,7 +12,62 @@
 
 namespace lightgrid {
 
+namespace {
+
+// Whether a pixel's samples and its centre see one plane. A depth is linear on the screen.
+bool sees_plane(float centre, const float* samples, std::span<const glm::ivec2> places) {
+  double xx = 0, xy = 0, yy = 0, xd = 0, yd = 0, most = centre;
+  for (size_t s = 0; s < places.size(); ++s) {
+    const double x = places[s].x, y = places[s].y, d = double(samples[s]) - centre;
+    xx += x * x, xy += x * y, yy += y * y, xd += x * d, yd += y * d,
+        most = std::max(most, double(samples[s]));
+  }
+  // The gradient of least squares; of two samples the one along their line.
+  const double determinant = xx * yy - xy * xy;
+  const double gx = determinant > 0 ? (xd * yy - yd * xy) / determinant : xd / (xx + yy),
+               gy = determinant > 0 ? (yd * xx - xd * xy) / determinant : yd / (xx + yy);
+  constexpr double rounding = 0x1p-20;
+  for (size_t s = 0; s < places.size(); ++s) {
+    if (samples[s] == 0 ||
+        std::abs(centre + gx * places[s].x + gy * places[s].y - samples[s]) > rounding * most)
+      return false;
+  }
+  return centre != 0;
+}
+
+// Of one sample a pixel, in a frame of several.
+GlTexture depth_of_centres(Work& work) {
+  GlTexture depth = make_texture_2d(GL_DEPTH_COMPONENT32F, work.grid().width, work.grid().height);
+  draw_depth(work, make_framebuffer({}, depth.name()).name());
+  return depth;
+}
+
+// With one sample nothing: the frame's depth is that of centres.
+GlTexture centres_of_samples(Work& work) {
+  return work.grid().samples > 1 ? depth_of_centres(work) : GlTexture();
+}
+
+std::vector<float> read_depth_of_samples(Work& work) {
+  SharedBuffer& copy = work.shared_samples("depth", 4);
+  work.renderer.pixel_copies.to_buffer({work.depth_framebuffer(), GL_DEPTH_ATTACHMENT, work.targets.depth()},
+                                       GL_DEPTH_COMPONENT, GL_FLOAT, work.grid(), copy.gl_buffer());
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  std::vector<float> samples(work.grid().values()), depth(work.grid().pixels());
+  glGetNamedBufferSubData(copy.gl_buffer(), 0, GLsizeiptr(samples.size() * 4), samples.data());
+  const GlTexture centres = depth_of_centres(work);
+  const GlFramebuffer of_centres = make_framebuffer({}, centres.name());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, of_centres.name());
+  glReadPixels(0, 0, work.grid().width, work.grid().height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+  const std::span<const glm::ivec2> places = raster_samples(work.grid().samples);
+  for (size_t i = 0; i < depth.size(); ++i)
+    if (!sees_plane(depth[i], &samples[i * places.size()], places)) depth[i] = 0;
+  return depth;
+}
+
+}  // namespace
+
 std::vector<float> read_depth(Work& work) {
+  if (work.grid().samples > 1) return read_depth_of_samples(work);
   std::vector<float> depth(work.grid().values());
   glBindFramebuffer(GL_READ_FRAMEBUFFER, work.depth_framebuffer());
   glReadPixels(0, 0, work.grid().width, work.grid().height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
@@ -18,7 +77,9 @@ std::vector<float> read_depth(Work& work) {
 std::vector<uint32_t> indices_drawn(Work& work, const std::function<void()>& draw) {
   const int width = work.grid().width, height = work.grid().height;
   const GlTexture target = make_texture_2d(GL_R32UI, width, height);
-  const GlFramebuffer framebuffer = make_framebuffer({target.name()}, work.targets.depth());
+  const GlTexture of_centres = centres_of_samples(work);
+  const GlFramebuffer framebuffer =
+      make_framebuffer({target.name()}, of_centres ? of_centres.name() : work.targets.depth());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   glViewport(0, 0, width, height);
   glClearNamedFramebufferuiv(framebuffer.name(), GL_COLOR, 0, &no_cell);
@@ -26,7 +87,7 @@ std::vector<uint32_t> indices_drawn(Work& work, const std::function<void()>& dra
   glDisable(GL_BLEND);
   work.bind_lights();
   draw();
-  std::vector<uint32_t> cells(work.grid().values());
+  std::vector<uint32_t> cells(work.grid().pixels());
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glReadPixels(0, 0, width, height, GL_RED_INTEGER, GL_UNSIGNED_INT, cells.data());
   return cells;
@@ -123,7 +184,8 @@ struct SurfaceTargets {
       textures.push_back(make_texture_2d(GL_RGBA32F, width, height));
       names.push_back(textures.back().name());
     }
-    framebuffer = make_framebuffer(names, work.targets.depth());
+    centres = centres_of_samples(work);
+    framebuffer = make_framebuffer(names, centres ? centres.name() : work.targets.depth());
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
     glViewport(0, 0, width, height);
     for (size_t i = 0; i < textures.size(); ++i) clear(int(i));
@@ -144,6 +206,7 @@ struct SurfaceTargets {
 
   int width, height;
   std::vector<GlTexture> textures;
+  GlTexture centres;
   GlFramebuffer framebuffer;
 };
 
@@ -212,7 +275,9 @@ class TriangleTarget {
   explicit TriangleTarget(Work& work)
       : work_(work),
         texture_(make_texture_2d(GL_RG32UI, work.grid().width, work.grid().height)),
-        framebuffer_(make_framebuffer({texture_.name()}, work.targets.depth())) {}
+        centres_(centres_of_samples(work)),
+        framebuffer_(make_framebuffer({texture_.name()}, centres_ ? centres_.name() : work.targets.depth())) {
+  }
 
   std::vector<glm::uvec2> drawn(const DrawList& list, GLenum depth_test) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
@@ -224,7 +289,7 @@ class TriangleTarget {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(depth_test);
     draw_triangles(work_, list, {}, [](int instance) { return uint32_t(instance); });
-    std::vector<glm::uvec2> found(work_.grid().values());
+    std::vector<glm::uvec2> found(work_.grid().pixels());
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     glReadPixels(0, 0, work_.view.width, work_.view.height, GL_RG_INTEGER, GL_UNSIGNED_INT, found.data());
     return found;
@@ -234,7 +299,7 @@ class TriangleTarget {
 
  private:
   Work& work_;
-  GlTexture texture_;
+  GlTexture texture_, centres_;
   GlFramebuffer framebuffer_;
 };
 
@@ -249,7 +314,7 @@ ShownTriangles read_triangles(Work& work) {
     shown.opaque.push_back(none ? SceneTriangle{}
                                 : scene_triangle(int(found.x), &indices[3 * size_t(found.y)]));
   }
-  shown.blended.assign(work.grid().values(), false);
+  shown.blended.assign(work.grid().pixels(), false);
   if (work.blended.empty()) return shown;
   const std::vector<glm::uvec2> over = target.drawn(work.blended, GL_GEQUAL);
   for (size_t i = 0; i < over.size(); ++i) shown.blended[i] = over[i].x != TriangleTarget::none;

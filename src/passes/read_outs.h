@@ -16,7 +16,8 @@
 
 namespace lightgrid {
 
-// The depth image of the last frame: width * height, row 0 at the bottom, 0 for background.
+// The depth image of the last frame: width * height, row 0 at the bottom, 0 for background. With several
+// samples a pixel: at centres, and 0 too where samples and centre do not see one plane.
 std::vector<float> read_depth(Work& work);
 
 inline constexpr uint32_t no_cell = 0xffffffffu;

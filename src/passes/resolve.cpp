@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cl/launch.h"
+#include "raster/raster_samples.h"
 #include "renderer/upload/lights.h"
 
 namespace lightgrid {
@@ -113,6 +114,15 @@ class Resolver : public PassCache {
 
 namespace {
 
+// Of kernels that write the numbers of groups' masks.
+std::string group_numbers_out(const FramePlan& plan) {
+  return has_group_numbers(plan) ? " -DGROUP_NUMBERS" + group_number_define(plan) : "";
+}
+
+ClArguments group_numbers_out(SharedBuffer* numbers) {
+  return numbers ? ClArguments{{"group_numbers", numbers->cl_buffer()}} : ClArguments();
+}
+
 Resolver& resolving(Work& work, Cached<Resolver>& cache) {
   Resolver& r = cache.of(work);
   r.upload(work);
@@ -137,7 +147,8 @@ cl_float4 background(const Seen& seen) {
 }  // namespace
 
 // Over the image of resolve(): the pixels whose samples see several surfaces.
-static void resolve_edges(Work& work, Resolver& r, const VisibilityBuffer& visible, const LightSource& lights) {
+static void resolve_edges(Work& work, Resolver& r, const VisibilityBuffer& visible,
+                          const LightSource& lights) {
   NamedKernel& kernel =
       r.kernel(work, "resolve_edges", lights.in_cl->defines + sample_defines(work.grid().samples));
   auto pass = work.timer.pass("resolve_edges", "cl");
@@ -171,7 +182,9 @@ GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const Visibilit
   Resolver& r = resolving(work, cache);
   const GBufferInCl g = gbuffer_in_cl_of(work, base_lighting, TargetUse::gbuffer);
   const bool image = base_lighting == BaseLighting::in_image;
-  NamedKernel& kernel = r.kernel(work, "resolve_gbuffer", fmt::format(" -DBUFFER_BITS={}", g.layout->bits));
+  NamedKernel& kernel =
+      r.kernel(work, "resolve_gbuffer",
+               fmt::format(" -DBUFFER_BITS={}{}", g.layout->bits, group_numbers_out(work.plan)));
   auto pass = work.timer.pass("resolve_gbuffer", "cl");
   r.launch(work, kernel, "resolve_gbuffer",
            visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) +
@@ -180,7 +193,8 @@ GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const Visibilit
                            {"second", g.surfaces[1]->cl_buffer()},
                            {"coats", g.in_cl(gbuffer_coat)},
                            {"specular", g.in_cl(gbuffer_specular)},
-                           {"image", image ? g.image->cl_buffer() : cl::Buffer()}});
+                           {"image", image ? g.image->cl_buffer() : cl::Buffer()}} +
+               group_numbers_out(g.group_numbers));
   pass.moves(work.grid().values() * (image ? 8 : 4) + r.scene(work).memory_bytes(),
              work.grid().values() * (g.bytes() + (image ? 16 : 0)));
   return g;
@@ -190,12 +204,14 @@ NormalsInCl resolve_normals(Work& work, Cached<Resolver>& cache, const Visibilit
   Resolver& r = resolving(work, cache);
   const NormalsInCl normals = normals_in_cl_of(work, TargetUse::gbuffer);
   const char* define = normals.layout->define;
-  NamedKernel& kernel = r.kernel(work, "resolve_normals", define ? fmt::format(" -D{}", define) : "");
+  NamedKernel& kernel = r.kernel(work, "resolve_normals",
+                                 (define ? fmt::format(" -D{}", define) : "") + group_numbers_out(work.plan));
   auto pass = work.timer.pass("resolve_normals", "cl");
   r.launch(work, kernel, "resolve_normals",
            ClArguments{{"triangles", visible.image.triangle}} +
                r.arguments(work, visible.raster, visible.surfaces) +
-               ClArguments{{"normals", normals.image->cl_buffer()}});
+               ClArguments{{"normals", normals.image->cl_buffer()}} +
+               group_numbers_out(normals.group_numbers));
   pass.moves(work.grid().values() * 4 + r.scene(work).memory_bytes(),
              work.grid().values() * normals.layout->image.bytes);
   return normals;

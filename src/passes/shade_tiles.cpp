@@ -40,6 +40,7 @@ class TileShading : public PassCache {
     const Settings& settings = seen.plan.settings;
     std::string defines = fmt::format("-DBUFFER_BITS={}", settings.buffer_bits) +
                           light_defines(seen, kernels.lanes, settings.brdf);
+    defines += group_number_define(seen.plan);
     if (seen.plan.clearcoat) defines += " -DCLEARCOAT";
     if (seen.plan.specular) defines += " -DSPECULAR";
     for (const char* define : model_defines(seen.plan)) defines += fmt::format(" -D{}", define);
@@ -75,7 +76,7 @@ GBufferInCl gbuffer_to_cl(Work& work, const GBuffer& gbuffer) {
   if (base_lighting)
     copy_attachment(work, gbuffer, 2, work.targets.texture("color", GL_RGBA32F), GL_FLOAT, *in_cl.image);
   SharedBuffer::hand_to_cl(copies);
-  const size_t bytes = values * (gbuffer.bytes() + (base_lighting ? 16 : 0));
+  const size_t bytes = values * (gbuffer.bytes() - gbuffer.group_bytes + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
   return in_cl;
 }
@@ -106,7 +107,7 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
                           {"specular", gbuffer.in_cl(gbuffer_specular)},
                           {"models", s.models.buffer()},
                           {"depth", depth.values}} +
-                  work.light_arguments() +
+                  group_number_arguments(work.plan, gbuffer.group_numbers) + work.light_arguments() +
                   ClArguments{{"cells", lights.in_cl->cells},
                               {"indices", lights.in_cl->indices},
                               {"light_bins", lights.in_cl->z_bins},

@@ -7,7 +7,8 @@
 namespace lightgrid {
 
 // Adds the lights of the pixel's cell to the geometry buffer's image. Where OpenGL drew that and blends
-// surfaces over it, the image is copied back; else it stays in OpenCL's buffer.
+// surfaces over it, the image is copied back; else it stays in OpenCL's buffer. The numbers of light groups
+// are in OpenCL already (group_numbers_to_cl).
 ShadedImage shade_tiles(Work& work, Cached<TileShading>& cache, const GBuffer& gbuffer,
                         const DepthBuffer& depth, const LightSource& lights);
 

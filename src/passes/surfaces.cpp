@@ -5,10 +5,22 @@
 #include "passes/find_shadows.h"
 #include "passes/resolve.h"
 #include "passes/shade_forward.h"
+#include "passes/tile_groups.h"
 
 namespace lightgrid {
 
-Surfaces find_surfaces(RenderView& v, bool depth_in_cl) {
+static Surfaces draw_with_groups(RenderView& v, bool depth_in_cl) {
+  const GLuint numbers = group_number_image(v);
+  const DepthImage depth = depth_prepass(v, numbers);
+  SharedBuffer& in_cl =
+      group_numbers_to_cl(v, v.targets.framebuffer({numbers}, v.targets.depth()), 0, numbers);
+  Surfaces surfaces = surfaces_of(v, depth, depth_in_cl);
+  surfaces.group_numbers = &in_cl;
+  return surfaces;
+}
+
+Surfaces find_surfaces(RenderView& v, bool depth_in_cl, bool with_groups) {
+  if (v.plan.opengl && with_groups && v.plan.group_tiles) return draw_with_groups(v, depth_in_cl);
   if (v.plan.opengl) return surfaces_of(v, depth_prepass(v), depth_in_cl);
   Surfaces surfaces{.visible = rasterize(v, v.caches)};
   surfaces.depth = surfaces.visible->depth();
@@ -43,6 +55,16 @@ const DepthBounds& bounds_of(RenderView& v, Surfaces& surfaces) {
   if (surfaces.bounds) return *surfaces.bounds;
   const bool read = v.plan.settings.depth_bounds != DepthBoundsMode::none;
   return surfaces.bounds.emplace(depth_bounds(v, v.culler(), read ? depth_of(v, surfaces) : DepthBuffer()));
+}
+
+DepthBounds cull_bounds_of(RenderView& v, Surfaces& surfaces) {
+  DepthBounds bounds = bounds_of(v, surfaces);
+  if (!v.plan.group_tiles) return bounds;
+  const CullParams& tiles = v.culler().params();
+  bounds.opaque.groups = surfaces.visible ? tile_groups(v, v.caches.tile_groups, tiles, *surfaces.visible)
+                                          : tile_groups(v, v.caches.tile_groups, tiles,
+                                                        *surfaces.group_numbers, depth_of(v, surfaces));
+  return bounds;
 }
 
 const TileDistances& distances_of(RenderView& v, Surfaces& surfaces) {

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "plan/dim_lights.h"
 #include "plan/visibility.h"
+#include "scene/light_groups.h"
 
 namespace lightgrid {
 namespace {
@@ -176,6 +177,49 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
       {"32-bit light indices", plan.index_bits == 32, fmt::format("{} point and spot lights", local.size())});
 }
 
+void number_groups(const Scene& scene, FramePlan& plan) {
+  plan.groups = true;
+  InstanceMasks masks = instance_masks(scene);
+  plan.group_masks = std::move(masks.masks), plan.group_of_instance = std::move(masks.of_instance);
+}
+
+// The first light or instance that lacks a group, and how many there are of both.
+std::string group_witness(const Scene& scene, size_t masks) {
+  const auto lacks = [](const auto& owner) { return owner.groups != all_groups; };
+  const auto light = std::ranges::find_if(scene.lights, lacks);
+  const auto instance = std::ranges::find_if(scene.instances, lacks);
+  const std::string first =
+      light != scene.lights.end()
+          ? fmt::format("{} has {}", light_witness(scene, int(light - scene.lights.begin())),
+                        words_of_groups(scene, light->groups))
+          : fmt::format("node {} \"{}\" has {}", instance - scene.instances.begin(), instance->name,
+                        words_of_groups(scene, instance->groups));
+  return fmt::format("{}; {} of {} lights and {} of {} instances lack a group, which have {} different masks",
+                     first, std::ranges::count_if(scene.lights, lacks), scene.lights.size(),
+                     std::ranges::count_if(scene.instances, lacks), scene.instances.size(), masks);
+}
+
+// OpenGL's surfaces have numbers of masks, of so many bits and of one sample a pixel, and OpenCL's any mask.
+void plan_group_tiles(const TechniqueNeeds& needs, FramePlan& plan) {
+  const Settings& s = plan.settings;
+  plan.group_tiles =
+      plan.groups && plan.light_grid && needs.group_tiles && s.group_tiles &&
+      (!plan.opengl || (plan.group_masks.size() <= size_t(1) << s.group_bits && s.samples == 1));
+}
+
+void plan_groups(const Scene& scene, const TechniqueNeeds& needs, FramePlan& plan) {
+  if (calls_for_groups(scene)) number_groups(scene, plan);
+  if (plan.groups && needs.group_stencil) {
+    plan.group_stencil =
+        std::min(plan.settings.group_stencil, most_stencil_groups(plan.settings.volume_culling));
+    plan.stencil = plan.stencil || plan.group_stencil > 0;
+  }
+  plan_group_tiles(needs, plan);
+  plan.decisions.push_back({"light groups", plan.groups,
+                            plan.groups ? group_witness(scene, plan.group_masks.size()) + needs.groups_of
+                                        : "not called for: every light and every instance has all groups"});
+}
+
 // Shadows of all lights that cast are found: for any view.
 void shadow_all(const Scene& scene, FramePlan& plan) {
   const auto casts = [&](int i) { return scene.lights[size_t(i)].casts_shadow; };
@@ -299,6 +343,8 @@ void turn_everything_on(const Scene& scene, const View& view, FramePlan& plan, c
   plan.world_grid = needs.world_grid;
   plan.local_lights = plan.spots = plan.virtual_lights = plan.directional = plan.base_lighting = plan.blend =
       plan.mask = true;
+  number_groups(scene, plan);
+  plan_group_tiles(needs, plan);
   if (needs.shadows && plan.settings.shadows != ShadowMethod::none) {
     shadow_all(scene, plan);
     if (needs.own_shadows) take_own_shadows(scene, view, needs, plan);
@@ -400,6 +446,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
          plan.world_grid ? light_witness(scene, plan.local[0]) : "no light has a place"});
   }
   plan_slices(view, needs, farthest_m, plan);
+  plan_groups(scene, needs, plan);
   plan_shadows(scene, view, needs, instances, plan);
   plan_samples(scene, plan);
   plan.shadow_bytes = settings.soft_shadows() || settings.picks_shadows() ||

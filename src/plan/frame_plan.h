@@ -68,6 +68,8 @@ struct TechniqueNeeds {
   bool chosen_raster = false;       // draws with OpenGL, or with the setting raster=opencl without
   bool world_grid = false;          // light lists in cells of the world
   bool shadows = true;              // light loops ask for shadows
+  bool group_tiles = false;         // its tiles may have the light groups of their surfaces
+  bool group_stencil = false;       // that of light volumes may test them in the stencil
   int most_samples = 1;             // a pixel, that its passes can take
   // The technique finds those of point and spot lights itself, of so many lights at most; the pass that all
   // techniques share is then left those of directional lights.
@@ -79,6 +81,7 @@ struct TechniqueNeeds {
   const char* no_light_grid = "the technique reads none";
   const char* no_slices = "the technique uses none";
   const char* no_shadows = "";
+  const char* groups_of = "";       // which lights' groups light loops ask for, if not all lights'
   const char* shadows_by = "rays";  // what finds shadows, in words
 };
 
@@ -101,6 +104,13 @@ struct FramePlan {
   // Some light of the scene casts a shadow: light loops ask whether it reaches a point
   // (shared/light_table.h). The same for every view and time, so that a camera that moves compiles nothing.
   bool light_reaches = false;
+  // Some light or instance of the scene lacks a group: light loops ask whether groups meet
+  // (scene/light_groups.h). The same for every view.
+  bool groups = false;
+  std::vector<uint32_t> group_masks;        // with them: all different masks of instances, and
+  std::vector<uint32_t> group_of_instance;  // of each of the scene's instances the index of its own
+  bool group_tiles = false;                 // tiles of the light grid have the groups of their surfaces
+  int group_stencil = 0;                    // bits of the stencil that have groups; 0: shaders test them
   bool shadows = false;              // shadows of some light must be found in this frame
   std::vector<LightShadow> casting;  // all lights that cast, in scene order
   // By index into `local` and then into `directional_lights`, 1: of this light. Empty if `shadows` is false.

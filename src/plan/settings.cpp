@@ -121,6 +121,12 @@ std::vector<Setting>& all_settings() {
                                          {"stencil", VolumeCulling::stencil},
                                          {"scissor", VolumeCulling::scissor},
                                          {"depth-bounds", VolumeCulling::depth_bounds}})},
+      {"group-ids", "bits of the number that a pixel's mask of light groups has beside its surface",
+       numbers(&Settings::group_bits, {"8", "16"})},
+      {"group-stencil", "bits of the stencil that have the light groups of a pixel in place of that number",
+       named(&Settings::group_stencil, {{"off", 0}, {"4", 4}, {"6", 6}, {"8", 8}})},
+      {"group-tiles", "tiles list only lights of groups that a surface in them has",
+       named(&Settings::group_tiles, {{"on", true}, {"off", false}})},
       {"prepass-specular",
        "the specular term of the light buffer: of the lights' shininess; or raised to the material's, after "
        "division by a fifth term, by the luminance of the diffuse ones, or as it is",
@@ -196,7 +202,8 @@ std::vector<Setting>& all_settings() {
       {"raster", "who draws triangles: OpenGL, or OpenCL alone, as visibility does",
        named(&Settings::raster, {{"opengl", RasterApi::opengl}, {"opencl", RasterApi::opencl}})},
       {"samples",
-       "a pixel, at which triangles are drawn: 1 is its centre; of more, each surface that they see is shaded "
+       "a pixel, at which triangles are drawn: 1 is its centre; of more, each surface that they see is "
+       "shaded "
        "once and counts by its share of them",
        numbers(&Settings::samples, {"1", "2", "4", "8"})},
       {"texels",
@@ -351,6 +358,8 @@ Settings with_model(Settings settings, const Settings& model) {
   settings.shadow_blended = model.shadow_blended;
   return settings;
 }
+
+int most_stencil_groups(VolumeCulling culling) { return culling == VolumeCulling::stencil ? 7 : 8; }
 
 Settings with_exact_shadows(Settings settings) {
   settings.shadows = ShadowMethod::exact, settings.shadow_threshold = 0;

@@ -112,6 +112,9 @@ struct Settings {
   double shadow_source_m = 0.05;
   int shadow_pick = 0;  // rays for each pixel to all its lights: 1, 4 or 16; 0: to each light
   BlendedCasters shadow_blended = BlendedCasters::none;
+  int group_bits = 8;        // of the number of a mask of light groups beside a pixel's surface: 8 or 16
+  bool group_tiles = true;   // tiles list lights only of groups that their surfaces have
+  int group_stencil = 0;     // bits of the stencil that have light groups instead: 4, 6 or 8; 0: none has
   int shadow_threshold = 0;  // steps of the display below which lights have no shadow: 1 to 16; 0: off
   // Exposure of pictures, in stops, by which these steps are counted; none: it is chosen from the picture.
   std::optional<double> display_ev = 0.0;
@@ -169,6 +172,9 @@ const std::vector<std::string>& model_settings();
 bool same_model(const Settings& a, const Settings& b);
 // `settings` with the values that `model` has for those.
 Settings with_model(Settings settings, const Settings& model);
+
+// The most bits that group-stencil may use: counting faces needs one of the 8.
+int most_stencil_groups(VolumeCulling culling);
 
 // With shadows found exactly: of a reference.
 Settings with_exact_shadows(Settings settings);

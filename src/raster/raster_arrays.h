@@ -68,6 +68,7 @@ RasterInstances raster_instances(std::span<const RasterInstance> instances,
 
 struct RasterJob {
   const RasterParams& params;
+  int samples;  // a pixel
   cl::Buffer params_buffer;
   // The scene, as RasterMeshes and RasterInstances have it.
   cl::Buffer positions, indices, cluster_indices, cluster_triangles, clusters, instances, vertex_runs, pairs;
@@ -83,7 +84,7 @@ class RasterPipeline {
   // The number of parts that the clusters in view are taken in.
   virtual uint32_t chunks(const RasterParams& params) const = 0;
   // Makes or grows its buffers for the numbers and the room of the params.
-  virtual void prepare(const RasterParams& params) = 0;
+  virtual void prepare(const RasterParams& params, int samples) = 0;
   // Enqueues all, waits for nothing. Counters (raster_params.h) are cleared first. Where they show that room
   // was short, the image was not written.
   virtual void enqueue(const RasterJob& job) = 0;

@@ -9,6 +9,7 @@
 
 #include "cl/launch.h"
 #include "cl/transfer.h"
+#include "raster/raster_samples.h"
 
 namespace lightgrid {
 namespace {
@@ -24,9 +25,7 @@ class RasterCpuPipeline : public RasterPipeline {
     transform_ = programs.kernel("raster/cpu/raster_transform", "");
     clusters_ = programs.kernel("raster/cpu/raster_clusters", "");
     order_ = programs.kernel("raster/cpu/raster_order", "");
-    setup_ = programs.kernel("raster/cpu/raster_setup", defines_);
     scan_ = programs.kernel(device.info().cpu ? "raster/cpu/raster_scan" : "raster/gpu/raster_scan", "");
-    fill_ = programs.kernel("raster/cpu/raster_fill", "");
   }
 
   uint32_t chunks(const RasterParams& p) const override {
@@ -36,7 +35,7 @@ class RasterCpuPipeline : public RasterPipeline {
     return std::clamp<uint32_t>(p.pairs, 1, std::max<uint32_t>(1, most));
   }
 
-  void prepare(const RasterParams& p) override {
+  void prepare(const RasterParams& p, int) override {
     const size_t tiles = size_t(p.tiles_x) * p.tiles_y;
     buckets_.at_least(device_, p.pairs);
     visible_.at_least(device_, size_t(p.pairs) * sizeof(cl_uint));
@@ -64,16 +63,18 @@ class RasterCpuPipeline : public RasterPipeline {
            job.clusters, job.frame, buckets_.get(), job.params_buffer);
     launch(device_, "raster_order", order_, one, one, buckets_.get(), visible_.get(), job.counters,
            job.params_buffer);
-    launch(device_, "raster_setup", setup_, cl::NDRange(p.chunks), one, visible_.get(), job.pairs,
-           job.clusters, job.instances, job.cluster_indices, job.cluster_triangles, job.clip, records_.get(),
-           next_block_.get(), chunks_.get(), tile_counts_.get(), job.counters, job.params_buffer);
+    launch(device_, "raster_setup", kernel("raster_setup", job), cl::NDRange(p.chunks), one, visible_.get(),
+           job.pairs, job.clusters, job.instances, job.cluster_indices, job.cluster_triangles, job.clip,
+           records_.get(), next_block_.get(), chunks_.get(), tile_counts_.get(), job.counters,
+           job.params_buffer);
     const cl::NDRange adders(device_.info().cpu ? 1 : RASTER_SCAN_GROUP);
     launch(device_, "raster_scan", scan_, adders, adders, tile_counts_.get(), tile_begin_.get(), job.counters,
            job.params_buffer);
-    launch(device_, "raster_fill", fill_, cl::NDRange(p.chunks), one, records_.get(), next_block_.get(),
-           chunks_.get(), tile_counts_.get(), lists_.get(), job.counters, job.params_buffer);
+    launch(device_, "raster_fill", kernel("raster_fill", job), cl::NDRange(p.chunks), one, records_.get(),
+           next_block_.get(), chunks_.get(), tile_counts_.get(), lists_.get(), job.counters,
+           job.params_buffer);
     if (!job.triangles()) return;
-    launch(device_, "raster_tiles", tiles_kernel(job.masks.alphas() != nullptr),
+    launch(device_, "raster_tiles", kernel("raster_tiles", job, job.masks.alphas() ? " -DALPHA_MASKS" : ""),
            cl::NDRange(std::min(tiles, units)), one, records_.get(), tile_begin_.get(), lists_.get(),
            job.instances, job.indices, job.clip, job.masks.vertices, job.masks.materials, job.masks.alphas,
            job.triangles, job.depths, job.counters, job.params_buffer);
@@ -90,18 +91,19 @@ class RasterCpuPipeline : public RasterPipeline {
 
  private:
   // Built at first use.
-  cl::Kernel& tiles_kernel(bool masks) {
-    cl::Kernel& kernel = tiles_[masks];
-    if (!kernel()) {
-      kernel = programs_.kernel("raster/cpu/raster_tiles", defines_ + (masks ? " -DALPHA_MASKS" : ""));
-    }
+  cl::Kernel& kernel(const char* name, const RasterJob& job, const char* more = "") {
+    cl::Kernel& kernel = kernels_[{name, job.samples, *more != 0}];
+    if (!kernel())
+      kernel =
+          programs_.kernel(std::string("raster/cpu/") + name, defines_ + sample_defines(job.samples) + more);
     return kernel;
   }
 
   ClDevice& device_;
   ProgramCache& programs_;
   const std::string defines_;
-  cl::Kernel transform_, clusters_, order_, setup_, scan_, fill_, tiles_[2];
+  cl::Kernel transform_, clusters_, order_, scan_;
+  std::map<std::tuple<std::string, int, bool>, cl::Kernel> kernels_;  // by samples and masks
   GrowingBuffer buckets_, visible_, records_, next_block_, chunks_, tile_counts_, tile_begin_, lists_;
 };
 
@@ -132,46 +134,45 @@ class RasterGpuPipeline : public RasterPipeline {
 
   uint32_t chunks(const RasterParams&) const override { return 1; }
 
-  void prepare(const RasterParams& p) override {
+  void prepare(const RasterParams& p, int samples) override {
     visible_.at_least(device_, size_t(p.pairs) * sizeof(cl_uint));
     records_.at_least(device_, size_t(p.record_blocks) * RASTER_BLOCK * sizeof(RasterRecord));
     entries_.at_least(device_, size_t(p.entry_capacity) * sizeof(cl_uint2));
-    keys_.at_least(device_, wide_ ? pairs_of(size_t(p.width) * p.height) * sizeof(cl_ulong2) : 0);
+    keys_.at_least(device_, wide_ ? pairs_of(size_t(p.width) * p.height * samples) * sizeof(cl_ulong2) : 0);
   }
 
   void enqueue(const RasterJob& job) override {
     const RasterParams& p = job.params;
-    const size_t pixels = size_t(p.width) * p.height;
+    const size_t values = size_t(p.width) * p.height * job.samples;
     const cl::NDRange group(group_items);
     const cl::NDRange all(size_t(std::max(1, device_.info().compute_units)) * groups_a_unit * group_items);
     fill_buffer(device_, "rasterizer: counters", job.counters, 0, RASTER_COUNTERS * sizeof(cl_uint));
     if (wide_) {
-      launch(device_, "raster_clear", clear_, items_for(pairs_of(pixels), image_group),
-             cl::NDRange(image_group), keys_.get(), cl_uint(pairs_of(pixels)));
+      launch(device_, "raster_clear", clear_, items_for(pairs_of(values), image_group),
+             cl::NDRange(image_group), keys_.get(), cl_uint(pairs_of(values)));
     } else {
-      fill_buffer(device_, "rasterizer: image", job.triangles, RASTER_NONE, pixels * sizeof(cl_uint));
-      fill_buffer(device_, "rasterizer: image", job.depths, 0, pixels * sizeof(cl_uint));
+      fill_buffer(device_, "rasterizer: image", job.triangles, RASTER_NONE, values * sizeof(cl_uint));
+      fill_buffer(device_, "rasterizer: image", job.depths, 0, values * sizeof(cl_uint));
     }
     launch(device_, "raster_transform", transform_, items_for(size_t(p.vertex_runs) * RASTER_VERTEX_RUN),
            group, job.positions, job.vertex_runs, job.instances, job.frame, job.clip, job.params_buffer);
     launch(device_, "raster_clusters", clusters_, items_for(p.pairs), group, job.pairs, job.clusters,
            job.frame, visible_.get(), job.counters, job.params_buffer);
-    const bool masks = job.masks.alphas() != nullptr;
     // The second pass needs the depths of all triangles.
     for (int pass = 0; pass < (wide_ ? 1 : 2); ++pass) {
-      launch(device_, "raster_small", kernel("raster/gpu/raster_small", pass, masks), all, group,
+      launch(device_, "raster_small", kernel("raster_small", pass, job), all, group,
              visible_.get(), job.pairs, job.clusters, job.instances, job.cluster_indices,
              job.cluster_triangles, job.clip, job.instances, job.indices, job.clip, job.masks.vertices,
              job.masks.materials, job.masks.alphas, records_.get(), entries_.get(), keys_.get(),
              job.triangles, job.depths, job.counters, job.params_buffer);
-      launch(device_, "raster_large", kernel("raster/gpu/raster_large", pass, masks), all, group,
+      launch(device_, "raster_large", kernel("raster_large", pass, job), all, group,
              records_.get(), entries_.get(), job.instances, job.indices, job.clip, job.masks.vertices,
              job.masks.materials, job.masks.alphas, keys_.get(), job.triangles, job.depths, job.counters,
              job.params_buffer);
     }
     if (wide_) {
-      launch(device_, "raster_keys", keys_kernel_, items_for(pixels, image_group), cl::NDRange(image_group),
-             keys_.get(), job.triangles, job.depths, cl_uint(pixels));
+      launch(device_, "raster_keys", keys_kernel_, items_for(values, image_group), cl::NDRange(image_group),
+             keys_.get(), job.triangles, job.depths, cl_uint(values));
     }
   }
 
@@ -184,21 +185,23 @@ class RasterGpuPipeline : public RasterPipeline {
 
  private:
   // Built at first use.
-  cl::Kernel& kernel(const char* name, int pass, bool masks) {
-    cl::Kernel& kernel = kernels_[{name, pass, masks}];
+  cl::Kernel& kernel(const char* name, int pass, const RasterJob& job) {
+    const bool masks = job.masks.alphas() != nullptr;
+    cl::Kernel& kernel = kernels_[{name, job.samples, pass, masks}];
     if (kernel()) return kernel;
     std::string defines = wide_       ? "-DATOMICS=64"
                           : pass == 0 ? "-DATOMICS=32 -DPASS=1"
                                       : "-DATOMICS=32 -DPASS=2";
     if (masks) defines += " -DALPHA_MASKS";
-    return kernel = programs_.kernel(name, defines);
+    return kernel =
+               programs_.kernel(std::string("raster/gpu/") + name, defines + sample_defines(job.samples));
   }
 
   ClDevice& device_;
   ProgramCache& programs_;
   const bool wide_;
   cl::Kernel transform_, clusters_, clear_, keys_kernel_;
-  std::map<std::tuple<std::string, int, bool>, cl::Kernel> kernels_;
+  std::map<std::tuple<std::string, int, int, bool>, cl::Kernel> kernels_;  // by samples, pass and masks
   GrowingBuffer visible_, records_, entries_, keys_;
 };
 

@@ -16,7 +16,6 @@ namespace {
 
 constexpr const char* uploading = "rasterizer: scene";
 constexpr uint32_t first_entries_a_tile = 64;
-constexpr size_t sample_group = 64;
 constexpr uint64_t most_numbers = 0xffffffffu;  // of records or entries
 
 bool mirrors(const glm::dmat4& m) { return glm::determinant(glm::dmat3(m)) < 0; }
@@ -131,10 +130,6 @@ struct RasterView::State {
   void check_masks() const;
   void upload_instances();
   void enqueue();
-  // Draws one sample of each pixel, again where room was short.
-  void draw_sample(const std::function<void()>& meanwhile, uint32_t (&counted)[RASTER_COUNTERS]);
-  // Puts that sample's image beside those of the others.
-  void keep_sample(int sample);
   void read_counters(uint32_t (&counted)[RASTER_COUNTERS]);
   // Returns whether room was short; then there is more.
   bool grow_room(const uint32_t (&counted)[RASTER_COUNTERS]);
@@ -154,9 +149,7 @@ struct RasterView::State {
   RasterBuffers shown;
 
   GrowingBuffer clip;
-  GrowingBuffer image_triangles, image_depths;    // of a sample
-  GrowingBuffer sample_triangles, sample_depths;  // of all, where there are several
-  cl::Kernel sample_kernel;                       // built at first use
+  GrowingBuffer image_triangles, image_depths;
   UploadedBuffer records, triangle_instance, runs, pair_list, frame, params_upload;
   cl::Buffer counters;
   bool masked = false;  // an instance that is drawn needs masks
@@ -236,8 +229,9 @@ void RasterView::State::upload_instances() {
 
 void RasterView::State::enqueue() {
   params_upload.put(device, "rasterizer: params", std::vector<RasterParams>{params});
-  pipeline->prepare(params);
-  pipeline->enqueue({params, params_upload.buffer(), scene.positions.get(), scene.indices.get(),
+  const int samples = image ? camera->grid.samples : 1;
+  pipeline->prepare(params, samples);
+  pipeline->enqueue({params, samples, params_upload.buffer(), scene.positions.get(), scene.indices.get(),
                      scene.cluster_indices.get(), scene.cluster_triangles.get(), scene.clusters.get(),
                      records.buffer(), runs.buffer(), pair_list.buffer(), frame.buffer(), clip.get(),
                      image ? image_triangles.get() : cl::Buffer(), image ? image_depths.get() : cl::Buffer(),
@@ -273,34 +267,10 @@ bool RasterView::State::grow_room(const uint32_t (&counted)[RASTER_COUNTERS]) {
   return false;
 }
 
-void RasterView::State::draw_sample(const std::function<void()>& meanwhile,
-                                    uint32_t (&counted)[RASTER_COUNTERS]) {
-  enqueue();
-  if (meanwhile) meanwhile();
-  for (read_counters(counted); grow_room(counted); read_counters(counted)) {
-    ++counts.redone;
-    enqueue();
-  }
-}
-
-void RasterView::State::keep_sample(int sample) {
-  const size_t pixels = camera->grid.pixels(), values = camera->grid.values();
-  sample_triangles.at_least(device, values * sizeof(cl_uint));
-  sample_depths.at_least(device, (values + Visibility::spare_pixels) * sizeof(cl_float));
-  if (!sample_kernel()) sample_kernel = programs.kernel("raster/raster_sample", "");
-  launch(device, "raster_sample", sample_kernel,
-         cl::NDRange((pixels + sample_group - 1) / sample_group * sample_group), cl::NDRange(sample_group),
-         image_triangles.get(), image_depths.get(), cl_uint(pixels), cl_uint(sample),
-         cl_uint(camera->grid.samples), sample_triangles.get(), sample_depths.get());
-}
-
 Visibility RasterView::draw(const std::function<void()>& meanwhile) {
   run(true, meanwhile);
   State& s = *state_;
-  const PixelGrid& grid = s.camera->grid;
-  const bool one = grid.samples == 1;
-  return {(one ? s.image_triangles : s.sample_triangles).get(),
-          (one ? s.image_depths : s.sample_depths).get(), grid};
+  return {s.image_triangles.get(), s.image_depths.get(), s.camera->grid};
 }
 
 RasterLists RasterView::list() {
@@ -328,22 +298,18 @@ void RasterView::run(bool image, const std::function<void()>& meanwhile) {
   s.params.entry_capacity = std::max(entries, s.params.tiles_x * s.params.tiles_y * first_entries_a_tile);
   s.image = image;
   if (image) {
-    const size_t pixels = grid.pixels();
-    s.image_triangles.at_least(s.device, pixels * sizeof(cl_uint));
-    s.image_depths.at_least(s.device, (pixels + Visibility::spare_pixels) * sizeof(cl_float));
+    s.image_triangles.at_least(s.device, grid.values() * sizeof(cl_uint));
+    s.image_depths.at_least(s.device, (grid.values() + Visibility::spare_pixels) * sizeof(cl_float));
   }
   s.upload_instances();
 
   s.counts = {};
   uint32_t counted[RASTER_COUNTERS];
-  const bool several = image && grid.samples > 1;
-  for (int sample = 0; sample < (several ? grid.samples : 1); ++sample) {
-    if (several) {
-      s.params.sample_x = raster_samples(grid.samples)[size_t(sample)].x;
-      s.params.sample_y = raster_samples(grid.samples)[size_t(sample)].y;
-    }
-    s.draw_sample(sample == 0 ? meanwhile : std::function<void()>(), counted);
-    if (several) s.keep_sample(sample);
+  s.enqueue();
+  if (meanwhile) meanwhile();
+  for (s.read_counters(counted); s.grow_room(counted); s.read_counters(counted)) {
+    ++s.counts.redone;
+    s.enqueue();
   }
   for (const RasterInstance& i : s.instances) {
     if (i.drawn) s.counts.triangles += s.scene.places[i.mesh].triangles;
@@ -359,10 +325,7 @@ const RasterCounts& RasterView::counts() const { return state_->counts; }
 size_t RasterView::memory_bytes() const {
   const State& s = *state_;
   size_t bytes = s.pipeline->memory_bytes() + RASTER_COUNTERS * sizeof(cl_uint);
-  for (const GrowingBuffer* b :
-       {&s.clip, &s.image_triangles, &s.image_depths, &s.sample_triangles, &s.sample_depths}) {
-    bytes += b->bytes();
-  }
+  for (const GrowingBuffer* b : {&s.clip, &s.image_triangles, &s.image_depths}) bytes += b->bytes();
   for (const UploadedBuffer* b :
        {&s.records, &s.triangle_instance, &s.runs, &s.pair_list, &s.frame, &s.params_upload})
     bytes += b->bytes();

@@ -48,6 +48,7 @@
 #include "base/pixel_grid.h"
 #include "cl/device.h"
 #include "cl/program_cache.h"
+#include "raster/raster_samples.h"
 #include "raster/raster_scene.h"
 #include "shared/cull_settings.h"
 #include "shared/raster_instance.h"
@@ -62,26 +63,9 @@ struct RasterInstance {
   bool drawn = true;        // false: its triangles keep their numbers and are left out
 };
 
-// From a pixel's centre, 1/256 pixel, x to the right and y up: where each sample lies (the standard locations
-// of Vulkan 1.3, "Multisampling", and Direct3D 11; its y goes down). Their mean is the centre.
-constexpr glm::ivec2 raster_samples_of_1[1] = {{0, 0}};
-constexpr glm::ivec2 raster_samples_of_2[2] = {{64, -64}, {-64, 64}};
-constexpr glm::ivec2 raster_samples_of_4[4] = {{-32, 96}, {96, 32}, {-96, -32}, {32, -96}};
-constexpr glm::ivec2 raster_samples_of_8[8] = {{16, 48},   {-16, -48}, {80, -16},  {-48, 80},
-                                               {-80, -80}, {-112, 16}, {48, -112}, {112, 112}};
-
-// samples: 1, 2, 4 or 8; empty for others.
-constexpr std::span<const glm::ivec2> raster_samples(int samples) {
-  if (samples == 1) return raster_samples_of_1;
-  if (samples == 2) return raster_samples_of_2;
-  if (samples == 4) return raster_samples_of_4;
-  if (samples == 8) return raster_samples_of_8;
-  return {};
-}
-
 struct RasterCamera {
-  // 1 to 16,384 pixels a side. A pixel has 1 sample, at its centre, or 2, 4 or 8, for each of which the view
-  // is drawn once. Masks are looked up at centres.
+  // 1 to 16,384 pixels a side. A pixel has 1 sample, at its centre, or 2, 4 or 8 (raster/raster_samples.h),
+  // drawn in one pass. Masks are looked up at centres.
   PixelGrid grid;
   // As CullView's: m[column][row], depth zero to one, here always reversed (near 1, far 0); perspective or
   // orthographic, off-centre, far plane infinite or not.
@@ -126,7 +110,7 @@ struct RasterLists {
   uint32_t tiles_x = 0, tiles_y = 0;
 };
 
-// What the last draw() did, for its last sample.
+// What the last draw() did.
 struct RasterCounts {
   uint64_t triangles = 0;          // of all drawn instances
   uint64_t clusters = 0;           // of up to 64 triangles, that may be in view

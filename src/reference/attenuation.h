@@ -26,12 +26,15 @@ inline double cos_from_axis(const ViewLight& light, const glm::dvec3& offset, do
 // if `window` is set. Finite: at the light itself d^2 is the smallest normal double.
 double attenuation(const ViewLight& light, const glm::dvec3& position, bool window);
 
-// The share of a light that reaches a point of an instance besides that, 0 to 1: the oracle of light_reaches
-// in shared/light_table.h. Shadows are not part of it, since they depend on the triangle that a pixel shows:
-// count_pairs and shade_pixels take them from the oracle of shadows (seen_pairs.h).
-inline double light_reaches(const ViewLight&, const glm::dvec3& /*position*/, uint32_t /*instance*/) {
-  return 1;
+// The share of a light that reaches a point of a surface in these groups besides that, 0 to 1: the oracle of
+// light_reaches in shared/light_table.h. Shadows are not part of it, since they depend on the triangle that a
+// pixel shows: count_pairs and shade_pixels take them from the oracle of shadows (seen_pairs.h).
+inline double light_reaches(const ViewLight& light, const glm::dvec3& /*position*/, uint32_t groups) {
+  for (int group = 0; group < 32; ++group) {
+    const bool has_light = light.groups >> group & 1, has_surface = groups >> group & 1;
+    if (has_light && has_surface) return 1;
+  }
+  return 0;
 }
-inline constexpr uint32_t no_instance = 0;  // until an effect needs it
 
 }  // namespace lightgrid

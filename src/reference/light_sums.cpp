@@ -30,13 +30,13 @@ double angular_part(const ViewLight& light, const glm::dvec3& to_light, double s
 }  // namespace
 
 LightSums light_sums(const glm::dvec3& position, const glm::dvec3& normal, std::span<const ViewLight> lights,
-                     double exponent) {
+                     double exponent, uint32_t groups) {
   const glm::dvec3 to_eye = glm::normalize(-position);
   LightSums sums;
   for (const ViewLight& light : lights) {
     const glm::dvec3 offset = light.position - position;
     const double distance = glm::length(offset);
-    const double arrives = attenuation(light, position, true) * light_reaches(light, position, no_instance);
+    const double arrives = attenuation(light, position, true) * light_reaches(light, position, groups);
     if (!(distance > 0) || !(arrives > 0)) continue;
     const glm::dvec3 to_light = offset / distance;
     const double arriving = arrives * glm::clamp(glm::dot(normal, to_light), 0.0, 1.0);
@@ -73,8 +73,7 @@ VoxelSample voxel_sample(const glm::dvec3& at, const VoxelCell& cell, std::span<
     double falloff = std::min(1 / squared, 1 / cell.core_squared);
     if (light.most_falloff > 0) falloff = std::min(falloff, light.most_falloff);
     const double angular = angular_part(light, to_light, squared, cell.half_diagonal_squared);
-    const double arrives =
-        window * falloff * radius / std::sqrt(reach) * angular * light_reaches(light, at, no_instance);
+    const double arrives = window * falloff * radius / std::sqrt(reach) * angular;
     const glm::dvec3 irradiance = glm::min(arrives * light.radiant_intensity, largest_of_a_light);
     const double weight = luminance_of_sample(irradiance);
     s.irradiance += irradiance;

@@ -14,10 +14,10 @@ struct LightSums {
 };
 
 // Adds up point and spot lights at a point of a perspective view. normal: unit, view space; exponent: the
-// lights'.
+// lights'. groups: of the surface.
 // A light at the point itself adds nothing.
 LightSums light_sums(const glm::dvec3& position, const glm::dvec3& normal, std::span<const ViewLight> lights,
-                     double exponent);
+                     double exponent, uint32_t groups = all_groups);
 
 struct VoxelSample {
   glm::dvec3 irradiance{0};  // red, green, blue

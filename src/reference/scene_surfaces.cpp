@@ -203,7 +203,7 @@ Surface SceneSurfaces::surface_at(const TriangleInView& triangle, const dvec2& p
   const Mesh& mesh = scene_.meshes[instance.mesh];
   const Material& m = scene_.materials[mesh.material];
   Surface s;
-  s.unlit = m.unlit;
+  s.unlit = m.unlit, s.groups = instance.groups;
   s.base_color = dvec3(color_of(triangle, w));
   if (m.unlit) return s;
   s.metallic = m.metallic, s.roughness = m.roughness, s.emissive = m.emissive;

@@ -24,6 +24,7 @@ struct SceneProgram {
   GLint clip_from_object, view_from_object, normal_from_object;
   GLint lights_of_draw, alpha, object;  // shaders/lights/object.glsl, forward.frag, object.frag
   GLint layers_of_draw;                 // shared/shadow_bits.h
+  GLint groups_of_draw, group_number_of_draw;  // shaders/common/point_of_surface.glsl, gbuffer.frag
 };
 
 // The shaders of a pass over a scene's surfaces.

@@ -21,7 +21,9 @@ const TargetPool::Image& TargetPool::image(const std::string& name, GLenum forma
   const Key key{name, format, grid};
   const auto found = images_.find(key);
   if (found != images_.end()) return found->second;
-  GlTexture texture = make_texture_2d(format, grid.width, grid.height);
+  GlTexture texture = grid.samples == 1
+                          ? make_texture_2d(format, grid.width, grid.height)
+                          : make_texture_of_samples(format, grid.width, grid.height, grid.samples);
   const size_t bytes = grid.values() * bits_of_pixel(texture.name()) / 8;
   return images_.try_emplace(key, Image{std::move(texture), bytes}).first->second;
 }
@@ -45,9 +47,17 @@ void TargetPool::clear() {
 }
 
 GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use) {
+  return texture(name, format, use, grid_);
+}
+
+GLuint Targets::resolved(const std::string& name, GLenum format) {
+  return texture(name, format, TargetUse::image, {grid_.width, grid_.height});
+}
+
+GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use, const PixelGrid& grid) {
   const auto found = targets_.find(name);
   if (found != targets_.end()) return found->second.texture;
-  const TargetPool::Image& image = pool_->image(name, format, grid_);
+  const TargetPool::Image& image = pool_->image(name, format, grid);
   return targets_.try_emplace(name, Target{image.texture.name(), use, image.bytes}).first->second.texture;
 }
 

@@ -54,8 +54,10 @@ class Targets {
 
   const PixelGrid& grid() const { return grid_; }
 
-  // The image of this name. The first call fixes format and use.
+  // The image of this name, of the grid's samples. The first call fixes format and use.
   GLuint texture(const std::string& name, GLenum format, TargetUse use = TargetUse::image);
+  // Likewise, of one sample a pixel.
+  GLuint resolved(const std::string& name, GLenum format);
   GLuint depth();  // reversed 32-bit float
 
   // A framebuffer over these images; depth 0: none.
@@ -80,6 +82,8 @@ class Targets {
     TargetUse use;
     size_t bytes;
   };
+
+  GLuint texture(const std::string& name, GLenum format, TargetUse use, const PixelGrid& grid);
 
   std::shared_ptr<TargetPool> pool_;
   PixelGrid grid_;

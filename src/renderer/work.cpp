@@ -35,6 +35,7 @@ Work::Work(Seen seen, Renderer& renderer, GpuScene& gpu, std::shared_ptr<TargetP
 
 std::vector<std::string> Work::view_defines(std::vector<std::string> defines) const {
   if (view.orthographic) defines.emplace_back("ORTHOGRAPHIC");
+  if (plan.opengl && grid().samples > 1) defines.push_back(fmt::format("SAMPLES {}", grid().samples));
   if (plan.settings.everything_on) defines.emplace_back("EVERYTHING_ON");
   return defines;
 }
@@ -82,13 +83,13 @@ ClArguments Work::light_arguments() {
   return plan.light_reaches ? cl_lights().columns() + shadows.arguments() : cl_lights().columns();
 }
 
-std::array<std::unique_ptr<PassCache>*, 15> PassCaches::all() {
+std::array<std::unique_ptr<PassCache>*, 16> PassCaches::all() {
   return {&opaque_triangles.made_, &blended_triangles.made_, &resolver.made_,
           &tile_shading.made_,     &light_sums.made_,        &light_volumes.made_,
           &light_index.made_,      &object_lights.made_,     &blended_object_lights.made_,
           &voxels.made_,           &world_grid.made_,        &shadow_bits.made_,
           &fragment_layers.made_,  &index_shadows.made_,
-          &pixel_edges.made_};
+          &pixel_edges.made_,      &tile_groups.made_};
 }
 
 void PassCaches::follow(Work& work) {

@@ -107,6 +107,7 @@ struct PassCaches {
   Cached<class OpaqueTriangles> opaque_triangles;  // passes/rasterize.cpp
   Cached<class BlendedTriangleLists> blended_triangles;
   Cached<class PixelEdges> pixel_edges;                             // passes/find_edges.cpp
+  Cached<class TileGroups> tile_groups;                             // passes/tile_groups.cpp
   Cached<class Resolver> resolver;                                  // passes/resolve.cpp
   Cached<class TileShading> tile_shading;                           // passes/shade_tiles.cpp
   Cached<class LightSums> light_sums;                               // passes/fill_light_buffer.cpp
@@ -125,7 +126,7 @@ struct PassCaches {
   size_t memory_bytes() const;
 
  private:
-  std::array<std::unique_ptr<PassCache>*, 15> all();
+  std::array<std::unique_ptr<PassCache>*, 16> all();
 };
 
 }  // namespace lightgrid

@@ -178,8 +178,8 @@ PairCounts& PairCounts::operator+=(const PairCounts& other) {
 const char* every_light_on(bool own_surfaces) { return own_surfaces ? "visibility:lights=all" : "forward"; }
 
 const ImageError* light_error(const RunResult& row) {
-  const std::optional<ImageError>& error = row.own_surfaces ? row.same_surfaces : row.error;
-  return error ? &*error : nullptr;
+  if (row.same_surfaces) return &*row.same_surfaces;
+  return row.error && !row.own_surfaces ? &*row.error : nullptr;
 }
 
 json exposure_json(const Exposure& exposure) { return {{"ev", exposure.ev}, {"auto", exposure.automatic}}; }

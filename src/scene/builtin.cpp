@@ -14,6 +14,8 @@ const std::vector<BuiltinScene>& builtin_scenes() {
        make_particles},
       {"gallery", "busts of skin, wax and stone between velvet: materials that are not Lambert's",
        make_gallery},
+      {"rooms", "six rooms lit by light groups instead of shadows, a figure with lights of its own",
+       make_rooms},
       {"square", "a square at night: cafes, trees, hedges, wires; 2.8 million triangles under 300 lights",
        make_square, true},
   };

@@ -16,7 +16,7 @@ struct BuiltinScene {
   bool large = false;  // millions of triangles: tests over all scenes leave it out, and it has its own
 };
 
-// hall, spheres, terrain, street, particles, gallery, square.
+// hall, spheres, terrain, street, particles, gallery, rooms, square.
 const std::vector<BuiltinScene>& builtin_scenes();
 
 // nullptr if there is none of that name.
@@ -29,5 +29,6 @@ Scene make_street();
 Scene make_particles();
 Scene make_gallery();
 Scene make_square();
+Scene make_rooms();
 
 }  // namespace lightgrid

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
 #include "base/json_file.h"
+#include "scene/light_groups.h"
 #include "scene/virtual_lights.h"
 
 namespace lightgrid {
@@ -77,17 +79,18 @@ Json read_object(const std::filesystem::path& path) {
   return json;
 }
 
-// One light's fields, with checks.
+// The fields of a light or an instance, with checks.
 class Fields {
  public:
-  Fields(const std::filesystem::path& path, size_t index, const Json& json) : json_(json) {
-    where_ = fmt::format("{}: light {}", path.string(), index);
+  Fields(const std::filesystem::path& path, const char* kind, size_t index, const Json& json) : json_(json) {
+    where_ = fmt::format("{}: {} {}", path.string(), kind, index);
     if (!json.is_object()) throw input_error("{}: is {}, not an object", where_, json.type_name());
     name_ = text("name", "");
     if (!name_.empty()) where_ += fmt::format(" {:?}", name_);
   }
 
   const std::string& name() const { return name_; }
+  const std::string& where() const { return where_; }
   bool has(const char* field) const { return json_.contains(field); }
 
   template <typename Value>
@@ -109,6 +112,13 @@ class Fields {
     if (!has(field)) return false;
     if (!json_[field].is_boolean()) throw error(field, "is not true or false", json_[field].type_name());
     return json_[field].get<bool>();
+  }
+
+  GroupLists::Names names(const char* field) const {
+    if (!has(field)) return {};
+    const GroupLists::Names names = names_of_groups(json_[field]);
+    if (!names) throw error(field, "is not a list of names and whole numbers", json_[field].dump());
+    return names;
   }
 
   glm::dvec3 vector(const char* field, double low, double high) const {
@@ -194,10 +204,51 @@ Light plain_light(const Fields& fields) {
   return light;
 }
 
+GroupLists groups_of(const Fields& fields, int owner) {
+  return {owner, fields.where(), fields.names("groups"), fields.names("include"), fields.names("exclude")};
+}
+
+bool says_something(const GroupLists& lists) { return lists.groups || lists.include || lists.exclude; }
+
+// An array of the file; empty if it is optional and not there.
+Json list_of(const std::filesystem::path& path, const Json& json, const char* field, bool optional) {
+  if (optional && !json.contains(field)) return Json::array();
+  if (!json.contains(field)) throw input_error("{}: {} is missing", path.string(), field);
+  const Json& list = json[field];
+  if (!list.is_array())
+    throw input_error("{}: {} is {}, not an array", path.string(), field, list.type_name());
+  return list;
+}
+
+// Of all instances of a name.
+std::vector<GroupLists> instance_groups(const std::filesystem::path& path, const Json& list,
+                                        const Scene& scene) {
+  std::vector<GroupLists> all;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const Fields fields(path, "instance", i, list[i]);
+    const GroupLists lists = groups_of(fields, 0);
+    if (!lists.groups) throw input_error("{}: groups is missing", fields.where());
+    const size_t before = all.size();
+    for (size_t k = 0; k < scene.instances.size(); ++k) {
+      if (scene.instances[k].name != fields.name()) continue;
+      all.push_back(lists), all.back().owner = int(k);
+    }
+    if (all.size() == before) throw input_error("{}: no node of this name shows a mesh", fields.where());
+  }
+  return all;
+}
+
 // The shortest decimal that reads back as the float: 0.1, where the float as a double has seventeen digits.
 double shortest(float value) { return std::strtod(fmt::format("{}", value).c_str(), nullptr); }
 
 Json to_json(const glm::vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
+
+nlohmann::ordered_json to_json(uint32_t groups) {
+  nlohmann::ordered_json numbers = Json::array();
+  for (int i = 0; i < most_groups; ++i)
+    if (groups >> i & 1) numbers.push_back(i);
+  return numbers;
+}
 
 nlohmann::ordered_json to_json(const Light& light) {
   nlohmann::ordered_json json;
@@ -218,24 +269,41 @@ nlohmann::ordered_json to_json(const Light& light) {
   json["intensity"] = shortest(light.intensity);
   if (light.casts_shadow) json["casts_shadow"] = true;
   if (light.source_m >= 0) json["source_radius"] = shortest(light.source_m);
+  if (light.groups != all_groups) json["groups"] = to_json(light.groups);
   return json;
+}
+
+std::string line_of(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string lines_of(const std::vector<Light>& lights) {
+  std::string text;
+  for (size_t i = 0; i < lights.size(); ++i) text += (i ? ",\n  " : "\n  ") + line_of(to_json(lights[i]));
+  return text;
 }
 
 }  // namespace
 
-std::vector<Light> load_lights_file(const std::filesystem::path& path) {
-  const Json json = read_object(path);
-  if (!json.contains("lights")) throw input_error("{}: lights is missing", path.string());
-  const Json& list = json["lights"];
-  if (!list.is_array()) throw input_error("{}: lights is {}, not an array", path.string(), list.type_name());
+void load_lights(Scene& scene, const std::filesystem::path& path) {
+  const Json json = read_object(path), list = list_of(path, json, "lights", false);
   std::vector<Light> lights;
+  std::vector<GroupLists> groups;
   lights.reserve(list.size());
   for (size_t i = 0; i < list.size(); ++i) {
-    const Fields fields(path, i, list[i]);
+    const Fields fields(path, "light", i, list[i]);
     lights.push_back(fields.has("rgb255") ? redeclipse_light(fields) : plain_light(fields));
     lights.back().casts_shadow = fields.flag("casts_shadow");
+    if (GroupLists own = groups_of(fields, int(i)); says_something(own)) groups.push_back(std::move(own));
   }
-  return lights;
+  scene.lights = std::move(lights);
+  compile_groups(scene, groups, instance_groups(path, list_of(path, json, "instances", true), scene));
+}
+
+std::vector<Light> load_lights_file(const std::filesystem::path& path) {
+  Scene scene;
+  load_lights(scene, path);
+  return std::move(scene.lights);
 }
 
 std::string camera_of_lights_file(const std::filesystem::path& path) {
@@ -248,11 +316,19 @@ std::string camera_of_lights_file(const std::filesystem::path& path) {
 }
 
 std::string lights_file_text(const std::vector<Light>& lights) {
-  std::string text = "{\"lights\": [";
-  for (size_t i = 0; i < lights.size(); ++i) {
-    text += (i ? ",\n  " : "\n  ") + to_json(lights[i]).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return "{\"lights\": [" + lines_of(lights) + "\n]}\n";
+}
+
+std::string lights_file_text(const Scene& scene) {
+  std::string instances;
+  std::set<std::string> told;
+  for (const Instance& instance : scene.instances) {
+    if (instance.groups == all_groups || instance.name.empty() || !told.insert(instance.name).second)
+      continue;
+    const nlohmann::ordered_json json = {{"name", instance.name}, {"groups", to_json(instance.groups)}};
+    instances += (instances.empty() ? "\n  " : ",\n  ") + line_of(json);
   }
-  return text + "\n]}\n";
+  return "{\"lights\": [" + lines_of(scene.lights) + "\n],\n\"instances\": [" + instances + "\n]}\n";
 }
 
 }  // namespace lightgrid

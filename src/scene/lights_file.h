@@ -15,15 +15,20 @@ namespace lightgrid {
 inline constexpr double metres_per_redeclipse_unit = 0.125;
 
 // {"lights": [{"name", "type": "point|spot|directional|virtual", "position", "direction", "radius",
-// "inner_cone", "outer_cone", "color", "intensity", "casts_shadow", "source_radius", "nearest"}]}, world
-// space, metres, radians (half-angles). Defaults: type point, radius infinite, colour white, intensity 1,
-// cones 0 and pi/4, casts_shadow false; without a source_radius soft shadows are those of the setting's
-// sphere. Point and spot lights require a position, spot and directional lights a direction. Other keys are
-// ignored. A light with "rgb255" is from a Red Eclipse map: a point light with colour rgb255 / 255 and
-// radiant intensity (radius / 2)^2 candela, 1 lux at half the radius; radius 0 gives the intensity of 16 m.
-// Throws Error(input) that names the file, the light and the field: NaN, numbers beyond a float's range
-// (colour times intensity too), a negative radius, colour or intensity, a zero direction and cones outside 0
-// <= inner < outer <= pi are errors; so is a file above max_lights_file_bytes.
+// "inner_cone", "outer_cone", "color", "intensity", "casts_shadow", "source_radius", "nearest", "groups",
+// "include", "exclude"}], "instances": [{"name", "groups"}]}, world space, metres, radians (half-angles).
+// Defaults: type point, radius infinite, colour white, intensity 1, cones 0 and pi/4, casts_shadow false;
+// without a source_radius soft shadows are those of the setting's sphere; every group. Groups, include and
+// exclude are as in scene/light_groups.h, and "instances" are the scene's. Point and spot lights require a
+// position, spot and directional lights a direction. Other keys are ignored. A light with "rgb255" is from a
+// Red Eclipse map: a point light with colour rgb255 / 255 and radiant intensity (radius / 2)^2 candela, 1 lux
+// at half the radius; radius 0 gives the intensity of 16 m. Throws Error(input) that names the file, the
+// light and the field: NaN, numbers beyond a float's range (colour times intensity too), a negative radius,
+// colour or intensity, a zero direction and cones outside 0 <= inner < outer <= pi are errors; so is a file
+// above max_lights_file_bytes.
+// Those replace the scene's lights.
+void load_lights(Scene& scene, const std::filesystem::path& path);
+// The same for no scene: the file names no instances.
 std::vector<Light> load_lights_file(const std::filesystem::path& path);
 
 inline constexpr uintmax_t max_lights_file_bytes = uintmax_t(128) << 20;
@@ -34,5 +39,7 @@ std::string camera_of_lights_file(const std::filesystem::path& path);
 // A lights file from which load_lights_file reads equal lights back: positions to the last bit of a double,
 // the rest of a float. Fields that a light's type does not use are omitted.
 std::string lights_file_text(const std::vector<Light>& lights);
+// The same with the groups of instances that lack one; of several of a name, the first one's.
+std::string lights_file_text(const Scene& scene);
 
 }  // namespace lightgrid

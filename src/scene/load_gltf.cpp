@@ -38,8 +38,9 @@ Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits&
   scene.name = path.stem().string();
   scene.materials = gltf::read_materials(doc, nodes);
   if (has_channels(rig)) rig.nodes = gltf::rig_nodes(doc, nodes);
-  gltf::add_meshes(doc, nodes, scene, rig);
+  const std::vector<int> node_of_instance = gltf::add_meshes(doc, nodes, scene, rig);
   scene.lights = gltf::read_lights(doc, nodes);
+  compile_groups(scene, gltf::groups_of_lights(doc, nodes), gltf::groups_of_instances(doc, node_of_instance));
   scene.cameras = gltf::read_cameras(doc, nodes);
   gltf::keep_used_materials(scene);
   gltf::add_textures(doc, scene);

@@ -100,12 +100,16 @@ glm::vec3 dielectric_f0(const Material& material);
 // An unlit material has none, nor has one that is all metal.
 bool has_specular(const Material& material);
 
+// Light groups (scene/light_groups.h): a light lights an instance where their masks share a bit.
+inline constexpr uint32_t all_groups = 0xffffffffu;
+
 struct Instance {
   std::string name;  // the node's
   int mesh = 0;
   glm::dmat4 world_from_object{1};
   int node = -1;             // of the rig, which moves it; -1: static
   bool casts_shadow = true;  // false: hides no light, such as the surface of a lamp around its light
+  uint32_t groups = all_groups;
 };
 
 enum class LightType { point, spot, directional };
@@ -129,6 +133,7 @@ struct Light {
   bool is_virtual = false;
   float nearest_m = 0;
   float source_m = -1;        // soft shadows are those of a sphere of this radius; below 0: of the setting's
+  uint32_t groups = all_groups;
   bool operator==(const Light&) const = default;
 };
 
@@ -169,6 +174,7 @@ struct Scene {
   std::vector<Camera> cameras;
   glm::vec3 ambient{0.02f};        // constant radiance from all sides; occlusion maps darken it
   glm::vec3 background{0};         // radiance without any surface
+  std::vector<std::string> group_names;  // of light groups, by number; empty: it has none
   std::shared_ptr<const Rig> rig;  // moving parts; null: none. Copies of a scene share it
   std::optional<double> time_s;    // of the pose, as last given to set_time; empty: at rest
   int animation = -1;              // the posed animation; -1: all animations

@@ -21,6 +21,7 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
     out.radius_m = range_of(light, lights.size() - 1, ranges);
     out.window = window_of(ranges);
     out.least_falloff = least_falloff(light, ranges);
+    out.groups = light.groups;
     if (light.is_virtual) out.most_falloff = most_falloff(light);
     if (light.outer_cone_rad != outer_rad)
       outer_rad = light.outer_cone_rad, cos_outer = std::cos(double(outer_rad));

@@ -18,6 +18,7 @@ struct ViewLight {
   double cos_inner = 1, cos_outer = 0;  // half-angles of the cone; cos_inner - cos_outer is at least 0.001
   RangeWindow window = RangeWindow::khr;
   double least_falloff = 0;  // 1 / m^2: scene/light_ranges.h
+  uint32_t groups = all_groups;
   double most_falloff =
       0;  // 1 / m^2: of a virtual light, whose 1 / distance^2 is at most this; 0: no such light
 };

@@ -40,6 +40,7 @@ struct ReflectedPixel {
 struct ReflectedView {
   View view;
   std::vector<ReflectedPixel> pixels;  // row 0 at the bottom
+  uint32_t groups = all_groups;        // of the light: what it reflects lights the same instances
 };
 
 // `count` lights, each with an equal part of the flux that all pixels reflect together (sum of its channels):

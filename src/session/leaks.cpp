@@ -101,6 +101,7 @@ class Shown {
 struct Row {
   uint64_t pixels = 0, lit = 0, leaked = 0, either = 0;
   std::map<std::pair<int, int>, uint64_t> leaks;  // by light and instance
+  std::map<std::pair<int, int>, Leaks::Received> received;
 };
 
 }  // namespace
@@ -124,11 +125,14 @@ Leaks find_leaks(const Scene& scene, const View& view, const LightRanges& ranges
       const Receiver receiver = occlusion.receiver(view, x, y, surface->depth, surface->triangle);
       for (int i = 0; i < int(lights.size()); ++i) {
         const Light& light = scene.lights[size_t(i)];
-        if (light.casts_shadow || !is_lit(lights[size_t(i)], position)) continue;
+        const uint32_t groups = scene.instances[size_t(receiver.own.instance)].groups;
+        if (light.casts_shadow || !is_lit(lights[size_t(i)], position, groups)) continue;
         const SightAnswer answer = occlusion.sight(light, receiver, &last[size_t(i)]);
         if (answer.sight == Sight::hidden && answer.by == receiver.own) continue;
         ++row.lit;
         row.either += answer.sight == Sight::either;
+        Leaks::Received& received = row.received[{i, receiver.own.instance}];
+        ++(answer.sight == Sight::hidden ? received.leaked : received.seen);
         if (answer.sight != Sight::hidden) continue;
         ++row.leaked;
         ++row.leaks[{i, answer.by.instance}];
@@ -137,10 +141,17 @@ Leaks find_leaks(const Scene& scene, const View& view, const LightRanges& ranges
   });
   Leaks all;
   std::map<std::pair<int, int>, uint64_t> leaks;
+  std::map<std::pair<int, int>, Leaks::Received> received;
   for (const Row& row : rows) {
     all.pixels += row.pixels, all.lit += row.lit, all.leaked += row.leaked, all.either += row.either;
     for (const auto& [pair, pixels] : row.leaks) leaks[pair] += pixels;
+    for (const auto& [pair, of] : row.received) {
+      Leaks::Received& sum = received[pair];
+      sum.seen += of.seen, sum.leaked += of.leaked;
+    }
   }
+  for (const auto& [pair, of] : received)
+    all.received.push_back({pair.first, pair.second, of.seen, of.leaked});
   for (const auto& [pair, pixels] : leaks) all.leaks.push_back({pair.first, pair.second, pixels});
   std::ranges::stable_sort(all.leaks, std::ranges::greater(), &Leak::pixels);
   return all;

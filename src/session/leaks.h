@@ -20,6 +20,12 @@ struct Leaks {
   // eye sees. Either: of these, pairs whose answer turns on rounding.
   uint64_t lit = 0, leaked = 0, either = 0;
   std::vector<Leak> leaks;  // most pixels first
+  // The same pairs by light and by the instance that is lit; those that turn on rounding count as seen.
+  struct Received {
+    int light = 0, instance = 0;
+    uint64_t seen = 0, leaked = 0;
+  };
+  std::vector<Received> received;
 };
 
 // About `samples` pixels, evenly spread. Deterministic.

@@ -52,29 +52,34 @@ ImageError error_of(const Image& image, const Measured& m) {
 
 // Every light on the surfaces of this run; empty: it was not drawn.
 const Image& every_light_of(const TechniqueRun& run, const Measured& m) {
-  const bool own = run.frame().triangles && !m.reference.run().frame().triangles;
-  if (!own) return m.reference.image;
-  const auto other = m.every_light_with.find(run.view().plan.settings.samples);
-  return other == m.every_light_with.end() ? m.every_light_on_own : other->second;
+  const bool own = run.frame().triangles.has_value();
+  const int samples = run.view().plan.settings.samples;
+  const auto other = m.every_light_with.find({own, samples});
+  if (other != m.every_light_with.end()) return other->second;
+  return own && !m.reference.run().frame().triangles ? m.every_light_on_own : m.reference.image;
 }
 
-// With each number of samples that a row has and the first image has not.
+// With each number of samples that a row on these surfaces has, but `drawn`.
 void draw_every_light_with_samples(const Compared& compared, const std::vector<ContestantRun>& entries,
-                                   Measured& m) {
+                                   bool own, int drawn, Measured& m) {
   for (const ContestantRun& e : entries) {
     const Settings& settings = e.contestant->settings;
-    if (!e.run || !own_surfaces(*e.contestant->technique, settings) || settings.samples == m.samples_on_own ||
-        m.every_light_with.contains(settings.samples))
+    if (!e.run || own_surfaces(*e.contestant->technique, settings) != own || settings.samples == drawn ||
+        m.every_light_with.contains({own, settings.samples}))
       continue;
-    const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, settings);
+    const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, settings, own);
     run->run_frame(true);
-    m.every_light_with[settings.samples] = run->take_image();
+    m.every_light_with[{own, settings.samples}] = run->take_image();
   }
 }
 
 void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& compared,
                                       const std::vector<ContestantRun>& entries, Measured& m) {
-  if (m.reference.run().frame().triangles) return;
+  const bool reference_is_own = m.reference.run().frame().triangles.has_value();
+  if (!m.reference.sampled())
+    draw_every_light_with_samples(compared, entries, reference_is_own,
+                                  m.reference.run().view().plan.settings.samples, m);
+  if (reference_is_own) return;
   const auto own = std::ranges::find_if(entries, [](const ContestantRun& e) {
     return e.run && own_surfaces(*e.contestant->technique, e.contestant->settings);
   });
@@ -86,7 +91,8 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
   }
   compared.tell(0.8, fmt::format("reference: {}", every_light_on(true)));
   const auto failure = failure_of([&] {
-    const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, own->contestant->settings);
+    const std::unique_ptr<TechniqueRun> run =
+        make_run_of_every_light(compared, own->contestant->settings, true);
     run->run_frame(true);
     m.every_light_on_own = run->take_image();
     m.samples_on_own = own->contestant->settings.samples;
@@ -95,7 +101,7 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
     error.silhouettes =
         silhouette_error(m.every_light_on_own, own_triangles(*run), m.reference.image, m.triangles.shown);
     report.own_surfaces->error = std::move(error);
-    draw_every_light_with_samples(compared, entries, m);
+    draw_every_light_with_samples(compared, entries, true, m.samples_on_own, m);
   });
   if (failure) report.own_surfaces->why_not = failure->what(), m.every_light_on_own = {};
 }
@@ -105,7 +111,7 @@ namespace {
 // The row's error against the reference, and that of its light alone.
 void set_errors(RunResult& row, const Image& image, const Image& every_light, const CompareReport& report,
                 const Measured& m) {
-  const bool other_surfaces = row.own_surfaces && !m.reference.run().frame().triangles;
+  const bool other_surfaces = &every_light != &m.reference.image;
   if (other_surfaces && !every_light.pixels.empty()) {
     row.same_surfaces = compare_images(image, every_light, report.brightest);
     row.same_surfaces->displayed = displayed_flip(image, every_light, report.exposure);
@@ -150,8 +156,14 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
     if (!reference.run().frame().triangles && !reference.sampled())
       row.error->silhouettes = silhouette_error(image, own, reference.image, m.triangles.shown);
   }
-  const std::vector<float> own_depth = run.frame().depth ? read_depth(run) : std::vector<float>();
-  const std::vector<float>& depth = run.frame().depth ? own_depth : m.depth;
+  const bool other_depth =
+      run.frame().depth || run.view().plan.settings.samples != reference.run().view().plan.settings.samples;
+  const std::vector<float> own_depth = other_depth ? read_depth(run) : std::vector<float>();
+  const std::vector<float>& depth = other_depth ? own_depth : m.depth;
+  if (!row.own_surfaces && other_depth) {
+    for (size_t i = 0; i < depth.size(); ++i)
+      if (depth[i] == 0 && m.depth[i] != 0) m.triangles.contested[i] = true;
+  }
   const SeenPairs* seen =
       m.shadows.pairs(run.view(), depth, row.own_surfaces ? own : m.triangles.shown.opaque);
   LitPairs pairs = count_listed_pairs(run, depth, seen);
@@ -166,7 +178,7 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   m.shown |= is_reference;
   report.rows[place] = std::move(row);
   report.listed[place] = std::move(pairs.listed_of_pixel);
-  if (!run.frame().depth || report.lit.empty()) report.lit = std::move(pairs.lit_of_pixel);
+  if (!other_depth || report.lit.empty()) report.lit = std::move(pairs.lit_of_pixel);
 }
 
 namespace {

@@ -30,7 +30,8 @@ struct Measured {
   bool shown = false;             // the report will have the reference's image
   Image every_light_on_own = {};  // surfaces, where rows have such and the reference has OpenGL's; or empty
   int samples_on_own = 1;         // of that image
-  std::map<int, Image> every_light_with = {};  // the same with other samples a pixel, where rows have such
+  // Every light on OpenGL's (false) or OpenCL's surfaces with other samples a pixel, where rows have such.
+  std::map<std::pair<bool, int>, Image> every_light_with = {};
 };
 
 // Takes the reference's image from its run. flip: with exposures for it.

@@ -6,6 +6,7 @@
 #include "results/metrics.h"
 #include "session/oracle_sample.h"
 #include "session/shadow_truth.h"
+#include "session/surfaces_in_double.h"
 
 namespace lightgrid {
 namespace {
@@ -60,14 +61,25 @@ ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
   return listed ? listed(depth) : list_every_light(uint32_t(run.view().plan.local.size()));
 }
 
+std::vector<uint32_t> groups_of_pixels(const FramePlan& plan, const Scene& scene,
+                                       const std::vector<SceneTriangle>& shown) {
+  std::vector<uint32_t> groups;
+  if (!plan.groups) return groups;
+  for (const SceneTriangle& triangle : shown)
+    groups.push_back(triangle.instance < 0 ? 0 : scene.instances[size_t(triangle.instance)].groups);
+  return groups;
+}
+
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, const SeenPairs* seen) {
   const Seen& v = run.view();
-  if (!seen) return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth));
+  std::vector<uint32_t> groups;
+  if (v.plan.groups) groups = groups_of_pixels(v.plan, v.scene, shown_triangles(run));
+  if (!seen) return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), nullptr, groups);
   std::optional<HostShadows> shaded;
   if (run.frame().shadows) shaded = run.frame().shadows();
   const PairShadows shadows{*seen, shaded ? &*shaded : nullptr,
                             uint32_t(v.plan.directional_lights.size())};
-  return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), &shadows);
+  return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), &shadows, groups);
 }
 
 std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& truth) {
@@ -77,8 +89,11 @@ std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& trut
   for (const HostShadowLayer& layer : run.frame().blended_shadows()) {
     const SeenPairs* seen = truth.of_layer(v, layer);
     const PairShadows shadows{*seen, &layer.shadows};
+    std::vector<uint32_t> groups;
+    for (const glm::ivec2& triangle : layer.triangles)
+      groups.push_back(triangle.x < 0 ? 0 : v.scene.instances[size_t(triangle.x)].groups);
     const LitPairs pairs = count_pairs(v.view, layer.depth, local_lights(v),
-                                       list_every_light(uint32_t(v.plan.local.size())), &shadows);
+                                       list_every_light(uint32_t(v.plan.local.size())), &shadows, groups);
     sum.lit += pairs.lit, sum.leaked += pairs.leaked, sum.acned += pairs.acned, sum.either += pairs.either;
   }
   return sum;

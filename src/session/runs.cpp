@@ -24,6 +24,7 @@ Settings with_reference_shadows(const Compared& c, Settings settings) {
 std::unique_ptr<TechniqueRun> make_own_run(const Compared& c) {
   Settings common =
       c.contestants.empty() ? Settings{} : with_reference_shadows(c, c.contestants.front().settings);
+  common.samples = 1;
   if (c.every_light.chosen_lights) common.lights = ShadedLights::all;
   return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, common, *c.every_light.technique);
 }
@@ -46,10 +47,11 @@ EveryLight every_light_technique(const Renderer& renderer, const std::vector<Con
   return {&find_technique("visibility"), true, differ};
 }
 
-std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& c, Settings settings) {
+std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& c, Settings settings,
+                                                      bool own_surfaces) {
   settings.lights = ShadedLights::all;
   return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, with_reference_shadows(c, settings),
-                                        find_technique("visibility"));
+                                        find_technique(own_surfaces ? "visibility" : "forward"));
 }
 
 std::vector<ContestantRun> make_entries(const Compared& c) {

@@ -14,7 +14,8 @@
 
 namespace lightgrid {
 
-// The technique that shades every light at every pixel, and its settings.
+// The technique that shades every light at every pixel, and its settings; of one sample a pixel, so that
+// pixels have one surface each.
 struct EveryLight {
   const Technique* technique;
   bool chosen_lights;          // only with lights=all
@@ -24,7 +25,7 @@ struct EveryLight {
     return other.name == std::string(technique->name) &&
            (!chosen_lights || settings.lights == ShadedLights::all) &&
            (!point_shadows || (!settings.soft_shadows() && !settings.picks_shadows())) &&
-           settings.shadows == ShadowMethod::exact && settings.shadow_threshold == 0;
+           settings.shadows == ShadowMethod::exact && settings.shadow_threshold == 0 && settings.samples == 1;
   }
   std::string name() const { return technique->name + std::string(chosen_lights ? ":lights=all" : ""); }
 };
@@ -94,8 +95,10 @@ struct Reference {
 // reference's technique are refused.
 Reference choose_reference(const Compared& compared, std::vector<ContestantRun>& entries);
 
-// A run of every light on the surfaces that are drawn in OpenCL, with the model and the texels of `settings`.
-std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& compared, Settings settings);
+// A run of every light on the surfaces that are drawn in OpenCL, or on those of OpenGL, with the model,
+// texels and samples of `settings`.
+std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& compared, Settings settings,
+                                                      bool own_surfaces);
 
 // Draws the reference, unless one of the contestants that still run has drawn it. The image of a whole one
 // is still its run's.

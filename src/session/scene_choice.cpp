@@ -43,7 +43,7 @@ void scatter_over(Scene& scene, const SceneChoice& choice) {
 }
 
 void load_lights(Scene& scene, const SceneChoice& choice) {
-  scene.lights = load_lights_file(choice.lights_file);
+  load_lights(scene, choice.lights_file);
   if (choice.lights < 0) return;
   if (size_t(choice.lights) > scene.lights.size()) {
     throw input_error("lights {}: {} has only {}", choice.lights, choice.lights_file, scene.lights.size());

@@ -41,7 +41,7 @@ void TechniqueRun::draw_frame() {
   if (opengl) reset_gl_state();
   begin_shadow_bands(view_, view_.caches.shadow_bits);
   do {
-    frame_ = technique_.render(view_);
+    frame_ = lightgrid::draw_frame(technique_, view_);
   } while (next_shadow_band(view_, view_.caches.shadow_bits, frame_.image));
   tell_shadows(view_, view_.caches.shadow_bits, frame_);
   if (opengl) check_gl(technique_.name);

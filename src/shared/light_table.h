@@ -4,6 +4,7 @@
 //   SPOTS: at least one light has a cone.
 //   VIRTUAL_LIGHTS: at least one of those is a virtual point light.
 //   SHADOWS: some light of the scene casts a shadow (FramePlan::light_reaches).
+//   GROUPS: some light or instance lacks a light group (FramePlan::groups).
 #pragma once
 
 #include "shared/real.h"
@@ -28,17 +29,26 @@ namespace lightgrid {
 #define IF_VIRTUAL(text)
 #endif
 
+#ifdef GROUPS
+#define IF_GROUPS(text) text
+#else
+#define IF_GROUPS(text)
+#endif
+
 // ROW(condition, type, member of PunctualLight, array, type of its texture in GLSL)
 //   position  view space, and 1 / radius^2 (next to 0: no range)
 //   color     radiant intensity, and the least 1 / distance^2
 //   cone      axis times scale, and offset: 1 inside, 0 outside
 //   most_falloff  of a virtual light, which fades with the cone's cosine itself and not with its square: the
 //             most 1 / distance^2; 0 of other lights
+//   groups    a bit each. After all lights follow directional ones, and then the masks of instances, by
+//             FramePlan::group_masks
 #define LIGHT_TABLE(ROW)                                           \
   ROW(IF_LIGHTS, Float4, position, light_positions, samplerBuffer) \
   ROW(IF_LIGHTS, Float4, color, light_colors, samplerBuffer)       \
   ROW(IF_SPOTS, Float4, cone, light_cones, samplerBuffer)          \
-  ROW(IF_VIRTUAL, float, most_falloff, light_falloffs, samplerBuffer)
+  ROW(IF_VIRTUAL, float, most_falloff, light_falloffs, samplerBuffer) \
+  ROW(IF_GROUPS, uint, groups, light_group_masks, usamplerBuffer)
 
 // With shadows a light knows its index, and in OpenCL the shadows at the pixels that read it.
 #if !defined(SHADOWS)
@@ -54,25 +64,39 @@ namespace lightgrid {
 #define LIGHT_MEMBER(condition, type, member, array, texels) condition(type member;)
 SHARED_STRUCT(PunctualLight){LIGHT_TABLE(LIGHT_MEMBER) SHADOW_MEMBERS};
 
-// The end of every light loop: how much of a light reaches a point of an instance, 0 to 1, besides what
-// distance and cone let through. Shadows answer here, for the pixel that is shaded. Groups and cookies will
-// answer here and in reference/attenuation.h. The plan says whether an effect asks
-// (FramePlan::light_reaches); without one the factor is the constant 1, which compiles to nothing.
-//   point: along the axes of light.position, which are the view's. instance: the scene's index. NO_INSTANCE
-//   in every loop until an effect needs it. Forward shaders then get it with each draw, resolve kernels from
-//   triangle_instance, both by way of ShadingPoint; the geometry buffer has no room for it yet, and
-//   light_prepass lights points of no instance.
-#define NO_INSTANCE WHOLE(0)
+// The end of every light loop: how much of a light reaches a point of a surface, 0 to 1, besides what
+// distance and cone let through. Shadows answer here, for the pixel that is shaded, and light groups. Cookies
+// will answer here and in reference/attenuation.h. The plan says whether an effect asks
+// (FramePlan::light_reaches, FramePlan::groups); without one the factor is the constant 1, which compiles to
+// nothing.
+//   point: along the axes of light.position, which are the view's. groups: the surface's. Forward shaders get
+//   them with each draw, resolve kernels from the instance's record, both by way of ShadingPoint; what reads
+//   a geometry buffer, from the number that it holds.
+#ifdef GROUPS
+#define GROUPS_AT(p) ((p).groups)
+#ifdef __OPENCL_VERSION__
+static inline mask_t groups_meet(uint light, whole groups) {
+  return (groups & WHOLE((int)light)) != WHOLE(0);
+}
+#define IF_MEETING(light, own, share) (groups_meet((light).groups, own) ? (share) : REAL(0.0f))
+#else
+bool groups_meet(uint light, int groups) { return (light & uint(groups)) != 0u; }
+#define IF_MEETING(light, own, share) (groups_meet((light).groups, own) ? (share) : 0.0)
+#endif
+#else
+#define GROUPS_AT(p) WHOLE(0)  // all
+#define IF_MEETING(light, own, share) (share)
+#endif
 #if defined(SHADOWS) && defined(LIGHTGRID_GLSL)
-SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole instance) {
-  return seen_share(light.index, uvec2(gl_FragCoord.xy));
+SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole groups) {
+  return IF_MEETING(light, groups, seen_share(light.index, uvec2(gl_FragCoord.xy)));
 }
 #elif defined(SHADOWS) && defined(__OPENCL_VERSION__)
-SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole instance) {
-  return seen_share(light.shadows, light.index);
+SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole groups) {
+  return IF_MEETING(light, groups, seen_share(light.shadows, light.index));
 }
 #elif defined(LIGHTGRID_GLSL) || defined(__OPENCL_VERSION__)
-#define light_reaches(light, point, instance) REAL(1.0f)
+#define light_reaches(light, point, own) IF_MEETING(light, own, REAL(1.0f))
 #else
 inline real light_reaches(const PunctualLight&, const Real3&, Whole) { return 1; }
 #endif

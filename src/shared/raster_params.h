@@ -39,7 +39,6 @@ typedef struct RasterParams {
   uint vertex_runs;
   uint chunks;                         // of the clusters in view: each is set up by one work-item
   uint record_blocks, entry_capacity;  // room
-  int sample_x, sample_y;              // from a pixel's centre to where it is sampled, 1/256 pixel
   uint cones;                          // 1: clusters that face away are left out
   uint drawing_order;                  // 1: clusters stay in the order of their instances, not nearest first
 } RasterParams;
@@ -69,7 +68,7 @@ typedef struct RasterRecord {
   float z0, zx, zy;    // depth at corner 0, and what it gains a pixel
   float z_min, z_max;  // of the corners
   uint triangle;       // its number
-  uint box_low;        // first and last pixel whose centre may be covered, x | y << 16
+  uint box_low;        // first and last pixel of which a sample may be covered, x | y << 16
   uint box_high;
   uint instance;
   int alpha_material;  // below 0: opaque

@@ -3,6 +3,7 @@
 //   LAMBERT: a diffuse surface, without what only specular lobes read.
 //   CLEARCOAT: a second lobe may lie over the first (KHR_materials_clearcoat).
 //   SPECULAR: the dielectric's reflectance may be another than 0.04 (KHR_materials_specular, _ior).
+//   GROUPS: light groups are asked for (shared/light_table.h).
 //   SKIN, MINNAERT: a diffuse part other than Lambert's may be there (shared/material_models.h).
 #pragma once
 
@@ -28,6 +29,9 @@ SHARED_STRUCT(Lobe) {
 
 SHARED_STRUCT(ShadingPoint) {
   Real3 position, normal;
+#ifdef GROUPS
+  Whole groups;  // of the surface
+#endif
   Real3 diffuse;  // of the dielectric at normal incidence: base colour (1 - metallic) (1 - 0.04) / pi;
                   // with LAMBERT base colour / pi; with MINNAERT times (n.v)^(1 - k)
 #ifdef SKIN

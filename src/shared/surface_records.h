@@ -39,6 +39,7 @@
 
 // SurfaceInstance::flags.
 #define INSTANCE_MIRRORED 1u  // front faces turn clockwise
+#define INSTANCE_GROUP_SHIFT 8u  // the other bits: the number of its mask of light groups
 
 #if !defined(__OPENCL_VERSION__)
 namespace lightgrid {

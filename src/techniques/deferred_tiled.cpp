@@ -11,9 +11,9 @@ extern const Technique deferred_tiled{
     .name = "deferred_tiled",
     .summary = "a geometry buffer, lit in OpenCL from per-tile light lists",
     .source = "Lauritzen: Deferred Rendering for Current and Future Rendering Pipelines, SIGGRAPH 2010",
-    .needs = {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true},
-    .settings = {"brdf", "buffer-bits", "cull-test", "depth-bounds", "tile", "slice-spacing", "z-bins",
-                 "raster", "texels", "kernel-shape", "portable", "group-size"},
+    .needs = {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true, .group_tiles = true},
+    .settings = {"brdf", "buffer-bits", "group-ids", "group-tiles", "cull-test", "depth-bounds", "tile",
+                 "slice-spacing", "z-bins", "raster", "texels", "kernel-shape", "portable", "group-size"},
     .render = render};
 
 }  // namespace lightgrid

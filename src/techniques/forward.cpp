@@ -7,8 +7,8 @@ extern const Technique forward{
     .name = "forward",
     .summary = "every light at every pixel",
     .source = "the baseline",
-    .needs = {},
-    .settings = {"brdf", "depth-bounds", "tile", "kernel-shape"},
+    .needs = {.most_samples = 8},
+    .settings = {"brdf", "depth-bounds", "tile", "samples", "kernel-shape"},
     .render = [](RenderView& v) { return shade_every_light(v, find_surfaces(v)); }};
 
 }  // namespace lightgrid

@@ -42,12 +42,14 @@ static Frame from_tiles(RenderView& v) {
     const NormalImage drawn = fill_normals(v);
     surfaces = surfaces_of(v, drawn.depth, true);
     normals = normals_to_cl(v, drawn);
+    if (drawn.group_numbers)
+      surfaces.group_numbers = &group_numbers_to_cl(v, drawn.framebuffer, 1, drawn.group_numbers);
   } else {
     surfaces = find_surfaces(v);
     normals = resolve_normals(v, v.caches.resolver, *surfaces.visible);
   }
   Frame frame = frame_of(v, surfaces);
-  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds_of(v, surfaces));
+  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), cull_bounds_of(v, surfaces));
   const LightSource lights = from_grid(v, *frame.grid);
   const TargetUse use = v.plan.opengl ? TargetUse::image : TargetUse::gbuffer;
   frame.image = shade_materials(
@@ -68,17 +70,25 @@ static Frame render(RenderView& v) {
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
   if (prepass_lights.of(settings) == PrepassLights::tiles) return;
   needs.light_grid = false, needs.no_light_grid = "prepass-lights=volumes";
-  needs.stencil = settings.volume_culling == VolumeCulling::stencil;
+  needs.stencil = settings.volume_culling == VolumeCulling::stencil, needs.group_stencil = true;
 }
 
 extern const Technique light_prepass{
     .name = "light_prepass",
     .summary = "depth and normals, then a buffer of light, then materials",
     .source = "Engel: Designing a Renderer for Multiple Lights: The Light Pre-Pass Renderer, ShaderX7, 2009",
-    .needs = {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true, .adapt = adapt},
-    .settings = {"brdf", "prepass-lights", "prepass-specular", "prepass-shininess", "buffer-bits", "normals",
-                 "volume-culling", "volume-mesh", "cull-test", "depth-bounds", "tile", "slice-spacing",
-                 "z-bins", "raster", "texels", "kernel-shape", "portable", "group-size"},
+    .needs = {.light_grid = true,
+              .lists = true,
+              .z_bins = true,
+              .chosen_raster = true,
+              .group_tiles = true,
+              .adapt = adapt},
+    .settings = {"brdf",          "prepass-lights", "prepass-specular", "prepass-shininess",
+                 "buffer-bits",   "normals",        "volume-culling",   "group-ids",
+                 "group-stencil", "group-tiles",    "volume-mesh",      "cull-test",
+                 "depth-bounds",  "tile",           "slice-spacing",    "z-bins",
+                 "raster",        "texels",         "kernel-shape",     "portable",
+                 "group-size"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .approximate = true};

@@ -33,10 +33,10 @@ GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces) {
 }
 
 Frame shade_from_light_grid(RenderView& v) {
-  Surfaces surfaces = find_surfaces(v);
+  Surfaces surfaces = find_surfaces(v, false, true);
   if (!v.plan.light_grid) return shade_every_light(v, surfaces);  // no light has a position: nothing to list
   Frame frame = frame_of(v, surfaces);
-  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds_of(v, surfaces));
+  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), cull_bounds_of(v, surfaces));
   const LightSource lights = from_grid(v, *frame.grid);
   frame.image = shade(v, surfaces, lights);
   blend_from_grid(v, surfaces, lights, frame);
@@ -71,7 +71,10 @@ Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
     return frame;
   }
   const DepthBuffer& depth = depth_of(v, *surfaces);
-  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds_of(v, *surfaces));
+  if (gbuffer.group_numbers)
+    surfaces->group_numbers =
+        &group_numbers_to_cl(v, gbuffer.framebuffer, gbuffer.group_attachment(), gbuffer.group_numbers);
+  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), cull_bounds_of(v, *surfaces));
   const LightSource lights = from_grid(v, *frame.grid);
   frame.image = shade_tiles(v, v.caches.tile_shading, gbuffer, depth, lights);
   blend_from_grid(v, *surfaces, lights, frame);

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "passes/resolve_samples.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -104,6 +105,12 @@ bool is_approximate(const Technique& technique, const Settings& settings) {
   return technique.approximate || settings.shadows != ShadowMethod::exact || settings.soft_shadows() ||
          settings.picks_shadows() || settings.shadow_threshold > 0 ||
          own_shadows(technique, settings) != LidrShadows::pass;
+}
+
+Frame draw_frame(const Technique& technique, RenderView& v) {
+  Frame frame = technique.render(v);
+  frame.image = resolve_samples(v, frame.image);
+  return frame;
 }
 
 int most_samples(const Technique& technique, const Settings& settings) {

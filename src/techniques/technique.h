@@ -42,6 +42,9 @@ bool reads_setting(const Technique& technique, const std::string& key);
 // Whether with these settings its picture is not forward's, by nature, or its shadows are no exact ones.
 bool is_approximate(const Technique& technique, const Settings& settings);
 
+// The technique's frame, its image of one sample a pixel.
+Frame draw_frame(const Technique& technique, RenderView& v);
+
 // The most samples a pixel that the technique can take with these settings.
 int most_samples(const Technique& technique, const Settings& settings);
 // Throws Error(input) where the setting samples is more.

@@ -14,9 +14,15 @@ extern const Technique visibility{
     .name = "visibility",
     .summary = "a visibility buffer, resolved and lit in OpenCL from per-tile light lists",
     .source = "Burns, Hunt: The Visibility Buffer, JCGT 2013",
-    .needs = {.light_grid = true, .lists = true, .z_bins = true, .opengl = false, .most_samples = 8, .adapt = adapt},
-    .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins", "lights",
-                 "samples", "texels", "kernel-shape", "portable", "group-size"},
+    .needs = {.light_grid = true,
+              .lists = true,
+              .z_bins = true,
+              .opengl = false,
+              .group_tiles = true,
+              .most_samples = 8,
+              .adapt = adapt},
+    .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins",
+                 "group-tiles", "lights", "samples", "texels", "kernel-shape", "portable", "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

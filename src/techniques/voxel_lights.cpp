@@ -30,7 +30,6 @@ static Frame render(RenderView& v) {
 }
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
-  if (settings.raster == RasterApi::opencl) needs.most_samples = 8;
   if (settings.voxel_lights_exact != 0) return;
   needs.light_grid = false, needs.no_light_grid = "voxel-lights-exact=0";
   needs.shadows = false, needs.no_shadows = "lights are added up where no pixel asks for one";
@@ -40,7 +39,13 @@ extern const Technique voxel_lights{
     .name = "voxel_lights",
     .summary = "a volume of irradiance and mean directions: lights cost by the sample, not by the pixel",
     .source = "Geldreich: Light Indexed Deferred Rendering, on Halo Wars, 2009",
-    .needs = {.light_grid = true, .lists = true, .chosen_raster = true, .adapt = adapt},
+    .needs = {.light_grid = true,
+              .lists = true,
+              .chosen_raster = true,
+              .most_samples = 8,
+              .adapt = adapt,
+              .groups_of =
+                  "; of directional and exact lights alone: the volume's light belongs to no surface"},
     .settings = {"brdf", "voxel-size", "voxel-space", "voxel-bits", "voxel-lights-exact", "voxel-reuse",
                  "cull-test", "depth-bounds", "tile", "raster", "samples", "texels", "kernel-shape",
                  "portable", "group-size"},

@@ -141,8 +141,7 @@ class DeviceEngine : public CullEngine {
 
   std::vector<LightIndexImage> light_indices(const Scene& scene, std::span<const View> views,
                                              const Settings& settings) override {
-    if (!with_opengl_) with_opengl_ = std::make_unique<Renderer>(substring_, GlBackend::automatic);
-    if (!with_opengl_->gl) return {};
+    if (!opengl().gl) return {};
     const Technique& technique = find_technique("lidr");
     with_opengl_->gl->make_current();
     GpuScene gpu(*with_opengl_, scene);
@@ -160,7 +159,77 @@ class DeviceEngine : public CullEngine {
     return images;
   }
 
+  std::vector<GroupImage> group_images(const Scene& scene, const std::string& name,
+                                       std::span<const View> views, const Settings& settings) override {
+    Renderer& renderer = opengl();
+    const Technique& technique = find_technique(name);
+    if (!renderer.gl && technique.needs.opengl && settings.raster == RasterApi::opengl) return {};
+    if (renderer.gl) renderer.gl->make_current();
+    GpuScene gpu(renderer, scene);
+    RenderView v(renderer, gpu, views.front(), settings, technique.needs);
+    std::vector<GroupImage> images;
+    for (const View& view : views) {
+      if (!images.empty()) v.look(view);
+      if (renderer.gl) reset_gl_state();
+      const Frame frame = technique.render(v);
+      GroupImage& image = images.emplace_back();
+      image.lights = v.plan.local, image.tile = v.plan.settings.tile;
+      image.pixels = read_pixels(v, frame.image);
+      image.depths = depths_of(v, frame);
+      image.lists =
+          frame.listed ? frame.listed(image.depths) : list_every_light(uint32_t(image.lights.size()));
+      if (image.lists.cell_of_pixel.empty()) image.lists.cell_of_pixel.resize(image.depths.size());
+      image.groups = groups_shown(v, frame);
+      if (renderer.gl) check_gl(technique.name);
+    }
+    return images;
+  }
+
  private:
+  // With OpenGL, where the machine has it.
+  Renderer& opengl() {
+    if (!with_opengl_) {
+      with_opengl_ = std::make_unique<Renderer>(substring_, GlBackend::automatic);
+      with_opengl_->kernels->alter(alter_);
+    }
+    return *with_opengl_;
+  }
+
+  static std::vector<glm::vec4> read_pixels(RenderView& v, const ShadedImage& image) {
+    std::vector<glm::vec4> pixels(v.grid().pixels());
+    if (image.in_cl) {
+      read_buffer(*v.renderer.cl, "image", image.in_cl->cl_buffer(), pixels.data(), pixels.size() * 16);
+    } else {
+      glBindFramebuffer(GL_READ_FRAMEBUFFER, image.framebuffer);
+      glReadPixels(0, 0, v.view.width, v.view.height, GL_RGBA, GL_FLOAT, pixels.data());
+    }
+    return pixels;
+  }
+
+  static std::vector<float> depths_of(RenderView& v, const Frame& frame) {
+    if (!frame.depth) return read_depth(v);
+    std::vector<float> depths(v.grid().pixels());
+    read_buffer(*v.renderer.cl, "depths", frame.depth->values, depths.data(), depths.size() * 4);
+    return depths;
+  }
+
+  // Of the surface at each pixel.
+  static std::vector<uint32_t> groups_shown(RenderView& v, const Frame& frame) {
+    std::vector<uint32_t> groups;
+    const auto add = [&](int instance) {
+      groups.push_back(instance < 0 ? 0 : v.scene.instances[size_t(instance)].groups);
+    };
+    if (!frame.triangles) {
+      for (const SceneTriangle& triangle : read_triangles(v).opaque) add(triangle.instance);
+      return groups;
+    }
+    std::vector<uint32_t> numbers(v.grid().pixels());
+    read_buffer(*v.renderer.cl, "triangles", frame.triangles->numbers, numbers.data(), numbers.size() * 4);
+    for (const CastingTriangle& triangle : triangles_of(v.scene, *frame.triangles, numbers))
+      add(triangle.instance);
+    return groups;
+  }
+
   HostGrid grid_of(LightCuller& culler, const TileBounds& bounds) {
     return read_grid(device_, culler.cull(bounds, storage_), storage_);
   }
@@ -206,7 +275,7 @@ class DeviceEngine : public CullEngine {
   const std::string substring_;
   const ProgramCache::Alter alter_;
   std::unique_ptr<Renderer> renderer_;     // of shadows: made at first use
-  std::unique_ptr<Renderer> with_opengl_;  // of light indices: likewise
+  std::unique_ptr<Renderer> with_opengl_;  // of light indices and groups: likewise
   ClDevice device_;
   ProgramCache programs_;
   ClGridStorage storage_;

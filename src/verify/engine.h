@@ -67,6 +67,16 @@ struct ShadowImage {
   HostShadows shadows;
 };
 
+// A technique's frame of a scene with light groups.
+struct GroupImage {
+  std::vector<float> depths;      // a pixel, row 0 at the bottom; 0 for background
+  std::vector<uint32_t> groups;   // of the surface that is shown; 0 for background
+  std::vector<int> lights;        // of the scene, by their indices in lists
+  ListedLights lists;             // of opaque surfaces, one a pixel
+  std::vector<glm::vec4> pixels;  // linear
+  int tile = 0;                   // pixels a side
+};
+
 // A cull from depth with all of its inputs, for the float twin.
 struct KernelRun {
   CullInputs inputs;
@@ -106,6 +116,13 @@ class CullEngine {
   // What lidr lists at each pixel, a view after the other in one run. Nothing from an engine without OpenGL.
   // No light of the scene may cast.
   virtual std::vector<LightIndexImage> light_indices(const Scene&, std::span<const View>, const Settings&) {
+    return {};
+  }
+
+  // A frame for each view in one run of a technique. Nothing from an engine that only culls, or without
+  // OpenGL where the technique draws with it.
+  virtual std::vector<GroupImage> group_images(const Scene&, const std::string& /*technique*/,
+                                               std::span<const View>, const Settings&) {
     return {};
   }
 

@@ -4,103 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/coverage.h"
 #include "scene/random.h"
-#include "verify/check.h"
+#include "verify/raster_check.h"
 
 namespace lightgrid::verify {
 namespace {
-
-// A view from the origin whose clip space is (x, y, 0.1, -z): x = y = -z is the image's upper right corner.
-RasterInput raster_scene(int width, int height, bool two_sided = false) {
-  RasterInput input;
-  input.camera = {.grid = {width, height}, .clip_from_view = glm::dmat4(0)};
-  glm::dmat4& m = input.camera.clip_from_view;
-  m[0][0] = m[1][1] = 1, m[2][3] = -1, m[3][2] = 0.1;
-  input.meshes.resize(1);
-  input.instances = {{.two_sided = two_sided}};
-  return input;
-}
-
-// The place that the view shows at pixel (x, y) and distance d.
-glm::vec3 raster_position(const RasterInput& input, double x, double y, double d) {
-  return {float((2 * x / input.camera.grid.width - 1) * d), float((2 * y / input.camera.grid.height - 1) * d),
-          float(-d)};
-}
-
-void add_raster_triangle(RasterInput& input, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-  RasterInputMesh& mesh = input.meshes[0];
-  for (const glm::vec3& p : {a, b, c}) {
-    mesh.indices.push_back(uint32_t(mesh.positions.size()));
-    mesh.positions.push_back(p);
-  }
-}
-
-// Three corners, one after the other.
-template <typename Corner>
-void add_raster_triangle(RasterInput& input, const Corner& corner) {
-  const glm::vec3 a = corner(), b = corner(), c = corner();
-  add_raster_triangle(input, a, b, c);
-}
-
-CoverageOracle raster_oracle(const RasterInput& input, const RasterImage& image) {
-  CoverageOracle oracle(input.camera.grid);
-  for (size_t i = 0; i < input.instances.size(); ++i) {
-    const RasterInstance& instance = input.instances[i];
-    const std::vector<uint32_t>& indices = input.meshes[instance.mesh].indices;
-    const std::vector<glm::vec4>& clip = image.clip[i];
-    const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
-    for (size_t k = 0; k < indices.size(); k += 3) {
-      oracle.add(
-          {{clip[indices[k]], clip[indices[k + 1]], clip[indices[k + 2]]}, instance.two_sided, mirrored});
-    }
-  }
-  return oracle;
-}
-
-// One trial and one contact a pixel; a hole is a lost pixel.
-void compare_raster(Check& c, const RasterInput& input, const RasterImage& image) {
-  const CoverageOracle oracle = raster_oracle(input, image);
-  for (int y = 0; y < input.camera.grid.height; ++y) {
-    for (int x = 0; x < input.camera.grid.width; ++x) {
-      const size_t i = input.camera.grid.index(x, y);
-      const std::string why = wrong_at(oracle.at(x, y), image.triangles[i], image.depths[i]);
-      c.trials(1);
-      c.contacts(!oracle.at(x, y).empty());
-      if (why.empty()) continue;
-      if (image.triangles[i] == no_triangle)
-        c.lost("pixel {} {}: {}", x, y, why);
-      else
-        c.fail(fmt::format("pixel {} {}: {}", x, y, why));
-    }
-  }
-  c.that(image.invalid_triangles == oracle.invalid_triangles(), "{} triangles are called invalid, {} are",
-         image.invalid_triangles, oracle.invalid_triangles());
-}
-
-// Compares with the oracle, and the bytes of every shape with each other. Returns the first image, or nothing
-// where the engine culls only.
-std::optional<RasterImage> raster(Check& c, const RasterInput& input) {
-  std::optional<RasterImage> first;
-  for (const RasterOptions& options :
-       {RasterOptions{.shape = KernelShape::lanes}, RasterOptions{.shape = KernelShape::group},
-        RasterOptions{.shape = KernelShape::group, .wide_atomics = false}}) {
-    std::optional<RasterImage> image = c.engine.rasterize(options, input);
-    if (!image) {
-      c.skip("the engine does not rasterise");
-      return {};
-    }
-    if (!first) {
-      compare_raster(c, input, *image);
-      first = std::move(image);
-    } else {
-      c.that(image->triangles == first->triangles && image->depths == first->depths,
-             "the kernel shapes' images differ");
-    }
-    if (!c.engine.is_the_library()) break;
-  }
-  return first;
-}
 
 // Triangles over the whole image, vertices a little off a lattice, or on pixels' centres.
 RasterInput raster_sheet(int cells, bool on_centres) {

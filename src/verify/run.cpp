@@ -4,6 +4,7 @@
 #include <map>
 #include <regex>
 #include <sstream>
+#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
@@ -41,8 +42,13 @@ using Run = void (*)(Check&);
 std::map<std::string, Run> runs_by_name() {
   std::map<std::string, Run> runs;
   for (const auto& group : {depth_cases(), depth_bounds_cases(), camera_cases(), light_cases(), list_cases(),
-                            agreement_cases(), raster_cases(), shadow_cases(), light_index_cases()})
-    for (const CaseRun& c : group) runs.emplace(c.name, c.run);
+                            agreement_cases(), raster_cases(), shadow_cases(), light_index_cases(),
+                            group_cases(), sample_cases()}) {
+    for (const CaseRun& c : group) {
+      if (!runs.emplace(c.name, c.run).second)
+        throw std::logic_error("two hard cases have the function name " + c.name);
+    }
+  }
   return runs;
 }
 

@@ -232,6 +232,12 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
       {"shaders/lights/blocks.glsl", {"position"}},
       {"src/shared/punctual_light.h", {"cone", "most_falloff"}},
       {"src/shared/voxel_exact.h", {"cone", "most_falloff"}},
+      // Groups of a light before it is read whole; of directional lights and of instances, which follow.
+      {"shaders/lights/punctual.glsl", {"groups"}},
+      {"shaders/lights/directional.glsl", {"groups"}},
+      {"shaders/common/groups_of_pixel.glsl", {"groups"}},
+      {"kernels/resolve/resolve_light.h", {"groups"}},
+      {"kernels/resolve/group_numbers.h", {"groups"}},
       // A record of the culler's own, from LightBounds.
       {"kernels/culling/gpu/cull_lights.cl", {"cone"}},
   };
@@ -242,7 +248,8 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
 // loop: each asks already, and a new one that computes what arrives without asking fails here.
 TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
   const std::map<std::string, std::vector<std::string>> texts = {
-      {"answers", {"real light_reaches(", "double light_reaches(", "plan.light_reaches = "}},
+      {"answers",
+       {"real light_reaches(", "double light_reaches(", "plan.light_reaches = ", "plan.groups = "}},
       {"asks", {"* light_reaches(", "*= light_reaches(", "return light_reaches("}},
       {"arrives", {" arrival_at(", " voxel_arrival(", " attenuation(light", " arrival_at_sample("}},
   };

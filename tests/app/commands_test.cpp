@@ -301,7 +301,8 @@ TEST(CameraPath, RenderAndCompareSayAlikeWhereThePlanChanged) {
 TEST(ScenesCommand, ListsTheBuiltInScenes) {
   const ProgramRun run = run_program({"scenes"});
   EXPECT_EQ(run.status, 0);
-  for (const char* name : {"hall", "spheres", "terrain", "street", "particles", "gallery", "square"})
+  for (const char* name :
+       {"hall", "spheres", "terrain", "street", "particles", "gallery", "square", "rooms"})
     EXPECT_THAT(run.out, HasSubstr(name));
 }
 

@@ -54,6 +54,11 @@ enum class Fault {
   mirrors_ignored,   // front faces are counter-clockwise whatever the instance's matrix
   capacity_of_4096,  // triangles
   invalid_is_zero,   // NaN and infinite positions become 0
+  samples_at_centres,
+  samples_upside_down,  // y down taken for y up
+  depth_of_centres,     // one a pixel, for all of its samples
+  box_of_centres,       // pixels are left out whose centres lie outside of the triangle's box
+  last_sample_as_first,
 };
 
 }  // namespace lightgrid::verify

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hard_cases/faults.h"
+#include "raster/raster_samples.h"
 #include "reference/coverage.h"
 #include "verify/engine.h"
 
@@ -17,9 +18,9 @@ namespace lightgrid::verify {
 class NaiveRasterizer {
  public:
   NaiveRasterizer(const RasterInput& input, Fault fault) : input_(input), fault_(fault) {
-    const size_t pixels = input.camera.grid.pixels();
-    image_.triangles.assign(pixels, no_triangle);
-    image_.depths.assign(pixels, 0.0f);
+    const size_t values = input.camera.grid.values();
+    image_.triangles.assign(values, no_triangle);
+    image_.depths.assign(values, 0.0f);
   }
 
   RasterImage draw() {
@@ -94,15 +95,28 @@ class NaiveRasterizer {
     const auto [y0, y1] = std::minmax({p[0].y, p[1].y, p[2].y});
     for (int64_t y = std::max<int64_t>(0, y0 / 256 - 1); y <= std::min<int64_t>(height - 1, y1 / 256); ++y) {
       for (int64_t x = std::max<int64_t>(0, x0 / 256 - 1); x <= std::min<int64_t>(width - 1, x1 / 256); ++x) {
-        const SnappedPoint c{x * 256 + 128, y * 256 + 128};
-        if (!lets_in(p[0], p[1], c.x, c.y) || !lets_in(p[1], p[2], c.x, c.y) ||
-            !lets_in(p[2], p[0], c.x, c.y))
-          continue;
-        const double weighted = z[0] * double(area(c, p[1], p[2])) + z[1] * double(area(p[0], c, p[2])) +
-                                z[2] * double(area(p[0], p[1], c));
-        put(size_t(y) * width + size_t(x), float(weighted / double(std::abs(whole))));
+        const SnappedPoint centre{x * 256 + 128, y * 256 + 128};
+        const bool in_box = centre.x >= x0 && centre.x <= x1 && centre.y >= y0 && centre.y <= y1;
+        if (fault_ == Fault::box_of_centres && !in_box) continue;
+        for (int s = 0; s < input_.camera.grid.samples; ++s) {
+          const SnappedPoint c = sample_place(centre, s), d = fault_ == Fault::depth_of_centres ? centre : c;
+          if (!lets_in(p[0], p[1], c.x, c.y) || !lets_in(p[1], p[2], c.x, c.y) ||
+              !lets_in(p[2], p[0], c.x, c.y))
+            continue;
+          const double weighted = z[0] * double(area(d, p[1], p[2])) + z[1] * double(area(p[0], d, p[2])) +
+                                  z[2] * double(area(p[0], p[1], d));
+          put(input_.camera.grid.index(int(x), int(y), s), float(weighted / double(std::abs(whole))));
+        }
       }
     }
+  }
+
+  SnappedPoint sample_place(const SnappedPoint& centre, int s) const {
+    const int samples = input_.camera.grid.samples;
+    if (fault_ == Fault::last_sample_as_first && s == samples - 1) s = 0;
+    if (fault_ == Fault::samples_at_centres) return centre;
+    const glm::ivec2 p = raster_samples(samples)[size_t(s)];
+    return {centre.x + p.x, centre.y + (fault_ == Fault::samples_upside_down ? -p.y : p.y)};
   }
 
   void put(size_t pixel, float depth) {

@@ -137,7 +137,7 @@ TEST_P(BuiltinScenes, TwiceTheSame) {
 
 INSTANTIATE_TEST_SUITE_P(All, BuiltinScenes,
                          testing::Values("hall", "spheres", "terrain", "street", "particles", "gallery",
-                                         "square"),
+                                         "square", "rooms"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(BuiltinSceneList, CountsAreThoseOfTheDocumentation) {
@@ -148,7 +148,8 @@ TEST(BuiltinSceneList, CountsAreThoseOfTheDocumentation) {
   } documented[] = {{"hall", 87'384, 221, 16, 0},     {"spheres", 188'160, 1024, 0, 0},
                     {"terrain", 52568, 255, 0, 1},    {"street", 91'136, 658, 132, 1},
                     {"particles", 4'320, 325, 12, 0}, {"gallery", 216'108, 181, 29, 0},
-                    {"square", 2'839'196, 270, 30, 0}};
+                    {"square", 2'839'196, 270, 30, 0},
+                    {"rooms", 15'188, 54, 3, 1}};
   ASSERT_EQ(builtin_scenes().size(), std::size(documented));
   for (const auto& expected : documented) {
     const Scene scene = find_builtin_scene(expected.name)->make();

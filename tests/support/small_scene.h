@@ -76,6 +76,15 @@ inline int add_speckles(Scene& scene, bool srgb) {
   return add_texture(scene, std::move(bitmap), srgb);
 }
 
+// Lamps light the wall alone, the ball alone, both by the last group, or nothing; some have every group. What
+// comes after the ball and the lamps takes its turn. The wall has another mask in each bit than the ball.
+inline void add_groups(Scene& scene) {
+  constexpr uint32_t last = 1u << 31, of_lights[] = {1, 2, last, all_groups, 0, 3};
+  constexpr uint32_t of_instances[] = {1 | last, 2 | last, 1 << 8 | 2};
+  for (size_t i = 0; i < scene.lights.size(); ++i) scene.lights[i].groups = of_lights[i % 6];
+  for (size_t i = 0; i < scene.instances.size(); ++i) scene.instances[i].groups = of_instances[i % 3];
+}
+
 struct Effect {
   std::string name;
   std::string decision;  // as in FramePlan::decisions; empty if the effect is the absence of all
@@ -183,6 +192,7 @@ inline const std::vector<Effect>& effects() {
          sun.type = LightType::directional;
          sun.direction = glm::normalize(glm::vec3(0.3f, -0.5f, -1));
        }},
+      {"groups", "light groups", "", "light 0 \"lamp\" has 0", [](SmallScene& s) { add_groups(s.scene); }},
   };
   return all;
 }

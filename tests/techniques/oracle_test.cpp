@@ -29,7 +29,8 @@ TEST_P(Shading, InFloatIsTheOraclesWithinItsRounding) {
   EXPECT_GT(errors.model.max_abs, 0) << "the window takes light away";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Shading, testing::Values("hall", "spheres", "terrain", "street", "gallery"),
+INSTANTIATE_TEST_SUITE_P(Scenes, Shading,
+                         testing::Values("hall", "spheres", "terrain", "street", "gallery", "rooms"),
                          [](const auto& info) { return std::string(info.param); });
 
 // No peak multiplies a rounding. A position is rounded to 1e-7 of its distance from the eye, which is up to

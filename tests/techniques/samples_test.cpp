@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "session/surfaces_in_double.h"
+#include "support/fine_truth.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -34,42 +34,9 @@ TEST(Samples, AreTakenByTechniquesThatDeclareThemAndRefusedByOthersByName) {
   }
 }
 
-// A picture drawn at `side` times the size: side * side samples a pixel in a grid, and whose instances each
-// sees.
-struct FineTruth {
-  FineTruth(const Scene& scene, int width, int height) : image(width, height), edges(image.pixels.size()) {
-    TechniqueRun run(test_devices(), scene, small_view(side * width, side * height), {},
-                     find_technique("visibility"));
-    run.run_frame();
-    const std::vector<SceneTriangle> shown = own_triangles(run);
-    std::vector<int> first(image.pixels.size(), no_instance);
-    for (int y = 0; y < side * height; ++y) {
-      for (int x = 0; x < side * width; ++x) {
-        const size_t pixel = size_t(y / side) * size_t(width) + size_t(x / side),
-                     fine = size_t(y) * size_t(side * width) + size_t(x);
-        image.pixels[pixel] += run.image().pixels[fine] / float(side * side);
-        int& instance = first[pixel];
-        if (instance == no_instance) instance = shown[fine].instance;
-        if (shown[fine].instance != instance) edges[pixel] = true;
-      }
-    }
-  }
-  // Root mean square of the brightest channel's difference over pixels at edges, or over those inside.
-  double error(const Image& other, bool at_edges) const {
-    double sum = 0;
-    size_t count = 0;
-    for (size_t i = 0; i < edges.size(); ++i) {
-      if (edges[i] != at_edges) continue;
-      const glm::vec3 d = glm::abs(glm::vec3(image.pixels[i]) - glm::vec3(other.pixels[i]));
-      sum += std::pow(double(std::max({d.r, d.g, d.b})), 2), ++count;
-    }
-    return std::sqrt(sum / double(count));
-  }
-
-  static constexpr int side = 16, no_instance = -2;
-  Image image;
-  std::vector<bool> edges;
-};
+FineTruth truth_of(const Scene& scene, int width, int height) {
+  return {test_devices(), scene, small_view(FineTruth::side * width, FineTruth::side * height)};
+}
 
 class SamplesOfVisibility : public testing::Test {
  protected:
@@ -102,7 +69,7 @@ TEST_F(SamplesOfVisibility, HaveErrorsThatFallAtEdgesAndStayInside) {
   s_ = small_scene(false);
   effect("directional").add(s_);
   for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
-  const FineTruth truth(s_.scene, 67, 41);
+  const FineTruth truth = truth_of(s_.scene, 67, 41);
   std::vector<double> at_edges, inside;
   for (const char* samples : {"samples=1", "samples=2", "samples=4", "samples=8"}) {
     const Image image = draw(samples);
@@ -124,6 +91,61 @@ TEST_F(SamplesOfVisibility, AreRefusedWhereALightCastsAShadow) {
   s_.scene.lights[0].casts_shadow = true;
   EXPECT_THROW(draw("samples=4"), Error);
   EXPECT_NO_THROW(draw("samples=4 shadows=none"));
+}
+
+// OpenGL's coverage, shaded once a pixel and surface.
+class SamplesOfOpenGl : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"blend", "mask", "spot", "directional"}) effect(name).add(s_);
+    try {
+      draw("forward", 4);
+    } catch (const Error& error) {
+      GTEST_SKIP() << error.what();
+    }
+  }
+  Image draw(const char* technique, int samples) const {
+    Settings settings;
+    settings.samples = samples;
+    return render(s_.scene, small_view(67, 41), technique, settings);
+  }
+  SmallScene s_ = small_scene();
+};
+
+TEST_F(SamplesOfOpenGl, ShowTheImageOfForwardInEveryTechniqueThatTakesThem) {
+  const Image four = draw("forward", 4);
+  EXPECT_FALSE(same_bytes(four, draw("forward", 1)));
+  for (const char* technique : {"forward_plus", "clustered", "world_grid"})
+    EXPECT_TRUE(identical(draw(technique, 4), four)) << technique;
+  for (const char* technique : {"forward_multipass", "forward_zprepass"})
+    EXPECT_LT(compare_images(draw(technique, 4), four).max_rel, 1e-6) << technique;
+}
+
+TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesAndStaySmallInside) {
+  s_ = small_scene(false);
+  effect("directional").add(s_);
+  for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
+  const FineTruth truth = truth_of(s_.scene, 67, 41);
+  const Image one = draw("forward", 1), four = draw("forward", 4);
+  // Random places would halve it.
+  EXPECT_LT(truth.error(four, true), truth.error(one, true) / 3);
+  // Where two triangles of the ball meet in a pixel each is shaded at a place of its own, which is none of
+  // its centre.
+  EXPECT_LT(truth.error(four, false), truth.error(four, true) / 10);
+  RecordProperty("errors",
+                 fmt::format("edges {:.5f} and {:.5f}, inside {:.5f} and {:.5f}", truth.error(one, true),
+                             truth.error(four, true), truth.error(one, false), truth.error(four, false)));
+}
+
+TEST_F(SamplesOfOpenGl, AreRefusedWhereTheMachineHasOtherNumbers) {
+  for (const int samples : {2, 8}) {
+    try {
+      draw("forward_plus", samples);  // some machines have them
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::machine);
+      EXPECT_THAT(error.what(), HasSubstr(fmt::format("{} samples", samples)));
+    }
+  }
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST(TiledLight, TakesTheMemoryThatItsPageSays) {
     run.run_frame();
     return run.result();
   };
-  const size_t pixels = 64 * 40, lights = 1024 * 32 + 4 * 16 + sizeof(ViewParams);
+  const size_t pixels = 64 * 40, lights = 1024 * 32 + 3 * 16 + sizeof(ViewParams);
   const size_t beside = result_of("forward_plus", 32).memory_total;
   for (const char* technique : both) {
     for (const auto& [bits, bytes] : {std::pair<int, size_t>(8, 8), {16, 16}, {32, 32}}) {

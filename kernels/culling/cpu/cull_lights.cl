@@ -7,7 +7,10 @@
 // records, lists, counts  as culling/cpu/project_lights.cl writes them, `runs` counts a region
 // step           stride through the patches of 2 x 2 bins, coprime to their number: spreads each
 //                thread's work-items over the screen
+// light_groups   with -DGROUPS: of each light, bits (scene/light_groups.h)
 // bounds         as culling/cpu/depth_bounds.cl writes them
+// tile_groups    with -DGROUPS: of each bin's tiles, in slots, the groups that their surfaces have
+//                (culling/tile_groups.cl)
 // slices         where there are some: as kernels/culling/bin_cells.h says
 // pool           room for candidates in batches of 16 lights; the batches needed are counted in counters[0]
 // staged         room for each bin's lists in units of 16 indices; the units needed are counted in
@@ -34,14 +37,14 @@ static inline uint append_ids(global index_t* to, global const float* ids, uint 
 }
 
 // The lights of one cell, written to `list`; `tile` is its tile as VIEW_TILES has it. Returns how many.
-static inline uint list_cell(const Candidates* few, int tile, const TestCell* cell, global index_t* list,
-                             constant CullParams* p) {
+static inline uint list_cell(const Candidates* few, int tile, const TestCell* cell, uint groups,
+                             global index_t* list, constant CullParams* p) {
   uint n = 0;
   for (uint i = 0; i < few->count; i += 16) {
     global const float* from = few->lights + i;
     const int16 tiles = as_int16(vload16(0, from + VIEW_TILES * few->stride));
     const uint bits = bits_of_both((tiles & tile) == tile, light_may_touch(from, few->stride, cell, p)) &
-                      first_lanes(few->count - i);
+                      in_groups(from, few->stride, groups) & first_lanes(few->count - i);
     n += append_ids(list + n, from + VIEW_ID * few->stride, bits);
   }
   return n;
@@ -54,7 +57,8 @@ static inline uint list_cell(const Candidates* few, int tile, const TestCell* ce
 
 // The lists of a quad's cells from its candidates, one after the other. Returns how many indices they hold.
 static inline uint list_quad(const Candidates* few, uint quad, const BinTiles* tiles,
-                             global const float* bounds, global const float2* slices,
+                             global const float* bounds, global const uint* tile_groups,
+                             global const float2* slices,
                              global uint* cell_counts, global index_t* list, constant CullParams* p) {
   const int column = 1 << tile_x_of_slot(quad * 4), row = 0x100 << tile_y_of_slot(quad * 4);
   const int held_by[4] = {column | row, column << 1 | row, column | row << 1, column << 1 | row << 1};
@@ -63,7 +67,8 @@ static inline uint list_quad(const Candidates* few, uint quad, const BinTiles* t
     for (uint slice = 0; slice < SLICE_COUNT; ++slice) {
       TestCell cell;
       if (!pick_test_cell(tiles, bounds, slot, slice, slices, &cell, p)) continue;
-      const uint n = list_cell(few, held_by[slot & 3], &cell, list + written, p);
+      const uint n = list_cell(few, held_by[slot & 3], &cell, groups_of_tiles(tile_groups + slot, 1),
+                               list + written, p);
       cell_counts[slot * SLICE_COUNT + slice] = n;
       written += n;
     }
@@ -73,7 +78,8 @@ static inline uint list_quad(const Candidates* few, uint quad, const BinTiles* t
 
 // rooms: for the indices of a bin's lights, and for its candidates.
 static inline void cull_bin(uint bx, uint by, global const float* records, RegionLights lights,
-                            global const float* bounds, global const float2* slices, Room* rooms,
+                            global const uint* light_groups, global const float* bounds,
+                            global const uint* tile_groups, global const float2* slices, Room* rooms,
                             global float* pool, global index_t* staged, global uint* cell_counts,
                             global uint2* lists, global volatile uint* counters, constant CullParams* p) {
   *lists = (uint2)(0u);
@@ -96,7 +102,8 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
   Candidates all = {candidates, stride, 0}, some = {candidates + step, stride, 0};
   Candidates few[2] = {{candidates + 2 * step, stride, 0}, {candidates + 3 * step, stride, 0}};
   ulong pairs;
-  all.count = gather(ids, count, records, bx * BIN_TILES, by * BIN_TILES, &whole_bin, all, &pairs);
+  all.count = gather(ids, count, records, light_groups, bx * BIN_TILES, by * BIN_TILES, &whole_bin,
+                     groups_of_tiles(tile_groups, BIN_SIZE), all, &pairs);
   const ulong wanted = pairs * SLICE_COUNT / 16 + 2;
   const uint units = wanted > MOST_UNITS ? MOST_UNITS : (uint)wanted;
   const uint offset = atomic_add(counters + 1, units);
@@ -113,21 +120,27 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
   for (uint quad = 0; quad <= 16; ++quad) {
     if (quad < 16) {
       const uint x = tile_x_of_slot(quad * 4), y = tile_y_of_slot(quad * 4);
-      if (quad % 4 == 0 && many) some.count = narrow(&all, x, y, 4, &blocks[quad / 4], some.lights);
+      if (quad % 4 == 0 && many)
+        some.count = narrow(&all, x, y, 4, &blocks[quad / 4], groups_of_tiles(tile_groups + quad * 4, 16),
+                            some.lights);
       const bool shown = quads[quad].near <= quads[quad].far;
       few[quad & 1].count =
-          shown ? narrow(many ? &some : &all, x, y, 2, &quads[quad], few[quad & 1].lights) : 0u;
+          shown ? narrow(many ? &some : &all, x, y, 2, &quads[quad],
+                         groups_of_tiles(tile_groups + quad * 4, 4), few[quad & 1].lights)
+                : 0u;
     }
     if (quad > 0) {
-      written += list_quad(&few[~quad & 1], quad - 1, &tiles, bounds, slices, cell_counts, list + written, p);
+      written += list_quad(&few[~quad & 1], quad - 1, &tiles, bounds, tile_groups, slices, cell_counts,
+                           list + written, p);
     }
   }
   *lists = (uint2)(offset, written);
 }
 
 kernel void cull_lights(global const float* records, global const uint* lists, global const uint* counts,
-                        uint runs, uint step, global const float* bounds, global const float2* slices,
-                        global float* pool, global index_t* staged, global uint* cell_counts,
+                        uint runs, uint step, global const uint* light_groups, global const float* bounds,
+                        global const uint* tile_groups, global const float2* slices, global float* pool,
+                        global index_t* staged, global uint* cell_counts,
                         global uint2* bins, global volatile uint* counters, constant CullParams* p) {
   Room rooms[2] = {{0, 0u}, {0, 0u}};
   const size_t stride = p->light_stride + 16;
@@ -142,7 +155,8 @@ kernel void cull_lights(global const float* records, global const uint* lists, g
       const uint region = by / p->region_bins * p->regions_x + bx / p->region_bins;
       const RegionLights lights = {lists + region * 3 * stride, stride, counts + region * runs, runs,
                                    p->light_stride / 16};
-      cull_bin(bx, by, records, lights, bounds + bin * BOUND_PLANES * BIN_SIZE, slices, rooms, pool, staged,
+      cull_bin(bx, by, records, lights, light_groups, bounds + bin * BOUND_PLANES * BIN_SIZE,
+               tile_groups + bin * BIN_SIZE, slices, rooms, pool, staged,
                cell_counts + bin * BIN_SIZE * SLICE_COUNT, bins + bin, counters, p);
     }
   }

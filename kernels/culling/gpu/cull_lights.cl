@@ -2,6 +2,7 @@
 // listed or not. For GPUs; a work-group of GROUP items takes a block.
 //
 // views, light_marks  as culling/gpu/project_lights.cl writes them
+// light_groups, tile_groups  as in culling/cpu/cull_lights.cl
 // bounds    as culling/gpu/depth_bounds.cl writes them
 // slices    where there are some: as kernels/culling/bin_cells.h says
 // ids       the blocks' candidates, in units of 16; the units needed are counted in counters[0]
@@ -35,6 +36,7 @@ typedef struct Block {
   global const float* bounds;
   global const float2* slices;
   local TestCell* cells;  // where tiles have one cell each
+  global const uint *light_groups, *tile_groups;  // with -DGROUPS; the latter by slot of the block
 } Block;
 
 static inline bool holds_something(const TestCell* c) {
@@ -88,11 +90,27 @@ static inline Cell block_box(const Block* block, local float* spans, constant Cu
   return c;
 }
 
-// Returns the lights in `bits`, from `first` on, that may touch the block.
-static inline uint touch_block(uint bits, global const float4* first, const Cell* box) {
+// The groups of the block's surfaces; without -DGROUPS all.
+static inline uint groups_of_block(const Block* block) {
+#ifdef GROUPS
+  uint groups = 0;
+  for (uint i = 0; i < BLOCK_SIZE; ++i) groups |= block->tile_groups[i];
+  return groups;
+#else
+  return 0xffffffffu;
+#endif
+}
+
+// Returns the lights in `bits`, from `first` on, that may touch the block. groups: the block's.
+static inline uint touch_block(uint bits, uint first_light, global const float4* views, const Block* block,
+                               uint groups, const Cell* box) {
+  global const float4* first = views + (size_t)first_light * RECORD;
   uint kept = 0;
   for (; bits; bits &= bits - 1) {
     const uint bit = lowest_bit(bits);
+#ifdef GROUPS
+    if (!(block->light_groups[first_light + bit] & groups)) continue;
+#endif
     if (may_touch_coarsely(record_sphere(first + bit * RECORD), box)) kept |= 1u << bit;
   }
   return kept;
@@ -101,9 +119,9 @@ static inline uint touch_block(uint bits, global const float4* first, const Cell
 // Appends the block's candidates to `ids` and returns their number: lights that are marked for its column and
 // its row and touch its box. Where these marks are few words, several items share a word.
 static inline uint list_candidates(global const uint* column, global const uint* row, uint words,
-                                   global const float4* views, const Cell* box, global uint* ids,
-                                   local uint* kept, local uint* scratch) {
-  const uint item = get_local_id(0);
+                                   global const float4* views, const Block* block, const Cell* box,
+                                   global uint* ids, local uint* kept, local uint* scratch) {
+  const uint item = get_local_id(0), groups = groups_of_block(block);
   uint parts = 1;
   while (parts < 8 && words * parts * 2 <= GROUP) parts *= 2;
   const uint share = 32 / parts;  // bits
@@ -115,7 +133,7 @@ static inline uint list_candidates(global const uint* column, global const uint*
     for (uint i = item; i < some * parts; i += GROUP) {
       const uint w = i / parts, mine = 0xffffffffu >> (32 - share) << i % parts * share;
       const uint bits = parts > 1 ? column[base + w] & row[base + w] & mine : kept[w];
-      const uint touching = touch_block(bits, views + (size_t)(base + w) * 32 * RECORD, box);
+      const uint touching = touch_block(bits, (base + w) * 32, views, block, groups, box);
       if (parts == 1) kept[w] = touching;
       else if (touching) atomic_or(&kept[w], touching);
     }
@@ -158,6 +176,9 @@ static inline void mark_cells(global const uint* ids, uint count, global const f
     const int end = min((rect.last & 0xffff) - block->x, (int)BLOCK_TILES - 1);
     for (int x = max((rect.first & 0xffff) - block->x, 0); x <= end; ++x) {
       const uint slot = slot_of_tile((uint)x, (uint)row);
+#ifdef GROUPS
+      if (!(block->light_groups[ids[k]] & block->tile_groups[slot])) continue;
+#endif
       TestCell cell;
       if (!cell_in_block(block, slot, slice, &cell, p) || !view_light_may_touch(light, &cell, p)) continue;
       atomic_or(&marks[slot * MARK_STRIDE + k / 32], 1u << k % 32);
@@ -166,9 +187,9 @@ static inline void mark_cells(global const uint* ids, uint count, global const f
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cull_lights(
-    global const float4* views, global const uint* light_marks, global const float* bounds,
-    global const float2* slices, global uint* ids, global uint4* offsets, global ulong* totals,
-    global uint* marks, global uint2* cells, global volatile uint* counters, constant CullParams* p) {
+    global const float4* views, global const uint* light_marks, global const uint* light_groups,
+    global const float* bounds, global const uint* tile_groups, global const float2* slices, global uint* ids,
+    global uint4* offsets, global ulong* totals, global uint* marks, global uint2* cells, global volatile uint* counters, constant CullParams* p) {
   local uint scratch[PREFIX_SCRATCH], kept[LIGHT_WORDS], cell_marks[BLOCK_SIZE * MARK_STRIDE];
   local float spans[SPANS * BLOCK_SIZE];
   local TestCell made[BLOCK_SIZE];
@@ -182,7 +203,9 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cull_lights(
                        index % BIN_BLOCKS * BLOCK_SIZE,
                        bounds + bin * BOUND_PLANES * BIN_SIZE,
                        slices,
-                       made};
+                       made,
+                       light_groups,
+                       tile_groups + bin * BIN_SIZE + index % BIN_BLOCKS * BLOCK_SIZE};
   const uint line_words = light_mark_words(p);
   global const uint* column = light_marks + (size_t)(block.x / (int)BLOCK_TILES) * line_words;
   global const uint* row = light_marks + (size_t)(BLOCKS_X(p) + block.y / BLOCK_TILES) * line_words;
@@ -200,7 +223,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cull_lights(
   const bool room = (ulong)ids_at + units <= p->pool_batches;
   ids += (size_t)ids_at * 16;
   const uint count =
-      list_candidates(column, row, some && room ? all_words : 0u, views, &box, ids, kept, scratch);
+      list_candidates(column, row, some && room ? all_words : 0u, views, &block, &box, ids, kept, scratch);
 
   // Marks are counted in 32 bits. A block with more gets no room, and the host refuses.
   const uint words = (count + 31) / 32;

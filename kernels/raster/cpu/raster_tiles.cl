@@ -5,10 +5,12 @@
 //
 // records, tile_begin, lists, counters  as raster/cpu/raster_setup.cl and raster/cpu/raster_fill.cl write them
 // MASK_ARGUMENTS  kernels/raster/raster_masks.h
-// triangles  uint a pixel: the nearest triangle, of several equally near ones the highest number; RASTER_NONE
-// depths     float a pixel, reversed: 0 where no triangle is
+// triangles  uint a sample, those of a pixel side by side: the nearest triangle, of several equally near ones the
+//            highest number; RASTER_NONE
+// depths     float a sample, reversed: 0 where no triangle is
 #define LANES 16
 #include "kernels/common/fetch.h"
+#include "kernels/common/interleave.h"
 #include "kernels/common/pack.h"
 #include "kernels/raster/raster_masks.h"
 #include "kernels/raster/raster_tiles.h"
@@ -17,15 +19,16 @@
 #define LEAST_DEPTH FLT_MIN  // less is not drawn
 #define RECORDS_AHEAD 6      // that many records before its turn a record is fetched into the caches
 
-// A tile's pixels in blocks of 4 x 4, and these in squares of 4 x 4 blocks.
+// A tile's pixels in blocks of 4 x 4, the samples of one after the other, and these in squares of 4 x 4 blocks.
 typedef struct Tile {
-  float16 depth[256];
-  uint16 triangle[256];
+  float16 depth[256][SAMPLES];
+  uint16 triangle[256][SAMPLES];
   float16 least[16];  // depth a block, a square each
 } Tile;
 
 typedef struct TileRecord {
   Edge edges[3];
+  int sample_c[3][SAMPLES], most_c[3];  // c of each sample, and of the one that lies farthest inside
   int16 in_block[3];  // what each edge gains from a block's first pixel to each
   int dx, dy;         // of the tile's first pixel's centre from corner 0, 1/256 pixel
   float z0, zx, zy, z_min, z_max;
@@ -54,12 +57,13 @@ static inline float least_lane(float16 v) {
   return c.x < c.y ? c.x : c.y;
 }
 
-static inline int edge_at_pixel(Edge e, int x, int y) { return e.c + e.a * x + e.b * y; }
+static inline int edge_gain(Edge e, int x, int y) { return e.a * x + e.b * y; }
 
-// dx and dy are exact: multiples of 1/256 below 2^16.
+// At places (x, y) of the tile, 1/256 pixel from its first pixel's centre. dx and dy are exact: multiples of
+// 1/256 below 2^16.
 static inline float16 plane_depth(const TileRecord* r, int x, int y, float16 across, float16 up) {
-  const float16 dx = (float)(r->dx + x * 256) * (1.0f / 256) + across,
-                dy = (float)(r->dy + y * 256) * (1.0f / 256) + up;
+  const float16 dx = (float)(r->dx + x) * (1.0f / 256) + across,
+                dy = (float)(r->dy + y) * (1.0f / 256) + up;
   return lane_min(fma((float16)(r->zx), dx, fma((float16)(r->zy), dy, (float16)(r->z0))),
                   (float16)(r->z_max));
 }
@@ -70,7 +74,11 @@ static inline TileRecord in_tile(global const RasterRecord* r, int pixel_x, int 
     const int next = k == 2 ? 0 : k + 1;
     t.edges[k] = edge_at(r->x[k], r->y[k], r->x[next], r->y[next], pixel_x, pixel_y);
   }
-  for (int k = 0; k < 3; ++k) t.in_block[k] = t.edges[k].a * LANE_X + t.edges[k].b * LANE_Y;
+  for (int k = 0; k < 3; ++k) {
+    t.in_block[k] = t.edges[k].a * LANE_X + t.edges[k].b * LANE_Y;
+    t.most_c[k] = edge_of_samples(t.edges[k]);
+    for (int s = 0; s < SAMPLES; ++s) t.sample_c[k][s] = edge_of_sample(t.edges[k], s);
+  }
   t.dx = pixel_x * 256 + 128 - r->x[0], t.dy = pixel_y * 256 + 128 - r->y[0];
   t.z0 = r->z0, t.zx = r->zx, t.zy = r->zy, t.z_min = r->z_min, t.z_max = r->z_max;
   t.triangle = r->triangle, t.instance = r->instance, t.alpha_material = r->alpha_material;
@@ -83,26 +91,50 @@ static inline __attribute__((always_inline)) void draw_block(const TileRecord* r
   float* least = (float*)tile->least + at;
   if (r->z_max < *least) return;
   const int x = block_x * 4, y = block_y * 4;
-  const int16 sides = (edge_at_pixel(r->edges[0], x, y) + r->in_block[0]) |
-                      (edge_at_pixel(r->edges[1], x, y) + r->in_block[1]) |
-                      (edge_at_pixel(r->edges[2], x, y) + r->in_block[2]);
-  const float16 depth =
-      lane_max(plane_depth(r, x, y, convert_float16(LANE_X), convert_float16(LANE_Y)), (float16)(r->z_min));
-  const float16 before = tile->depth[at];
-  int16 shown = (sides >= 0) & (depth >= before);
-  if (mask_bits(shown) == 0) return;
-  // Signed: RASTER_NONE is below every number.
-  shown &= (depth > before) | ((int16)((int)r->triangle) > as_int16(tile->triangle[at]));
+  int16 gain[3];  // of each edge from the tile's first pixel
+  for (int k = 0; k < 3; ++k) gain[k] = r->in_block[k] + edge_gain(r->edges[k], x, y);
+#if SAMPLES > 1
+  const int16 some = (gain[0] + r->most_c[0]) | (gain[1] + r->most_c[1]) | (gain[2] + r->most_c[2]);
+  if (mask_bits(some >= 0) == 0) return;
+#endif
+  int16 shown[SAMPLES];
+  float16 depth[SAMPLES];
+  uint samples = 0;  // that show some of it, a bit each
+#pragma unroll
+  for (int s = 0; s < SAMPLES; ++s) {
+    const int16 sides =
+        (gain[0] + r->sample_c[0][s]) | (gain[1] + r->sample_c[1][s]) | (gain[2] + r->sample_c[2][s]);
+    depth[s] = lane_max(plane_depth(r, x * 256 + SAMPLE_UNITS_X(s), y * 256 + SAMPLE_UNITS_Y(s),
+                                    convert_float16(LANE_X), convert_float16(LANE_Y)),
+                        (float16)(r->z_min));
+    const float16 before = tile->depth[at][s];
+    shown[s] = (sides >= 0) & (depth[s] >= before);
+    if (mask_bits(shown[s]) == 0) continue;
+    // Signed: RASTER_NONE is below every number.
+    shown[s] &= (depth[s] > before) | ((int16)((int)r->triangle) > as_int16(tile->triangle[at][s]));
+    samples |= 1u << s;
+  }
+  if (samples == 0) return;
 #ifdef ALPHA_MASKS
-  if (r->alpha_material >= 0 && mask_bits(shown) != 0) {
-    shown &= shown_by_mask(&place->masks, r->triangle, r->instance, (uint)r->alpha_material,
-                           (float)(place->pixel_x + x), (float)(place->pixel_y + y), BLOCK_DX, BLOCK_DY);
+  // One look-up a pixel, at its centre, for all samples.
+  if (r->alpha_material >= 0) {
+    int16 any = shown[0];
+    for (int s = 1; s < SAMPLES; ++s) any |= shown[s];
+    if (mask_bits(any) == 0) return;
+    const mask_t passes = shown_by_mask(&place->masks, r->triangle, r->instance, (uint)r->alpha_material,
+                                        (float)(place->pixel_x + x), (float)(place->pixel_y + y), BLOCK_DX, BLOCK_DY);
+    for (int s = 0; s < SAMPLES; ++s) shown[s] &= passes;
   }
 #endif
-  const float16 now = shown ? depth : before;
-  tile->depth[at] = now;
-  tile->triangle[at] = shown ? (uint16)(r->triangle) : tile->triangle[at];
-  *least = least_lane(now);
+  float16 nearest = FLT_MAX;
+#pragma unroll
+  for (int s = 0; s < SAMPLES; ++s) {
+    const float16 now = shown[s] ? depth[s] : tile->depth[at][s];
+    tile->depth[at][s] = now;
+    tile->triangle[at][s] = shown[s] ? (uint16)(r->triangle) : tile->triangle[at][s];
+    nearest = lane_min(nearest, now);
+  }
+  *least = least_lane(nearest);
 }
 
 // The blocks of a square in which the triangle may show. Depths grow or fall steadily along x and y,
@@ -114,9 +146,12 @@ static inline uint blocks_to_draw(const TileRecord* r, int square_x, int square_
   for (int k = 0; k < 3; ++k) {
     const Edge e = r->edges[k];
     // At each block's pixel that lies farthest inside.
-    sides |= edge_at_pixel(e, x + (e.a > 0 ? 3 : 0), y + (e.b > 0 ? 3 : 0)) + r->in_block[k] * 4;
+    sides |= r->most_c[k] + edge_gain(e, x + (e.a > 0 ? 3 : 0), y + (e.b > 0 ? 3 : 0)) + r->in_block[k] * 4;
   }
-  const float16 depth = plane_depth(r, x, y, convert_float16(across + (r->zx > 0 ? 3 : 0)),
+  const int sample_x = r->zx > 0 ? most_gain(1, 0) : -most_gain(-1, 0),
+            sample_y = r->zy > 0 ? most_gain(0, 1) : -most_gain(0, -1);
+  const float16 depth = plane_depth(r, x * 256 + sample_x, y * 256 + sample_y,
+                                    convert_float16(across + (r->zx > 0 ? 3 : 0)),
                                     convert_float16(up + (r->zy > 0 ? 3 : 0)));
   return mask_bits((sides >= 0) &
                    (lane_max(depth, (float16)(r->z_min)) >= tile->least[square_y * 4 + square_x]));
@@ -160,7 +195,7 @@ typedef uint unaligned_row __attribute__((ext_vector_type(16), aligned(4)));
 #define STORE_16(v, to) vstore16(v, 0, to)
 #endif
 
-// 16 pixels of a row, of which `count` lie in the image.
+// 16 values of a row, of which `count` lie in the image.
 static inline void store_row(global uint* to, uint16 values, int count) {
   if (count >= 16) {
     STORE_16(values, to);
@@ -170,18 +205,34 @@ static inline void store_row(global uint* to, uint16 values, int count) {
   }
 }
 
+static inline uint16 shown_depth(const Tile* tile, uint block, int s) {
+  return tile->triangle[block][s] == (uint16)(RASTER_NONE) ? (uint16)(0) : as_uint16(tile->depth[block][s]);
+}
+
+#if SAMPLES == 1
 // Four rows of 16 pixels from four blocks side by side.
-static inline void store_blocks(global uint* to, int width, uint16 a, uint16 b, uint16 c, uint16 d,
-                                int columns, int rows) {
+static inline void store_blocks(global uint* to, int width, const uint16* v, int columns, int rows) {
+  const uint16 a = v[0], b = v[1], c = v[2], d = v[3];
   store_row(to, (uint16)(a.s0123, b.s0123, c.s0123, d.s0123), columns);
   if (rows > 1) store_row(to + width, (uint16)(a.s4567, b.s4567, c.s4567, d.s4567), columns);
   if (rows > 2) store_row(to + 2 * width, (uint16)(a.s89ab, b.s89ab, c.s89ab, d.s89ab), columns);
   if (rows > 3) store_row(to + 3 * width, (uint16)(a.scdef, b.scdef, c.scdef, d.scdef), columns);
 }
-
-static inline uint16 shown_depth(const Tile* tile, uint block) {
-  return tile->triangle[block] == (uint16)(RASTER_NONE) ? (uint16)(0) : as_uint16(tile->depth[block]);
+#else
+// The same, of SAMPLES values a pixel; v: block after block, those of each sample together.
+static inline void store_blocks(global uint* to, int width, uint16* v, int columns, int rows) {
+#pragma unroll
+  for (int block = 0; block < 4; ++block) interleave(v + SAMPLES * block);
+  for (int y = 0; y < min(rows, 4); ++y) {
+    uint16 row[SAMPLES];  // its 16 pixels: a quarter from each block
+#pragma unroll
+    for (int i = 0; i < 4 * SAMPLES; ++i)
+      ((uint4*)row)[i] = ((const uint4*)v)[i / SAMPLES * 4 * SAMPLES + y * SAMPLES + i % SAMPLES];
+    for (int i = 0; i < SAMPLES; ++i)
+      store_row(to + ((size_t)y * width) * SAMPLES + 16 * i, row[i], columns * SAMPLES - 16 * i);
+  }
 }
+#endif
 
 static inline void store_tile(const Tile* tile, int pixel_x, int pixel_y, global uint* triangles,
                               global float* depths, constant RasterParams* p) {
@@ -189,12 +240,16 @@ static inline void store_tile(const Tile* tile, int pixel_x, int pixel_y, global
   for (int y = 0; y < RASTER_TILE && pixel_y + y < height; y += 4) {
     for (int x = 0; x < RASTER_TILE && pixel_x + x < width; x += 16) {
       const uint at = block_place(x >> 2, y >> 2);
-      const size_t place = (size_t)(pixel_y + y) * width + pixel_x + x;
+      const size_t place = ((size_t)(pixel_y + y) * width + pixel_x + x) * SAMPLES;
       const int columns = width - pixel_x - x, rows = height - pixel_y - y;
-      store_blocks(triangles + place, width, tile->triangle[at], tile->triangle[at + 1],
-                   tile->triangle[at + 2], tile->triangle[at + 3], columns, rows);
-      store_blocks((global uint*)depths + place, width, shown_depth(tile, at), shown_depth(tile, at + 1),
-                   shown_depth(tile, at + 2), shown_depth(tile, at + 3), columns, rows);
+      uint16 numbers[4 * SAMPLES], shown[4 * SAMPLES];
+#pragma unroll
+      for (int i = 0; i < 4 * SAMPLES; ++i) {
+        const uint block = at + i / SAMPLES;
+        numbers[i] = tile->triangle[block][i % SAMPLES], shown[i] = shown_depth(tile, block, i % SAMPLES);
+      }
+      store_blocks(triangles + place, width, numbers, columns, rows);
+      store_blocks((global uint*)depths + place, width, shown, columns, rows);
     }
   }
 }
@@ -208,7 +263,9 @@ static __attribute__((noinline)) void draw_tile(uint number, global const Raster
             pixel_y = (int)(number / p->tiles_x) * RASTER_TILE;
   const Place place = {pixel_x, pixel_y, masks};
   Tile tile;
-  for (uint i = 0; i < 256; ++i) tile.depth[i] = LEAST_DEPTH, tile.triangle[i] = RASTER_NONE;
+  for (uint i = 0; i < 256; ++i) {
+    for (int s = 0; s < SAMPLES; ++s) tile.depth[i][s] = LEAST_DEPTH, tile.triangle[i][s] = RASTER_NONE;
+  }
   for (uint i = 0; i < 16; ++i) tile.least[i] = LEAST_DEPTH;
   const uint end = tile_begin[number + 1];
   for (uint i = tile_begin[number]; i < end; ++i) {

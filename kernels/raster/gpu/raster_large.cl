@@ -19,7 +19,7 @@ static inline bool meets_block(const PlacedTriangle* t, const RasterRecord* r, i
                t->x0 + x + BLOCK > (int)(r->box_low & 0xffffu) && t->y0 + y + BLOCK > (int)(r->box_low >> 16);
   for (int k = 0; k < 3; ++k) {
     const Edge e = t->edges[k];
-    meets &= e.c + e.a * x + e.b * y + (max(e.a, 0) + max(e.b, 0)) * (BLOCK - 1) >= 0;
+    meets &= edge_of_samples(e) + e.a * x + e.b * y + (max(e.a, 0) + max(e.b, 0)) * (BLOCK - 1) >= 0;
   }
   return meets;
 }
@@ -63,8 +63,8 @@ kernel __attribute__((reqd_work_group_size(BLOCKS * BLOCKS, 1, 1))) void raster_
         const SeenPixel one = see_in_block(&t, half_window + first, item, true, &image);
         const SeenPixel two =
             see_in_block(&t, half_window + (left ? lowest_bit(left) : first), item, left != 0, &image);
-        draw_seen(&t, one, &image);
-        draw_seen(&t, two, &image);
+        draw_seen(&t, &one, &image);
+        draw_seen(&t, &two, &image);
       }
     }
   }

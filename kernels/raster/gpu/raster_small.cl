@@ -72,7 +72,8 @@ static inline void keep_small(const RasterRecord* r, int x0, int y0, int width, 
 static inline void draw_in_box(const SmallList* small, uint place, uint pixel, const Image* image) {
   const PlacedTriangle t = small->triangles[place];
   const int y = (int)((small_float(pixel) + 0.5f) * small->inverse_widths[place]);
-  draw_seen(&t, see_pixel(&t, (int)pixel - y * t.width, y, true, image), image);
+  const SeenPixel seen = see_pixel(&t, (int)pixel - y * t.width, y, true, image);
+  draw_seen(&t, &seen, image);
 }
 
 static inline Corners corners_of(float4 v) {

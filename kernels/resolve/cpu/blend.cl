@@ -56,7 +56,7 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
       for (int bx = box.x0 & ~3; bx <= box.x1; bx += 4) {
         const uint x = tile_x + (uint)bx, y = tile_y + (uint)by;
         real depth = REAL(0.0f);
-#ifdef SAMPLES
+#if SAMPLES > 1
         real share = REAL(1.0f);
 #endif
         mask_t shown = fragments_in_block(&r, bx, by, x, y, depths, width, height, &depth SHARE_TO(share));
@@ -74,7 +74,7 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
         take_list(&lights, light_indices, cells, y / TILE * view->tiles_x + x / TILE, view);
         const Real3 color = radiance(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,
                                      shown, &lights, bin_edges, view);
-#ifdef SAMPLES
+#if SAMPLES > 1
         s.alpha *= share;
 #endif
         blend_block(image, color, s.alpha, shown, x, y, width);

@@ -11,51 +11,22 @@
 //                    SURFACE_NONE and 0
 // edges              out: a bit a pixel, 16 in a value, 1 at edges
 #define LANES 16
+#include "kernels/common/interleave.h"
 #include "kernels/common/pack.h"
 #include "kernels/resolve/join_surfaces.h"
 #include "shared/real.h"
 
 #define EDGE_RUN 4096u
 
-#define HALF(v, i) (uint16)(v[i].even, v[i + 1].even)
-#define OTHER_HALF(v, i) (uint16)(v[i].odd, v[i + 1].odd)
-
-// From SAMPLES values of each of 16 pixels to 16 values of each sample.
-static inline void by_sample(const uint16* v, uint16* of) {
-#if SAMPLES == 2
-  of[0] = HALF(v, 0), of[1] = OTHER_HALF(v, 0);
-#else
-  uint16 evens[SAMPLES];  // of even samples, then of odd ones
-  for (uint i = 0; i < SAMPLES / 2; ++i)
-    evens[i] = HALF(v, 2 * i), evens[SAMPLES / 2 + i] = OTHER_HALF(v, 2 * i);
-#if SAMPLES == 4
-  of[0] = HALF(evens, 0), of[2] = OTHER_HALF(evens, 0);
-  of[1] = HALF(evens, 2), of[3] = OTHER_HALF(evens, 2);
-#else
-  uint16 fourths[SAMPLES];  // of samples 0 and 4, 2 and 6, 1 and 5, 3 and 7
-  for (uint part = 0; part < 2; ++part) {
-    for (uint i = 0; i < 2; ++i) {
-      fourths[4 * part + i] = HALF(evens, 4 * part + 2 * i);
-      fourths[4 * part + 2 + i] = OTHER_HALF(evens, 4 * part + 2 * i);
-    }
-  }
-  of[0] = HALF(fourths, 0), of[4] = OTHER_HALF(fourths, 0);
-  of[2] = HALF(fourths, 2), of[6] = OTHER_HALF(fourths, 2);
-  of[1] = HALF(fourths, 4), of[5] = OTHER_HALF(fourths, 4);
-  of[3] = HALF(fourths, 6), of[7] = OTHER_HALF(fourths, 6);
-#endif
-#endif
-}
-
+// SAMPLES values of each of 16 pixels.
 static inline void load_samples(global const uint* values, uint count, uint16* of) {
-  uint16 v[SAMPLES];
   if (count == 16) {
 #pragma unroll
-    for (uint i = 0; i < SAMPLES; ++i) v[i] = vload16(i, values);
+    for (uint i = 0; i < SAMPLES; ++i) of[i] = vload16(i, values);
   } else {
-    for (uint i = 0; i < SAMPLES * 16; ++i) ((uint*)v)[i] = values[min(i, count * SAMPLES - 1)];
+    for (uint i = 0; i < SAMPLES * 16; ++i) ((uint*)of)[i] = values[min(i, count * SAMPLES - 1)];
   }
-  by_sample(v, of);
+  separate(of);
 }
 
 kernel void find_edges(global uint* triangles, global const float* depths,

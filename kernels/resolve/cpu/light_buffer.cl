@@ -3,6 +3,7 @@
 // Pre-Pass Renderer" (ShaderX7, 2009).
 //
 // normals, depth  a pixel each, row 0 at the bottom (shared/stored_normal.h); reversed depth
+// GROUP_NUMBER_ARGUMENTS  kernels/resolve/group_numbers.h; with -DGROUPS alone
 // LIGHT_ARGUMENTS  of lights (shared/light_table.h)
 // cells, indices  light grid (shared/light_grid.h)
 // light_bins, bin_edges  z-bins of each light, and the depth keys between them (shared/slices.h); with
@@ -75,7 +76,8 @@ static inline void store_two(global light_channel_t* to, float8 row, uint column
 }
 
 kernel void light_buffer(global const normal_t* normals, global const float* depth,
-                         LIGHT_ARGUMENTS global const uint2* cells, global const index_t* indices,
+                         GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
+                         global const index_t* indices,
                          global const uint* light_bins, constant float* bin_edges,
                          global light_channel_t* first, global light_channel_t* second, float exponent,
                          float inverse_scale, constant ViewParams* view) {
@@ -92,8 +94,16 @@ kernel void light_buffer(global const normal_t* normals, global const float* dep
         const Real3 position = position_of_pixel((float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
                                                  lit ? depths : REAL(1.0f), view);
         light_pixels(&lights, x, y, view);
-        t = terms_of_list(position, normals_of_block(normals, x, y, width, height), lit, indices + range.x,
-                          range.y, bins_of_pixels(depths, lit, bin_edges), &lights, exponent);
+        whole groups = WHOLE(0);
+#ifdef GROUPS
+        uint numbers[16];
+        for (uint i = 0; i < 16; ++i)
+          numbers[i] = group_numbers[(size_t)min(y + i / 4, height - 1) * width + min(x + i % 4, width - 1)];
+        groups = groups_of_numbers(vload16(0, numbers), GROUP_MASKS, last_group);
+#endif
+        t = terms_of_list(position, normals_of_block(normals, x, y, width, height), groups, lit,
+                          indices + range.x, range.y, bins_of_pixels(depths, lit, bin_edges), &lights,
+                          exponent);
       }
 #define STORED(term) stored_light(term, inverse_scale, lit)
       float16 rows[4];

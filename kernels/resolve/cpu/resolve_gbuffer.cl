@@ -16,6 +16,7 @@
 #define FUSED  // shared/real.h
 #define LANES 16
 #include "kernels/resolve/resolve_block.h"
+#include "kernels/resolve/group_numbers.h"
 #include "kernels/resolve/resolve_light.h"
 
 #if BUFFER_BITS == 32
@@ -47,7 +48,8 @@ static inline void store_texels(global channel_t* to, Texels t, uint x, uint y, 
 
 kernel void resolve_gbuffer(global const uint* triangles, global const float* depths, RESOLVE_ARGUMENTS,
                             float4 background, global channel_t* first, global channel_t* second,
-                            global channel_t* coats, global channel_t* specular, global float* image) {
+                            global channel_t* coats, global channel_t* specular, global float* image
+                            GROUP_NUMBERS_OUT) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
@@ -72,6 +74,9 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
 #endif
 #ifdef SPECULAR
       if (specular) store_texels(specular, texels_of_specular(s.f0, s.f90, covered), x, y, width, height);
+#endif
+#ifdef GROUP_NUMBERS
+      store_group_numbers(group_numbers, a->group_number, covered, x, y, width, height);
 #endif
       if (!image) continue;
       const real depth = block_depths(&walk, depths, x, y);

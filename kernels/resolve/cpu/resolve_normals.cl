@@ -9,6 +9,7 @@
 #define FUSED  // shared/real.h
 #define LANES 16
 #include "kernels/resolve/resolve_block.h"
+#include "kernels/resolve/group_numbers.h"
 #include "kernels/resolve/resolve_light.h"
 #include "kernels/resolve/stored_normals.h"
 
@@ -25,7 +26,8 @@ static inline void store_normals(global normal_t* to, Real3 n, uint x, uint y, u
 #endif
 }
 
-kernel void resolve_normals(global const uint* triangles, RESOLVE_ARGUMENTS, global normal_t* normals) {
+kernel void resolve_normals(global const uint* triangles, RESOLVE_ARGUMENTS,
+                            global normal_t* normals GROUP_NUMBERS_OUT) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const ResolveScene scene = RESOLVE_SCENE;
   BlockWalk walk = walk_tile(&scene, triangles, tile_x, tile_y, width, height);
@@ -39,6 +41,9 @@ kernel void resolve_normals(global const uint* triangles, RESOLVE_ARGUMENTS, glo
       const real none = 0.0f;
       store_normals(normals, real3(covered ? n.x : none, covered ? n.y : none, covered ? n.z : REAL(1.0f)), x,
                     y, width, height);
+#ifdef GROUP_NUMBERS
+      store_group_numbers(group_numbers, a->group_number, covered, x, y, width, height);
+#endif
     }
   }
 }

@@ -4,6 +4,7 @@
 //
 // first, second, coats, specular  geometry buffer (coats: with -DCLEARCOAT alone; specular: with -DSPECULAR
 //                       alone), and depth: row 0 at the bottom (kernels/resolve/gbuffer.h)
+// GROUP_NUMBER_ARGUMENTS  kernels/resolve/group_numbers.h; with -DGROUPS alone
 // LIGHT_ARGUMENTS  of lights (shared/light_table.h)
 // models  of materials by number (shared/model_records.h); with -DSKIN or -DMINNAERT alone
 // cells, indices  light grid (shared/light_grid.h)
@@ -34,6 +35,7 @@
 #endif
 
 #include "kernels/common/pack.h"
+#include "kernels/resolve/group_numbers.h"
 #include "kernels/resolve/shade_pixels.h"
 
 static inline float8 pixel_offsets(void) { return (float8)(0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f); }
@@ -68,7 +70,8 @@ static inline void store_half(global float* image, float8 r, float8 g, float8 b,
 kernel void shade_tiles(global const channel_t* first, global const channel_t* second,
                         global const channel_t* coats, global const channel_t* specular,
                         global const MaterialModelRecord* models,
-                        global const float* depth, LIGHT_ARGUMENTS global const uint2* cells,
+                        global const float* depth, GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS
+                        global const uint2* cells,
                         global const index_t* indices, global const uint* light_bins,
                         constant float* bin_edges, global float* image, float4 background,
                         constant ViewParams* view) {
@@ -95,6 +98,11 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
       const Real3 position = position_of_pixel(px, py, lit ? depths : REAL(1.0f), view);
       const Real3 to_viewer = direction_to_viewer(position);
       ShadingPoint p = point_of_texels(position, to_viewer, normal, color);
+#ifdef GROUPS
+      const uint16 numbers = (uint16)(convert_uint8(vload8(0, group_numbers + at)),
+                                      convert_uint8(vload8(0, group_numbers + at2)));
+      p.groups = groups_of_numbers(numbers, GROUP_MASKS, last_group);
+#endif
 #ifdef SPECULAR
       p = specular_point(p, normal, color, load_texels(specular + 4 * at, specular + 4 * at2));
 #endif

@@ -23,7 +23,7 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
   const int dx = (int)(x & 3u), dy = (int)(y & 3u), bx = (int)x - tile_x - dx, by = (int)y - tile_y - dy;
   const size_t at = (size_t)y * view->width + x;
   const OpaqueDepth opaque = OPAQUE_DEPTH(depths, at);
-#ifdef SAMPLES
+#if SAMPLES > 1
   float share;
 #endif
   const ResolveScene scene = RESOLVE_SCENE;
@@ -48,7 +48,7 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
     if (s.alpha == 0.0f) continue;  // shows nothing
     const Real3 color =
         radiance(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depth, 1, &lights, bin_edges, view);
-#ifdef SAMPLES
+#if SAMPLES > 1
     s.alpha *= share;
 #endif
     under = blended((float4)(color.x, color.y, color.z, 1.0f), s.alpha, under);

@@ -15,7 +15,8 @@ static inline Real3 normal_at(global const normal_t* normals, size_t at) {
 }
 
 kernel void light_buffer(global const normal_t* normals, global const float* depth,
-                         LIGHT_ARGUMENTS global const uint2* cells, global const index_t* indices,
+                         GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
+                         global const index_t* indices,
                          global const uint* light_bins, constant float* bin_edges,
                          global light_channel_t* first, global light_channel_t* second, float exponent,
                          float inverse_scale, constant ViewParams* view) {
@@ -29,7 +30,11 @@ kernel void light_buffer(global const normal_t* normals, global const float* dep
   if (lit && range.y > 0) {
     const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
     light_pixels(&lights, x, y, view);
-    t = terms_of_list(position, normal_at(normals, at), lit, indices + range.x, range.y,
+    whole groups = WHOLE(0);
+#ifdef GROUPS
+    groups = groups_of_numbers(group_numbers[at], GROUP_MASKS, last_group);
+#endif
+    t = terms_of_list(position, normal_at(normals, at), groups, lit, indices + range.x, range.y,
                       bins_of_pixels(depth[at], lit, bin_edges), &lights, exponent);
   }
 #define STORED(term) stored_light(term, inverse_scale, lit)

@@ -2,6 +2,7 @@
 // resolve/cpu/resolve_gbuffer.cl, with the same arguments.
 #define FUSED  // shared/real.h
 #define LANES 1
+#include "kernels/resolve/group_numbers.h"
 #include "kernels/resolve/resolve_light.h"
 
 #if BUFFER_BITS == 32
@@ -18,13 +19,15 @@ static inline void store_texel(global channel_t* to, Texels t, size_t at) {
 
 kernel void resolve_gbuffer(global const uint* triangles, global const float* depths, RESOLVE_ARGUMENTS,
                             float4 background, global channel_t* first, global channel_t* second,
-                            global channel_t* coats, global channel_t* specular, global float* image) {
+                            global channel_t* coats, global channel_t* specular, global float* image
+                            GROUP_NUMBERS_OUT) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
   const size_t at = (size_t)y * view->width + x;
   const uint triangle = triangles[at];
   Texels normal = {0}, color = {0}, coat = {0}, reflectance = {0};
   float4 shown = background;
+  uint group = 0;
   if (triangle != SURFACE_NONE) {
     const ResolveScene scene = RESOLVE_SCENE;
     ResolveLights lights = RESOLVE_LIGHTS;
@@ -41,6 +44,9 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
 #ifdef SPECULAR
     reflectance = texels_of_specular(s.f0, s.f90, 1);
 #endif
+#ifdef GROUP_NUMBERS
+    group = (uint)a.group_number;
+#endif
     if (image) {
       light_pixels(&lights.lights, x, y, view);
       const ShadingPoint p = resolved_point(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depths[at], 1, view);
@@ -53,4 +59,7 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
   if (coats) store_texel(coats, coat, at);
   if (specular) store_texel(specular, reflectance, at);
   if (image) ((global float4*)image)[at] = shown;
+#ifdef GROUP_NUMBERS
+  group_numbers[at] = (group_number_t)group;
+#endif
 }

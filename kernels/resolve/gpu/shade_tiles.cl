@@ -1,13 +1,15 @@
 // Point and spot lights added to the image of every tile from its light list, for GPUs: a work-item a pixel.
 // As resolve/cpu/shade_tiles.cl, with the same arguments.
 #define LANES 1
+#include "kernels/resolve/group_numbers.h"
 #include "kernels/resolve/shade_pixels.h"
 #include "shared/light_grid.h"
 
 kernel void shade_tiles(global const channel_t* first, global const channel_t* second,
                         global const channel_t* coats, global const channel_t* specular,
                         global const MaterialModelRecord* models,
-                        global const float* depth, LIGHT_ARGUMENTS global const uint2* cells,
+                        global const float* depth, GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS
+                        global const uint2* cells,
                         global const index_t* indices, global const uint* light_bins,
                         constant float* bin_edges, global float* image, float4 background,
                         constant ViewParams* view) {
@@ -23,6 +25,9 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
     const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
     const Real3 to_viewer = direction_to_viewer(position);
     ShadingPoint p = point_of_texels(position, to_viewer, normal, color);
+#ifdef GROUPS
+    p.groups = groups_of_numbers(group_numbers[at], GROUP_MASKS, last_group);
+#endif
 #ifdef SPECULAR
     p = specular_point(p, normal, color, load_texel(specular + 4 * at));
 #endif

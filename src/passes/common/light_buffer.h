@@ -2,6 +2,7 @@
 // (shared/light_buffer.h).
 #pragma once
 
+#include "passes/common/group_numbers.h"
 #include "passes/common/light_source.h"
 
 namespace lightgrid {
@@ -71,7 +72,8 @@ std::vector<std::string> light_buffer_defines(const Seen& seen);
 struct NormalImage {
   const NormalLayout* layout = nullptr;
   GLuint texture = 0;
-  GLuint framebuffer = 0;  // over the frame's depth
+  GLuint group_numbers = 0;  // 0: none (group_numbers.h)
+  GLuint framebuffer = 0;    // the image, then the numbers, over the frame's depth
   DepthImage depth;
 };
 
@@ -89,6 +91,7 @@ LightBuffer light_buffer_of(Work& work);
 struct NormalsInCl {
   const NormalLayout* layout = nullptr;
   SharedBuffer* image = nullptr;
+  SharedBuffer* group_numbers = nullptr;  // null: none
 };
 
 // The view's buffer, written or not. use: gbuffer where it is no copy.

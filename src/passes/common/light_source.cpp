@@ -19,7 +19,7 @@ GlLightLoop base_lighting(const Seen& seen) {
   if (seen.plan.settings.brdf == Brdf::blinn) loop.defines.emplace_back("BLINN");
   if (seen.plan.settings.brdf == Brdf::lambert) loop.defines.emplace_back("LAMBERT");
   if (seen.plan.directional) loop.defines.emplace_back("DIRECTIONAL");
-  for (const char* define : shadow_defines(seen.plan)) loop.defines.emplace_back(define);
+  for (const char* define : reach_defines(seen.plan)) loop.defines.emplace_back(define);
   return loop;
 }
 

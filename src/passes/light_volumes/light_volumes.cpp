@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "passes/common/group_numbers.h"
 #include "plan/visibility.h"
 
 namespace lightgrid {
@@ -235,9 +236,14 @@ bool LightVolumes::follow(Work& work) {
 }
 
 const std::vector<LightVolume>& LightVolumes::update(const Seen& seen) {
-  upload_volumes(light_volumes(
+  std::vector<LightVolume> volumes = light_volumes(
       seen.view, lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local),
-      seen.plan.settings.volume_mesh, subpixel_bits_));
+      seen.plan.settings.volume_mesh, subpixel_bits_);
+  if (seen.plan.group_stencil > 0) {
+    const std::vector<uint8_t> groups = stencil_groups(seen).of_light;
+    std::ranges::stable_sort(volumes, {}, [&](const LightVolume& v) { return groups[v.light]; });
+  }
+  upload_volumes(std::move(volumes));
   return volumes_;
 }
 

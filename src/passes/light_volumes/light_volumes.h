@@ -70,7 +70,8 @@ class LightVolumes : public PassCache {
   size_t memory_bytes() const override;
   bool follow(Work& work) override;
 
-  // Computes and uploads the frame's volumes: the cost per frame of a moving camera or moving lights.
+  // Computes and uploads the frame's volumes: the cost per frame of a moving camera or moving lights. In the
+  // lights' order; where the stencil has light groups, those of the same groups one after the other.
   const std::vector<LightVolume>& update(const Seen& seen);
   // The same in the caller's order, to which the indices of draw() refer.
   void upload_volumes(std::vector<LightVolume> volumes);

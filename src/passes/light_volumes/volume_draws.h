@@ -2,6 +2,7 @@
 // light does there.
 #pragma once
 
+#include "passes/common/group_numbers.h"
 #include "passes/light_volumes/light_volumes.h"
 
 namespace lightgrid {
@@ -9,8 +10,8 @@ namespace lightgrid {
 // The methods of the setting volume-culling (docs/techniques/deferred.md), for one fragment shader.
 class VolumeDraws {
  public:
-  // fragment takes LIGHT_VOLUME (the light comes with its volume, else as a uniform `light`) and DEPTH_BOUNDS
-  // (the uniform depth_bounds) besides `defines`.
+  // fragment takes LIGHT_VOLUME (the light comes with its volume, else as a uniform `light`), DEPTH_BOUNDS
+  // (the uniform depth_bounds) and EARLY_TESTS (discarded pixels reset their mark too) besides `defines`.
   VolumeDraws(Work& work, LightVolumes& volumes, const char* fragment, std::vector<std::string> defines);
 
   const GlProgram& program() const { return *program_; }
@@ -21,17 +22,20 @@ class VolumeDraws {
 
  private:
   bool drawn_as_volumes() const;
+  void draw_back_faces(size_t first, size_t end);
   void draw_marked(size_t first, size_t end);
   void draw_rectangles(size_t first, size_t end);
+  void test_groups(size_t volume) const;
 
   const Seen& seen_;
   VolumeCulling culling_;
   LightVolumes& volumes_;
   const GlProgram *program_ = nullptr, *marking_ = nullptr;
+  std::vector<uint8_t> groups_;  // by light, where the stencil has groups; else empty
 };
 
 // Sets state for lights that add to the images of a framebuffer, which has the frame's depth. If volumes are
-// marked in its stencil, that is cleared.
+// marked in its stencil, that is cleared, unless it has the groups of the surfaces.
 void begin_adding_lights(Work& work, GLuint framebuffer);
 
 struct ScreenBounds {

@@ -52,15 +52,18 @@ glm::vec4 cone(const ViewLight& light) {
   return {glm::vec3(light.direction * scale), float(-light.cos_outer * scale)};
 }
 
+uint32_t groups(const ViewLight& light) { return light.groups; }
 float most_falloff(const ViewLight& light) { return float(light.most_falloff); }
 
 // The conditions of LIGHT_TABLE.
 constexpr bool FramePlan::*IF_LIGHTS = &FramePlan::local_lights;
 constexpr bool FramePlan::*IF_SPOTS = &FramePlan::spots;
 constexpr bool FramePlan::*IF_VIRTUAL = &FramePlan::virtual_lights;
+constexpr bool FramePlan::*IF_GROUPS = &FramePlan::groups;
 
 constexpr GLenum format_of(const glm::vec4&) { return GL_RGBA32F; }
 constexpr GLenum format_of(float) { return GL_R32F; }
+constexpr GLenum format_of(uint32_t) { return GL_R32UI; }
 
 template <typename T>
 LightColumn column(T (*value)(const ViewLight&), bool needed, Sampler sampler,
@@ -75,6 +78,15 @@ LightColumn column(T (*value)(const ViewLight&), bool needed, Sampler sampler,
   return made;
 }
 
+// What follows the column of groups.
+void add_other_groups(std::span<const ViewLight> lights, const FramePlan& plan, LightColumn& column) {
+  std::vector<uint32_t> more;
+  for (const int i : plan.directional_lights) more.push_back(lights[size_t(i)].groups);
+  more.insert(more.end(), plan.group_masks.begin(), plan.group_masks.end());
+  const auto bytes = std::as_bytes(std::span(more));
+  column.values.insert(column.values.end(), bytes.begin(), bytes.end());
+}
+
 LightTable light_table(const Seen& seen) {
   const FramePlan& plan = seen.plan;
   const std::vector<ViewLight> lights = lights_in_view(seen.scene, seen.view, plan.settings.ranges);
@@ -82,6 +94,11 @@ LightTable light_table(const Seen& seen) {
   column(member, plan.*condition, Sampler::array, lights, plan.local),
   LightTable table{{LIGHT_TABLE(LIGHT_COLUMN)}, {}};
 #undef LIGHT_COLUMN
+  if (plan.groups) {
+    const auto of_groups =
+        std::ranges::find(table.columns, Sampler::light_group_masks, &LightColumn::sampler);
+    add_other_groups(lights, plan, *of_groups);
+  }
   for (int i : plan.directional_lights) {
     table.directional.emplace_back(glm::vec3(-lights[i].direction), 0);
     table.directional.emplace_back(glm::vec3(lights[i].radiant_intensity), 0);
@@ -99,6 +116,12 @@ std::vector<const char*> light_table_defines(const FramePlan& plan) {
   if (window_of(ranges) == RangeWindow::smooth) defines.push_back("WINDOW_SMOOTH");
   if (window_of(ranges) == RangeWindow::none) defines.push_back("WINDOW_NONE");
   if (ranges.range == LightRange::stochastic) defines.push_back("LEAST_FALLOFF");
+  return defines;
+}
+
+std::vector<const char*> reach_defines(const FramePlan& plan) {
+  std::vector<const char*> defines = shadow_defines(plan);
+  if (plan.groups) defines.push_back("GROUPS");
   return defines;
 }
 
@@ -169,7 +192,11 @@ void GlLights::bind() const {
 void ClLights::upload(ClDevice& device, const Seen& seen) {
   const LightTable table = light_table(seen);
   constexpr const char* what = "uploading lights";
-  for (size_t i = 0; i < light_column_count; ++i) columns_[i].put(device, what, table.columns[i].values);
+  for (size_t i = 0; i < light_column_count; ++i) {
+    // A column that no kernel of this view has read yet stays a null argument.
+    const LightColumn& column = table.columns[i];
+    if (column.needed || columns_[i].bytes() > 0) columns_[i].put(device, what, column.values);
+  }
   directional.put(device, what, table.directional);
   view.put(device, what, std::vector<ViewParams>{seen.params});
   const auto put_edges = [&](UploadedBuffer& to, int count, const auto& keys_of) {
@@ -217,7 +244,7 @@ std::string light_defines(const Seen& seen, bool lanes, Brdf brdf) {
   if (seen.plan.index_bits == 32) defines += " -DINDEX_32";
   if (seen.plan.z_bins > 1) defines += " -DZ_BINS";
   for (const char* define : light_table_defines(seen.plan)) defines += fmt::format(" -D{}", define);
-  for (const char* define : shadow_defines(seen.plan)) defines += fmt::format(" -D{}", define);
+  for (const char* define : reach_defines(seen.plan)) defines += fmt::format(" -D{}", define);
   if (brdf == Brdf::blinn) defines += " -DBLINN";
   if (brdf == Brdf::lambert) defines += " -DLAMBERT";
   if (seen.view.orthographic) defines += " -DORTHOGRAPHIC";

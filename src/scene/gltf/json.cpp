@@ -162,6 +162,34 @@ ShadowEntries read_shadows(const json& root) {
   return out;
 }
 
+std::map<int, GroupLists> groups_of(const Reporter& report, const json& owners, const char* kind) {
+  std::map<int, GroupLists> out;
+  for (size_t i = 0; i < owners.size(); ++i) {
+    const auto names = [&](const char* field) -> GroupLists::Names {
+      const json::json_pointer at(fmt::format("/extras/{}", field));
+      if (!owners[i].contains(at)) return {};
+      const GroupLists::Names found = names_of_groups(owners[i][at]);
+      if (!found)
+        throw report.error("{} {}: extras.{} is not a list of names and whole numbers", kind, i, field);
+      return found;
+    };
+    GroupLists lists{.groups = names("light_groups"),
+                     .include = names("light_include"),
+                     .exclude = names("light_exclude")};
+    if (lists.groups || lists.include || lists.exclude) out.emplace(int(i), std::move(lists));
+  }
+  return out;
+}
+
+GroupEntries read_groups(const Reporter& report, const json& root) {
+  GroupEntries out;
+  if (root.contains("nodes")) out.of_node = groups_of(report, root["nodes"], "node");
+  const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+  if (root.contains(lights) && root[lights].is_array())
+    out.of_light = groups_of(report, root[lights], "light");
+  return out;
+}
+
 constexpr int max_nesting = 64;  // the format itself needs about 10
 
 constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
@@ -328,7 +356,7 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text) {
   }
   PreparedJson out;
   out.models = take_models(report, root);
-  out.shadows = read_shadows(root);
+  out.shadows = read_shadows(root), out.groups = read_groups(report, root);
   out.animations = take_animations(report, root);  // before the indices of all the rest are checked
   Tidier(report).tidy_object(root, true);
   out.buffers = take_buffers(report, root);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/gltf/reporter.h"
+#include "scene/light_groups.h"
 
 namespace lightgrid::gltf {
 
@@ -53,6 +54,12 @@ struct ShadowEntries {
   std::map<int, std::optional<double>> source_of_node, source_of_light;
 };
 
+// extras.light_groups of nodes and of lights, light_include and light_exclude, by their index
+// (scene/light_groups.h).
+struct GroupEntries {
+  std::map<int, GroupLists> of_node, of_light;
+};
+
 struct PreparedJson {
   std::string text;  // for tinygltf: no buffers, images, animations, extras or unsupported extensions
   std::vector<BufferEntry> buffers;
@@ -60,6 +67,7 @@ struct PreparedJson {
   std::vector<AnimationEntry> animations;
   std::vector<ModelEntry> models;
   ShadowEntries shadows;
+  GroupEntries groups;
   // tinygltf rejects indices without a buffer view, which Draco and sparse accessors may have: those
   // accessors get this index, one past the end of the file's own views.
   int absent_view = 0;

@@ -116,6 +116,42 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
   return out;
 }
 
+std::vector<GroupLists> groups_of_lights(Document& doc, const std::vector<PlacedNode>& nodes) {
+  std::vector<GroupLists> out;
+  int light = -1;
+  for (const PlacedNode& placed : nodes) {
+    const tinygltf::Value* extension =
+        find_extension(doc.model.nodes[placed.node].extensions, "KHR_lights_punctual");
+    if (!extension) continue;
+    ++light;
+    const std::string place = node_label(doc, placed.node);
+    const auto index = static_cast<int>(size_or(doc, *extension, "light", 0, place));
+    for (const auto& [entries, number] :
+         {std::pair(&doc.groups.of_node, placed.node), std::pair(&doc.groups.of_light, index)}) {
+      const auto found = entries->find(number);
+      if (found == entries->end()) continue;
+      out.push_back(found->second);
+      out.back().owner = light, out.back().where = doc.place(place);
+      break;
+    }
+  }
+  return out;
+}
+
+std::vector<GroupLists> groups_of_instances(const Document& doc, const std::vector<int>& node_of_instance) {
+  std::vector<GroupLists> out;
+  for (size_t i = 0; i < node_of_instance.size(); ++i) {
+    const auto found = doc.groups.of_node.find(node_of_instance[i]);
+    if (found == doc.groups.of_node.end() || !found->second.groups) continue;
+    out.push_back({.owner = static_cast<int>(i),
+                   .where = doc.place(node_label(doc, node_of_instance[i])),
+                   .groups = found->second.groups,
+                   .include = {},
+                   .exclude = {}});
+  }
+  return out;
+}
+
 namespace {
 
 void read_perspective(const Document& doc, const tinygltf::PerspectiveCamera& in, const std::string& place,

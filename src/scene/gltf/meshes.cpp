@@ -64,11 +64,13 @@ class MeshReader {
     if (node.skin >= 0) checked(doc_, doc_.model.skins, node.skin, place, "skin");
     const Use use{node.mesh, node.skin, default_weights(doc_, node, mesh, place), placed.morphs ? index : -1};
     const std::vector<Drawn>& meshes = meshes_of(use);
-    casts_shadow_ = node_casts_shadow(doc_, placed.node).value_or(true);
+    casts_shadow_ = node_casts_shadow(doc_, placed.node).value_or(true), file_node_ = placed.node;
     if (const auto copies = read_instances(doc_, placed.node)) return add_copies(index, meshes, *copies);
     for (const Drawn& drawn : meshes)
       add_instance(drawn, node.name, place, placed.world_from_node, placed.moves ? index : -1);
   }
+
+  std::vector<int> take_nodes() { return std::move(node_of_instance_); }
 
  private:
   struct Drawn {
@@ -100,6 +102,7 @@ class MeshReader {
          .world_from_object = drawn.in_world ? glm::dmat4(1) : world_of_instance(world_from_node),
          .node = drawn.in_world ? -1 : node,
          .casts_shadow = casts_shadow_});
+    node_of_instance_.push_back(file_node_);
   }
 
   // The copies of a node that moves are children of it in the rig.
@@ -197,6 +200,8 @@ class MeshReader {
   Scene& scene_;
   Rig& rig_;
   bool casts_shadow_ = true;  // the node whose instances are added
+  int file_node_ = 0;         // the same node
+  std::vector<int> node_of_instance_;
   Budget budget_;
   std::vector<glm::dmat4> world_from_node_;
   std::map<Use, std::vector<Drawn>> drawn_;
@@ -204,9 +209,10 @@ class MeshReader {
 
 }  // namespace
 
-void add_meshes(Document& doc, const std::vector<PlacedNode>& nodes, Scene& scene, Rig& rig) {
+std::vector<int> add_meshes(Document& doc, const std::vector<PlacedNode>& nodes, Scene& scene, Rig& rig) {
   MeshReader reader(doc, nodes, scene, rig);
   for (size_t i = 0; i < nodes.size(); ++i) reader.add(static_cast<int>(i));
+  return reader.take_nodes();
 }
 
 }  // namespace lightgrid::gltf

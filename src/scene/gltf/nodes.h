@@ -53,13 +53,19 @@ std::vector<Animation> read_animations(Document& doc, std::vector<PlacedNode>& n
 // (a node with animated weights has its own), and an instance for each use. Adds to `rig` the skins, and the
 // shapes of those meshes that animated joints or weights deform; no other mesh is stored twice. Materials
 // must be read already: a mesh refers to the file's material index (the default one at the end).
-void add_meshes(Document& doc, const std::vector<PlacedNode>& nodes, Scene& scene, Rig& rig);
+// Returns the node of the file that each instance belongs to.
+std::vector<int> add_meshes(Document& doc, const std::vector<PlacedNode>& nodes, Scene& scene, Rig& rig);
 
 // One light for each node with one. A light points along its node's -z; the node's scale changes neither
 // range nor cone. Lights without a node are not read. Errors name light and field: colour, intensity or range
 // that is negative or not finite, their product past the largest float, a violation of 0 <= inner < outer <=
 // pi/2.
 std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes);
+
+// What extras say of the groups of the lights that read_lights returns, a node's before its light's, and of
+// instances by their nodes.
+std::vector<GroupLists> groups_of_lights(Document& doc, const std::vector<PlacedNode>& nodes);
+std::vector<GroupLists> groups_of_instances(const Document& doc, const std::vector<int>& node_of_instance);
 
 // One camera for each node with one; the node's scale is dropped. A camera with a fault is left out: one
 // warning names the first, its fault and the number of others.

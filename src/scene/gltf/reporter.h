@@ -19,6 +19,9 @@ class Reporter {
     return {ErrorKind::input, one_line(file_ + ": " + fmt::format(format, std::forward<Args>(args)...))};
   }
 
+  // For messages of others.
+  std::string place(const std::string& within) const { return one_line(file_ + ": " + within); }
+
   // Only the first of each kind: a thousand skinned meshes give one line.
   template <typename... Args>
   void warn(const std::string& kind, fmt::format_string<Args...> format, Args&&... args) {

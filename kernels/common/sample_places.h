@@ -1,0 +1,25 @@
+// Where the samples of a pixel lie.
+//
+// -DSAMPLES        a pixel: 2, 4 or 8; without, one in its centre
+// -DSAMPLE_PLACES  x and y of each, 1/256 pixel from the pixel's centre, y up
+#pragma once
+
+#ifndef SAMPLES
+#define SAMPLES 1
+#define SAMPLE_PLACES 0, 0
+#endif
+
+constant int sample_places[2 * SAMPLES] = {SAMPLE_PLACES};
+
+#define SAMPLE_UNITS_X(s) sample_places[2 * (s)]
+#define SAMPLE_UNITS_Y(s) sample_places[2 * (s) + 1]
+#define SAMPLE_X(s) ((float)SAMPLE_UNITS_X(s) * (1.0f / 256))  // from the centre, pixels
+#define SAMPLE_Y(s) ((float)SAMPLE_UNITS_Y(s) * (1.0f / 256))
+
+// The most that a x + b y gains from a pixel's centre to one of its samples.
+static inline int most_gain(int a, int b) {
+  int most = a * SAMPLE_UNITS_X(0) + b * SAMPLE_UNITS_Y(0);
+#pragma unroll
+  for (int s = 1; s < SAMPLES; ++s) most = max(most, a * SAMPLE_UNITS_X(s) + b * SAMPLE_UNITS_Y(s));
+  return most;
+}

@@ -1,0 +1,58 @@
+// The light groups of pixels whose instance is not known: an image of the numbers of masks
+// (src/passes/common/group_numbers.h), and the masks behind the lights' groups (shared/light_table.h).
+//
+// -DGROUPS       there are groups
+// -DGROUP_BITS   8 or 16: bits of a number
+#pragma once
+
+#include "shared/real.h"
+
+#ifdef GROUPS
+#ifndef GROUP_BITS
+#define GROUP_BITS 8
+#endif
+#if GROUP_BITS == 16
+typedef ushort group_number_t;
+#else
+typedef uchar group_number_t;
+#endif
+
+// Before LIGHT_ARGUMENTS: the image, and the last number. Past the image's end it may have any.
+#define GROUP_NUMBER_ARGUMENTS global const group_number_t *group_numbers, uint last_group,
+#define GROUP_MASKS (light_group_masks + view->light_count + view->directional_count)
+
+#if LANES == 16
+static inline whole groups_of_numbers(uint16 numbers, global const uint* masks, uint last) {
+  int found[16];
+  for (uint i = 0; i < 16; ++i) found[i] = (int)masks[min(((const uint*)&numbers)[i], last)];
+  return vload16(0, found);
+}
+#else
+static inline whole groups_of_numbers(uint number, global const uint* masks, uint last) {
+  return (int)masks[min(number, last)];
+}
+#endif
+
+// Of kernels that write them: after all other arguments. With -DGROUP_NUMBERS alone.
+#ifdef GROUP_NUMBERS
+#define GROUP_NUMBERS_OUT , global group_number_t *group_numbers
+#if LANES == 16
+static inline void store_group_numbers(global group_number_t* to, whole numbers, mask_t covered, uint x,
+                                       uint y, uint width, uint height) {
+  const uint columns = min(width - x, 4u), lines = min(height - y, 4u);
+  for (uint line = 0; line < lines; ++line) {
+    for (uint i = 0; i < columns; ++i) {
+      const uint lane = 4 * line + i;
+      to[(size_t)(y + line) * width + x + i] =
+          (group_number_t)(((const int*)&covered)[lane] ? ((const int*)&numbers)[lane] : 0);
+    }
+  }
+}
+#endif
+#endif
+#else
+#define GROUP_NUMBER_ARGUMENTS
+#endif
+#ifndef GROUP_NUMBERS_OUT
+#define GROUP_NUMBERS_OUT
+#endif

@@ -1,0 +1,17 @@
+// Where a fragment is shaded: x and y in pixels, and the depth there.
+//   SAMPLES: of a pixel that the triangle covers whole, its centre, as with one sample; of others where the
+//   varyings are.
+#ifdef SAMPLES
+#include "shared/view_params.h"
+
+centroid in vec4 clip_here;
+
+vec3 fragment_place() {
+  const int whole = (1 << SAMPLES) - 1;
+  if ((gl_SampleMaskIn[0] & whole) == whole) return gl_FragCoord.xyz;
+  vec3 device = clip_here.xyz / clip_here.w;
+  return vec3((device.xy * 0.5 + 0.5) * vec2(view.width, view.height), device.z);
+}
+#else
+vec3 fragment_place() { return gl_FragCoord.xyz; }
+#endif

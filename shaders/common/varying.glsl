@@ -1,0 +1,8 @@
+// What a vertex passes to fragments.
+//   SAMPLES: several a pixel. A fragment has its values where the pixel is covered, and not at a centre that its
+//   triangle may miss: beyond an edge they would be extrapolated.
+#ifdef SAMPLES
+#define VARYING centroid
+#else
+#define VARYING
+#endif

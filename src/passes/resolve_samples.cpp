@@ -1,0 +1,21 @@
+#include "passes/resolve_samples.h"
+
+#include "renderer/drawing/draw.h"
+
+namespace lightgrid {
+
+ShadedImage resolve_samples(Work& work, const ShadedImage& image) {
+  if (image.in_cl || work.grid().samples == 1) return image;
+  auto pass = work.timer.pass("resolve_samples", "gl");
+  const ShadedImage resolved{work.targets.framebuffer({work.targets.resolved("resolved", GL_RGBA32F)}, 0)};
+  glBindFramebuffer(GL_FRAMEBUFFER, resolved.framebuffer);
+  glViewport(0, 0, work.grid().width, work.grid().height);
+  glDisable(GL_DEPTH_TEST), glDisable(GL_BLEND);
+  bind_sampler_object(Sampler::image, 0);
+  bind_texture(Sampler::image, work.targets.texture("color", GL_RGBA32F));
+  draw_screen(work.program("shaders/screen.vert", "shaders/resolve_samples.frag", {}));
+  pass.moves(work.grid().values() * 16, work.grid().pixels() * 16);
+  return resolved;
+}
+
+}  // namespace lightgrid

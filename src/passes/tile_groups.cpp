@@ -1,0 +1,64 @@
+#include "passes/tile_groups.h"
+
+#include "cl/launch.h"
+#include "shared/light_grid.h"
+
+namespace lightgrid {
+
+// The kernel's masks and its result.
+class TileGroups : public PassCache {
+ public:
+  explicit TileGroups(Work& work) { follow(work); }
+
+  bool follow(Work& work) override {
+    masks_.put(*work.renderer.cl, "uploading masks of light groups", work.plan.group_masks);
+    return true;
+  }
+
+  size_t memory_bytes() const override { return masks_.bytes() + groups_.bytes(); }
+
+  cl::Buffer find(Work& work, const CullParams& tiles, const std::string& defines,
+                  const ClArguments& surfaces, size_t bytes_a_pixel) {
+    const size_t all = size_t(tiles.bins_x) * tiles.bins_y * BIN_SIZE;
+    ClDevice& device = *work.renderer.cl;
+    if (!kernel_ || defines != defines_)
+      kernel_ = NamedKernel(*work.renderer.kernels, "culling/tile_groups", defines);
+    defines_ = defines;
+    auto pass = work.timer.pass("tile_groups", "cl");
+    kernel_.launch(device, "tile_groups", cl::NDRange(all), cl::NullRange,
+                   surfaces + ClArguments{{"masks", masks_.buffer()},
+                                          {"last", cl_uint(work.plan.group_masks.size() - 1)},
+                                          {"groups", groups_.at_least(device, all * sizeof(cl_uint))},
+                                          {"width", cl_uint(tiles.width)},
+                                          {"height", cl_uint(tiles.height)},
+                                          {"tile", cl_uint(tiles.tile_size)},
+                                          {"bins_x", cl_uint(tiles.bins_x)}});
+    pass.moves(work.grid().values() * bytes_a_pixel, all * sizeof(cl_uint));
+    return groups_.get();
+  }
+
+ private:
+  UploadedBuffer masks_;
+  GrowingBuffer groups_;
+  NamedKernel kernel_;
+  std::string defines_;
+};
+
+cl::Buffer tile_groups(Work& work, Cached<TileGroups>& cache, const CullParams& tiles,
+                       const VisibilityBuffer& visible) {
+  return cache.of(work).find(work, tiles, fmt::format("-DTRIANGLES -DSAMPLES={}u", work.grid().samples),
+                             ClArguments{{"triangles", visible.image.triangle},
+                                         {"triangle_instance", visible.raster.triangle_instance},
+                                         {"surfaces", visible.surfaces}},
+                             4);
+}
+
+cl::Buffer tile_groups(Work& work, Cached<TileGroups>& cache, const CullParams& tiles, SharedBuffer& numbers,
+                       const DepthBuffer& depth) {
+  const GroupNumberFormat& format = group_number_format(work.plan.settings);
+  return cache.of(work).find(work, tiles, fmt::format("-DGROUP_BITS={}", format.bits),
+                             ClArguments{{"numbers", numbers.cl_buffer()}, {"depths", depth.values}},
+                             format.bytes + 4);
+}
+
+}  // namespace lightgrid
