@@ -34,7 +34,7 @@ struct FrontierCommand {
   SceneChoice scene;                // shared by all scenes
   std::vector<std::string> scenes;  // or "merge" and folders
   DeviceOptions devices;
-  std::string output = "out/frontier", json, gate, shard = "0/1", process, truth;
+  std::string output = "out/frontier", json, gate, shard = "0/1", process, truth, baseline;
   std::vector<std::string> techniques, vary;
   int views = 8, rounds = 40, budget = 14, page_mb = 12, processes = 1;
   bool no_growth = false;
@@ -196,7 +196,7 @@ std::vector<bool> check_request(const FrontierCommand& o) {
 FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Shard& shard) {
   FrontierJob job;
   job.common = chosen_settings(o.scene);
-  job.baseline = baseline_point(job.common, renderer.gl != nullptr);
+  job.baseline = baseline_point(job.common, renderer.gl != nullptr, o.baseline);
   job.views = o.views;
   job.seed = o.scene.seed;
   job.growth = shard.index == 0 && !o.no_growth;
@@ -272,6 +272,7 @@ int frontier(FrontierCommand o) {
   const Shard process = o.process.empty() ? Shard() : parse_shard(o.process, "process");
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   chosen_points(o.techniques, o.vary, chosen_settings(o.scene), true);
+  baseline_point(chosen_settings(o.scene), true, o.baseline);
   const std::vector<bool> casts = check_request(o);
   make_folder(o.output);
   if (o.processes > 1 && o.process.empty()) return frontier_in_processes(o, shard);
@@ -344,6 +345,8 @@ void add_frontier(CommandLine& line) {
   command.list(
       "--vary", o->vary,
       "KEY=VALUE,VALUE,…: each technique that reads KEY with each value, one key at a time; may be repeated");
+  command.option("--baseline", o->baseline,
+                 "NAME[:KEY=VALUE…]: what times are over (default: forward_plus, without OpenGL visibility)");
   command.option(
       "--truth", o->truth,
       "ranges of the lights in the picture that errors are against: infinite, or own, those of the "

@@ -193,7 +193,12 @@ std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& technique
   return distinct;
 }
 
-ChosenPoint baseline_point(const Settings& common, bool opengl) {
+ChosenPoint baseline_point(const Settings& common, bool opengl, const std::string& text) {
+  if (!text.empty()) {
+    const std::vector<ChosenPoint> points = named(words(text, ','), common);
+    if (points.size() != 1) throw input_error("baseline {}: is {} points, not one", text, points.size());
+    return points.front();
+  }
   return point(find_technique(opengl ? "forward_plus" : "visibility"), common, 1);
 }
 

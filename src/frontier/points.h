@@ -29,7 +29,8 @@ std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& technique
                                        bool opengl, const std::optional<FrontierTruth>& truth = {});
 
 // The point with which each other is measured in turn: forward_plus as it is or, without OpenGL, visibility.
-ChosenPoint baseline_point(const Settings& common, bool opengl);
+// `text`: another one, NAME[:KEY=VALUE,…]; empty: these. Throws Error(input) if it is not one point.
+ChosenPoint baseline_point(const Settings& common, bool opengl, const std::string& text = "");
 
 // "visibility:range=cutoff,cutoff=0.05": what differs from the defaults and has an effect.
 std::string label_of(const Contestant& contestant, int frames);
