@@ -18,9 +18,9 @@ def number(value, form):
 
 def rows_of(answer, scene):
     points = [p for p in answer["points"]
-              if p["scene"] == scene and p["technique"] == "visibility" and p["ratio"]["median"]]
+              if p["scene"] == scene and p["technique"] == "visibility" and p["relative_time"]["estimate"]]
     exact = next((p for p in points if p["label"] == "visibility"), None)
-    for p in sorted(points, key=lambda p: p["ratio"]["median"]):
+    for p in sorted(points, key=lambda p: p["relative_time"]["estimate"]):
         total = p["error"]["total"]
         settings = p["label"].partition(":")[2].split(",")  # the source is left out: all have it
         name = ", ".join(s for s in settings if not s.startswith("shadow-source")) or "exact"
