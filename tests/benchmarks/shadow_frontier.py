@@ -25,7 +25,7 @@ def rows_of(answer, scene):
         settings = p["label"].partition(":")[2].split(",")  # the source is left out: all have it
         name = ", ".join(s for s in settings if not s.startswith("shadow-source")) or "exact"
         yield [f"`{name}`" if name != "exact" else name,
-               f"{p['ratio']['median'] / exact['ratio']['median']:.3g}" if exact else "–",
+               f"{p['relative_time']['estimate'] / exact['relative_time']['estimate']:.3g}" if exact else "–",
                f"{p['frame_ms']['median']:.3g}", number(total["rmse_rel"], "{:.1e}"),
                number(total["flip_mean"], "{:.3f}"),
                number(p["error"]["temporal_rmse_rel"], "{:.1e}"), number(p.get("leaked_percent"), "{:.2f}"),
