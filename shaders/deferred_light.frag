@@ -3,8 +3,11 @@
 //   DEPTH_BOUNDS: nothing outside an interval of depth
 //   EARLY_TESTS: the stencil has light groups: it is tested, and its mark reset, before a pixel is shaded
 //   MARK: instead of light, the pair (pixel, light): a digit of base 4 for each of 48 lights, 12 a channel,
-//     so that sums are exact and count the invocations
+//     so that sums are exact and count the invocations; with SAMPLES at centres
 //   GBUFFER_8, GBUFFER_16, CLEARCOAT, SPECULAR, SKIN, MINNAERT: the layout (common/gbuffer.glsl)
+#ifdef MARK
+#define AT_CENTRES
+#endif
 #include "shaders/common/read_gbuffer.glsl"
 #include "shared/brdf.h"
 #include "shaders/lights/punctual.glsl"
@@ -38,7 +41,7 @@ vec4 mark() {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  float depth = texelFetch(depth_image, pixel, 0).r;
+  float depth = texelFetch(depth_image, pixel, SAMPLE_HERE).r;
 #ifdef DEPTH_BOUNDS
   if (depth < depth_bounds.x || depth > depth_bounds.y) discard;
 #endif
@@ -52,7 +55,7 @@ void main() {
 #else
   int groups = 0;
 #endif
-  vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
+  vec3 position = position_of_pixel(place_of_sample(), depth);
   Arrival arrival = arrival_at(position, from);
   if (!(arrival.attenuation > 0.0)) discard;  // would add an exact zero
   LitSurface s = surface_of_pixel(pixel);

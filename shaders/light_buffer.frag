@@ -4,14 +4,15 @@
 //   NORMALS_…: the format of normals; LIGHT_EXPONENT: the lights' shininess (shared/light_buffer.h)
 //   LIGHT_SCALE: a sum of this size is stored as 1
 //   PREPASS_FIFTH_TERM: there is a second image
+#include "shaders/common/per_sample.glsl"
 #include "shaders/common/position.glsl"
 #include "shared/light_buffer.h"
 #include "shared/stored_normal.h"
 #include "shaders/lights/punctual.glsl"
 #include "shaders/common/groups_of_pixel.glsl"
 
-uniform sampler2D normals;
-uniform sampler2D depth_image;
+uniform frame_sampler2D normals;
+uniform frame_sampler2D depth_image;
 #ifdef LIGHT_VOLUME
 flat in uint light;
 #else
@@ -31,7 +32,7 @@ layout(early_fragment_tests) in;
 #endif
 
 vec3 normal_of_pixel(ivec2 pixel) {
-  vec3 stored = texelFetch(normals, pixel, 0).xyz;
+  vec3 stored = texelFetch(normals, pixel, SAMPLE_HERE).xyz;
 #ifdef NORMAL_CHANNEL_STEPS
   return normal_of_steps(floor(stored * NORMAL_CHANNEL_STEPS + 0.5));
 #else
@@ -41,7 +42,7 @@ vec3 normal_of_pixel(ivec2 pixel) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  float depth = texelFetch(depth_image, pixel, 0).r;
+  float depth = texelFetch(depth_image, pixel, SAMPLE_HERE).r;
 #ifdef DEPTH_BOUNDS
   if (depth < depth_bounds.x || depth > depth_bounds.y) discard;
 #endif
@@ -53,7 +54,7 @@ void main() {
 #else
   int groups = 0;
 #endif
-  vec3 position = position_of_pixel(gl_FragCoord.xy, depth);
+  vec3 position = position_of_pixel(place_of_sample(), depth);
   Arrival arrival = arrival_at(position, from);
   if (!(arrival.attenuation > 0.0)) discard;  // would add exact zeros
   arrival.attenuation *= light_reaches(from, position, groups);

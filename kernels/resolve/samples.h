@@ -11,6 +11,7 @@
 #pragma once
 
 #include "kernels/common/sample_places.h"
+#include "shared/lanes.h"
 #include "shared/surface_records.h"
 
 #if SAMPLES > 1
@@ -29,16 +30,19 @@ typedef struct PixelSurface {
 // The next surface of a pixel, of the samples in `left`, a bit each, from which those that see it are taken.
 static inline PixelSurface next_surface(global const uint* triangles, global const float* depths,
                                         uint* left) {
-  uint first = 0;
-  while (!(*left >> first & 1u)) ++first;
-  PixelSurface p = {triangles[first], 0.0f, 0.0f, 0.0f, 0.0f};
-  int count = 0, x = 0, y = 0;
-  for (uint s = first; s < SAMPLES; ++s) {
-    if (!(*left >> s & 1u) || triangles[s] != p.triangle) continue;
-    *left &= ~(1u << s);
-    ++count, x += SAMPLE_UNITS_X(s), y += SAMPLE_UNITS_Y(s);
-    p.depth += depths[s];
+  PixelSurface p = {triangles[lowest_bit(*left)], 0.0f, 0.0f, 0.0f, 0.0f};
+  uint mine = 0;
+  int x = 0, y = 0;
+  // Without branches, which would be taken at random.
+#pragma unroll
+  for (uint s = 0; s < SAMPLES; ++s) {
+    const bool here = triangles[s] == p.triangle;
+    mine |= here ? 1u << s : 0u;
+    x += here ? SAMPLE_UNITS_X(s) : 0, y += here ? SAMPLE_UNITS_Y(s) : 0;
+    p.depth += here ? depths[s] : 0.0f;
   }
+  *left &= ~mine;
+  const int count = (int)popcount(mine);
   const float mean = 1.0f / (float)count;
   p.share = (float)count * (1.0f / SAMPLES);
   p.depth *= mean, p.off_x = (float)x * (mean / 256), p.off_y = (float)y * (mean / 256);

@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "scene/lights_file.h"
 #include "session/contestants.h"
+#include "session/edge_share.h"
 #include "session/group_proposal.h"
 #include "techniques/technique.h"
 
@@ -56,8 +57,11 @@ int plan(PlanOptions o) {
   if (o.leaks || !o.groups.empty()) leaks = find_leaks(chosen.scene, chosen.view, settings.ranges);
   const GroupProposal proposal = leaks ? propose_groups(*leaks, chosen.scene) : GroupProposal();
   if (!o.groups.empty()) write_json(o.groups, lights_file_text(with_groups(chosen.scene, proposal)));
+  std::optional<EdgeShare> edges;
+  if (settings.samples > 1) edges = find_edge_share(chosen.scene, chosen.view, settings.samples);
   if (o.json.empty()) {
     std::fputs(describe(plan, chosen.scene).c_str(), stdout);
+    if (edges) std::fputs(describe(*edges, chosen.view).c_str(), stdout);
     constexpr size_t most_leaks = 20;
     if (leaks) {
       std::fputs(describe(*leaks, chosen.scene, most_leaks).c_str(), stdout);
@@ -83,6 +87,9 @@ int plan(PlanOptions o) {
                                {"volume", by("shadow volumes")},
                                {"why", words_of(light, chosen.scene)}});
   }
+  if (edges)
+    json["edges"] = {{"samples", edges->samples}, {"pixels", edges->pixels}, {"edge_pixels", edges->edges},
+                     {"covered", edges->covered}, {"shadings", edges->shaded}, {"saved", edges->saved()}};
   if (leaks) json["leaks"] = leaks_json(*leaks, proposal, chosen.scene);
   write_json(o.json, json.dump(1));
   return 0;

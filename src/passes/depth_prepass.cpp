@@ -25,10 +25,14 @@ static uint32_t features_of_depth(uint32_t features) {
   return features & feature_mask ? features & (features_of_base_color | feature_mask) : 0;
 }
 
-void draw_depth(Work& work, GLuint framebuffer) {
-  begin_depth(work, framebuffer, GL_GREATER);
-  draw_list(work, work.opaque, DrawStreams::positions_where_possible,
-            work.programs({"shaders/depth.vert", "shaders/depth.frag", {}, false, features_of_depth}));
+GlTexture depth_of_centres(Work& work) {
+  if (work.grid().samples == 1) return {};
+  GlTexture depth = make_texture_2d(work.targets.depth_format(), work.grid().width, work.grid().height);
+  const GlFramebuffer framebuffer = make_framebuffer({}, depth.name());
+  begin_depth(work, framebuffer.name(), GL_GEQUAL);
+  draw_grouped(work, work.opaque, framebuffer.name(),
+               work.programs({"shaders/depth.vert", "shaders/depth.frag", {}, false, features_of_depth}));
+  return depth;
 }
 
 DepthImage depth_prepass(Work& work, GLuint group_numbers) {

@@ -9,8 +9,10 @@ namespace lightgrid {
 // group_numbers: an image that gets the numbers of the surfaces' masks (common/group_numbers.h); 0: none.
 // Where surfaces have equal depth it keeps the last one's, as forward shading does.
 DepthImage depth_prepass(Work& work, GLuint group_numbers = 0);
-// The same without numbers, into another framebuffer of the view's size, its depth cleared.
-void draw_depth(Work& work, GLuint framebuffer);
+
+// Of a frame of several samples a pixel the depth of pixels' centres, for read-outs, in the format of the frame's
+// and with the same light groups in its stencil; of one sample nothing, as its own depth is that.
+GlTexture depth_of_centres(Work& work);
 
 // The same image, cleared: for a technique that finds depth as it shades.
 DepthImage no_depth_yet(Work& work);

@@ -73,8 +73,10 @@ SampleFigures sample_figures(Work& work, const Visibility& image, const PixelSur
   SampleFigures figures;
   for (size_t i = 0; i < grid.pixels(); ++i) {
     const std::span<const uint32_t> of(seen.data() + i * size_t(grid.samples), size_t(grid.samples));
-    figures.edge_pixels += edges[i / 16] >> (i % 16) & 1;
+    const bool edge = edges[i / 16] >> (i % 16) & 1;
+    figures.edge_pixels += edge;
     std::set<uint32_t> distinct(of.begin(), of.end());
+    figures.surfaces.push_back(edge ? uint32_t(distinct.size()) : 0);
     distinct.erase(no_triangle);
     figures.shadings += distinct.size();
     figures.covered += of.size() - size_t(std::ranges::count(of, no_triangle));

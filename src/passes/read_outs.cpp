@@ -35,18 +35,6 @@ bool sees_plane(float centre, const float* samples, std::span<const glm::ivec2> 
   return centre != 0;
 }
 
-// Of one sample a pixel, in a frame of several.
-GlTexture depth_of_centres(Work& work) {
-  GlTexture depth = make_texture_2d(GL_DEPTH_COMPONENT32F, work.grid().width, work.grid().height);
-  draw_depth(work, make_framebuffer({}, depth.name()).name());
-  return depth;
-}
-
-// With one sample nothing: the frame's depth is that of centres.
-GlTexture centres_of_samples(Work& work) {
-  return work.grid().samples > 1 ? depth_of_centres(work) : GlTexture();
-}
-
 std::vector<float> read_depth_of_samples(Work& work) {
   SharedBuffer& copy = work.shared_samples("depth", 4);
   work.renderer.pixel_copies.to_buffer({work.depth_framebuffer(), GL_DEPTH_ATTACHMENT, work.targets.depth()},
@@ -77,7 +65,7 @@ std::vector<float> read_depth(Work& work) {
 std::vector<uint32_t> indices_drawn(Work& work, const std::function<void()>& draw) {
   const int width = work.grid().width, height = work.grid().height;
   const GlTexture target = make_texture_2d(GL_R32UI, width, height);
-  const GlTexture of_centres = centres_of_samples(work);
+  const GlTexture of_centres = depth_of_centres(work);
   const GlFramebuffer framebuffer =
       make_framebuffer({target.name()}, of_centres ? of_centres.name() : work.targets.depth());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
@@ -184,7 +172,7 @@ struct SurfaceTargets {
       textures.push_back(make_texture_2d(GL_RGBA32F, width, height));
       names.push_back(textures.back().name());
     }
-    centres = centres_of_samples(work);
+    centres = depth_of_centres(work);
     framebuffer = make_framebuffer(names, centres ? centres.name() : work.targets.depth());
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
     glViewport(0, 0, width, height);
@@ -275,7 +263,7 @@ class TriangleTarget {
   explicit TriangleTarget(Work& work)
       : work_(work),
         texture_(make_texture_2d(GL_RG32UI, work.grid().width, work.grid().height)),
-        centres_(centres_of_samples(work)),
+        centres_(depth_of_centres(work)),
         framebuffer_(make_framebuffer({texture_.name()}, centres_ ? centres_.name() : work.targets.depth())) {
   }
 

@@ -146,11 +146,25 @@ cl_float4 background(const Seen& seen) {
 
 }  // namespace
 
+// Of kernels/resolve/average.h.
+static const char* average_define(const Settings& settings) {
+  switch (settings.samples_resolve) {
+    case SamplesResolve::linear:
+      return "";
+    case SamplesResolve::tonemapped:
+      return " -DAVERAGE_TONEMAPPED";
+    case SamplesResolve::weighted:
+      return " -DAVERAGE_WEIGHTED";
+  }
+  return "";
+}
+
 // Over the image of resolve(): the pixels whose samples see several surfaces.
 static void resolve_edges(Work& work, Resolver& r, const VisibilityBuffer& visible,
                           const LightSource& lights) {
-  NamedKernel& kernel =
-      r.kernel(work, "resolve_edges", lights.in_cl->defines + sample_defines(work.grid().samples));
+  NamedKernel& kernel = r.kernel(
+      work, "resolve_edges",
+      lights.in_cl->defines + sample_defines(work.grid().samples) + average_define(work.plan.settings));
   auto pass = work.timer.pass("resolve_edges", "cl");
   r.launch(work, kernel, "resolve_edges",
            ClArguments{{"triangles", visible.image.triangle},

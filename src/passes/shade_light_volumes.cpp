@@ -4,6 +4,7 @@
 
 #include "base/image.h"
 #include "passes/common/light_source.h"
+#include "passes/depth_prepass.h"
 #include "passes/light_volumes/volume_draws.h"
 
 namespace lightgrid {
@@ -15,7 +16,8 @@ constexpr uint32_t lights_a_mark = 48;
 // Draws the marks of all lights in batches, and calls visit(pixel, light) for each shader invocation.
 template <typename Visit>
 void visit_pairs(Work& work, Cached<LightVolumes>& cache, const Visit& visit) {
-  const GLuint depth = work.targets.depth();
+  const GlTexture centres = depth_of_centres(work);
+  const GLuint depth = centres ? centres.name() : work.targets.depth();
   const int width = work.view.width, height = work.view.height;
   const GlTexture target = make_texture_2d(GL_RGBA32F, width, height);
   const GlFramebuffer framebuffer = make_framebuffer({target.name()}, depth);

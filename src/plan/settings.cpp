@@ -206,6 +206,12 @@ std::vector<Setting>& all_settings() {
        "shaded "
        "once and counts by its share of them",
        numbers(&Settings::samples, {"1", "2", "4", "8"})},
+      {"samples-resolve",
+       "average of a pixel's samples: of their light, of their light after the tone map, or of their light "
+       "weighted by the tone map's derivative",
+       named(&Settings::samples_resolve, {{"linear", SamplesResolve::linear},
+                                          {"tonemapped", SamplesResolve::tonemapped},
+                                          {"weighted", SamplesResolve::weighted}})},
       {"texels",
        "textures in OpenCL: the maps of a material in one texel of 16 or 8 bytes where their sizes agree, or "
        "each its own",

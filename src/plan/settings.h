@@ -36,6 +36,9 @@ enum class LidrShadows { pass, none, volumes, prepass, prepass_soft, final_pass 
 // needs no OpenGL.
 enum class RasterApi { opengl, opencl };
 
+// How the light of a pixel's samples is averaged (docs/samples.md#averages).
+enum class SamplesResolve { linear, tonemapped, weighted };
+
 // How the resolve passes keep a material's maps (upload/scene_surfaces.h), and which lights it adds up.
 enum class TexelLayout { packed, packed_8, separate };
 enum class ShadedLights { grid, all };
@@ -93,6 +96,7 @@ struct Settings {
   NormalFormat normals = NormalFormat::floats;
   RasterApi raster = RasterApi::opengl;
   int samples = 1;  // a pixel, at which triangles are drawn: 1, 2, 4 or 8
+  SamplesResolve samples_resolve = SamplesResolve::linear;
   TexelLayout texels = TexelLayout::packed;
   ShadedLights lights = ShadedLights::grid;
   VoxelSize voxel_size = VoxelSize::s128x128x16;

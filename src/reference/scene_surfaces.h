@@ -61,6 +61,8 @@ class SceneSurfaces {
   // Both must outlive it.
   SceneSurfaces(const Scene& scene, const View& view) : scene_(scene), view_(view) {}
 
+  glm::ivec2 size() const { return {view_.width, view_.height}; }  // of the view, pixels
+
   TriangleInView triangle(int instance, const std::array<uint32_t, 3>& vertices) const;
 
   // place: pixels from the lower left corner of the image; a pixel's centre is at .5. None if the triangle

@@ -61,7 +61,7 @@ GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use, c
   return targets_.try_emplace(name, Target{image.texture.name(), use, image.bytes}).first->second.texture;
 }
 
-GLuint Targets::depth() { return texture("depth", stencil_ ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F); }
+GLuint Targets::depth() { return texture("depth", depth_format()); }
 
 SharedBuffer& Targets::buffer(ClDevice& cl, BridgeKind bridge, const std::string& name, size_t bytes,
                               TargetUse use) {

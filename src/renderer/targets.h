@@ -59,6 +59,7 @@ class Targets {
   // Likewise, of one sample a pixel.
   GLuint resolved(const std::string& name, GLenum format);
   GLuint depth();  // reversed 32-bit float
+  GLenum depth_format() const { return stencil_ ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F; }
 
   // A framebuffer over these images; depth 0: none.
   GLuint framebuffer(const std::vector<GLuint>& colors, GLuint depth) {

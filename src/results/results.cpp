@@ -31,6 +31,13 @@ json to_json(const std::optional<SurfacesError>& error) {
           {"p99_rel", finite_number(error->p99_rel)}};
 }
 
+json to_json(const AreaError::Part& part) {
+  return {{"pixels", part.pixels},
+          {"max_rel", finite_number(part.max_rel)},
+          {"rmse_rel", finite_number(part.rmse_rel)},
+          {"rmse_shown", finite_number(part.rmse_shown)}};
+}
+
 json to_json(const std::optional<DisplayedFlip>& flip) {
   if (!flip) return {};
   return {{"mean", flip->mean}, {"visible_share", flip->visible}, {"visible_from", visible_flip}};
@@ -74,6 +81,8 @@ json to_json(const ImageError& error) {
                  {"silhouettes", silhouettes},
                  {"inside", inside},
                  {"surfaces", to_json(error.surfaces)}});
+  if (error.area)
+    values["area"] = {{"edges", to_json(error.area->edges)}, {"inside", to_json(error.area->inside)}};
   return values;
 }
 

@@ -81,6 +81,17 @@ struct SurfacesError {
   double max_rel = 0, rmse_rel = 0, p99_rel = 0;
 };
 
+// An image against the mean over each pixel's area in double (reference/pixel_area.h), at a sample of pixels,
+// apart where those have edges and where not. Relative to the brightest channel of the reference's image;
+// shown: to what a display shows as white, and light above that counts as white.
+struct AreaError {
+  struct Part {
+    uint64_t pixels = 0;
+    double max_rel = 0, rmse_rel = 0, rmse_shown = 0;
+  };
+  Part edges, inside;
+};
+
 // FLIP between two pictures as they are displayed, the bytes of their PNG files. `visible`: of the pixels,
 // the share whose FLIP is above visible_flip. A uniform difference of one unit of CIELAB, which is about what
 // an eye can notice, has 0.06.
@@ -106,6 +117,7 @@ struct ImageError {
   double p99_rel = 0;
   double relative_rmse = 0;  // in the frontier: over the truth's channel, at least 1e-3 of the brightest
   std::optional<DisplayedFlip> displayed;  // absent if not requested
+  std::optional<AreaError> area;           // absent if no row has several samples a pixel
 };
 
 // Over a camera path. Errors are against the reference's image of the same frame, relative to its brightest

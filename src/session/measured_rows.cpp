@@ -7,6 +7,7 @@
 
 #include "reference/position.h"
 #include "results/metrics.h"
+#include "session/area_error.h"
 #include "session/oracle_sample.h"
 
 namespace lightgrid {
@@ -50,26 +51,31 @@ ImageError error_of(const Image& image, const Measured& m) {
 
 }  // namespace
 
+SampledBy sampled_by(bool own_surfaces, const Settings& settings) {
+  return {own_surfaces, settings.samples,
+          settings.samples > 1 ? settings.samples_resolve : SamplesResolve::linear};
+}
+
 // Every light on the surfaces of this run; empty: it was not drawn.
 const Image& every_light_of(const TechniqueRun& run, const Measured& m) {
   const bool own = run.frame().triangles.has_value();
-  const int samples = run.view().plan.settings.samples;
-  const auto other = m.every_light_with.find({own, samples});
+  const auto other = m.every_light_with.find(sampled_by(own, run.view().plan.settings));
   if (other != m.every_light_with.end()) return other->second;
   return own && !m.reference.run().frame().triangles ? m.every_light_on_own : m.reference.image;
 }
 
-// With each number of samples that a row on these surfaces has, but `drawn`.
+// With the samples of each row on these surfaces that has others than `drawn`.
 void draw_every_light_with_samples(const Compared& compared, const std::vector<ContestantRun>& entries,
-                                   bool own, int drawn, Measured& m) {
+                                   bool own, const SampledBy& drawn, Measured& m) {
   for (const ContestantRun& e : entries) {
     const Settings& settings = e.contestant->settings;
-    if (!e.run || own_surfaces(*e.contestant->technique, settings) != own || settings.samples == drawn ||
-        m.every_light_with.contains({own, settings.samples}))
+    const SampledBy by = sampled_by(own, settings);
+    if (!e.run || own_surfaces(*e.contestant->technique, settings) != own || by == drawn ||
+        m.every_light_with.contains(by))
       continue;
     const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, settings, own);
     run->run_frame(true);
-    m.every_light_with[{own, settings.samples}] = run->take_image();
+    m.every_light_with[by] = run->take_image();
   }
 }
 
@@ -78,7 +84,7 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
   const bool reference_is_own = m.reference.run().frame().triangles.has_value();
   if (!m.reference.sampled())
     draw_every_light_with_samples(compared, entries, reference_is_own,
-                                  m.reference.run().view().plan.settings.samples, m);
+                                  sampled_by(reference_is_own, m.reference.run().view().plan.settings), m);
   if (reference_is_own) return;
   const auto own = std::ranges::find_if(entries, [](const ContestantRun& e) {
     return e.run && own_surfaces(*e.contestant->technique, e.contestant->settings);
@@ -95,13 +101,12 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
         make_run_of_every_light(compared, own->contestant->settings, true);
     run->run_frame(true);
     m.every_light_on_own = run->take_image();
-    m.samples_on_own = own->contestant->settings.samples;
     ImageError error = error_of(m.every_light_on_own, m);
     error.displayed = displayed_flip(m.every_light_on_own, m.reference.image, report.exposure);
     error.silhouettes =
         silhouette_error(m.every_light_on_own, own_triangles(*run), m.reference.image, m.triangles.shown);
     report.own_surfaces->error = std::move(error);
-    draw_every_light_with_samples(compared, entries, true, m.samples_on_own, m);
+    draw_every_light_with_samples(compared, entries, true, sampled_by(true, own->contestant->settings), m);
   });
   if (failure) report.own_surfaces->why_not = failure->what(), m.every_light_on_own = {};
 }
@@ -249,6 +254,19 @@ std::vector<uint32_t> measure_against_oracle(CompareReport& report, Measured& m,
   return sample;
 }
 
+// Each image against the mean over pixels' areas, where some row has several samples.
+void measure_areas(CompareReport& report, const Compared& compared, Measured& m) {
+  const auto has_samples = [](const Contestant& c) { return c.settings.samples > 1; };
+  if (std::ranges::none_of(compared.contestants, has_samples)) return;
+  compared.tell(0.9, "oracle: 256 places a pixel");
+  const AreaTruth truth = area_truth(m.reference.run().view(), m.shadows.occlusion());
+  const double brightest = brightest_channel(m.reference.image), white = 1 / double(report.exposure.scale());
+  for (size_t i = 0; i < report.rows.size(); ++i) {
+    if (report.rows[i].error)
+      report.rows[i].error->area = area_error(image_of(report, i, m.reference), truth, brightest, white);
+  }
+}
+
 }  // namespace
 
 void measure_errors(CompareReport& report, const Compared& compared, Measured& m) {
@@ -261,6 +279,7 @@ void measure_errors(CompareReport& report, const Compared& compared, Measured& m
     const size_t most = affordable_samples(samples, compared.gpu.scene());
     measure_surfaces(report, m, sample_pixels(covered_pixels(m.depth), most));
   }
+  measure_areas(report, compared, m);
 }
 
 }  // namespace lightgrid

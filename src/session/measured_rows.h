@@ -19,6 +19,15 @@ struct ReferenceTriangles {
   std::vector<bool> contested = std::vector<bool>(shown.opaque.size());
 };
 
+// What of a row's settings its samples' picture of every light depends on.
+struct SampledBy {
+  bool own_surfaces = false;  // drawn in OpenCL
+  int samples = 1;
+  SamplesResolve resolve = SamplesResolve::linear;  // of one sample: linear
+  auto operator<=>(const SampledBy&) const = default;
+};
+SampledBy sampled_by(bool own_surfaces, const Settings& settings);
+
 // What the rows are compared with.
 struct Measured {
   Reference& reference;
@@ -29,9 +38,8 @@ struct Measured {
   std::optional<FlipExposures> exposures{};
   bool shown = false;             // the report will have the reference's image
   Image every_light_on_own = {};  // surfaces, where rows have such and the reference has OpenGL's; or empty
-  int samples_on_own = 1;         // of that image
-  // Every light on OpenGL's (false) or OpenCL's surfaces with other samples a pixel, where rows have such.
-  std::map<std::pair<bool, int>, Image> every_light_with = {};
+  // Every light with other samples a pixel, where rows have such.
+  std::map<SampledBy, Image> every_light_with = {};
 };
 
 // Takes the reference's image from its run. flip: with exposures for it.

@@ -44,6 +44,7 @@ bool has_effect(const Technique& technique, const Settings& settings, const std:
   if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
     return settings.shadows == ShadowMethod::map || filters_maps(own) ||
            (own == LidrShadows::prepass && key != "shadow-filter");
+  if (key == "samples-resolve") return settings.samples > 1;
   if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
   if (key == "shadow-kept" || key == "shadow-memory" || key == "shadow-reuse" || key == "shadow-threshold")
     return settings.given.contains(key);
@@ -119,6 +120,11 @@ int most_samples(const Technique& technique, const Settings& settings) {
 
 void check_samples(const Technique& technique, const Settings& settings) {
   const int most = most_samples(technique, settings);
+  if (settings.samples > 1 && settings.samples_resolve != SamplesResolve::linear &&
+      draws_with_opengl(adapted_needs(technique, settings), settings))
+    throw input_error("set samples-resolve: {} draws with OpenGL, which averages light; choose "
+                      "samples-resolve=linear{}",
+                      technique.name, technique.needs.chosen_raster ? " or raster=opencl" : "");
   if (settings.samples <= most) return;
   throw input_error("set samples={}: {} with these settings takes {} a pixel", settings.samples,
                     technique.name, most);

@@ -22,7 +22,8 @@ extern const Technique visibility{
               .most_samples = 8,
               .adapt = adapt},
     .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins",
-                 "group-tiles", "lights", "samples", "texels", "kernel-shape", "portable", "group-size"},
+                 "group-tiles", "lights", "samples", "samples-resolve", "texels", "kernel-shape", "portable",
+                 "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

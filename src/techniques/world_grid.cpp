@@ -19,14 +19,15 @@ static Frame render(RenderView& v) {
   return frame;
 }
 
-extern const Technique world_grid{.name = "world_grid",
-                                  .summary = "light lists in cells of the world, built once for all views",
-                                  .source =
-                                      "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009; "
-                                      "Tegelaers: Forward and Deferred Hashed Shading",
-                                  .needs = {.chosen_raster = true, .world_grid = true, .most_samples = 8},
-                                  .settings = {"brdf", "world-grid", "world-cell", "depth-bounds", "tile",
-                                               "raster", "samples", "texels", "kernel-shape", "portable"},
-                                  .render = render};
+extern const Technique world_grid{
+    .name = "world_grid",
+    .summary = "light lists in cells of the world, built once for all views",
+    .source =
+        "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009; "
+        "Tegelaers: Forward and Deferred Hashed Shading",
+    .needs = {.chosen_raster = true, .world_grid = true, .most_samples = 8},
+    .settings = {"brdf", "world-grid", "world-cell", "depth-bounds", "tile", "raster", "samples",
+                 "samples-resolve", "texels", "kernel-shape", "portable"},
+    .render = render};
 
 }  // namespace lightgrid

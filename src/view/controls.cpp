@@ -11,9 +11,9 @@
 
 namespace lightgrid {
 
-const std::array<const char*, 8>& map_names() {
-  static const std::array<const char*, 8> names = {"picture", "listed", "lit",   "lost",
-                                                   "hidden",  "leaked", "acned", "difference"};
+const std::array<const char*, 9>& map_names() {
+  static const std::array<const char*, 9> names = {"picture", "listed", "lit",        "lost", "hidden",
+                                                   "leaked",  "acned",  "difference", "edges"};
   return names;
 }
 

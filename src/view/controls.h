@@ -13,9 +13,9 @@
 namespace lightgrid {
 
 // What a side shows.
-enum class SideMap { picture, listed, lit, lost, hidden, leaked, acned, difference };
+enum class SideMap { picture, listed, lit, lost, hidden, leaked, acned, difference, edges };
 
-const std::array<const char*, 8>& map_names();  // by SideMap
+const std::array<const char*, 9>& map_names();  // by SideMap
 // Throws Error(input) that lists the names.
 SideMap parse_map(const std::string& name);
 

@@ -160,6 +160,23 @@ void MapOfSide::show_counts(const MapChoice& wanted, Side& side, bool wait) {
   put(heat_map(side.width(), side.height(), counts, top), wanted, side);
 }
 
+void MapOfSide::show_edges(const MapChoice& wanted, Side& side) {
+  SampleFigures figures;
+  if (const auto& read = side.run().frame().sample_figures) {
+    figures = read();
+    legend_ = fmt::format("edges, surfaces a pixel: {} pixels with several; {} of {} samples shaded",
+                          figures.edge_pixels, figures.shadings, figures.covered);
+  } else {
+    figures.surfaces.resize(size_t(side.width()) * size_t(side.height()));
+    legend_ = side.run().view().plan.settings.samples > 1
+                  ? "edges: OpenGL does not tell which pixels have several surfaces"
+                  : "edges: one sample a pixel sees one surface";
+  }
+  const uint32_t top = std::max(top_of_scale(figures.surfaces), 2u);
+  scale_ = {&viridis_ramp(), "1", "", fmt::format("{} or more", top)};
+  put(heat_map(side.width(), side.height(), figures.surfaces, top), wanted, side);
+}
+
 void MapOfSide::show_difference(const MapChoice& wanted, Side& side, const Image& reference) {
   Image image;
   RenderView& v = side.run().view();

@@ -1,5 +1,6 @@
 // The lights that a side's last frame listed, compared with the oracle, at one pixel and as maps over the
-// picture; and the map of its difference from `forward`.
+// picture; and the maps of its difference from `forward`, and of
+// pixels whose samples see several surfaces.
 #pragma once
 
 #include <memory>
@@ -62,6 +63,8 @@ class MapOfSide {
     if (shows(wanted, side)) return;
     if (wanted.map == SideMap::difference) {
       show_difference(wanted, side, reference());
+    } else if (wanted.map == SideMap::edges) {
+      show_edges(wanted, side);
     } else {
       show_counts(wanted, side, wait);
     }
@@ -80,6 +83,7 @@ class MapOfSide {
 
  private:
   void show_counts(const MapChoice& wanted, Side& side, bool wait);
+  void show_edges(const MapChoice& wanted, Side& side);
   void show_difference(const MapChoice& wanted, Side& side, const Image& reference);
   void put(const Image& image, const MapChoice& map, const Side& side);
 

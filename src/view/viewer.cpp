@@ -110,7 +110,7 @@ double Viewer::wait_s() const {
 
 MapChoice Viewer::wanted_map(int i) const {
   const SideMap map = controls_.sides[i].map;
-  return {map, map == SideMap::difference ? std::nullopt : controls_.light};
+  return {map, map == SideMap::difference || map == SideMap::edges ? std::nullopt : controls_.light};
 }
 
 // The last picture with a text, at once. A pass may be drawing: what this changes it gets back.

@@ -88,6 +88,10 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       {"src/passes/light_index/layout.cpp", {"lidr"}},
       // Its hard cases.
       {"src/verify/device_engine.cpp", {"lidr"}},
+      // Ways to draw light groups that hard cases compare.
+      {"src/verify/group_cases.cpp",
+       {"clustered", "deferred", "deferred_tiled", "forward", "forward_multipass", "forward_plus",
+        "forward_zprepass", "lidr", "light_prepass", "visibility", "world_grid"}},
       // What is varied, and a sentence about two.
       {"src/frontier/points.cpp",
        {"deferred_tiled", "forward_plus", "lidr", "visibility", "voxel_lights", "world_grid"}},
@@ -108,7 +112,7 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
 // --set and JSON files follow.
 TEST(Adding, ASettingOfATechniqueTakesItsFile) {
   std::map<std::string, std::vector<std::string>> texts;
-  Naming expected;
+  Naming expected = {{"src/verify/group_cases.cpp", {"prepass-lights"}}};  // of the ways that it compares
   const std::regex own("OwnSetting<(\\w+)> (\\w+)\\{\\s*\"([^\"]+)\"");
   for (const Technique* t : techniques()) {
     const std::string path = std::string("src/techniques/") + t->name + ".cpp", text = code_of(text_at(path));

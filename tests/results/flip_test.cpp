@@ -9,6 +9,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "support/paths.h"
 #include "support/png_pixels.h"
 #include "support/shared_files.h"
 
@@ -97,6 +98,20 @@ TEST(FlipOfTheAuthors, IsThatOfTheirProgram) {
     EXPECT_NEAR(std::ranges::min(map), number("min"), 1e-4) << name;
     EXPECT_NEAR(std::ranges::max(map), number("max"), 1e-4) << name;
   }
+}
+
+// The middle of each is the pixel that the authors' program gives for the whole pictures, their largest one.
+TEST(FlipOfTheAuthors, IsThatOfTheirProgramOnTheCommittedCases) {
+  const std::filesystem::path folder = std::filesystem::path(source_folder) / "tests/results/flip";
+  const size_t middle = 10 * 21 + 10;
+  const Image ldr = png_image(folder / "reference.png"), hdr = exr_image(folder / "reference.exr");
+  const Image ldr_test = png_image(folder / "test.png"), hdr_test = exr_image(folder / "test.exr");
+  for (const Image* image : {&ldr, &hdr, &ldr_test, &hdr_test}) ASSERT_EQ(image->pixels.size(), 21u * 21u);
+  EXPECT_NEAR(flip_map(ldr_test, ldr, 67)[middle], 0.164487, 1e-4);
+  EXPECT_NEAR(hdr_flip_map(hdr_test, hdr, {-3, 4, 8}, 67)[middle], 0.145485, 1e-4);
+  // Other filters give other values: the cases can tell.
+  EXPECT_GT(std::abs(flip_map(ldr_test, ldr, 60)[middle] - 0.164487), 1e-3);
+  EXPECT_GT(std::abs(hdr_flip_map(hdr_test, hdr, {-3, 4, 8}, 60)[middle] - 0.145485), 1e-3);
 }
 
 Image noise(int width, int height, uint32_t seed) {

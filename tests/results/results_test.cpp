@@ -85,6 +85,15 @@ TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
   EXPECT_EQ(to_json(small_result()), expected);
 }
 
+TEST(Results, HoldTheErrorAgainstAreasOnlyWhereItWasMeasured) {
+  RunResult result = small_result();
+  EXPECT_FALSE(to_json(result)["error"].contains("area"));
+  result.error->area = AreaError{{1, 0.5, 0.25, 0.125}, {2, 0.75, 0.375, 0.0625}};
+  EXPECT_EQ(to_json(result)["error"]["area"], json::parse(R"({
+    "edges": {"pixels": 1, "max_rel": 0.5, "rmse_rel": 0.25, "rmse_shown": 0.125},
+    "inside": {"pixels": 2, "max_rel": 0.75, "rmse_rel": 0.375, "rmse_shown": 0.0625}})"));
+}
+
 // A scene without casters has the keys above alone.
 TEST(Results, HoldShadowsOnlyWhereLightsCast) {
   RunResult result = small_result();

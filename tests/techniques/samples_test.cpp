@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "base/error.h"
 #include "support/fine_truth.h"
 #include "support/small_scene.h"
@@ -85,6 +87,97 @@ TEST_F(SamplesOfVisibility, HaveErrorsThatFallAtEdgesAndStayInside) {
     EXPECT_LE(error, inside.front());
     EXPECT_GT(error, 0.7 * inside.front());
   }
+}
+
+// Light of two surfaces of constant radiance and of the background, at pixels whose shares the linear mean
+// tells.
+class SamplesResolve : public testing::Test {
+ protected:
+  SamplesResolve() {
+    s_.scene.background = {0.1f, 0.2f, 0.3f};
+    Material& m = s_.scene.materials.emplace_back();
+    m.unlit = true, m.base_color = {20, 6, 1, 1};
+    add_instance(s_.scene, "panel", add_mesh(s_.scene, wall_mesh({0.13f, 0.07f, -4}, 1.03f, 0, "panel")));
+    s_.scene.instances[0].world_from_object = glm::rotate(glm::dmat4(1), 0.1, {0, 0, 1});
+  }
+  Image draw(const char* resolve, const char* shape = "lanes") const {
+    Settings settings;
+    settings.samples = 4;
+    apply_setting(settings, std::string("samples-resolve=") + resolve);
+    if (shape == std::string("group")) apply_setting(settings, "kernel-shape=group");
+    return render(s_.scene, small_view(41, 29), "visibility", settings);
+  }
+  // Calls check(share of the panel, pixel) at pixels of both.
+  template <typename Check>
+  size_t at_edges(const Check& check) const {
+    const Image linear = draw("linear");
+    size_t edges = 0;
+    for (size_t i = 0; i < linear.pixels.size(); ++i) {
+      const double share = (double(linear.pixels[i].r) - 0.1) / (20 - 0.1);
+      if (share < 0.1 || share > 0.9) continue;
+      EXPECT_NEAR(share * 4, std::round(share * 4), 1e-4);
+      check(share, i), ++edges;
+    }
+    return edges;
+  }
+  struct {
+    Scene scene;
+  } s_;
+  const glm::dvec3 panel_{20, 6, 1}, background_{0.1f, 0.2f, 0.3f};
+};
+
+TEST_F(SamplesResolve, AfterTheToneMapIsTheMeanOfWhatItShows) {
+  const Image image = draw("tonemapped");
+  const size_t edges = at_edges([&](double share, size_t i) {
+    const glm::dvec3 expected =
+        glm::mix(glm::dvec3(tone_map_neutral(background_)), glm::dvec3(tone_map_neutral(panel_)), share);
+    const glm::dvec3 shown(tone_map_neutral(glm::vec3(image.pixels[i])));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], expected[c], 1e-6) << i << ' ' << share;
+  });
+  EXPECT_GT(edges, 30u);
+}
+
+// The derivative of the tone map's brightest channel, as a difference of grey light, in which all channels
+// are alike.
+TEST_F(SamplesResolve, WeightedIsTheMeanByTheToneMapsDerivative) {
+  const auto weight = [](const glm::dvec3& light) {
+    const double least = std::min({light.r, light.g, light.b}), peak = std::max({light.r, light.g, light.b});
+    const double off = least < 0.08 ? least - 6.25 * least * least : 0.04;
+    const auto shown = [](double x) { return x < 0.76 ? x : 1 - 0.24 * 0.24 / (x + 0.24 - 0.76); };
+    return (shown(peak - off + 1e-4) - shown(peak - off - 1e-4)) / 2e-4;
+  };
+  const Image image = draw("weighted");
+  const double of_panel = weight(panel_), of_background = weight(background_);
+  EXPECT_NEAR(of_background, 1, 1e-6);
+  EXPECT_LT(of_panel, 1e-3);
+  const size_t edges = at_edges([&](double share, size_t i) {
+    const double a = share * of_panel, b = (1 - share) * of_background;
+    const glm::dvec3 expected = (panel_ * a + background_ * b) / (a + b);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.pixels[i][c], expected[c], 1e-5) << i << ' ' << share;
+  });
+  EXPECT_GT(edges, 30u);
+}
+
+TEST_F(SamplesResolve, HasTheSameBytesInBothShapesAndInside) {
+  const Image linear = draw("linear");
+  for (const char* resolve : {"linear", "tonemapped", "weighted"}) {
+    const Image image = draw(resolve);
+    EXPECT_TRUE(identical(draw(resolve, "group"), image)) << resolve;
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+      if (linear.pixels[i].r == 20 || linear.pixels[i].r == 0.1f) {
+        EXPECT_EQ(image.pixels[i], linear.pixels[i]);
+      }
+    }
+  }
+}
+
+TEST(SamplesResolves, IsRefusedWhereOpenGLAverages) {
+  Settings settings;
+  apply_setting(settings, "samples=4"), apply_setting(settings, "samples-resolve=tonemapped");
+  EXPECT_THROW(check_samples(find_technique("world_grid"), settings), Error);
+  EXPECT_NO_THROW(check_samples(find_technique("visibility"), settings));
+  apply_setting(settings, "raster=opencl");
+  EXPECT_NO_THROW(check_samples(find_technique("world_grid"), settings));
 }
 
 TEST_F(SamplesOfVisibility, AreRefusedWhereALightCastsAShadow) {

@@ -47,6 +47,27 @@ TEST_F(ViewInDisplay, ShowsMovingLightsAsRenderDoes) {
   EXPECT_LE(greatest_difference(read_png(folder_.path / "view.png"), picture, 0, width - 2), 2);
 }
 
+// The map of edges is black but for pixels with several surfaces; with one sample it is black.
+TEST_F(ViewInDisplay, ShowsPixelsWithEdgesAsAMap) {
+  const std::string sides = "--left visibility --right visibility",
+                    script = "0 set left samples=4\n0 map edges\n0 line 0.5\n";
+  const CommandOutcome run = run_in_display(view_words(folder_, script, 6, sides));
+  ASSERT_EQ(run.status, 0) << run.output;
+  const PngPixels shot = read_png(folder_.path / "view.png");
+  constexpr int bar = 135;  // from this row on the scale's bar is drawn over the map
+  const auto marked = [&](int first, int last) {
+    int count = 0;
+    for (int y = label_rows; y < bar; ++y) {
+      for (int x = first; x < last; ++x) count += shot.at(x, y, 1) > 20;
+    }
+    return count;
+  };
+  const int pixels = (bar - label_rows) * (width / 2 - 2);
+  EXPECT_GT(marked(0, width / 2 - 2), pixels / 20);
+  EXPECT_LT(marked(0, width / 2 - 2), pixels / 2);
+  EXPECT_EQ(marked(width / 2 + 2, width - 2), 0);
+}
+
 TEST_F(ViewInDisplay, DrawsLessWhileTheCameraMovesAndAllOfItAtRest) {
   const std::string move = "0 rate 100000\n0 line 1\n2 key down w\n";
   ASSERT_EQ(run_in_display(view_words(folder_, move, 8)).status, 0);

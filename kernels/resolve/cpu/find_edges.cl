@@ -17,6 +17,7 @@
 #include "shared/real.h"
 
 #define EDGE_RUN 4096u
+#define KNOWN_PAIRS 1024u
 
 // SAMPLES values of each of 16 pixels.
 static inline void load_samples(global const uint* values, uint count, uint16* of) {
@@ -29,33 +30,63 @@ static inline void load_samples(global const uint* values, uint count, uint16* o
   separate(of);
 }
 
+// Whether two triangles are neighbours. A pair meets in several pixels: what is known of some is kept, two
+// numbers << 1 | the answer each, since a triangle's corners are far away.
+static inline bool known_neighbours(ulong* known, uint a, uint b, const SeenTriangles* scene) {
+  const uint low = min(a, b), high = max(a, b);
+  const ulong pair = ((ulong)low << 31 | high) << 1;  // numbers are below 2^31
+  ulong* const place = known + (low * 5u + high) % KNOWN_PAIRS;
+  if ((*place & ~1ul) != pair) {
+    const SeenTriangle one = seen_triangle(scene, a), other = seen_triangle(scene, b);
+    *place = pair | (are_neighbours(&one, &other) ? 1u : 0u);
+  }
+  return *place & 1u;
+}
+
 kernel void find_edges(global uint* triangles, global const float* depths,
                        global const uint* triangle_instance, global const RasterInstanceRecord* instances,
                        global const uint* indices, global const float4* clip, uint pixels,
                        global uint* pixel_triangles, global float* pixel_depths, global ushort* edges) {
   const SeenTriangles scene = {triangle_instance, instances, indices, clip};
   const uint begin = (uint)get_global_id(0) * EDGE_RUN, end = min(begin + EDGE_RUN, pixels);
+  ulong known[KNOWN_PAIRS];
+  for (uint i = 0; i < KNOWN_PAIRS; ++i) known[i] = ~0ul;
   for (uint at = begin; at < end; at += 16) {
     const uint count = min(end - at, 16u);
     uint16 seen[SAMPLES], depth_bits[SAMPLES];
     load_samples(triangles + (size_t)at * SAMPLES, count, seen);
     load_samples((global const uint*)depths + (size_t)at * SAMPLES, count, depth_bits);
-    mask_t edge = 0;
+    uint16 other = seen[0];  // the first sample's that sees another triangle than the first one
     real depth = as_float16(depth_bits[0]);
+    whole with_first = 1;
 #pragma unroll
     for (uint s = 1; s < SAMPLES; ++s) {
-      edge |= seen[s] != seen[0];
+      other = seen[SAMPLES - s] != seen[0] ? seen[SAMPLES - s] : other;
+      with_first -= seen[s] == seen[0];
       depth += as_float16(depth_bits[s]);
     }
     depth *= 1.0f / SAMPLES;
-    uint16 triangle = seen[0];
-    uint edge_bits = mask_bits(edge) & ((1u << count) - 1u);
-    for (uint left = edge_bits; left != 0; left &= left - 1) {
+    mask_t edge = other != seen[0], more = 0;
+#pragma unroll
+    for (uint s = 1; s < SAMPLES; ++s) more |= (seen[s] != seen[0]) & (seen[s] != other);
+    const uint covered = mask_bits((seen[0] != (uint16)(SURFACE_NONE)) & (other != (uint16)(SURFACE_NONE)));
+    const uint of_more = mask_bits(more);
+    uint16 triangle = with_first * 2 >= (whole)(SAMPLES) ? seen[0] : other;
+    uint edge_bits = mask_bits(edge) & first_lanes(count);
+    for (uint left = edge_bits & (covered | of_more); left != 0; left &= left - 1) {
       const uint i = lowest_bit(left);
       global uint* const of_pixel = triangles + (size_t)(at + i) * SAMPLES;
-      if (!join_surfaces(of_pixel, &scene)) continue;
+      if (of_more >> i & 1u) {
+        if (!join_surfaces(of_pixel, &scene)) continue;
+        ((uint*)&triangle)[i] = of_pixel[0];
+      } else {
+        if (!known_neighbours(known, ((const uint*)&seen[0])[i], ((const uint*)&other)[i], &scene)) continue;
+        const uint most = ((const uint*)&triangle)[i];
+#pragma unroll
+        for (uint s = 0; s < SAMPLES; ++s) of_pixel[s] = most;
+      }
       edge_bits &= ~(1u << i);
-      ((int*)&edge)[i] = 0, ((uint*)&triangle)[i] = of_pixel[0];
+      ((int*)&edge)[i] = 0;
     }
     triangle = edge ? (uint16)(SURFACE_NONE) : triangle;
     depth = edge ? REAL(0.0f) : depth;

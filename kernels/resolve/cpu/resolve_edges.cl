@@ -9,35 +9,57 @@
 // background         of samples without a surface
 // image              in and out: RGBA a pixel, linear, row 0 at the bottom
 // -DTILE             pixels a side, a multiple of 8 (default 16)
-// -DSAMPLES, -DSAMPLE_PLACES, and what kernels/resolve/resolve.h and resolve_light.h name
+// -DSAMPLES, -DSAMPLE_PLACES, and what kernels/resolve/average.h, resolve.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
+#include "kernels/resolve/average.h"
 #include "kernels/resolve/resolve_block.h"
 #include "kernels/resolve/resolve_light.h"
 #include "kernels/resolve/samples.h"
 
-#define SIDE (TILE < EDGE_BLOCK ? TILE : EDGE_BLOCK)
+#define SIDE (TILE < EDGE_BLOCK ? TILE : EDGE_BLOCK)  // 16 at most
 #define MOST_SURFACES (SIDE * SIDE * SAMPLES)
 
 // The surfaces of a square's edge pixels, pixel after pixel.
 typedef struct EdgeSurfaces {
   uint count;
-  uint triangle[MOST_SURFACES];
   float x[MOST_SURFACES], y[MOST_SURFACES];  // from the centre of the first pixel of its EDGE_BLOCK
   float depth[MOST_SURFACES], share[MOST_SURFACES];
   float red[MOST_SURFACES], green[MOST_SURFACES], blue[MOST_SURFACES];
-  ushort order[MOST_SURFACES + 16];  // by triangle
+  ulong order[MOST_SURFACES];  // triangle << 16 | surface
 } EdgeSurfaces;
+
+#define TRIANGLE_OF(ordered) ((uint)((ordered) >> 16))
+#define SURFACE_OF(ordered) ((uint)(ordered) & 0xffffu)
 
 // Shell's method: mostly some dozens.
 static inline void sort_by_triangle(EdgeSurfaces* e) {
-  for (uint gap = 701; gap > 0; gap = gap * 4 / 9) {
+  for (uint gap = 701; gap > 0; gap = gap == 2 ? 1 : gap * 4 / 9) {
     for (uint i = gap; i < e->count; ++i) {
-      const ushort one = e->order[i];
-      const uint key = e->triangle[one];
+      const ulong one = e->order[i];
       uint to = i;
-      for (; to >= gap && e->triangle[e->order[to - gap]] > key; to -= gap) e->order[to] = e->order[to - gap];
+      for (; to >= gap && e->order[to - gap] > one; to -= gap) e->order[to] = e->order[to - gap];
       e->order[to] = one;
+    }
+  }
+}
+
+// Which of `count` pixels from `at` on are at edges, a bit each: 16 at most.
+static inline uint edge_bits(global const ushort* edges, uint at, uint count) {
+  uint bits = edges[at / 16] >> (at & 15u);
+  if ((at & 15u) + count > 16) bits |= (uint)edges[at / 16 + 1] << (16 - (at & 15u));
+  return bits & first_lanes(count);
+}
+
+// Fetches the samples at the edges of a square, which the rasteriser stored past the caches.
+static inline void fetch_square(global const uint* triangles, global const float* depths,
+                                global const ushort* edges, uint x0, uint y0, uint width, uint height) {
+  if (x0 >= width) return;
+  for (uint y = y0; y < min(y0 + SIDE, height); ++y) {
+    const uint row = y * width + x0;
+    for (uint bits = edge_bits(edges, row, min(SIDE, width - x0)); bits != 0; bits &= bits - 1) {
+      const size_t at = (size_t)(row + lowest_bit(bits)) * SAMPLES;
+      FETCH(triangles + at), FETCH(depths + at);
     }
   }
 }
@@ -49,8 +71,9 @@ static inline void shade_surfaces(EdgeSurfaces* e, uint first, uint base_x, uint
   uint16 triangle;
   real dx, dy, depth;
   for (uint i = 0; i < 16; ++i) {
-    const ushort one = e->order[min(first + i, e->count - 1)];
-    ((uint*)&triangle)[i] = e->triangle[one];
+    const ulong ordered = e->order[min(first + i, e->count - 1)];
+    const uint one = SURFACE_OF(ordered);
+    ((uint*)&triangle)[i] = TRIANGLE_OF(ordered);
     ((float*)&dx)[i] = e->x[one], ((float*)&dy)[i] = e->y[one], ((float*)&depth)[i] = e->depth[one];
   }
   const mask_t covered = LANE_INDEX < (int16)((int)(e->count - first));
@@ -66,7 +89,7 @@ static inline void shade_surfaces(EdgeSurfaces* e, uint first, uint base_x, uint
   const Real3 shown = radiance(&a, &s, (float)base_x + 0.5f + dx, (float)base_y + 0.5f + dy, depth, covered,
                                lights, bin_edges, view);
   for (uint i = 0; i < 16 && first + i < e->count; ++i) {
-    const ushort one = e->order[first + i];
+    const uint one = SURFACE_OF(e->order[first + i]);
     e->red[one] = LANE(shown.x, i), e->green[one] = LANE(shown.y, i), e->blue[one] = LANE(shown.z, i);
   }
 }
@@ -87,22 +110,22 @@ kernel void resolve_edges(global const uint* triangles, global const float* dept
       const uint base_x = x0 & ~(EDGE_BLOCK - 1u), base_y = y0 & ~(EDGE_BLOCK - 1u);
       uint found = 0;
       e.count = 0;
+      fetch_square(triangles, depths, edges, x0 + SIDE, y0, width, height);
       for (uint y = y0; y < min(y0 + SIDE, height); ++y) {
-        for (uint x = x0; x < min(x0 + SIDE, width); ++x) {
-          const uint at = y * width + x;
-          if (!(edges[at / 16] >> (at & 15u) & 1u)) continue;
+        uint bits = edge_bits(edges, y * width + x0, min(SIDE, width - x0));
+        for (; bits != 0; bits &= bits - 1) {
+          const uint x = x0 + lowest_bit(bits), at = y * width + x;
           float4 color = 0.0f;
           for (uint left = ALL_SAMPLES; left != 0;) {
             const PixelSurface p =
                 next_surface(triangles + (size_t)at * SAMPLES, depths + (size_t)at * SAMPLES, &left);
             if (p.triangle == SURFACE_NONE) {
-              color = (float4)(background.xyz * p.share, 0.0f);
+              color = begun_with(background, p.share);
               continue;
             }
             const uint one = e.count++;
-            e.triangle[one] = p.triangle, e.share[one] = p.share, e.depth[one] = p.depth;
+            e.order[one] = (ulong)p.triangle << 16 | one, e.share[one] = p.share, e.depth[one] = p.depth;
             e.x[one] = (float)(x - base_x) + p.off_x, e.y[one] = (float)(y - base_y) + p.off_y;
-            e.order[one] = (ushort)one;
           }
           pixels[found] = at, colors[found] = color, ends[found++] = (ushort)e.count;
         }
@@ -113,13 +136,9 @@ kernel void resolve_edges(global const uint* triangles, global const float* dept
         shade_surfaces(&e, i, base_x, base_y, &scene, &lights, bin_edges, view);
       for (uint i = 0, one = 0; i < found; ++i) {
         float4 color = colors[i];
-        for (; one < ends[i]; ++one) {
-          color.x = fma(e.red[one], e.share[one], color.x);
-          color.y = fma(e.green[one], e.share[one], color.y);
-          color.z = fma(e.blue[one], e.share[one], color.z);
-        }
-        color.w = 1.0f;
-        vstore4(color, pixels[i], image);
+        for (; one < ends[i]; ++one)
+          color = add_light(color, (float3)(e.red[one], e.green[one], e.blue[one]), e.share[one]);
+        vstore4(averaged(color), pixels[i], image);
       }
     }
   }

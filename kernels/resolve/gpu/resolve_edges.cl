@@ -2,6 +2,7 @@
 // resolve/cpu/resolve_edges.cl, with the same arguments.
 #define FUSED  // shared/real.h
 #define LANES 1
+#include "kernels/resolve/average.h"
 #include "kernels/resolve/resolve_light.h"
 #include "kernels/resolve/samples.h"
 #include "shared/light_grid.h"
@@ -21,7 +22,7 @@ kernel void resolve_edges(global const uint* triangles, global const float* dept
   float4 color = 0.0f;
   for (uint s = 0; s < SAMPLES; ++s)
     if (triangles[(size_t)at * SAMPLES + s] == SURFACE_NONE) color.w += 1.0f;
-  color = (float4)(background.xyz * (color.w * (1.0f / SAMPLES)), 0.0f);
+  color = begun_with(background, color.w * (1.0f / SAMPLES));
   for (uint left = ALL_SAMPLES; left != 0;) {
     const PixelSurface p =
         next_surface(triangles + (size_t)at * SAMPLES, depths + (size_t)at * SAMPLES, &left);
@@ -33,10 +34,7 @@ kernel void resolve_edges(global const uint* triangles, global const float* dept
     add_material(&s, &a, &scene, (uint)a.material, 1);
     const Real3 shown = radiance(&a, &s, (float)base_x + 0.5f + dx, (float)base_y + 0.5f + dy, p.depth, 1,
                                  &lights, bin_edges, view);
-    color.x = fma(shown.x, p.share, color.x);
-    color.y = fma(shown.y, p.share, color.y);
-    color.z = fma(shown.z, p.share, color.z);
+    color = add_light(color, (float3)(shown.x, shown.y, shown.z), p.share);
   }
-  color.w = 1.0f;
-  ((global float4*)image)[at] = color;
+  ((global float4*)image)[at] = averaged(color);
 }

@@ -78,6 +78,7 @@ struct SampleFigures {
   size_t shadings = 0;     // surfaces that were shaded, each once a pixel
   size_t covered = 0;      // samples that see a surface: what shading each of them would take
   size_t bytes = 0;        // of images of samples and of what says where edges are
+  std::vector<uint32_t> surfaces;  // of each pixel at an edge, with the background; of others 0
 };
 
 // A technique's result, for readers of the frame: the image, input of the oracle, memory figures.
