@@ -23,8 +23,8 @@ struct PointFigures {
   int width = 0, height = 0;      // pixels
   MedianInterval frame_ms;        // of the sum over views, over their number
   double p95_ms = 0, p99_ms = 0;  // of the frames of all runs and views: the least that this share is within
-  // By round: the sum of its times over the views over the same sum of the baseline's, of whose runs in that
-  // round and view the median counts.
+  // By round: the sum of its times over the views over the same sum of the baseline's, of three of its runs
+  // in that round and view.
   LogTimes log_times;
   RelativeTime relative_time;
   PointErrors errors;
@@ -57,7 +57,7 @@ struct CheapestWithin {
 // technique's.
 struct Control {
   std::string scene;
-  RelativeTime relative_time;  // of the places' mean in each round
+  RelativeTime relative_time;  // of all places together
   std::vector<double> places;  // the estimate of each
   bool passed() const;         // 1 is in the interval, and within 1 % of the estimate
   // The logarithm by which the intervals of the scene's points are wider: 0 if it passed, otherwise what the

@@ -26,17 +26,17 @@ double deviation_of(std::span<const double> values) {
   return std::sqrt(squares / double(values.size() - 1));
 }
 
-struct Trimmed {
+struct Location {
   double mean = 0;
   std::vector<double> influences;  // of each value on the mean, times their number; they add up to 0
   int dof = 0;                     // of the mean's variance
 };
 
-Trimmed trimmed_mean(std::span<const double> values) {
-  const size_t n = values.size(), cut = size_t(trimmed_share * double(n));
+Location trimmed_mean(std::span<const double> values, double share = trimmed_share) {
+  const size_t n = values.size(), cut = size_t(share * double(n));
   std::vector<double> sorted(values.begin(), values.end());
   std::ranges::sort(sorted);
-  Trimmed t;
+  Location t;
   t.mean = mean_of(std::span(sorted).subspan(cut, n - 2 * cut));
   t.dof = int(n - 2 * cut) - 1;
   std::vector<double> winsorized;
@@ -46,9 +46,21 @@ Trimmed trimmed_mean(std::span<const double> values) {
   return t;
 }
 
-std::vector<double> values_of(const LogTimes& times) {
+// Over the baseline's runs of one series.
+std::vector<double> values_of(const LogTimes& times, size_t series) {
   std::vector<double> values;
-  for (const auto& [block, value] : times) values.push_back(value);
+  for (const auto& [block, ratios] : times) values.push_back(ratios[series]);
+  return values;
+}
+
+// Sorted, over the baseline's middle run of each round: one slow run of the baseline makes no second mode.
+std::vector<double> middle_values_of(const LogTimes& times) {
+  std::vector<double> values;
+  for (auto [block, ratios] : times) {
+    std::ranges::sort(ratios);
+    values.push_back(ratios[ratios.size() / 2]);
+  }
+  std::ranges::sort(values);
   return values;
 }
 
@@ -68,25 +80,33 @@ size_t second_mode(const std::vector<double>& sorted) {
 
 // The blocks that vary by themselves, with their values: rounds, or whole processes.
 LogTimes units_of(const LogTimes& times) {
-  std::map<TimeBlock, std::vector<double>> of_process;
-  for (const auto& [block, value] : times) of_process[{block.shard, block.process, 0}].push_back(value);
+  std::map<TimeBlock, LogTimes> of_process;
+  for (const auto& [block, ratios] : times) of_process[{block.shard, block.process, 0}][block] = ratios;
   if (of_process.size() < 2) return times;
   LogTimes units;
-  for (const auto& [block, values] : of_process) units[block] = trimmed_mean(values).mean;
+  for (const auto& [block, rounds] : of_process) {
+    for (size_t k = 0; k < rounds.begin()->second.size(); ++k)
+      units[block].push_back(trimmed_mean(values_of(rounds, k)).mean);
+  }
   return units;
 }
 
-// Means of processes are few and have no outliers to cut off.
-Trimmed location_of(const LogTimes& times, const LogTimes& units) {
-  const std::vector<double> values = values_of(units);
-  if (units.size() == times.size()) return trimmed_mean(values);
-  Trimmed t{.mean = mean_of(values), .dof = int(values.size()) - 1};
-  for (const double value : values) t.influences.push_back(value - t.mean);
-  return t;
+// The mean of the series' locations. Means of processes are few and have no outliers to cut off.
+Location location_of(const LogTimes& times, const LogTimes& units) {
+  const double share = units.size() == times.size() ? trimmed_share : 0;
+  const size_t series = units.begin()->second.size();
+  Location all{.influences = std::vector<double>(units.size(), 0.0)};
+  for (size_t k = 0; k < series; ++k) {
+    const Location of_series = trimmed_mean(values_of(units, k), share);
+    all.mean += of_series.mean / double(series);
+    for (size_t i = 0; i < units.size(); ++i) all.influences[i] += of_series.influences[i] / double(series);
+    all.dof = of_series.dof;
+  }
+  return all;
 }
 
 // The standard error: the influences' root mean square over the number, unbiased.
-double standard_error(const Trimmed& t) {
+double standard_error(const Location& t) {
   const double n = double(t.influences.size());
   double squares = 0;
   for (const double influence : t.influences) squares += influence * influence;
@@ -99,8 +119,7 @@ struct Modes {
 };
 
 std::optional<Modes> modes_of(const LogTimes& times) {
-  std::vector<double> sorted = values_of(times);
-  std::ranges::sort(sorted);
+  const std::vector<double> sorted = middle_values_of(times);
   const size_t split = second_mode(sorted);
   if (split == 0) return {};
   const std::span all(sorted);
@@ -123,7 +142,7 @@ class Normals {
 
 // What draws need of a point.
 struct Drawn {
-  Trimmed location;
+  Location location;
   std::vector<size_t> blocks;  // of multipliers
   std::optional<Modes> modes;
 };
@@ -135,16 +154,20 @@ RelativeTime relative_time(const LogTimes& times, double widen) {
   if (times.empty()) return r;
   r.runs = int(times.size());
   const LogTimes units = units_of(times);
-  const Trimmed location = location_of(times, units);
+  const Location location = location_of(times, units);
   const bool of_processes =
       units.size() != times.size() || times.begin()->first.process != times.rbegin()->first.process;
   r.processes = of_processes ? int(units.size()) : 1;
-  if (of_processes) r.between_processes = deviation_of(values_of(units));
+  if (of_processes) {
+    std::vector<double> means;
+    for (const auto& [block, ratios] : units) means.push_back(mean_of(ratios));
+    r.between_processes = deviation_of(means);
+  }
   double centre = location.mean, below = 0, above = 0;
   if (const auto modes = modes_of(times)) {
-    const auto [least, most] = std::ranges::minmax(values_of(times));
+    const std::vector<double> values = middle_values_of(times);
     centre = modes->upper_share > 0.5 ? modes->upper : modes->lower;
-    below = centre - least, above = most - centre;
+    below = centre - values.front(), above = values.back() - centre;
     r.modes = {std::exp(modes->lower), std::exp(modes->upper)};
     r.slow_share = modes->upper_share;
   } else if (location.dof > 0) {
@@ -166,7 +189,7 @@ std::vector<std::vector<double>> drawn_log_times(std::span<const LogTimes> point
     if (units.empty()) continue;
     d.location = location_of(times, units);
     d.modes = modes_of(times);
-    for (const auto& [block, value] : units)
+    for (const auto& [block, ratios] : units)
       d.blocks.push_back(blocks.try_emplace(block, blocks.size()).first->second);
     most_dof = std::max(most_dof, d.location.dof);
   }

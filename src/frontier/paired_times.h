@@ -1,6 +1,13 @@
 // Times of points that were taken side by side, compared round by round: what all points of a round share (a
 // clock, other processes) cancels in the difference of two logarithms.
 //
+// Times are skewed: an interrupted frame is slower, none is as much faster. A point's time is a single run,
+// so it is held against single runs of the baseline, as skewed as it is; where both are equal their
+// difference is symmetric, and its trimmed mean is zero. Against a median or mean of many runs it would not
+// be: each of them lies elsewhere in a skewed distribution. Three of a round's runs count, each in a series
+// of its own, and the series' trimmed means are averaged: with one, its noise widens intervals by a fifth;
+// with many the skewness of the point's own runs remains, and intervals hold the truth too rarely.
+//
 // Intervals are Student's t of the 10 % trimmed mean (Tukey and McLaughlin 1963) over rounds or, where the
 // program ran several times, of the means of its processes (Kalibera and Jones, Rigorous Benchmarking in
 // Reasonable Time, 2013): what a process has for its whole life (addresses, threads, clocks) is then noise
@@ -24,8 +31,11 @@ struct TimeBlock {
   auto operator<=>(const TimeBlock&) const = default;
 };
 
-// The logarithm of a point's time over the baseline's, by the round in which both were taken.
-using LogTimes = std::map<TimeBlock, double>;
+// Logarithms of a single time over single ones of the baseline, as many in each round, by the round in which
+// all were taken: entry k of all rounds is a series.
+inline constexpr int baseline_runs = 3;  // of a round that count
+using LogRatios = std::vector<double>;
+using LogTimes = std::map<TimeBlock, LogRatios>;
 
 // Of a time over the baseline's.
 struct RelativeTime {

@@ -74,24 +74,21 @@ std::vector<Control> controls_of(Records records) {
   std::vector<Control> controls;
   for (const Group& of_scene : grouped(timed, [](const FrontierRecord& r) { return r.point.scene; })) {
     Control control{of_scene.front()->point.scene};
-    std::map<TimeBlock, std::vector<double>> of_round;
-    std::vector<const FrontierRecord*> all = of_scene;
     std::map<std::string, Group> places;
-    for (const FrontierRecord* r : all) places[r->series].push_back(r);
+    for (const FrontierRecord* r : of_scene) places[r->series].push_back(r);
+    LogTimes all;  // series of each place: a mean over places would be less skewed than a run of the baseline
     for (const auto& [series, views] : places) {
       const LogTimes times = baselines.log_times(views);
       if (times.empty()) continue;
       control.places.push_back(relative_time(times).estimate);
-      for (const auto& [block, value] : times) of_round[block].push_back(value);
+      for (const auto& [block, ratios] : times)
+        all[block].insert(all[block].end(), ratios.begin(), ratios.end());
     }
-    LogTimes means;
-    for (const auto& [block, values] : of_round) {
-      double sum = 0;
-      for (const double value : values) sum += value;
-      means[block] = sum / double(values.size());
-    }
-    control.relative_time = relative_time(means);
-    if (!means.empty()) controls.push_back(control);
+    std::erase_if(all, [&](const auto& entry) {
+      return entry.second.size() != control.places.size() * baseline_runs;  // not in each place
+    });
+    control.relative_time = relative_time(all);
+    if (!all.empty()) controls.push_back(control);
   }
   return controls;
 }

@@ -1,9 +1,8 @@
 #include "frontier/round_baselines.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <set>
-
-#include "base/timer.h"
 
 namespace lightgrid {
 namespace {
@@ -22,19 +21,24 @@ std::vector<TimeBlock> blocks_of(const FrontierRecord& record) {
 }  // namespace
 
 RoundBaselines::RoundBaselines(Records records) {
-  std::map<Place, std::set<double>> runs;  // two points may share one
   for (const FrontierRecord& record : records) {
     if (!record.series.empty() && !is_control(record)) continue;
     const std::vector<TimeBlock> blocks = blocks_of(record);
     for (size_t run = 0; run < blocks.size(); ++run)
-      runs[{record.point.scene, record.view, blocks[run]}].insert(record.baseline_ms[run]);
+      runs_[{record.point.scene, record.view, blocks[run]}].push_back(record.baseline_ms[run]);
   }
-  for (const auto& [place, times] : runs) medians_[place] = spread_of({times.begin(), times.end()}).median;
+}
+
+double RoundBaselines::ms_of(const Place& place, size_t series) const {
+  const std::vector<double>& of_round = runs_.at(place);
+  const TimeBlock& block = std::get<TimeBlock>(place);
+  return of_round[(size_t(block.round + block.process) * baseline_runs + series) % of_round.size()];
 }
 
 LogTimes RoundBaselines::log_times(const Group& views) const {
   struct Sums {
-    double ms = 0, baseline_ms = 0;
+    double ms = 0;
+    std::array<double, baseline_runs> baseline_ms = {};
     size_t views = 0;
   };
   std::map<TimeBlock, Sums> sums;
@@ -43,14 +47,17 @@ LogTimes RoundBaselines::log_times(const Group& views) const {
     for (size_t run = 0; run < blocks.size(); ++run) {
       Sums& of = sums[blocks[run]];
       of.ms += view->frame_ms[run];
-      of.baseline_ms += medians_.at({view->point.scene, view->view, blocks[run]});
+      for (size_t k = 0; k < baseline_runs; ++k)
+        of.baseline_ms[k] += ms_of({view->point.scene, view->view, blocks[run]}, k);
       ++of.views;
     }
   }
   LogTimes times;
   for (const auto& [block, of] : sums) {
-    const double ratio = of.ms / of.baseline_ms;
-    if (of.views == views.size() && ratio > 0 && std::isfinite(ratio)) times[block] = std::log(ratio);
+    if (of.views != views.size()) continue;
+    LogRatios ratios;
+    for (const double baseline_ms : of.baseline_ms) ratios.push_back(std::log(of.ms / baseline_ms));
+    if (std::ranges::all_of(ratios, [](double ratio) { return std::isfinite(ratio); })) times[block] = ratios;
   }
   return times;
 }

@@ -37,22 +37,25 @@ def read_samples(folder):
 
 
 def baselines(folder, samples):
-    """{(scene, view, shard, process, round): median of the baseline's runs}, of points of the front and of controls."""
+    """{(scene, view, shard, process, round): three of the baseline's runs}, of points of the front and of controls.
+
+    Those beside three successive rows, from a place on that moves by three a round."""
     runs = {}
     for row in csv.DictReader(open(folder / "frontier.csv", newline="")):
         if not row["series"] or row["series"].startswith("control"):
             for block, (_, baseline) in samples.get(row["row"], {}).items():
-                runs.setdefault((row["scene"], row["view"], row["shard"], *block), set()).add(baseline)
-    return {place: statistics.median(times) for place, times in runs.items()}
+                runs.setdefault((row["scene"], row["view"], row["shard"], *block), []).append(baseline)
+    return {place: [times[(3 * (place[3] + place[4]) + k) % len(times)] for k in range(3)] for place, times in runs.items()}
 
 
 def log_times_of(rows, samples, base):
-    """{(shard, process, round): log of the sum of times over views over the sum of the baseline's}."""
+    """{(shard, process, round): logs of the sum of times over views over sums of the baseline's, one a series}."""
     views = [samples.get(row["row"], {}) for row in rows]
     times = {}
     for block in sorted(set(views[0]).intersection(*views)):
         place = [base[row["scene"], row["view"], row["shard"], *block] for row in rows]
-        times[rows[0]["shard"], *block] = math.log(sum(v[block][0] for v in views) / sum(place))
+        total = sum(v[block][0] for v in views)
+        times[rows[0]["shard"], *block] = [math.log(total / sum(of_series)) for of_series in zip(*place)]
     return times
 
 
@@ -72,13 +75,18 @@ def t_quantile(dof):
     return low
 
 
-def trimmed(values):
-    """10 % trimmed mean, its standard error from the winsorized values, degrees of freedom."""
-    n, cut, ordered = len(values), len(values) // 10, sorted(values)
+def trimmed(values, share=10):
+    """Mean without a tenth at either end, how far each winsorized value moves it (times their number), degrees of freedom."""
+    n, cut, ordered = len(values), len(values) // share if share else 0, sorted(values)
     kept = ordered[cut:n - cut]
     winsorized = [min(max(v, kept[0]), kept[-1]) for v in values]
-    error = statistics.stdev(winsorized) * n / len(kept) / math.sqrt(n) if n > 1 else 0
-    return statistics.fmean(kept), error, len(kept) - 1
+    centre = statistics.fmean(winsorized)
+    return statistics.fmean(kept), [(w - centre) * n / len(kept) for w in winsorized], len(kept) - 1
+
+
+def middles(times):
+    """Each round over the middle one of the baseline's runs."""
+    return [statistics.median(value) for value in times.values()]
 
 
 def two_modes(values):
@@ -94,23 +102,25 @@ def two_modes(values):
 
 
 def level_of(times):
-    """Mean, standard error, degrees of freedom: of rounds or, with several processes, of processes."""
+    """Mean over the series, deviations of the units from it, degrees of freedom; units are rounds or, with several
+    processes, these."""
     of_process = {}
     for (shard, process, _), value in times.items():
         of_process.setdefault((shard, process), []).append(value)
     if len(of_process) < 2:
-        return trimmed(list(times.values()))
-    means = [trimmed(values)[0] for values in of_process.values()]
-    if len(means) == len(times):
-        return trimmed(means)
-    return statistics.fmean(means), statistics.stdev(means) / math.sqrt(len(means)), len(means) - 1
+        units, share = list(times.values()), 10
+    else:
+        units = [[trimmed(series)[0] for series in zip(*values)] for values in of_process.values()]
+        share = 10 if len(units) == len(times) else None
+    parts = [trimmed(series, share) for series in zip(*units)]
+    return statistics.fmean(p[0] for p in parts), [statistics.fmean(d) for d in zip(*(p[1] for p in parts))], parts[0][2]
 
 
 def relative_time(times, widen=0.0):
     """Estimate, low, high."""
-    values = list(times.values())
-    mean, error, dof = level_of(times)
-    below = above = t_quantile(dof) * error if dof > 0 else 0
+    values = middles(times)
+    mean, deviations, dof = level_of(times)
+    below = above = t_quantile(dof) * statistics.stdev(deviations) / math.sqrt(len(deviations)) if dof > 0 else 0
     if modes := two_modes(values):
         mean = statistics.fmean(modes[len(modes[1]) > len(modes[0])])
         below, above = mean - min(values), max(values) - mean
@@ -190,7 +200,9 @@ def widenings(folder, samples, base):
             rounds.setdefault(scene, {}).setdefault(block, []).append(value)
     answer = {}
     for scene, of_scene in rounds.items():
-        estimate, low, high = relative_time({block: statistics.fmean(values) for block, values in of_scene.items()})
+        count = len({series for name, series in places if name == scene})
+        series = {block: sum(of_places, []) for block, of_places in of_scene.items() if len(of_places) == count}
+        estimate, low, high = relative_time(series)
         passed = low <= 1 <= high and abs(estimate - 1) <= 0.01
         answer[scene] = 0 if passed else abs(math.log(estimate))
     return answer
@@ -227,17 +239,14 @@ def drawn_fronts(folder, count=2000):
             scenes.setdefault(key[0], {})[key] = (log_times, error_of(rows))
     shares = {}
     for scene, points in scenes.items():
-        if widen.get(scene) or any(two_modes(list(t.values())) or len({b[:2] for b in t}) > 1 for t, _ in points.values()):
+        if widen.get(scene) or any(two_modes(middles(t)) or len({b[:2] for b in t}) > 1 for t, _ in points.values()):
             continue
         known = {}
         for key, (log_times, error) in points.items():
-            values, mean_error = list(log_times.values()), trimmed(list(log_times.values()))
-            cut, ordered = len(values) // 10, sorted(values)
-            inner = [min(max(v, ordered[cut]), ordered[-1 - cut]) for v in values]
-            centre, n = statistics.fmean(inner), len(values)
-            share = (n - 2 * cut) / n
-            weights = [(v - centre) / share / math.sqrt(n * (n - 1)) if n > 1 else 0 for v in inner]
-            known[key] = (mean_error[0], mean_error[2], list(log_times), weights, error)
+            mean, deviations, dof = level_of(log_times)
+            n = len(deviations)
+            weights = [d / math.sqrt(n * (n - 1)) if n > 1 else 0 for d in deviations]
+            known[key] = (mean, dof, list(log_times), weights, error)
             shares[key] = 0
         blocks = {block for _, _, of, _, _ in known.values() for block in of}
         for _ in range(count):

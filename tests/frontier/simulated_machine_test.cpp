@@ -2,6 +2,7 @@
 // long tests (support/long_tests.h).
 #include "frontier/simulated_machine.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "support/long_tests.h"
@@ -30,6 +31,31 @@ Coverage coverage_on(const SimulatedMachine& machine, uint64_t seed) {
   return c;
 }
 
+// Of many trials whose true ratio is 1.
+struct AgainstItself {
+  int trials = 0, held = 0;
+  double sum = 0, squares = 0;  // of logarithms of estimates
+
+  void add(const RelativeTime& r) {
+    const double log_estimate = std::log(r.estimate);
+    ++trials, sum += log_estimate, squares += log_estimate * log_estimate;
+    held += r.low <= 1 && 1 <= r.high;
+  }
+
+  double mean() const { return sum / trials; }
+  double coverage() const { return double(held) / trials; }
+
+  void expect_one(const std::string& name) const {
+    const double error = std::sqrt((squares / trials - mean() * mean()) / trials);
+    EXPECT_LT(std::abs(mean()), 3 * error) << name;
+    EXPECT_LT(error, 0.0005) << name << ": a bias of 0.15 % would be found";
+    EXPECT_GE(coverage(), 0.93) << name;
+    EXPECT_LE(coverage(), 0.97) << name;
+    testing::Test::RecordProperty("mean of " + name, fmt::format("{:.5f} +- {:.5f}", mean(), error));
+    testing::Test::RecordProperty("coverage of " + name, std::to_string(coverage()));
+  }
+};
+
 TEST(SimulatedMachine, IntervalsHoldTheTruth) {
   const std::pair<const char*, SimulatedMachine> machines[] = {
       {"six rounds", {.rounds = 6}},
@@ -48,6 +74,64 @@ TEST(SimulatedMachine, IntervalsHoldTheTruth) {
     EXPECT_EQ(c.bimodal, 0) << name;
     RecordProperty(std::string("coverage of ") + name, std::to_string(share));
   }
+}
+
+// An interrupted frame is slower and none as much faster. Where the baseline is timed as a point, the
+// logarithm of its ratio is 0 in the mean, and intervals hold it.
+TEST(SimulatedMachine, TheBaselineAgainstItselfIsOneWhereTimesAreSkewed) {
+  const SimulatedMachine machines[] = {
+      {.rounds = 11, .own_noise = 0, .skew = 0.01},
+      {.rounds = 6, .own_noise = 0, .skew = 0.01, .spike_share = 0.02, .spike = 0.2},
+      {.rounds = 11, .own_noise = 0, .skew = 0.01, .spike_share = 0.05, .spike = 0.2},
+      {.rounds = 16, .own_noise = 0.005, .skew = 0.02, .spike_share = 0.02, .spike = 0.2},
+      {.rounds = 40, .own_noise = 0, .skew = 0.01, .spike_share = 0.1, .spike = 0.2},
+      {.processes = 5,
+       .rounds = 4,
+       .own_noise = 0,
+       .process_noise = 0.01,
+       .skew = 0.01,
+       .spike_share = 0.05,
+       .spike = 0.2}};
+  uint64_t seed = 31;
+  for (const SimulatedMachine& machine : machines) {
+    std::mt19937_64 random(seed++);
+    AgainstItself found;
+    for (int trial = 0; trial < 2000; ++trial)
+      found.add(relative_time(simulated_times(machine, {1}, random)[0]));
+    found.expect_one(fmt::format("{} rounds, spikes {}", machine.rounds, machine.spike_share));
+  }
+}
+
+// The same through records of 13 points and three controls in two views, where two points share a baseline
+// run and which runs count is RoundBaselines' choice.
+TEST(SimulatedMachine, RecordsOfTheBaselineAgainstItselfAreOneWhereTimesAreSkewed) {
+  const SimulatedMachine machine{
+      .rounds = 11, .own_noise = 0, .skew = 0.01, .spike_share = 0.05, .spike = 0.2};
+  std::mt19937_64 random(41);
+  AgainstItself points, controls;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const std::vector<FrontierRecord> records = simulated_records(machine, 13, 3, random);
+    for (const PointFigures& p : figures_of(records)) {
+      if (p.point.label == "point 4") points.add(relative_time(p.log_times));
+    }
+    controls.add(controls_of(records).at(0).relative_time);
+  }
+  points.expect_one("point");
+  controls.expect_one("controls");
+}
+
+// Longer interruptions look like a second group of runs, if two of them fall on one point: the estimate
+// leaves them out there, and the interval holds them.
+TEST(SimulatedMachine, LongInterruptionsMoveTheBaselineAgainstItselfByLessThanHalfAPerCent) {
+  std::mt19937_64 random(43);
+  AgainstItself found;
+  for (int trial = 0; trial < 4000; ++trial)
+    found.add(relative_time(simulated_times(
+        {.rounds = 11, .own_noise = 0, .skew = 0.01, .spike_share = 0.05, .spike = 1}, {1}, random)[0]));
+  EXPECT_LT(std::abs(found.mean()), 0.005);
+  EXPECT_GE(found.coverage(), 0.93);
+  RecordProperty("mean of long interruptions", std::to_string(found.mean()));
+  RecordProperty("coverage of long interruptions", std::to_string(found.coverage()));
 }
 
 // Rounds alone do not know what differs between processes: the level is there for a reason.
