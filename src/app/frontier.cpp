@@ -1,9 +1,13 @@
 // lightgrid frontier SCENE… -o DIR: what accuracy costs in time; frontier merge DIR… -o DIR.
 #include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -19,6 +23,8 @@
 #include "frontier/brute_force.h"
 #include "frontier/measure.h"
 
+extern char** environ;
+
 namespace lightgrid {
 namespace {
 
@@ -28,9 +34,9 @@ struct FrontierCommand {
   SceneChoice scene;                // shared by all scenes
   std::vector<std::string> scenes;  // or "merge" and folders
   DeviceOptions devices;
-  std::string output = "out/frontier", json, gate, shard = "0/1", truth;
+  std::string output = "out/frontier", json, gate, shard = "0/1", process, truth, baseline;
   std::vector<std::string> techniques, vary;
-  int views = 8, rounds = 40, budget = 14, page_mb = 12;
+  int views = 8, rounds = 40, budget = 14, page_mb = 12, processes = 1;
   bool no_growth = false;
 };
 
@@ -40,7 +46,8 @@ struct Shard {
   int index = 0, count = 1;
 };
 
-Shard parse_shard(const std::string& text) {
+// "I/N", of `what`.
+Shard parse_shard(const std::string& text, const char* what = "shard") {
   Shard shard;
   const char* end = text.data() + text.size();
   const auto index = std::from_chars(text.data(), end, shard.index);
@@ -48,7 +55,7 @@ Shard parse_shard(const std::string& text) {
   const auto count = slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
   if (!slash || count.ec != std::errc() || count.ptr != end || shard.count < 1 || shard.count > 100000 ||
       shard.index < 0 || shard.index >= shard.count) {
-    throw input_error("shard {}: not I/N with I from 0 to N - 1", text);
+    throw input_error("{} {}: not I/N with I from 0 to N - 1", what, text);
   }
   return shard;
 }
@@ -189,7 +196,7 @@ std::vector<bool> check_request(const FrontierCommand& o) {
 FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Shard& shard) {
   FrontierJob job;
   job.common = chosen_settings(o.scene);
-  job.baseline = baseline_point(job.common, renderer.gl != nullptr);
+  job.baseline = baseline_point(job.common, renderer.gl != nullptr, o.baseline);
   job.views = o.views;
   job.seed = o.scene.seed;
   job.growth = shard.index == 0 && !o.no_growth;
@@ -208,6 +215,51 @@ void ask(FrontierJob& job, const SceneRequest& request, const Shard& shard) {
   job.truth = request.truth;
 }
 
+// The arguments of this command, as they were given.
+std::vector<std::string> own_arguments() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> arguments;
+  for (std::string argument; std::getline(file, argument, '\0');) arguments.push_back(argument);
+  return arguments;
+}
+
+// Runs this command again as one of several processes. Throws Error(machine) if it cannot be started. Returns
+// its exit status.
+int run_process(int index, int count) {
+  std::vector<std::string> arguments = own_arguments();
+  arguments.push_back("--process");
+  arguments.push_back(fmt::format("{}/{}", index, count));
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  pid_t child = 0;
+  const int failure = posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, pointers.data(), environ);
+  if (failure != 0)
+    throw machine_error("process {} of {}: cannot be started: {}", index, count, strerror(failure));
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 3;
+}
+
+int frontier(FrontierCommand o);
+
+// The rounds in several processes, one after the other; the answer is that of their part.
+int frontier_in_processes(const FrontierCommand& o, const Shard& shard) {
+  for (int i = 0; i < o.processes; ++i) {
+    if (const int status = run_process(i, o.processes); status != 0) return status;
+  }
+  const fs::path path = part_path(o.output, shard.index, shard.count);
+  const FrontierPart part = read_part(path, nullptr);
+  return shard.count > 1 ? finish_part(part, path) : finish(o, {part}, {fs::path(o.output) / "pictures"});
+}
+
+// The share of the budget: the first process measures the figures too.
+double share_of_budget(const Shard& process) {
+  if (process.count == 1) return 1;
+  return process.index == 0 ? 0.5 : 0.5 / double(process.count - 1);
+}
+
 int frontier(FrontierCommand o) {
   if (!o.scenes.empty() && o.scenes.front() == "merge") return merge(o);
   if (o.scenes.empty()) o.scenes = default_scenes;
@@ -217,10 +269,13 @@ int frontier(FrontierCommand o) {
     throw input_error("shard {}: a part has no answer; give {} to frontier merge", o.shard,
                       o.gate.empty() ? "--json" : "--gate");
   }
+  const Shard process = o.process.empty() ? Shard() : parse_shard(o.process, "process");
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   chosen_points(o.techniques, o.vary, chosen_settings(o.scene), true);
+  baseline_point(chosen_settings(o.scene), true, o.baseline);
   const std::vector<bool> casts = check_request(o);
   make_folder(o.output);
+  if (o.processes > 1 && o.process.empty()) return frontier_in_processes(o, shard);
   Renderer renderer(o.devices.device, backend);
   FrontierJob job = job_of(o, renderer, shard);
   std::vector<SceneRequest> of_scenes;
@@ -236,8 +291,11 @@ int frontier(FrontierCommand o) {
   const fs::path path = part_path(o.output, shard.index, shard.count);
   RecordFile file(path, part, job.notice);
 
+  job.process = process.index, job.processes = process.count;
+  job.growth = job.growth && process.index + 1 == process.count;
+
   const auto bar = progress_bar();
-  const double budget_s = o.budget * 60.0;
+  const double budget_s = o.budget * 60.0 * share_of_budget(process);
   size_t measured = 0;
   for (size_t i = 0; i < o.scenes.size(); ++i) {
     const double left = budget_s - timer.elapsed_ms() / 1000;
@@ -256,7 +314,9 @@ int frontier(FrontierCommand o) {
   }
   if (measured == 0) throw input_error("budget {}: too short for one point", o.budget);
   bar(1, "");
+  if (process.index + 1 < process.count) return 0;
   file.finish(load_average());
+  if (process.count > 1) return 0;
   return shard.count > 1 ? finish_part(file.part(), path) : finish(o, {file.part()}, {job.pictures});
 }
 
@@ -285,6 +345,8 @@ void add_frontier(CommandLine& line) {
   command.list(
       "--vary", o->vary,
       "KEY=VALUE,VALUE,…: each technique that reads KEY with each value, one key at a time; may be repeated");
+  command.option("--baseline", o->baseline,
+                 "NAME[:KEY=VALUE…]: what times are over (default: forward_plus, without OpenGL visibility)");
   command.option(
       "--truth", o->truth,
       "ranges of the lights in the picture that errors are against: infinite, or own, those of the "
@@ -293,8 +355,17 @@ void add_frontier(CommandLine& line) {
                  "times of each point and view, at most: fewer if the intervals are narrow before", 1, 1000);
   command.flag("--no-growth", o->no_growth, "leaves out how times grow with lights, pixels and ranges");
   command.option("--budget", o->budget, "minutes that measuring may take", 1, 100000);
-  command.option("--gate", o->gate,
-                 "an earlier frontier.json: exit 1 if an error grew, a light is lost or a ratio is worse");
+  command.option(
+      "--gate", o->gate,
+      "an earlier frontier.json: exit 1 if an error grew, a light is lost, a time is worse or the baseline "
+      "differs from itself");
+  command.option(
+      "--processes", o->processes,
+      "runs of the program, one after the other, that share the rounds: with 5 or more, intervals hold "
+      "what differs from run to run",
+      1, 100);
+  command.option("--process", o->process,
+                 "I/N: only the I-th of N such runs; the last one completes the part");
   command.option("--shard", o->shard,
                  "I/N: every N-th point from the I-th on, for a sweep of several processes");
   command.option("-o,--output", o->output, "folder of the parts and the answer");

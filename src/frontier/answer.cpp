@@ -139,6 +139,33 @@ std::vector<Failure> failures_of(Records records) {
   return failures;
 }
 
+std::vector<ProcessConditions> process_conditions_of(const std::vector<FrontierPart>& parts) {
+  const auto raise = [](std::optional<double>& most, const std::optional<double>& value) {
+    if (value) most = std::max(most.value_or(*value), *value);
+  };
+  const auto widen = [](std::optional<std::pair<double, double>>& range, const std::optional<double>& value) {
+    if (!value) return;
+    if (!range) range.emplace(*value, *value);
+    range = {std::min(range->first, *value), std::max(range->second, *value)};
+  };
+  std::map<std::pair<int, int>, ProcessConditions> processes;
+  for (const FrontierPart& part : parts) {
+    for (const FrontierConditions& c : part.conditions) {
+      ProcessConditions& p = processes[{part.shard, c.process}];
+      p.shard = part.shard, p.process = c.process, ++p.rounds;
+      raise(p.others_percent, c.others_percent);
+      raise(p.steal_percent, c.steal_percent);
+      raise(p.temperature_c, c.temperature_c);
+      widen(p.clock_mhz, c.clock_mhz);
+      widen(p.power_w, c.power_w);
+      p.shared_rounds += is_shared(c), p.throttled_rounds += is_throttled(c);
+    }
+  }
+  std::vector<ProcessConditions> all;
+  for (const auto& [key, process] : processes) all.push_back(process);
+  return all;
+}
+
 FrontierAnswer answer_of(const std::vector<FrontierPart>& parts) {
   if (parts.empty()) throw input_error("frontier: no part to answer from");
   const auto name_of = [](const FrontierPart& part) {
@@ -150,10 +177,14 @@ FrontierAnswer answer_of(const std::vector<FrontierPart>& parts) {
   answer.part = parts.front();
   answer.part.records = joined(parts);
   for (const FrontierPart& part : parts) answer.machines.push_back(part.machine);
+  answer.processes = process_conditions_of(parts);
   const std::vector<FrontierRecord> records = on_one_machine(answer.part.records, answer.machines);
   answer.points = figures_of(records);
-  rank_points(answer.points);
-  answer.best_within = best_within_of(answer.points);
+  answer.controls = controls_of(records);
+  set_relative_times(answer.points, answer.controls);
+  rank_points(answer.points, answer.controls);
+  answer.cheapest_within = cheapest_within_of(answer.points, answer.controls);
+  answer.front_bands = front_bands_of(answer.points, answer.controls);
   answer.break_even = break_evens_of(records);
   answer.shading_costs = shading_costs_of(records);
   answer.growth = growth_of(records);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
+#include "frontier/paired_times.h"
 #include "frontier/record.h"
 
 namespace lightgrid {
@@ -15,16 +16,17 @@ struct MedianInterval {
   int runs = 0;
 };
 
-// A point over all its views. Ratio: for each run, the sum of its times over the views over the same sum of
-// the baseline's runs beside them. Errors: the largest max_rel, otherwise root mean squares or means over
-// views.
+// A point over all its views. Errors: the largest max_rel, otherwise root mean squares or means over views.
 struct PointFigures {
   FrontierPoint point;
   int views = 0;
-  int width = 0, height = 0;  // pixels
-  MedianInterval frame_ms;    // of the sum over views, over their number
-  MedianInterval ratio;
-  std::vector<double> ratios;  // one a run
+  int width = 0, height = 0;      // pixels
+  MedianInterval frame_ms;        // of the sum over views, over their number
+  double p95_ms = 0, p99_ms = 0;  // of the frames of all runs and views: the least that this share is within
+  // By round: the sum of its times over the views over the same sum of the baseline's, of three of its runs
+  // in that round and view.
+  LogTimes log_times;
+  RelativeTime relative_time;
   PointErrors errors;
   int flip_views = 0, temporal_views = 0;  // that have FLIP, and flicker
   PairCounts pairs;                        // sums over views
@@ -32,9 +34,8 @@ struct PointFigures {
   uint64_t memory_bytes = 0;               // the largest of the views
   uint64_t bytes_moved = 0;                // a frame of the views that were profiled: the first
   uint64_t nan_pixels = 0;
-  bool front = false;  // no point of its scene is better in both error.total.rmse_rel and ratio
-  // Points of the scene whose ratio does not differ (Mann-Whitney U, alpha 0.05), by index.
-  std::vector<int> tied_with;
+  bool front = false;  // no point of its scene is better in both error.total.rmse_rel and relative time
+  double front_probability = 0;  // the share of draws of the scene's times in which it is
 };
 
 // Of all pairs of a pixel and a light that casts and is in range, in per cent: those shaded though hidden,
@@ -42,13 +43,40 @@ struct PointFigures {
 std::optional<double> leaked_percent(const PairCounts& pairs);
 std::optional<double> acned_percent(const PairCounts& pairs);
 
-// "If you can bear an error of … use …": the point of least ratio whose error.total.rmse_rel is at most
-// `error`.
-struct BestWithin {
+// "If you can bear an error of … use …": the point of least time whose error.total.rmse_rel is at most
+// `error`, picked on one half of the rounds and reported on the other.
+struct CheapestWithin {
   std::string scene;
   double error = 0;
-  int point = 0;          // index
-  std::vector<int> tied;  // further points within it whose ratio does not differ
+  int point = 0;               // index
+  RelativeTime relative_time;  // in the rounds that it was not picked on; with a single round, in that one
+  double probability = 0;      // the share of draws of the scene's times in which it is the cheapest
+};
+
+// The baseline, timed as points of its own at several places of each round: what differs from 1 is no
+// technique's.
+struct Control {
+  std::string scene;
+  RelativeTime relative_time;  // of all places together
+  std::vector<double> places;  // the estimate of each
+  bool passed() const;         // 1 is in the interval, and within 1 % of the estimate
+  // The logarithm by which the intervals of the scene's points are wider: 0 if it passed, otherwise what the
+  // control is off by.
+  double widening() const;
+};
+
+// What the machine did during the rounds of a process, of those in which it could be read.
+struct ProcessConditions {
+  int shard = 0, process = 0, rounds = 0;
+  // Largest and, of clock and power, least: least, largest.
+  std::optional<double> others_percent, steal_percent, temperature_c;
+  std::optional<std::pair<double, double>> clock_mhz, power_w;
+  int shared_rounds = 0, throttled_rounds = 0;  // is_shared, is_throttled
+};
+
+struct FrontBand {
+  std::string scene;
+  std::vector<BandStep> steps;
 };
 
 // The shading cost from which the tighter of two cull tests is worth its time: extra culling time over pairs
@@ -87,7 +115,10 @@ struct FrontierAnswer {
   FrontierPart part;  // of the first; records of all
   std::vector<FrontierMachine> machines;
   std::vector<PointFigures> points;
-  std::vector<BestWithin> best_within;
+  std::vector<Control> controls;
+  std::vector<ProcessConditions> processes;
+  std::vector<CheapestWithin> cheapest_within;
+  std::vector<FrontBand> front_bands;
   std::vector<BreakEven> break_even;
   std::vector<ShadingCost> shading_costs;
   std::vector<Growth> growth;
@@ -97,6 +128,9 @@ struct FrontierAnswer {
 
 // Pure. Throws Error(input) if the parts are not of one sweep (check_same_sweep).
 FrontierAnswer answer_of(const std::vector<FrontierPart>& parts);
+
+// Of frontier.json; without one it is of version 1, whose `ratio`, `tied_with` and `best_within` are no more.
+inline constexpr int frontier_schema_version = 2;
 
 // frontier.json, frontier.csv (one row a point and view: each record of `answer.part`), samples.csv (one row
 // a run of such a row) and culling.csv (one row a round in which its culling was timed).
@@ -127,10 +161,10 @@ nlohmann::json read_frontier_json(const std::filesystem::path& path);
 
 // Points are the same if scene, label, averaged frames and size agree. Worse is: an error that is more
 // than 1.001 times the earlier one and 1e-9 larger, or finite no more; more pairs lost or wrong, or more
-// pixels with NaN, than earlier; a ratio whose 95 % interval lies above the earlier one's; a refusal of what
-// ran earlier. A point of other views, or that is on one side only, is told. Throws Error(input) that names
-// `earlier_name` and the field if `earlier` is malformed, is of another seed or baseline, or has no point to
-// compare.
+// pixels with NaN, than earlier; a relative time whose 95 % interval lies above the earlier one's; a refusal
+// of what ran earlier; a control that did not pass, whatever it was earlier. A point of other views, or that
+// is on one side only, is told. Throws Error(input) that names `earlier_name` and the field if `earlier` is
+// malformed, is of another seed or baseline, or has no point to compare.
 GateResult held_against(const nlohmann::json& now, const nlohmann::json& earlier,
                         const std::string& earlier_name);
 

@@ -36,6 +36,56 @@ json interval_json(const MedianInterval& i) {
   return {{"median", finite_number(i.median)}, {"ci95", pair_json(i.low, i.high)}, {"runs", i.runs}};
 }
 
+json relative_time_json(const RelativeTime& t) {
+  const bool timed = t.runs > 0;
+  json out = {{"estimate", timed ? finite_number(t.estimate) : json()},
+              {"ci95", timed ? pair_json(t.low, t.high) : json{nullptr, nullptr}},
+              {"runs", t.runs},
+              {"processes", t.processes},
+              {"between_processes", finite_json(t.between_processes)},
+              {"modes", json::array()}};
+  if (t.modes.size() == 2) out["modes"] = pair_json(t.modes[0], t.modes[1]);
+  out["slow_share"] = t.modes.empty() ? json() : finite_number(t.slow_share);
+  return out;
+}
+
+json control_json(const Control& c) {
+  return {{"scene", c.scene},
+          {"relative_time", relative_time_json(c.relative_time)},
+          {"places", finite_json(c.places)},
+          {"passed", c.passed()},
+          {"widened_by", finite_number(std::exp(c.widening()))}};
+}
+
+json process_json(const ProcessConditions& p) {
+  const auto range = [](const auto& r) { return r ? pair_json(r->first, r->second) : json(); };
+  return {{"shard", p.shard},
+          {"process", p.process},
+          {"rounds", p.rounds},
+          {"others_percent", finite_json(p.others_percent)},
+          {"steal_percent", finite_json(p.steal_percent)},
+          {"temperature_c", finite_json(p.temperature_c)},
+          {"clock_mhz", range(p.clock_mhz)},
+          {"power_w", range(p.power_w)},
+          {"shared_rounds", p.shared_rounds},
+          {"throttled_rounds", p.throttled_rounds}};
+}
+
+json cheapest_json(const CheapestWithin& b) {
+  return {{"scene", b.scene},
+          {"error", b.error},
+          {"point", b.point},
+          {"relative_time", relative_time_json(b.relative_time)},
+          {"probability", finite_number(b.probability)}};
+}
+
+json band_json(const FrontBand& b) {
+  return {{"scene", b.scene},
+          {"steps", array_of(b.steps, [](const BandStep& s) -> json {
+             return {{"error", finite_number(s.error)}, {"ci95", pair_json(s.low, s.high)}};
+           })}};
+}
+
 // The picture's own figures, and some of the two others under their names.
 json in_double_json(const SampledErrors& sampled) {
   json figures = finite_json(sampled.picture);
@@ -54,7 +104,10 @@ json point_json(const PointFigures& p) {
   out["views"] = p.views;
   out["size"] = p.width > 0 ? json{p.width, p.height} : json();
   out["frame_ms"] = interval_json(p.frame_ms);
-  out["ratio"] = interval_json(p.ratio);
+  out["frame_ms_within"] = p.frame_ms.runs > 0
+                               ? json{{"p95", finite_number(p.p95_ms)}, {"p99", finite_number(p.p99_ms)}}
+                               : json{{"p95", nullptr}, {"p99", nullptr}};
+  out["relative_time"] = relative_time_json(p.relative_time);
   json& error = out["error"] = finite_json(p.errors);
   error["in_double"] = p.errors.in_double ? in_double_json(*p.errors.in_double) : json();
   error["flip_views"] = p.flip_views;
@@ -70,7 +123,7 @@ json point_json(const PointFigures& p) {
   out["bytes_moved"] = p.bytes_moved;
   out["nan_pixels"] = p.nan_pixels;
   out["front"] = p.front;
-  out["tied_with"] = p.tied_with;
+  out["front_probability"] = p.front_probability;
   return out;
 }
 
@@ -241,7 +294,8 @@ json page_data_of(const FrontierAnswer& answer, const PagePictures& pictures) {
 
 json to_json(const FrontierAnswer& answer) {
   const FrontierPart& part = answer.part;
-  return {{"commit", part.commit},
+  return {{"schema_version", frontier_schema_version},
+          {"commit", part.commit},
           {"seed", part.seed},
           {"request", part.request},
           {"baseline", part.baseline},
@@ -250,11 +304,10 @@ json to_json(const FrontierAnswer& answer) {
           {"machines", finite_json(answer.machines)},
           {"machine", finite_json(answer.machines.empty() ? part.machine : answer.machines.front())},
           {"points", array_of(answer.points, point_json)},
-          {"best_within",
-           array_of(answer.best_within,
-                    [](const BestWithin& b) -> json {
-                      return {{"scene", b.scene}, {"error", b.error}, {"point", b.point}, {"tied", b.tied}};
-                    })},
+          {"processes", array_of(answer.processes, process_json)},
+          {"controls", array_of(answer.controls, control_json)},
+          {"cheapest_within", array_of(answer.cheapest_within, cheapest_json)},
+          {"front_bands", array_of(answer.front_bands, band_json)},
           {"break_even", array_of(answer.break_even, break_even_json)},
           {"shading_costs", array_of(answer.shading_costs, cost_json)},
           {"growth", array_of(answer.growth, growth_json)},
@@ -281,11 +334,12 @@ std::string cull_csv_text(const FrontierAnswer& answer) {
 }
 
 std::string samples_csv_text(const FrontierAnswer& answer) {
-  std::string text = "row,run,frame_ms,baseline_ms\n";
+  std::string text = "row,run,process,frame_ms,baseline_ms\n";
   for (size_t row = 0; row < answer.part.records.size(); ++row) {
     const FrontierRecord& r = answer.part.records[row];
     for (size_t run = 0; run < r.frame_ms.size(); ++run)
-      text += fmt::format("{},{},{},{}\n", row, run, figure(r.frame_ms[run]), figure(r.baseline_ms[run]));
+      text += fmt::format("{},{},{},{},{}\n", row, run, run < r.processes.size() ? r.processes[run] : 0,
+                          figure(r.frame_ms[run]), figure(r.baseline_ms[run]));
   }
   return text;
 }

@@ -43,11 +43,22 @@ std::vector<FrontierRecord> on_one_machine(std::vector<FrontierRecord> records,
 // Points that ran in each of their views, in the order of their first records; without points of a series.
 std::vector<PointFigures> figures_of(Records records);
 
-// Sets front and tied_with. Points with a NaN pixel are never on the front.
-void rank_points(std::vector<PointFigures>& points);
+// One a process of a part that took times.
+std::vector<ProcessConditions> process_conditions_of(const std::vector<FrontierPart>& parts);
+
+// One a scene that has one.
+std::vector<Control> controls_of(Records records);
+// Sets the points' relative times, widened as their scenes' controls ask.
+void set_relative_times(std::vector<PointFigures>& points, const std::vector<Control>& controls);
+
+// Sets front and front_probability. Points with a NaN pixel are never on the front.
+void rank_points(std::vector<PointFigures>& points, const std::vector<Control>& controls);
+std::vector<FrontBand> front_bands_of(const std::vector<PointFigures>& points,
+                                      const std::vector<Control>& controls);
 
 // For errors of 1e-6, 1e-5, ... 1e-1 and each scene, where a point is within it.
-std::vector<BestWithin> best_within_of(const std::vector<PointFigures>& points);
+std::vector<CheapestWithin> cheapest_within_of(const std::vector<PointFigures>& points,
+                                               const std::vector<Control>& controls);
 
 std::vector<BreakEven> break_evens_of(Records records);
 std::vector<ShadingCost> shading_costs_of(Records records);
@@ -90,10 +101,6 @@ std::string three_digits(double value);
 // Wolfe and Chicken, Nonparametric Statistical Methods, 2014). Below six samples no such interval exists: it
 // is the whole range. NaN samples are left out everywhere. Throws nothing; zeros without samples.
 MedianInterval median_interval(std::span<const double> samples);
-
-// The two-sided p value of the Mann-Whitney U test, with midranks for ties: exact up to 20 samples in all
-// without ties, by the normal approximation with tie and continuity corrections beyond. 1 if either is empty.
-double mann_whitney_p(std::span<const double> a, std::span<const double> b);
 
 // For points (x, y), smaller is better in both: true where no other point is at most as large in both and
 // smaller in one. Points that are equal in both are all on the front. NaN and infinite points never are.

@@ -16,22 +16,17 @@ namespace {
 // A technique's own error below which its picture is what its settings mean, as in report.h (exact_max_rel).
 constexpr double same_picture = 1e-5;
 
-using Points = std::vector<PointFigures>;
-
-// Below six runs there is no interval: median_interval.
-std::string ratio_in_words(const MedianInterval& ratio) {
-  if (ratio.runs == 1)
-    return three_digits(ratio.median) + " times (one run: the budget was too short for an interval)";
-  const std::string what = ratio.runs < 6 ? fmt::format("{} runs", ratio.runs) : "95 % interval";
-  return fmt::format("{} times ({} {} to {})", three_digits(ratio.median), what, three_digits(ratio.low),
-                     three_digits(ratio.high));
+std::string times_in_words(const RelativeTime& time) {
+  if (time.runs == 1)
+    return three_digits(time.estimate) + " times (one run: the budget was too short for an interval)";
+  return fmt::format("{} times (95 % interval {} to {})", three_digits(time.estimate), three_digits(time.low),
+                     three_digits(time.high));
 }
 
-// " (~ clustered)" or " (~ 43 others)": points that are not ranked against this one.
-std::string ties_in_words(const Points& points, const std::vector<int>& tied) {
-  if (tied.empty()) return "";
-  return tied.size() == 1 ? fmt::format(" (~ {})", points[tied[0]].point.label)
-                          : fmt::format(" (~ {} others)", tied.size());
+std::string probability_in_words(double probability) {
+  if (probability > 0.995) return "more than 99 %";
+  if (probability < 0.005) return "less than 1 %";
+  return fmt::format("{:.0f} %", 100 * probability);
 }
 
 // True if two points are meant to show the same: the settings that change the model agree.
@@ -63,20 +58,11 @@ int fastest_same_picture(const FrontierAnswer& answer, const std::string& scene)
   if (baseline && !(baseline->errors.technique.max_rel <= same_picture)) baseline = nullptr;
   for (size_t i = 0; baseline && i < answer.points.size(); ++i) {
     const PointFigures& p = answer.points[i];
-    if (p.point.scene != scene || p.ratios.empty() || !same_model(p, *baseline)) continue;
+    if (p.point.scene != scene || p.log_times.empty() || !same_model(p, *baseline)) continue;
     if (!(p.errors.technique.max_rel <= same_picture) || p.nan_pixels || p.pairs.lost) continue;
-    if (best < 0 || p.ratio.median < answer.points[best].ratio.median) best = int(i);
+    if (best < 0 || p.relative_time.estimate < answer.points[best].relative_time.estimate) best = int(i);
   }
   return best;
-}
-
-std::vector<int> tied_same_picture(const FrontierAnswer& answer, const PointFigures& best) {
-  std::vector<int> tied = best.tied_with;
-  std::erase_if(tied, [&](int other) {
-    const PointFigures& p = answer.points[other];
-    return !same_model(p, best) || !(p.errors.technique.max_rel <= same_picture);
-  });
-  return tied;
 }
 
 void add_fastest(const FrontierAnswer& answer, const std::string& scene,
@@ -84,18 +70,16 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
   const int best = fastest_same_picture(answer, scene);
   if (best < 0) return;
   const PointFigures& p = answer.points[best];
-  const std::string tied = ties_in_words(answer.points, tied_same_picture(answer, p));
   if (p.point.label == answer.part.baseline) {
     sentences.push_back(
         fmt::format("In {} no point that computes the same picture (to 1e-5 of the brightest channel) is "
-                    "faster than {}{}.",
-                    scene_in_words(scene), p.point.label, tied));
+                    "faster than {}.",
+                    scene_in_words(scene), p.point.label));
   } else {
     sentences.push_back(fmt::format(
         "In {} the fastest point that computes the same picture as {} (to 1e-5 of the brightest channel) is "
-        "{}{}: "
-        "it takes {} as long.",
-        scene_in_words(scene), answer.part.baseline, p.point.label, tied, ratio_in_words(p.ratio)));
+        "{}: it takes {} as long.",
+        scene_in_words(scene), answer.part.baseline, p.point.label, times_in_words(p.relative_time)));
   }
   const PointErrors& e = p.errors;
   struct Kind {
@@ -120,20 +104,22 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
 std::string percent_of(double error) { return fmt::format("{:g} %", 100 * error); }
 
 // A line a step: from the largest error down, each point at the least error that it is the best within.
-void add_best_within(const FrontierAnswer& answer, const std::string& scene,
-                     std::vector<std::string>& sentences) {
-  std::vector<const BestWithin*> steps;
-  for (auto best = answer.best_within.rbegin(); best != answer.best_within.rend(); ++best) {
+void add_cheapest_within(const FrontierAnswer& answer, const std::string& scene,
+                         std::vector<std::string>& sentences) {
+  std::vector<const CheapestWithin*> steps;
+  for (auto best = answer.cheapest_within.rbegin(); best != answer.cheapest_within.rend(); ++best) {
     if (best->scene != scene) continue;
     if (steps.empty() || steps.back()->point != best->point) steps.push_back(nullptr);
     steps.back() = &*best;
   }
-  for (const BestWithin* step : steps) {
+  for (const CheapestWithin* step : steps) {
     const PointFigures& p = answer.points[step->point];
-    sentences.push_back(fmt::format("Error up to {} (RMSE) in {}: {}{}, {} times {}.",
-                                    percent_of(step->error), scene_in_words(scene), p.point.label,
-                                    ties_in_words(answer.points, step->tied), three_digits(p.ratio.median),
-                                    answer.part.baseline));
+    sentences.push_back(
+        fmt::format("Error up to {} (RMSE) in {}: {}, {} times {} (the cheapest with a "
+                    "probability of {}).",
+                    percent_of(step->error), scene_in_words(scene), p.point.label,
+                    three_digits(step->relative_time.estimate), answer.part.baseline,
+                    probability_in_words(step->probability)));
   }
 }
 
@@ -228,15 +214,35 @@ void add_truth(const FrontierAnswer& answer, const std::string& scene, std::vect
                                       : ""));
 }
 
+// A control that failed, and points of two modes.
+void add_doubts(const FrontierAnswer& answer, const std::string& scene, std::vector<std::string>& sentences) {
+  for (const Control& control : answer.controls) {
+    if (control.scene != scene || control.passed()) continue;
+    sentences.push_back(
+        fmt::format("Times in {} are in doubt: {} timed as a point takes {} its own time; all intervals are "
+                    "wider by {:.1f} %.",
+                    scene_in_words(scene), answer.part.baseline, times_in_words(control.relative_time),
+                    100 * (std::exp(control.widening()) - 1)));
+  }
+  std::vector<std::string> bimodal;
+  for (const PointFigures& p : answer.points) {
+    if (p.point.scene == scene && !p.relative_time.modes.empty()) bimodal.push_back(p.point.label);
+  }
+  if (bimodal.empty()) return;
+  sentences.push_back(fmt::format("In {} the times of {} fall into two groups.", scene_in_words(scene),
+                                  bimodal.size() > 3 ? fmt::format("{} points", bimodal.size())
+                                                     : fmt::format("{}", fmt::join(bimodal, ", "))));
+}
+
 // Names the cheapest of the points that have wrong shadows, and the one with the fewest wrong pairs.
 void add_shadows(const FrontierAnswer& answer, const std::string& scene,
                  std::vector<std::string>& sentences) {
   const PointFigures *cheapest = nullptr, *best = nullptr;
   const auto wrong = [](const PointFigures& p) { return *leaked_percent(p.pairs) + *acned_percent(p.pairs); };
   for (const PointFigures& p : answer.points) {
-    if (p.point.scene != scene || p.ratios.empty() || !leaked_percent(p.pairs)) continue;
+    if (p.point.scene != scene || p.log_times.empty() || !leaked_percent(p.pairs)) continue;
     if (p.pairs.shadows->says_exact || wrong(p) == 0) continue;
-    if (!cheapest || p.ratio.median < cheapest->ratio.median) cheapest = &p;
+    if (!cheapest || p.relative_time.estimate < cheapest->relative_time.estimate) cheapest = &p;
     if (!best || wrong(p) < wrong(*best)) best = &p;
   }
   if (!best) return;
@@ -245,7 +251,7 @@ void add_shadows(const FrontierAnswer& answer, const std::string& scene,
         "{} ({} % of the pairs of a pixel and a light leaked, {} % acned, at {} times the "
         "baseline's time)",
         p.point.label, three_digits(*leaked_percent(p.pairs)), three_digits(*acned_percent(p.pairs)),
-        three_digits(p.ratio.median));
+        three_digits(p.relative_time.estimate));
   };
   sentences.push_back(fmt::format("The cheapest point in {} with wrong shadows is {}.", scene_in_words(scene),
                                   words(*cheapest)));
@@ -276,8 +282,9 @@ std::string three_digits(double value) {
 static std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene) {
   std::vector<std::string> sentences;
   add_truth(answer, scene, sentences);
+  add_doubts(answer, scene, sentences);
   add_fastest(answer, scene, sentences);
-  add_best_within(answer, scene, sentences);
+  add_cheapest_within(answer, scene, sentences);
   add_shadows(answer, scene, sentences);
   add_break_even(answer, scene, sentences);
   add_growth(answer, scene, sentences);
@@ -290,6 +297,7 @@ SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene
   add_fastest(answer, scene, words.opening);
   if (words.opening.size() > 1) words.notes.push_back(words.opening.back()), words.opening.pop_back();
   add_truth(answer, scene, words.opening);
+  add_doubts(answer, scene, words.opening);
   add_shadows(answer, scene, words.notes);
   add_failures(answer, scene, words.opening);
   add_break_even(answer, scene, words.notes);
@@ -297,8 +305,22 @@ SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene
   return words;
 }
 
+// Of the whole sweep, where others used the machine or it was throttled.
+static std::string conditions_in_words(const FrontierAnswer& answer) {
+  int rounds = 0, shared = 0, throttled = 0;
+  for (const ProcessConditions& p : answer.processes)
+    rounds += p.rounds, shared += p.shared_rounds, throttled += p.throttled_rounds;
+  std::vector<std::string> parts;
+  if (shared > 0) parts.push_back(fmt::format("shared with others in {}", shared));
+  if (throttled > 0) parts.push_back(fmt::format("throttled in {}", throttled));
+  if (parts.empty()) return "";
+  return fmt::format("The machine was {} of {} rounds.", fmt::join(parts, " and "), rounds);
+}
+
 std::vector<std::string> sentences_of(const FrontierAnswer& answer) {
   std::vector<std::string> sentences;
+  if (const std::string conditions = conditions_in_words(answer); !conditions.empty())
+    sentences.push_back(conditions);
   for (const std::string& scene : scenes_of(answer)) {
     for (std::string& sentence : sentences_of_scene(answer, scene)) sentences.push_back(std::move(sentence));
   }

@@ -152,7 +152,7 @@ std::vector<ShadingCost> shading_costs_of(Records records) {
 
 std::vector<Growth> growth_of(Records records) {
   const Group timed = accepted(records, [](const FrontierRecord& r) {
-    return !r.series.empty() && r.refused.empty() && !r.frame_ms.empty();
+    return !r.series.empty() && !is_control(r) && r.refused.empty() && !r.frame_ms.empty();
   });
   std::vector<Growth> curves;
   for (const Group& group : grouped(timed, [](const FrontierRecord& r) {

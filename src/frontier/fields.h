@@ -105,6 +105,7 @@ void visit_fields(T& r, Visit&& visit) {
   visit("refused", r.refused);
   visit("frame_ms", r.frame_ms);
   visit("baseline_ms", r.baseline_ms);
+  visit("processes", r.processes, FieldRule{.required = false});
   visit("pass_ms", r.pass_ms);
   visit("cull_ms", r.cull_ms);
   visit("bytes_moved", r.bytes_moved);
@@ -132,6 +133,18 @@ void visit_fields(T& m, Visit&& visit) {
   visit("load_at_start", m.load_at_start, may_miss);
   visit("load_at_end", m.load_at_end, may_miss);
   visit("shard", m.shard, may_miss);
+}
+
+template <Is<FrontierConditions> T, typename Visit>
+void visit_fields(T& c, Visit&& visit) {
+  const FieldRule may_miss{.required = false};
+  visit("process", c.process);
+  visit("others_percent", c.others_percent, may_miss);
+  visit("steal_percent", c.steal_percent, may_miss);
+  visit("clock_mhz", c.clock_mhz, may_miss);
+  visit("temperature_c", c.temperature_c, may_miss);
+  visit("power_w", c.power_w, may_miss);
+  visit("throttles", c.throttles, may_miss);
 }
 
 // The first line of a part.

@@ -124,24 +124,25 @@ class PointComparison {
   }
 
   struct Ratio {
-    std::optional<double> median;
+    std::optional<double> estimate;
     double low = 0, high = 0;
   };
 
   static Ratio ratio_of(const JsonFields& point) {
-    const JsonFields ratio = point.object("ratio");
-    if (!ratio.has("median")) return {};
+    const JsonFields ratio = point.object("relative_time");
+    if (!ratio.has("estimate")) return {};
     const std::vector<double> interval = ratio.numbers("ci95");
-    if (interval.size() != 2) throw input_error("ratio.ci95: {} numbers instead of 2", interval.size());
-    return {ratio.number("median"), interval[0], interval[1]};
+    if (interval.size() != 2)
+      throw input_error("relative_time.ci95: {} numbers instead of 2", interval.size());
+    return {ratio.number("estimate"), interval[0], interval[1]};
   }
 
   void compare_ratios() {
     const Ratio now = ratio_of(now_), earlier = ratio_of(earlier_);
-    if (!now.median || !earlier.median || now.low <= earlier.high) return;
+    if (!now.estimate || !earlier.estimate || now.low <= earlier.high) return;
     result_.worse.push_back(fmt::format(
         "{}: takes {:.3g} times the baseline's time ({:.3g} to {:.3g}), earlier {:.3g} ({:.3g} to {:.3g})",
-        name_, *now.median, now.low, now.high, *earlier.median, earlier.low, earlier.high));
+        name_, *now.estimate, now.low, now.high, *earlier.estimate, earlier.low, earlier.high));
   }
 
   std::string name_;
@@ -150,6 +151,10 @@ class PointComparison {
 };
 
 void check_comparable(const JsonFields& now, const JsonFields& earlier) {
+  if (!earlier.has("schema_version") || earlier.whole("schema_version", 1) != frontier_schema_version) {
+    throw input_error("schema_version: not {}, that of this program: it has other figures of times",
+                      frontier_schema_version);
+  }
   if (now.count("seed") != earlier.count("seed")) {
     throw input_error("seed {} is not {}, that of this sweep", earlier.count("seed"), now.count("seed"));
   }
@@ -168,11 +173,24 @@ void tell_of_other_machine(const JsonFields& now, const JsonFields& earlier, Gat
   if (here != there) result.told.push_back(fmt::format("measured on {}, earlier on {}", here, there));
 }
 
+// The baseline against itself: where it differs, other times are in doubt too.
+void add_failed_controls(const json& now, GateResult& result) {
+  for_each_entry(now, "controls", [&](const json& control, const JsonFields& fields) {
+    if (control.value("passed", false)) return;
+    const JsonFields time = fields.object("relative_time");
+    const std::vector<double> interval = time.numbers("ci95");
+    result.worse.push_back(
+        fmt::format("{}: the baseline as a point takes {:.4g} times its own time ({:.4g} to {:.4g})",
+                    fields.text("scene"), time.number("estimate"), interval.at(0), interval.at(1)));
+  });
+}
+
 GateResult compare_frontiers(const json& now, const json& earlier) {
   GateResult result;
   const JsonFields now_fields(now), earlier_fields(earlier);
   check_comparable(now_fields, earlier_fields);
   tell_of_other_machine(now_fields, earlier_fields, result);
+  add_failed_controls(now, result);
   const auto points = points_of(now), before = points_of(earlier);
   const auto refusals = refusals_of(now);
   int compared = 0;

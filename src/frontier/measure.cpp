@@ -70,6 +70,10 @@ class SceneSweep {
       measure_figures();
       measure_cull_tests();
       measure_times();
+      if (job_.process + 1 < job_.processes) {
+        notice(steps_);
+        return;
+      }
       complete(measured_, file_);
       measured_.clear();
     }
@@ -107,11 +111,10 @@ class SceneSweep {
 
   // Points whose records are complete are left out; of others the records of an earlier process go on.
   void make_runs() {
-    const auto pool = std::make_shared<TargetPool>();
     for (const ChosenPoint& point : job_.points) {
       if (file_.has(record_key(record_of(point, 0)))) continue;
       tell(0, point.label);
-      measured_.push_back({PointRun(renderer_, gpu_, start_, point, pool), {}});
+      measured_.push_back({PointRun(renderer_, gpu_, start_, point, pool_), {}});
       std::vector<FrontierRecord>& records = measured_.back().records;
       for (int view = 0; view < int(views_.size()); ++view) {
         const auto begun = file_.open_records().find(record_key(record_of(point, view)));
@@ -120,7 +123,7 @@ class SceneSweep {
       }
     }
     if (measured_.empty()) return;
-    baseline_.emplace(renderer_, gpu_, start_, job_.baseline, pool);
+    baseline_.emplace(renderer_, gpu_, start_, job_.baseline, pool_);
     baseline_->draw();
     baseline_s_ = baseline_->draw() / 1000;
     if (!baseline_->refused().empty()) {
@@ -136,8 +139,10 @@ class SceneSweep {
     double round_s = 0;
     for (const MeasuredPoint& m : measured_) {
       if (m.records.empty()) continue;
-      const int runs = m.slow ? std::min(rounds, slow_rounds) : rounds + 1;
-      round_s += (0.5 * baseline_s_ + m.picture_s) * runs;
+      const int runs = 1 + (m.slow ? std::min(rounds, slow_rounds) : rounds);
+      // Each timed picture follows one frame that is not.
+      const double frame_s = m.picture_s / m.run.point().frames;
+      round_s += (baseline_s_ + m.picture_s + frame_s) * runs;
     }
     return seconds() + more + round_s * views <= until();
   }
@@ -152,6 +157,8 @@ class SceneSweep {
     for (int view = 0; view < int(views_.size()); ++view) {
       if (std::ranges::any_of(measured_, [&](const MeasuredPoint& m) { return has_view(m, view); })) {
         whole = is_whole(view);
+      } else if (job_.process > 0) {
+        break;  // views whose times no earlier process has
       } else if (view > 0 && !fits(view_s, job_.least_rounds, view + 1)) {
         if (!whole || !fits(share_without_flip * view_s, job_.least_rounds, view + 1)) break;
         whole = false;
@@ -185,7 +192,7 @@ class SceneSweep {
     bool looked = false;
     for (MeasuredPoint& m : measured_) {
       if (!has_view(m, view)) {
-        if (view == 0 && !fits(0, 1, 1)) break;
+        if ((view == 0 && !fits(0, 1, 1)) || job_.process > 0) break;
         tell(seconds() / job_.seconds,
              fmt::format("view {} of {}, {}", view + 1, views_.size(), m.run.point().label));
         if (!looked) figures_.look(views_[size_t(view)], view, own, whole);
@@ -229,11 +236,28 @@ class SceneSweep {
     end_step("cull tests");
   }
 
+  // The baseline as points of its own.
+  void add_controls() {
+    for (int i = 0; i < job_.controls; ++i) {
+      MeasuredPoint control{PointRun(renderer_, gpu_, start_, job_.baseline, pool_), {}};
+      for (int view = 0; view < used_views_; ++view) {
+        FrontierRecord record = record_of(job_.baseline, view);
+        record.series = fmt::format("control {}", file_.part().shard * job_.controls + i);
+        const auto begun = file_.open_records().find(record_key(record));
+        if (begun == file_.open_records().end()) file_.begin(record);
+        control.records.push_back(begun == file_.open_records().end() ? record : begun->second);
+      }
+      measured_.push_back(std::move(control));
+    }
+  }
+
   void measure_times() {
+    const size_t points = measured_.size();
+    add_controls();
     TimeRounds rounds{job_,      timer_,     until(), std::span(views_).first(size_t(used_views_)),
                       measured_, *baseline_, file_};
     const int done = rounds.run();
-    notice(fmt::format("{} points, {} views, {} rounds", measured_.size(), used_views_, done));
+    notice(fmt::format("{} points, {} views, {} rounds", points, used_views_, done));
     end_step("rounds");
   }
 
@@ -250,6 +274,7 @@ class SceneSweep {
   GpuScene gpu_;
   std::vector<View> views_;
   ViewFigures figures_;
+  const std::shared_ptr<TargetPool> pool_ = std::make_shared<TargetPool>();
   std::vector<MeasuredPoint> measured_;
   std::optional<PointRun> baseline_;
   double baseline_s_ = 0, step_began_s_ = 0;

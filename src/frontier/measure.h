@@ -19,6 +19,10 @@ struct FrontierJob {
   int views = 8;         // at most: fewer if the time allows no more
   double seconds = 180;  // for the scene, from loading to its last record
   int least_rounds = 6, most_rounds = 40;
+  int controls = 3;  // the baseline as this many points of its own, in each round
+  // Of several processes that share the rounds: the first measures the figures, the last completes the
+  // records.
+  int process = 0, processes = 1;
   double interval_width = 0.05;  // rounds end when each ratio's interval is at most this share of its median
   uint64_t seed = 1;
   // Of pixel and light, on a view: those that the oracle shades, and those whose shadows it decides, which

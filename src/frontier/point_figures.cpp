@@ -5,11 +5,10 @@
 
 #include "frontier/answer_steps.h"
 #include "frontier/fields.h"
+#include "frontier/round_baselines.h"
 
 namespace lightgrid {
 namespace {
-
-constexpr double tie_alpha = 0.05;  // of the Mann-Whitney test
 
 // One figure of several views, each NaN if one view's is.
 double mean_over(const std::vector<double>& figures) {
@@ -80,17 +79,25 @@ std::optional<SampledErrors> in_double_over(const Group& views) {
   return all;
 }
 
-// For each run, the sum over views of `times`; as many runs as every view has.
-std::vector<double> sums_over(const Group& views, std::vector<double> FrontierRecord::*times) {
+// For each run, the mean over views of its time; as many runs as every view has.
+std::vector<double> means_of_runs(const Group& views) {
   size_t runs = std::numeric_limits<size_t>::max();
+  for (const FrontierRecord* view : views) runs = std::min(runs, view->frame_ms.size());
+  std::vector<double> means(runs);
   for (const FrontierRecord* view : views) {
-    runs = std::min({runs, view->frame_ms.size(), view->baseline_ms.size()});
+    for (size_t run = 0; run < runs; ++run) means[run] += view->frame_ms[run] / double(views.size());
   }
-  std::vector<double> sums(runs);
-  for (const FrontierRecord* view : views) {
-    for (size_t run = 0; run < runs; ++run) sums[run] += (view->*times)[run];
-  }
-  return sums;
+  return means;
+}
+
+// The least of the frame times that `share` of them are within.
+double percentile_of(const Group& views, double share) {
+  std::vector<double> all;
+  for (const FrontierRecord* view : views)
+    all.insert(all.end(), view->frame_ms.begin(), view->frame_ms.end());
+  if (all.empty()) return 0;
+  std::ranges::sort(all);
+  return all[size_t(std::ceil(share * double(all.size()))) - 1];
 }
 
 PointFigures over_views(const Group& views) {
@@ -99,14 +106,8 @@ PointFigures over_views(const Group& views) {
   all.views = int(views.size());
   all.width = views.front()->width, all.height = views.front()->height;
   all.truth = views.front()->truth;
-  std::vector<double> frame_ms = sums_over(views, &FrontierRecord::frame_ms);
-  const std::vector<double> baseline_ms = sums_over(views, &FrontierRecord::baseline_ms);
-  for (size_t run = 0; run < frame_ms.size(); ++run) {
-    all.ratios.push_back(frame_ms[run] / baseline_ms[run]);
-    frame_ms[run] /= double(views.size());
-  }
-  all.frame_ms = median_interval(frame_ms);
-  all.ratio = median_interval(all.ratios);
+  all.frame_ms = median_interval(means_of_runs(views));
+  all.p95_ms = percentile_of(views, 0.95), all.p99_ms = percentile_of(views, 0.99);
   for (const auto& [key, kind] : kinds_of_error) {
     all.errors.*kind = errors_over(views, [kind = kind](const FrontierRecord& v) { return v.errors.*kind; });
   }
@@ -128,20 +129,6 @@ PointFigures over_views(const Group& views) {
   }
   all.bytes_moved = bytes_moved / std::max<uint64_t>(counted, 1);
   return all;
-}
-
-bool is_ranked(const PointFigures& p) {
-  return p.nan_pixels == 0 && !p.ratios.empty() && std::isfinite(p.ratio.median) &&
-         std::isfinite(p.errors.total.rmse_rel);
-}
-
-// Points whose total error is at most `error` and whose ratio does not differ from that of points[index].
-std::vector<int> tied_and_no_worse(const std::vector<PointFigures>& points, int index, double error) {
-  std::vector<int> tied;
-  for (const int other : points[index].tied_with) {
-    if (is_ranked(points[other]) && points[other].errors.total.rmse_rel <= error) tied.push_back(other);
-  }
-  return tied;
 }
 
 std::optional<double> percent_of_pairs(const PairCounts& pairs, uint64_t ShadowPairs::*count) {
@@ -189,54 +176,15 @@ std::vector<Group> grouped(const Group& records,
 
 std::vector<PointFigures> figures_of(Records records) {
   const Group of_front = accepted(records, [](const FrontierRecord& r) { return r.series.empty(); });
+  const RoundBaselines baselines(records);
   std::vector<PointFigures> points;
   for (const Group& views : grouped(of_front, [](const FrontierRecord& r) { return point_key(r.point); })) {
-    if (std::ranges::all_of(views, [](const FrontierRecord* view) { return view->refused.empty(); }))
-      points.push_back(over_views(views));
+    if (!std::ranges::all_of(views, [](const FrontierRecord* view) { return view->refused.empty(); }))
+      continue;
+    points.push_back(over_views(views));
+    points.back().log_times = baselines.log_times(views);
   }
   return points;
-}
-
-void rank_points(std::vector<PointFigures>& points) {
-  std::map<std::string, std::vector<int>> of_scene;
-  for (size_t i = 0; i < points.size(); ++i) of_scene[points[i].point.scene].push_back(int(i));
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const auto& [scene, indices] : of_scene) {
-    std::vector<std::pair<double, double>> places;
-    for (const int i : indices) {
-      places.emplace_back(is_ranked(points[i]) ? points[i].ratio.median : nan,
-                          points[i].errors.total.rmse_rel);
-    }
-    const std::vector<bool> front = pareto_front(places);
-    for (size_t i = 0; i < indices.size(); ++i) points[indices[i]].front = front[i];
-    for (size_t a = 0; a < indices.size(); ++a) {
-      for (size_t b = a + 1; b < indices.size(); ++b) {
-        PointFigures& p = points[indices[a]];
-        PointFigures& q = points[indices[b]];
-        if (p.ratios.empty() || q.ratios.empty() || mann_whitney_p(p.ratios, q.ratios) < tie_alpha) continue;
-        p.tied_with.push_back(indices[b]);
-        q.tied_with.push_back(indices[a]);
-      }
-    }
-  }
-  for (PointFigures& p : points) std::sort(p.tied_with.begin(), p.tied_with.end());
-}
-
-std::vector<BestWithin> best_within_of(const std::vector<PointFigures>& points) {
-  const auto scenes = distinct(points, [](const PointFigures& p) { return p.point.scene; });
-  std::vector<BestWithin> all;
-  for (const std::string& scene : scenes) {
-    for (const double error : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1}) {
-      int best = -1;
-      for (size_t i = 0; i < points.size(); ++i) {
-        const PointFigures& p = points[i];
-        if (p.point.scene != scene || !is_ranked(p) || p.errors.total.rmse_rel > error) continue;
-        if (best < 0 || p.ratio.median < points[best].ratio.median) best = int(i);
-      }
-      if (best >= 0) all.push_back({scene, error, best, tied_and_no_worse(points, best, error)});
-    }
-  }
-  return all;
 }
 
 }  // namespace lightgrid

@@ -193,7 +193,12 @@ std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& technique
   return distinct;
 }
 
-ChosenPoint baseline_point(const Settings& common, bool opengl) {
+ChosenPoint baseline_point(const Settings& common, bool opengl, const std::string& text) {
+  if (!text.empty()) {
+    const std::vector<ChosenPoint> points = named(words(text, ','), common);
+    if (points.size() != 1) throw input_error("baseline {}: is {} points, not one", text, points.size());
+    return points.front();
+  }
   return point(find_technique(opengl ? "forward_plus" : "visibility"), common, 1);
 }
 
@@ -239,8 +244,6 @@ void PointRun::go_to_frame(int number) {
   if (point_.frames > 1 || !has_random_ranges()) return;
   attempt([&] { run_->draw_ranges(seed(0)); });
 }
-
-bool PointRun::keeps_shadows() const { return ShadowCertificates::bytes_of(point_.contestant.settings) > 0; }
 
 void PointRun::look(const View& view) {
   attempt([&] { run_->look(view); });

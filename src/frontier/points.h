@@ -29,7 +29,8 @@ std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& technique
                                        bool opengl, const std::optional<FrontierTruth>& truth = {});
 
 // The point with which each other is measured in turn: forward_plus as it is or, without OpenGL, visibility.
-ChosenPoint baseline_point(const Settings& common, bool opengl);
+// `text`: another one, NAME[:KEY=VALUE,…]; empty: these. Throws Error(input) if it is not one point.
+ChosenPoint baseline_point(const Settings& common, bool opengl, const std::string& text = "");
 
 // "visibility:range=cutoff,cutoff=0.05": what differs from the defaults and has an effect.
 std::string label_of(const Contestant& contestant, int frames);
@@ -46,8 +47,6 @@ class PointRun {
   const ChosenPoint& point() const { return point_; }
   const std::string& refused() const { return refused_; }  // empty: it runs
   TechniqueRun& run() { return *run_; }
-  // Certificates of shadows are kept from frame to frame.
-  bool keeps_shadows() const;
 
   void look(const View& view);
   // One picture: all of its frames, read back and averaged. Milliseconds; 0 if refused. A refusal is kept.

@@ -113,6 +113,10 @@ void PartLines::take(const json& line, const std::string& place, const Notice& n
   } else if (is_of("open")) {
     FrontierRecord record = record_of(line["open"]);
     open.insert_or_assign(record_key(record), record);
+  } else if (is_of("process")) {
+    ++part.processes;
+  } else if (is_of("conditions")) {
+    part.conditions.push_back(conditions_of(line["conditions"]));
   } else if (is_of("times")) {
     const JsonFields times = JsonFields(line).object("times");
     for (const std::string& key : times.names()) {
@@ -125,6 +129,7 @@ void PartLines::take(const json& line, const std::string& place, const Notice& n
       if (ms.size() != 2) throw input_error("times.{}: {} times instead of two", key, ms.size());
       record.frame_ms.push_back(ms[0]);
       record.baseline_ms.push_back(ms[1]);
+      record.processes.push_back(std::max(part.processes - 1, 0));
     }
   } else if (is_of("cull_ms")) {
     const JsonFields times = JsonFields(line).object("cull_ms");

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "frontier/conditions.h"
 #include "results/flip.h"
 #include "results/results.h"
 
@@ -64,11 +65,14 @@ struct FrontierRecord {
   int width = 0, height = 0;  // pixels
   int lights = 0;             // of the scene
   double radius_scale = 1;    // of the lights' ranges, in the series "radius"
-  std::string series;         // empty: a point of the front; "lights", "pixels", "radius": of a growth curve
+  // Empty: a point of the front; "lights", "pixels", "radius": of a growth curve; "control 0", "control 1",
+  // …: the baseline, timed as a point.
+  std::string series;
   std::optional<FrontierTruth> truth;  // empty: every light without a range
 
   std::string refused;                        // why it did not run; the fields below are then empty
   std::vector<double> frame_ms, baseline_ms;  // of equal length; entry i of both ran one after the other
+  std::vector<int> processes;                 // of each run: the number of the process that took it, from 0
   std::map<std::string, double> pass_ms;      // medians of profiled frames
   // Times of culling, one a round: entry i of points that differ in the cull test alone was taken in one
   // round. Empty: no such point, or another view than the first.
@@ -95,6 +99,8 @@ struct FrontierMachine {
 };
 
 // A part: one process's records. Deterministic: shard i of n of the same request holds the same points.
+inline bool is_control(const FrontierRecord& r) { return r.series.starts_with("control"); }
+
 struct FrontierPart {
   std::string request;  // hash of scenes, points, views, size and seed: parts of one sweep agree in it
   std::string commit;
@@ -102,7 +108,9 @@ struct FrontierPart {
   int shard = 0, shards = 1;
   std::string baseline;  // label of the baseline point
   FrontierMachine machine;
-  bool finished = false;  // nothing more was to be measured: RecordFile::finish
+  int processes = 0;                           // that took times
+  std::vector<FrontierConditions> conditions;  // one a round and process
+  bool finished = false;                       // nothing more was to be measured: RecordFile::finish
   std::vector<FrontierRecord> records;
 };
 

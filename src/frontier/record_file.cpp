@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/error.h"
 #include "base/json_file.h"
@@ -115,7 +116,14 @@ void RecordFile::add_times(const std::vector<TimeOfRecord>& times) {
     entry = time.refused;
     if (time.refused.empty()) entry = {exact_number(time.frame_ms), exact_number(time.baseline_ms)};
   }
+  if (!std::exchange(process_begun_, true)) add({{"process", lines_.part.processes}});
   add({{"times", entries}});
+}
+
+void RecordFile::add_conditions(const FrontierConditions& conditions) {
+  FrontierConditions of_this = conditions;
+  of_this.process = std::max(lines_.part.processes - 1, 0);
+  add({{"conditions", to_json(of_this)}});
 }
 
 void RecordFile::add_cull_times(const std::map<std::string, double>& times) {

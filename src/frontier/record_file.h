@@ -31,6 +31,8 @@ nlohmann::json to_json(const FrontierMachine& machine);
 nlohmann::json header_json(const FrontierPart& part);  // without records
 FrontierRecord record_of(const nlohmann::json& line);
 FrontierPart part_of(const nlohmann::json& header);
+nlohmann::json to_json(const FrontierConditions& conditions);
+FrontierConditions conditions_of(const nlohmann::json& object);
 
 // "records-3-of-16.jsonl", for shard 3 of 16: parts of one sweep may share a folder.
 std::filesystem::path part_path(const std::filesystem::path& folder, int shard, int shards);
@@ -87,7 +89,8 @@ class RecordFile {
   // is complete. All of these throw as append() does, and are whole or not there after a kill. Keys:
   // record_key of open records.
   void begin(const FrontierRecord& record);
-  void add_times(const std::vector<TimeOfRecord>& times);              // of a round
+  void add_times(const std::vector<TimeOfRecord>& times);     // of a round; the first begins a process
+  void add_conditions(const FrontierConditions& conditions);  // of the round before, of this process
   void add_cull_times(const std::map<std::string, double>& times_ms);  // likewise
   void complete(const std::vector<std::string>& keys);
   const std::map<std::string, FrontierRecord>& open_records() const { return lines_.open; }
@@ -103,6 +106,7 @@ class RecordFile {
 
   std::filesystem::path path_;
   int file_ = -1;
+  bool process_begun_ = false;
   PartLines lines_;
 };
 

@@ -28,6 +28,9 @@ struct FromJson {
     value = fields.optional_number(key);
   }
   void read(const char* key, std::vector<double>& value, FieldRule) const { value = fields.numbers(key); }
+  void read(const char* key, std::vector<int>& values, FieldRule) const {
+    for (const double value : fields.numbers(key)) values.push_back(int(value));
+  }
   void read(const char* key, std::optional<FlipExposures>& value, FieldRule) const {
     const std::vector<double> flip = fields.numbers(key);
     if (flip.empty()) return;
@@ -87,8 +90,13 @@ FrontierRecord record_of(const json& line) {
   FrontierRecord r = read_from<FrontierRecord>(line);
   if (r.frame_ms.size() != r.baseline_ms.size())
     throw input_error("frame_ms: {} times beside {} of baseline_ms", r.frame_ms.size(), r.baseline_ms.size());
+  r.processes.resize(r.frame_ms.size(), 0);  // parts of earlier versions name none
   return r;
 }
+
+json to_json(const FrontierConditions& conditions) { return ToJson{Numbers::finite}.json_of(conditions); }
+
+FrontierConditions conditions_of(const json& object) { return read_from<FrontierConditions>(object); }
 
 FrontierPart part_of(const json& header) {
   FrontierPart part = read_from<FrontierPart>(header);

@@ -116,6 +116,7 @@ void time_variant(const std::vector<ChosenPoint>& points, Renderer& renderer, Gp
   FrontierJob rounds = job;
   rounds.progress = nullptr;  // its steps are variants
   rounds.least_rounds = rounds.most_rounds = growth_rounds;
+  rounds.process = 0, rounds.processes = 1;
   const Timer timer;
   TimeRounds{rounds,   timer, std::numeric_limits<double>::infinity(), std::span(&view, 1), measured,
              baseline, file}
@@ -128,15 +129,26 @@ void time_variant(const std::vector<ChosenPoint>& points, Renderer& renderer, Gp
 int TimeRounds::run() {
   int done = 0;
   for (const MeasuredPoint& point : points) done = std::max(done, point.rounds());
+  // Each process takes its share, at least two rounds where there are several.
+  const int share = (job.most_rounds + job.processes - 1) / job.processes;
+  const int before_this = job.processes > 1 ? done : 0;
+  const int least = job.processes > 1 ? std::min(done + 2, done + share) : job.least_rounds;
+  const int most = before_this + share;
+  for (MeasuredPoint& point : points)
+    point.slow_until =
+        (job.processes > 1 ? point.rounds() : 0) + (slow_rounds + job.processes - 1) / job.processes;
+  ConditionsReader conditions;
   double longest_s = 0;
-  for (bool warm_up = true; done < job.most_rounds; warm_up = false) {
+  for (bool warm_up = true; done < most; warm_up = false) {
     const double before = timer.elapsed_ms() / 1000;
-    if (done > 0 && before + longest_s > until_s) break;
-    if (done >= job.least_rounds && are_certain()) break;
+    if (done > before_this && before + longest_s > until_s) break;
+    if (done >= least && are_certain()) break;
     std::vector<TimeOfRecord> times;
     for (size_t view = 0; view < views.size(); ++view) time_view(warm_up ? 0 : done + 1, view, times);
+    const FrontierConditions of_round = conditions.sample();
     if (warm_up) continue;
     file.add_times(times);
+    file.add_conditions(of_round);
     for (MeasuredPoint& point : points) {
       for (FrontierRecord& record : point.records) record = file.open_records().at(record_key(record));
     }
@@ -149,39 +161,40 @@ int TimeRounds::run() {
 void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& times) {
   std::vector<size_t> order;
   for (size_t i = 0; i < points.size(); ++i) {
-    const bool out = points[i].slow && (round == 0 || points[i].rounds() >= slow_rounds);
+    const bool out = points[i].slow && points[i].rounds() >= points[i].slow_until;
     if (!out && points[i].run.refused().empty()) order.push_back(i);
   }
   Random random(Random::mix(job.seed) + uint64_t(round) * 1000 + uint64_t(view));
   for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[size_t(random.next() % i)]);
-  baseline.look(views[view]);
-  baseline.draw();
-  double beside = baseline.draw();
+  double beside = timed(baseline, view);
   for (size_t i = 0; i < order.size(); i += 2) {
     if (job.progress)
       job.progress(std::min(timer.elapsed_ms() / 1000 / job.seconds, 1.0),
                    fmt::format("times, round {}", round));
     MeasuredPoint& first = points[order[i]];
-    add_time(first, view, timed(first, view), beside, times);
+    add_time(first, view, timed(first.run, view), beside, times);
     if (i + 1 == order.size()) break;
     MeasuredPoint& second = points[order[i + 1]];
-    const double ms = timed(second, view);
-    beside = baseline.draw();
+    const double ms = timed(second.run, view);
+    beside = timed(baseline, view);
     add_time(second, view, ms, beside, times);
   }
 }
 
-double TimeRounds::timed(MeasuredPoint& point, size_t view) {
-  point.run.look(views[view]);
-  if (point.run.keeps_shadows()) point.run.draw();  // a frame at rest has what this one leaves
-  return point.run.draw();
+// The baseline's frame and the point's have the same history, or their ratio would hold the difference: a
+// look leaves uploads to the next frame, and other techniques' frames between push programs out of drivers'
+// caches.
+double TimeRounds::timed(PointRun& run, size_t view) {
+  run.look(views[view]);
+  run.draw_first_frame();
+  return run.draw();
 }
 
 // True if each ratio's interval is narrow enough.
 bool TimeRounds::are_certain() const {
   return std::ranges::all_of(points, [&](const MeasuredPoint& point) {
     if (std::ranges::any_of(point.records, is_refused)) return true;
-    if (point.slow && point.rounds() >= slow_rounds) return true;
+    if (point.slow && point.rounds() >= point.slow_until) return true;
     const MedianInterval ratio = median_interval(ratios_of(point));
     return ratio.high - ratio.low <= job.interval_width * ratio.median;
   });

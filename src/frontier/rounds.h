@@ -15,15 +15,17 @@ struct MeasuredPoint {
   PointRun run;
   std::vector<FrontierRecord> records;  // one a view, open in the file
   double picture_s = 0;
-  bool slow = false;  // far from the front: few rounds tell how far
+  bool slow = false;   // far from the front: few rounds tell how far
+  int slow_until = 0;  // rounds that it then has, when this process ends
   int rounds() const { return int(records.front().frame_ms.size()); }
 };
 
 constexpr int slow_rounds = 3;  // of slow points
 
 // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round.
-// A point counts with the baseline run beside it. Slow points are left out of late rounds. The first round
-// does not count, and has no slow points: drivers compile in it what they dropped.
+// A point counts with the baseline run beside it. Before each timed run, of the baseline too, the same point
+// looks at the view and draws a frame that does not count. Slow points are left out of late rounds. The first
+// round does not count: drivers compile in it what they dropped.
 struct TimeRounds {
   const FrontierJob& job;
   const Timer& timer;  // of the scene
@@ -33,13 +35,13 @@ struct TimeRounds {
   PointRun& baseline;
   RecordFile& file;
 
-  // Until the ratios are certain or the time is over. Returns the number of rounds that count: those that the
-  // points have from an earlier process too.
+  // Until the ratios are certain or the time is over, or this process has its share of the rounds. Returns
+  // the number of rounds that count: those that the points have from earlier processes too.
   int run();
 
  private:
   void time_view(int round, size_t view, std::vector<TimeOfRecord>& times);
-  double timed(MeasuredPoint& point, size_t view);
+  double timed(PointRun& run, size_t view);  // ms
   bool are_certain() const;
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "base/timer.h"
 
@@ -39,43 +38,6 @@ int lower_index(int n) {
   return index;
 }
 
-struct Ranks {
-  double sum_of_first = 0;    // of the first sample's midranks, from 1
-  double tie_correction = 0;  // sum of t^3 - t over groups of t equal values
-};
-
-Ranks rank_sum(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<std::pair<double, bool>> all;  // value, of the first sample
-  for (const double x : a) all.emplace_back(x, true);
-  for (const double x : b) all.emplace_back(x, false);
-  std::sort(all.begin(), all.end());
-  Ranks ranks;
-  for (size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-    size_t of_first = 0;
-    for (end = begin; end < all.size() && all[end].first == all[begin].first; ++end)
-      of_first += all[end].second;
-    const double equal = static_cast<double>(end - begin);
-    ranks.sum_of_first += static_cast<double>(of_first) * 0.5 * static_cast<double>(begin + 1 + end);
-    ranks.tie_correction += equal * equal * equal - equal;
-  }
-  return ranks;
-}
-
-// P(U <= u) without ties: the share of all C(m + n, m) orders of the two samples. count[i][s]: the ways to
-// choose i of the ranks seen so far whose sum exceeds the least possible sum by s.
-double exact_lower_tail(int m, int n, int u) {
-  std::vector<std::vector<double>> count(m + 1, std::vector<double>(m * n + 1, 0.0));
-  count[0][0] = 1;
-  for (int rank = 1; rank <= m + n; ++rank) {
-    for (int i = std::min(rank, m); i >= 1; --i) {
-      const int excess = rank - i;  // of the i-th smallest chosen rank over i
-      for (int s = m * n; s >= excess; --s) count[i][s] += count[i - 1][s - excess];
-    }
-  }
-  const double all = std::accumulate(count[m].begin(), count[m].end(), 0.0);
-  return std::accumulate(count[m].begin(), count[m].begin() + u + 1, 0.0) / all;
-}
-
 // P(|T| <= t) of Student's t with `dof` degrees of freedom, for t = sqrt(dof) tan(angle): Abramowitz and
 // Stegun 26.7.3 and 26.7.4.
 double central_probability(double angle, int dof) {
@@ -98,22 +60,6 @@ MedianInterval median_interval(std::span<const double> samples) {
   const int n = static_cast<int>(sorted.size());
   const int low = lower_index(n);
   return {spread_of(sorted).median, sorted[low], sorted[n - 1 - low], n};
-}
-
-double mann_whitney_p(std::span<const double> a, std::span<const double> b) {
-  const std::vector<double> first = without_nan(a), second = without_nan(b);
-  if (first.empty() || second.empty()) return 1;
-  const double m = static_cast<double>(first.size()), n = static_cast<double>(second.size()), all = m + n;
-  const Ranks ranks = rank_sum(first, second);
-  const double u = ranks.sum_of_first - 0.5 * m * (m + 1);
-  if (all <= 20 && ranks.tie_correction == 0) {
-    const int smaller = static_cast<int>(std::min(u, m * n - u));
-    return std::min(1.0, 2 * exact_lower_tail(static_cast<int>(m), static_cast<int>(n), smaller));
-  }
-  const double variance = m * n / 12 * (all + 1 - ranks.tie_correction / (all * (all - 1)));
-  if (variance <= 0) return 1;  // all values are equal
-  const double deviation = std::max(0.0, std::abs(u - 0.5 * m * n) - 0.5);
-  return std::erfc(deviation / std::sqrt(2 * variance));
 }
 
 std::vector<bool> pareto_front(std::span<const std::pair<double, double>> points) {

@@ -92,7 +92,8 @@ std::string kill_when_written(const std::vector<std::string>& arguments, const f
 
 // All that no clock has a share in.
 json without_times(json point) {
-  for (const char* of_time : {"frame_ms", "ratio", "front", "tied_with"}) point.erase(of_time);
+  for (const char* of_time : {"frame_ms", "frame_ms_within", "relative_time", "front", "front_probability"})
+    point.erase(of_time);
   return point;
 }
 
@@ -157,11 +158,17 @@ TEST(FrontierCommand, AnswersWhatAccuracyCostsResumesAndIsItsOwnGate) {
   for (const json& point : resumed["points"])
     EXPECT_EQ(without_times(point), without_times(point_of(answer, point["label"])));
 
-  // No worse than itself; an earlier run of smaller errors, lost lights and times is a gate that fails.
+  // No worse than itself, but where the baseline differs from itself, as on a busy machine; an earlier run of
+  // smaller errors, lost lights and times is a gate that fails.
   const fs::path earlier = folder.path / "earlier.json";
   fs::copy_file(folder.path / "frontier.json", earlier);
-  EXPECT_EQ(
-      run_program(small_sweep(folder.path) + std::vector<std::string>{"--gate", earlier.string()}).status, 0);
+  ASSERT_EQ(answer["controls"].size(), 1u);
+  const bool in_doubt = !answer["controls"][0]["passed"].get<bool>();
+  const ProgramRun same =
+      run_program(small_sweep(folder.path) + std::vector<std::string>{"--gate", earlier.string()});
+  EXPECT_EQ(same.status, in_doubt ? 1 : 0) << same.err;
+  EXPECT_THAT(same.err, Not(HasSubstr("grew")));
+  EXPECT_EQ(same.err.find("times its own time") != std::string::npos, in_doubt) << same.err;
   json better = answer;
   for (json& point : better["points"]) {
     if (point["label"] == "forward_plus") point["error"]["total"]["rmse_rel"] = 1e-7;
@@ -170,7 +177,31 @@ TEST(FrontierCommand, AnswersWhatAccuracyCostsResumesAndIsItsOwnGate) {
   const ProgramRun gated =
       run_program(small_sweep(folder.path) + std::vector<std::string>{"--gate", earlier.string()});
   EXPECT_EQ(gated.status, 1) << gated.err;
-  EXPECT_THAT(gated.err, HasSubstr("forward_plus"));
+  EXPECT_THAT(gated.err, AllOf(HasSubstr("forward_plus"), HasSubstr("rmse_rel grew")));
+}
+
+// Each of three runs of the program takes its share of the rounds of the same figures.
+TEST(FrontierCommand, SharesRoundsAmongProcesses) {
+  const TempFolder folder;
+  const auto arguments = sweep(folder.path, "forward_plus,visibility", "6") +
+                         std::vector<std::string>{"--no-growth", "--processes", "3"};
+  const ProgramRun run = run_program(arguments);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const json answer = json::parse(file_bytes(folder.path / "frontier.json"));
+  ASSERT_EQ(answer["points"].size(), 2u);
+  for (const json& point : answer["points"]) {
+    const json& time = point["relative_time"];
+    EXPECT_EQ(time["processes"], 3) << point["label"];
+    EXPECT_GE(time["runs"], 3) << point["label"];
+    EXPECT_LE(time["runs"], 6) << point["label"];
+    EXPECT_TRUE(time["between_processes"].is_number()) << point["label"];
+    EXPECT_EQ(point["views"], 2);
+  }
+  EXPECT_EQ(answer["processes"].size(), 3u);
+  EXPECT_EQ(answer["controls"][0]["places"].size(), 3u);
+  // Run again it measures nothing more.
+  ASSERT_EQ(run_program(arguments).status, 0);
+  EXPECT_EQ(json::parse(file_bytes(folder.path / "frontier.json"))["points"], answer["points"]);
 }
 
 // Exact shadows have no wrong pair and no error, without shadows light leaks, and what one estimate hides is

@@ -1,40 +1,51 @@
 #!/usr/bin/env python3
-"""repeated_frontier.py DIR DIR…: whether repeated runs of one `lightgrid frontier` rank the same points the same way.
+"""repeated_frontier.py DIR DIR…: whether repeated runs of one `lightgrid frontier` agree in what they state.
 
-For each two runs and each two points of a scene that neither run ties (~): do both runs order their ratios alike?
-Prints the pairs of points that they order differently, and how many pairs are ranked at all."""
+Prints how many controls (the baseline against itself) passed; of each two runs the share of the points' intervals in the
+first that hold the estimate of the second; the deviation between runs; and of each claim that a point is on the front,
+by its probability, in how many of the other runs it is."""
 import itertools
 import json
+import math
+import statistics
 import sys
 from pathlib import Path
 
 
-def ranked_pairs(folder):
-    """(scene, label, label) -> whether the first is faster, for pairs that are not tied."""
-    points = json.loads((Path(folder) / "frontier.json").read_text())["points"]
-    tied = {(i, j) for i, p in enumerate(points) for j in p["tied_with"]}
-    pairs = {}
-    for i, j in itertools.combinations(range(len(points)), 2):
-        a, b = points[i], points[j]
-        if a["scene"] != b["scene"] or not a["ratio"] or not b["ratio"] or (i, j) in tied or (j, i) in tied:
-            continue
-        pairs[a["scene"], a["label"], b["label"]] = a["ratio"]["median"] < b["ratio"]["median"]
-    return pairs
+def read(folder):
+    answer = json.loads((Path(folder) / "frontier.json").read_text())
+    points = {(p["scene"], p["label"], p["frames"]): p for p in answer["points"] if p["relative_time"]["runs"] > 0}
+    return answer["controls"], points
 
 
 def main():
-    runs = {folder: ranked_pairs(folder) for folder in sys.argv[1:]}
-    compared = different = 0
-    for (x, a), (y, b) in itertools.combinations(runs.items(), 2):
-        for pair in a.keys() & b.keys():
+    runs = [read(folder) for folder in sys.argv[1:]]
+    controls = [control for of_run, _ in runs for control in of_run]
+    print(f"controls: {sum(c['passed'] for c in controls)} of {len(controls)} passed, estimates "
+          + ", ".join(f"{c['relative_time']['estimate']:.4f}" for c in controls))
+    held = compared = 0
+    for (_, a), (_, b) in itertools.permutations(runs, 2):
+        for key in a.keys() & b.keys():
+            low, high = a[key]["relative_time"]["ci95"]
             compared += 1
-            if a[pair] != b[pair]:
-                different += 1
-                print(f"{x} and {y} order differently: {pair[1]} and {pair[2]} in {pair[0]}")
-    for folder, pairs in runs.items():
-        print(f"{folder}: {len(pairs)} pairs of points ranked")
-    print(f"{compared} pairs ranked in both of two runs, {different} of them differently ({100 * different / max(compared, 1):.2f} %)")
-    return 0 if different == 0 else 1
+            held += low <= b[key]["relative_time"]["estimate"] <= high
+    print(f"intervals of one run that hold the estimate of another: {held} of {compared} "
+          f"({100 * held / max(compared, 1):.1f} %; of 95 % intervals of equal width 83 % would)")
+    deviations = []
+    for key in set.intersection(*(set(points) for _, points in runs)):
+        logs = [math.log(points[key]["relative_time"]["estimate"]) for _, points in runs]
+        if len(logs) > 1:
+            deviations.append(statistics.stdev(logs))
+    if deviations:
+        print(f"standard deviation between runs: median {100 * statistics.median(deviations):.2f} %, "
+              f"largest {100 * max(deviations):.2f} %")
+    bins = {}
+    for (_, a), (_, b) in itertools.permutations(runs, 2):
+        for key in a.keys() & b.keys():
+            bins.setdefault(min(int(a[key]["front_probability"] * 5), 4), []).append(b[key]["front"])
+    for number, fronts in sorted(bins.items()):
+        print(f"probability {number / 5:.1f} to {(number + 1) / 5:.1f}: on the front of another run in "
+              f"{100 * statistics.fmean(fronts):.0f} % of {len(fronts)}")
 
 
-sys.exit(main())
+main()

@@ -18,14 +18,14 @@ def number(value, form):
 
 def rows_of(answer, scene):
     points = [p for p in answer["points"]
-              if p["scene"] == scene and p["technique"] == "visibility" and p["ratio"]["median"]]
+              if p["scene"] == scene and p["technique"] == "visibility" and p["relative_time"]["estimate"]]
     exact = next((p for p in points if p["label"] == "visibility"), None)
-    for p in sorted(points, key=lambda p: p["ratio"]["median"]):
+    for p in sorted(points, key=lambda p: p["relative_time"]["estimate"]):
         total = p["error"]["total"]
         settings = p["label"].partition(":")[2].split(",")  # the source is left out: all have it
         name = ", ".join(s for s in settings if not s.startswith("shadow-source")) or "exact"
         yield [f"`{name}`" if name != "exact" else name,
-               f"{p['ratio']['median'] / exact['ratio']['median']:.3g}" if exact else "–",
+               f"{p['relative_time']['estimate'] / exact['relative_time']['estimate']:.3g}" if exact else "–",
                f"{p['frame_ms']['median']:.3g}", number(total["rmse_rel"], "{:.1e}"),
                number(total["flip_mean"], "{:.3f}"),
                number(p["error"]["temporal_rmse_rel"], "{:.1e}"), number(p.get("leaked_percent"), "{:.2f}"),

@@ -17,17 +17,20 @@ using nlohmann::json;
 using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 
-// The contract with those who read it: keys may be added, none may go.
+// The contract with those who read it: keys may be added, none may go without another schema_version.
 TEST(FrontierJson, HasTheAgreedKeys) {
   const json frontier = to_json(some_answer());
   EXPECT_THAT(keys(frontier),
-              IsSupersetOf({"machine", "commit", "seed", "scenes", "points", "break_even", "failures"}));
+              IsSupersetOf({"schema_version", "machine", "commit", "seed", "scenes", "points", "controls",
+                            "cheapest_within", "front_bands", "break_even", "failures"}));
+  EXPECT_EQ(frontier["schema_version"], 2);
   const json& point = frontier["points"][0];
-  EXPECT_THAT(keys(point),
-              IsSupersetOf({"scene", "technique", "settings", "views", "frame_ms", "ratio", "error", "pairs",
-                            "listed_per_lit", "memory_bytes", "front", "tied_with"}));
+  EXPECT_THAT(keys(point), IsSupersetOf({"scene", "technique", "settings", "views", "frame_ms",
+                                         "frame_ms_within", "relative_time", "error", "pairs",
+                                         "listed_per_lit", "memory_bytes", "front", "front_probability"}));
   EXPECT_THAT(keys(point["frame_ms"]), IsSupersetOf({"median", "ci95", "runs"}));
-  EXPECT_THAT(keys(point["ratio"]), IsSupersetOf({"median", "ci95"}));
+  EXPECT_THAT(keys(point["relative_time"]), IsSupersetOf({"estimate", "ci95", "runs", "processes",
+                                                          "between_processes", "modes", "slow_share"}));
   for (const char* kind : {"model", "precision", "technique", "total"}) {
     EXPECT_THAT(keys(point["error"][kind]), IsSupersetOf({"max_rel", "rmse_rel", "p99_rel", "flip_mean"}));
   }
@@ -54,9 +57,11 @@ TEST(FrontierJson, HoldsTheAnswer) {
     "technique": "forward_plus", "settings": {"tile": 8, "cull_test": "planes+aabb"}, "label": "forward_plus:tile=8",
     "frames": 4, "size": [160, 91], "views": 2,
     "frame_ms": {"median": 2.5, "ci95": [2.25, 3.0], "runs": 8},
-    "ratio": {"median": 0.5, "ci95": [0.25, 0.75], "runs": 8},
+    "frame_ms_within": {"p95": 4.0, "p99": 5.0},
+    "relative_time": {"estimate": 0.5, "ci95": [0.25, 0.75], "runs": 8, "processes": 2, "between_processes": 0.125,
+                      "modes": [], "slow_share": null},
     "pairs": {"listed": 2000, "lit": 800, "lost": 4, "wrong": 2}, "listed_per_lit": 2.5,
-    "memory_bytes": 5000, "bytes_moved": 7000, "nan_pixels": 6, "front": true, "tied_with": [1]})");
+    "memory_bytes": 5000, "bytes_moved": 7000, "nan_pixels": 6, "front": true, "front_probability": 0.875})");
   for (const auto& [key, value] : expected.items()) EXPECT_EQ(frontier["points"][0][key], value) << key;
   const json& error = frontier["points"][0]["error"];
   EXPECT_EQ(error["total"]["flip_mean"], 0.0123);
@@ -75,8 +80,17 @@ TEST(FrontierJson, HoldsTheAnswer) {
   EXPECT_EQ(error["temporal_views"], 1);
   EXPECT_EQ(error["bias_rmse_rel"], 1e-5);
   EXPECT_EQ(error["deviation_rmse_rel"], 2e-5);
-  EXPECT_EQ(frontier["best_within"],
-            (json{{{"scene", scene}, {"error", 1e-3}, {"point", 0}, {"tied", {1}}}}));
+  EXPECT_EQ(frontier["cheapest_within"], (json{{{"scene", scene},
+                                                {"error", 1e-3},
+                                                {"point", 0},
+                                                {"probability", 0.5},
+                                                {"relative_time", expected["relative_time"]}}}));
+  EXPECT_EQ(frontier["front_bands"],
+            (json{{{"scene", scene}, {"steps", {{{"error", 1e-3}, {"ci95", {0.25, 0.75}}}}}}}));
+  const json& control = frontier["controls"][0];
+  EXPECT_EQ(control["passed"], false) << "6 % off, although its interval holds 1";
+  EXPECT_EQ(control["places"], (json{1.0, 1.125}));
+  EXPECT_NEAR(control["widened_by"].get<double>(), 1.0625, 1e-12);
   EXPECT_EQ(frontier["break_even"], json::parse(R"([{"scene": "hall", "tighter": "exact", "looser": "sphere",
     "ns_per_pixel_light": 0.25, "ci95": [0.125, 0.5], "rounds": 12, "extra_ms": 1.5, "pairs_saved": 1000.0}])"));
   EXPECT_EQ(frontier["shading_costs"],
@@ -110,8 +124,8 @@ TEST(FrontierJson, HasNullForWhatIsNotFinite) {
 
 TEST(FrontierJson, OfNothingHasEmptyLists) {
   const json frontier = to_json(FrontierAnswer{});
-  for (const char* list : {"scenes", "points", "best_within", "break_even", "shading_costs", "growth",
-                           "failures", "sentences", "machines"}) {
+  for (const char* list : {"scenes", "points", "controls", "cheapest_within", "front_bands", "break_even",
+                           "shading_costs", "growth", "failures", "sentences", "machines"}) {
     EXPECT_EQ(frontier[list], json::array()) << list;
   }
 }
@@ -182,6 +196,7 @@ TEST(FrontierCsv, HasEachRunBeside) {
     const FrontierRecord& record = answer.part.records[i / 3];
     EXPECT_EQ(table[i].at("row"), std::to_string(i / 3));
     EXPECT_EQ(table[i].at("run"), std::to_string(i % 3));
+    EXPECT_EQ(table[i].at("process"), i / 3 == 4 || i % 3 < 2 ? "0" : "1");
     EXPECT_EQ(std::stod(table[i].at("frame_ms")), record.frame_ms[i % 3]);
     EXPECT_EQ(std::stod(table[i].at("baseline_ms")), record.baseline_ms[i % 3]);
   }

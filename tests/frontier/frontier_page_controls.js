@@ -23,7 +23,7 @@ addEventListener("load", async () => {
       text: get("chosen").textContent };
   };
 
-  const seen = { title: document.title, paragraph: get("paragraph").textContent, marks: marks(), axes: axes(), ties: texts("#front .tie"),
+  const seen = { title: document.title, paragraph: get("paragraph").textContent, marks: marks(), axes: axes(), band: document.querySelector("#front .band")?.getBBox().width ?? 0,
     step: document.querySelector("#front .step").getAttribute("points"), first: await chosen() };
   seen.within = [...get("within").querySelectorAll("tbody tr")].map((line) => [...line.cells].map((cell) => [...cell.children].map((part) => part.textContent).join("|") || cell.textContent));
   seen.failures = [...get("failures").querySelectorAll("tbody tr")].map((line) => [...line.cells].map((cell) => cell.textContent));
@@ -31,7 +31,6 @@ addEventListener("load", async () => {
 
   pointer("pointermove", "clustered");
   seen.hovered = tip();
-  seen.tied = [...document.querySelectorAll("#front .point.tied")].map((element) => element.dataset.label);
   get("front").dispatchEvent(new PointerEvent("pointerleave"));
   seen.left = tip();
   pointer("click", "deferred");
@@ -49,10 +48,10 @@ addEventListener("load", async () => {
 
   change("x-choice", "listed");
   change("y-choice", "model.max_rel");
-  seen.changed = { axes: axes(), marks: marks(), ties: texts("#front .tie") };
+  seen.changed = { axes: axes(), marks: marks(), band: document.querySelectorAll("#front .band").length };
   change("x-choice", "ms");
   seen.overMs = marks();
-  change("x-choice", "ratio");
+  change("x-choice", "relative");
   change("y-choice", "total.rmse_rel");
 
   const technique = [...document.querySelectorAll("#techniques button")].find((button) => button.textContent === "visibility");

@@ -26,6 +26,7 @@ json frontier() {
   answer.failures.clear();
   answer.points[0].point.scene = "hall";
   for (FrontierRecord& record : answer.part.records) record.point.scene = "hall";
+  answer.controls.clear();
   return to_json(answer);
 }
 
@@ -95,17 +96,36 @@ TEST(Gate, IsClosedByLightsThatAreLost) {
 
 TEST(Gate, IsClosedByARatioThatIsWorseWithSignificance) {
   json now = frontier(), earlier = frontier();  // 0.25 to 0.75
-  json& ratio = now["points"][0]["ratio"];
-  ratio = {{"median", 1.0}, {"ci95", {0.75, 1.25}}};
+  json& ratio = now["points"][0]["relative_time"];
+  ratio = {{"estimate", 1.0}, {"ci95", {0.75, 1.25}}};
   EXPECT_THAT(held_against(now, earlier, "").worse, IsEmpty());
   ratio["ci95"] = {0.76, 1.25};
   EXPECT_THAT(held_against(now, earlier, "").worse,
               ElementsAre(std::string(name) +
                           ": takes 1 times the baseline's time (0.76 to 1.25), earlier 0.5 (0.25 to 0.75)"));
   EXPECT_THAT(held_against(earlier, now, "").worse, IsEmpty()) << "faster is not worse";
-  ratio = {{"median", nullptr}, {"ci95", {nullptr, nullptr}}};
+  ratio = {{"estimate", nullptr}, {"ci95", {nullptr, nullptr}}};
   EXPECT_THAT(held_against(now, earlier, "").worse, IsEmpty());
   EXPECT_THAT(held_against(earlier, now, "").worse, IsEmpty());
+}
+
+// The baseline against itself, whatever it was earlier.
+TEST(Gate, IsClosedByAControlThatDidNotPass) {
+  json now = frontier();
+  now["controls"] = json::array({{{"scene", "hall"},
+                                  {"passed", false},
+                                  {"relative_time", {{"estimate", 1.08}, {"ci95", {1.047, 1.092}}}}}});
+  EXPECT_THAT(held_against(now, now, "").worse,
+              ElementsAre("hall: the baseline as a point takes 1.08 times its own time (1.047 to 1.092)"));
+  now["controls"][0]["passed"] = true;
+  EXPECT_THAT(held_against(now, now, "").worse, IsEmpty());
+}
+
+TEST(Gate, RefusesFilesOfTheEarlierSchema) {
+  json earlier = frontier();
+  earlier.erase("schema_version");
+  EXPECT_THAT(fault_of([&] { held_against(frontier(), earlier, "old.json"); }),
+              StartsWith("old.json: schema_version: not 2"));
 }
 
 TEST(Gate, IsClosedByARefusal) {
@@ -163,8 +183,8 @@ TEST(Gate, NamesWhatCannotBeCompared) {
             "old.json: points[0].label is missing");
   EXPECT_EQ(fault_with([](json& f) { f["points"][0]["error"]["total"]["rmse_rel"] = "big"; }),
             std::string("old.json: ") + name + ": error.total.rmse_rel: \"big\" is not a number");
-  EXPECT_EQ(fault_with([](json& f) { f["points"][0]["ratio"]["ci95"] = {1}; }),
-            "old.json: ratio.ci95: 1 numbers instead of 2");
+  EXPECT_EQ(fault_with([](json& f) { f["points"][0]["relative_time"]["ci95"] = {1}; }),
+            "old.json: relative_time.ci95: 1 numbers instead of 2");
 }
 
 TEST(Gate, ReadsAFileOrNamesIt) {

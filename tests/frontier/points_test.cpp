@@ -44,6 +44,13 @@ TEST(FrontierPoints, NeedNoOpenGlWithoutIt) {
   EXPECT_EQ(baseline_point({}, true).label, "forward_plus");
 }
 
+TEST(FrontierPoints, AreTimedOverABaselineOfChoice) {
+  EXPECT_EQ(baseline_point({}, true, "visibility").label, "visibility");
+  EXPECT_EQ(baseline_point({}, true, "forward_plus:tile=8,z-bins=16").label, "forward_plus:tile=8,z-bins=16");
+  EXPECT_THROW(baseline_point({}, true, "forward,visibility"), Error);
+  EXPECT_THROW(baseline_point({}, true, "no_such_technique"), Error);
+}
+
 TEST(FrontierPoints, VaryOneKeyAtATimeInTechniquesThatReadIt) {
   EXPECT_THAT(labels(chosen_points({"forward", "forward_plus", "tile=8"},
                                    {"cull-test=sphere,aabb", "z-bins=16"}, {}, true)),

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""recompute.py FOLDER: front, ties, ratios and break-evens again, from frontier.csv, samples.csv and culling.csv alone.
+"""recompute.py FOLDER: relative times, fronts, their probabilities and break-evens again, from frontier.csv, samples.csv
+and culling.csv alone.
 
 Compares them with frontier.json of the same folder, prints what differs, and ends with status 1 if anything does.
-Written without the program's code: medians by statistics, the front by its definition, Mann-Whitney and the ranks of
-intervals in whole numbers.
+Written without the program's code: medians by statistics, the front by its definition, Student's t by integration,
+probabilities by draws of its own, and the ranks of intervals in whole numbers.
 """
 import csv
 import functools
@@ -11,6 +12,7 @@ import itertools
 import json
 import math
 import pathlib
+import random
 import statistics
 import sys
 
@@ -25,16 +27,104 @@ def read_points(folder):
 
 
 def read_samples(folder):
+    """By row: {(process, round of it): (ms, baseline's ms)}."""
     samples = {}
     for row in csv.DictReader(open(folder / "samples.csv", newline="")):
-        samples.setdefault(row["row"], []).append((float(row["frame_ms"]), float(row["baseline_ms"])))
+        of_row, process = samples.setdefault(row["row"], {}), int(row["process"])
+        number = sum(p == process for p, _ in of_row)
+        of_row[process, number] = float(row["frame_ms"]), float(row["baseline_ms"])
     return samples
 
 
-def ratios_of(rows, samples):
-    """For each run, the sum of times over views over the sum of the baseline's."""
-    views = [samples.get(row["row"], []) for row in rows]
-    return [sum(v[run][0] for v in views) / sum(v[run][1] for v in views) for run in range(min(map(len, views)))]
+def baselines(folder, samples):
+    """{(scene, view, shard, process, round): three of the baseline's runs}, of points of the front and of controls.
+
+    Those beside three successive rows, from a place on that moves by three a round."""
+    runs = {}
+    for row in csv.DictReader(open(folder / "frontier.csv", newline="")):
+        if not row["series"] or row["series"].startswith("control"):
+            for block, (_, baseline) in samples.get(row["row"], {}).items():
+                runs.setdefault((row["scene"], row["view"], row["shard"], *block), []).append(baseline)
+    return {place: [times[(3 * (place[3] + place[4]) + k) % len(times)] for k in range(3)] for place, times in runs.items()}
+
+
+def log_times_of(rows, samples, base):
+    """{(shard, process, round): logs of the sum of times over views over sums of the baseline's, one a series}."""
+    views = [samples.get(row["row"], {}) for row in rows]
+    times = {}
+    for block in sorted(set(views[0]).intersection(*views)):
+        place = [base[row["scene"], row["view"], row["shard"], *block] for row in rows]
+        total = sum(v[block][0] for v in views)
+        times[rows[0]["shard"], *block] = [math.log(total / sum(of_series)) for of_series in zip(*place)]
+    return times
+
+
+@functools.lru_cache(None)
+def t_quantile(dof):
+    """97.5 % of Student's t, by Simpson's rule on the density and bisection."""
+    scale = math.gamma((dof + 1) / 2) / math.gamma(dof / 2) / math.sqrt(dof * math.pi)
+
+    def half(x, n=20000):
+        f = [(1 + (x * i / n) ** 2 / dof) ** (-(dof + 1) / 2) for i in range(n + 1)]
+        return scale * x / n / 3 * (f[0] + f[-1] + 4 * sum(f[1:-1:2]) + 2 * sum(f[2:-1:2]))
+
+    low, high = 0.0, 200.0
+    for _ in range(50):
+        middle = (low + high) / 2
+        low, high = (middle, high) if half(middle) < 0.475 else (low, middle)
+    return low
+
+
+def trimmed(values, share=10):
+    """Mean without a tenth at either end, how far each winsorized value moves it (times their number), degrees of freedom."""
+    n, cut, ordered = len(values), len(values) // share if share else 0, sorted(values)
+    kept = ordered[cut:n - cut]
+    winsorized = [min(max(v, kept[0]), kept[-1]) for v in values]
+    centre = statistics.fmean(winsorized)
+    return statistics.fmean(kept), [(w - centre) * n / len(kept) for w in winsorized], len(kept) - 1
+
+
+def middles(times):
+    """Each round over the middle one of the baseline's runs."""
+    return [statistics.median(value) for value in times.values()]
+
+
+def two_modes(values):
+    """None, or the two groups of values that a gap of 1.25 or more parts."""
+    ordered, n = sorted(values), len(values)
+    least = max(2, math.ceil(n / 10))
+    for i in range(least, n - least + 1):
+        below, above = ordered[:i], ordered[i:]
+        gap = above[0] - below[-1]
+        if gap >= math.log(1.25) and gap > below[-1] - below[0] and gap > above[-1] - above[0]:
+            return below, above
+    return None
+
+
+def level_of(times):
+    """Mean over the series, deviations of the units from it, degrees of freedom; units are rounds or, with several
+    processes, these."""
+    of_process = {}
+    for (shard, process, _), value in times.items():
+        of_process.setdefault((shard, process), []).append(value)
+    if len(of_process) < 2:
+        units, share = list(times.values()), 10
+    else:
+        units = [[trimmed(series)[0] for series in zip(*values)] for values in of_process.values()]
+        share = 10 if len(units) == len(times) else None
+    parts = [trimmed(series, share) for series in zip(*units)]
+    return statistics.fmean(p[0] for p in parts), [statistics.fmean(d) for d in zip(*(p[1] for p in parts))], parts[0][2]
+
+
+def relative_time(times, widen=0.0):
+    """Estimate, low, high."""
+    values = middles(times)
+    mean, deviations, dof = level_of(times)
+    below = above = t_quantile(dof) * statistics.stdev(deviations) / math.sqrt(len(deviations)) if dof > 0 else 0
+    if modes := two_modes(values):
+        mean = statistics.fmean(modes[len(modes[1]) > len(modes[0])])
+        below, above = mean - min(values), max(values) - mean
+    return math.exp(mean), math.exp(mean - below - widen), math.exp(mean + above + widen)
 
 
 def error_of(rows):
@@ -43,31 +133,6 @@ def error_of(rows):
     if "" in errors:
         return None
     return math.sqrt(sum(float(e) ** 2 for e in errors) / len(errors))
-
-
-@functools.lru_cache(None)
-def orders(m, n, u):
-    """Ways to interleave m and n values so that u pairs have the larger one among the m."""
-    if u < 0 or m < 0 or n < 0:
-        return 0
-    if m == 0 or n == 0:
-        return int(u == 0)
-    return orders(m - 1, n, u - n) + orders(m, n - 1, u)
-
-
-def mann_whitney(a, b):
-    m, n = len(a), len(b)
-    u = sum((x > y) + 0.5 * (x == y) for x in a for y in b)
-    pooled = a + b
-    ties = [pooled.count(value) for value in set(pooled)]
-    if m + n <= 20 and max(ties) == 1:
-        tail = sum(orders(m, n, k) for k in range(int(min(u, m * n - u)) + 1))
-        return min(1.0, 2 * tail / math.comb(m + n, m))
-    variance = m * n / 12 * (m + n + 1 - sum(t**3 - t for t in ties) / ((m + n) * (m + n - 1)))
-    if variance <= 0:
-        return 1.0
-    z = max(0.0, abs(u - m * n / 2) - 0.5) / math.sqrt(variance)
-    return math.erfc(z / math.sqrt(2))
 
 
 def median_interval(values):
@@ -123,27 +188,93 @@ def is_beaten(place, places):
     return any(q != place and q[0] <= place[0] and q[1] <= place[1] for q in places)
 
 
-def recompute(folder):
-    """{(scene, label, frames): (front, set of tied keys)}"""
-    samples = read_samples(folder)
-    ratios, places = {}, {}
-    for key, rows in read_points(folder).items():
-        ratios[key] = ratios_of(rows, samples)
-        error = error_of(rows)
-        if ratios[key] and error is not None and not any(int(row["nan_pixels"]) for row in rows):
-            places[key] = (statistics.median(ratios[key]), error)
+def widenings(folder, samples, base):
+    """By scene, the logarithm by which a control that did not pass widens intervals."""
+    places = {}
+    for row in csv.DictReader(open(folder / "frontier.csv", newline="")):
+        if row["series"].startswith("control"):
+            places.setdefault((row["scene"], row["series"]), []).append(row)
+    rounds = {}
+    for (scene, _), rows in places.items():
+        for block, value in log_times_of(rows, samples, base).items():
+            rounds.setdefault(scene, {}).setdefault(block, []).append(value)
     answer = {}
-    for key in ratios:
-        of_scene = [place for other, place in places.items() if other[0] == key[0]]
-        front = key in places and not is_beaten(places[key], of_scene)
-        tied = {
-            other
-            for other in ratios
-            if other != key and other[0] == key[0] and ratios[key] and ratios[other]
-            and mann_whitney(ratios[key], ratios[other]) >= 0.05
-        }
-        answer[key] = (front, tied)
+    for scene, of_scene in rounds.items():
+        count = len({series for name, series in places if name == scene})
+        series = {block: sum(of_places, []) for block, of_places in of_scene.items() if len(of_places) == count}
+        estimate, low, high = relative_time(series)
+        passed = low <= 1 <= high and abs(estimate - 1) <= 0.01
+        answer[scene] = 0 if passed else abs(math.log(estimate))
     return answer
+
+
+def recompute(folder):
+    """{(scene, label, frames): (front, (estimate, low, high) or None)}"""
+    samples = read_samples(folder)
+    base = baselines(folder, samples)
+    widen = widenings(folder, samples, base)
+    times, places = {}, {}
+    for key, rows in read_points(folder).items():
+        log_times = log_times_of(rows, samples, base)
+        times[key] = relative_time(log_times, widen.get(key[0], 0)) if log_times else None
+        error = error_of(rows)
+        if times[key] and error is not None and not any(int(row["nan_pixels"]) for row in rows):
+            places[key] = (times[key][0], error)
+    answer = {}
+    for key in times:
+        of_scene = [place for other, place in places.items() if other[0] == key[0]]
+        answer[key] = (key in places and not is_beaten(places[key], of_scene), times[key])
+    return answer
+
+
+def drawn_fronts(folder, count=2000):
+    """{key: share of draws in which the point is on the front}, of scenes without two modes and with one process."""
+    samples = read_samples(folder)
+    base, numbers = baselines(folder, samples), random.Random(1)
+    widen = widenings(folder, samples, base)
+    scenes = {}
+    for key, rows in read_points(folder).items():
+        log_times = log_times_of(rows, samples, base)
+        if error_of(rows) is not None and log_times and not any(int(row["nan_pixels"]) for row in rows):
+            scenes.setdefault(key[0], {})[key] = (log_times, error_of(rows))
+    shares = {}
+    for scene, points in scenes.items():
+        if widen.get(scene) or any(two_modes(middles(t)) or len({b[:2] for b in t}) > 1 for t, _ in points.values()):
+            continue
+        known = {}
+        for key, (log_times, error) in points.items():
+            mean, deviations, dof = level_of(log_times)
+            n = len(deviations)
+            weights = [d / math.sqrt(n * (n - 1)) if n > 1 else 0 for d in deviations]
+            known[key] = (mean, dof, list(log_times), weights, error)
+            shares[key] = 0
+        blocks = {block for _, _, of, _, _ in known.values() for block in of}
+        for _ in range(count):
+            normal = {block: numbers.gauss(0, 1) for block in blocks}
+            squares = [numbers.gauss(0, 1) ** 2 for _ in range(100)]
+            places = {}
+            for key, (mean, dof, of, weights, error) in known.items():
+                scale = math.sqrt(dof / sum(squares[:dof])) if dof > 0 else 0
+                places[key] = (mean + scale * sum(w * normal[b] for w, b in zip(weights, of)), error)
+            for key, place in places.items():
+                shares[key] += not is_beaten(place, places.values())
+    return {key: hits / count for key, hits in shares.items()}
+
+
+def different_probabilities(folder, stated):
+    """Shares of 2,000 draws, both: four deviations of their difference are 0.064."""
+    drawn = drawn_fronts(folder)
+    different = [key for key, share in drawn.items() if abs(share - stated[key]) > 0.064]
+    for key in different:
+        print(f"{key}: on the front with {stated[key]}, drawn {drawn[key]}")
+    print(f"{len(drawn)} probabilities of the front: {len(different)} differ")
+    return len(different)
+
+
+def agrees(stated, computed):
+    (front, times), (other_front, others) = stated, computed
+    return front == other_front and (times is None) == (others is None) and (
+        times is None or all(abs(a - b) <= 1e-6 * abs(b) for a, b in zip(times, others)))
 
 
 def main():
@@ -151,16 +282,20 @@ def main():
     answer = json.load(open(folder / "frontier.json"))
     points = answer["points"]
     keys = [(p["scene"], p["label"], p["frames"]) for p in points]
-    stated = {key: (p["front"], {keys[i] for i in p["tied_with"]}) for key, p in zip(keys, points)}
+    stated = {}
+    for key, p in zip(keys, points):
+        time = p["relative_time"]
+        stated[key] = p["front"], (time["estimate"], *time["ci95"]) if time["runs"] else None
     computed = recompute(folder)
     differences = 0
     for key in sorted(set(stated) | set(computed)):
-        if stated.get(key) != computed.get(key):
+        if key not in stated or key not in computed or not agrees(stated[key], computed[key]):
             differences += 1
             print(f"{', '.join(map(str, key))}: stated {stated.get(key)}, computed {computed.get(key)}")
     on_front = sum(front for front, _ in computed.values())
-    ties = sum(len(tied) for _, tied in computed.values()) // 2
-    print(f"{len(computed)} points, {on_front} on a front, {ties} ties: {differences} points differ")
+    print(f"{len(computed)} points, {on_front} on a front: {differences} points differ")
+    if set(stated) == set(computed):
+        differences += different_probabilities(folder, {key: p["front_probability"] for key, p in zip(keys, points)})
     if len(answer.get("machines", [])) < 2:  # those of other machines are scaled
         differences += different_break_evens(folder, answer["break_even"])
     return 1 if differences or not computed else 0

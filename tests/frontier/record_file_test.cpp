@@ -177,6 +177,7 @@ TEST(RecordFile, KeepsFiguresAndRoundsOfASceneThatIsBeingMeasured) {
     for (const int view : {0, 1}) {
       records.push_back(some_record(tile, view));
       records.back().frame_ms.clear(), records.back().baseline_ms.clear(), records.back().cull_ms.clear();
+      records.back().processes.clear();
     }
   }
   std::vector<std::string> keys;
@@ -192,8 +193,9 @@ TEST(RecordFile, KeepsFiguresAndRoundsOfASceneThatIsBeingMeasured) {
     EXPECT_TRUE(file.open_records().empty());
   }
   records[0].cull_ms = {0.3}, records[2].cull_ms = {0.1};
-  records[0].frame_ms = {1}, records[0].baseline_ms = {2};
-  records[1].frame_ms = {1.0 / 3}, records[1].baseline_ms = {4};
+  for (FrontierRecord& r : records) r.processes.clear();
+  records[0].frame_ms = {1}, records[0].baseline_ms = {2}, records[0].processes = {0};
+  records[1].frame_ms = {1.0 / 3}, records[1].baseline_ms = {4}, records[1].processes = {0};
   records[3].refused = "no memory";
   const std::string whole = part.text();
   const FrontierPart read = read_part(part.path, nullptr);
@@ -203,15 +205,36 @@ TEST(RecordFile, KeepsFiguresAndRoundsOfASceneThatIsBeingMeasured) {
 
   for (size_t size = whole.find('\n') + 1; size <= whole.size(); size += 97) {
     const std::string kept = whole.substr(0, size);
-    const auto lines = static_cast<size_t>(std::count(kept.begin(), kept.end(), '\n'));  // 1 + 4 + 1 + 1 + 1
+    const auto lines =
+        static_cast<size_t>(std::count(kept.begin(), kept.end(), '\n'));  // 1 + 4 + 1 + 1 + 1 + 1
     write_text(part.path, kept);
     const RecordFile file = part.open();
     EXPECT_TRUE(file.part().records.empty());
     EXPECT_EQ(file.open_records().size(), std::min<size_t>(lines - 1, 4)) << size;
     if (lines < 6) continue;
     EXPECT_EQ(file.open_records().at(keys[2]).cull_ms, std::vector{0.1});
-    EXPECT_EQ(file.open_records().at(keys[1]).frame_ms.size(), lines - 6) << size;
+    EXPECT_EQ(file.open_records().at(keys[1]).frame_ms.size(), lines < 8 ? 0 : 1) << size;
   }
+}
+
+// Each process that opens a part and takes times is another one; one that takes none is not counted.
+TEST(RecordFile, KnowsWhichProcessTookATime) {
+  PartFile part;
+  FrontierRecord record = some_record(8, 0);
+  record.frame_ms.clear(), record.baseline_ms.clear(), record.processes.clear();
+  const std::string key = record_key(record);
+  {
+    RecordFile file = part.open();
+    file.begin(record);
+    file.add_times({{key, 1, 2, ""}});
+    file.add_times({{key, 3, 4, ""}});
+  }
+  part.open();
+  RecordFile file = part.open();
+  file.add_times({{key, 5, 6, ""}});
+  file.complete({key});
+  EXPECT_EQ(file.part().records[0].processes, (std::vector{0, 0, 1}));
+  EXPECT_EQ(file.part().records[0].frame_ms, (std::vector{1.0, 3.0, 5.0}));
 }
 
 TEST(RecordFile, NamesTimesOfNoRecord) {

@@ -25,6 +25,7 @@ inline FrontierRecord some_record(int tile, int view) {
   r.radius_scale = 1.5;
   r.frame_ms = {1.25 + view, 1.0 / 3, 2.5};
   r.baseline_ms = {2.5, 2.0 / 3 + view, 5};
+  r.processes = {0, 0, 1};
   r.pass_ms = {{"cull_lights", 0.1}, {"shade_forward", 0.7}};
   r.bytes_moved = 18446744073709551615u;
   r.memory_bytes = 9007199254740993u;  // not a double
@@ -73,7 +74,10 @@ inline PointFigures some_point_figures(int tile) {
   p.views = 2;
   p.width = 160, p.height = 91;
   p.frame_ms = {2.5, 2.25, 3, 8};
-  p.ratio = {0.5, 0.25, 0.75, 8};
+  p.p95_ms = 4, p.p99_ms = 5;
+  p.relative_time = {.estimate = 0.5, .low = 0.25, .high = 0.75, .runs = 8, .processes = 2};
+  p.relative_time.between_processes = 0.125;
+  p.front_probability = 0.875;
   p.errors = some_record(tile, 0).errors;
   p.flip_views = 2, p.temporal_views = 1;
   p.pairs = {2000, 800, 4, 2};
@@ -103,9 +107,10 @@ inline FrontierAnswer some_answer() {
   answer.machines[1].shard = 2;
   answer.machines[1].cl_device = "another";
   answer.points = {some_point_figures(8), some_point_figures(16)};
-  answer.points[0].tied_with = {1};
-  answer.points[1].tied_with = {0};
-  answer.best_within = {{answer.points[0].point.scene, 1e-3, 0, {1}}};
+  answer.cheapest_within = {{answer.points[0].point.scene, 1e-3, 0, answer.points[0].relative_time, 0.5}};
+  answer.controls = {
+      {answer.points[0].point.scene, {.estimate = 1.0625, .low = 1, .high = 1.125, .runs = 8}, {1, 1.125}}};
+  answer.front_bands = {{answer.points[0].point.scene, {{1e-3, 0.25, 0.75}}}};
   answer.break_even = {{"hall", "exact", "sphere", 0.25, 1.5, 1000, 0.125, 0.5, 12}};
   answer.shading_costs = {{"hall", "forward_plus", "ggx", 0.75, 0.5, 1}};
   answer.growth = {{"hall", "forward_plus", "lights", 0.5, 0.25, 0.75, {{100, 1}, {400, 2}, {1600, 4}}}};

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -67,113 +66,6 @@ TEST(MedianInterval, HoldsTheMedianAsOftenAsItSays) {
     held += interval.low <= std::log(2.0) && std::log(2.0) <= interval.high;
   }
   EXPECT_NEAR(held / 20000.0, 1 - 2 * 79 / 4096.0, 0.0055);
-}
-
-// The number of pairs in which the first sample's value is larger; half of those that are equal.
-double pairs_above(const std::vector<double>& a, const std::vector<double>& b) {
-  double above = 0;
-  for (const double x : a) {
-    for (const double y : b) above += x > y ? 1 : x == y ? 0.5 : 0;
-  }
-  return above;
-}
-
-// U of every way to choose `m` of the values for the first sample.
-std::vector<double> all_u(const std::vector<double>& values, int m) {
-  std::vector<double> us;
-  for (uint32_t chosen = 0; chosen < 1u << values.size(); ++chosen) {
-    if (std::popcount(chosen) != m) continue;
-    std::vector<double> a, b;
-    for (size_t i = 0; i < values.size(); ++i) (chosen >> i & 1 ? a : b).push_back(values[i]);
-    us.push_back(pairs_above(a, b));
-  }
-  return us;
-}
-
-// Two-sided: the share of orders at least as far from the middle.
-double enumerated_p(const std::vector<double>& us, double u, double middle) {
-  const auto as_far = [&](double other) { return std::abs(other - middle) >= std::abs(u - middle); };
-  return static_cast<double>(std::count_if(us.begin(), us.end(), as_far)) / static_cast<double>(us.size());
-}
-
-struct TwoSamples {
-  std::vector<double> a, b;
-};
-
-// Without ties, so that `u` pairs have the larger value in a.
-TwoSamples samples_of_u(int m, int n, int u) {
-  TwoSamples samples;
-  for (int j = 1; j <= n; ++j) samples.b.push_back(j);
-  for (int i = 0; i < m; ++i) {
-    const int above = std::min(u, n);
-    u -= above;
-    samples.a.push_back(above + 0.5 - 0.01 * i);
-  }
-  return samples;
-}
-
-TEST(MannWhitney, IsExactForSmallSamples) {
-  for (const auto& [m, n] : {std::pair{1, 1}, {1, 6}, {2, 3}, {3, 3}, {4, 4}, {5, 7}, {6, 6}}) {
-    const std::vector<double> us = all_u(one_to(m + n), m);
-    for (int u = 0; u <= m * n; ++u) {
-      const TwoSamples samples = samples_of_u(m, n, u);
-      ASSERT_EQ(pairs_above(samples.a, samples.b), u);
-      const double p = mann_whitney_p(samples.a, samples.b);
-      EXPECT_NEAR(p, enumerated_p(us, u, 0.5 * m * n), 1e-12) << m << " " << n << " " << u;
-      EXPECT_EQ(p, mann_whitney_p(samples.b, samples.a));
-    }
-  }
-}
-
-// The largest U that differs at 0.05, two-sided, as in the published tables (Mann and Whitney 1947,
-// extended).
-TEST(MannWhitney, HasThePublishedCriticalValues) {
-  const int tabulated[][3] = {{4, 4, 0},  {3, 5, 0},  {5, 5, 2},  {6, 6, 5},    {7, 9, 12},
-                              {8, 8, 13}, {9, 9, 17}, {5, 10, 8}, {10, 10, 23}, {8, 12, 22}};
-  for (const auto& [m, n, critical] : tabulated) {
-    const TwoSamples differ = samples_of_u(m, n, critical), similar = samples_of_u(m, n, critical + 1);
-    EXPECT_LE(mann_whitney_p(differ.a, differ.b), 0.05) << m << " " << n;
-    EXPECT_GT(mann_whitney_p(similar.a, similar.b), 0.05) << m << " " << n;
-  }
-}
-
-// 21 samples are the first that are approximated: always the same decision at 0.05. The approximation is
-// worst in the middle of the distribution, by 0.0082.
-TEST(MannWhitney, IsNearlyExactForLargerSamples) {
-  const std::vector<double> us = all_u(one_to(21), 10);
-  for (int u = 0; u <= 110; ++u) {
-    const TwoSamples samples = samples_of_u(10, 11, u);
-    const double p = mann_whitney_p(samples.a, samples.b), exact = enumerated_p(us, u, 55);
-    EXPECT_NEAR(p, exact, 0.01) << u;
-    EXPECT_EQ(p <= 0.05, exact <= 0.05) << u;
-  }
-}
-
-// The variance of U over all ways to share tied values out.
-TEST(MannWhitney, CorrectsForTies) {
-  const std::vector<std::pair<std::vector<double>, std::vector<double>>> tied = {
-      {{1, 1, 2, 2, 3}, {2, 3, 3, 4, 4, 4}},
-      {{1, 2, 2, 2}, {2, 2, 2, 5, 5}},
-      {{7, 7, 7, 9}, {7, 8, 8, 8, 8}}};
-  for (const auto& [a, b] : tied) {
-    std::vector<double> values = a;
-    values.insert(values.end(), b.begin(), b.end());
-    const std::vector<double> us = all_u(values, static_cast<int>(a.size()));
-    const double count = static_cast<double>(us.size());
-    const double mean = std::accumulate(us.begin(), us.end(), 0.0) / count;
-    double variance = 0;
-    for (const double u : us) variance += (u - mean) * (u - mean) / count;
-    const double deviation = std::max(0.0, std::abs(pairs_above(a, b) - mean) - 0.5);
-    EXPECT_NEAR(mann_whitney_p(a, b), std::erfc(deviation / std::sqrt(2 * variance)), 1e-12);
-  }
-}
-
-TEST(MannWhitney, IsOneWhereNothingCanDiffer) {
-  const double one[] = {1}, same[] = {4, 4, 4, 4}, nothing[] = {not_a_number};
-  EXPECT_EQ(mann_whitney_p({}, {}), 1);
-  EXPECT_EQ(mann_whitney_p(one, {}), 1);
-  EXPECT_EQ(mann_whitney_p(one, nothing), 1);
-  EXPECT_EQ(mann_whitney_p(same, same), 1);
 }
 
 // By definition, point by point.

@@ -13,9 +13,9 @@ function threeDigits(value) {
 
 const percentText = (percent) => `${threeDigits(percent)} %`;
 
-// Below six runs there is no interval: the range of the runs, with their number.
-const intervalInWords = ({ median, ci95: [low, high], runs }, unit) =>
-  `${threeDigits(median)}${unit} (${runs === 1 ? "one run, no interval" : `${threeDigits(low)} to ${threeDigits(high)}${runs < 6 ? `, ${runs} runs` : ""}`})`;
+// Below six runs a median has no interval: the range of the runs, with their number.
+const intervalInWords = ({ median, estimate, ci95: [low, high], runs }, unit) =>
+  `${threeDigits(median ?? estimate)}${unit} (${runs === 1 ? "one run, no interval" : `${threeDigits(low)} to ${threeDigits(high)}${runs < 6 && median !== undefined ? `, ${runs} runs` : ""}`})`;
 
 // What an axis can show: value(point) is a number, or null where the point has none.
 const errorQuantity = ([kind, kindTitle], [measure, title]) => ({ key: `${kind}.${measure}`, title: `${title}, ${kindTitle}`, short: title,
@@ -25,8 +25,10 @@ const ERRORS = [...ERROR_KINDS.flatMap((kind) => ERROR_MEASURES.map((measure) =>
   ...["Leaked", "Acned"].map((title) => ({ key: title.toLowerCase(), title: `${title} pairs, %`, short: title,
     value: (point) => point[`${title.toLowerCase()}_percent`] ?? null, text: percentText }))];
 const COSTS = [
-  { key: "ratio", title: "Time, over the baseline's", value: (point) => point.ratio.median, text: threeDigits, time: true },
+  { key: "relative", title: "Time, over the baseline's", value: (point) => point.relative_time.estimate, text: threeDigits, time: true },
   { key: "ms", title: "Time, ms a frame", value: (point) => point.frame_ms.median, text: threeDigits, time: true },
+  { key: "p95", title: "Time that 95 % of frames are within, ms", value: (point) => point.frame_ms_within.p95, text: threeDigits, time: true },
+  { key: "p99", title: "Time that 99 % of frames are within, ms", value: (point) => point.frame_ms_within.p99, text: threeDigits, time: true },
   { key: "moved", title: "Bytes moved a frame", value: (point) => point.bytes_moved, text: byteNumber },
   { key: "listed", title: "Listed pairs a view", value: ({ pairs, views }) => pairs.listed / views, text: shortCount },
   { key: "memory", title: "Memory", value: (point) => point.memory_bytes, text: byteNumber },
@@ -35,9 +37,10 @@ const QUANTITIES = [...COSTS, ...ERRORS];
 const quantity = (key) => QUANTITIES.find((q) => q.key === key);
 const TOTAL = quantity("total.rmse_rel");
 
-// Points whose time does not differ from this one's and whose error is no larger: it is not ranked before or after them.
-const tiedNoWorse = (point) => point.tied_with.map((index) => page.points[index])
-  .filter((other) => other.nan_pixels === 0 && TOTAL.value(other) !== null && TOTAL.value(other) <= TOTAL.value(point));
+const probabilityText = (p) => (p > 0.995 ? "more than 99 %" : p < 0.005 ? "less than 1 %" : `${Math.round(100 * p)} %`);
+
+// Runs that fall into two groups: "two modes: 0.9 and 1.8 (30 % of runs)".
+const modesInWords = ({ modes, slow_share: share }) => (modes.length ? `two modes: ${threeDigits(modes[0])} and ${threeDigits(modes[1])} (${Math.round(100 * share)} % of runs)` : "");
 
 // True for points that no other beats or equals in both while beating it in one. On the default axes, with no technique hidden,
 // these are the points with `front`.

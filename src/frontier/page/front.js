@@ -7,13 +7,26 @@ const REACH = 30;       // pixels from which the pointer takes a point
 function tipOf(point, x, y) {
   const lines = [make("p", {}, make("strong", {}, nameElement(point.label)))];
   const add = (text) => lines.push(make("p", {}, text));
-  if (point.ratio.runs > 0) add(`${intervalInWords(point.ratio, "")} times ${page.baseline}, ${intervalInWords(point.frame_ms, " ms")}`);
+  if (point.relative_time.runs > 0) add(`${intervalInWords(point.relative_time, "")} times ${page.baseline}, ${intervalInWords(point.frame_ms, " ms")}`);
   for (const q of new Set([TOTAL, y, x])) if (!q.time) add(`${q.title}: ${q.value(point) === null ? "unknown" : q.text(q.value(point))}`);
   const settings = Object.entries(point.settings).map(([key, value]) => `${key} ${value}`).join(", ");
   if (settings) lines.push(make("p", { class: "quiet" }, settings));
-  const tied = tiedNoWorse(point);
-  if (tied.length) add(`~ ${tied.slice(0, 3).map((other) => other.label).join(", ")}${tied.length > 3 ? ` and ${tied.length - 3} more` : ""}`);
+  if (point.relative_time.modes.length) add(modesInWords(point.relative_time));
+  if (x.key === "relative" && y === TOTAL) add(`On the front with a probability of ${probabilityText(point.front_probability)}`);
   return lines;
+}
+
+// Where the front is with a probability of 95 % at each error: between two step lines, from the smallest error up.
+function bandElement(scene, xAxis, yAxis, area) {
+  const steps = page.front_bands.find((band) => band.scene === scene)?.steps ?? [];
+  const within = (place, a, b) => Math.min(Math.max(place, Math.min(a, b)), Math.max(a, b));
+  const edge = (end) => steps.flatMap(({ error, ci95 }, i) => {
+    const at = within(xAxis.at(ci95[end]), area.left, area.right), y = within(yAxis.at(error), area.top, area.bottom);
+    const next = i + 1 < steps.length ? within(yAxis.at(steps[i + 1].error), area.top, area.bottom) : area.top;
+    return [[at, y], [at, next]];
+  });
+  const outline = [...edge(0), ...edge(1).reverse()];
+  return polyline(outline, { class: "band" });
 }
 
 // state: { points, x, y, hidden: set of techniques, selected: point }; choose(point) is called at a click. Returns a function that
@@ -27,7 +40,6 @@ function startFront(container, state, choose) {
     hovered = entry;
     for (const { element, point } of shown) {
       element.classList.toggle("hovered", entry !== null && point === entry.point);
-      element.classList.toggle("tied", entry !== null && entry.point.tied_with.includes(page.points.indexOf(point)));
     }
     tip.hidden = entry === null;
     if (entry === null) return;
@@ -78,7 +90,7 @@ function startFront(container, state, choose) {
     shown = placed.map((point, i) => ({ point, onFront: onFront[i], at: [xAxis.at(x.value(point)), yAxis.at(y.value(point))] }));
     const front = shown.filter((entry) => entry.onFront).sort((a, b) => a.at[0] - b.at[0]);
     const steps = front.flatMap(({ at }, i) => (i ? [[at[0], front[i - 1].at[1]], at] : [at]));
-    const ofTies = x.time && y === TOTAL ? front.filter(({ point }) => tiedNoWorse(point).length > 0) : [];
+    const banded = x.key === "relative" && y === TOTAL && state.hidden.size === 0;
     for (const entry of shown) {
       entry.element = markerElement(entry.point.technique, { class: `point${entry.onFront ? " on-front" : ""}${entry.point === state.selected ? " selected" : ""}`,
         ...moveTo(...entry.at), "data-label": entry.point.label,
@@ -87,8 +99,8 @@ function startFront(container, state, choose) {
     const inFront = [...shown].sort((a, b) => a.onFront - b.onFront);
     const names = page.techniques.filter((technique) => placed.some((point) => point.technique === technique));
     const svg = drawing(width, height, `${y.title} against ${x.title}`, ...acrossAxis(xAxis, x.title, area), ...alongAxis(yAxis, y.title, area),
-      polyline(steps, { class: "step" }), ...inFront.map(({ element }) => element),
-      ...ofTies.map(({ at }) => make("text", { class: "tie", x: at[0] + 8, y: at[1] - 6 }, "~")),
+      ...(banded ? [bandElement(state.scene, xAxis, yAxis, area)] : []), polyline(steps, { class: "step" }), ...inFront.map(({ element }) => element),
+      ...shown.filter(({ point }) => x.time && point.relative_time.modes.length).map(({ at }) => make("text", { class: "modes", x: at[0] + 7, y: at[1] - 5 }, "2")),
       make("g", { class: "only-file" }, ...markedNames(names.map((technique) => ({ technique, text: technique })), left, height + 12, 3, width - left)));
     svg.dataset.fileHeight = height + 20 * Math.ceil(names.length / 3) + 10;
     container.replaceChildren(svg, tip);

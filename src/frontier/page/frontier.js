@@ -1,6 +1,6 @@
 // Fills the page from the answer, embedded above.
 
-const state = { scene: page.scenes[0]?.key, points: [], x: quantity("ratio"), y: TOTAL, hidden: new Set(), selected: null };
+const state = { scene: page.scenes[0]?.key, points: [], x: quantity("relative"), y: TOTAL, hidden: new Set(), selected: null };
 let drawFront = null;
 
 const sceneTitle = (key) => page.scenes.find((scene) => scene.key === key).title;
@@ -29,17 +29,17 @@ function pointButton(point, text) {
 
 function withinCell(best) {
   if (!best) return make("td", { class: "quiet" }, "\u2013");
-  const point = page.points[best.point], tied = best.tied.map((index) => page.points[index].label);
+  const point = page.points[best.point];
   return make("td", {}, make("div", {}, pointButton(point, nameElement(point.label))),
-    make("div", { class: "note" }, `${intervalInWords(point.ratio, "\u00d7")}, ${milliseconds(point.frame_ms.median)}`),
-    ...(tied.length ? [make("div", { class: "note", title: tied.join(", ") }, `~ ${tied.length > 1 ? `${tied.length} others` : tied[0]}`)] : []));
+    make("div", { class: "note" }, `${intervalInWords(best.relative_time, "\u00d7")}, ${milliseconds(point.frame_ms.median)}`),
+    make("div", { class: "note" }, `the cheapest with a probability of ${probabilityText(best.probability)}`));
 }
 
 function showBestWithin() {
-  const errors = [...new Set(page.best_within.map((best) => best.error))].sort((a, b) => b - a);
+  const errors = [...new Set(page.cheapest_within.map((best) => best.error))].sort((a, b) => b - a);
   const head = page.scenes.map((scene) => make("th", { scope: "col" }, scene.title));
   const lines = errors.map((error) => make("tr", {}, make("th", { scope: "row" }, percent(error)),
-    ...page.scenes.map((scene) => withinCell(page.best_within.find((best) => best.scene === scene.key && best.error === error)))));
+    ...page.scenes.map((scene) => withinCell(page.cheapest_within.find((best) => best.scene === scene.key && best.error === error)))));
   byId("within").replaceChildren(make("thead", {}, make("tr", {}, make("td", {}, "RMSE"), ...head)), make("tbody", {}, ...lines));
   byId("within").closest("section").hidden = errors.length === 0;
 }
@@ -60,12 +60,19 @@ function showFailures() {
     make("li", {}, make("strong", {}, failure.label), ` in ${sceneTitle(failure.scene)}: ${failure.why}`)));
 }
 
+const inProcess = (p) => [`${p.rounds} rounds`, p.clock_mhz && `${wholeNumber(Math.round(p.clock_mhz[0]))} to ${wholeNumber(Math.round(p.clock_mhz[1]))} MHz`,
+  p.temperature_c !== null && `at most ${threeDigits(p.temperature_c)} \u00b0C`, p.power_w && `${threeDigits(p.power_w[0])} to ${threeDigits(p.power_w[1])} W`,
+  p.others_percent !== null && `others at most ${percentText(p.others_percent)} of the processors`, p.steal_percent > 0 && `${percentText(p.steal_percent)} stolen`,
+  p.shared_rounds > 0 && `shared in ${p.shared_rounds}`, p.throttled_rounds > 0 && `throttled in ${p.throttled_rounds}`].filter(Boolean).join(" \u00b7 ");
+
 function showMachines() {
+  const several = page.machines.length > 1;
+  const processes = page.processes.flatMap((p) => [make("dt", {}, `${several ? `Part ${p.shard}, ` : ""}Process ${p.process}`), make("dd", {}, inProcess(p))]);
   byId("errors").replaceChildren(...page.machines.flatMap((machine) => [
     make("dt", {}, page.machines.length > 1 ? `Part ${machine.shard}` : "This machine"),
     make("dd", {}, [machine.cpu, machine.clock_mhz > 0 && `${wholeNumber(Math.round(machine.clock_mhz))} MHz`, `governor ${machine.governor}`,
       `${machine.threads} threads`, `load ${machine.load_at_start} at the start, ${machine.load_at_end} at the end`,
-      `OpenCL: ${machine.cl_device}, ${machine.cl_driver}`, `OpenGL: ${machine.gl_device}, ${machine.gl_driver}`].filter(Boolean).join(" \u00b7 "))]));
+      `OpenCL: ${machine.cl_device}, ${machine.cl_driver}`, `OpenGL: ${machine.gl_device}, ${machine.gl_driver}`].filter(Boolean).join(" \u00b7 "))]), ...processes);
 }
 
 function pictureFigure(number, caption) {
@@ -94,13 +101,15 @@ function errorTable(point) {
 function choosePoint(point) {
   state.selected = point;
   const images = (point?.pictures ?? []).map((number, i) => [number, PICTURE_CAPTIONS[i]]).filter(([number]) => number >= 0);
-  const tied = (point?.tied_with ?? []).map((index) => page.points[index].label), error = point?.error, sampled = error?.in_double;
-  const timed = point?.ratio.runs > 0;
-  const summary = point && [timed && `${intervalInWords(point.ratio, "")} times ${page.baseline}`, timed && `${intervalInWords(point.frame_ms, " ms")} a frame`,
+  const error = point?.error, sampled = error?.in_double;
+  const timed = point?.relative_time.runs > 0;
+  const summary = point && [timed && `${intervalInWords(point.relative_time, "")} times ${page.baseline}`, timed && `${intervalInWords(point.frame_ms, " ms")} a frame`,
+    timed && `95 % of frames within ${threeDigits(point.frame_ms_within.p95)} ms, 99 % within ${threeDigits(point.frame_ms_within.p99)} ms`,
+    timed && modesInWords(point.relative_time), timed && point.relative_time.between_processes !== null && `${percentText(100 * point.relative_time.between_processes)} between ${point.relative_time.processes} processes`,
     `${point.views} view${point.views === 1 ? "" : "s"}`, point.pairs.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
     quantity("leaked").value(point) !== null && `${percentText(point.leaked_percent)} of ${wholeNumber(point.pairs.shadow_pairs)} pairs leaked, ${percentText(point.acned_percent)} acned`,
     point.nan_pixels > 0 && `${wholeNumber(point.nan_pixels)} NaN pixels`,
-    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, point.front && "on the front"];
+    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, timed && `on the front with a probability of ${probabilityText(point.front_probability)}`];
   byId("chosen").replaceChildren(...(point ? [make("article", { class: "technique" }, make("h3", {}, nameElement(point.label)),
     make("p", { class: "summary quiet" }, summary.filter(Boolean).join(" \u00b7 ")),
     ...(images.length ? [make("div", { class: "pictures" }, ...images.map(([number, caption]) => pictureFigure(number, caption)))] : [make("p", { class: "quiet" }, "No pictures of this point were kept.")]),
@@ -110,7 +119,6 @@ function choosePoint(point) {
     ...(error.flip_views > 0 && error.flip_views < point.views ? [make("p", {}, `FLIP on ${error.flip_views} of ${point.views} views, flicker on ${error.temporal_views}.`)] : []),
     ...(error.deviation_rmse_rel !== null ? [make("p", {}, `Of random ranges: bias ${errorNumber(error.bias_rmse_rel ?? 0)}, standard deviation of a frame ${errorNumber(error.deviation_rmse_rel)} (RMSE over the brightest channel).`)] : []),
     ...(error.temporal_rmse_rel !== null ? [make("p", {}, `Flicker: from frame to frame of a slow turn its difference from the truth changes by ${errorNumber(error.temporal_rmse_rel)} (RMSE over the brightest channel).`)] : []),
-    ...(tied.length ? [make("details", {}, make("summary", {}, `~ ${tied.length} point${tied.length === 1 ? "" : "s"} whose time does not differ`), make("p", {}, tied.join(", ")))] : []),
     make("details", {}, make("summary", {}, "Settings"), ...Object.entries(point.settings).map(([key, value]) => make("div", {}, make("code", {}, `${key} = ${value}`)))))] : []));
   redraw();
 }
@@ -118,7 +126,7 @@ function choosePoint(point) {
 const column = (title, key) => ({ title, value: quantity(key).value, text: quantity(key).text });
 const FIGURE_COLUMNS = [
   { title: "Point", value: (point) => point.label, text: (label) => pointButton(state.points.find((point) => point.label === label), nameElement(label)) },
-  column("Time, over the baseline's", "ratio"), column("Frame, ms", "ms"), column("RMSE", "total.rmse_rel"), column("Largest error", "total.max_rel"),
+  column("Time, over the baseline's", "relative"), column("Frame, ms", "ms"), column("RMSE", "total.rmse_rel"), column("Largest error", "total.max_rel"),
   column("FLIP, mean", "total.flip_mean"), column("Model", "model.rmse_rel"), column("Precision", "precision.rmse_rel"),
   column("Technique", "technique.rmse_rel"),
   { title: "Lost pairs", value: (point) => point.pairs.lost, text: wholeNumber, gate: true },
@@ -157,7 +165,7 @@ function chooseScene(key) {
   byId("notes").replaceChildren(...notes.map((line) => make("li", {}, line)));
   state.points = page.points.filter((point) => point.scene === key);
   showTechniques();
-  const frontTag = (point) => (point.front ? (tiedNoWorse(point).length ? "front ~" : "front") : "");
+  const frontTag = (point) => (point.front ? `front ${probabilityText(point.front_probability)}` : "");
   showTable(byId("figures-table"), FIGURE_COLUMNS, state.points, frontTag);
   showCosts(key);
   byId("save-front").replaceChildren(saveButton(byId("front"), `front-${sceneTitle(key)}`));

@@ -1,0 +1,154 @@
+// Controls, relative times, the front of each scene with its probabilities, and the cheapest within an error.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "frontier/answer_steps.h"
+#include "frontier/round_baselines.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr double most_off = 0.01;  // of a control
+constexpr int draws_of_a_scene = 2000;
+constexpr double unranked = std::numeric_limits<double>::quiet_NaN();
+
+// What fronts hold against the time; NaN: not on a front.
+double error_on_front(const PointFigures& p) {
+  const bool ranked = p.nan_pixels == 0 && !p.log_times.empty() && std::isfinite(p.errors.total.rmse_rel);
+  return ranked ? p.errors.total.rmse_rel : unranked;
+}
+
+// Points of a scene, with draws of their times.
+struct SceneTimes {
+  std::vector<int> indices;
+  std::vector<double> errors;
+  std::vector<std::vector<double>> draws;
+};
+
+std::map<std::string, SceneTimes> drawn_scenes(const std::vector<PointFigures>& points,
+                                               const std::vector<Control>& controls) {
+  std::map<std::string, SceneTimes> scenes;
+  std::map<std::string, std::vector<LogTimes>> times;
+  for (size_t i = 0; i < points.size(); ++i) {
+    SceneTimes& scene = scenes[points[i].point.scene];
+    scene.indices.push_back(int(i));
+    scene.errors.push_back(error_on_front(points[i]));
+    times[points[i].point.scene].push_back(points[i].log_times);
+  }
+  for (auto& [name, scene] : scenes) {
+    const auto control = std::ranges::find(controls, name, &Control::scene);
+    const double widening = control == controls.end() ? 0 : control->widening();
+    scene.draws = drawn_log_times(times[name], widening, draws_of_a_scene, 1);
+  }
+  return scenes;
+}
+
+// Of the points within `error`, the one of least `time_of`; -1 without one.
+template <typename TimeOf>
+int cheapest(const SceneTimes& scene, double error, const TimeOf& time_of) {
+  int best = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < scene.indices.size(); ++i) {
+    if (!(scene.errors[i] <= error)) continue;
+    const double time = time_of(i);
+    if (time < least) best = int(i), least = time;
+  }
+  return best;
+}
+
+}  // namespace
+
+bool Control::passed() const {
+  return relative_time.low <= 1 && relative_time.high >= 1 &&
+         std::abs(relative_time.estimate - 1) <= most_off;
+}
+
+double Control::widening() const { return passed() ? 0 : std::abs(std::log(relative_time.estimate)); }
+
+std::vector<Control> controls_of(Records records) {
+  const Group timed = accepted(records, [](const FrontierRecord& r) {
+    return is_control(r) && r.refused.empty() && !r.frame_ms.empty();
+  });
+  const RoundBaselines baselines(records);
+  std::vector<Control> controls;
+  for (const Group& of_scene : grouped(timed, [](const FrontierRecord& r) { return r.point.scene; })) {
+    Control control{of_scene.front()->point.scene};
+    std::map<std::string, Group> places;
+    for (const FrontierRecord* r : of_scene) places[r->series].push_back(r);
+    LogTimes all;  // series of each place: a mean over places would be less skewed than a run of the baseline
+    for (const auto& [series, views] : places) {
+      const LogTimes times = baselines.log_times(views);
+      if (times.empty()) continue;
+      control.places.push_back(relative_time(times).estimate);
+      for (const auto& [block, ratios] : times)
+        all[block].insert(all[block].end(), ratios.begin(), ratios.end());
+    }
+    std::erase_if(all, [&](const auto& entry) {
+      return entry.second.size() != control.places.size() * baseline_runs;  // not in each place
+    });
+    control.relative_time = relative_time(all);
+    if (!all.empty()) controls.push_back(control);
+  }
+  return controls;
+}
+
+void set_relative_times(std::vector<PointFigures>& points, const std::vector<Control>& controls) {
+  for (PointFigures& p : points) {
+    const auto control = std::ranges::find(controls, p.point.scene, &Control::scene);
+    p.relative_time = relative_time(p.log_times, control == controls.end() ? 0 : control->widening());
+  }
+}
+
+void rank_points(std::vector<PointFigures>& points, const std::vector<Control>& controls) {
+  for (const auto& [name, scene] : drawn_scenes(points, controls)) {
+    std::vector<std::pair<double, double>> places;
+    for (size_t i = 0; i < scene.indices.size(); ++i)
+      places.emplace_back(points[size_t(scene.indices[i])].relative_time.estimate, scene.errors[i]);
+    const std::vector<bool> front = pareto_front(places);
+    const std::vector<double> probabilities = front_probabilities(scene.draws, scene.errors);
+    for (size_t i = 0; i < scene.indices.size(); ++i) {
+      PointFigures& p = points[size_t(scene.indices[i])];
+      p.front = front[i], p.front_probability = probabilities[i];
+    }
+  }
+}
+
+std::vector<FrontBand> front_bands_of(const std::vector<PointFigures>& points,
+                                      const std::vector<Control>& controls) {
+  const auto scenes = drawn_scenes(points, controls);
+  std::vector<FrontBand> bands;
+  for (const std::string& name : distinct(points, [](const PointFigures& p) { return p.point.scene; }))
+    bands.push_back({name, front_band(scenes.at(name).draws, scenes.at(name).errors)});
+  return bands;
+}
+
+std::vector<CheapestWithin> cheapest_within_of(const std::vector<PointFigures>& points,
+                                               const std::vector<Control>& controls) {
+  const auto scenes = drawn_scenes(points, controls);
+  std::vector<CheapestWithin> all;
+  for (const std::string& name : distinct(points, [](const PointFigures& p) { return p.point.scene; })) {
+    const SceneTimes& scene = scenes.at(name);
+    const auto control = std::ranges::find(controls, name, &Control::scene);
+    const double widening = control == controls.end() ? 0 : control->widening();
+    const auto times_of = [&](size_t i, int parity) {
+      const LogTimes& times = points[size_t(scene.indices[i])].log_times;
+      const LogTimes half = half_of(times, parity);
+      return half.empty() ? times : half;
+    };
+    for (const double error : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1}) {
+      const int best =
+          cheapest(scene, error, [&](size_t i) { return relative_time(times_of(i, 0)).estimate; });
+      if (best < 0) continue;
+      CheapestWithin within{name, error, scene.indices[size_t(best)]};
+      within.relative_time = relative_time(times_of(size_t(best), 1), widening);
+      for (const std::vector<double>& draw : scene.draws)
+        within.probability += cheapest(scene, error, [&](size_t i) { return draw[i]; }) == best;
+      within.probability /= double(scene.draws.size());
+      all.push_back(within);
+    }
+  }
+  return all;
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,31 @@
+// The baseline's time in each round of a sweep, and points' times over it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "frontier/answer_steps.h"
+
+namespace lightgrid {
+
+class RoundBaselines {
+ public:
+  // Of records of the front and of controls.
+  explicit RoundBaselines(Records records);
+
+  // Of a point, whose views these are: for each round that all of them have, the logarithms of the sum of the
+  // views' times over sums of the baseline's, of one run a view each. A round has a baseline run for each two
+  // points; those that count are the same for all points, so that they cancel between two of them, are chosen
+  // by their places among the records, whatever their times are, and are others in the next round. One that
+  // two points share may count twice, as do some where a round has fewer than three.
+  LogTimes log_times(const Group& views) const;
+
+ private:
+  using Place = std::tuple<std::string, int, TimeBlock>;  // scene, view
+  double ms_of(const Place& place, size_t series) const;
+  std::map<Place, std::vector<double>> runs_;  // one a record, in their order
+};
+
+}  // namespace lightgrid
