@@ -1,5 +1,5 @@
-// The samples of a tile that are shaded, of images that store a surface a sample: a pixel of one surface counts once,
-// at its centre, where the mean of its depths is; of others every sample counts.
+// The samples of a tile that are shaded, of images that store a surface a sample: a pixel of one surface
+// counts once, at its centre, where the mean of its depths is; of others every sample counts.
 //
 // -DSAMPLES, -DSAMPLE_PLACES  kernels/common/sample_places.h
 #pragma once

@@ -20,7 +20,8 @@ struct CopiedPixel {
 constexpr CopiedPixel copied_pixels[] = {
     {GL_DEPTH_COMPONENT, GL_FLOAT, "FLOAT_1", 4}, {GL_RGBA, GL_FLOAT, "FLOAT_4", 16},
     {GL_RGBA, GL_UNSIGNED_BYTE, "UNORM8_4", 4},   {GL_RG, GL_UNSIGNED_SHORT, "UNORM16_2", 4},
-    {GL_RGBA, GL_UNSIGNED_SHORT, "UNORM16_4", 8},
+    {GL_RGBA, GL_UNSIGNED_SHORT, "UNORM16_4", 8}, {GL_RED_INTEGER, GL_UNSIGNED_BYTE, "UINT8_1", 1},
+    {GL_RED_INTEGER, GL_UNSIGNED_SHORT, "UINT16_1", 2},
 };
 
 // A variant of shaders/buffer_to_image.comp. The image is bound as integers of the same channels and bits, so

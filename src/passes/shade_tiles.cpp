@@ -86,8 +86,8 @@ GBufferInCl gbuffer_to_cl(Work& work, const GBuffer& gbuffer) {
                     *in_cl.surfaces[i]);
   }
   if (base_lighting)
-    work.renderer.pixel_copies.to_buffer({base.framebuffer, GL_COLOR_ATTACHMENT0, image_texture(work)}, GL_RGBA,
-                                         GL_FLOAT, pixels_of(work), in_cl.image->gl_buffer());
+    work.renderer.pixel_copies.to_buffer({base.framebuffer, GL_COLOR_ATTACHMENT0, image_texture(work)},
+                                         GL_RGBA, GL_FLOAT, pixels_of(work), in_cl.image->gl_buffer());
   SharedBuffer::hand_to_cl(copies);
   const size_t bytes = values * (gbuffer.bytes() - gbuffer.group_bytes + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);

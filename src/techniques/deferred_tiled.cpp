@@ -11,10 +11,16 @@ extern const Technique deferred_tiled{
     .name = "deferred_tiled",
     .summary = "a geometry buffer, lit in OpenCL from per-tile light lists",
     .source = "Lauritzen: Deferred Rendering for Current and Future Rendering Pipelines, SIGGRAPH 2010",
-    .needs = {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true, .group_tiles = true,
-              .most_samples = 8, .adapt = store_samples_in_opengl},
+    .needs = {.light_grid = true,
+              .lists = true,
+              .z_bins = true,
+              .chosen_raster = true,
+              .group_tiles = true,
+              .most_samples = 8,
+              .adapt = store_samples_in_opengl},
     .settings = {"brdf", "buffer-bits", "group-ids", "group-tiles", "cull-test", "depth-bounds", "tile",
-                 "slice-spacing", "z-bins", "raster", "samples", "samples-shading", "texels", "kernel-shape", "portable", "group-size"},
+                 "slice-spacing", "z-bins", "raster", "samples", "samples-shading", "texels", "kernel-shape",
+                 "portable", "group-size"},
     .render = render};
 
 }  // namespace lightgrid

@@ -10,10 +10,16 @@ extern const Technique forward_plus_compute{
     .name = "forward_plus_compute",
     .summary = "per-tile light lists, shaded in OpenCL",
     .source = "Harada, McKee, Yang: Forward+, Eurographics 2012; the loop as in Lauritzen, SIGGRAPH 2010",
-    .needs = {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true, .group_tiles = true,
-              .most_samples = 8, .adapt = store_samples_in_opengl},
+    .needs = {.light_grid = true,
+              .lists = true,
+              .z_bins = true,
+              .chosen_raster = true,
+              .group_tiles = true,
+              .most_samples = 8,
+              .adapt = store_samples_in_opengl},
     .settings = {"brdf", "buffer-bits", "group-ids", "group-tiles", "cull-test", "depth-bounds", "tile",
-                 "slice-spacing", "z-bins", "raster", "samples", "samples-shading", "texels", "kernel-shape", "portable", "group-size"},
+                 "slice-spacing", "z-bins", "raster", "samples", "samples-shading", "texels", "kernel-shape",
+                 "portable", "group-size"},
     .render = render};
 
 }  // namespace lightgrid

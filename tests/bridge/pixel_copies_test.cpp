@@ -26,6 +26,8 @@ constexpr Pixels read_pixels[] = {
     {"4 x 8 bits", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
     {"2 x 16 bits", GL_RG16, GL_RG, GL_UNSIGNED_SHORT, 4},
     {"4 x 16 bits", GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT, 8},
+    {"a number of 8 bits", GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1},
+    {"a number of 16 bits", GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, 2},
     {"4 halves, which no shader copies", GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
 };
 
@@ -69,24 +71,31 @@ TEST_F(PixelCopiesOfContext, WriteTheBytesOfTheImageByShaderAndByDriver) {
       Bytes expected = random_pixels(pixels, count);
       const bool depth = pixels.format == GL_DEPTH_COMPONENT;
       const GlTexture texture = make_texture_2d(pixels.internal, width, height);
+      glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+      glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+      glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
       glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, pixels.format, pixels.type,
                           expected.data());
+      glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
       const GlFramebuffer framebuffer =
           depth ? make_framebuffer({}, texture.name()) : make_framebuffer({texture.name()}, 0);
       const PixelCopies::Source source{
           framebuffer.name(), GLenum(depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0), texture.name()};
-      expected.resize(expected.size() + spare, 0xab);  // what no copy may touch
+      const size_t used = expected.size(), words = (used + 3) / 4 * 4;
+      expected.resize(words + spare, 0xab);  // what no copy may touch
       for (PixelCopies* copies : {&by_shader, &by_driver}) {
         const Bytes before(expected.size(), 0xab);
         const GlBuffer buffer = make_buffer(before.size(), before.data());
         copies->to_buffer(source, pixels.format, pixels.type, {width, height}, buffer.name());
-        EXPECT_EQ(contents(buffer.name(), before.size()), expected)
+        Bytes copied = contents(buffer.name(), before.size());
+        std::copy_n(expected.begin() + long(used), words - used, copied.begin() + long(used));
+        EXPECT_EQ(copied, expected)
             << pixels.name << ", " << width << "x" << height
             << (copies == &by_shader ? " by shader" : " by driver");
       }
     }
   }
-  EXPECT_EQ(by_shader.programs(), 5) << "kinds of pixels that a shader copies";
+  EXPECT_EQ(by_shader.programs(), 7) << "kinds of pixels that a shader copies";
   EXPECT_EQ(by_driver.programs(), 0);
   EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }

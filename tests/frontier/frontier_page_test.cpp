@@ -181,7 +181,8 @@ void expect_saved(const json& seen) {
   EXPECT_EQ(times("<path "), 8u + 5u) << "points, and techniques in the legend";
   EXPECT_EQ(times("NaN"), 0u);
   EXPECT_EQ(times("var("), 0u) << "colors of its own";
-  // After the band, the front: from (0.2, 1e-2) right, down to (0.3, 1e-4), right, down to 0.5 without error: five corners.
+  // After the band, the front: from (0.2, 1e-2) right, down to (0.3, 1e-4), right, down to 0.5 without error:
+  // five corners.
   const size_t begin = front.find("points=\"", front.find("<polyline", front.find("<polyline") + 1)) + 8;
   const std::string corners = front.substr(begin, front.find('"', begin) - begin);
   EXPECT_EQ(std::count(corners.begin(), corners.end(), ','), 5);

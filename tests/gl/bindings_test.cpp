@@ -64,7 +64,7 @@ TEST_F(Bindings, ShadersAndTheListNameTheSameSamplersAndNoNumbers) {
 #define LIGHTGRID_SHARED_NAME(name, first) listed.insert(#name);
   LIGHTGRID_SURFACE_SAMPLERS(LIGHTGRID_NAME)
   LIGHTGRID_LIGHT_SAMPLERS(LIGHTGRID_NAME, LIGHTGRID_SHARED_NAME)
-  const std::regex sampler("uniform [ui]?sampler\\w+ (\\w+)");
+  const std::regex sampler("uniform (?:frame_)?[ui]?sampler\\w+ (\\w+)");
   for (const auto& [path, text] : embedded_files()) {
     if (!path.starts_with("shaders/") && !path.starts_with("shared/")) continue;
     EXPECT_THAT(text, testing::Not(testing::ContainsRegex("binding *="))) << path;

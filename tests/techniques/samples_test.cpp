@@ -235,8 +235,9 @@ TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesAndStaySmallInside) {
 
 // Surfaces that are stored for each sample: in GLSL and OpenCL, light by light and from lists.
 TEST_F(SamplesOfOpenGl, HaveOneImageInEveryTechniqueThatStoresThem) {
-  s_ = small_scene(false);  // blended surfaces are laid over the mean in one, and over each sample in the other
-  effect("directional").add(s_), effect("spot").add(s_);
+  s_ = small_scene(
+      false);  // blended surfaces are laid over the mean in one, and over each sample in the other
+  for (const char* name : {"directional", "spot", "groups"}) effect(name).add(s_);
   const Image volumes = draw("deferred", 4);
   for (const char* technique : {"deferred_tiled", "forward_plus_compute"}) {
     const Image tiles = draw(technique, 4, "all");

@@ -23,6 +23,7 @@ const std::vector<Assignments>& contexts() {
   static const std::vector<Assignments> all = {
       {},
       {"raster=opencl"},
+      {"samples=4"},
       {"raster=opencl", "samples=4"},
       {"lights=grid", "samples=4"},  // of visibility
       {"kernel-shape=group"},

@@ -49,10 +49,6 @@ SharedBuffer* group_numbers_in_cl(Work& work, TargetUse use) {
 }
 
 SharedBuffer& group_numbers_to_cl(Work& work, GLuint framebuffer, int attachment, GLuint texture) {
-  if (work.grid().samples > 1)
-    throw input_error("set samples={}: light groups reach OpenCL with one sample a pixel; choose samples=1, "
-                      "deferred, visibility or a technique that shades forward",
-                      work.grid().samples);
   const size_t bytes = work.grid().values() * group_number_bytes(work.plan);
   auto pass = work.timer.pass("group_numbers_to_cl", "gl");
   SharedBuffer& copy = *group_numbers_in_cl(work, TargetUse::image);
