@@ -4,9 +4,15 @@
 // silhouette, a crease or a seam whose corners have vertices of their own, and another instance, stay apart.
 //
 // All samples of such a surface get the number of its triangle that most of them see, the first of equals.
+//
+// -DSHADOWED  some light casts. A shadow is found at a point of one triangle: beside it, in a hollow, the
+// triangle's plane is behind its neighbours, which would hide the light. Triangles are then one surface only
+// if they are all that the pixel's samples see, and one of them holds the pixel's centre: samples get its
+// number, and the pixel its depth.
 #pragma once
 
 #include "kernels/resolve/samples.h"
+#include "kernels/resolve/surface_attributes.h"
 #include "shared/raster_instance.h"
 
 // What a triangle number leads to: the rasteriser's.
@@ -51,8 +57,34 @@ static inline bool are_neighbours(const SeenTriangle* s, const SeenTriangle* t) 
          (is_edge(s->b, s->a, t) || is_edge(s->c, s->b, t) || is_edge(s->a, s->c, t));
 }
 
-// `triangles`: of a pixel's samples, which do not all see the same. Returns whether they see one surface.
-static inline bool join_surfaces(global uint* triangles, const SeenTriangles* scene) {
+static inline void see_everywhere(global uint* triangles, uint number) {
+#pragma unroll
+  for (uint s = 0; s < SAMPLES; ++s) triangles[s] = number;
+}
+
+#ifdef SHADOWED
+// Whether the triangle holds a pixel's centre, and its reversed depth there: no further than the samples are,
+// between whose depths tiles list lights.
+static inline bool holds_centre(const SeenTriangle* t, const SeenTriangles* scene, uint x, uint y,
+                                float2 half_size, global const float* depths, float* depth) {
+  global const float4* clip = scene->clip + scene->instances[t->instance].first_clip_vertex;
+  const float4 a = clip[t->a], b = clip[t->b], c = clip[t->c];
+  const float4 edges = screen_triangle(a, b, c, (float)x, (float)y, half_size).here;
+  if (!(edges.x * edges.w >= 0.0f && edges.y * edges.w >= 0.0f && edges.z * edges.w >= 0.0f)) return false;
+  const float at_centre = fma(edges.x, a.z, fma(edges.y, b.z, edges.z * c.z)) /
+                          fma(edges.x, a.w, fma(edges.y, b.w, edges.z * c.w));
+  float least = depths[0], most = depths[0];
+  for (uint s = 1; s < SAMPLES; ++s) least = min(least, depths[s]), most = max(most, depths[s]);
+  if (at_centre >= least) *depth = min(at_centre, most);
+  else *depth = least;
+  return true;
+}
+#endif
+
+// triangles, depths: of a pixel's samples, which do not all see the same. Returns whether they see one
+// surface. depth: the pixel's, which is another with -DSHADOWED.
+static inline bool join_surfaces(global uint* triangles, const SeenTriangles* scene, uint x, uint y,
+                                 float2 half_size, global const float* depths, float* depth) {
   SeenTriangle seen[SAMPLES];
   uint count = 0;
   for (uint left = ALL_SAMPLES; left != 0;) {
@@ -78,6 +110,16 @@ static inline bool join_surfaces(global uint* triangles, const SeenTriangles* sc
     }
   }
   if (!joined) return false;
+#ifdef SHADOWED
+  for (uint i = 0; i < count; ++i)
+    if (of[i] != 0) return false;
+  for (uint i = 0; i < count; ++i) {
+    if (!holds_centre(seen + i, scene, x, y, half_size, depths, depth)) continue;
+    see_everywhere(triangles, seen[i].number);
+    return true;
+  }
+  return false;
+#else
   bool one = true;
   for (uint i = 0; i < count; ++i) {
     one = one && of[i] == 0;
@@ -92,4 +134,5 @@ static inline bool join_surfaces(global uint* triangles, const SeenTriangles* sc
       if (samples >> s & 1u) triangles[s] = seen[most].number;
   }
   return one;
+#endif
 }

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "cl/transfer.h"
+#include "raster/raster_samples.h"
 #include "renderer/drawing/draw.h"
 #include "scene/host_shadows.h"
 #include "shared/shadow_bits.h"
@@ -15,7 +16,7 @@
 namespace lightgrid {
 namespace {
 
-size_t stride_of(const Work& work) { return LAYER_STRIDE(work.grid().values()); }
+size_t stride_of(const Work& work) { return LAYER_STRIDE(work.grid().pixels()); }
 
 // Values: numbers, then depths, a layer each, then how many fragments each pixel has, and the most of any.
 size_t bytes_of_layers(const Work& work, size_t layers) { return (2 * layers + 1) * stride_of(work) * 4; }
@@ -83,8 +84,8 @@ class FragmentLayers : public PassCache {
     fill_buffer(device, "clearing layers", room, 0, 2 * bytes);
     fill_buffer(device, "clearing layers", room, SHADOW_NO_TRIANGLE, bytes);
     fill_buffer(device, "clearing layers", most, 0, tiles * sizeof(cl_uint));
-    std::string defines = kernels_.lanes && work.plan.settings.portable ? " -DPORTABLE" : "";
-    kernels_.use(defines);
+    kernels_.use(sample_defines(work.grid().samples) +
+                 (kernels_.lanes && work.plan.settings.portable ? " -DPORTABLE" : ""));
     const PixelRange pixels = over_pixels(work, kernels_.lanes, 8, 16);
     kernels_.of("blended_layers")
         .launch(device, "blended_layers", kernels_.lanes ? cl::NDRange(tiles) : pixels.items,
@@ -141,7 +142,7 @@ class FragmentLayers : public PassCache {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
     GLuint most = 0;
-    glGetNamedBufferSubData(buffer, GLintptr((2 * capacity_ * stride + work.grid().values()) * 4),
+    glGetNamedBufferSubData(buffer, GLintptr((2 * capacity_ * stride + work.grid().pixels()) * 4),
                             sizeof most, &most);
     if (most <= capacity_) layers.buffer->hand_to_cl(bytes);
     return most;
@@ -176,7 +177,7 @@ BlendedLayers find_layers(Work& work, Cached<FragmentLayers>& cache, const Blend
 
 std::vector<HostShadowLayer> read_fragments(Work& work, const BlendedLayers& layers) {
   std::vector<HostShadowLayer> read(layers.numbers.size());
-  std::vector<uint32_t> numbers(work.grid().values());
+  std::vector<uint32_t> numbers(work.grid().pixels());
   for (size_t i = 0; i < read.size(); ++i) {
     read[i].depth.resize(numbers.size());
     read_buffer(*work.renderer.cl, "reading layers", layers.numbers[i], numbers.data(), numbers.size() * 4);

@@ -17,10 +17,7 @@ constexpr size_t run_pixels = 4096, item_pixels = 16, group = 64;  // of kernels
 
 class PixelEdges : public PassCache {
  public:
-  explicit PixelEdges(Work& work) : kernels_(work, "resolve") {
-    kernels_.use(sample_defines(work.grid().samples) +
-                 (kernels_.lanes && work.plan.settings.portable ? " -DPORTABLE" : ""));
-  }
+  explicit PixelEdges(Work& work) : kernels_(work, "resolve") {}
   bool follow(Work&) override { return true; }
   size_t memory_bytes() const override { return triangles_.bytes() + depths_.bytes() + edges_.bytes(); }
 
@@ -29,6 +26,12 @@ class PixelEdges : public PassCache {
     const size_t pixels = work.grid().pixels(), room = pixels + Work::spare_pixels;
     const PixelSurfaces found{triangles_.at_least(device, room * 4), depths_.at_least(device, room * 4),
                               edges_.at_least(device, (pixels + 15) / 16 * 2)};
+    const Settings& settings = work.plan.settings;
+    // Whatever shadows the plan leaves out, which changes no image.
+    const bool shadowed = settings.shadows != ShadowMethod::none &&
+                          std::ranges::any_of(work.scene.lights, &Light::casts_shadow);
+    kernels_.use(sample_defines(settings.samples) + (shadowed ? " -DSHADOWED" : "") +
+                 (kernels_.lanes && settings.portable ? " -DPORTABLE" : ""));
     const auto items = [&](size_t of) { return (pixels + of - 1) / of; };
     kernels_.of("find_edges")
         .launch(device, "find_edges",
@@ -41,7 +44,8 @@ class PixelEdges : public PassCache {
                  {"instances", raster.instances},
                  {"indices", raster.indices},
                  {"clip", raster.clip},
-                 {"pixels", cl_uint(pixels)},
+                 {"width", cl_uint(work.grid().width)},
+                 {"height", cl_uint(work.grid().height)},
                  {"pixel_triangles", found.triangles},
                  {"pixel_depths", found.depths},
                  {"edges", found.edges}});

@@ -70,6 +70,7 @@ class ShadowBits : public PassCache {
 
   // No light is hidden anywhere: the table holds no tile, and all have its empty row.
   void clear(Work& work) {
+    work.shadows.traced.clear();
     const size_t bytes = std::max(least_bytes, shadow_table_bytes(0, shadow_table_words(work.plan)));
     if (cleared_ == bytes) return;
     fill_buffer(*work.renderer.cl, "clearing shadows", at_least(work, work.shadows.tiles, bytes, GL_RG32UI),
@@ -88,7 +89,7 @@ class ShadowBits : public PassCache {
       cleared_ = 0;
       prepare(work, visible, blended);
     }
-    std::vector<ReceiverImage> images{{numbers, depth.values,
+    std::vector<ReceiverImage> images{{numbers, visible ? visible->pixel_depth().values : depth.values,
                                        visible ? visible->raster.triangle_instance : cl::Buffer(),
                                        visible ? offsets_.buffer() : cl::Buffer()}};
     for (size_t i = 0; i < layers.numbers.size(); ++i) {
@@ -114,6 +115,7 @@ class ShadowBits : public PassCache {
     if (bands_.bands.size() > 1)
       again_ = [this, images](Work& of, const ShadowBand& band) { launch(of, images, band); };
     hand_over(work, room_.table_bytes, bit_bytes);
+    if (work.grid().samples > 1) hand_over_rays(work);
     if (shadow_reuse.of(work.plan.settings) && bands_.bands.size() == 1)
       found_for_ = shadow_inputs(work, *scene_);
   }
@@ -266,6 +268,14 @@ class ShadowBits : public PassCache {
     SharedBuffer::hand_to_gl(written);
   }
 
+  // For kernels that shade other points than pixels' centres.
+  void hand_over_rays(Work& work) {
+    work.shadows.traced_defines = " -DSHADOWS_TRACED " + scene_->defines();
+    work.shadows.traced = scene_->arguments() + ClArguments{{"number_offsets", offsets_.buffer()},
+                                                            {"shadow_lights", lights_.buffer()},
+                                                            {"shadow_view", view_.buffer()}};
+  }
+
   // Brings everything up to the view, its lights and surfaces.
   void prepare(Work& work, const VisibilityBuffer* visible, const BlendedTriangles* blended) {
     const RayScene& rays = scene(work);
@@ -382,7 +392,7 @@ void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visibl
   work.shadows.layer_count = 0;
   if (!work.plan.shadows) return shadows.clear(work);
   const RayScene& rays = shadows.scene(work);
-  const cl::Buffer& numbers = visible ? visible->image.triangle : triangle_numbers_in_cl(work, rays);
+  const cl::Buffer& numbers = visible ? visible->triangles().numbers : triangle_numbers_in_cl(work, rays);
   if (!visible && work.plan.blend) {
     work.shadows.first_triangles.assign(work.scene.instances.size(), 0);
     for (const int i : work.plan.blended)
@@ -391,7 +401,7 @@ void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visibl
   const BlendedLayers layers = find_layers(work, caches.fragment_layers, blended, depth);
   auto pass = work.timer.pass("find_shadows", "cl");
   shadows.find(work, visible, depth, numbers, blended, layers);
-  pass.moves(work.grid().values() * 8 + layers.bytes + rays.memory_bytes(), work.shadows.bytes());
+  pass.moves(work.grid().pixels() * 8 + layers.bytes + rays.memory_bytes(), work.shadows.bytes());
 }
 
 bool shadows_are_unchanged(Work& work, Cached<ShadowBits>& cache) {

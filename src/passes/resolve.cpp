@@ -162,12 +162,14 @@ static const char* average_define(const Settings& settings) {
 // Over the image of resolve(): the pixels whose samples see several surfaces.
 static void resolve_edges(Work& work, Resolver& r, const VisibilityBuffer& visible,
                           const LightSource& lights) {
-  NamedKernel& kernel = r.kernel(
-      work, "resolve_edges",
-      lights.in_cl->defines + sample_defines(work.grid().samples) + average_define(work.plan.settings));
+  const ClArguments& traced = work.shadows.traced;
+  NamedKernel& kernel =
+      r.kernel(work, "resolve_edges",
+               lights.in_cl->defines + sample_defines(work.grid().samples) +
+                   average_define(work.plan.settings) + (traced.empty() ? "" : work.shadows.traced_defines));
   auto pass = work.timer.pass("resolve_edges", "cl");
   r.launch(work, kernel, "resolve_edges",
-           ClArguments{{"triangles", visible.image.triangle},
+           traced + ClArguments{{"triangles", visible.image.triangle},
                        {"depths", visible.image.depth},
                        {"edges", visible.pixels->edges}} +
                r.arguments(work, visible.raster, visible.surfaces, *lights.in_cl) +

@@ -332,10 +332,17 @@ void plan_samples(const Scene& scene, FramePlan& plan) {
   if (samples == 1) return;
   plan.decisions.push_back({"samples", true, fmt::format("samples={}", samples)});
   if (!plan.light_reaches) return;
+  const Settings& s = plan.settings;
+  const char* one_sample = plan.opengl                       ? "shadows where OpenGL draws"
+                           : s.shadows == ShadowMethod::map ? "shadow maps"
+                           : s.soft_shadows()               ? "shadows of shadow-rays"
+                           : s.picks_shadows()              ? "shadows of shadow-pick"
+                                                            : nullptr;
+  if (!one_sample) return;
   const auto caster = std::ranges::find_if(scene.lights, &Light::casts_shadow);
-  throw input_error("set samples={}: light {} \"{}\" casts a shadow, and shadows are found for one sample a "
+  throw input_error("set samples={}: light {} \"{}\" casts a shadow, and {} are found for one sample a "
                     "pixel; choose samples=1 or shadows=none",
-                    samples, caster - scene.lights.begin(), caster->name);
+                    samples, caster - scene.lights.begin(), caster->name, one_sample);
 }
 
 void turn_everything_on(const Scene& scene, const View& view, FramePlan& plan, const TechniqueNeeds& needs) {

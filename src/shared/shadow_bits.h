@@ -15,6 +15,9 @@
 // has rows of its own for the same tiles, after those of opaque surfaces. The image of layer i, of
 // LAYER_STRIDE(pixels) values, has the number of the triangle that the fragment belongs to, or
 // SHADOW_NO_TRIANGLE.
+//
+// Kernels with SHADOWS_TRACED read nothing of this: they find the shadows at their own points, by rays
+// (kernels/shadows/traced_shadows.h).
 #pragma once
 
 #include "shared/real.h"
@@ -87,7 +90,14 @@ float seen_share(int light, uvec2 pixel) {
 #define SHADOW_ARGUMENTS global const uint2 *shadow_tiles, global const uint *shadow_bits,
 #define GIVEN_SHADOWS , shadow_tiles, shadow_bits
 
+#ifdef SHADOWS_TRACED
+struct TracedShadows;
+#endif
+
 typedef struct ShadowsHere {
+#ifdef SHADOWS_TRACED
+  struct TracedShadows* traced;
+#endif
   global const uint2* tiles;  // the row of the pixels' tile
   global const uint* bits;
   uint x, y;
@@ -163,7 +173,9 @@ static inline real seen_in_tile(const ShadowsHere* here, global const uint2* til
 }
 
 // The share of the light that is seen from each lane's pixel.
-#if !defined(BLEND)
+#if defined(SHADOWS_TRACED)
+static real seen_share(const ShadowsHere* here, uint light);
+#elif !defined(BLEND)
 static inline real seen_share(const ShadowsHere* here, uint light) {
   return seen_in_tile(here, here->tiles, light);
 }

@@ -180,12 +180,6 @@ TEST(SamplesResolves, IsRefusedWhereOpenGLAverages) {
   EXPECT_NO_THROW(check_samples(find_technique("world_grid"), settings));
 }
 
-TEST_F(SamplesOfVisibility, AreRefusedWhereALightCastsAShadow) {
-  s_.scene.lights[0].casts_shadow = true;
-  EXPECT_THROW(draw("samples=4"), Error);
-  EXPECT_NO_THROW(draw("samples=4 shadows=none"));
-}
-
 // OpenGL's coverage, shaded once a pixel and surface.
 class SamplesOfOpenGl : public testing::Test {
  protected:

@@ -30,7 +30,11 @@ kernel void blended_layers(global const RasterRecord* records, global const uint
       for (int bx = box.x0 & ~3; bx <= box.x1; bx += 4) {
         const uint x = tile_x + (uint)bx, y = tile_y + (uint)by;
         real depth = REAL(0.0f);
-        const mask_t shown = fragments_in_block(&r, bx, by, x, y, depths, width, height, &depth);
+#if SAMPLES > 1
+        real share;
+#endif
+        const mask_t shown =
+            fragments_in_block(&r, bx, by, x, y, depths, width, height, &depth SHARE_TO(share));
         if (!any_lane(shown)) continue;
         const whole of_layers = next_layers(&counts, bx, by, shown);
         for (uint left = mask_bits(shown); left != 0; left &= left - 1) {

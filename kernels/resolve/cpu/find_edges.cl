@@ -6,7 +6,7 @@
 //                    of triangles that are one surface in a pixel become one
 //                    (kernels/resolve/join_surfaces.h)
 // triangle_instance, instances, indices, clip  what a triangle number leads to
-// pixels             of the image
+// width, height      of the image, pixels
 // pixel_triangles, pixel_depths  out: of pixels with one surface as of one sample at the centre; of others
 //                    SURFACE_NONE and 0
 // edges              out: a bit a pixel, 16 in a value, 1 at edges
@@ -45,10 +45,11 @@ static inline bool known_neighbours(ulong* known, uint a, uint b, const SeenTria
 
 kernel void find_edges(global uint* triangles, global const float* depths,
                        global const uint* triangle_instance, global const RasterInstanceRecord* instances,
-                       global const uint* indices, global const float4* clip, uint pixels,
+                       global const uint* indices, global const float4* clip, uint width, uint height,
                        global uint* pixel_triangles, global float* pixel_depths, global ushort* edges) {
   const SeenTriangles scene = {triangle_instance, instances, indices, clip};
-  const uint begin = (uint)get_global_id(0) * EDGE_RUN, end = min(begin + EDGE_RUN, pixels);
+  const float2 half_size = (float2)(0.5f * (float)width, 0.5f * (float)height);
+  const uint pixels = width * height, begin = (uint)get_global_id(0) * EDGE_RUN, end = min(begin + EDGE_RUN, pixels);
   ulong known[KNOWN_PAIRS];
   for (uint i = 0; i < KNOWN_PAIRS; ++i) known[i] = ~0ul;
   for (uint at = begin; at < end; at += 16) {
@@ -76,14 +77,22 @@ kernel void find_edges(global uint* triangles, global const float* depths,
     for (uint left = edge_bits & (covered | of_more); left != 0; left &= left - 1) {
       const uint i = lowest_bit(left);
       global uint* const of_pixel = triangles + (size_t)(at + i) * SAMPLES;
+      global const float* const depths_here = depths + (size_t)(at + i) * SAMPLES;
+      float* const depth_here = (float*)&depth + i;
+      const uint x = (at + i) % width, y = (at + i) / width;
       if (of_more >> i & 1u) {
-        if (!join_surfaces(of_pixel, &scene)) continue;
+        if (!join_surfaces(of_pixel, &scene, x, y, half_size, depths_here, depth_here)) continue;
         ((uint*)&triangle)[i] = of_pixel[0];
       } else {
-        if (!known_neighbours(known, ((const uint*)&seen[0])[i], ((const uint*)&other)[i], &scene)) continue;
-        const uint most = ((const uint*)&triangle)[i];
-#pragma unroll
-        for (uint s = 0; s < SAMPLES; ++s) of_pixel[s] = most;
+        const uint one = ((const uint*)&seen[0])[i], two = ((const uint*)&other)[i];
+        if (!known_neighbours(known, one, two, &scene)) continue;
+#ifdef SHADOWED
+        const SeenTriangle a = seen_triangle(&scene, one), b = seen_triangle(&scene, two);
+        const bool first = holds_centre(&a, &scene, x, y, half_size, depths_here, depth_here);
+        if (!first && !holds_centre(&b, &scene, x, y, half_size, depths_here, depth_here)) continue;
+        ((uint*)&triangle)[i] = first ? one : two;
+#endif
+        see_everywhere(of_pixel, ((const uint*)&triangle)[i]);
       }
       edge_bits &= ~(1u << i);
       ((int*)&edge)[i] = 0;

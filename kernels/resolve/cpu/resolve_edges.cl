@@ -9,6 +9,8 @@
 // background         of samples without a surface
 // image              in and out: RGBA a pixel, linear, row 0 at the bottom
 // -DTILE             pixels a side, a multiple of 8 (default 16)
+// -DSHADOWS_TRACED   some light casts a shadow in this view: TRACED_ARGUMENTS come first
+//                    (kernels/shadows/traced_shadows.h)
 // -DSAMPLES, -DSAMPLE_PLACES, and what kernels/resolve/average.h, resolve.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
@@ -16,6 +18,11 @@
 #include "kernels/resolve/resolve_block.h"
 #include "kernels/resolve/resolve_light.h"
 #include "kernels/resolve/samples.h"
+#ifdef SHADOWS_TRACED
+#include "kernels/shadows/traced_shadows.h"
+#else
+#define TRACED_ARGUMENTS
+#endif
 
 #define SIDE (TILE < EDGE_BLOCK ? TILE : EDGE_BLOCK)  // 16 at most
 #define MOST_SURFACES (SIDE * SIDE * SAMPLES)
@@ -77,30 +84,42 @@ static inline void shade_surfaces(EdgeSurfaces* e, uint first, uint base_x, uint
     ((float*)&dx)[i] = e->x[one], ((float*)&dy)[i] = e->y[one], ((float*)&depth)[i] = e->depth[one];
   }
   const mask_t covered = LANE_INDEX < (int16)((int)(e->count - first));
+  const real x = (float)base_x + 0.5f + dx, y = (float)base_y + 0.5f + dy;
+#ifdef SHADOWS_TRACED
+  trace_from(lights->lights.shadows.traced, covered, x, y, depth, view);
+#endif
   Attributes a = {0};
   for (uint left = mask_bits(covered); left != 0;) {
     const uint one = ((const uint*)&triangle)[lowest_bit(left)];
     const mask_t here = triangle == (uint16)(one);
     left &= ~mask_bits(here);
     add_triangle(&a, scene, one, here, (float)base_x, (float)base_y, dx, dy);
+#ifdef SHADOWS_TRACED
+    trace_from_triangle(lights->lights.shadows.traced, one, scene->triangle_instance, here);
+#endif
   }
   Surface s = {0};
   add_materials(&s, &a, scene, covered);
-  const Real3 shown = radiance(&a, &s, (float)base_x + 0.5f + dx, (float)base_y + 0.5f + dy, depth, covered,
-                               lights, bin_edges, view);
+  const Real3 shown = radiance(&a, &s, x, y, depth, covered, lights, bin_edges, view);
   for (uint i = 0; i < 16 && first + i < e->count; ++i) {
     const uint one = SURFACE_OF(e->order[first + i]);
     e->red[one] = LANE(shown.x, i), e->green[one] = LANE(shown.y, i), e->blue[one] = LANE(shown.z, i);
   }
 }
 
-kernel void resolve_edges(global const uint* triangles, global const float* depths,
+kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global const float* depths,
                           global const ushort* edges, RESOLVE_ARGUMENTS, float4 background,
                           global float* image) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
   take_list(&lights, light_indices, cells, tile_y * view->tiles_x + tile_x, view);
+#ifdef SHADOWS_TRACED
+  TracedShadows traced = TRACED_SHADOWS;
+  lights.lights.shadows.traced = &traced;
+#elif defined(SHADOWS)
+  light_pixels(&lights.lights, 0, 0, view);  // none is hidden anywhere
+#endif
   EdgeSurfaces e;
   uint pixels[SIDE * SIDE];
   float4 colors[SIDE * SIDE];

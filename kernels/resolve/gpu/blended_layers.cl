@@ -14,12 +14,15 @@ kernel void blended_layers(global const RasterRecord* records, global const uint
   const int tile_x = (int)(x / RASTER_TILE * RASTER_TILE), tile_y = (int)(y / RASTER_TILE * RASTER_TILE);
   const int dx = (int)(x & 3u), dy = (int)(y & 3u), bx = (int)x - tile_x - dx, by = (int)y - tile_y - dy;
   const size_t pixel = (size_t)y * view->width + x, stride = LAYER_STRIDE((size_t)view->width * view->height);
-  const float opaque = depths[pixel];
+  const OpaqueDepth opaque = OPAQUE_DEPTH(depths, pixel);
+#if SAMPLES > 1
+  float share;
+#endif
   uint layer = 0;
   for (uint i = tile_begin[number]; i < tile_begin[number + 1]; ++i) {
     const TileRecord r = in_tile(records + lists[i], tile_x, tile_y);
     float depth;
-    if (!is_fragment(&r, bx, by, dx, dy, opaque, &depth)) continue;
+    if (!is_fragment(&r, bx, by, dx, dy, opaque, &depth SHARE_TO(share))) continue;
     if (layer < capacity) {
       layers[layer * stride + pixel] = r.triangle;
       layers[(capacity + layer) * stride + pixel] = as_uint(depth);

@@ -70,6 +70,8 @@ std::vector<ShadowLight> shadow_light_records(const Seen& seen, const std::vecto
   }
   for (const int i : seen.plan.directional_lights)
     records.push_back(shadow_light(seen.scene.lights[size_t(i)]));
+  for (size_t i = 0; i < records.size(); ++i)
+    if (shadowed[i].radius_m < 0) records[i].reach_squared = -1;
   return records;
 }
 

@@ -20,7 +20,7 @@ std::vector<CullLight> shining_lights(const Seen& seen);
 // Those without shadows are listed nowhere, directional ones in every tile that shows a surface.
 std::vector<CullLight> shadowed_lights(const Seen& seen, std::vector<CullLight> shining);
 
-// origin: of the rays. Without stamps.
+// origin: of the rays. Without stamps. Lights without shadows reach nothing.
 std::vector<ShadowLight> shadow_light_records(const Seen& seen, const std::vector<CullLight>& shadowed,
                                               const glm::dvec3& origin);
 ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin);

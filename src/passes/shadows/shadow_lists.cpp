@@ -16,7 +16,8 @@ namespace {
 CullerOptions options_of(const FramePlan& plan) {
   CullerOptions options = culler_options(plan);
   options.cull_test = default_cull_test, options.depth_bounds = DepthBoundsMode::minmax;
-  options.tile = SHADOW_TILE, options.blend = false, options.index_bits = 0, options.lists = GridLists::lists;
+  options.tile = SHADOW_TILE, options.samples = 1, options.blend = false, options.index_bits = 0,
+  options.lists = GridLists::lists;
   return options;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "cl/buffers.h"
@@ -78,6 +79,11 @@ struct ShadowMemory {
   SharedTexture layers;
   uint32_t layer_count = 0;
   std::vector<uint32_t> first_triangles;
+  // With several samples a pixel, of kernels that find shadows where they shade
+  // (kernels/shadows/traced_shadows.h): TRACED_ARGUMENTS, and the defines that they take. Empty: no light is
+  // hidden anywhere.
+  ClArguments traced;
+  std::string traced_defines;
 
   void bind() const;
   // SHADOW_ARGUMENTS.
