@@ -3,6 +3,7 @@
 // lights of the object, LIGHTS_VOXELS for a voxel light buffer, LIGHTS_BUFFER for the sums of a light buffer,
 // else every light.
 // BLEND: output is multiplied by coverage, for blending over the image.
+// PER_SAMPLE: of several samples each is shaded, with lights of its own. Which of them a mask leaves, depth says.
 // FIRST_OF_DRAWS, ADDED: the first of an object's draws, and a further one that only adds light. For the use
 // of alpha see src/passes/shade_objects.cpp.
 
@@ -12,6 +13,10 @@
 #include "shared/light_table.h"
 #include "shared/brdf.h"
 #include "shaders/common/point_of_surface.glsl"
+#if !defined(PER_SAMPLE) || defined(SAMPLES_IN_A_ROW)
+#define AT_CENTRES
+#endif
+#include "shaders/common/per_sample.glsl"
 #ifdef LIGHTS
 #include "shaders/lights/punctual.glsl"
 #include "shaders/lights/loops.glsl"
@@ -49,7 +54,7 @@ uniform float alpha;
 
 void main() {
   Surface s = surface_here();
-#ifdef MASK
+#if defined(MASK) && !defined(PER_SAMPLE)
   if (has(MATERIAL_MASK) && s.alpha < material.alpha_cutoff) discard;
 #endif
 #ifdef ADDED

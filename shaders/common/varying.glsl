@@ -1,7 +1,10 @@
 // What a vertex passes to fragments.
 //   SAMPLES: several a pixel. A fragment has its values where the pixel is covered, and not at a centre that its
 //   triangle may miss: beyond an edge they would be extrapolated.
-#ifdef SAMPLES
+//   PER_SAMPLE: one for each sample, with its values there
+#if defined(SAMPLES) && defined(PER_SAMPLE)
+#define VARYING sample
+#elif defined(SAMPLES)
 #define VARYING centroid
 #else
 #define VARYING

@@ -2,21 +2,25 @@
 //   LIGHT_EXPONENT, LIGHT_REFERENCE: LightBufferParams (shared/light_buffer.h)
 //   LIGHT_SCALE: a sum of this size is stored as 1
 //   PREPASS_FIFTH_TERM: there is a second image
+//   SAMPLES: an image of so many; SAMPLES_IN_A_ROW: those of a pixel are texels beside one another
 #include "shared/light_buffer.h"
 
-uniform sampler2D light_buffer;
+uniform frame_sampler2D light_buffer;
 #ifdef PREPASS_FIFTH_TERM
-uniform sampler2D light_buffer_second;
+uniform frame_sampler2D light_buffer_second;
 #endif
 
 vec3 light_sum(ShadingPoint p) {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec4 first = texelFetch(light_buffer, pixel, 0) * LIGHT_SCALE;
+#ifdef SAMPLES_IN_A_ROW
+  pixel.x = pixel.x * SAMPLES + gl_SampleID;
+#endif
+  vec4 first = texelFetch(light_buffer, pixel, SAMPLE_HERE) * LIGHT_SCALE;
   LightTerms sums = no_terms();
   sums.diffuse = first.rgb;
   sums.specular = first.a;
 #ifdef PREPASS_FIFTH_TERM
-  vec2 second = texelFetch(light_buffer_second, pixel, 0).rg * LIGHT_SCALE;
+  vec2 second = texelFetch(light_buffer_second, pixel, SAMPLE_HERE).rg * LIGHT_SCALE;
   sums.weight = second.x;
   sums.rim = second.y;
 #endif

@@ -3,13 +3,16 @@
 //   LIDR_SHIFTED: bitshift; LIDR_GREATEST: maxblend; else sort
 //   LIDR_FLOAT: unpacks as the article does, without integers
 //   LIDR_REPEATS: one light may occur twice in a row, and counts once
+//   PER_SAMPLE: images of samples
 //   INDEX_SHADOWS: lights are hidden by their shadow maps; blended surfaces receive none
 // Loops run once a light: where several pixels are shaded at once, code under an if may cost all of them.
 #include "shared/light_index.h"
 
-uniform sampler2D light_index_images[LIDR_TARGETS];
+uniform frame_sampler2D light_index_images[LIDR_TARGETS];
 
-vec4 texel_of(uint target) { return texelFetch(light_index_images[target], ivec2(gl_FragCoord.xy), 0); }
+vec4 texel_of(uint target) {
+  return texelFetch(light_index_images[target], ivec2(gl_FragCoord.xy), SAMPLE_HERE);
+}
 
 uint lidr_before = 0u;
 

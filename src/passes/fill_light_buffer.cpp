@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "cl/launch.h"
+#include "raster/raster_samples.h"
 #include "renderer/upload/lights.h"
 
 namespace lightgrid {
@@ -38,7 +40,9 @@ class LightSums : public PassCache {
 namespace {
 
 void sums_to_gl(Work& work, const PrepassImage& image, SharedBuffer& from, GLuint to) {
-  work.renderer.pixel_copies.to_texture(from.gl_buffer(), image.pixel, image.type, work.grid(), to);
+  const auto [width, height, samples] = work.grid();
+  work.renderer.pixel_copies.to_texture(from.gl_buffer(), image.pixel, image.type, {width * samples, height},
+                                        to);
 }
 
 }  // namespace
@@ -56,9 +60,13 @@ NormalsInCl normals_to_cl(Work& work, const NormalImage& normals) {
 }
 
 LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const NormalsInCl& normals,
-                                  const DepthBuffer& depth, const LightSource& lights, TargetUse use) {
+                                  const DepthBuffer& depth, const LightSource& lights, TargetUse use,
+                                  const cl::Buffer& edges) {
   LightSums& s = cache.of(work);
-  NamedKernel& kernel = s.kernels.of("light_buffer");
+  const bool several = work.grid().samples > 1;
+  NamedKernel& kernel = several
+                            ? s.kernels.of("light_buffer_samples", sample_defines(work.sample_places()))
+                            : s.kernels.of("light_buffer");
   LightBufferInCl buffer{&light_buffer_layout(work.plan.settings), nullptr, nullptr};
   buffer.first = &work.shared_samples("light buffer", buffer.layout->first.bytes, use);
   if (has_fifth_term(work.plan.settings))
@@ -77,14 +85,22 @@ LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const No
                                 {"second", buffer.second ? buffer.second->cl_buffer() : cl::Buffer()},
                                 {"exponent", cl_float(work.plan.settings.prepass_shininess)},
                                 {"inverse_scale", cl_float(1 / stored_scale(work))},
-                                {"view", table.view.buffer()}});
+                                {"view", table.view.buffer()}} +
+                    (several ? ClArguments{{"edges", edges}} : ClArguments()));
   pass.moves(work.grid().values() * (4 + normals.layout->image.bytes) + lights.bytes,
              work.grid().values() * buffer.bytes());
   return buffer;
 }
 
 LightBuffer light_buffer_to_gl(Work& work, const LightBufferInCl& buffer) {
-  const LightBuffer in_gl = light_buffer_of(work);
+  const int row = work.grid().width * work.grid().samples;
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  if (row > most)
+    throw machine_error("OpenGL's images have at most {} texels in a row, and light_prepass needs one for "
+                        "each sample, {}; choose fewer samples or prepass-lights=volumes",
+                        most, row);
+  const LightBuffer in_gl = light_buffer_of(work, true);
   const size_t bytes = work.grid().values() * buffer.bytes();
   auto pass = work.timer.pass("light_buffer_to_gl", "gl");
   std::vector<SharedBuffer::Written> written = {

@@ -9,9 +9,10 @@ namespace lightgrid {
 NormalsInCl normals_to_cl(Work& work, const NormalImage& normals);
 
 // The sums over the lights of the pixel's cell, rounded once. use: gbuffer where they are not copied to
-// OpenGL afterwards.
+// OpenGL afterwards. edges: of several samples a pixel, those that have sums of their own (sample_edges.h).
 LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const NormalsInCl& normals,
-                                  const DepthBuffer& depth, const LightSource& lights, TargetUse use);
+                                  const DepthBuffer& depth, const LightSource& lights, TargetUse use,
+                                  const cl::Buffer& edges = {});
 
 // A copy for OpenGL.
 LightBuffer light_buffer_to_gl(Work& work, const LightBufferInCl& buffer);

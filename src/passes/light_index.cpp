@@ -4,21 +4,51 @@
 
 #include <numeric>
 
+#include "passes/depth_prepass.h"
 #include "passes/light_index/blending.h"
 #include "passes/light_index/draw_order.h"
 #include "passes/light_index/index_shadows.h"
+#include "renderer/drawing/draw.h"
 
 namespace lightgrid {
 
 namespace {
 
-std::vector<GLuint> index_images(Work& work, const LightIndexLayout& layout) {
-  std::vector<GLuint> images;
+// Whether each sample has indices of its own, and is shaded for itself: the article's first technique with
+// samples. Its second lists lights before the farthest sample, a pixel, as behind front faces.
+bool has_samples(const Seen& seen) {
+  return seen.grid().samples > 1 && seen.plan.settings.lidr_volumes == LidrVolumes::stencil;
+}
+
+struct IndexImages {
+  std::vector<GLuint> textures;
+  GLuint framebuffer = 0;
+  GLuint own_depth = 0;  // 0: the frame's
+};
+
+IndexImages index_images(Work& work, const LightIndexLayout& layout) {
+  IndexImages images;
   for (uint32_t i = 0; i < layout.targets(); ++i) {
-    images.push_back(
-        work.targets.texture("light_index_" + std::to_string(i), layout.format(), TargetUse::light_index));
+    const std::string name = "light_index_" + std::to_string(i);
+    images.textures.push_back(has_samples(work)
+                                  ? work.targets.texture(name, layout.format(), TargetUse::light_index)
+                                  : work.targets.resolved(name, layout.format(), TargetUse::light_index));
   }
+  if (work.grid().samples > 1 && !has_samples(work))
+    images.own_depth =
+        work.targets.resolved("farthest_depth", work.targets.depth_format(), TargetUse::light_index);
+  images.framebuffer =
+      work.targets.framebuffer(images.textures, images.own_depth ? images.own_depth : work.targets.depth());
   return images;
+}
+
+void draw_farthest_depth(Work& work, GLuint depth) {
+  glBindFramebuffer(GL_FRAMEBUFFER, work.targets.framebuffer({}, depth));
+  glViewport(0, 0, work.grid().width, work.grid().height);
+  glEnable(GL_DEPTH_TEST), glDepthFunc(GL_ALWAYS), glDepthMask(GL_TRUE);
+  bind_sampler_object(Sampler::depth_image, 0);
+  bind_texture(Sampler::depth_image, work.targets.depth());
+  draw_screen(work.program("shaders/screen.vert", "shaders/farthest_depth.frag", {}));
 }
 
 void clear(const LightIndexLayout& layout, GLuint framebuffer, GLint stencil) {
@@ -91,22 +121,41 @@ GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::ve
   if (points_alone) loop.defines.emplace_back("NO_CONES");
   if (seen.plan.settings.lidr_unpack == LidrUnpack::floats) loop.defines.emplace_back("LIDR_FLOAT");
   if (may_repeat(seen)) loop.defines.emplace_back("LIDR_REPEATS");
+  if (has_samples(seen)) loop.defines.emplace_back("PER_SAMPLE");
   for (size_t i = 0; i < images.size(); ++i)
     loop.textures.push_back({Sampler::light_index_images, images[i], i});
   return loop;
 }
 
-// redraw: draws the images of a pass again, if there are several.
+// Those at pixels' centres, with as many samples.
+struct CentreImages {
+  CentreImages(Work& work, const LightIndexLayout& layout) : depth(depth_of_centres(work)) {
+    std::vector<GLuint> names;
+    for (uint32_t i = 0; i < layout.targets(); ++i) {
+      images.push_back(make_texture_2d(layout.format(), work.grid().width, work.grid().height));
+      names.push_back(images.back().name());
+    }
+    framebuffer = make_framebuffer(names, depth.name());
+  }
+  GlTexture depth;
+  std::vector<GlTexture> images;
+  GlFramebuffer framebuffer;
+};
+
+// redraw: draws the images of a pass into a framebuffer.
 ListedLights read_light_index(Work& work, const LightIndexOrder& state,
-                              const std::function<void(uint32_t pass)>& redraw) {
+                              const std::function<void(uint32_t pass, GLuint framebuffer)>& redraw) {
   const LightIndexLayout& layout = state.layout();
   const size_t stride = layout.targets() * 4, pixels = work.grid().pixels();
   const uint32_t passes = uint32_t(state.batches().passes.size());
   std::vector<std::vector<uint16_t>> of_pass;
+  std::optional<CentreImages> centres;
+  if (has_samples(work)) centres.emplace(work, layout);
+  const GLuint framebuffer =
+      centres ? centres->framebuffer.name() : index_images(work, layout).framebuffer;
   for (uint32_t pass = 0; pass < passes; ++pass) {
-    if (passes > 1) redraw(pass);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER,
-                      work.targets.framebuffer(index_images(work, layout), work.targets.depth()));
+    if (passes > 1 || centres) redraw(pass, framebuffer);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     of_pass.push_back(read_channels(layout, work.grid()));
   }
   ListedLights lists;
@@ -140,23 +189,25 @@ LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<Light
   const LightIndexOrder& state = cache.of(work);
   const LightVolumes& volumes = volume_cache.of(work);
   const LightIndexLayout& layout = state.layout();
-  const std::vector<GLuint> images = index_images(work, layout);
-  const GLuint framebuffer = work.targets.framebuffer(images, work.targets.depth());
+  const IndexImages images = index_images(work, layout);
   IndexShadows* shadows = work.plan.own_shadows ? &shadow_cache.of(work) : nullptr;
   if (shadows && number == 0) shadows->find(work, numbered);
   const IndexShadows* dropping = drops_hidden(work) ? shadows : nullptr;
   auto pass = work.timer.pass("light_index", "gl");
-  const auto draw = [&work, &state, &volumes, framebuffer, dropping](uint32_t which) {
+  const auto draw = [&work, &state, &volumes, dropping](uint32_t which, GLuint framebuffer) {
     draw_volumes(work, state, volumes, framebuffer, dropping, which);
   };
-  draw(number);
+  if (images.own_depth && work.plan.settings.lidr_volumes != LidrVolumes::no_prepass)
+    draw_farthest_depth(work, images.own_depth);
+  draw(number, images.framebuffer);
   const size_t values = work.grid().values();
   pass.moves(values * 5 + volumes.memory_bytes(), values * (layout.pixel_bytes() + 1));
   if (drops_hidden(work)) shadows = nullptr;
   const bool points_alone = state.batches().passes[number].points_alone;
-  return LightSource([=, &work, &layout] { return index_loop(work, layout, images, shadows, points_alone); },
-                     {}, work.targets.bytes(TargetUse::light_index),
-                     [&work, &state, draw](auto&) { return read_light_index(work, state, draw); });
+  return LightSource(
+      [=, &work, &layout] { return index_loop(work, layout, images.textures, shadows, points_alone); }, {},
+      work.targets.bytes(TargetUse::light_index),
+      [&work, &state, draw](auto&) { return read_light_index(work, state, draw); });
 }
 
 void tell_index_shadows(Work& work, Cached<IndexShadows>& shadow_cache, Cached<LightVolumes>& volume_cache,

@@ -331,7 +331,7 @@ void plan_samples(const Scene& scene, FramePlan& plan) {
   const int samples = plan.settings.samples;
   if (samples == 1) return;
   plan.decisions.push_back({"samples", true, fmt::format("samples={}", samples)});
-  if (!plan.light_reaches) return;
+  if (!plan.light_reaches && !plan.own_shadows) return;
   const Settings& s = plan.settings;
   const char* one_sample = plan.opengl                       ? "shadows where OpenGL draws"
                            : s.shadows == ShadowMethod::map ? "shadow maps"

@@ -50,8 +50,12 @@ GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use) {
   return texture(name, format, use, grid_);
 }
 
-GLuint Targets::resolved(const std::string& name, GLenum format) {
-  return texture(name, format, TargetUse::image, {grid_.width, grid_.height});
+GLuint Targets::resolved(const std::string& name, GLenum format, TargetUse use) {
+  return texture(name, format, use, {grid_.width, grid_.height});
+}
+
+GLuint Targets::in_a_row(const std::string& name, GLenum format, TargetUse use) {
+  return texture(name, format, use, {grid_.width * grid_.samples, grid_.height});
 }
 
 GLuint Targets::texture(const std::string& name, GLenum format, TargetUse use, const PixelGrid& grid) {

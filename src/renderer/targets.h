@@ -57,7 +57,9 @@ class Targets {
   // The image of this name, of the grid's samples. The first call fixes format and use.
   GLuint texture(const std::string& name, GLenum format, TargetUse use = TargetUse::image);
   // Likewise, of one sample a pixel.
-  GLuint resolved(const std::string& name, GLenum format);
+  GLuint resolved(const std::string& name, GLenum format, TargetUse use = TargetUse::image);
+  // Likewise, of one sample, as wide as a row's samples: those of a pixel beside one another.
+  GLuint in_a_row(const std::string& name, GLenum format, TargetUse use = TargetUse::image);
   GLuint depth();  // reversed 32-bit float
   GLenum depth_format() const { return stencil_ ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F; }
 

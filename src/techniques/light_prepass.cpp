@@ -6,6 +6,7 @@
 #include "passes/fill_light_buffer.h"
 #include "passes/find_object_lights.h"
 #include "passes/resolve.h"
+#include "passes/sample_edges.h"
 #include "passes/shade_forward.h"
 #include "passes/shade_light_volumes.h"
 #include "techniques/recipes.h"
@@ -35,6 +36,20 @@ static ShadedImage shade_materials(RenderView& v, const Surfaces& surfaces, cons
   return shade(v, surfaces, from_light_buffer(v, light_buffer_to_gl(v, sums)));
 }
 
+// Where samples have normals or depths of several surfaces.
+static cl::Buffer edges_of(RenderView& v, const NormalsInCl& normals, const DepthBuffer& depth,
+                           Frame& frame) {
+  if (v.grid().samples == 1) return {};
+  const size_t bytes = normals.layout->image.bytes;
+  const StoredSurfaces stored{{normals.image}, bytes, normals.group_numbers};
+  const cl::Buffer edges = sample_edges(v, v.caches.sample_edges, stored, depth);
+  frame.sample_figures = [&v, edges, depth,
+                          bytes = bytes + light_buffer_of(v, true).bytes() + group_number_bytes(v.plan) + 4] {
+    return figures_of_edges(v, edges, depth, bytes);
+  };
+  return edges;
+}
+
 static Frame from_tiles(RenderView& v) {
   Surfaces surfaces;
   NormalsInCl normals;
@@ -43,7 +58,8 @@ static Frame from_tiles(RenderView& v) {
     surfaces = surfaces_of(v, drawn.depth, true);
     normals = normals_to_cl(v, drawn);
     if (drawn.group_numbers)
-      surfaces.group_numbers = &group_numbers_to_cl(v, drawn.framebuffer, 1, drawn.group_numbers);
+      normals.group_numbers = surfaces.group_numbers =
+          &group_numbers_to_cl(v, drawn.framebuffer, 1, drawn.group_numbers);
   } else {
     surfaces = find_surfaces(v);
     normals = resolve_normals(v, v.caches.resolver, *surfaces.visible);
@@ -52,8 +68,10 @@ static Frame from_tiles(RenderView& v) {
   frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), cull_bounds_of(v, surfaces));
   const LightSource lights = from_grid(v, *frame.grid);
   const TargetUse use = v.plan.opengl ? TargetUse::image : TargetUse::gbuffer;
+  const DepthBuffer& depth = depth_of(v, surfaces);
+  const cl::Buffer edges = edges_of(v, normals, depth, frame);
   frame.image = shade_materials(
-      v, surfaces, fill_light_buffer(v, v.caches.light_sums, normals, depth_of(v, surfaces), lights, use));
+      v, surfaces, fill_light_buffer(v, v.caches.light_sums, normals, depth, lights, use, edges));
   blend_from_grid(v, surfaces, lights, frame);
   return frame;
 }
@@ -68,6 +86,7 @@ static Frame render(RenderView& v) {
 }
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
+  store_samples_in_opengl(needs, settings);
   if (prepass_lights.of(settings) == PrepassLights::tiles) return;
   needs.light_grid = false, needs.no_light_grid = "prepass-lights=volumes";
   needs.stencil = settings.volume_culling == VolumeCulling::stencil, needs.group_stencil = true;
@@ -82,13 +101,14 @@ extern const Technique light_prepass{
               .z_bins = true,
               .chosen_raster = true,
               .group_tiles = true,
+              .most_samples = 8,
               .adapt = adapt},
     .settings = {"brdf",          "prepass-lights", "prepass-specular", "prepass-shininess",
                  "buffer-bits",   "normals",        "volume-culling",   "group-ids",
                  "group-stencil", "group-tiles",    "volume-mesh",      "cull-test",
                  "depth-bounds",  "tile",           "slice-spacing",    "z-bins",
-                 "raster",        "texels",         "kernel-shape",     "portable",
-                 "group-size"},
+                 "raster",        "samples",        "samples-shading",  "texels",
+                 "kernel-shape",  "portable",       "group-size"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .approximate = true};

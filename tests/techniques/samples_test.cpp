@@ -191,12 +191,13 @@ class SamplesOfOpenGl : public testing::Test {
       GTEST_SKIP() << error.what();
     }
   }
-  Image draw(const char* technique, int samples, const char* shading = "edges",
-             const char* shape = "auto") const {
+  Image draw(const char* technique, int samples, const char* shading = "edges", const char* shape = "auto",
+             std::initializer_list<const char*> more = {}) const {
     Settings settings;
     settings.samples = samples;
     apply_setting(settings, std::string("samples-shading=") + shading);
     apply_setting(settings, std::string("kernel-shape=") + shape);
+    for (const char* each : more) apply_setting(settings, each);
     return render(s_.scene, small_view(67, 41), technique, settings);
   }
   SmallScene s_ = small_scene();
@@ -241,7 +242,38 @@ TEST_F(SamplesOfOpenGl, HaveOneImageInEveryTechniqueThatStoresThem) {
     EXPECT_TRUE(identical(draw(technique, 4, "edges", "group"), edges)) << technique;
     EXPECT_FALSE(same_bytes(edges, tiles)) << technique;
     EXPECT_LT(compare_images(edges, tiles).rmse_rel, 2e-3) << technique;
+    EXPECT_TRUE(identical(draw(technique, 4, "edges", "auto", {"group-tiles=on"}), edges)) << technique;
   }
+}
+
+TEST_F(SamplesOfOpenGl, HaveOneLightBufferByTilesAndByVolumes) {
+  for (const char* name : {"directional", "spot", "groups"}) effect(name).add(s_);
+  for (const char* specular : {"prepass-specular=plain", "prepass-specular=fifth-term"}) {
+    const Image volumes = draw("light_prepass", 4, "edges", "auto", {specular, "prepass-lights=volumes"});
+    const Image tiles = draw("light_prepass", 4, "all", "auto", {specular});
+    EXPECT_LT(compare_images(tiles, volumes).max_rel, 1e-4) << specular;
+    EXPECT_LT(compare_images(draw("light_prepass", 4, "all", "group", {specular}), tiles).max_rel, 1e-7);
+    const Image edges = draw("light_prepass", 4, "edges", "auto", {specular});
+    EXPECT_LT(compare_images(draw("light_prepass", 4, "edges", "group", {specular}), edges).max_rel, 1e-7);
+    EXPECT_FALSE(same_bytes(edges, tiles)) << specular;
+    EXPECT_LT(compare_images(edges, tiles).rmse_rel, 2e-3) << specular;
+  }
+}
+
+// Behind front faces a pixel's lights are those of all its samples, and a surface is shaded once: forward's
+// picture, as no pixel here has more lights than slots.
+TEST_F(SamplesOfOpenGl, ShowForwardsImageWithIndicesOfWholePixels) {
+  effect("spot").add(s_);
+  const Image image = draw("lidr", 4, "edges", "auto", {"lidr-volumes=front-faces"});
+  EXPECT_LT(compare_images(image, draw("forward", 4)).max_rel, 1e-5);
+}
+
+// With indices of its own each sample is shaded alone.
+TEST_F(SamplesOfOpenGl, ShowOneImageInEveryPackingOfIndicesOfSamples) {
+  effect("spot").add(s_);
+  const Image image = draw("lidr", 4);
+  for (const char* more : {"lidr-packing=sort", "lidr-packing=maxblend-sort", "lidr-unpack=float"})
+    EXPECT_LT(compare_images(draw("lidr", 4, "edges", "auto", {more}), image).max_rel, 1e-5) << more;
 }
 
 TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesWhereSurfacesAreStored) {
@@ -249,11 +281,14 @@ TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesWhereSurfacesAreStored) {
   effect("directional").add(s_);
   for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
   const FineTruth truth = truth_of(s_.scene, 67, 41);
-  for (const char* technique : {"deferred", "deferred_tiled", "forward_plus_compute"}) {
+  for (const char* technique :
+       {"deferred", "deferred_tiled", "forward_plus_compute", "light_prepass", "lidr"}) {
     const Image one = draw(technique, 1), four = draw(technique, 4);
     EXPECT_LT(truth.error(four, true), truth.error(one, true) / 3) << technique;
     EXPECT_LT(truth.error(four, false), truth.error(four, true) / 10) << technique;
   }
+  const Image behind = draw("lidr", 4, "edges", "auto", {"lidr-volumes=no-prepass"});
+  EXPECT_LT(truth.error(behind, true), truth.error(draw("lidr", 1), true) / 3);
 }
 
 TEST_F(SamplesOfOpenGl, AreRefusedWhereTheMachineHasOtherNumbers) {

@@ -40,19 +40,6 @@ static inline Real3 normals_of_block(global const normal_t* normals, uint x, uin
 #endif
 }
 
-// The first `values` channels of a row that ends outside the image.
-static inline void store_channels(global light_channel_t* to, const float* row, uint values) {
-  for (uint i = 0; i < values; ++i) {
-#if BUFFER_BITS == 32
-    to[i] = row[i];
-#elif BUFFER_BITS == 16
-    vstore_half_rte(row[i], i, to);
-#else
-    to[i] = convert_uchar_sat_rte(row[i]);
-#endif
-  }
-}
-
 static inline void store_four(global light_channel_t* to, float16 row, uint columns) {
   if (columns < 4) return store_channels(to, (const float*)&row, 4 * columns);
 #if BUFFER_BITS == 32
@@ -105,7 +92,6 @@ kernel void light_buffer(global const normal_t* normals, global const float* dep
                           indices + range.x, range.y, bins_of_pixels(depths, lit, bin_edges), &lights,
                           exponent);
       }
-#define STORED(term) stored_light(term, inverse_scale, lit)
       float16 rows[4];
       rows_of_block(rows, real3(STORED(t.diffuse.x), STORED(t.diffuse.y), STORED(t.diffuse.z)),
                     STORED(t.specular));

@@ -37,7 +37,6 @@ kernel void light_buffer(global const normal_t* normals, global const float* dep
     t = terms_of_list(position, normal_at(normals, at), groups, lit, indices + range.x, range.y,
                       bins_of_pixels(depth[at], lit, bin_edges), &lights, exponent);
   }
-#define STORED(term) stored_light(term, inverse_scale, lit)
   const float4 a =
       (float4)(STORED(t.diffuse.x), STORED(t.diffuse.y), STORED(t.diffuse.z), STORED(t.specular));
 #if BUFFER_BITS == 32

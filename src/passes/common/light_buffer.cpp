@@ -78,12 +78,16 @@ NormalsInCl normals_in_cl_of(Work& work, TargetUse use) {
   return {&layout, &work.shared_samples("normals", layout.image.bytes, use), group_numbers_in_cl(work, use)};
 }
 
-LightBuffer light_buffer_of(Work& work) {
+LightBuffer light_buffer_of(Work& work, bool from_cl) {
   LightBuffer b;
   b.layout = &light_buffer_layout(work.plan.settings);
-  b.first = work.targets.texture(b.layout->first.name, b.layout->first.format, TargetUse::gbuffer);
-  if (has_fifth_term(work.plan.settings))
-    b.second = work.targets.texture(b.layout->second.name, b.layout->second.format, TargetUse::gbuffer);
+  b.in_a_row = from_cl && work.grid().samples > 1;
+  const auto texture = [&](const PrepassImage& image) {
+    return b.in_a_row ? work.targets.in_a_row(image.name, image.format, TargetUse::gbuffer)
+                      : work.targets.texture(image.name, image.format, TargetUse::gbuffer);
+  };
+  b.first = texture(b.layout->first);
+  if (has_fifth_term(work.plan.settings)) b.second = texture(b.layout->second);
   return b;
 }
 
@@ -92,6 +96,8 @@ LightSource from_light_buffer(const Seen& seen, const LightBuffer& buffer) {
     GlLightLoop loop = base_lighting(seen);
     loop.defines.emplace_back("LIGHTS");
     loop.defines.emplace_back("LIGHTS_BUFFER");
+    if (seen.grid().samples > 1) loop.defines.emplace_back("PER_SAMPLE");
+    if (buffer.in_a_row) loop.defines.emplace_back("SAMPLES_IN_A_ROW");
     for (std::string& define : light_buffer_defines(seen)) loop.defines.push_back(std::move(define));
     // Where nothing reads it, lights of another brightness need no other program.
     const bool read =

@@ -80,12 +80,14 @@ struct NormalImage {
 struct LightBuffer {
   const LightBufferLayout* layout = nullptr;
   GLuint first = 0, second = 0;  // textures; second 0: no fifth term
+  bool in_a_row = false;         // samples, in images of one (Targets::in_a_row)
   size_t bytes() const { return layout->first.bytes + (second ? layout->second.bytes : 0); }  // a pixel
 };
 
 // The view's images, drawn or not.
 NormalImage normal_image_of(Work& work);
-LightBuffer light_buffer_of(Work& work);
+// from_cl: OpenCL writes the buffer, whose copies are images of one sample.
+LightBuffer light_buffer_of(Work& work, bool from_cl = false);
 
 // Normals as plain bytes in OpenCL's memory, row 0 at the bottom.
 struct NormalsInCl {
