@@ -11,8 +11,14 @@ namespace {
 
 constexpr float display_white = 1;  // light above it is shown as white, and an error in it is not seen
 
+// Ways of techniques beside the defaults.
+constexpr std::pair<const char*, const char*> ways[] = {{"deferred_tiled", "samples-shading=all"},
+                                                        {"light_prepass", "prepass-lights=volumes"},
+                                                        {"lidr", "lidr-volumes=front-faces"},
+                                                        {"lidr", "lidr-volumes=no-prepass"}};
+
 struct Row {
-  const char* technique;
+  std::string technique;
   int samples;
   Image image;
   std::unique_ptr<TechniqueRun> run;
@@ -32,22 +38,29 @@ void tell(Renderer& renderer, const std::string& name) {
   const FineTruth truth(renderer, scene, view_of(name, width * FineTruth::side, height * FineTruth::side),
                         display_white);
   std::vector<Row> rows;
-  for (const Technique* technique : techniques()) {
+  const auto add = [&](const Technique* technique, const char* way) {
     for (const int samples : {1, 2, 4, 8}) {
       Settings settings;
       settings.samples = samples;
+      if (way) apply_setting(settings, way);
       if (samples > most_samples(*technique, settings)) continue;
+      const std::string called = way ? fmt::format("{} {}", technique->name, way) : technique->name;
       try {
         TechniqueRun small(renderer, scene, view_of(name, width, height), settings, *technique);
         small.run_frame();
-        Row& row = rows.emplace_back(Row{technique->name, samples, small.image(), {}});
+        Row& row = rows.emplace_back(Row{called, samples, small.image(), {}});
         row.run = std::make_unique<TechniqueRun>(
             renderer, scene, view_of(name, width * times, height * times), settings, *technique);
         row.run->run_frame(true);
       } catch (const Error& error) {
-        fmt::print(stderr, "{} samples={}: {}\n", technique->name, samples, error.what());
+        fmt::print(stderr, "{} samples={}: {}\n", called, samples, error.what());
       }
     }
+  };
+  for (const Technique* technique : techniques()) {
+    add(technique, nullptr);
+    for (const auto& [name, way] : ways)
+      if (technique->name == std::string(name)) add(technique, way);
   }
   std::erase_if(rows, [](const Row& row) { return !row.run; });
   for (int frame = 0; frame < 5; ++frame) {

@@ -17,13 +17,13 @@ RESULTS = ROOT / "docs" / "results" / "samples"
 
 
 def table(rows):
-    lines = ["| scene | technique | samples | error at edges | inside | a frame, one sample = 1 | more bytes a pixel |",
-             "| --- | --- | ---: | ---: | ---: | ---: | ---: |"]
+    lines = ["| scene | technique | samples | error at edges | inside | a frame, ms | one sample = 1 | more bytes a pixel |",
+             "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
     for r in rows:
         if r["samples"] == "1" and sum(o["technique"] == r["technique"] and o["scene"] == r["scene"] for o in rows) == 1:
             continue  # takes no other number
         lines.append(f"| `{r['scene']}` | `{r['technique']}` | {r['samples']} | {float(r['edge_error']):.3f} | "
-                     f"{float(r['inside_error']):.3f} | {r['time_of_one']} | {r['more_bytes_a_pixel']} |")
+                     f"{float(r['inside_error']):.3f} | {r['frame_ms']} | {r['time_of_one']} | {r['more_bytes_a_pixel']} |")
     return "\n".join(lines)
 
 
