@@ -13,32 +13,34 @@ namespace lightgrid {
 // The kernel and its result.
 class SampleEdges : public PassCache {
  public:
-  explicit SampleEdges(Work&) {}
+  explicit SampleEdges(Work& work) : kernels_(work, "resolve") {}
 
   bool follow(Work&) override { return true; }
   size_t memory_bytes() const override { return edges_.bytes(); }
 
   cl::Buffer find(Work& work, const StoredSurfaces& surfaces, const DepthBuffer& depth) {
-    const size_t values = work.grid().pixels() / 16 + 1;
+    constexpr size_t group = 64;
+    const size_t pixels = work.grid().pixels(), groups = pixels / group + 1;
+    const size_t values = groups * group / 16;
+    const bool lanes = kernels_.lanes;
     ClDevice& device = *work.renderer.cl;
     const std::string defines =
-        fmt::format("-DWORDS={}u{}{}{}", surfaces.bytes / 4, sample_defines(work.sample_places()),
+        fmt::format(" -DWORDS={}u{}{}{}", surfaces.bytes / 4, sample_defines(work.sample_places()),
                     surfaces.group_numbers ? " -DGROUPS" : "", group_number_define(work.plan));
-    if (!kernel_ || defines != defines_)
-      kernel_ = NamedKernel(*work.renderer.kernels, "resolve/sample_edges", defines);
-    defines_ = defines;
+    NamedKernel& kernel = kernels_.of("sample_edges", defines);
     auto pass = work.timer.pass("sample_edges", "cl");
     const auto image = [&](size_t i) {
       return i < surfaces.images.size() ? surfaces.images[i]->cl_buffer() : cl::Buffer();
     };
-    kernel_.launch(device, "sample_edges", cl::NDRange(values), cl::NullRange,
+    kernel.launch(device, "sample_edges", cl::NDRange(lanes ? values : groups * group),
+                   lanes ? cl::NullRange : cl::NDRange(group),
                    ClArguments{{"first", image(0)},
                                {"second", image(1)},
                                {"third", image(2)},
                                {"fourth", image(3)}} +
                        group_number_arguments(work.plan, surfaces.group_numbers) +
                        ClArguments{{"depths", depth.values},
-                                   {"pixels", cl_uint(work.grid().pixels())},
+                                   {"pixels", cl_uint(pixels)},
                                    {"edges", edges_.at_least(device, values * sizeof(cl_ushort))}});
     pass.moves(work.grid().values() * (surfaces.bytes * surfaces.images.size() + 4),
                values * sizeof(cl_ushort));
@@ -46,9 +48,8 @@ class SampleEdges : public PassCache {
   }
 
  private:
+  PassKernels kernels_;
   GrowingBuffer edges_;
-  NamedKernel kernel_;
-  std::string defines_;
 };
 
 cl::Buffer sample_edges(Work& work, Cached<SampleEdges>& cache, const StoredSurfaces& surfaces,

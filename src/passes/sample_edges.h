@@ -14,7 +14,7 @@ struct StoredSurfaces {
   SharedBuffer* group_numbers = nullptr;
 };
 
-// A bit a pixel, 16 in a ushort: 1 at edges (kernels/resolve/sample_edges.cl). Null with samples-shading=all,
+// A bit a pixel, 16 in a ushort: 1 at edges (kernels/resolve/sample_edges.h). Null with samples-shading=all,
 // where every sample is shaded.
 cl::Buffer sample_edges(Work& work, Cached<SampleEdges>& cache, const StoredSurfaces& surfaces,
                         const DepthBuffer& depth);

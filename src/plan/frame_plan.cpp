@@ -199,12 +199,12 @@ std::string group_witness(const Scene& scene, size_t masks) {
                      std::ranges::count_if(scene.instances, lacks), scene.instances.size(), masks);
 }
 
-// OpenGL's surfaces have numbers of masks, of so many bits and of one sample a pixel, and OpenCL's any mask.
+// OpenGL's surfaces have numbers of masks, of so many bits, and OpenCL's any mask.
 void plan_group_tiles(const TechniqueNeeds& needs, FramePlan& plan) {
   const Settings& s = plan.settings;
   plan.group_tiles =
       plan.groups && plan.light_grid && needs.group_tiles && s.group_tiles &&
-      (!plan.opengl || (plan.group_masks.size() <= size_t(1) << s.group_bits && s.samples == 1));
+      (!plan.opengl || plan.group_masks.size() <= size_t(1) << s.group_bits);
 }
 
 void plan_groups(const Scene& scene, const TechniqueNeeds& needs, FramePlan& plan) {

@@ -1,7 +1,7 @@
 // As resolve/cpu/light_buffer.cl, of several samples a pixel.
 //
 // normals, depth, GROUP_NUMBER_ARGUMENTS, first, second  as there, of each sample
-// edges   pixels whose samples have sums of their own (resolve/sample_edges.cl); null: all pixels. All samples
+// edges   pixels whose samples have sums of their own (resolve/sample_edges.h); null: all pixels. All samples
 //         of others take the sums at their centre
 // -DSAMPLES, -DSAMPLE_PLACES  kernels/common/sample_places.h
 #define LANES 16

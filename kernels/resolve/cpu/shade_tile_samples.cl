@@ -1,7 +1,7 @@
 // As resolve/cpu/shade_tiles.cl, of several samples a pixel: the image takes the mean of its samples' light.
 //
 // first, second, coats, specular, depth, GROUP_NUMBER_ARGUMENTS  as there, of each sample
-// edges   pixels whose samples are shaded apart (resolve/sample_edges.cl); null: of all pixels
+// edges   pixels whose samples are shaded apart (resolve/sample_edges.h); null: of all pixels
 // image   RGBA a pixel, with -DBASE_LIGHTING the mean of what samples show without these lights
 // -DSAMPLES, -DSAMPLE_PLACES  kernels/common/sample_places.h
 #define LANES 16

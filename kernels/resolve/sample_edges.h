@@ -1,17 +1,13 @@
-// The pixels whose samples are several surfaces, of images that store a surface a sample: a work-item finds those
-// of 16 pixels. Lauritzen, "Deferred Rendering for Current and Future Rendering Pipelines" (SIGGRAPH 2010), compares
-// samples within thresholds. Here they are one surface only if they store the same bits, as of a triangle that
-// covers the pixel and was shaded once for it, and if their depths lie in a plane. What is called an edge without
-// need costs time and no accuracy.
+// The pixels whose samples are several surfaces, of images that store a surface a sample. Lauritzen, "Deferred
+// Rendering for Current and Future Rendering Pipelines" (SIGGRAPH 2010), compares samples within thresholds.
+// Here they are one surface only if they store the same bits, as of a triangle that covers the pixel and was
+// shaded once for it, and if their depths lie in a plane. What is called an edge without need costs time and no
+// accuracy.
 //
-// first … fourth  images of samples, WORDS words each; null: none
-// GROUP_NUMBER_ARGUMENTS  kernels/resolve/group_numbers.h; with -DGROUPS alone
-// depths   reversed depth of each sample
-// pixels   of the view
-// edges    out: a bit a pixel, 16 in a value
 // -DSAMPLES, -DSAMPLE_PLACES  kernels/common/sample_places.h; those of a pixel follow one another
+#pragma once
+
 #include "kernels/common/sample_places.h"
-#define LANES 1
 #include "kernels/resolve/group_numbers.h"
 
 static inline bool stores_one(global const uint* image, size_t pixel) {
@@ -50,18 +46,17 @@ static inline bool has_one_group(global const group_number_t* numbers) {
 #define has_one_group(numbers) true
 #endif
 
-kernel void sample_edges(global const uint* first, global const uint* second, global const uint* third,
-                         global const uint* fourth, GROUP_NUMBER_ARGUMENTS global const float* depths,
-                         uint pixels, global ushort* edges) {
-  const uint begin = get_global_id(0) * 16;
-  if (begin >= pixels) return;
-  uint found = 0;
-  for (uint i = 0; i < min(pixels - begin, 16u); ++i) {
-    const size_t at = begin + i;
-    const bool one = stores_one(first, at) && stores_one(second, at) && stores_one(third, at) &&
-                     stores_one(fourth, at) && has_one_group(group_numbers + at * SAMPLES) &&
-                     in_plane(depths + at * SAMPLES);
-    found |= one ? 0 : 1u << i;
-  }
-  edges[get_global_id(0)] = (ushort)found;
+#define SURFACE_ARGUMENTS                                                                              \
+  global const uint *first, global const uint *second, global const uint *third, global const uint *fourth, \
+      GROUP_NUMBER_ARGUMENTS global const float *depths
+#ifdef GROUPS
+#define GIVEN_GROUP_NUMBERS group_numbers, last_group,
+#else
+#define GIVEN_GROUP_NUMBERS
+#endif
+
+static inline bool has_one_surface(size_t at, SURFACE_ARGUMENTS) {
+  return stores_one(first, at) && stores_one(second, at) && stores_one(third, at) && stores_one(fourth, at) &&
+         has_one_group(group_numbers + at * SAMPLES) && in_plane(depths + at * SAMPLES);
 }
+#define HAS_ONE_SURFACE(at) has_one_surface(at, first, second, third, fourth, GIVEN_GROUP_NUMBERS depths)
