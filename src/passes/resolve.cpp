@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cl/launch.h"
+#include "passes/resolve_samples.h"
 #include "raster/raster_samples.h"
 #include "renderer/upload/lights.h"
 
@@ -146,27 +147,15 @@ cl_float4 background(const Seen& seen) {
 
 }  // namespace
 
-// Of kernels/resolve/average.h.
-static const char* average_define(const Settings& settings) {
-  switch (settings.samples_resolve) {
-    case SamplesResolve::linear:
-      return "";
-    case SamplesResolve::tonemapped:
-      return " -DAVERAGE_TONEMAPPED";
-    case SamplesResolve::weighted:
-      return " -DAVERAGE_WEIGHTED";
-  }
-  return "";
-}
-
 // Over the image of resolve(): the pixels whose samples see several surfaces.
 static void resolve_edges(Work& work, Resolver& r, const VisibilityBuffer& visible,
                           const LightSource& lights) {
   const ClArguments& traced = work.shadows.traced;
-  NamedKernel& kernel =
-      r.kernel(work, "resolve_edges",
-               lights.in_cl->defines + sample_defines(work.grid().samples) +
-                   average_define(work.plan.settings) + (traced.empty() ? "" : work.shadows.traced_defines));
+  const char* average = average_define(work.plan.settings);
+  NamedKernel& kernel = r.kernel(work, "resolve_edges",
+                                 lights.in_cl->defines + sample_defines(work.grid().samples) +
+                                     (average ? fmt::format(" -D{}", average) : "") +
+                                     (traced.empty() ? "" : work.shadows.traced_defines));
   auto pass = work.timer.pass("resolve_edges", "cl");
   r.launch(work, kernel, "resolve_edges",
            traced + ClArguments{{"triangles", visible.image.triangle},

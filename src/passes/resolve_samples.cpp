@@ -4,6 +4,18 @@
 
 namespace lightgrid {
 
+const char* average_define(const Settings& settings) {
+  switch (settings.samples_resolve) {
+    case SamplesResolve::linear:
+      return nullptr;
+    case SamplesResolve::tonemapped:
+      return "AVERAGE_TONEMAPPED";
+    case SamplesResolve::weighted:
+      return "AVERAGE_WEIGHTED";
+  }
+  return nullptr;
+}
+
 ShadedImage resolve_samples(Work& work, const ShadedImage& image) {
   if (image.in_cl || work.grid().samples == 1) return image;
   auto pass = work.timer.pass("resolve_samples", "gl");
@@ -13,7 +25,9 @@ ShadedImage resolve_samples(Work& work, const ShadedImage& image) {
   glDisable(GL_DEPTH_TEST), glDisable(GL_BLEND);
   bind_sampler_object(Sampler::image, 0);
   bind_texture(Sampler::image, work.targets.texture("color", GL_RGBA32F));
-  draw_screen(work.program("shaders/screen.vert", "shaders/resolve_samples.frag", {}));
+  std::vector<std::string> defines;
+  if (const char* average = average_define(work.plan.settings)) defines.emplace_back(average);
+  draw_screen(work.program("shaders/screen.vert", "shaders/resolve_samples.frag", std::move(defines)));
   pass.moves(work.grid().values() * 16, work.grid().pixels() * 16);
   return resolved;
 }

@@ -24,7 +24,7 @@ extern const Technique deferred{.name = "deferred",
                                 .source = "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009",
                                 .needs = {.group_stencil = true, .most_samples = 8, .adapt = adapt},
                                 .settings = {"brdf", "buffer-bits", "volume-culling", "group-ids",
-                                             "group-stencil", "volume-mesh", "samples"},
+                                             "group-stencil", "volume-mesh", "samples", "samples-resolve"},
                                 .render = render,
                                 .listed_by = ListedBy::pixel};
 

@@ -10,7 +10,7 @@ extern const Technique forward_multipass{
     .summary = "an additive pass for each object and light",
     .source = "the baseline of Trebilco: Light Indexed Deferred Rendering, ShaderX7, 2009",
     .needs = {.reversed_triangles = true, .most_samples = 8},
-    .settings = {"brdf", "depth-bounds", "tile", "samples", "kernel-shape"},
+    .settings = {"brdf", "depth-bounds", "tile", "samples", "samples-resolve", "kernel-shape"},
     .render = render,
     .listed_by = ListedBy::object};
 

@@ -107,7 +107,7 @@ extern const Technique light_prepass{
                  "buffer-bits",   "normals",        "volume-culling",   "group-ids",
                  "group-stencil", "group-tiles",    "volume-mesh",      "cull-test",
                  "depth-bounds",  "tile",           "slice-spacing",    "z-bins",
-                 "raster",        "samples",        "samples-shading",  "texels",
+                 "raster",        "samples", "samples-resolve",        "samples-shading",  "texels",
                  "kernel-shape",  "portable",       "group-size"},
     .render = render,
     .listed_by = ListedBy::pixel,

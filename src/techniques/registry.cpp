@@ -121,10 +121,10 @@ int most_samples(const Technique& technique, const Settings& settings) {
 void check_samples(const Technique& technique, const Settings& settings) {
   const int most = most_samples(technique, settings);
   if (settings.samples > 1 && settings.samples_resolve != SamplesResolve::linear &&
-      draws_with_opengl(adapted_needs(technique, settings), settings))
-    throw input_error("set samples-resolve: {} draws with OpenGL, which averages light; choose "
-                      "samples-resolve=linear{}",
-                      technique.name, technique.needs.chosen_raster ? " or raster=opencl" : "");
+      !holds(technique.settings, "samples-resolve"))
+    throw input_error("set samples-resolve: {} averages light where it shades tiles; choose "
+                      "samples-resolve=linear",
+                      technique.name);
   if (settings.samples <= most) return;
   throw input_error("set samples={}: {} with these settings takes {} a pixel", settings.samples,
                     technique.name, most);

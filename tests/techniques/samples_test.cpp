@@ -100,17 +100,17 @@ class SamplesResolve : public testing::Test {
     add_instance(s_.scene, "panel", add_mesh(s_.scene, wall_mesh({0.13f, 0.07f, -4}, 1.03f, 0, "panel")));
     s_.scene.instances[0].world_from_object = glm::rotate(glm::dmat4(1), 0.1, {0, 0, 1});
   }
-  Image draw(const char* resolve, const char* shape = "lanes") const {
+  Image draw(const char* resolve, const char* shape = "lanes", const char* technique = "visibility") const {
     Settings settings;
     settings.samples = 4;
     apply_setting(settings, std::string("samples-resolve=") + resolve);
     if (shape == std::string("group")) apply_setting(settings, "kernel-shape=group");
-    return render(s_.scene, small_view(41, 29), "visibility", settings);
+    return render(s_.scene, small_view(41, 29), technique, settings);
   }
   // Calls check(share of the panel, pixel) at pixels of both.
   template <typename Check>
-  size_t at_edges(const Check& check) const {
-    const Image linear = draw("linear");
+  size_t at_edges(const char* technique, const Check& check) const {
+    const Image linear = draw("linear", "lanes", technique);
     size_t edges = 0;
     for (size_t i = 0; i < linear.pixels.size(); ++i) {
       const double share = (double(linear.pixels[i].r) - 0.1) / (20 - 0.1);
@@ -127,14 +127,16 @@ class SamplesResolve : public testing::Test {
 };
 
 TEST_F(SamplesResolve, AfterTheToneMapIsTheMeanOfWhatItShows) {
-  const Image image = draw("tonemapped");
-  const size_t edges = at_edges([&](double share, size_t i) {
-    const glm::dvec3 expected =
-        glm::mix(glm::dvec3(tone_map_neutral(background_)), glm::dvec3(tone_map_neutral(panel_)), share);
-    const glm::dvec3 shown(tone_map_neutral(glm::vec3(image.pixels[i])));
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], expected[c], 1e-6) << i << ' ' << share;
-  });
-  EXPECT_GT(edges, 30u);
+  for (const char* technique : {"visibility", "forward", "deferred"}) {
+    const Image image = draw("tonemapped", "lanes", technique);
+    const size_t edges = at_edges(technique, [&](double share, size_t i) {
+      const glm::dvec3 expected =
+          glm::mix(glm::dvec3(tone_map_neutral(background_)), glm::dvec3(tone_map_neutral(panel_)), share);
+      const glm::dvec3 shown(tone_map_neutral(glm::vec3(image.pixels[i])));
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], expected[c], 1e-6) << i << ' ' << share;
+    });
+    EXPECT_GT(edges, 30u) << technique;
+  }
 }
 
 // The derivative of the tone map's brightest channel, as a difference of grey light, in which all channels
@@ -146,38 +148,43 @@ TEST_F(SamplesResolve, WeightedIsTheMeanByTheToneMapsDerivative) {
     const auto shown = [](double x) { return x < 0.76 ? x : 1 - 0.24 * 0.24 / (x + 0.24 - 0.76); };
     return (shown(peak - off + 1e-4) - shown(peak - off - 1e-4)) / 2e-4;
   };
-  const Image image = draw("weighted");
   const double of_panel = weight(panel_), of_background = weight(background_);
   EXPECT_NEAR(of_background, 1, 1e-6);
   EXPECT_LT(of_panel, 1e-3);
-  const size_t edges = at_edges([&](double share, size_t i) {
-    const double a = share * of_panel, b = (1 - share) * of_background;
-    const glm::dvec3 expected = (panel_ * a + background_ * b) / (a + b);
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.pixels[i][c], expected[c], 1e-5) << i << ' ' << share;
-  });
-  EXPECT_GT(edges, 30u);
+  for (const char* technique : {"visibility", "forward", "deferred"}) {
+    const Image image = draw("weighted", "lanes", technique);
+    const size_t edges = at_edges(technique, [&](double share, size_t i) {
+      const double a = share * of_panel, b = (1 - share) * of_background;
+      const glm::dvec3 expected = (panel_ * a + background_ * b) / (a + b);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.pixels[i][c], expected[c], 1e-5) << i << ' ' << share;
+    });
+    EXPECT_GT(edges, 30u) << technique;
+  }
 }
 
 TEST_F(SamplesResolve, HasTheSameBytesInBothShapesAndInside) {
-  const Image linear = draw("linear");
-  for (const char* resolve : {"linear", "tonemapped", "weighted"}) {
-    const Image image = draw(resolve);
-    EXPECT_TRUE(identical(draw(resolve, "group"), image)) << resolve;
+  for (const char* resolve : {"linear", "tonemapped", "weighted"})
+    EXPECT_TRUE(identical(draw(resolve, "group"), draw(resolve))) << resolve;
+  for (const char* technique : {"visibility", "forward"}) {
+    const Image linear = draw("linear", "lanes", technique);
+    for (const char* resolve : {"tonemapped", "weighted"}) {
+    const Image image = draw(resolve, "lanes", technique);
     for (size_t i = 0; i < image.pixels.size(); ++i) {
       if (linear.pixels[i].r == 20 || linear.pixels[i].r == 0.1f) {
         EXPECT_EQ(image.pixels[i], linear.pixels[i]);
       }
     }
+    }
   }
 }
 
-TEST(SamplesResolves, IsRefusedWhereOpenGLAverages) {
+TEST(SamplesResolves, IsRefusedWhereTilesAverage) {
   Settings settings;
   apply_setting(settings, "samples=4"), apply_setting(settings, "samples-resolve=tonemapped");
-  EXPECT_THROW(check_samples(find_technique("world_grid"), settings), Error);
-  EXPECT_NO_THROW(check_samples(find_technique("visibility"), settings));
-  apply_setting(settings, "raster=opencl");
-  EXPECT_NO_THROW(check_samples(find_technique("world_grid"), settings));
+  for (const char* technique : {"deferred_tiled", "forward_plus_compute"})
+    EXPECT_THROW(check_samples(find_technique(technique), settings), Error);
+  for (const char* technique : {"visibility", "world_grid", "forward", "lidr"})
+    EXPECT_NO_THROW(check_samples(find_technique(technique), settings));
 }
 
 // OpenGL's coverage, shaded once a pixel and surface.

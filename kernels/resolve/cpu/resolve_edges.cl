@@ -11,10 +11,10 @@
 // -DTILE             pixels a side, a multiple of 8 (default 16)
 // -DSHADOWS_TRACED   some light casts a shadow in this view: TRACED_ARGUMENTS come first
 //                    (kernels/shadows/traced_shadows.h)
-// -DSAMPLES, -DSAMPLE_PLACES, and what kernels/resolve/average.h, resolve.h and resolve_light.h name
+// -DSAMPLES, -DSAMPLE_PLACES, and what shared/average.h, resolve.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
-#include "kernels/resolve/average.h"
+#include "shared/average.h"
 #include "kernels/resolve/resolve_block.h"
 #include "kernels/resolve/resolve_light.h"
 #include "kernels/resolve/samples.h"

@@ -2,7 +2,7 @@
 // resolve/cpu/resolve_edges.cl, with the same arguments.
 #define FUSED  // shared/real.h
 #define LANES 1
-#include "kernels/resolve/average.h"
+#include "shared/average.h"
 #include "kernels/resolve/resolve_light.h"
 #include "kernels/resolve/samples.h"
 #include "shared/light_grid.h"
