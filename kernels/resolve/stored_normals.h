@@ -37,3 +37,15 @@ static inline Real3 unpacked_normal(packed_normal_t n) {
 #else
 typedef float4 normal_t;
 #endif
+
+#if LANES == 1
+static inline Real3 normal_at(global const normal_t* normals, size_t at) {
+#ifdef NORMAL_CHANNEL_STEPS
+  const uint n = normals[at];
+  return unpacked_normal(n);
+#else
+  const float4 n = normals[at];
+  return real3(n.x, n.y, n.z);
+#endif
+}
+#endif

@@ -4,16 +4,6 @@
 #include "kernels/resolve/light_buffer.h"
 #include "shared/light_grid.h"
 
-static inline Real3 normal_at(global const normal_t* normals, size_t at) {
-#ifdef NORMAL_CHANNEL_STEPS
-  const uint n = normals[at];
-  return unpacked_normal(n);
-#else
-  const float4 n = normals[at];
-  return real3(n.x, n.y, n.z);
-#endif
-}
-
 kernel void light_buffer(global const normal_t* normals, global const float* depth,
                          GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
                          global const index_t* indices,
