@@ -24,7 +24,7 @@ void main() {
 }
 #elif defined(MASK)
 void main() {
-  if (has(MATERIAL_MASK) && material_base_color().a < material.alpha_cutoff) discard;
+  if (has(MATERIAL_MASK) && MASK_ALPHA(material_base_color().a) < material.alpha_cutoff) discard;
   WRITE_GROUP
 }
 #else

@@ -3,7 +3,7 @@
 // lights of the object, LIGHTS_VOXELS for a voxel light buffer, LIGHTS_BUFFER for the sums of a light buffer,
 // else every light.
 // BLEND: output is multiplied by coverage, for blending over the image.
-// PER_SAMPLE: of several samples each is shaded, with lights of its own. Which of them a mask leaves, depth says.
+// PER_SAMPLE: runs once for each sample, with that sample's lights.
 // FIRST_OF_DRAWS, ADDED: the first of an object's draws, and a further one that only adds light. For the use
 // of alpha see src/passes/shade_objects.cpp.
 
@@ -54,8 +54,8 @@ uniform float alpha;
 
 void main() {
   Surface s = surface_here();
-#if defined(MASK) && !defined(PER_SAMPLE)
-  if (has(MATERIAL_MASK) && s.alpha < material.alpha_cutoff) discard;
+#ifdef MASK
+  if (has(MATERIAL_MASK) && MASK_ALPHA(s.alpha) < material.alpha_cutoff) discard;
 #endif
 #ifdef ADDED
   vec3 color = vec3(0.0);

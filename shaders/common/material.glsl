@@ -58,12 +58,10 @@ uniform sampler2D specular_color_map;
 // Past it, floats are further apart than texels are; and so that squares of derivatives do not overflow.
 #define MOST_UV 1e9
 
+bool has_uv1(uint slot) { return (material.uv_flags & (MATERIAL_UV1_FIRST << slot)) != 0u; }
+
 // slot: index of the material's texture (shared/material_params.h).
-vec2 uv_of(uint slot) {
-  vec2 uv = fragment_uv0;
-#ifdef UV1
-  if ((material.uv_flags & (MATERIAL_UV1_FIRST << slot)) != 0u) uv = fragment_uv1;
-#endif
+vec2 transformed_uv(uint slot, vec2 uv) {
 #ifdef UV_TRANSFORM
   if ((material.uv_flags & (MATERIAL_UV_TRANSFORM_FIRST << slot)) != 0u) {
     vec4 linear = material.uv_linear[slot];
@@ -71,6 +69,14 @@ vec2 uv_of(uint slot) {
   }
 #endif
   return mix(vec2(0.0), uv, lessThan(abs(uv), vec2(MOST_UV)));
+}
+
+vec2 uv_of(uint slot) {
+  vec2 uv = fragment_uv0;
+#ifdef UV1
+  if (has_uv1(slot)) uv = fragment_uv1;
+#endif
+  return transformed_uv(slot, uv);
 }
 #endif
 
@@ -89,3 +95,30 @@ vec4 material_base_color() {
 #endif
   return color;
 }
+
+// The alpha that a mask is tested with; `here` is the fragment's.
+//   SAMPLES: at the pixel's centre, where all passes find the same. Centroids are no such place: in passes that
+//   test depth first, drivers leave out the samples that it hides.
+#if defined(MASK) && defined(SAMPLES)
+float alpha_at_centre() {
+  float alpha = material.base_color.a;
+#ifdef BASE_COLOR_MAP
+  vec2 uv = interpolateAtOffset(fragment_uv0, vec2(0.0));
+#ifdef UV1
+  if (has_uv1(0u)) uv = interpolateAtOffset(fragment_uv1, vec2(0.0));
+#endif
+  if (has(MATERIAL_BASE_COLOR_MAP)) alpha *= texture(base_color_map, transformed_uv(0u, uv)).a;
+#endif
+#ifdef VERTEX_COLOR
+  float of_vertices = interpolateAtOffset(fragment_color, vec2(0.0)).a;
+#ifdef EVERYTHING_ON
+  if (of_vertices > -0.5)  // as in material_base_color()
+#endif
+    alpha *= clamp(of_vertices, 0.0, 1.0);
+#endif
+  return alpha;
+}
+#define MASK_ALPHA(here) alpha_at_centre()
+#else
+#define MASK_ALPHA(here) (here)
+#endif
