@@ -1,5 +1,5 @@
-// The mean of a pixel's samples, as AVERAGE_… says (shared/average.h): of light without it. SAMPLES: how many
-// there are.
+// The average of a pixel's SAMPLES (shared/average.h): the mean of their light without AVERAGE_…. Equal samples
+// keep their bits.
 #include "shared/average.h"
 
 uniform sampler2DMS image;

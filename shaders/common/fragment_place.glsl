@@ -1,6 +1,7 @@
 // Where a fragment is shaded: x and y in pixels, and the depth there.
 //   SAMPLES: of a pixel that the triangle covers whole, its centre, as with one sample; of others where the
-//   varyings are. With PER_SAMPLE the sample.
+//   varyings are.
+//   PER_SAMPLE: the sample's place
 #ifdef SAMPLES
 #include "shared/view_params.h"
 #include "shaders/common/varying.glsl"

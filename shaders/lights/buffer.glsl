@@ -2,7 +2,8 @@
 //   LIGHT_EXPONENT, LIGHT_REFERENCE: LightBufferParams (shared/light_buffer.h)
 //   LIGHT_SCALE: a sum of this size is stored as 1
 //   PREPASS_FIFTH_TERM: there is a second image
-//   SAMPLES: an image of so many; SAMPLES_IN_A_ROW: those of a pixel are texels beside one another
+//   SAMPLES: the image has so many a pixel; SAMPLES_IN_A_ROW: it has one, and a pixel's samples are texels
+//   beside one another
 #include "shared/light_buffer.h"
 
 uniform frame_sampler2D light_buffer;

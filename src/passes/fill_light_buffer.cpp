@@ -64,9 +64,8 @@ LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const No
                                   const cl::Buffer& edges) {
   LightSums& s = cache.of(work);
   const bool several = work.grid().samples > 1;
-  NamedKernel& kernel = several
-                            ? s.kernels.of("light_buffer_samples", sample_defines(work.sample_places()))
-                            : s.kernels.of("light_buffer");
+  NamedKernel& kernel = several ? s.kernels.of("light_buffer_samples", sample_defines(work.sample_places()))
+                                : s.kernels.of("light_buffer");
   LightBufferInCl buffer{&light_buffer_layout(work.plan.settings), nullptr, nullptr};
   buffer.first = &work.shared_samples("light buffer", buffer.layout->first.bytes, use);
   if (has_fifth_term(work.plan.settings))
@@ -97,9 +96,10 @@ LightBuffer light_buffer_to_gl(Work& work, const LightBufferInCl& buffer) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   if (row > most)
-    throw machine_error("OpenGL's images have at most {} texels in a row, and light_prepass needs one for "
-                        "each sample, {}; choose fewer samples or prepass-lights=volumes",
-                        most, row);
+    throw machine_error(
+        "OpenGL's images have at most {} texels in a row, and light_prepass needs one for "
+        "each sample, {}; choose fewer samples or prepass-lights=volumes",
+        most, row);
   const LightBuffer in_gl = light_buffer_of(work, true);
   const size_t bytes = work.grid().values() * buffer.bytes();
   auto pass = work.timer.pass("light_buffer_to_gl", "gl");

@@ -14,8 +14,8 @@ namespace lightgrid {
 
 namespace {
 
-// Whether each sample has indices of its own, and is shaded for itself: the article's first technique with
-// samples. Its second lists lights before the farthest sample, a pixel, as behind front faces.
+// Whether each sample has indices of its own and is shaded alone: the article's technique 1 with samples. In
+// technique 2 a pixel has one list, of the lights in front of its farthest sample.
 bool has_samples(const Seen& seen) {
   return seen.grid().samples > 1 && seen.plan.settings.lidr_volumes == LidrVolumes::stencil;
 }
@@ -127,7 +127,7 @@ GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::ve
   return loop;
 }
 
-// Those at pixels' centres, with as many samples.
+// For read-outs of a frame with samples: images of one sample, drawn at pixels' centres.
 struct CentreImages {
   CentreImages(Work& work, const LightIndexLayout& layout) : depth(depth_of_centres(work)) {
     std::vector<GLuint> names;
@@ -151,8 +151,7 @@ ListedLights read_light_index(Work& work, const LightIndexOrder& state,
   std::vector<std::vector<uint16_t>> of_pass;
   std::optional<CentreImages> centres;
   if (has_samples(work)) centres.emplace(work, layout);
-  const GLuint framebuffer =
-      centres ? centres->framebuffer.name() : index_images(work, layout).framebuffer;
+  const GLuint framebuffer = centres ? centres->framebuffer.name() : index_images(work, layout).framebuffer;
   for (uint32_t pass = 0; pass < passes; ++pass) {
     if (passes > 1 || centres) redraw(pass, framebuffer);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
@@ -197,11 +196,14 @@ LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<Light
   const auto draw = [&work, &state, &volumes, dropping](uint32_t which, GLuint framebuffer) {
     draw_volumes(work, state, volumes, framebuffer, dropping, which);
   };
-  if (images.own_depth && work.plan.settings.lidr_volumes != LidrVolumes::no_prepass)
-    draw_farthest_depth(work, images.own_depth);
+  const bool finds_depth =
+      images.own_depth && number == 0 && work.plan.settings.lidr_volumes != LidrVolumes::no_prepass;
+  if (finds_depth) draw_farthest_depth(work, images.own_depth);
   draw(number, images.framebuffer);
-  const size_t values = work.grid().values();
-  pass.moves(values * 5 + volumes.memory_bytes(), values * (layout.pixel_bytes() + 1));
+  const PixelGrid grid = work.grid();
+  const size_t values = has_samples(work) ? grid.values() : grid.pixels();
+  pass.moves(values * 5 + (finds_depth ? grid.values() * 4 : 0) + volumes.memory_bytes(),
+             values * (layout.pixel_bytes() + 1) + (finds_depth ? grid.pixels() * 4 : 0));
   if (drops_hidden(work)) shadows = nullptr;
   const bool points_alone = state.batches().passes[number].points_alone;
   return LightSource(

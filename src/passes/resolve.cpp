@@ -158,9 +158,10 @@ static void resolve_edges(Work& work, Resolver& r, const VisibilityBuffer& visib
                                      (traced.empty() ? "" : work.shadows.traced_defines));
   auto pass = work.timer.pass("resolve_edges", "cl");
   r.launch(work, kernel, "resolve_edges",
-           traced + ClArguments{{"triangles", visible.image.triangle},
-                       {"depths", visible.image.depth},
-                       {"edges", visible.pixels->edges}} +
+           traced +
+               ClArguments{{"triangles", visible.image.triangle},
+                           {"depths", visible.image.depth},
+                           {"edges", visible.pixels->edges}} +
                r.arguments(work, visible.raster, visible.surfaces, *lights.in_cl) +
                ClArguments{{"background", background(work)}, {"image", r.image.cl_buffer()}});
   pass.moves(work.grid().pixels() / 8 + lights.bytes + r.scene(work).memory_bytes(), 0);

@@ -32,16 +32,14 @@ class SampleEdges : public PassCache {
     const auto image = [&](size_t i) {
       return i < surfaces.images.size() ? surfaces.images[i]->cl_buffer() : cl::Buffer();
     };
-    kernel.launch(device, "sample_edges", cl::NDRange(lanes ? values : groups * group),
-                   lanes ? cl::NullRange : cl::NDRange(group),
-                   ClArguments{{"first", image(0)},
-                               {"second", image(1)},
-                               {"third", image(2)},
-                               {"fourth", image(3)}} +
-                       group_number_arguments(work.plan, surfaces.group_numbers) +
-                       ClArguments{{"depths", depth.values},
-                                   {"pixels", cl_uint(pixels)},
-                                   {"edges", edges_.at_least(device, values * sizeof(cl_ushort))}});
+    kernel.launch(
+        device, "sample_edges", cl::NDRange(lanes ? values : groups * group),
+        lanes ? cl::NullRange : cl::NDRange(group),
+        ClArguments{{"first", image(0)}, {"second", image(1)}, {"third", image(2)}, {"fourth", image(3)}} +
+            group_number_arguments(work.plan, surfaces.group_numbers) +
+            ClArguments{{"depths", depth.values},
+                        {"pixels", cl_uint(pixels)},
+                        {"edges", edges_.at_least(device, values * sizeof(cl_ushort))}});
     pass.moves(work.grid().values() * (surfaces.bytes * surfaces.images.size() + 4),
                values * sizeof(cl_ushort));
     return edges_.get();
@@ -52,14 +50,9 @@ class SampleEdges : public PassCache {
   GrowingBuffer edges_;
 };
 
-cl::Buffer sample_edges(Work& work, Cached<SampleEdges>& cache, const StoredSurfaces& surfaces,
-                        const DepthBuffer& depth) {
-  if (work.plan.settings.samples_shading == SamplesShading::all) return {};
-  return cache.of(work).find(work, surfaces, depth);
-}
-
-SampleFigures figures_of_edges(Work& work, const cl::Buffer& edges, const DepthBuffer& depth,
-                               size_t bytes_a_sample) {
+// Of these edges; null: all pixels are at one. Waits.
+static SampleFigures figures_of_edges(Work& work, const cl::Buffer& edges, const DepthBuffer& depth,
+                                      size_t bytes_a_sample) {
   const PixelGrid grid = work.grid();
   const size_t samples = size_t(grid.samples);
   std::vector<uint16_t> bits(grid.pixels() / 16 + 1, 0xffff);
@@ -82,6 +75,18 @@ SampleFigures figures_of_edges(Work& work, const cl::Buffer& edges, const DepthB
   }
   figures.bytes = grid.values() * bytes_a_sample + (edges() ? bits.size() * 2 : 0);
   return figures;
+}
+
+cl::Buffer sample_edges(Work& work, Cached<SampleEdges>& cache, const StoredSurfaces& surfaces,
+                        const DepthBuffer& depth, size_t bytes_a_sample, Frame& frame) {
+  if (work.grid().samples == 1) return {};
+  cl::Buffer edges;
+  if (work.plan.settings.samples_shading == SamplesShading::edges)
+    edges = cache.of(work).find(work, surfaces, depth);
+  frame.sample_figures = [&work, edges, depth, bytes_a_sample] {
+    return figures_of_edges(work, edges, depth, bytes_a_sample);
+  };
+  return edges;
 }
 
 }  // namespace lightgrid

@@ -14,13 +14,9 @@ struct StoredSurfaces {
   SharedBuffer* group_numbers = nullptr;
 };
 
-// A bit a pixel, 16 in a ushort: 1 at edges (kernels/resolve/sample_edges.h). Null with samples-shading=all,
-// where every sample is shaded.
+// A bit a pixel, 16 in a ushort: 1 at edges (kernels/resolve/sample_edges.h). Null with one sample a pixel,
+// and with samples-shading=all, where every sample is shaded. Of several samples the frame gets the figures.
 cl::Buffer sample_edges(Work& work, Cached<SampleEdges>& cache, const StoredSurfaces& surfaces,
-                        const DepthBuffer& depth);
-
-// Of these edges; null: all pixels are at one. Waits.
-SampleFigures figures_of_edges(Work& work, const cl::Buffer& edges, const DepthBuffer& depth,
-                               size_t bytes_a_sample);
+                        const DepthBuffer& depth, size_t bytes_a_sample, Frame& frame);
 
 }  // namespace lightgrid

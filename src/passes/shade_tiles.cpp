@@ -145,15 +145,9 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
 ShadedImage shade_tiles(Work& work, PassCaches& caches, const GBuffer& gbuffer, const DepthBuffer& depth,
                         const LightSource& lights, Frame& frame) {
   const GBufferInCl in_cl = gbuffer.in_cl ? *gbuffer.in_cl : gbuffer_to_cl(work, gbuffer);
-  cl::Buffer edges;
-  if (work.grid().samples > 1) {
-    StoredSurfaces surfaces{.bytes = in_cl.layout->images[0].bytes, .group_numbers = in_cl.group_numbers};
-    for (const size_t i : in_cl.images) surfaces.images.push_back(in_cl.surfaces[i]);
-    edges = sample_edges(work, caches.sample_edges, surfaces, depth);
-    frame.sample_figures = [&work, edges, depth, bytes = in_cl.bytes() + 4] {
-      return figures_of_edges(work, edges, depth, bytes);
-    };
-  }
+  StoredSurfaces surfaces{.bytes = in_cl.layout->images[0].bytes, .group_numbers = in_cl.group_numbers};
+  for (const size_t i : in_cl.images) surfaces.images.push_back(in_cl.surfaces[i]);
+  const cl::Buffer edges = sample_edges(work, caches.sample_edges, surfaces, depth, in_cl.bytes() + 4, frame);
   add_light(work, caches.tile_shading, in_cl, depth, lights, edges);
   if (gbuffer.in_cl || !work.plan.blend) return {gbuffer.image.framebuffer, in_cl.image};
   image_to_gl(work, *in_cl.image);

@@ -56,10 +56,9 @@ cl::Buffer tile_groups(Work& work, Cached<TileGroups>& cache, const CullParams& 
 cl::Buffer tile_groups(Work& work, Cached<TileGroups>& cache, const CullParams& tiles, SharedBuffer& numbers,
                        const DepthBuffer& depth) {
   const GroupNumberFormat& format = group_number_format(work.plan.settings);
-  return cache.of(work).find(work, tiles, 
-                             fmt::format("-DGROUP_BITS={} -DSAMPLES={}u", format.bits, work.grid().samples),
-                             ClArguments{{"numbers", numbers.cl_buffer()}, {"depths", depth.values}},
-                             format.bytes + 4);
+  return cache.of(work).find(
+      work, tiles, fmt::format("-DGROUP_BITS={} -DSAMPLES={}u", format.bits, work.grid().samples),
+      ClArguments{{"numbers", numbers.cl_buffer()}, {"depths", depth.values}}, format.bytes + 4);
 }
 
 }  // namespace lightgrid

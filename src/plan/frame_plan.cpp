@@ -202,9 +202,8 @@ std::string group_witness(const Scene& scene, size_t masks) {
 // OpenGL's surfaces have numbers of masks, of so many bits, and OpenCL's any mask.
 void plan_group_tiles(const TechniqueNeeds& needs, FramePlan& plan) {
   const Settings& s = plan.settings;
-  plan.group_tiles =
-      plan.groups && plan.light_grid && needs.group_tiles && s.group_tiles &&
-      (!plan.opengl || plan.group_masks.size() <= size_t(1) << s.group_bits);
+  plan.group_tiles = plan.groups && plan.light_grid && needs.group_tiles && s.group_tiles &&
+                     (!plan.opengl || plan.group_masks.size() <= size_t(1) << s.group_bits);
 }
 
 void plan_groups(const Scene& scene, const TechniqueNeeds& needs, FramePlan& plan) {
@@ -333,16 +332,17 @@ void plan_samples(const Scene& scene, FramePlan& plan) {
   plan.decisions.push_back({"samples", true, fmt::format("samples={}", samples)});
   if (!plan.light_reaches && !plan.own_shadows) return;
   const Settings& s = plan.settings;
-  const char* one_sample = plan.opengl                       ? "shadows where OpenGL draws"
+  const char* one_sample = plan.opengl                      ? "shadows where OpenGL draws"
                            : s.shadows == ShadowMethod::map ? "shadow maps"
                            : s.soft_shadows()               ? "shadows of shadow-rays"
                            : s.picks_shadows()              ? "shadows of shadow-pick"
                                                             : nullptr;
   if (!one_sample) return;
   const auto caster = std::ranges::find_if(scene.lights, &Light::casts_shadow);
-  throw input_error("set samples={}: light {} \"{}\" casts a shadow, and {} are found for one sample a "
-                    "pixel; choose samples=1 or shadows=none",
-                    samples, caster - scene.lights.begin(), caster->name, one_sample);
+  throw input_error(
+      "set samples={}: light {} \"{}\" casts a shadow, and {} are found for one sample a "
+      "pixel; choose samples=1 or shadows=none",
+      samples, caster - scene.lights.begin(), caster->name, one_sample);
 }
 
 void turn_everything_on(const Scene& scene, const View& view, FramePlan& plan, const TechniqueNeeds& needs) {

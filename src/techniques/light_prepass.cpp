@@ -36,20 +36,6 @@ static ShadedImage shade_materials(RenderView& v, const Surfaces& surfaces, cons
   return shade(v, surfaces, from_light_buffer(v, light_buffer_to_gl(v, sums)));
 }
 
-// Where samples have normals or depths of several surfaces.
-static cl::Buffer edges_of(RenderView& v, const NormalsInCl& normals, const DepthBuffer& depth,
-                           Frame& frame) {
-  if (v.grid().samples == 1) return {};
-  const size_t bytes = normals.layout->image.bytes;
-  const StoredSurfaces stored{{normals.image}, bytes, normals.group_numbers};
-  const cl::Buffer edges = sample_edges(v, v.caches.sample_edges, stored, depth);
-  frame.sample_figures = [&v, edges, depth,
-                          bytes = bytes + light_buffer_of(v, true).bytes() + group_number_bytes(v.plan) + 4] {
-    return figures_of_edges(v, edges, depth, bytes);
-  };
-  return edges;
-}
-
 static Frame from_tiles(RenderView& v) {
   Surfaces surfaces;
   NormalsInCl normals;
@@ -69,7 +55,10 @@ static Frame from_tiles(RenderView& v) {
   const LightSource lights = from_grid(v, *frame.grid);
   const TargetUse use = v.plan.opengl ? TargetUse::image : TargetUse::gbuffer;
   const DepthBuffer& depth = depth_of(v, surfaces);
-  const cl::Buffer edges = edges_of(v, normals, depth, frame);
+  const size_t normal_bytes = normals.layout->image.bytes;
+  const cl::Buffer edges = sample_edges(
+      v, v.caches.sample_edges, {{normals.image}, normal_bytes, normals.group_numbers}, depth,
+      normal_bytes + bytes_of_light_buffer(v.plan.settings) + group_number_bytes(v.plan) + 4, frame);
   frame.image = shade_materials(
       v, surfaces, fill_light_buffer(v, v.caches.light_sums, normals, depth, lights, use, edges));
   blend_from_grid(v, surfaces, lights, frame);
@@ -107,8 +96,8 @@ extern const Technique light_prepass{
                  "buffer-bits",   "normals",        "volume-culling",   "group-ids",
                  "group-stencil", "group-tiles",    "volume-mesh",      "cull-test",
                  "depth-bounds",  "tile",           "slice-spacing",    "z-bins",
-                 "raster",        "samples", "samples-resolve",        "samples-shading",  "texels",
-                 "kernel-shape",  "portable",       "group-size"},
+                 "raster",        "samples",        "samples-resolve",  "samples-shading",
+                 "texels",        "kernel-shape",   "portable",         "group-size"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .approximate = true};

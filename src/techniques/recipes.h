@@ -25,10 +25,17 @@ GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces);
 // For adapt: geometry buffers have several samples where OpenGL draws them.
 void store_samples_in_opengl(TechniqueNeeds& needs, Settings& settings);
 
-// deferred_tiled and forward_plus_compute, which with OpenGL find depth differently, share this: surfaces
+// deferred_tiled and forward_plus_compute, which with OpenGL find depth differently, share these: surfaces
 // into a geometry buffer; then OpenCL adds the lights of each tile's list to its image, and blended surfaces
 // are laid over it. Without `surfaces`, OpenGL finds depth while it fills the geometry buffer.
 Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces);
+inline constexpr TechniqueNeeds needs_of_shade_tiled{.light_grid = true,
+                                                     .lists = true,
+                                                     .z_bins = true,
+                                                     .chosen_raster = true,
+                                                     .group_tiles = true,
+                                                     .most_samples = 8,
+                                                     .adapt = store_samples_in_opengl};
 
 // forward_multipass and forward_zprepass share this: each object with the lights that reach its visible part,
 // `lights_a_draw` in each draw, added up; then blended surfaces. own_apart: the first draw has base lighting

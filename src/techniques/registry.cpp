@@ -122,9 +122,10 @@ void check_samples(const Technique& technique, const Settings& settings) {
   const int most = most_samples(technique, settings);
   if (settings.samples > 1 && settings.samples_resolve != SamplesResolve::linear &&
       !holds(technique.settings, "samples-resolve"))
-    throw input_error("set samples-resolve: {} averages light where it shades tiles; choose "
-                      "samples-resolve=linear",
-                      technique.name);
+    throw input_error(
+        "set samples-resolve: {} averages light where it shades tiles; choose "
+        "samples-resolve=linear",
+        technique.name);
   if (settings.samples <= most) return;
   throw input_error("set samples={}: {} with these settings takes {} a pixel", settings.samples,
                     technique.name, most);

@@ -54,8 +54,11 @@ std::string image_of_form(const char* form, const std::string& scene, const std:
 TEST(KernelForms, DrawTheSameBytes) {
   if (!chooses_form("avx2", "pthread-haswell") || !chooses_form("sse2", "pthread-athlon64"))
     GTEST_SKIP() << "no PoCL here that compiles for AVX2 and SSE2";
-  for (const auto& [scene, technique] :
-       {std::pair{"hall", "visibility"}, {"street", "visibility"}, {"spheres", "forward_plus_compute"}}) {
+  for (const auto& [scene, technique] : {std::pair{"hall", "visibility"},
+                                         {"street", "visibility"},
+                                         {"spheres", "forward_plus_compute"},
+                                         {"spheres", "deferred_tiled:samples=4"},
+                                         {"spheres", "visibility:samples=4"}}) {
     const std::string image = image_of_form("avx512", scene, technique);
     EXPECT_THAT(image, HasSubstr("channels"));
     for (const char* form : {"avx2", "sse2"})

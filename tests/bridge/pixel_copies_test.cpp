@@ -89,9 +89,8 @@ TEST_F(PixelCopiesOfContext, WriteTheBytesOfTheImageByShaderAndByDriver) {
         copies->to_buffer(source, pixels.format, pixels.type, {width, height}, buffer.name());
         Bytes copied = contents(buffer.name(), before.size());
         std::copy_n(expected.begin() + long(used), words - used, copied.begin() + long(used));
-        EXPECT_EQ(copied, expected)
-            << pixels.name << ", " << width << "x" << height
-            << (copies == &by_shader ? " by shader" : " by driver");
+        EXPECT_EQ(copied, expected) << pixels.name << ", " << width << "x" << height
+                                    << (copies == &by_shader ? " by shader" : " by driver");
       }
     }
   }

@@ -168,12 +168,12 @@ TEST_F(SamplesResolve, HasTheSameBytesInBothShapesAndInside) {
   for (const char* technique : {"visibility", "forward"}) {
     const Image linear = draw("linear", "lanes", technique);
     for (const char* resolve : {"tonemapped", "weighted"}) {
-    const Image image = draw(resolve, "lanes", technique);
-    for (size_t i = 0; i < image.pixels.size(); ++i) {
-      if (linear.pixels[i].r == 20 || linear.pixels[i].r == 0.1f) {
-        EXPECT_EQ(image.pixels[i], linear.pixels[i]);
+      const Image image = draw(resolve, "lanes", technique);
+      for (size_t i = 0; i < image.pixels.size(); ++i) {
+        if (linear.pixels[i].r == 20 || linear.pixels[i].r == 0.1f) {
+          EXPECT_EQ(image.pixels[i], linear.pixels[i]);
+        }
       }
-    }
     }
   }
 }
@@ -237,8 +237,8 @@ TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesAndStaySmallInside) {
 
 // Surfaces that are stored for each sample: in GLSL and OpenCL, light by light and from lists.
 TEST_F(SamplesOfOpenGl, HaveOneImageInEveryTechniqueThatStoresThem) {
-  s_ = small_scene(
-      false);  // blended surfaces are laid over the mean in one, and over each sample in the other
+  // Without blended surfaces, which lie over the mean in one, and over each sample in the other.
+  s_ = small_scene();
   for (const char* name : {"directional", "spot", "groups"}) effect(name).add(s_);
   const Image volumes = draw("deferred", 4);
   for (const char* technique : {"deferred_tiled", "forward_plus_compute"}) {
@@ -249,10 +249,11 @@ TEST_F(SamplesOfOpenGl, HaveOneImageInEveryTechniqueThatStoresThem) {
     EXPECT_TRUE(identical(draw(technique, 4, "edges", "group"), edges)) << technique;
     EXPECT_FALSE(same_bytes(edges, tiles)) << technique;
     EXPECT_LT(compare_images(edges, tiles).rmse_rel, 2e-3) << technique;
-    EXPECT_TRUE(identical(draw(technique, 4, "edges", "auto", {"group-tiles=on"}), edges)) << technique;
+    EXPECT_TRUE(identical(draw(technique, 4, "edges", "auto", {"group-tiles=off"}), edges)) << technique;
   }
 }
 
+// Sums in another order; and powers, which 16 lanes round otherwise than one.
 TEST_F(SamplesOfOpenGl, HaveOneLightBufferByTilesAndByVolumes) {
   for (const char* name : {"directional", "spot", "groups"}) effect(name).add(s_);
   for (const char* specular : {"prepass-specular=plain", "prepass-specular=fifth-term"}) {
@@ -275,6 +276,26 @@ TEST_F(SamplesOfOpenGl, ShowForwardsImageWithIndicesOfWholePixels) {
   EXPECT_LT(compare_images(image, draw("forward", 4)).max_rel, 1e-5);
 }
 
+// Passes that draw surfaces again test masks again, and must leave what the first one left. Of one colour a
+// surface shows the same wherever it is shaded.
+TEST_F(SamplesOfOpenGl, ShowOneMaskInEveryPass) {
+  s_ = small_scene();
+  effect("mask").add(s_);
+  Bitmap& speckles = s_.scene.bitmaps[size_t(s_.scene.textures[0].bitmap)];
+  for (size_t i = 0; i < speckles.rgba.size(); ++i)
+    if (i % 4 != 3) speckles.rgba[i] = 255;
+  // The ball is black, and lit, so that lights are in the plan.
+  for (Material& m : s_.scene.materials) m.unlit = &m == &s_.scene.materials[size_t(s_.wall_material)];
+  s_.scene.materials[1].base_color = {0, 0, 0, 1}, s_.scene.materials[1].metallic = 0;
+  const auto with = [&](const char* technique) {
+    return draw(technique, 4, "edges", "auto", {"brdf=lambert"});
+  };
+  const Image forward = with("forward");
+  EXPECT_FALSE(same_bytes(forward, draw("forward", 1)));
+  for (const char* technique : {"forward_multipass", "deferred", "deferred_tiled", "lidr", "light_prepass"})
+    EXPECT_LT(compare_images(with(technique), forward).max_rel, 1e-6) << technique;
+}
+
 // With indices of its own each sample is shaded alone.
 TEST_F(SamplesOfOpenGl, ShowOneImageInEveryPackingOfIndicesOfSamples) {
   effect("spot").add(s_);
@@ -288,11 +309,29 @@ TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesWhereSurfacesAreStored) {
   effect("directional").add(s_);
   for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
   const FineTruth truth = truth_of(s_.scene, 67, 41);
+  for (const char* technique : {"deferred", "deferred_tiled", "forward_plus_compute"}) {
+    const Image one = draw(technique, 1), four = draw(technique, 4);
+    EXPECT_LT(truth.error(four, true), truth.error(one, true) / 3) << technique;
+    EXPECT_LT(truth.error(four, false), truth.error(four, true) / 10) << technique;
+  }
+}
+
+// With a lamp, so that there are volumes, lists and indices; it is far, so that no pixel outshines all
+// others.
+TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesWhereSamplesAreLit) {
+  s_ = small_scene(false);
+  effect("directional").add(s_);
+  add_point(s_.scene, "far", {-1, 1, 0}, {1, 1, 1}, 20, 20);
+  for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
+  const FineTruth truth = truth_of(s_.scene, 67, 41);
+  const double inside = truth.error(draw("forward", 4), false);
   for (const char* technique :
        {"deferred", "deferred_tiled", "forward_plus_compute", "light_prepass", "lidr"}) {
     const Image one = draw(technique, 1), four = draw(technique, 4);
     EXPECT_LT(truth.error(four, true), truth.error(one, true) / 3) << technique;
-    EXPECT_LT(truth.error(four, false), truth.error(four, true) / 10) << technique;
+    if (technique != std::string("light_prepass")) {  // whose lobe is another
+      EXPECT_LE(truth.error(four, false), inside) << technique;
+    }
   }
   const Image behind = draw("lidr", 4, "edges", "auto", {"lidr-volumes=no-prepass"});
   EXPECT_LT(truth.error(behind, true), truth.error(draw("lidr", 1), true) / 3);

@@ -61,6 +61,25 @@ TEST_P(ShadowedSamples, AreThoseWithoutShadowsWhereNoInstanceCasts) {
   EXPECT_TRUE(identical(draw(s_.scene, "everything-on=on"), image));
 }
 
+// Cards hide a lamp and the sun, which cast nothing, from edges of other cards and of the wall. An ember
+// casts, too dim to be seen.
+TEST_P(ShadowedSamples, HideNoLightThatCastsNone) {
+  s_ = small_scene(false);
+  effect("directional").add(s_);
+  for (int i = 0; i < 49; ++i)
+    add_instance(s_.scene, "card",
+                 add_mesh(s_.scene, wall_mesh({0.4f * float(i % 7) - 1.2f, 0.4f * float(i / 7) - 1.2f, -3.6f},
+                                              0.1f, s_.wall_material, "card")));
+  add_point(s_.scene, "lamp", {0.3f, 0.2f, -3.2f}, {1, 1, 1}, 5, 9);
+  add_point(s_.scene, "ember", {0, 0, -1}, {1, 1, 1}, 1e-9f, 9).casts_shadow = true;
+  const Image image = draw(s_.scene);
+  Scene casting = s_.scene;
+  for (Light& light : casting.lights) light.casts_shadow = true;
+  EXPECT_GT(compare_images(draw(casting), image).max_rel, 1e-2);
+  for (Instance& i : s_.scene.instances) i.casts_shadow = false;
+  EXPECT_LT(compare_images(image, draw(s_.scene)).max_rel, 1e-6);
+}
+
 // A trough of smooth facets that a lamp lights from its focus: no facet hides another. Most pixels see
 // several.
 Scene trough(bool casts) {
@@ -117,6 +136,8 @@ TEST(ShadowedSamplesRefused, ByNameWhereShadowsAreFoundForOneSample) {
   EXPECT_THAT(refusal(visibility, {"shadow-rays=4"}), HasSubstr("shadow-rays"));
   EXPECT_THAT(refusal(visibility, {"shadow-pick=1"}), HasSubstr("shadow-pick"));
   EXPECT_THAT(refusal("world_grid", {"raster=opencl", "shadow-pick=1"}), HasSubstr("shadow-pick"));
+  EXPECT_THAT(refusal("forward", {}), HasSubstr("shadows where OpenGL draws"));
+  EXPECT_THAT(refusal("lidr", {"lidr-shadows=prepass"}), HasSubstr("shadows where OpenGL draws"));
   EXPECT_EQ(refusal(visibility, {}), "none");
   EXPECT_EQ(refusal("voxel_lights", {"raster=opencl"}), "none");
 }

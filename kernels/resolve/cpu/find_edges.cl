@@ -49,7 +49,8 @@ kernel void find_edges(global uint* triangles, global const float* depths,
                        global uint* pixel_triangles, global float* pixel_depths, global ushort* edges) {
   const SeenTriangles scene = {triangle_instance, instances, indices, clip};
   const float2 half_size = (float2)(0.5f * (float)width, 0.5f * (float)height);
-  const uint pixels = width * height, begin = (uint)get_global_id(0) * EDGE_RUN, end = min(begin + EDGE_RUN, pixels);
+  const uint pixels = width * height;
+  const uint begin = (uint)get_global_id(0) * EDGE_RUN, end = min(begin + EDGE_RUN, pixels);
   ulong known[KNOWN_PAIRS];
   for (uint i = 0; i < KNOWN_PAIRS; ++i) known[i] = ~0ul;
   for (uint at = begin; at < end; at += 16) {

@@ -6,12 +6,15 @@
 // GROUP_NUMBER_ARGUMENTS  kernels/resolve/group_numbers.h; with -DGROUPS alone
 // LIGHT_ARGUMENTS  of lights (shared/light_table.h)
 // cells, indices  light grid (shared/light_grid.h)
-// light_bins, bin_edges  z-bins of each light, and the depth keys between them (shared/slices.h); with
-// -DZ_BINS alone first           out: four channels a pixel, diffuse red, green, blue and the specular term
-// (shared/light_buffer.h) second          out: two channels, the fifth term and the specular one's rim; with
-// -DPREPASS_FIFTH_TERM alone exponent        of the lights inverse_scale   what sums are multiplied by before
-// they are stored -DTILE          pixels a side, a multiple of 8 (default 16) -DORTHOGRAPHIC, and what
-// kernels/resolve/light_buffer.h names
+// light_bins, bin_edges  z-bins of each light, and the depth keys between them (shared/slices.h); with -DZ_BINS
+//                 alone
+// first           out: four channels a pixel, diffuse red, green, blue and the specular term
+//                 (shared/light_buffer.h)
+// second          out: two channels, the fifth term and the specular one's rim; with -DPREPASS_FIFTH_TERM alone
+// exponent        of the lights
+// inverse_scale   what sums are multiplied by before they are stored
+// -DTILE          pixels a side, a multiple of 8 (default 16)
+// -DORTHOGRAPHIC, and what kernels/resolve/light_buffer.h names
 #define LANES 16
 #include "kernels/common/pack.h"
 

@@ -26,7 +26,7 @@ kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global 
   TracedShadows traced = TRACED_SHADOWS;
   lights.lights.shadows.traced = &traced;
 #elif defined(SHADOWS)
-  light_pixels(&lights.lights, 0, 0, view);  // none is hidden anywhere
+  light_pixels(&lights.lights, 0, 0, view);  // of any pixel: no light is hidden
 #endif
   const uint base_x = x & ~(EDGE_BLOCK - 1u), base_y = y & ~(EDGE_BLOCK - 1u);
   // The background comes first, as it does where it needs no shading.

@@ -36,6 +36,11 @@ bool has_fifth_term(const Settings& settings) {
   return settings.prepass_specular == PrepassSpecular::fifth_term && settings.brdf != Brdf::lambert;
 }
 
+size_t bytes_of_light_buffer(const Settings& settings) {
+  const LightBufferLayout& layout = light_buffer_layout(settings);
+  return layout.first.bytes + (has_fifth_term(settings) ? layout.second.bytes : 0);
+}
+
 double reference_light(const Scene& scene, const FramePlan& plan) {
   double brightest = 0;
   for (const int i : plan.local) {

@@ -56,6 +56,7 @@ const char* prepass_define(const Settings& settings);
 
 // True if the light buffer has a second image.
 bool has_fifth_term(const Settings& settings);
+size_t bytes_of_light_buffer(const Settings& settings);  // a sample
 
 // The light that fixed point stores as 1 and that is 1 to equation 8.5.7: the irradiance of the brightest
 // light at an eighth of its range (without a range, at 1 m), rounded up to a power of two. A light is
@@ -81,7 +82,7 @@ struct LightBuffer {
   const LightBufferLayout* layout = nullptr;
   GLuint first = 0, second = 0;  // textures; second 0: no fifth term
   bool in_a_row = false;         // samples, in images of one (Targets::in_a_row)
-  size_t bytes() const { return layout->first.bytes + (second ? layout->second.bytes : 0); }  // a pixel
+  size_t bytes() const { return layout->first.bytes + (second ? layout->second.bytes : 0); }  // a sample
 };
 
 // The view's images, drawn or not.
