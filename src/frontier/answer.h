@@ -31,6 +31,7 @@ struct PointFigures {
   int flip_views = 0, temporal_views = 0;  // that have FLIP, and flicker
   PairCounts pairs;                        // sums over views
   std::optional<FrontierTruth> truth;      // empty: every light without a range
+  std::optional<double> exposure_ev;       // of the scene's pictures
   uint64_t memory_bytes = 0;               // the largest of the views
   uint64_t bytes_moved = 0;                // a frame of the views that were profiled: the first
   uint64_t nan_pixels = 0;

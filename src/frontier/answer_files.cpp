@@ -89,7 +89,8 @@ json band_json(const FrontBand& b) {
 // The picture's own figures, and some of the two others under their names.
 json in_double_json(const SampledErrors& sampled) {
   json figures = finite_json(sampled.picture);
-  figures.erase("flip_mean");
+  for (const char* of_whole_pictures : {"flip_mean", "displayed_flip", "low_pass_rmse_of_mean"})
+    figures.erase(of_whole_pictures);
   figures["pixels"] = sampled.pixels;
   for (const auto& [of, error] :
        {std::pair{"float_total_", sampled.picture_in_float}, {"float_truth_", sampled.truth}}) {
@@ -102,6 +103,7 @@ json in_double_json(const SampledErrors& sampled) {
 json point_json(const PointFigures& p) {
   json out = finite_json(p.point);
   out["views"] = p.views;
+  out["exposure_ev"] = finite_json(p.exposure_ev);
   out["size"] = p.width > 0 ? json{p.width, p.height} : json();
   out["frame_ms"] = interval_json(p.frame_ms);
   out["frame_ms_within"] = p.frame_ms.runs > 0
@@ -179,11 +181,14 @@ std::vector<CsvColumn> csv_columns(bool truths, bool shadows) {
     const std::string kind = key;
     add_measures("/errors/" + kind, kind + "_");
     add_columns(all, {"flip_mean"}, "/errors/" + kind, kind + "_");
+    if (kind != "model" && kind != "total") continue;
+    add_columns(all, {"mean", "visible_share"}, "/errors/" + kind + "/displayed_flip",
+                kind + "_displayed_flip_");
   }
   add_columns(all, {"bias_rmse_rel", "deviation_rmse_rel", "temporal_rmse_rel"}, "/errors");
   for (const auto& [name, index] : {std::pair{"flip_start", "0"}, {"flip_stop", "1"}, {"flip_count", "2"}})
     all.push_back({name, std::string("/flip_exposures/") + index});
-  add_columns(all, {"image"});
+  add_columns(all, {"exposure_ev", "image"});
   const std::string sampled = "/errors/in_double";
   add_columns(all, {"pixels"}, sampled, "in_double_");
   add_measures(sampled + "/picture", "in_double_");
@@ -215,9 +220,7 @@ json csv_row(const FrontierAnswer& answer, size_t row) {
     for (const char* key :
          {"bytes_moved", "memory_bytes", "covered_pixels", "pairs", "nan_pixels", "overflow"})
       fields.erase(key);
-    for (const auto& [kind, ignored] : kinds_of_error) {
-      for (const ErrorMeasure& m : frontier_error_measures()) fields["errors"][kind].erase(m.key);
-    }
+    for (const auto& [kind, ignored] : kinds_of_error) fields["errors"].erase(kind);
   }
   std::vector<double> ratios;
   for (size_t run = 0; run < r.frame_ms.size(); ++run) ratios.push_back(r.frame_ms[run] / r.baseline_ms[run]);
@@ -284,9 +287,10 @@ json page_data_of(const FrontierAnswer& answer, const PagePictures& pictures) {
   // In the order of their colors.
   data["techniques"] =
       distinct(answer.part.records, [](const FrontierRecord& r) { return r.point.technique; });
+  data["measures"].push_back({{"key", "displayed_flip"}, {"title", "FLIP as displayed"}});
   for (const ErrorMeasure& measure : frontier_error_measures())
     data["measures"].push_back({{"key", measure.key}, {"title", measure.frontier_title}});
-  data["measures"].push_back({{"key", "flip_mean"}, {"title", "FLIP, mean"}});
+  data["measures"].push_back({{"key", "flip_mean"}, {"title", "HDR-FLIP"}});
   return data;
 }
 
@@ -299,6 +303,7 @@ json to_json(const FrontierAnswer& answer) {
           {"seed", part.seed},
           {"request", part.request},
           {"baseline", part.baseline},
+          {"pixels_per_degree", default_pixels_per_degree},
           {"scenes", scenes_of(answer)},
           {"sentences", answer.sentences},
           {"machines", finite_json(answer.machines)},

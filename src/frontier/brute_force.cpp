@@ -114,8 +114,9 @@ void Precision::judge(Sample& sample, BruteForce& brute, const std::vector<glm::
   sample.precision =
       frontier_error(at_pixels(brute.picture_of_points(common_), sample.pixels), with_ranges, brightest_);
   if (truth_.source_m > 0) return;
-  sample.float_truth = at_pixels(brute.truth(), sample.pixels);
-  sample.truth_in_float = frontier_error(sample.float_truth, sample.truth, brightest_);
+  const Image float_truth = at_pixels(brute.truth(), sample.pixels);
+  sample.truth_in_float = frontier_error(float_truth, sample.truth, brightest_);
+  sample.float_truth.assign(float_truth.pixels.begin(), float_truth.pixels.end());
 }
 
 void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own, uint64_t seed,

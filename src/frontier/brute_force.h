@@ -81,7 +81,7 @@ class Precision {
   struct Sample {
     std::vector<uint32_t> pixels;
     std::vector<glm::dvec3> truth;  // every light, no range
-    Image float_truth;              // the same in float
+    std::vector<glm::dvec3> float_truth;  // the same from float
     ImageError precision, truth_in_float;
   };
 

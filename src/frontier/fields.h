@@ -3,6 +3,7 @@
 // (docs/frontier_json.md).
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <nlohmann/json.hpp>
 
@@ -57,10 +58,21 @@ void visit_fields(T& t, Visit&& visit) {
   visit("shadow_rays", t.shadow_rays, FieldRule{.low = 1});
 }
 
+template <Is<DisplayedFlip> T, typename Visit>
+void visit_fields(T& f, Visit&& visit) {
+  visit("mean", f.mean);
+  visit("visible_share", f.visible);
+}
+
+// Parts of earlier versions lack the measures that are unknown unless something is read.
 template <Is<ImageError> T, typename Visit>
 void visit_fields(T& e, Visit&& visit) {
-  for (const ErrorMeasure& measure : frontier_error_measures()) visit(measure.key, e.*measure.value);
+  for (const ErrorMeasure& measure : frontier_error_measures()) {
+    const bool is_later = std::isnan(ImageError{}.*measure.value);
+    visit(measure.key, e.*measure.value, FieldRule{.required = !is_later});
+  }
   visit("flip_mean", e.flip_mean);
+  visit("displayed_flip", e.displayed);
 }
 
 template <Is<SampledErrors> T, typename Visit>
@@ -116,6 +128,7 @@ void visit_fields(T& r, Visit&& visit) {
   visit("overflow", r.overflow);
   visit("errors", r.errors);
   visit("flip_exposures", r.flip);
+  visit("exposure_ev", r.exposure_ev, FieldRule{.required = false});
   visit("image", r.image);
 }
 

@@ -99,6 +99,11 @@ class PointComparison {
       if (measure.gated)
         compare_error(fmt::format("{}: {} {}", name_, kind, measure.key), now, earlier, measure.key);
     }
+    if (earlier.has("displayed_flip")) {
+      const JsonFields displayed = now.has("displayed_flip") ? now.object("displayed_flip") : now;
+      compare_error(fmt::format("{}: {} displayed_flip", name_, kind), displayed,
+                    earlier.object("displayed_flip"), "mean");
+    }
     const std::string flip = fmt::format("{}: {} flip_mean", name_, kind);
     if (!now.has("flip_mean") && earlier.has("flip_mean")) {
       result_.told.push_back(flip + " is not measured any more");

@@ -62,7 +62,7 @@ class SceneSweep {
         file_(file),
         gpu_(renderer, scene),
         views_(frontier_views(scene, start, choice, job.views)),
-        figures_(renderer, gpu_, scene, start, job, choice) {}
+        figures_(renderer, gpu_, scene, views_.front(), job, choice) {}
 
   void run() {
     make_runs();

@@ -61,6 +61,13 @@ ImageError errors_over(const Group& views, const Of& of) {
   }
   const auto flip = present_figures(views, [&](const FrontierRecord& v) { return of(v).flip_mean; });
   if (!flip.empty()) all.flip_mean = mean_over(flip);
+  const auto displayed = [&](double DisplayedFlip::*figure) {
+    return present_figures(views, [&](const FrontierRecord& v) {
+      return of(v).displayed ? std::optional((*of(v).displayed).*figure) : std::nullopt;
+    });
+  };
+  if (const auto means = displayed(&DisplayedFlip::mean); means.size() == views.size())
+    all.displayed = {mean_over(means), mean_over(displayed(&DisplayedFlip::visible))};
   return all;
 }
 
@@ -106,6 +113,7 @@ PointFigures over_views(const Group& views) {
   all.views = int(views.size());
   all.width = views.front()->width, all.height = views.front()->height;
   all.truth = views.front()->truth;
+  all.exposure_ev = views.front()->exposure_ev;
   all.frame_ms = median_interval(means_of_runs(views));
   all.p95_ms = percentile_of(views, 0.95), all.p99_ms = percentile_of(views, 0.99);
   for (const auto& [key, kind] : kinds_of_error) {

@@ -37,6 +37,7 @@ struct SampledErrors {
 // Errors kept apart (docs/frontier.md#errors), in the measures of the frontier (frontier_error). Truth: every
 // light, no range window.
 struct PointErrors {
+  // `displayed`: of model and total.
   ImageError model;  // what the settings mean (range, window, BRDF) against the truth, both by brute force
   ImageError precision;  // brute force in float against the oracle in double, at a sample of pixels
   ImageError technique;  // the picture against brute force of the same meaning
@@ -84,6 +85,7 @@ struct FrontierRecord {
   uint64_t nan_pixels = 0, overflow = 0;
   PointErrors errors;
   std::optional<FlipExposures> flip;  // with which errors.total.flip_mean was measured
+  std::optional<double> exposure_ev;  // of the scene's pictures, with which displayed FLIP was measured
   std::string image;  // name of its picture among the part's pictures, without extension; empty: none
   int shard = 0;  // of the part that holds it, set by RecordFile and read_part: its times are of that machine
 };

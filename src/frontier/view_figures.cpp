@@ -60,7 +60,7 @@ bool has_own_surfaces(const ChosenPoint& point) {
   return own_surfaces(*point.contestant.technique, point.contestant.settings);
 }
 
-ViewFigures::ViewFigures(Renderer& renderer, GpuScene& gpu, const Scene& scene, const View& start,
+ViewFigures::ViewFigures(Renderer& renderer, GpuScene& gpu, const Scene& scene, const View& first,
                          const FrontierJob& job, const SceneChoice& choice)
     : renderer_(renderer),
       scene_(scene),
@@ -68,10 +68,11 @@ ViewFigures::ViewFigures(Renderer& renderer, GpuScene& gpu, const Scene& scene, 
       truth_(job.truth),
       shadows_(scene, job.shadow_pairs),
       truths_{Truths(renderer, gpu, job, !renderer.gl), Truths(renderer, gpu, job, true)},
-      precision_(renderer, gpu, start, job.common, job.truth,
+      precision_(renderer, gpu, first, job.common, job.truth,
                  shadows_.casts() ? job.shadow_pairs : job.shaded_pairs),
       pictures_(job.pictures),
       nowhere_({}),
+      first_(first),
       seed_(job.seed) {}
 
 ViewFigures::Truths::Truths(Renderer& renderer, GpuScene& gpu, const FrontierJob& job, bool own_surfaces)
@@ -84,25 +85,34 @@ void ViewFigures::Truths::look(const View& view, const std::vector<View>& turn) 
   for (size_t frame = 1; frame < turn.size(); ++frame) turned[frame - 1].look(turn[frame]);
   brute.look(view);
   flip.reset();
+  shown.reset();
+  displayed.clear();
   flicker.clear();
 }
 
+// An earlier process may have measured the first view.
+void ViewFigures::choose_exposure() {
+  if (exposure_) return;
+  BruteForce& brute = truths_[0].brute;
+  brute.look(first_);
+  exposure_ = chosen_exposure(choice_, brute.truth());
+  tell_exposure(*exposure_, choice_.scene + ": ");
+  pictures_.expose(*exposure_);
+}
+
 void ViewFigures::look(const View& view, int index, bool own, bool whole) {
+  choose_exposure();
   view_ = view;
   turn_ = whole ? slow_turn(scene_, view, frames_of_flicker) : std::vector<View>();
   std::vector<Truths*> used = {&truths_[0]};
   if (own && renderer_.gl) used.push_back(&truths_[1]);
   for (Truths* truths : used) truths->look(view, turn_);
   BruteForce& first = truths_[0].brute;
-  if (index == 0) {
-    const Exposure exposure = chosen_exposure(choice_, first.truth());
-    tell_exposure(exposure, choice_.scene + ": ");
-    pictures_.expose(exposure);
-  }
   // Where a median pixel is black, HDR-FLIP has no exposures.
   exposures_ = whole ? flip_exposures(first.truth()) : std::nullopt;
   for (Truths* truths : used) {
     if (exposures_) truths->flip.emplace(truths->brute.truth(), *exposures_);
+    truths->shown.emplace(truths->brute.truth(), *exposure_);
   }
   brightest_ = first.brightest();
   shadows_.moved(false);
@@ -143,7 +153,12 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
   const Image& meant = truths.brute.picture(point.contestant.settings);
   record.errors.technique = frontier_error(point_run.run().image(), meant, brightest_);
   if (point.frames == 1) record.errors.model = frontier_error(meant, truth, brightest_);
+  const auto [displayed, added] = truths.displayed.try_emplace(&meant);
+  if (added) displayed->second = truths.shown->flip_of(meant);
   const bool as_meant = point.frames == 1 && record.errors.technique.max_rel <= as_brute_force;
+  record.errors.total.displayed = as_meant ? displayed->second : truths.shown->flip_of(image);
+  record.errors.model.displayed = point.frames == 1 ? displayed->second : *record.errors.total.displayed;
+  record.exposure_ev = exposure_->ev;
   fill_flip(as_meant ? meant : image, truths, record);
 
   TechniqueRun& run = point_run.run();

@@ -16,16 +16,17 @@ namespace lightgrid {
 class ViewFigures {
  public:
   // All outlive it.
-  ViewFigures(Renderer& renderer, GpuScene& gpu, const Scene& scene, const View& start,
+  // `first`: the first of the views, whose truth chooses the exposure of the scene's pictures.
+  ViewFigures(Renderer& renderer, GpuScene& gpu, const Scene& scene, const View& first,
               const FrontierJob& job, const SceneChoice& choice);
 
   // Draws the truths of a view, the path's `index`-th. `own`: some point has surfaces of its own. `whole`:
-  // FLIP and flicker too.
+  // HDR-FLIP and flicker too.
   void look(const View& view, int index, bool own, bool whole);
 
   // Draws the point on the view and fills in all but its times: why it is refused, or its figures. On the
   // first view its picture is written and its passes are profiled. Points that draw what brute force does
-  // share its picture, its FLIP and its flicker.
+  // share its picture, its FLIPs and its flicker.
   void measure(PointRun& run, FrontierRecord& record);
 
  private:
@@ -35,12 +36,15 @@ class ViewFigures {
     BruteForce brute;
     std::vector<BruteForce> turned;  // of the later frames of a slow turn
     std::optional<HdrFlip> flip;
+    std::optional<ShownReference> shown;
+    std::map<const Image*, DisplayedFlip> displayed;  // of pictures of brute force
     std::map<const Image*, double> flicker;  // of pictures of brute force
     void look(const View& view, const std::vector<View>& turn);
   };
   Truths& truths_of(const ChosenPoint& point);
   void fill(PointRun& run, FrontierRecord& record);
   PairCounts pairs_of(TechniqueRun& run, const Settings& settings, const std::vector<float>& depth);
+  void choose_exposure();
   void fill_flip(const Image& image, Truths& truths, FrontierRecord& record);
   double flicker_of(PointRun& run, Truths& truths, const Image& first);
   double flicker_of_brute_force(const ChosenPoint& point, Truths& truths);
@@ -53,6 +57,8 @@ class ViewFigures {
   std::array<Truths, 2> truths_;  // OpenGL's, OpenCL's
   Precision precision_;
   PictureFiles pictures_, nowhere_;  // the latter measures FLIP alone
+  const View first_;
+  std::optional<Exposure> exposure_;
   View view_;
   std::vector<View> turn_;  // empty: no flicker is measured
   std::optional<FlipExposures> exposures_;

@@ -20,6 +20,20 @@ Value percentile_99(std::vector<Value> values) {
   return *at;
 }
 
+// Differences over the truth's own light. No single pixel sets their scale.
+struct LightDifference {
+  // Means over pixels of the mean over channels of (x - t)^2 / (t^2 + e^2) and of |x - t| / (|x| + |t| + e),
+  // with e = 1 % of the mean luminance of the truth t; and the same without the thousandth of the pixels
+  // where they are largest.
+  double rel_mse = unknown_error, rel_mse_trimmed = unknown_error;
+  double smape = unknown_error, smape_trimmed = unknown_error;
+  double sum_rel = unknown_error;  // the sum of all channels over the truth's, less 1: negative is darker
+  // Root mean squares over the mean luminance: of the error, and of its means over each square of 16 x 16
+  // pixels within the image (of all rows or columns where it has fewer), which noise of single pixels leaves
+  // 1/16 of.
+  double rmse_of_mean = unknown_error, low_pass_rmse_of_mean = unknown_error;
+};
+
 // The input of the measures, for images of at least one pixel. Linear light.
 struct ImageDifference {
   size_t pixels = 0;
@@ -28,6 +42,8 @@ struct ImageDifference {
   // The same of errors over the reference's channel, or over 1e-3 of `brightest` if that is more.
   double sum_of_relative_squares = 0;
   double brightest = 0;  // channel that errors are stated over
+  // Of the frontier alone, otherwise NaN; infinite if an error is.
+  LightDifference light = {};
 };
 
 // One figure for several views: the largest, the root mean square or the mean of theirs.

@@ -317,20 +317,31 @@ std::vector<float> hdr_flip_map(const Image& test, const Image& reference, const
   return HdrFlip(reference, exposures, pixels_per_degree).map(test);
 }
 
-DisplayedFlip displayed_flip(const Image& image, const Image& reference, const Exposure& exposure) {
-  const std::vector<uint8_t> shown = srgb_bytes(image, exposure), expected = srgb_bytes(reference, exposure);
-  if (shown == expected) return {};
-  const auto displayed = [&](const std::vector<uint8_t>& bytes) {
-    Image linear(image.width, image.height);
+ShownReference::ShownReference(const Image& reference, const Exposure& exposure) {
+  const auto seen_on_display = [width = reference.width,
+                                height = reference.height](const std::vector<uint8_t>& bytes) {
+    Image linear(width, height);
     for (size_t i = 0; i < linear.pixels.size(); ++i) {
       for (int c = 0; c < 3; ++c)
         linear.pixels[i][c] = linear_from_srgb(float(bytes[3 * i + size_t(c)]) / 255);
     }
-    return linear;
+    return seen_image(linear, default_pixels_per_degree);
   };
-  const std::vector<float> map = flip_map(displayed(shown), displayed(expected));
-  const auto visible = std::ranges::count_if(map, [](float flip) { return flip > visible_flip; });
-  return {mean_of(map), double(visible) / double(map.size())};
+  const auto expected = std::make_shared<std::vector<uint8_t>>(srgb_bytes(reference, exposure));
+  const auto seen_reference = std::make_shared<SeenImage>(seen_on_display(*expected));
+  flip_of_ = [=](const Image& image) -> DisplayedFlip {
+    const std::vector<uint8_t> shown = srgb_bytes(image, exposure);
+    if (shown == *expected) return {};
+    const std::vector<float> map = difference_map(seen_on_display(shown), *seen_reference);
+    const auto visible = std::ranges::count_if(map, [](float flip) { return flip > visible_flip; });
+    return {mean_of(map), double(visible) / double(map.size())};
+  };
+}
+
+DisplayedFlip ShownReference::flip_of(const Image& image) const { return flip_of_(image); }
+
+DisplayedFlip displayed_flip(const Image& image, const Image& reference, const Exposure& exposure) {
+  return ShownReference(reference, exposure).flip_of(image);
 }
 
 double mean_of(const std::vector<float>& map) {

@@ -54,4 +54,14 @@ double mean_of(const std::vector<float>& map);
 // Between the pictures that PNG files show (srgb_bytes).
 DisplayedFlip displayed_flip(const Image& image, const Image& reference, const Exposure& exposure = {});
 
+// The same with the reference's part computed once, for many images.
+class ShownReference {
+ public:
+  ShownReference(const Image& reference, const Exposure& exposure);
+  DisplayedFlip flip_of(const Image& image) const;  // of the reference's size
+
+ private:
+  std::function<DisplayedFlip(const Image& image)> flip_of_;
+};
+
 }  // namespace lightgrid

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <tuple>
 
 #include "results/error_measures.h"
 
@@ -45,12 +47,95 @@ ImageDifference difference_of(const Image& image, const ReferenceAt& reference_a
   return difference;
 }
 
+constexpr double dim = 0.01;  // of the mean luminance: what relative errors of dark pixels are over
+constexpr size_t trimmed_one_of = 1000;
+constexpr int low_pass_px = 16;
+
+// The sum of each `window` values beside each other, `stride` apart from the first of `count`.
+void add_up(const double* values, size_t stride, int count, int window, double* sums, size_t sum_stride) {
+  double sum = 0;
+  for (int i = 0; i < count; ++i) {
+    sum += values[size_t(i) * stride];
+    if (i >= window) sum -= values[size_t(i - window) * stride];
+    if (i >= window - 1) sums[size_t(i - window + 1) * sum_stride] = sum;
+  }
+}
+
+// The mean square of the means over each square of low_pass_px within the image.
+double low_pass_mean_square(const std::vector<glm::dvec3>& errors, int width, int height) {
+  const int across = std::min(low_pass_px, width), up = std::min(low_pass_px, height);
+  const int columns = width - across + 1, rows = height - up + 1;
+  std::vector<double> channel(errors.size()), in_rows(size_t(columns) * size_t(height)),
+      in_squares(size_t(columns) * size_t(rows));
+  double squares = 0;
+  for (int c = 0; c < 3; ++c) {
+    for (size_t i = 0; i < errors.size(); ++i) channel[i] = errors[i][c];
+    for (int y = 0; y < height; ++y)
+      add_up(&channel[size_t(y) * size_t(width)], 1, width, across, &in_rows[size_t(y) * size_t(columns)], 1);
+    for (int x = 0; x < columns; ++x)
+      add_up(&in_rows[size_t(x)], size_t(columns), height, up, &in_squares[size_t(x)], size_t(columns));
+    for (const double sum : in_squares) squares += sum * sum;
+  }
+  const double pixels = double(across) * double(up);
+  return squares / (3 * double(in_squares.size()) * pixels * pixels);
+}
+
+// Their mean, and that without the largest thousandth.
+std::pair<double, double> means_of(std::vector<double> values) {
+  const size_t kept = values.size() - values.size() / trimmed_one_of;
+  std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(kept - 1));
+  const double small = std::accumulate(values.begin(), values.begin() + std::ptrdiff_t(kept), 0.0);
+  const double large = std::accumulate(values.begin() + std::ptrdiff_t(kept), values.end(), 0.0);
+  return {(small + large) / double(values.size()), small / double(kept)};
+}
+
+// `width`, `height`: of an image; 0: of a sample of pixels.
+template <typename ReferenceAt>
+LightDifference light_difference_of(const Image& image, const ReferenceAt& reference_at, int width,
+                                    int height) {
+  const size_t pixels = image.pixels.size();
+  double luminance = 0, sum = 0, reference_sum = 0, squares = 0;
+  for (size_t i = 0; i < pixels; ++i) {
+    const glm::dvec3 t = reference_at(i);
+    luminance += (0.2126 * t.r + 0.7152 * t.g + 0.0722 * t.b) / double(pixels);
+    reference_sum += t.r + t.g + t.b;
+    sum += double(image.pixels[i].r) + double(image.pixels[i].g) + double(image.pixels[i].b);
+  }
+  const double e = dim * luminance;
+  std::vector<double> rel_mse(pixels), smape(pixels);
+  std::vector<glm::dvec3> errors(pixels);
+  for (size_t i = 0; i < pixels; ++i) {
+    const glm::dvec3 t = reference_at(i), x(image.pixels[i]);
+    for (int c = 0; c < 3; ++c) {
+      const double error = channel_error(x[c], t[c]);
+      if (error == 0) continue;
+      errors[i][c] = error < infinite ? x[c] - t[c] : infinite;
+      squares += error * error;
+      rel_mse[i] += error < infinite ? error * error / (t[c] * t[c] + e * e) / 3 : infinite;
+      smape[i] += error < infinite ? error / (std::abs(x[c]) + std::abs(t[c]) + e) / 3 : infinite;
+    }
+  }
+  LightDifference light;
+  std::tie(light.rel_mse, light.rel_mse_trimmed) = means_of(std::move(rel_mse));
+  std::tie(light.smape, light.smape_trimmed) = means_of(std::move(smape));
+  const auto over = [&](double error, double of) { return error == 0 ? 0 : of > 0 ? error / of : infinite; };
+  light.sum_rel = squares < infinite ? over(sum - reference_sum, reference_sum) : infinite;
+  light.rmse_of_mean = over(std::sqrt(squares / (3.0 * double(pixels))), luminance);
+  if (width > 0) {
+    light.low_pass_rmse_of_mean =
+        squares < infinite ? over(std::sqrt(low_pass_mean_square(errors, width, height)), luminance)
+                           : infinite;
+  }
+  return light;
+}
+
 template <typename ReferenceAt>
 ImageError measured(const Image& image, const ReferenceAt& reference_at, double brightest,
-                    std::span<const ErrorMeasure> measures) {
+                    std::span<const ErrorMeasure> measures, const LightDifference& light = {}) {
   ImageError result;
   if (image.pixels.empty()) return result;
-  const ImageDifference difference = difference_of(image, reference_at, brightest);
+  ImageDifference difference = difference_of(image, reference_at, brightest);
+  difference.light = light;
   for (const ErrorMeasure& measure : measures) result.*measure.value = measure.of(difference);
   return result;
 }
@@ -86,13 +171,17 @@ ImageError compare_images(const Image& image, const Image& reference, double bri
 }
 
 ImageError frontier_error(const Image& image, const Image& reference, double brightest) {
+  if (image.pixels.empty()) return {};
   const auto reference_at = [&](size_t i) { return glm::dvec3(reference.pixels[i]); };
-  return measured(image, reference_at, brightest, frontier_error_measures());
+  return measured(image, reference_at, brightest, frontier_error_measures(),
+                  light_difference_of(image, reference_at, image.width, image.height));
 }
 
 ImageError frontier_error(const Image& image, const std::vector<glm::dvec3>& reference, double brightest) {
+  if (image.pixels.empty()) return {};
   const auto reference_at = [&](size_t i) { return reference[i]; };
-  return measured(image, reference_at, brightest, frontier_error_measures());
+  return measured(image, reference_at, brightest, frontier_error_measures(),
+                  light_difference_of(image, reference_at, 0, 0));
 }
 
 uint64_t count_nan_pixels(const Image& image) {

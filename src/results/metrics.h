@@ -13,7 +13,7 @@ ImageError compare_images(const Image& image, const Image& reference);
 ImageError compare_images(const Image& image, const Image& reference, double brightest);
 
 // The measures of the frontier alone, over `brightest`, the truth's brightest channel. The reference may be
-// in double.
+// a sample of pixels in double: then without the one of a low pass.
 ImageError frontier_error(const Image& image, const Image& reference, double brightest);
 ImageError frontier_error(const Image& image, const std::vector<glm::dvec3>& reference, double brightest);
 

@@ -2,6 +2,7 @@
 // (docs/results_json.md).
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -100,6 +101,8 @@ struct DisplayedFlip {
   double mean = 0, visible = 0;
 };
 
+inline constexpr double unknown_error = std::numeric_limits<double>::quiet_NaN();
+
 // Linear light, over all pixels and the three colour channels; if the reference is a sample, over its pixels.
 struct ImageError {
   double max_abs = 0;
@@ -118,6 +121,11 @@ struct ImageError {
   double relative_rmse = 0;  // in the frontier: over the truth's channel, at least 1e-3 of the brightest
   std::optional<DisplayedFlip> displayed;  // absent if not requested
   std::optional<AreaError> area;           // absent if no row has several samples a pixel
+  // In the frontier, as in LightDifference. NaN: not measured, as of a sample of pixels the low-pass one.
+  double rel_mse = unknown_error, rel_mse_trimmed = unknown_error;
+  double smape = unknown_error, smape_trimmed = unknown_error;
+  double sum_rel = unknown_error;
+  double rmse_of_mean = unknown_error, low_pass_rmse_of_mean = unknown_error;
 };
 
 // Over a camera path. Errors are against the reference's image of the same frame, relative to its brightest

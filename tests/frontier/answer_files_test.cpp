@@ -32,7 +32,10 @@ TEST(FrontierJson, HasTheAgreedKeys) {
   EXPECT_THAT(keys(point["relative_time"]), IsSupersetOf({"estimate", "ci95", "runs", "processes",
                                                           "between_processes", "modes", "slow_share"}));
   for (const char* kind : {"model", "precision", "technique", "total"}) {
-    EXPECT_THAT(keys(point["error"][kind]), IsSupersetOf({"max_rel", "rmse_rel", "p99_rel", "flip_mean"}));
+    EXPECT_THAT(keys(point["error"][kind]),
+                IsSupersetOf({"max_rel", "rmse_rel", "p99_rel", "flip_mean", "displayed_flip", "rel_mse",
+                              "rel_mse_trimmed", "smape", "smape_trimmed", "sum_rel", "rmse_of_mean",
+                              "low_pass_rmse_of_mean"}));
   }
   EXPECT_THAT(keys(frontier["break_even"][0]),
               IsSupersetOf({"scene", "tighter", "looser", "ns_per_pixel_light"}));
@@ -55,7 +58,7 @@ TEST(FrontierJson, HoldsTheAnswer) {
   ASSERT_EQ(frontier["points"].size(), 2u);
   const json expected = json::parse(R"({
     "technique": "forward_plus", "settings": {"tile": 8, "cull_test": "planes+aabb"}, "label": "forward_plus:tile=8",
-    "frames": 4, "size": [160, 91], "views": 2,
+    "frames": 4, "size": [160, 91], "views": 2, "exposure_ev": -1.5,
     "frame_ms": {"median": 2.5, "ci95": [2.25, 3.0], "runs": 8},
     "frame_ms_within": {"p95": 4.0, "p99": 5.0},
     "relative_time": {"estimate": 0.5, "ci95": [0.25, 0.75], "runs": 8, "processes": 2, "between_processes": 0.125,
@@ -65,13 +68,18 @@ TEST(FrontierJson, HoldsTheAnswer) {
   for (const auto& [key, value] : expected.items()) EXPECT_EQ(frontier["points"][0][key], value) << key;
   const json& error = frontier["points"][0]["error"];
   EXPECT_EQ(error["total"]["flip_mean"], 0.0123);
+  EXPECT_EQ(error["total"]["displayed_flip"], json::parse(R"({"mean": 0.03125, "visible_share": 0.1875})"));
+  EXPECT_EQ(error["total"]["sum_rel"], -3);
+  EXPECT_EQ(error["model"]["displayed_flip"], nullptr);
+  EXPECT_EQ(frontier["pixels_per_degree"], 67);
   EXPECT_EQ(error["total"]["rmse_rel"], 4.0 / 3);
   EXPECT_EQ(error["precision"]["p99_rel"], 0.022);
   EXPECT_EQ(error["technique"]["max_rel"], answer.points[0].errors.technique.max_rel);
   EXPECT_EQ(error["model"]["relative_rmse"], 0.07);
   EXPECT_EQ(error["model"]["flip_mean"], nullptr);
   json sampled = json::parse(R"({"pixels": 9000, "max_rel": 0.5, "rmse_rel": 1.6666666666666667,
-    "relative_rmse": 0.35000000000000003})");
+    "relative_rmse": 0.35000000000000003, "rel_mse": 2.5, "rel_mse_trimmed": 1.25, "smape": 0.625,
+    "smape_trimmed": 0.3125, "sum_rel": -3.75, "rmse_of_mean": 7.5})");
   sampled["p99_rel"] = 0.011 * 5;
   sampled["float_total_max_rel"] = 0.1 * 7, sampled["float_total_rmse_rel"] = 7.0 / 3;
   sampled["float_truth_max_rel"] = 0.1 * 6, sampled["float_truth_rmse_rel"] = 2.0;
@@ -173,6 +181,11 @@ TEST(FrontierCsv, HasALineAPointAndView) {
                                                        {"technique_relative_rmse", "0.21000000000000002"},
                                                        {"total_p99_rel", "0.044"},
                                                        {"total_flip_mean", "0.0123"},
+                                                       {"total_displayed_flip_mean", "0.03125"},
+                                                       {"total_displayed_flip_visible_share", "0.1875"},
+                                                       {"model_displayed_flip_mean", ""},
+                                                       {"model_low_pass_rmse_of_mean", "0.375"},
+                                                       {"exposure_ev", "-1.5"},
                                                        {"model_flip_mean", ""},
                                                        {"bias_rmse_rel", "1e-05"},
                                                        {"deviation_rmse_rel", "2e-05"},

@@ -54,6 +54,13 @@ TEST(FrontierRecords, KeepEveryFieldAsJson) {
   EXPECT_EQ(read.errors.total.p99_rel, r.errors.total.p99_rel);
   EXPECT_EQ(read.errors.total.flip_mean, r.errors.total.flip_mean);
   EXPECT_EQ(read.errors.model.flip_mean, std::nullopt);
+  ASSERT_TRUE(read.errors.total.displayed);
+  EXPECT_EQ(read.errors.total.displayed->mean, r.errors.total.displayed->mean);
+  EXPECT_EQ(read.errors.total.displayed->visible, r.errors.total.displayed->visible);
+  EXPECT_EQ(read.errors.model.displayed.has_value(), false);
+  EXPECT_EQ(read.errors.precision.rel_mse_trimmed, r.errors.precision.rel_mse_trimmed);
+  EXPECT_EQ(read.errors.technique.sum_rel, r.errors.technique.sum_rel);
+  EXPECT_EQ(read.exposure_ev, r.exposure_ev);
   ASSERT_TRUE(read.errors.in_double);
   EXPECT_EQ(read.errors.in_double->pixels, r.errors.in_double->pixels);
   EXPECT_EQ(read.errors.in_double->picture.max_rel, r.errors.in_double->picture.max_rel);
@@ -92,6 +99,8 @@ TEST(FrontierRecords, NameAWrongField) {
     line.erase(name);
     if (name == "processes") {  // parts of earlier versions are of one process
       EXPECT_THAT(record_of(line).processes, testing::Each(0));
+    } else if (name == "exposure_ev") {  // they have none either
+      EXPECT_EQ(record_of(line).exposure_ev, std::nullopt);
     } else {
       EXPECT_THAT(fault_of([&] { record_of(line); }), HasSubstr(name + " is missing"));
     }
@@ -112,6 +121,20 @@ TEST(FrontierRecords, NameAWrongField) {
   line = good;
   line["memory_bytes"] = -1;
   EXPECT_EQ(fault_of([&] { record_of(line); }), "memory_bytes: -1 is not a whole number");
+}
+
+TEST(FrontierRecords, OfEarlierVersionsLackMeasuresAndDoNotSayZero) {
+  nlohmann::json line = to_json(some_record(8, 0));
+  for (const char* later : {"rel_mse", "rel_mse_trimmed", "smape", "smape_trimmed", "sum_rel", "rmse_of_mean",
+                            "low_pass_rmse_of_mean", "displayed_flip"})
+    ASSERT_EQ(line["errors"]["total"].erase(later), 1u);
+  const ImageError total = record_of(line).errors.total;
+  EXPECT_EQ(total.rmse_rel, some_record(8, 0).errors.total.rmse_rel);
+  for (const double ImageError::*later :
+       {&ImageError::rel_mse, &ImageError::rel_mse_trimmed, &ImageError::smape, &ImageError::smape_trimmed,
+        &ImageError::sum_rel, &ImageError::rmse_of_mean, &ImageError::low_pass_rmse_of_mean})
+    EXPECT_TRUE(std::isnan(total.*later));
+  EXPECT_FALSE(total.displayed);
 }
 
 TEST(FrontierRecords, HaveAKeyOfWhatIsMeasuredAlone) {

@@ -6,8 +6,17 @@
 namespace lightgrid {
 
 inline ImageError some_figures(double scale) {
-  return {
-      .max_rel = 0.1 * scale, .rmse_rel = scale / 3, .p99_rel = 0.011 * scale, .relative_rmse = 0.07 * scale};
+  return {.max_rel = 0.1 * scale,
+          .rmse_rel = scale / 3,
+          .p99_rel = 0.011 * scale,
+          .relative_rmse = 0.07 * scale,
+          .rel_mse = 0.5 * scale,
+          .rel_mse_trimmed = 0.25 * scale,
+          .smape = 0.125 * scale,
+          .smape_trimmed = 0.0625 * scale,
+          .sum_rel = -0.75 * scale,
+          .rmse_of_mean = 1.5 * scale,
+          .low_pass_rmse_of_mean = 0.375 * scale};
 }
 
 // Of view `view` of a point whose tile is `tile`.
@@ -42,8 +51,10 @@ inline FrontierRecord some_record(int tile, int view) {
               .bias_rmse_rel = 1e-5,
               .deviation_rmse_rel = 2e-5};
   r.errors.total.flip_mean = 0.0123;
+  r.errors.total.displayed = DisplayedFlip{0.03125, 0.1875};
   r.errors.temporal_rmse_rel = 3e-5;
   r.flip = FlipExposures{-2.5, 7.25, 10};
+  r.exposure_ev = -1.5;
   r.image = "sponza_17";
   return r;
 }
@@ -79,6 +90,7 @@ inline PointFigures some_point_figures(int tile) {
   p.relative_time.between_processes = 0.125;
   p.front_probability = 0.875;
   p.errors = some_record(tile, 0).errors;
+  p.exposure_ev = -1.5;
   p.flip_views = 2, p.temporal_views = 1;
   p.pairs = {2000, 800, 4, 2};
   p.memory_bytes = 5000;

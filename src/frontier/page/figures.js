@@ -17,9 +17,13 @@ const percentText = (percent) => `${threeDigits(percent)} %`;
 const intervalInWords = ({ median, estimate, ci95: [low, high], runs }, unit) =>
   `${threeDigits(median ?? estimate)}${unit} (${runs === 1 ? "one run, no interval" : `${threeDigits(low)} to ${threeDigits(high)}${runs < 6 && median !== undefined ? `, ${runs} runs` : ""}`})`;
 
+// A measure of an error's figures, or null.
+const measureOf = (figures, measure) => (measure === "displayed_flip" ? figures.displayed_flip?.mean : figures[measure]) ?? null;
+const size = (value) => (value === null ? null : Math.abs(value));
+
 // What an axis can show: value(point) is a number, or null where the point has none.
 const errorQuantity = ([kind, kindTitle], [measure, title]) => ({ key: `${kind}.${measure}`, title: `${title}, ${kindTitle}`, short: title,
-  value: ({ error }) => error[kind][measure], text: errorNumber });
+  value: ({ error }) => size(measureOf(error[kind], measure)), text: errorNumber });
 const ERRORS = [...ERROR_KINDS.flatMap((kind) => ERROR_MEASURES.map((measure) => errorQuantity(kind, measure))),
   { key: "temporal", title: "Flicker, RMSE of the change", short: "Flicker", value: ({ error }) => error.temporal_rmse_rel, text: errorNumber },
   ...["Leaked", "Acned"].map((title) => ({ key: title.toLowerCase(), title: `${title} pairs, %`, short: title,

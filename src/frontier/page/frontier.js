@@ -86,16 +86,16 @@ function pictureFigure(number, caption) {
 }
 
 const PICTURE_CAPTIONS = ["Picture", "Difference from the truth: black is equal, blue 1e-7 to red 1 of its brightest channel, white NaN",
-  "FLIP, how visible the difference is: black not at all, violet little, yellow most"];
+  "HDR-FLIP, how visible the difference is: black not at all, violet little, yellow most"];
 
 function errorTable(point) {
   const text = (value) => (value === null ? "\u2013" : errorNumber(value));
   return make("div", { class: "scrolls" }, make("table", {},
     make("thead", {}, make("tr", {}, make("td", {}, "Error"), ...ERROR_MEASURES.map(([, title]) => make("th", { scope: "col" }, title)))),
     make("tbody", {}, ...ERROR_KINDS.map(([kind, title]) => make("tr", {}, make("th", { scope: "row" }, title),
-      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(point.error[kind][measure])))))),
+      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(measureOf(point.error[kind], measure))))))),
     ...(point.error.in_double ? [make("tbody", {}, make("tr", {}, make("th", { scope: "row" }, "whole picture, truth in double"),
-      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(point.error.in_double[measure] ?? null)))))] : [])));
+      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(measureOf(point.error.in_double, measure))))))] : [])));
 }
 
 function choosePoint(point) {
@@ -116,7 +116,7 @@ function choosePoint(point) {
     ...(images.length && page.reduced > 1 ? [make("p", { class: "quiet" }, `Shown at 1/${page.reduced} of their width and height so that this page stays small; those beside it are whole.`)] : []),
     errorTable(point),
     ...(sampled ? [make("p", {}, `Truth in double: at ${wholeNumber(sampled.pixels)} random pixels of opaque surfaces. There the RMSE is ${errorNumber(sampled.float_total_rmse_rel)} against the truth in float, which is within ${errorNumber(sampled.float_truth_max_rel)} of the one in double (RMSE ${errorNumber(sampled.float_truth_rmse_rel)}).`)] : []),
-    ...(error.flip_views > 0 && error.flip_views < point.views ? [make("p", {}, `FLIP on ${error.flip_views} of ${point.views} views, flicker on ${error.temporal_views}.`)] : []),
+    ...(error.flip_views > 0 && error.flip_views < point.views ? [make("p", {}, `HDR-FLIP on ${error.flip_views} of ${point.views} views, flicker on ${error.temporal_views}.`)] : []),
     ...(error.deviation_rmse_rel !== null ? [make("p", {}, `Of random ranges: bias ${errorNumber(error.bias_rmse_rel ?? 0)}, standard deviation of a frame ${errorNumber(error.deviation_rmse_rel)} (RMSE over the brightest channel).`)] : []),
     ...(error.temporal_rmse_rel !== null ? [make("p", {}, `Flicker: from frame to frame of a slow turn its difference from the truth changes by ${errorNumber(error.temporal_rmse_rel)} (RMSE over the brightest channel).`)] : []),
     make("details", {}, make("summary", {}, "Settings"), ...Object.entries(point.settings).map(([key, value]) => make("div", {}, make("code", {}, `${key} = ${value}`)))))] : []));
@@ -127,7 +127,8 @@ const column = (title, key) => ({ title, value: quantity(key).value, text: quant
 const FIGURE_COLUMNS = [
   { title: "Point", value: (point) => point.label, text: (label) => pointButton(state.points.find((point) => point.label === label), nameElement(label)) },
   column("Time, over the baseline's", "relative"), column("Frame, ms", "ms"), column("RMSE", "total.rmse_rel"), column("Largest error", "total.max_rel"),
-  column("FLIP, mean", "total.flip_mean"), column("Model", "model.rmse_rel"), column("Precision", "precision.rmse_rel"),
+  column("FLIP as displayed", "total.displayed_flip"), column("relMSE, 99.9 %", "total.rel_mse_trimmed"),
+  column("HDR-FLIP", "total.flip_mean"), column("Model", "model.rmse_rel"), column("Precision", "precision.rmse_rel"),
   column("Technique", "technique.rmse_rel"),
   { title: "Lost pairs", value: (point) => point.pairs.lost, text: wholeNumber, gate: true },
   { title: "NaN pixels", value: (point) => point.nan_pixels, text: wholeNumber, gate: true },
