@@ -16,6 +16,13 @@ struct MedianInterval {
   int runs = 0;
 };
 
+// Whether no point of its scene is better in both FLIP as displayed and relative time, and the share of draws
+// of the scene's times in which none is.
+struct OnFront {
+  bool on = false;
+  double probability = 0;
+};
+
 // A point over all its views. Errors: the largest max_rel, otherwise root mean squares or means over views.
 struct PointFigures {
   FrontierPoint point;
@@ -35,8 +42,7 @@ struct PointFigures {
   uint64_t memory_bytes = 0;               // the largest of the views
   uint64_t bytes_moved = 0;                // a frame of the views that were profiled: the first
   uint64_t nan_pixels = 0;
-  bool front = false;  // no point of its scene is better in both error.total.rmse_rel and relative time
-  double front_probability = 0;  // the share of draws of the scene's times in which it is
+  std::map<std::string, OnFront> fronts;  // by the error that it is of (front_errors)
 };
 
 // Of all pairs of a pixel and a light that casts and is in range, in per cent: those shaded though hidden,
@@ -44,10 +50,10 @@ struct PointFigures {
 std::optional<double> leaked_percent(const PairCounts& pairs);
 std::optional<double> acned_percent(const PairCounts& pairs);
 
-// "If you can bear an error of … use …": the point of least time whose error.total.rmse_rel is at most
+// "If you can bear a FLIP of … use …": the point of least time whose mean FLIP as displayed is at most
 // `error`, picked on one half of the rounds and reported on the other.
 struct CheapestWithin {
-  std::string scene;
+  std::string scene, of;  // of: the error (front_errors)
   double error = 0;
   int point = 0;               // index
   RelativeTime relative_time;  // in the rounds that it was not picked on; with a single round, in that one
@@ -76,7 +82,7 @@ struct ProcessConditions {
 };
 
 struct FrontBand {
-  std::string scene;
+  std::string scene, of;  // of: the error (front_errors)
   std::vector<BandStep> steps;
 };
 
@@ -130,8 +136,8 @@ struct FrontierAnswer {
 // Pure. Throws Error(input) if the parts are not of one sweep (check_same_sweep).
 FrontierAnswer answer_of(const std::vector<FrontierPart>& parts);
 
-// Of frontier.json; without one it is of version 1, whose `ratio`, `tied_with` and `best_within` are no more.
-inline constexpr int frontier_schema_version = 2;
+// Of frontier.json; what versions 1 and 2 had otherwise is in docs/frontier_json.md.
+inline constexpr int frontier_schema_version = 3;
 
 // frontier.json, frontier.csv (one row a point and view: each record of `answer.part`), samples.csv (one row
 // a run of such a row) and culling.csv (one row a round in which its culling was timed).

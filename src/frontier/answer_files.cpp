@@ -73,7 +73,8 @@ json process_json(const ProcessConditions& p) {
 
 json cheapest_json(const CheapestWithin& b) {
   return {{"scene", b.scene},
-          {"error", b.error},
+          {"of", b.of},
+          {"flip", b.error},
           {"point", b.point},
           {"relative_time", relative_time_json(b.relative_time)},
           {"probability", finite_number(b.probability)}};
@@ -81,8 +82,9 @@ json cheapest_json(const CheapestWithin& b) {
 
 json band_json(const FrontBand& b) {
   return {{"scene", b.scene},
+          {"of", b.of},
           {"steps", array_of(b.steps, [](const BandStep& s) -> json {
-             return {{"error", finite_number(s.error)}, {"ci95", pair_json(s.low, s.high)}};
+             return {{"flip", finite_number(s.error)}, {"ci95", pair_json(s.low, s.high)}};
            })}};
 }
 
@@ -124,8 +126,8 @@ json point_json(const PointFigures& p) {
   out["memory_bytes"] = p.memory_bytes;
   out["bytes_moved"] = p.bytes_moved;
   out["nan_pixels"] = p.nan_pixels;
-  out["front"] = p.front;
-  out["front_probability"] = p.front_probability;
+  for (const auto& [of, front] : p.fronts)
+    out["fronts"][of] = {{"on", front.on}, {"probability", front.probability}};
   return out;
 }
 
@@ -311,8 +313,8 @@ json to_json(const FrontierAnswer& answer) {
           {"points", array_of(answer.points, point_json)},
           {"processes", array_of(answer.processes, process_json)},
           {"controls", array_of(answer.controls, control_json)},
-          {"cheapest_within", array_of(answer.cheapest_within, cheapest_json)},
-          {"front_bands", array_of(answer.front_bands, band_json)},
+          {"cheapest_within_flip", array_of(answer.cheapest_within, cheapest_json)},
+          {"flip_front_bands", array_of(answer.front_bands, band_json)},
           {"break_even", array_of(answer.break_even, break_even_json)},
           {"shading_costs", array_of(answer.shading_costs, cost_json)},
           {"growth", array_of(answer.growth, growth_json)},

@@ -51,12 +51,12 @@ std::vector<Control> controls_of(Records records);
 // Sets the points' relative times, widened as their scenes' controls ask.
 void set_relative_times(std::vector<PointFigures>& points, const std::vector<Control>& controls);
 
-// Sets front and front_probability. Points with a NaN pixel are never on the front.
+// Sets `fronts`. Points with a NaN pixel are never on one.
 void rank_points(std::vector<PointFigures>& points, const std::vector<Control>& controls);
 std::vector<FrontBand> front_bands_of(const std::vector<PointFigures>& points,
                                       const std::vector<Control>& controls);
 
-// For errors of 1e-6, 1e-5, ... 1e-1 and each scene, where a point is within it.
+// For FLIPs of 0.001 to 0.2 and each scene and error that fronts are of, where a point is within it.
 std::vector<CheapestWithin> cheapest_within_of(const std::vector<PointFigures>& points,
                                                const std::vector<Control>& controls);
 

@@ -101,8 +101,6 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
                                   p.point.label, largest.in_words, fmt::join(figures, ", ")));
 }
 
-std::string percent_of(double error) { return fmt::format("{:g} %", 100 * error); }
-
 // A line a step: from the largest error down, each point at the least error that it is the best within.
 void add_cheapest_within(const FrontierAnswer& answer, const std::string& scene,
                          std::vector<std::string>& sentences) {
@@ -114,12 +112,11 @@ void add_cheapest_within(const FrontierAnswer& answer, const std::string& scene,
   }
   for (const CheapestWithin* step : steps) {
     const PointFigures& p = answer.points[step->point];
-    sentences.push_back(
-        fmt::format("Error up to {} (RMSE) in {}: {}, {} times {} (the cheapest with a "
-                    "probability of {}).",
-                    percent_of(step->error), scene_in_words(scene), p.point.label,
-                    three_digits(step->relative_time.estimate), answer.part.baseline,
-                    probability_in_words(step->probability)));
+    sentences.push_back(fmt::format(
+        "FLIP as displayed up to {:g} in {}: {}, {} times {} (the cheapest with a "
+        "probability of {}).",
+        step->error, scene_in_words(scene), p.point.label, three_digits(step->relative_time.estimate),
+        answer.part.baseline, probability_in_words(step->probability)));
   }
 }
 

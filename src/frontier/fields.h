@@ -89,6 +89,16 @@ inline constexpr std::pair<const char*, ImageError PointErrors::*> kinds_of_erro
     {"technique", &PointErrors::technique},
     {"total", &PointErrors::total}};
 
+// Those that fronts are of: of the whole picture, in FLIP as displayed.
+inline constexpr const char* front_errors[] = {"total"};
+
+inline const ImageError& error_of_kind(const PointErrors& errors, const std::string& kind) {
+  for (const auto& [key, member] : kinds_of_error) {
+    if (key == kind) return errors.*member;
+  }
+  return errors.total;
+}
+
 template <Is<PointErrors> T, typename Visit>
 void visit_fields(T& e, Visit&& visit) {
   for (const auto& [key, kind] : kinds_of_error) visit(key, e.*kind);

@@ -157,7 +157,7 @@ class PointComparison {
 
 void check_comparable(const JsonFields& now, const JsonFields& earlier) {
   if (!earlier.has("schema_version") || earlier.whole("schema_version", 1) != frontier_schema_version) {
-    throw input_error("schema_version: not {}, that of this program: it has other figures of times",
+    throw input_error("schema_version: not {}, that of this program: it has other figures",
                       frontier_schema_version);
   }
   if (now.count("seed") != earlier.count("seed")) {

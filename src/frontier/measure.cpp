@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <span>
 
 #include "base/error.h"
@@ -213,15 +214,19 @@ class SceneSweep {
       notice(fmt::format("{} of {} points, for the time there is", measured_.size(), all));
   }
 
+  // What fronts are of; a refused point has none.
+  static double error_of(const MeasuredPoint& m) {
+    const std::optional<DisplayedFlip>& flip = m.records.front().errors.total.displayed;
+    return flip ? flip->mean : std::numeric_limits<double>::quiet_NaN();
+  }
+
   void classify() {
     size_t slow = 0;
     for (MeasuredPoint& m : measured_) {
-      const double error = m.records.front().errors.total.rmse_rel;
+      const double error = error_of(m);
       m.slow = m.picture_s > slow_factor * baseline_s_ &&
                std::ranges::any_of(measured_, [&](const MeasuredPoint& other) {
-                 const FrontierRecord& record = other.records.front();
-                 return record.refused.empty() && record.errors.total.rmse_rel <= error &&
-                        beaten_factor * other.picture_s < m.picture_s;
+                 return error_of(other) <= error && beaten_factor * other.picture_s < m.picture_s;
                });
       slow += m.slow;
     }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "frontier/answer_steps.h"
+#include "frontier/fields.h"
 #include "frontier/round_baselines.h"
 
 namespace lightgrid {
@@ -13,10 +14,13 @@ constexpr double most_off = 0.01;  // of a control
 constexpr int draws_of_a_scene = 2000;
 constexpr double unranked = std::numeric_limits<double>::quiet_NaN();
 
+constexpr double bearable_flips[] = {0.001, 0.01, 0.02, 0.05, 0.1, 0.2};
+
 // What fronts hold against the time; NaN: not on a front.
-double error_on_front(const PointFigures& p) {
-  const bool ranked = p.nan_pixels == 0 && !p.log_times.empty() && std::isfinite(p.errors.total.rmse_rel);
-  return ranked ? p.errors.total.rmse_rel : unranked;
+double error_on_front(const PointFigures& p, const std::string& kind) {
+  const std::optional<DisplayedFlip>& flip = error_of_kind(p.errors, kind).displayed;
+  const bool ranked = p.nan_pixels == 0 && !p.log_times.empty() && flip && std::isfinite(flip->mean);
+  return ranked ? flip->mean : unranked;
 }
 
 // Points of a scene, with draws of their times.
@@ -27,13 +31,14 @@ struct SceneTimes {
 };
 
 std::map<std::string, SceneTimes> drawn_scenes(const std::vector<PointFigures>& points,
-                                               const std::vector<Control>& controls) {
+                                               const std::vector<Control>& controls,
+                                               const std::string& kind) {
   std::map<std::string, SceneTimes> scenes;
   std::map<std::string, std::vector<LogTimes>> times;
   for (size_t i = 0; i < points.size(); ++i) {
     SceneTimes& scene = scenes[points[i].point.scene];
     scene.indices.push_back(int(i));
-    scene.errors.push_back(error_on_front(points[i]));
+    scene.errors.push_back(error_on_front(points[i], kind));
     times[points[i].point.scene].push_back(points[i].log_times);
   }
   for (auto& [name, scene] : scenes) {
@@ -101,51 +106,63 @@ void set_relative_times(std::vector<PointFigures>& points, const std::vector<Con
 }
 
 void rank_points(std::vector<PointFigures>& points, const std::vector<Control>& controls) {
-  for (const auto& [name, scene] : drawn_scenes(points, controls)) {
-    std::vector<std::pair<double, double>> places;
-    for (size_t i = 0; i < scene.indices.size(); ++i)
-      places.emplace_back(points[size_t(scene.indices[i])].relative_time.estimate, scene.errors[i]);
-    const std::vector<bool> front = pareto_front(places);
-    const std::vector<double> probabilities = front_probabilities(scene.draws, scene.errors);
-    for (size_t i = 0; i < scene.indices.size(); ++i) {
-      PointFigures& p = points[size_t(scene.indices[i])];
-      p.front = front[i], p.front_probability = probabilities[i];
+  for (const std::string kind : front_errors) {
+    for (const auto& [name, scene] : drawn_scenes(points, controls, kind)) {
+      std::vector<std::pair<double, double>> places;
+      for (size_t i = 0; i < scene.indices.size(); ++i)
+        places.emplace_back(points[size_t(scene.indices[i])].relative_time.estimate, scene.errors[i]);
+      const std::vector<bool> front = pareto_front(places);
+      const std::vector<double> probabilities = front_probabilities(scene.draws, scene.errors);
+      for (size_t i = 0; i < scene.indices.size(); ++i)
+        points[size_t(scene.indices[i])].fronts[kind] = {front[i], probabilities[i]};
     }
   }
 }
 
 std::vector<FrontBand> front_bands_of(const std::vector<PointFigures>& points,
                                       const std::vector<Control>& controls) {
-  const auto scenes = drawn_scenes(points, controls);
   std::vector<FrontBand> bands;
-  for (const std::string& name : distinct(points, [](const PointFigures& p) { return p.point.scene; }))
-    bands.push_back({name, front_band(scenes.at(name).draws, scenes.at(name).errors)});
+  for (const std::string kind : front_errors) {
+    const auto scenes = drawn_scenes(points, controls, kind);
+    for (const std::string& name : distinct(points, [](const PointFigures& p) { return p.point.scene; }))
+      bands.push_back({name, kind, front_band(scenes.at(name).draws, scenes.at(name).errors)});
+  }
   return bands;
+}
+
+static std::vector<CheapestWithin> cheapest_in_scene(const std::vector<PointFigures>& points,
+                                                     const SceneTimes& scene, CheapestWithin within,
+                                                     double widening) {
+  const auto times_of = [&](size_t i, int parity) {
+    const LogTimes& times = points[size_t(scene.indices[i])].log_times;
+    const LogTimes half = half_of(times, parity);
+    return half.empty() ? times : half;
+  };
+  std::vector<CheapestWithin> all;
+  for (const double error : bearable_flips) {
+    const int best = cheapest(scene, error, [&](size_t i) { return relative_time(times_of(i, 0)).estimate; });
+    if (best < 0) continue;
+    within.error = error, within.point = scene.indices[size_t(best)];
+    within.relative_time = relative_time(times_of(size_t(best), 1), widening);
+    const auto hits = std::ranges::count_if(scene.draws, [&](const std::vector<double>& draw) {
+      return cheapest(scene, error, [&](size_t i) { return draw[i]; }) == best;
+    });
+    within.probability = double(hits) / double(scene.draws.size());
+    all.push_back(within);
+  }
+  return all;
 }
 
 std::vector<CheapestWithin> cheapest_within_of(const std::vector<PointFigures>& points,
                                                const std::vector<Control>& controls) {
-  const auto scenes = drawn_scenes(points, controls);
   std::vector<CheapestWithin> all;
-  for (const std::string& name : distinct(points, [](const PointFigures& p) { return p.point.scene; })) {
-    const SceneTimes& scene = scenes.at(name);
-    const auto control = std::ranges::find(controls, name, &Control::scene);
-    const double widening = control == controls.end() ? 0 : control->widening();
-    const auto times_of = [&](size_t i, int parity) {
-      const LogTimes& times = points[size_t(scene.indices[i])].log_times;
-      const LogTimes half = half_of(times, parity);
-      return half.empty() ? times : half;
-    };
-    for (const double error : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1}) {
-      const int best =
-          cheapest(scene, error, [&](size_t i) { return relative_time(times_of(i, 0)).estimate; });
-      if (best < 0) continue;
-      CheapestWithin within{name, error, scene.indices[size_t(best)]};
-      within.relative_time = relative_time(times_of(size_t(best), 1), widening);
-      for (const std::vector<double>& draw : scene.draws)
-        within.probability += cheapest(scene, error, [&](size_t i) { return draw[i]; }) == best;
-      within.probability /= double(scene.draws.size());
-      all.push_back(within);
+  for (const std::string kind : front_errors) {
+    const auto scenes = drawn_scenes(points, controls, kind);
+    for (const std::string& name : distinct(points, [](const PointFigures& p) { return p.point.scene; })) {
+      const auto control = std::ranges::find(controls, name, &Control::scene);
+      const double widening = control == controls.end() ? 0 : control->widening();
+      std::ranges::copy(cheapest_in_scene(points, scenes.at(name), {name, kind}, widening),
+                        std::back_inserter(all));
     }
   }
   return all;

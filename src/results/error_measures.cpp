@@ -30,7 +30,7 @@ double rel_mse(const Difference& d) { return d.light.rel_mse; }
 double rel_mse_trimmed(const Difference& d) { return d.light.rel_mse_trimmed; }
 double smape(const Difference& d) { return d.light.smape; }
 double smape_trimmed(const Difference& d) { return d.light.smape_trimmed; }
-double sum_rel(const Difference& d) { return d.light.sum_rel; }
+double energy_rel(const Difference& d) { return d.light.energy_rel; }
 double rmse_of_mean(const Difference& d) { return d.light.rmse_of_mean; }
 double low_pass_rmse_of_mean(const Difference& d) { return d.light.low_pass_rmse_of_mean; }
 
@@ -49,7 +49,8 @@ constexpr ErrorMeasure measures[] = {
     {"smape_trimmed", "", "SMAPE, 99.9 %", &ImageError::smape_trimmed, smape_trimmed, OverViews::mean, false,
      true},
     {"smape", "", "SMAPE", &ImageError::smape, smape, OverViews::mean, false, true},
-    {"sum_rel", "", "energy gained or lost", &ImageError::sum_rel, sum_rel, OverViews::mean, false, false},
+    {"energy_rel", "", "energy gained or lost", &ImageError::energy_rel, energy_rel, OverViews::mean, false,
+     false},
     {"rmse_of_mean", "", "RMSE over the mean", &ImageError::rmse_of_mean, rmse_of_mean,
      OverViews::root_mean_square, false, false},
     {"low_pass_rmse_of_mean", "", "RMSE over the mean, low pass", &ImageError::low_pass_rmse_of_mean,

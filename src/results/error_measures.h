@@ -27,7 +27,7 @@ struct LightDifference {
   // where they are largest.
   double rel_mse = unknown_error, rel_mse_trimmed = unknown_error;
   double smape = unknown_error, smape_trimmed = unknown_error;
-  double sum_rel = unknown_error;  // the sum of all channels over the truth's, less 1: negative is darker
+  double energy_rel = unknown_error;  // the sum of all channels over the truth's, less 1: negative is darker
   // Root mean squares over the mean luminance: of the error, and of its means over each square of 16 x 16
   // pixels within the image (of all rows or columns where it has fewer), which noise of single pixels leaves
   // 1/16 of.

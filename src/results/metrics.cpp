@@ -119,7 +119,7 @@ LightDifference light_difference_of(const Image& image, const ReferenceAt& refer
   std::tie(light.rel_mse, light.rel_mse_trimmed) = means_of(std::move(rel_mse));
   std::tie(light.smape, light.smape_trimmed) = means_of(std::move(smape));
   const auto over = [&](double error, double of) { return error == 0 ? 0 : of > 0 ? error / of : infinite; };
-  light.sum_rel = squares < infinite ? over(sum - reference_sum, reference_sum) : infinite;
+  light.energy_rel = squares < infinite ? over(sum - reference_sum, reference_sum) : infinite;
   light.rmse_of_mean = over(std::sqrt(squares / (3.0 * double(pixels))), luminance);
   if (width > 0) {
     light.low_pass_rmse_of_mean =

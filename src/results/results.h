@@ -122,10 +122,13 @@ struct ImageError {
   std::optional<DisplayedFlip> displayed;  // absent if not requested
   std::optional<AreaError> area;           // absent if no row has several samples a pixel
   // In the frontier, as in LightDifference. NaN: not measured, as of a sample of pixels the low-pass one.
-  double rel_mse = unknown_error, rel_mse_trimmed = unknown_error;
-  double smape = unknown_error, smape_trimmed = unknown_error;
-  double sum_rel = unknown_error;
-  double rmse_of_mean = unknown_error, low_pass_rmse_of_mean = unknown_error;
+  double rel_mse = unknown_error;
+  double rel_mse_trimmed = unknown_error;
+  double smape = unknown_error;
+  double smape_trimmed = unknown_error;
+  double energy_rel = unknown_error;
+  double rmse_of_mean = unknown_error;
+  double low_pass_rmse_of_mean = unknown_error;
 };
 
 // Over a camera path. Errors are against the reference's image of the same frame, relative to its brightest

@@ -92,8 +92,7 @@ std::string kill_when_written(const std::vector<std::string>& arguments, const f
 
 // All that no clock has a share in.
 json without_times(json point) {
-  for (const char* of_time : {"frame_ms", "frame_ms_within", "relative_time", "front", "front_probability"})
-    point.erase(of_time);
+  for (const char* of_time : {"frame_ms", "frame_ms_within", "relative_time", "fronts"}) point.erase(of_time);
   return point;
 }
 

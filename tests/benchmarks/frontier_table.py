@@ -16,7 +16,7 @@ def main():
     shadows = ["leaked_percent", "acned_percent"] if any("leaked_percent" in p for p in answer["points"]) else []
     out.writerow(
         "scene label views runs processes ms p95_ms p99_ms relative_time relative_time_low relative_time_high modes total_rmse_rel model_rmse_rel technique_rmse_rel precision_rmse_rel "
-        "total_max_rel flip_mean temporal_rmse_rel deviation_rmse_rel bias_rmse_rel listed_per_lit lost memory_bytes front front_probability".split() + shadows
+        "total_max_rel flip_mean displayed_flip temporal_rmse_rel deviation_rmse_rel bias_rmse_rel listed_per_lit lost memory_bytes front front_probability".split() + shadows
     )
     points = [p for scene in answer["scenes"] for p in answer["points"] if p["scene"] == scene]
     order = {scene: i for i, scene in enumerate(answer["scenes"])}
@@ -27,8 +27,8 @@ def main():
         row += [*(p["frame_ms_within"][share] for share in ("p95", "p99")), time["estimate"], *time["ci95"]]
         row += [" ".join(cell(mode) for mode in time["modes"])]
         row += [e[kind]["rmse_rel"] for kind in ("total", "model", "technique", "precision")]
-        row += [e["total"]["max_rel"], e["total"]["flip_mean"], e["temporal_rmse_rel"], e["deviation_rmse_rel"], e["bias_rmse_rel"]]
-        row += [p["listed_per_lit"], p["pairs"]["lost"], p["memory_bytes"], int(p["front"]), p["front_probability"]]
+        row += [e["total"]["max_rel"], e["total"]["flip_mean"], e["total"]["displayed_flip"]["mean"], e["temporal_rmse_rel"], e["deviation_rmse_rel"], e["bias_rmse_rel"]]
+        row += [p["listed_per_lit"], p["pairs"]["lost"], p["memory_bytes"], int(p["fronts"]["total"]["on"]), p["fronts"]["total"]["probability"]]
         out.writerow([cell(value) for value in row + [p.get(key) for key in shadows]])
 
 

@@ -42,7 +42,7 @@ def main():
     bins = {}
     for (_, a), (_, b) in itertools.permutations(runs, 2):
         for key in a.keys() & b.keys():
-            bins.setdefault(min(int(a[key]["front_probability"] * 5), 4), []).append(b[key]["front"])
+            bins.setdefault(min(int(a[key]["fronts"]["total"]["probability"] * 5), 4), []).append(b[key]["fronts"]["total"]["on"])
     for number, fronts in sorted(bins.items()):
         print(f"probability {number / 5:.1f} to {(number + 1) / 5:.1f}: on the front of another run in "
               f"{100 * statistics.fmean(fronts):.0f} % of {len(fronts)}")

@@ -22,19 +22,19 @@ TEST(FrontierJson, HasTheAgreedKeys) {
   const json frontier = to_json(some_answer());
   EXPECT_THAT(keys(frontier),
               IsSupersetOf({"schema_version", "machine", "commit", "seed", "scenes", "points", "controls",
-                            "cheapest_within", "front_bands", "break_even", "failures"}));
-  EXPECT_EQ(frontier["schema_version"], 2);
+                            "cheapest_within_flip", "flip_front_bands", "break_even", "failures"}));
+  EXPECT_EQ(frontier["schema_version"], 3);
   const json& point = frontier["points"][0];
-  EXPECT_THAT(keys(point), IsSupersetOf({"scene", "technique", "settings", "views", "frame_ms",
-                                         "frame_ms_within", "relative_time", "error", "pairs",
-                                         "listed_per_lit", "memory_bytes", "front", "front_probability"}));
+  EXPECT_THAT(keys(point),
+              IsSupersetOf({"scene", "technique", "settings", "views", "frame_ms", "frame_ms_within",
+                            "relative_time", "error", "pairs", "listed_per_lit", "memory_bytes", "fronts"}));
   EXPECT_THAT(keys(point["frame_ms"]), IsSupersetOf({"median", "ci95", "runs"}));
   EXPECT_THAT(keys(point["relative_time"]), IsSupersetOf({"estimate", "ci95", "runs", "processes",
                                                           "between_processes", "modes", "slow_share"}));
   for (const char* kind : {"model", "precision", "technique", "total"}) {
     EXPECT_THAT(keys(point["error"][kind]),
                 IsSupersetOf({"max_rel", "rmse_rel", "p99_rel", "flip_mean", "displayed_flip", "rel_mse",
-                              "rel_mse_trimmed", "smape", "smape_trimmed", "sum_rel", "rmse_of_mean",
+                              "rel_mse_trimmed", "smape", "smape_trimmed", "energy_rel", "rmse_of_mean",
                               "low_pass_rmse_of_mean"}));
   }
   EXPECT_THAT(keys(frontier["break_even"][0]),
@@ -64,12 +64,12 @@ TEST(FrontierJson, HoldsTheAnswer) {
     "relative_time": {"estimate": 0.5, "ci95": [0.25, 0.75], "runs": 8, "processes": 2, "between_processes": 0.125,
                       "modes": [], "slow_share": null},
     "pairs": {"listed": 2000, "lit": 800, "lost": 4, "wrong": 2}, "listed_per_lit": 2.5,
-    "memory_bytes": 5000, "bytes_moved": 7000, "nan_pixels": 6, "front": true, "front_probability": 0.875})");
+    "memory_bytes": 5000, "bytes_moved": 7000, "nan_pixels": 6, "fronts": {"total": {"on": true, "probability": 0.875}}})");
   for (const auto& [key, value] : expected.items()) EXPECT_EQ(frontier["points"][0][key], value) << key;
   const json& error = frontier["points"][0]["error"];
   EXPECT_EQ(error["total"]["flip_mean"], 0.0123);
   EXPECT_EQ(error["total"]["displayed_flip"], json::parse(R"({"mean": 0.03125, "visible_share": 0.1875})"));
-  EXPECT_EQ(error["total"]["sum_rel"], -3);
+  EXPECT_EQ(error["total"]["energy_rel"], -3);
   EXPECT_EQ(error["model"]["displayed_flip"], nullptr);
   EXPECT_EQ(frontier["pixels_per_degree"], 67);
   EXPECT_EQ(error["total"]["rmse_rel"], 4.0 / 3);
@@ -79,7 +79,7 @@ TEST(FrontierJson, HoldsTheAnswer) {
   EXPECT_EQ(error["model"]["flip_mean"], nullptr);
   json sampled = json::parse(R"({"pixels": 9000, "max_rel": 0.5, "rmse_rel": 1.6666666666666667,
     "relative_rmse": 0.35000000000000003, "rel_mse": 2.5, "rel_mse_trimmed": 1.25, "smape": 0.625,
-    "smape_trimmed": 0.3125, "sum_rel": -3.75, "rmse_of_mean": 7.5})");
+    "smape_trimmed": 0.3125, "energy_rel": -3.75, "rmse_of_mean": 7.5})");
   sampled["p99_rel"] = 0.011 * 5;
   sampled["float_total_max_rel"] = 0.1 * 7, sampled["float_total_rmse_rel"] = 7.0 / 3;
   sampled["float_truth_max_rel"] = 0.1 * 6, sampled["float_truth_rmse_rel"] = 2.0;
@@ -88,13 +88,15 @@ TEST(FrontierJson, HoldsTheAnswer) {
   EXPECT_EQ(error["temporal_views"], 1);
   EXPECT_EQ(error["bias_rmse_rel"], 1e-5);
   EXPECT_EQ(error["deviation_rmse_rel"], 2e-5);
-  EXPECT_EQ(frontier["cheapest_within"], (json{{{"scene", scene},
-                                                {"error", 1e-3},
-                                                {"point", 0},
-                                                {"probability", 0.5},
-                                                {"relative_time", expected["relative_time"]}}}));
-  EXPECT_EQ(frontier["front_bands"],
-            (json{{{"scene", scene}, {"steps", {{{"error", 1e-3}, {"ci95", {0.25, 0.75}}}}}}}));
+  EXPECT_EQ(frontier["cheapest_within_flip"], (json{{{"scene", scene},
+                                                     {"of", "total"},
+                                                     {"flip", 1e-3},
+                                                     {"point", 0},
+                                                     {"probability", 0.5},
+                                                     {"relative_time", expected["relative_time"]}}}));
+  EXPECT_EQ(
+      frontier["flip_front_bands"],
+      (json{{{"scene", scene}, {"of", "total"}, {"steps", {{{"flip", 1e-3}, {"ci95", {0.25, 0.75}}}}}}}));
   const json& control = frontier["controls"][0];
   EXPECT_EQ(control["passed"], false) << "6 % off, although its interval holds 1";
   EXPECT_EQ(control["places"], (json{1.0, 1.125}));
@@ -132,8 +134,8 @@ TEST(FrontierJson, HasNullForWhatIsNotFinite) {
 
 TEST(FrontierJson, OfNothingHasEmptyLists) {
   const json frontier = to_json(FrontierAnswer{});
-  for (const char* list : {"scenes", "points", "controls", "cheapest_within", "front_bands", "break_even",
-                           "shading_costs", "growth", "failures", "sentences", "machines"}) {
+  for (const char* list : {"scenes", "points", "controls", "cheapest_within_flip", "flip_front_bands",
+                           "break_even", "shading_costs", "growth", "failures", "sentences", "machines"}) {
     EXPECT_EQ(frontier[list], json::array()) << list;
   }
 }

@@ -52,7 +52,7 @@ addEventListener("load", async () => {
   change("x-choice", "ms");
   seen.overMs = marks();
   change("x-choice", "relative");
-  change("y-choice", "total.rmse_rel");
+  change("y-choice", "total.displayed_flip");
 
   const technique = [...document.querySelectorAll("#techniques button")].find((button) => button.textContent === "visibility");
   technique.click();

@@ -125,7 +125,7 @@ TEST(Gate, RefusesFilesOfTheEarlierSchema) {
   json earlier = frontier();
   earlier.erase("schema_version");
   EXPECT_THAT(fault_of([&] { held_against(frontier(), earlier, "old.json"); }),
-              StartsWith("old.json: schema_version: not 2"));
+              StartsWith("old.json: schema_version: not 3"));
 }
 
 TEST(Gate, IsClosedByARefusal) {

@@ -128,11 +128,9 @@ def relative_time(times, widen=0.0):
 
 
 def error_of(rows):
-    """None if a view's error is not finite."""
-    errors = [row["total_rmse_rel"] for row in rows]
-    if "" in errors:
-        return None
-    return math.sqrt(sum(float(e) ** 2 for e in errors) / len(errors))
+    """FLIP as displayed; None if a view has none."""
+    errors = [row["total_displayed_flip_mean"] for row in rows]
+    return None if "" in errors else statistics.fmean(map(float, errors))
 
 
 def median_interval(values):
@@ -285,7 +283,7 @@ def main():
     stated = {}
     for key, p in zip(keys, points):
         time = p["relative_time"]
-        stated[key] = p["front"], (time["estimate"], *time["ci95"]) if time["runs"] else None
+        stated[key] = p["fronts"]["total"]["on"], (time["estimate"], *time["ci95"]) if time["runs"] else None
     computed = recompute(folder)
     differences = 0
     for key in sorted(set(stated) | set(computed)):
@@ -295,7 +293,7 @@ def main():
     on_front = sum(front for front, _ in computed.values())
     print(f"{len(computed)} points, {on_front} on a front: {differences} points differ")
     if set(stated) == set(computed):
-        differences += different_probabilities(folder, {key: p["front_probability"] for key, p in zip(keys, points)})
+        differences += different_probabilities(folder, {key: p["fronts"]["total"]["probability"] for key, p in zip(keys, points)})
     if len(answer.get("machines", [])) < 2:  # those of other machines are scaled
         differences += different_break_evens(folder, answer["break_even"])
     return 1 if differences or not computed else 0

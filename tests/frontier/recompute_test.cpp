@@ -39,7 +39,8 @@ FrontierPart random_sweep(uint32_t seed) {
         for (uint32_t round = view == 0 ? 5 + uint32_t(tile) / 2 : 0; round > 0; --round)
           record.cull_ms.push_back(5 + 0.1 * (tile % 2) + noise(random));
         record.nan_pixels = shows_nan && view == 1 ? 3 : 0;
-        record.errors.total.rmse_rel = not_finite && view == 1 ? std::nan("") : error * (1 + view);
+        record.errors.total.displayed = DisplayedFlip{error * (1 + view), 0};
+        if (not_finite && view == 1) record.errors.total.displayed.reset();
         record.frame_ms.clear();
         record.baseline_ms.clear();
         record.processes.clear();
@@ -90,14 +91,15 @@ TEST(Recomputed, FrontsAndTimesAreThoseOfTheTables) {
   }
   EXPECT_THAT(recompute(wrong).output, HasSubstr(fmt::format(": {} differ", with_interval)));
   wrong = stated;
-  wrong["points"][7]["front"] = !wrong["points"][7]["front"].get<bool>();
+  nlohmann::json& on_front = wrong["points"][7]["fronts"]["total"]["on"];
+  on_front = !on_front.get<bool>();
   EXPECT_THAT(recompute(wrong).output, HasSubstr(": 1 points differ"));
   wrong = stated;
   nlohmann::json& high = wrong["points"][7]["relative_time"]["ci95"][1];
   high = high.get<double>() * 1.0001;
   EXPECT_THAT(recompute(wrong).output, HasSubstr(": 1 points differ"));
   wrong = stated;
-  nlohmann::json& probability = wrong["points"][7]["front_probability"];
+  nlohmann::json& probability = wrong["points"][7]["fronts"]["total"]["probability"];
   probability = std::abs(probability.get<double>() - 0.2);
   EXPECT_THAT(recompute(wrong).output, HasSubstr("probabilities of the front: 1 differ"));
   wrong = stated;

@@ -59,7 +59,7 @@ TEST(FrontierRecords, KeepEveryFieldAsJson) {
   EXPECT_EQ(read.errors.total.displayed->visible, r.errors.total.displayed->visible);
   EXPECT_EQ(read.errors.model.displayed.has_value(), false);
   EXPECT_EQ(read.errors.precision.rel_mse_trimmed, r.errors.precision.rel_mse_trimmed);
-  EXPECT_EQ(read.errors.technique.sum_rel, r.errors.technique.sum_rel);
+  EXPECT_EQ(read.errors.technique.energy_rel, r.errors.technique.energy_rel);
   EXPECT_EQ(read.exposure_ev, r.exposure_ev);
   ASSERT_TRUE(read.errors.in_double);
   EXPECT_EQ(read.errors.in_double->pixels, r.errors.in_double->pixels);
@@ -125,14 +125,14 @@ TEST(FrontierRecords, NameAWrongField) {
 
 TEST(FrontierRecords, OfEarlierVersionsLackMeasuresAndDoNotSayZero) {
   nlohmann::json line = to_json(some_record(8, 0));
-  for (const char* later : {"rel_mse", "rel_mse_trimmed", "smape", "smape_trimmed", "sum_rel", "rmse_of_mean",
-                            "low_pass_rmse_of_mean", "displayed_flip"})
+  for (const char* later : {"rel_mse", "rel_mse_trimmed", "smape", "smape_trimmed", "energy_rel",
+                            "rmse_of_mean", "low_pass_rmse_of_mean", "displayed_flip"})
     ASSERT_EQ(line["errors"]["total"].erase(later), 1u);
   const ImageError total = record_of(line).errors.total;
   EXPECT_EQ(total.rmse_rel, some_record(8, 0).errors.total.rmse_rel);
   for (const double ImageError::*later :
        {&ImageError::rel_mse, &ImageError::rel_mse_trimmed, &ImageError::smape, &ImageError::smape_trimmed,
-        &ImageError::sum_rel, &ImageError::rmse_of_mean, &ImageError::low_pass_rmse_of_mean})
+        &ImageError::energy_rel, &ImageError::rmse_of_mean, &ImageError::low_pass_rmse_of_mean})
     EXPECT_TRUE(std::isnan(total.*later));
   EXPECT_FALSE(total.displayed);
 }

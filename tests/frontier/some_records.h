@@ -14,7 +14,7 @@ inline ImageError some_figures(double scale) {
           .rel_mse_trimmed = 0.25 * scale,
           .smape = 0.125 * scale,
           .smape_trimmed = 0.0625 * scale,
-          .sum_rel = -0.75 * scale,
+          .energy_rel = -0.75 * scale,
           .rmse_of_mean = 1.5 * scale,
           .low_pass_rmse_of_mean = 0.375 * scale};
 }
@@ -88,7 +88,6 @@ inline PointFigures some_point_figures(int tile) {
   p.p95_ms = 4, p.p99_ms = 5;
   p.relative_time = {.estimate = 0.5, .low = 0.25, .high = 0.75, .runs = 8, .processes = 2};
   p.relative_time.between_processes = 0.125;
-  p.front_probability = 0.875;
   p.errors = some_record(tile, 0).errors;
   p.exposure_ev = -1.5;
   p.flip_views = 2, p.temporal_views = 1;
@@ -96,7 +95,7 @@ inline PointFigures some_point_figures(int tile) {
   p.memory_bytes = 5000;
   p.bytes_moved = 7000;
   p.nan_pixels = 6;
-  p.front = tile == 8;
+  p.fronts["total"] = {tile == 8, 0.875};
   return p;
 }
 
@@ -119,10 +118,11 @@ inline FrontierAnswer some_answer() {
   answer.machines[1].shard = 2;
   answer.machines[1].cl_device = "another";
   answer.points = {some_point_figures(8), some_point_figures(16)};
-  answer.cheapest_within = {{answer.points[0].point.scene, 1e-3, 0, answer.points[0].relative_time, 0.5}};
+  answer.cheapest_within = {
+      {answer.points[0].point.scene, "total", 1e-3, 0, answer.points[0].relative_time, 0.5}};
   answer.controls = {
       {answer.points[0].point.scene, {.estimate = 1.0625, .low = 1, .high = 1.125, .runs = 8}, {1, 1.125}}};
-  answer.front_bands = {{answer.points[0].point.scene, {{1e-3, 0.25, 0.75}}}};
+  answer.front_bands = {{answer.points[0].point.scene, "total", {{1e-3, 0.25, 0.75}}}};
   answer.break_even = {{"hall", "exact", "sphere", 0.25, 1.5, 1000, 0.125, 0.5, 12}};
   answer.shading_costs = {{"hall", "forward_plus", "ggx", 0.75, 0.5, 1}};
   answer.growth = {{"hall", "forward_plus", "lights", 0.5, 0.25, 0.75, {{100, 1}, {400, 2}, {1600, 4}}}};

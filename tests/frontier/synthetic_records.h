@@ -43,6 +43,7 @@ inline FrontierRecord synthetic_record(const FrontierPoint& point, double ratio,
     record.frame_ms.push_back(100 * ratio * (1 + (run % 2 ? 0.01 : -0.01) * (1 + run) / runs));
   }
   record.errors.total = synthetic_error(2 * error, error, error, error);
+  record.errors.total.displayed = DisplayedFlip{error, 0};
   record.errors.model = record.errors.total;
   record.memory_bytes = 1 << 20;
   record.bytes_moved = 1000;

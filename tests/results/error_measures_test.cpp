@@ -58,7 +58,7 @@ TEST(ErrorMeasures, OfTheFrontierAreThoseWorkedOutByHand) {
                                                  {"rel_mse_trimmed", rel_mse},
                                                  {"smape", smape},
                                                  {"smape_trimmed", smape},
-                                                 {"sum_rel", -0.25},
+                                                 {"energy_rel", -0.25},
                                                  {"rmse_of_mean", std::sqrt(25.0 / 6) / mean},
                                                  {"low_pass_rmse_of_mean", std::sqrt(6.25 / 3) / mean}};
   const Known known;
@@ -93,7 +93,7 @@ TEST(ErrorMeasures, OfTheFrontierLeaveOutTheWorstThousandth) {
   EXPECT_NEAR(error.rel_mse_trimmed, (2996 * near + far) / 2997, 1e-9);
   EXPECT_NEAR(error.smape, (2996 * 0.25 / (2.25 + e) + 3 * 99 / (101 + e)) / 2999, 1e-12);
   EXPECT_NEAR(error.smape_trimmed, (2996 * 0.25 / (2.25 + e) + 99 / (101 + e)) / 2997, 1e-12);
-  EXPECT_NEAR(error.sum_rel, (2996 * 0.25 + 3 * 99) / 2999, 1e-9);
+  EXPECT_NEAR(error.energy_rel, (2996 * 0.25 + 3 * 99) / 2999, 1e-9);
 }
 
 // One pixel is in as many squares of 16 x 16 as there are places for them over it: in the corner 1 of 5 x 9,
@@ -133,7 +133,7 @@ TEST(ErrorMeasures, OfTheFrontierAreInfiniteWithNaNAndZeroOfEqualPictures) {
   }
   const Image black = gray(17, 9, 0);
   EXPECT_EQ(frontier_error(black, black, 0).smape, 0);
-  EXPECT_EQ(frontier_error(black, black, 0).sum_rel, 0);
+  EXPECT_EQ(frontier_error(black, black, 0).energy_rel, 0);
   EXPECT_EQ(frontier_error(truth, black, 0).smape, 1);
   EXPECT_TRUE(std::isinf(frontier_error(truth, black, 0).rel_mse_trimmed));
 }

@@ -39,7 +39,8 @@ const COSTS = [
 ];
 const QUANTITIES = [...COSTS, ...ERRORS];
 const quantity = (key) => QUANTITIES.find((q) => q.key === key);
-const TOTAL = quantity("total.rmse_rel");
+const FRONT = quantity("total.displayed_flip");  // fronts, their bands and probabilities are of this error
+const frontOfPoint = (point) => point.fronts?.total ?? { on: false, probability: 0 };
 
 const probabilityText = (p) => (p > 0.995 ? "more than 99 %" : p < 0.005 ? "less than 1 %" : `${Math.round(100 * p)} %`);
 
@@ -47,7 +48,7 @@ const probabilityText = (p) => (p > 0.995 ? "more than 99 %" : p < 0.005 ? "less
 const modesInWords = ({ modes, slow_share: share }) => (modes.length ? `two modes: ${threeDigits(modes[0])} and ${threeDigits(modes[1])} (${Math.round(100 * share)} % of runs)` : "");
 
 // True for points that no other beats or equals in both while beating it in one. On the default axes, with no technique hidden,
-// these are the points with `front`.
+// these are the points on the front in frontier.json.
 function frontOf(points, x, y) {
   const places = points.map((point) => (point.nan_pixels > 0 ? [null, null] : [x.value(point), y.value(point)]));
   const better = ([ax, ay], [bx, by]) => ax <= bx && ay <= by && (ax < bx || ay < by);

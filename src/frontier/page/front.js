@@ -8,21 +8,21 @@ function tipOf(point, x, y) {
   const lines = [make("p", {}, make("strong", {}, nameElement(point.label)))];
   const add = (text) => lines.push(make("p", {}, text));
   if (point.relative_time.runs > 0) add(`${intervalInWords(point.relative_time, "")} times ${page.baseline}, ${intervalInWords(point.frame_ms, " ms")}`);
-  for (const q of new Set([TOTAL, y, x])) if (!q.time) add(`${q.title}: ${q.value(point) === null ? "unknown" : q.text(q.value(point))}`);
+  for (const q of new Set([FRONT, y, x])) if (!q.time) add(`${q.title}: ${q.value(point) === null ? "unknown" : q.text(q.value(point))}`);
   const settings = Object.entries(point.settings).map(([key, value]) => `${key} ${value}`).join(", ");
   if (settings) lines.push(make("p", { class: "quiet" }, settings));
   if (point.relative_time.modes.length) add(modesInWords(point.relative_time));
-  if (x.key === "relative" && y === TOTAL) add(`On the front with a probability of ${probabilityText(point.front_probability)}`);
+  if (x.key === "relative" && y === FRONT) add(`On the front with a probability of ${probabilityText(frontOfPoint(point).probability)}`);
   return lines;
 }
 
 // Where the front is with a probability of 95 % at each error: between two step lines, from the smallest error up.
 function bandElement(scene, xAxis, yAxis, area) {
-  const steps = page.front_bands.find((band) => band.scene === scene)?.steps ?? [];
+  const steps = page.flip_front_bands.find((band) => band.scene === scene)?.steps ?? [];
   const within = (place, a, b) => Math.min(Math.max(place, Math.min(a, b)), Math.max(a, b));
-  const edge = (end) => steps.flatMap(({ error, ci95 }, i) => {
-    const at = within(xAxis.at(ci95[end]), area.left, area.right), y = within(yAxis.at(error), area.top, area.bottom);
-    const next = i + 1 < steps.length ? within(yAxis.at(steps[i + 1].error), area.top, area.bottom) : area.top;
+  const edge = (end) => steps.flatMap(({ flip, ci95 }, i) => {
+    const at = within(xAxis.at(ci95[end]), area.left, area.right), y = within(yAxis.at(flip), area.top, area.bottom);
+    const next = i + 1 < steps.length ? within(yAxis.at(steps[i + 1].flip), area.top, area.bottom) : area.top;
     return [[at, y], [at, next]];
   });
   const outline = [...edge(0), ...edge(1).reverse()];
@@ -90,7 +90,7 @@ function startFront(container, state, choose) {
     shown = placed.map((point, i) => ({ point, onFront: onFront[i], at: [xAxis.at(x.value(point)), yAxis.at(y.value(point))] }));
     const front = shown.filter((entry) => entry.onFront).sort((a, b) => a.at[0] - b.at[0]);
     const steps = front.flatMap(({ at }, i) => (i ? [[at[0], front[i - 1].at[1]], at] : [at]));
-    const banded = x.key === "relative" && y === TOTAL && state.hidden.size === 0;
+    const banded = x.key === "relative" && y === FRONT && state.hidden.size === 0;
     for (const entry of shown) {
       entry.element = markerElement(entry.point.technique, { class: `point${entry.onFront ? " on-front" : ""}${entry.point === state.selected ? " selected" : ""}`,
         ...moveTo(...entry.at), "data-label": entry.point.label,

@@ -1,6 +1,6 @@
 // Fills the page from the answer, embedded above.
 
-const state = { scene: page.scenes[0]?.key, points: [], x: quantity("relative"), y: TOTAL, hidden: new Set(), selected: null };
+const state = { scene: page.scenes[0]?.key, points: [], x: quantity("relative"), y: FRONT, hidden: new Set(), selected: null };
 let drawFront = null;
 
 const sceneTitle = (key) => page.scenes.find((scene) => scene.key === key).title;
@@ -14,8 +14,6 @@ function showHeader() {
     `commit ${page.commit}`, `seed ${page.seed}`].join(" \u00b7 ");
   for (const element of document.querySelectorAll(".baseline")) element.textContent = page.baseline;
 }
-
-const percent = (error) => `${Number((100 * error).toPrecision(3))} %`;
 
 function pointButton(point, text) {
   const button = make("button", { type: "button", class: "link" }, text);
@@ -36,11 +34,11 @@ function withinCell(best) {
 }
 
 function showBestWithin() {
-  const errors = [...new Set(page.cheapest_within.map((best) => best.error))].sort((a, b) => b - a);
+  const errors = [...new Set(page.cheapest_within_flip.map((best) => best.flip))].sort((a, b) => b - a);
   const head = page.scenes.map((scene) => make("th", { scope: "col" }, scene.title));
-  const lines = errors.map((error) => make("tr", {}, make("th", { scope: "row" }, percent(error)),
-    ...page.scenes.map((scene) => withinCell(page.cheapest_within.find((best) => best.scene === scene.key && best.error === error)))));
-  byId("within").replaceChildren(make("thead", {}, make("tr", {}, make("td", {}, "RMSE"), ...head)), make("tbody", {}, ...lines));
+  const lines = errors.map((error) => make("tr", {}, make("th", { scope: "row" }, String(error)),
+    ...page.scenes.map((scene) => withinCell(page.cheapest_within_flip.find((best) => best.scene === scene.key && best.flip === error)))));
+  byId("within").replaceChildren(make("thead", {}, make("tr", {}, make("td", {}, "FLIP"), ...head)), make("tbody", {}, ...lines));
   byId("within").closest("section").hidden = errors.length === 0;
 }
 
@@ -109,7 +107,7 @@ function choosePoint(point) {
     `${point.views} view${point.views === 1 ? "" : "s"}`, point.pairs.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
     quantity("leaked").value(point) !== null && `${percentText(point.leaked_percent)} of ${wholeNumber(point.pairs.shadow_pairs)} pairs leaked, ${percentText(point.acned_percent)} acned`,
     point.nan_pixels > 0 && `${wholeNumber(point.nan_pixels)} NaN pixels`,
-    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, timed && `on the front with a probability of ${probabilityText(point.front_probability)}`];
+    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, timed && `on the front with a probability of ${probabilityText(frontOfPoint(point).probability)}`];
   byId("chosen").replaceChildren(...(point ? [make("article", { class: "technique" }, make("h3", {}, nameElement(point.label)),
     make("p", { class: "summary quiet" }, summary.filter(Boolean).join(" \u00b7 ")),
     ...(images.length ? [make("div", { class: "pictures" }, ...images.map(([number, caption]) => pictureFigure(number, caption)))] : [make("p", { class: "quiet" }, "No pictures of this point were kept.")]),
@@ -166,11 +164,11 @@ function chooseScene(key) {
   byId("notes").replaceChildren(...notes.map((line) => make("li", {}, line)));
   state.points = page.points.filter((point) => point.scene === key);
   showTechniques();
-  const frontTag = (point) => (point.front ? `front ${probabilityText(point.front_probability)}` : "");
+  const frontTag = (point) => (frontOfPoint(point).on ? `front ${probabilityText(frontOfPoint(point).probability)}` : "");
   showTable(byId("figures-table"), FIGURE_COLUMNS, state.points, frontTag);
   showCosts(key);
   byId("save-front").replaceChildren(saveButton(byId("front"), `front-${sceneTitle(key)}`));
-  choosePoint(state.points.find((point) => point.front && point.pictures) ?? null);
+  choosePoint(state.points.find((point) => frontOfPoint(point).on && point.pictures) ?? null);
 }
 
 function startChoices() {
