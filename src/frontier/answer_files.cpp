@@ -114,6 +114,7 @@ json point_json(const PointFigures& p) {
   out["relative_time"] = relative_time_json(p.relative_time);
   json& error = out["error"] = finite_json(p.errors);
   error["in_double"] = p.errors.in_double ? in_double_json(*p.errors.in_double) : json();
+  if (!p.errors.authored) error.erase("authored");
   error["flip_views"] = p.flip_views;
   error["temporal_views"] = p.temporal_views;
   out["pairs"] = pairs_json(p.pairs);
@@ -166,7 +167,7 @@ json failure_json(const Failure& f) {
   return out;
 }
 
-std::vector<CsvColumn> csv_columns(bool truths, bool shadows) {
+std::vector<CsvColumn> csv_columns(bool truths, bool shadows, bool authored) {
   std::vector<CsvColumn> all;
   const auto add_measures = [&](const std::string& within, const std::string& prefix) {
     for (const ErrorMeasure& m : frontier_error_measures()) add_columns(all, {m.key}, within, prefix);
@@ -186,6 +187,12 @@ std::vector<CsvColumn> csv_columns(bool truths, bool shadows) {
     if (kind != "model" && kind != "total") continue;
     add_columns(all, {"mean", "visible_share"}, "/errors/" + kind + "/displayed_flip",
                 kind + "_displayed_flip_");
+  }
+  for (const std::string kind : {"model", "total"}) {
+    if (!authored) break;
+    const std::string within = "/errors/authored/" + kind, prefix = "authored_" + kind + "_";
+    add_measures(within, prefix);
+    add_columns(all, {"mean", "visible_share"}, within + "/displayed_flip", prefix + "displayed_flip_");
   }
   add_columns(all, {"bias_rmse_rel", "deviation_rmse_rel", "temporal_rmse_rel"}, "/errors");
   for (const auto& [name, index] : {std::pair{"flip_start", "0"}, {"flip_stop", "1"}, {"flip_count", "2"}})
@@ -327,7 +334,8 @@ std::string csv_text(const FrontierAnswer& answer) {
   const auto any = [&](const auto& has) { return std::ranges::any_of(answer.part.records, has); };
   const bool truths = any([](const FrontierRecord& r) { return r.truth.has_value(); });
   const bool shadows = any([](const FrontierRecord& r) { return r.pairs.shadows.has_value(); });
-  return csv_table(csv_columns(truths, shadows), rows);
+  const bool authored = any([](const FrontierRecord& r) { return r.errors.authored.has_value(); });
+  return csv_table(csv_columns(truths, shadows, authored), rows);
 }
 
 std::string cull_csv_text(const FrontierAnswer& answer) {

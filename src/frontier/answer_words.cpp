@@ -107,16 +107,18 @@ void add_cheapest_within(const FrontierAnswer& answer, const std::string& scene,
   std::vector<const CheapestWithin*> steps;
   for (auto best = answer.cheapest_within.rbegin(); best != answer.cheapest_within.rend(); ++best) {
     if (best->scene != scene) continue;
-    if (steps.empty() || steps.back()->point != best->point) steps.push_back(nullptr);
+    const bool goes_on = !steps.empty() && steps.back()->point == best->point && steps.back()->of == best->of;
+    if (!goes_on) steps.push_back(nullptr);
     steps.back() = &*best;
   }
   for (const CheapestWithin* step : steps) {
     const PointFigures& p = answer.points[step->point];
     sentences.push_back(fmt::format(
-        "FLIP as displayed up to {:g} in {}: {}, {} times {} (the cheapest with a "
-        "probability of {}).",
-        step->error, scene_in_words(scene), p.point.label, three_digits(step->relative_time.estimate),
-        answer.part.baseline, probability_in_words(step->probability)));
+        "FLIP as displayed up to {:g} in {}{}: {}, {} times {} (the cheapest with a probability of {}).",
+        step->error, scene_in_words(scene),
+        step->of == "authored" ? ", against lights with authored ranges" : "", p.point.label,
+        three_digits(step->relative_time.estimate), answer.part.baseline,
+        probability_in_words(step->probability)));
   }
 }
 

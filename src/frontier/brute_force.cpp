@@ -86,6 +86,8 @@ const Image& BruteForce::truth() {
   return kept(meaning(settings, truth_.source_m));
 }
 
+const Image& BruteForce::authored() { return kept(meaning(common_, truth_.source_m)); }
+
 double BruteForce::brightest() { return brightest_channel(truth()); }
 
 std::vector<uint32_t> random_pixels(const std::vector<uint32_t>& pixels, size_t count, uint64_t seed) {

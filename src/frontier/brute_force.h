@@ -41,6 +41,7 @@ class BruteForce {
   const Image& picture_of_points(const Settings& settings);
   const Image& truth();
   double brightest();  // channel of the truth
+  const Image& authored();  // the truth whose lights have the ranges of `common`
 
  private:
   Settings meaning(const Settings& settings, double source_m) const;

@@ -83,26 +83,33 @@ void visit_fields(T& s, Visit&& visit) {
   visit("truth", s.truth);
 }
 
+template <Is<AuthoredErrors> T, typename Visit>
+void visit_fields(T& a, Visit&& visit) {
+  visit("model", a.model);
+  visit("total", a.total);
+}
+
 inline constexpr std::pair<const char*, ImageError PointErrors::*> kinds_of_error[] = {
     {"model", &PointErrors::model},
     {"precision", &PointErrors::precision},
     {"technique", &PointErrors::technique},
     {"total", &PointErrors::total}};
 
-// Those that fronts are of: of the whole picture, in FLIP as displayed.
-inline constexpr const char* front_errors[] = {"total"};
+// Those that fronts are of: of the whole picture, in FLIP as displayed, against either reference.
+inline constexpr const char* front_errors[] = {"total", "authored"};
 
-inline const ImageError& error_of_kind(const PointErrors& errors, const std::string& kind) {
-  for (const auto& [key, member] : kinds_of_error) {
-    if (key == kind) return errors.*member;
-  }
-  return errors.total;
+// NaN: not measured.
+inline double flip_of(const PointErrors& errors, const std::string& front) {
+  const ImageError* error = &errors.total;
+  if (front == "authored") error = errors.authored ? &errors.authored->total : nullptr;
+  return error && error->displayed ? error->displayed->mean : unknown_error;
 }
 
 template <Is<PointErrors> T, typename Visit>
 void visit_fields(T& e, Visit&& visit) {
   for (const auto& [key, kind] : kinds_of_error) visit(key, e.*kind);
   visit("in_double", e.in_double);
+  visit("authored", e.authored);
   visit("bias_rmse_rel", e.bias_rmse_rel);
   visit("deviation_rmse_rel", e.deviation_rmse_rel);
   visit("temporal_rmse_rel", e.temporal_rmse_rel);

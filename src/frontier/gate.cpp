@@ -76,7 +76,14 @@ class PointComparison {
   }
 
   void compare() {
-    for (const char* kind : {"model", "precision", "technique", "total"}) compare_errors(kind);
+    const JsonFields now_errors = now_.object("error"), earlier_errors = earlier_.object("error");
+    for (const char* kind : {"model", "precision", "technique", "total"})
+      compare_errors(kind, now_errors.object(kind), earlier_errors.object(kind));
+    if (now_errors.has("authored") && earlier_errors.has("authored")) {
+      for (const char* kind : {"model", "total"})
+        compare_errors(std::string("authored ") + kind, now_errors.object("authored").object(kind),
+                       earlier_errors.object("authored").object(kind));
+    }
     const JsonFields pairs = now_.object("pairs"), earlier_pairs = earlier_.object("pairs");
     compare_counts("lit pairs of a pixel and a light are lost", pairs.count("lost"),
                    earlier_pairs.count("lost"));
@@ -93,8 +100,7 @@ class PointComparison {
   }
 
  private:
-  void compare_errors(const char* kind) {
-    const JsonFields now = now_.object("error").object(kind), earlier = earlier_.object("error").object(kind);
+  void compare_errors(const std::string& kind, const JsonFields& now, const JsonFields& earlier) {
     for (const ErrorMeasure& measure : frontier_error_measures()) {
       if (measure.gated)
         compare_error(fmt::format("{}: {} {}", name_, kind, measure.key), now, earlier, measure.key);

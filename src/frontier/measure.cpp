@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <limits>
 #include <span>
 
 #include "base/error.h"
 #include "base/timer.h"
+#include "frontier/fields.h"
 #include "frontier/rounds.h"
 #include "frontier/view_figures.h"
 
@@ -214,19 +215,21 @@ class SceneSweep {
       notice(fmt::format("{} of {} points, for the time there is", measured_.size(), all));
   }
 
-  // What fronts are of; a refused point has none.
-  static double error_of(const MeasuredPoint& m) {
-    const std::optional<DisplayedFlip>& flip = m.records.front().errors.total.displayed;
-    return flip ? flip->mean : std::numeric_limits<double>::quiet_NaN();
+  // In none of the errors that fronts are of. A refused point has none.
+  static bool has_no_larger_error(const MeasuredPoint& m, const MeasuredPoint& other) {
+    const PointErrors &a = m.records.front().errors, &b = other.records.front().errors;
+    return std::ranges::all_of(front_errors, [&](const char* kind) {
+      return flip_of(a, kind) <= flip_of(b, kind) ||
+             (std::isnan(flip_of(b, kind)) && kind != std::string("total"));
+    });
   }
 
   void classify() {
     size_t slow = 0;
     for (MeasuredPoint& m : measured_) {
-      const double error = error_of(m);
       m.slow = m.picture_s > slow_factor * baseline_s_ &&
                std::ranges::any_of(measured_, [&](const MeasuredPoint& other) {
-                 return error_of(other) <= error && beaten_factor * other.picture_s < m.picture_s;
+                 return has_no_larger_error(other, m) && beaten_factor * other.picture_s < m.picture_s;
                });
       slow += m.slow;
     }

@@ -86,6 +86,16 @@ std::optional<SampledErrors> in_double_over(const Group& views) {
   return all;
 }
 
+// Where all views have them.
+std::optional<AuthoredErrors> authored_over(const Group& views) {
+  if (!std::ranges::all_of(views, [](const FrontierRecord* v) { return v->errors.authored.has_value(); }))
+    return {};
+  AuthoredErrors all;
+  for (const auto of : {&AuthoredErrors::model, &AuthoredErrors::total})
+    all.*of = errors_over(views, [&](const FrontierRecord& v) { return (*v.errors.authored).*of; });
+  return all;
+}
+
 // For each run, the mean over views of its time; as many runs as every view has.
 std::vector<double> means_of_runs(const Group& views) {
   size_t runs = std::numeric_limits<size_t>::max();
@@ -120,6 +130,7 @@ PointFigures over_views(const Group& views) {
     all.errors.*kind = errors_over(views, [kind = kind](const FrontierRecord& v) { return v.errors.*kind; });
   }
   all.errors.in_double = in_double_over(views);
+  all.errors.authored = authored_over(views);
   for (const auto spread :
        {&PointErrors::bias_rmse_rel, &PointErrors::deviation_rmse_rel, &PointErrors::temporal_rmse_rel}) {
     const auto figures = present_figures(views, [&](const FrontierRecord& v) { return v.errors.*spread; });

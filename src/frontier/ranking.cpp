@@ -18,9 +18,8 @@ constexpr double bearable_flips[] = {0.001, 0.01, 0.02, 0.05, 0.1, 0.2};
 
 // What fronts hold against the time; NaN: not on a front.
 double error_on_front(const PointFigures& p, const std::string& kind) {
-  const std::optional<DisplayedFlip>& flip = error_of_kind(p.errors, kind).displayed;
-  const bool ranked = p.nan_pixels == 0 && !p.log_times.empty() && flip && std::isfinite(flip->mean);
-  return ranked ? flip->mean : unranked;
+  const double flip = flip_of(p.errors, kind);
+  return p.nan_pixels == 0 && !p.log_times.empty() && std::isfinite(flip) ? flip : unranked;
 }
 
 // Points of a scene, with draws of their times.
@@ -30,12 +29,18 @@ struct SceneTimes {
   std::vector<std::vector<double>> draws;
 };
 
+// Scenes of which no point has an authored error are left out.
 std::map<std::string, SceneTimes> drawn_scenes(const std::vector<PointFigures>& points,
                                                const std::vector<Control>& controls,
                                                const std::string& kind) {
   std::map<std::string, SceneTimes> scenes;
   std::map<std::string, std::vector<LogTimes>> times;
+  const auto has_authored = [&](const std::string& scene) {
+    return std::ranges::any_of(
+        points, [&](const PointFigures& p) { return p.point.scene == scene && p.errors.authored; });
+  };
   for (size_t i = 0; i < points.size(); ++i) {
+    if (kind == "authored" && !has_authored(points[i].point.scene)) continue;
     SceneTimes& scene = scenes[points[i].point.scene];
     scene.indices.push_back(int(i));
     scene.errors.push_back(error_on_front(points[i], kind));
@@ -124,8 +129,10 @@ std::vector<FrontBand> front_bands_of(const std::vector<PointFigures>& points,
   std::vector<FrontBand> bands;
   for (const std::string kind : front_errors) {
     const auto scenes = drawn_scenes(points, controls, kind);
-    for (const std::string& name : distinct(points, [](const PointFigures& p) { return p.point.scene; }))
+    for (const std::string& name : distinct(points, [](const PointFigures& p) { return p.point.scene; })) {
+      if (!scenes.contains(name)) continue;
       bands.push_back({name, kind, front_band(scenes.at(name).draws, scenes.at(name).errors)});
+    }
   }
   return bands;
 }
@@ -159,6 +166,7 @@ std::vector<CheapestWithin> cheapest_within_of(const std::vector<PointFigures>& 
   for (const std::string kind : front_errors) {
     const auto scenes = drawn_scenes(points, controls, kind);
     for (const std::string& name : distinct(points, [](const PointFigures& p) { return p.point.scene; })) {
+      if (!scenes.contains(name)) continue;
       const auto control = std::ranges::find(controls, name, &Control::scene);
       const double widening = control == controls.end() ? 0 : control->widening();
       std::ranges::copy(cheapest_in_scene(points, scenes.at(name), {name, kind}, widening),

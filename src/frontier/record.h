@@ -34,6 +34,13 @@ struct SampledErrors {
   ImageError truth;             // that truth against the one in double: how far the two above may be apart
 };
 
+// Against every light with the range that the sweep's settings give it, over that picture's brightest
+// channel.
+struct AuthoredErrors {
+  ImageError model;  // what the settings mean
+  ImageError total;  // the picture
+};
+
 // Errors kept apart (docs/frontier.md#errors), in the measures of the frontier (frontier_error). Truth: every
 // light, no range window.
 struct PointErrors {
@@ -43,6 +50,7 @@ struct PointErrors {
   ImageError technique;  // the picture against brute force of the same meaning
   ImageError total;      // the picture against the truth
   std::optional<SampledErrors> in_double;  // the same against the truth in double, at a sample of pixels
+  std::optional<AuthoredErrors> authored;  // where the truth's lights have no ranges and those of settings do
   // The noise of random ranges over at least 16 seeds, relative like the others: root mean square over pixels
   // of the mean's error and of the standard deviation of one frame.
   std::optional<double> bias_rmse_rel, deviation_rmse_rel;

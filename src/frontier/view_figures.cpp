@@ -73,6 +73,7 @@ ViewFigures::ViewFigures(Renderer& renderer, GpuScene& gpu, const Scene& scene, 
       pictures_(job.pictures),
       nowhere_({}),
       first_(first),
+      has_authored_(!job.truth.own_ranges && job.common.ranges.range != LightRange::infinite),
       seed_(job.seed) {}
 
 ViewFigures::Truths::Truths(Renderer& renderer, GpuScene& gpu, const FrontierJob& job, bool own_surfaces)
@@ -85,9 +86,32 @@ void ViewFigures::Truths::look(const View& view, const std::vector<View>& turn) 
   for (size_t frame = 1; frame < turn.size(); ++frame) turned[frame - 1].look(turn[frame]);
   brute.look(view);
   flip.reset();
-  shown.reset();
-  displayed.clear();
+  reference.reset(), authored.reset();
   flicker.clear();
+}
+
+ViewFigures::Reference::Reference(const Image& image, double brightest_channel, const Exposure& exposure)
+    : truth(&image), brightest(brightest_channel), shown(std::in_place, image, exposure) {}
+
+ImageError ViewFigures::Reference::error_of(const Image& image) const {
+  ImageError error = frontier_error(image, *truth, brightest);
+  error.displayed = shown->flip_of(image);
+  return error;
+}
+
+ImageError ViewFigures::Reference::error_of_brute_force(const Image& kept) {
+  const auto [flip, added] = displayed.try_emplace(&kept);
+  if (added) flip->second = shown->flip_of(kept);
+  ImageError error = frontier_error(kept, *truth, brightest);
+  error.displayed = flip->second;
+  return error;
+}
+
+void ViewFigures::refer(Truths& truths) {
+  truths.reference.emplace(truths.brute.truth(), truths_[0].brute.brightest(), *exposure_);
+  if (!has_authored_) return;
+  truths.authored.emplace(truths.brute.authored(), brightest_channel(truths_[0].brute.authored()),
+                          *exposure_);
 }
 
 // An earlier process may have measured the first view.
@@ -112,7 +136,7 @@ void ViewFigures::look(const View& view, int index, bool own, bool whole) {
   exposures_ = whole ? flip_exposures(first.truth()) : std::nullopt;
   for (Truths* truths : used) {
     if (exposures_) truths->flip.emplace(truths->brute.truth(), *exposures_);
-    truths->shown.emplace(truths->brute.truth(), *exposure_);
+    refer(*truths);
   }
   brightest_ = first.brightest();
   shadows_.moved(false);
@@ -137,8 +161,8 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
   const ChosenPoint& point = point_run.point();
   Truths& truths = truths_of(point);
   const Image image = point_run.image();
-  const Image& truth = truths.brute.truth();
-  record.errors.total = frontier_error(image, truth, brightest_);
+  const Image& meant = truths.brute.picture(point.contestant.settings);
+  record.errors.total = frontier_error(image, *truths.reference->truth, brightest_);
   const bool own = has_own_surfaces(point);
   record.errors.precision = precision_.of(own);
   record.errors.in_double = precision_.in_double(image, own);
@@ -147,18 +171,26 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
     const double relative = brightest_ > 0 ? point_run.deviation() / brightest_ : 0;
     record.errors.deviation_rmse_rel = relative;
     record.errors.bias_rmse_rel = bias_rmse(record.errors.total.rmse_rel, relative, point.frames);
-    record.errors.model = record.errors.total;
     point_run.draw_first_frame();
   }
-  const Image& meant = truths.brute.picture(point.contestant.settings);
   record.errors.technique = frontier_error(point_run.run().image(), meant, brightest_);
-  if (point.frames == 1) record.errors.model = frontier_error(meant, truth, brightest_);
-  const auto [displayed, added] = truths.displayed.try_emplace(&meant);
-  if (added) displayed->second = truths.shown->flip_of(meant);
   const bool as_meant = point.frames == 1 && record.errors.technique.max_rel <= as_brute_force;
-  record.errors.total.displayed = as_meant ? displayed->second : truths.shown->flip_of(image);
-  record.errors.model.displayed = point.frames == 1 ? displayed->second : *record.errors.total.displayed;
   record.exposure_ev = exposure_->ev;
+  const auto compare = [&](Reference& reference, ImageError& model, ImageError& total) {
+    if (point.frames == 1) model = reference.error_of_brute_force(meant);
+    if (as_meant) {
+      total = frontier_error(image, *reference.truth, reference.brightest);
+      total.displayed = model.displayed;
+    } else {
+      total = reference.error_of(image);
+    }
+    if (point.frames > 1) model = total;
+  };
+  compare(*truths.reference, record.errors.model, record.errors.total);
+  if (has_authored_) {
+    AuthoredErrors& errors = record.errors.authored.emplace();
+    compare(*truths.authored, errors.model, errors.total);
+  }
   fill_flip(as_meant ? meant : image, truths, record);
 
   TechniqueRun& run = point_run.run();

@@ -30,18 +30,28 @@ class ViewFigures {
   void measure(PointRun& run, FrontierRecord& record);
 
  private:
+  // What pictures are compared with.
+  struct Reference {
+    const Image* truth = nullptr;
+    double brightest = 0;  // channel; one for both kinds of surfaces, since a highlight of one pixel makes it
+    std::optional<ShownReference> shown;
+    std::map<const Image*, DisplayedFlip> displayed = {};  // of pictures of brute force
+    Reference(const Image& image, double brightest_channel, const Exposure& exposure);
+    ImageError error_of(const Image& image) const;
+    ImageError error_of_brute_force(const Image& kept);
+  };
   // The truths of the techniques that share surfaces: OpenGL's, or those of the rasteriser in OpenCL.
   struct Truths {
     Truths(Renderer& renderer, GpuScene& gpu, const FrontierJob& job, bool own_surfaces);
     BruteForce brute;
     std::vector<BruteForce> turned;  // of the later frames of a slow turn
     std::optional<HdrFlip> flip;
-    std::optional<ShownReference> shown;
-    std::map<const Image*, DisplayedFlip> displayed;  // of pictures of brute force
+    std::optional<Reference> reference, authored;
     std::map<const Image*, double> flicker;  // of pictures of brute force
     void look(const View& view, const std::vector<View>& turn);
   };
   Truths& truths_of(const ChosenPoint& point);
+  void refer(Truths& truths);
   void fill(PointRun& run, FrontierRecord& record);
   PairCounts pairs_of(TechniqueRun& run, const Settings& settings, const std::vector<float>& depth);
   void choose_exposure();
@@ -62,8 +72,8 @@ class ViewFigures {
   View view_;
   std::vector<View> turn_;  // empty: no flicker is measured
   std::optional<FlipExposures> exposures_;
-  double brightest_ =
-      0;  // channel of the truth; one for both kinds of surfaces, since a highlight of one pixel makes it
+  bool has_authored_;     // the truth's lights have no ranges, and those of the settings have
+  double brightest_ = 0;  // as in Reference, of the truth
   uint64_t seed_;
 };
 

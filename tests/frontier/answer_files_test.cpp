@@ -71,6 +71,8 @@ TEST(FrontierJson, HoldsTheAnswer) {
   EXPECT_EQ(error["total"]["displayed_flip"], json::parse(R"({"mean": 0.03125, "visible_share": 0.1875})"));
   EXPECT_EQ(error["total"]["energy_rel"], -3);
   EXPECT_EQ(error["model"]["displayed_flip"], nullptr);
+  EXPECT_EQ(error["authored"]["total"]["displayed_flip"]["mean"], 0.015625);
+  EXPECT_EQ(error["authored"]["model"]["smape"], 1);
   EXPECT_EQ(frontier["pixels_per_degree"], 67);
   EXPECT_EQ(error["total"]["rmse_rel"], 4.0 / 3);
   EXPECT_EQ(error["precision"]["p99_rel"], 0.022);
@@ -188,6 +190,9 @@ TEST(FrontierCsv, HasALineAPointAndView) {
                                                        {"model_displayed_flip_mean", ""},
                                                        {"model_low_pass_rmse_of_mean", "0.375"},
                                                        {"exposure_ev", "-1.5"},
+                                                       {"authored_total_rmse_rel", "3"},
+                                                       {"authored_total_displayed_flip_mean", "0.015625"},
+                                                       {"authored_model_smape", "1"},
                                                        {"model_flip_mean", ""},
                                                        {"bias_rmse_rel", "1e-05"},
                                                        {"deviation_rmse_rel", "2e-05"},

@@ -101,6 +101,43 @@ TEST(Answer, FrontHoldsWhatNothingBeatsInBothAndNoNaN) {
               ElementsAre("coarse", "middle", "fine", "worst of hall, alone in terrain"));
 }
 
+// Where records hold both, each reference has a front of its own.
+TEST(Answer, HasAFrontAgainstEachReference) {
+  const auto of = [](const std::string& name, double ratio, double error, double authored) {
+    FrontierRecord r = synthetic_record(synthetic_point("hall", name), ratio, error);
+    r.errors.authored.emplace().total = synthetic_error(authored, authored, authored, authored);
+    r.errors.authored->total.displayed = DisplayedFlip{authored, 0.5};
+    return r;
+  };
+  std::vector<FrontierRecord> records = {of("ranges", 0.2, 0.4, 0), of("none", 0.5, 0, 0.4),
+                                         of("fast", 0.1, 0.5, 0.1)};
+  records.push_back(synthetic_record(synthetic_point("terrain", "without"), 1, 0.1));
+  const FrontierAnswer answer = answer_from(records);
+  const auto front = [&](const char* reference) {
+    std::vector<std::string> names;
+    for (const PointFigures& p : answer.points) {
+      if (p.fronts.contains(reference) && p.fronts.at(reference).on) names.push_back(p.point.label);
+    }
+    return names;
+  };
+  EXPECT_THAT(front("total"), ElementsAre("ranges", "none", "fast", "without"));
+  EXPECT_THAT(front("authored"), ElementsAre("ranges", "fast"));
+  EXPECT_EQ(point_named(answer, "without").fronts.count("authored"), 0u);
+  ASSERT_THAT(answer.front_bands, SizeIs(3));
+  EXPECT_EQ(answer.front_bands[2].of, "authored");
+  EXPECT_EQ(answer.front_bands[2].steps[0].error, 0);
+  std::vector<std::string> cheapest;
+  for (const CheapestWithin& best : answer.cheapest_within) {
+    if (best.scene == "hall")
+      cheapest.push_back(
+          fmt::format("{} {} {}", best.of, best.error, answer.points[size_t(best.point)].point.label));
+  }
+  EXPECT_THAT(cheapest,
+              testing::IsSupersetOf({"total 0.2 none", "authored 0.05 ranges", "authored 0.1 fast"}));
+  EXPECT_THAT(answer.sentences,
+              testing::Contains(HasSubstr("0.1 in hall, against lights with authored ranges: fast, 0.10")));
+}
+
 // Without processes rounds are the level; with them processes are, and each has rounds of its own.
 TEST(Answer, PointsOfOneRoundArePairedInTheirProcess) {
   FrontierRecord a = synthetic_record(synthetic_point("hall", "a"), 0.5, 0.1, 0, 6), b = a;

@@ -241,6 +241,32 @@ TEST_F(FrontierPage, HasAxesAndColumnsOfShadowsWhereTheyWereCounted) {
   EXPECT_THAT(with["summary"].get<std::string>(), HasSubstr("1.50 % of 400 pairs leaked, 0.500 % acned"));
 }
 
+// Without errors against authored ranges there is no choice; with them axis, front and table follow it.
+TEST_F(FrontierPage, ShowsErrorsAgainstEitherReference) {
+  FrontierPart part = synthetic_sweep();
+  for (FrontierRecord& r : part.records) {
+    AuthoredErrors& authored = r.errors.authored.emplace();
+    authored.model = authored.total = r.errors.total;
+    if (r.point.label == "clustered") authored.total.displayed = DisplayedFlip{0, 0};
+  }
+  const char* control = "tests/frontier/frontier_page_references.js";
+  const json without = seen_in_browser(folder.path, control, "1280,900");
+  write_file(folder.path / "index.html", page_text(answer_of({part})));
+  const json with = seen_in_browser(folder.path, control, "1280,900");
+  ASSERT_TRUE(without.is_object() && with.is_object());
+  for (const json* seen : {&without, &with}) EXPECT_THAT(texts((*seen)["faults"]), IsEmpty());
+  EXPECT_EQ(without["offered"], false);
+  EXPECT_EQ(with["offered"], true);
+  EXPECT_THAT(texts(with["plain"]["front"]), testing::Not(Contains("clustered")));
+  EXPECT_THAT(texts(with["plain"]["axes"]), Contains("FLIP as displayed, whole picture"));
+  EXPECT_EQ(with["plain"]["within"], "visibility:range=scene");
+  EXPECT_THAT(texts(with["authored"]["front"]), Contains("clustered"));
+  EXPECT_THAT(texts(with["authored"]["axes"]), Contains("FLIP as displayed, whole picture, authored ranges"));
+  EXPECT_GT(with["authored"]["band"].get<double>(), 100);
+  EXPECT_THAT(texts(with["authored"]["tagged"]), Contains(testing::StartsWith("clustered")));
+  EXPECT_EQ(with["again"], with["plain"]);
+}
+
 TEST(FrontierPageText, NamesNoOtherPlaceAndEscapesWhatItShows) {
   const std::string page = page_text(answer_of({synthetic_sweep()}));
   expect_no_other_place(page);

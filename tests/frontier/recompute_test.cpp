@@ -40,6 +40,7 @@ FrontierPart random_sweep(uint32_t seed) {
           record.cull_ms.push_back(5 + 0.1 * (tile % 2) + noise(random));
         record.nan_pixels = shows_nan && view == 1 ? 3 : 0;
         record.errors.total.displayed = DisplayedFlip{error * (1 + view), 0};
+        record.errors.authored->total.displayed = DisplayedFlip{0.1 / error * 1e-3 * (2 - view), 0};
         if (not_finite && view == 1) record.errors.total.displayed.reset();
         record.frame_ms.clear();
         record.baseline_ms.clear();
@@ -93,6 +94,10 @@ TEST(Recomputed, FrontsAndTimesAreThoseOfTheTables) {
   wrong = stated;
   nlohmann::json& on_front = wrong["points"][7]["fronts"]["total"]["on"];
   on_front = !on_front.get<bool>();
+  EXPECT_THAT(recompute(wrong).output, HasSubstr(": 1 points differ"));
+  wrong = stated;
+  nlohmann::json& other_front = wrong["points"][7]["fronts"]["authored"]["on"];
+  other_front = !other_front.get<bool>();
   EXPECT_THAT(recompute(wrong).output, HasSubstr(": 1 points differ"));
   wrong = stated;
   nlohmann::json& high = wrong["points"][7]["relative_time"]["ci95"][1];

@@ -61,6 +61,9 @@ TEST(FrontierRecords, KeepEveryFieldAsJson) {
   EXPECT_EQ(read.errors.precision.rel_mse_trimmed, r.errors.precision.rel_mse_trimmed);
   EXPECT_EQ(read.errors.technique.energy_rel, r.errors.technique.energy_rel);
   EXPECT_EQ(read.exposure_ev, r.exposure_ev);
+  ASSERT_TRUE(read.errors.authored);
+  EXPECT_EQ(read.errors.authored->model.smape, r.errors.authored->model.smape);
+  EXPECT_EQ(read.errors.authored->total.displayed->mean, r.errors.authored->total.displayed->mean);
   ASSERT_TRUE(read.errors.in_double);
   EXPECT_EQ(read.errors.in_double->pixels, r.errors.in_double->pixels);
   EXPECT_EQ(read.errors.in_double->picture.max_rel, r.errors.in_double->picture.max_rel);

@@ -1,7 +1,11 @@
 // The figures of a point, and how they are written.
 
 const page = JSON.parse(byId("page").textContent);
-const ERROR_KINDS = [["total", "whole picture"], ["model", "model"], ["precision", "precision"], ["technique", "technique"]];
+const HAS_AUTHORED = page.points.some((point) => point.error.authored);
+const ERROR_KINDS = [["total", "whole picture"], ["model", "model"],
+  ...(HAS_AUTHORED ? [["authored", "whole picture, authored ranges"], ["authored_model", "model, authored ranges"]] : []),
+  ["precision", "precision"], ["technique", "technique"]];
+const figuresOf = (error, kind) => (kind === "authored" ? error.authored?.total : kind === "authored_model" ? error.authored?.model : error[kind]);
 const ERROR_MEASURES = page.measures.map(({ key, title }) => [key, title]);
 
 // Three significant digits: 0.310, 31.1, 3,107.
@@ -18,12 +22,12 @@ const intervalInWords = ({ median, estimate, ci95: [low, high], runs }, unit) =>
   `${threeDigits(median ?? estimate)}${unit} (${runs === 1 ? "one run, no interval" : `${threeDigits(low)} to ${threeDigits(high)}${runs < 6 && median !== undefined ? `, ${runs} runs` : ""}`})`;
 
 // A measure of an error's figures, or null.
-const measureOf = (figures, measure) => (measure === "displayed_flip" ? figures.displayed_flip?.mean : figures[measure]) ?? null;
+const measureOf = (figures, measure) => (measure === "displayed_flip" ? figures?.displayed_flip?.mean : figures?.[measure]) ?? null;
 const size = (value) => (value === null ? null : Math.abs(value));
 
 // What an axis can show: value(point) is a number, or null where the point has none.
 const errorQuantity = ([kind, kindTitle], [measure, title]) => ({ key: `${kind}.${measure}`, title: `${title}, ${kindTitle}`, short: title,
-  value: ({ error }) => size(measureOf(error[kind], measure)), text: errorNumber });
+  value: ({ error }) => size(measureOf(figuresOf(error, kind), measure)), text: errorNumber });
 const ERRORS = [...ERROR_KINDS.flatMap((kind) => ERROR_MEASURES.map((measure) => errorQuantity(kind, measure))),
   { key: "temporal", title: "Flicker, RMSE of the change", short: "Flicker", value: ({ error }) => error.temporal_rmse_rel, text: errorNumber },
   ...["Leaked", "Acned"].map((title) => ({ key: title.toLowerCase(), title: `${title} pairs, %`, short: title,
@@ -39,8 +43,9 @@ const COSTS = [
 ];
 const QUANTITIES = [...COSTS, ...ERRORS];
 const quantity = (key) => QUANTITIES.find((q) => q.key === key);
-const FRONT = quantity("total.displayed_flip");  // fronts, their bands and probabilities are of this error
-const frontOfPoint = (point) => point.fronts?.total ?? { on: false, probability: 0 };
+// What fronts, their bands and probabilities are of, against one of the two references: total or authored.
+const frontQuantity = (reference) => quantity(`${reference}.displayed_flip`);
+const frontOfPoint = (point, reference) => point.fronts?.[reference] ?? { on: false, probability: 0 };
 
 const probabilityText = (p) => (p > 0.995 ? "more than 99 %" : p < 0.005 ? "less than 1 %" : `${Math.round(100 * p)} %`);
 

@@ -4,21 +4,21 @@
 const FRONT_MARGIN = { left: 62, right: 18, top: 34, bottom: 52 };
 const REACH = 30;       // pixels from which the pointer takes a point
 
-function tipOf(point, x, y) {
+function tipOf(point, { x, y, reference }) {
   const lines = [make("p", {}, make("strong", {}, nameElement(point.label)))];
   const add = (text) => lines.push(make("p", {}, text));
   if (point.relative_time.runs > 0) add(`${intervalInWords(point.relative_time, "")} times ${page.baseline}, ${intervalInWords(point.frame_ms, " ms")}`);
-  for (const q of new Set([FRONT, y, x])) if (!q.time) add(`${q.title}: ${q.value(point) === null ? "unknown" : q.text(q.value(point))}`);
+  for (const q of new Set([frontQuantity(reference), y, x])) if (!q.time) add(`${q.title}: ${q.value(point) === null ? "unknown" : q.text(q.value(point))}`);
   const settings = Object.entries(point.settings).map(([key, value]) => `${key} ${value}`).join(", ");
   if (settings) lines.push(make("p", { class: "quiet" }, settings));
   if (point.relative_time.modes.length) add(modesInWords(point.relative_time));
-  if (x.key === "relative" && y === FRONT) add(`On the front with a probability of ${probabilityText(frontOfPoint(point).probability)}`);
+  if (x.key === "relative" && y === frontQuantity(reference)) add(`On the front with a probability of ${probabilityText(frontOfPoint(point, reference).probability)}`);
   return lines;
 }
 
 // Where the front is with a probability of 95 % at each error: between two step lines, from the smallest error up.
-function bandElement(scene, xAxis, yAxis, area) {
-  const steps = page.flip_front_bands.find((band) => band.scene === scene)?.steps ?? [];
+function bandElement({ scene, reference }, xAxis, yAxis, area) {
+  const steps = page.flip_front_bands.find((band) => band.scene === scene && band.of === reference)?.steps ?? [];
   const within = (place, a, b) => Math.min(Math.max(place, Math.min(a, b)), Math.max(a, b));
   const edge = (end) => steps.flatMap(({ flip, ci95 }, i) => {
     const at = within(xAxis.at(ci95[end]), area.left, area.right), y = within(yAxis.at(flip), area.top, area.bottom);
@@ -29,7 +29,7 @@ function bandElement(scene, xAxis, yAxis, area) {
   return polyline(outline, { class: "band" });
 }
 
-// state: { points, x, y, hidden: set of techniques, selected: point }; choose(point) is called at a click. Returns a function that
+// state: { points, x, y, reference, hidden: set of techniques, selected: point }; choose(point) is called at a click. Returns a function that
 // draws the state.
 function startFront(container, state, choose) {
   const tip = make("div", { class: "tip", role: "status" });
@@ -43,7 +43,7 @@ function startFront(container, state, choose) {
     }
     tip.hidden = entry === null;
     if (entry === null) return;
-    tip.replaceChildren(...tipOf(entry.point, state.x, state.y));
+    tip.replaceChildren(...tipOf(entry.point, state));
     tip.style.left = tip.style.top = "0";
     const left = entry.at[0] + 14, top = entry.at[1] + 14;
     tip.style.left = `${Math.max(4, Math.min(left, container.clientWidth - tip.offsetWidth - 4))}px`;
@@ -90,7 +90,7 @@ function startFront(container, state, choose) {
     shown = placed.map((point, i) => ({ point, onFront: onFront[i], at: [xAxis.at(x.value(point)), yAxis.at(y.value(point))] }));
     const front = shown.filter((entry) => entry.onFront).sort((a, b) => a.at[0] - b.at[0]);
     const steps = front.flatMap(({ at }, i) => (i ? [[at[0], front[i - 1].at[1]], at] : [at]));
-    const banded = x.key === "relative" && y === FRONT && state.hidden.size === 0;
+    const banded = x.key === "relative" && y === frontQuantity(state.reference) && state.hidden.size === 0;
     for (const entry of shown) {
       entry.element = markerElement(entry.point.technique, { class: `point${entry.onFront ? " on-front" : ""}${entry.point === state.selected ? " selected" : ""}`,
         ...moveTo(...entry.at), "data-label": entry.point.label,
@@ -99,7 +99,7 @@ function startFront(container, state, choose) {
     const inFront = [...shown].sort((a, b) => a.onFront - b.onFront);
     const names = page.techniques.filter((technique) => placed.some((point) => point.technique === technique));
     const svg = drawing(width, height, `${y.title} against ${x.title}`, ...acrossAxis(xAxis, x.title, area), ...alongAxis(yAxis, y.title, area),
-      ...(banded ? [bandElement(state.scene, xAxis, yAxis, area)] : []), polyline(steps, { class: "step" }), ...inFront.map(({ element }) => element),
+      ...(banded ? [bandElement(state, xAxis, yAxis, area)] : []), polyline(steps, { class: "step" }), ...inFront.map(({ element }) => element),
       ...shown.filter(({ point }) => x.time && point.relative_time.modes.length).map(({ at }) => make("text", { class: "modes", x: at[0] + 7, y: at[1] - 5 }, "2")),
       make("g", { class: "only-file" }, ...markedNames(names.map((technique) => ({ technique, text: technique })), left, height + 12, 3, width - left)));
     svg.dataset.fileHeight = height + 20 * Math.ceil(names.length / 3) + 10;

@@ -1,6 +1,6 @@
 // Fills the page from the answer, embedded above.
 
-const state = { scene: page.scenes[0]?.key, points: [], x: quantity("relative"), y: FRONT, hidden: new Set(), selected: null };
+const state = { scene: page.scenes[0]?.key, points: [], x: quantity("relative"), y: frontQuantity("total"), reference: "total", hidden: new Set(), selected: null };
 let drawFront = null;
 
 const sceneTitle = (key) => page.scenes.find((scene) => scene.key === key).title;
@@ -34,10 +34,11 @@ function withinCell(best) {
 }
 
 function showBestWithin() {
-  const errors = [...new Set(page.cheapest_within_flip.map((best) => best.flip))].sort((a, b) => b - a);
+  const all = page.cheapest_within_flip.filter((best) => best.of === state.reference);
+  const errors = [...new Set(all.map((best) => best.flip))].sort((a, b) => b - a);
   const head = page.scenes.map((scene) => make("th", { scope: "col" }, scene.title));
   const lines = errors.map((error) => make("tr", {}, make("th", { scope: "row" }, String(error)),
-    ...page.scenes.map((scene) => withinCell(page.cheapest_within_flip.find((best) => best.scene === scene.key && best.flip === error)))));
+    ...page.scenes.map((scene) => withinCell(all.find((best) => best.scene === scene.key && best.flip === error)))));
   byId("within").replaceChildren(make("thead", {}, make("tr", {}, make("td", {}, "FLIP"), ...head)), make("tbody", {}, ...lines));
   byId("within").closest("section").hidden = errors.length === 0;
 }
@@ -91,7 +92,7 @@ function errorTable(point) {
   return make("div", { class: "scrolls" }, make("table", {},
     make("thead", {}, make("tr", {}, make("td", {}, "Error"), ...ERROR_MEASURES.map(([, title]) => make("th", { scope: "col" }, title)))),
     make("tbody", {}, ...ERROR_KINDS.map(([kind, title]) => make("tr", {}, make("th", { scope: "row" }, title),
-      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(measureOf(point.error[kind], measure))))))),
+      ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(measureOf(figuresOf(point.error, kind), measure))))))),
     ...(point.error.in_double ? [make("tbody", {}, make("tr", {}, make("th", { scope: "row" }, "whole picture, truth in double"),
       ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(measureOf(point.error.in_double, measure))))))] : [])));
 }
@@ -107,7 +108,7 @@ function choosePoint(point) {
     `${point.views} view${point.views === 1 ? "" : "s"}`, point.pairs.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
     quantity("leaked").value(point) !== null && `${percentText(point.leaked_percent)} of ${wholeNumber(point.pairs.shadow_pairs)} pairs leaked, ${percentText(point.acned_percent)} acned`,
     point.nan_pixels > 0 && `${wholeNumber(point.nan_pixels)} NaN pixels`,
-    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, timed && `on the front with a probability of ${probabilityText(frontOfPoint(point).probability)}`];
+    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, timed && `on the front with a probability of ${probabilityText(frontOfPoint(point, state.reference).probability)}`];
   byId("chosen").replaceChildren(...(point ? [make("article", { class: "technique" }, make("h3", {}, nameElement(point.label)),
     make("p", { class: "summary quiet" }, summary.filter(Boolean).join(" \u00b7 ")),
     ...(images.length ? [make("div", { class: "pictures" }, ...images.map(([number, caption]) => pictureFigure(number, caption)))] : [make("p", { class: "quiet" }, "No pictures of this point were kept.")]),
@@ -124,7 +125,7 @@ function choosePoint(point) {
 const column = (title, key) => ({ title, value: quantity(key).value, text: quantity(key).text });
 const FIGURE_COLUMNS = [
   { title: "Point", value: (point) => point.label, text: (label) => pointButton(state.points.find((point) => point.label === label), nameElement(label)) },
-  column("Time, over the baseline's", "relative"), column("Frame, ms", "ms"), column("RMSE", "total.rmse_rel"), column("Largest error", "total.max_rel"),
+  column("Time, over the baseline's", "relative"), column("Frame, ms", "ms"), ...(HAS_AUTHORED ? [column("FLIP, authored ranges", "authored.displayed_flip")] : []), column("RMSE", "total.rmse_rel"), column("Largest error", "total.max_rel"),
   column("FLIP as displayed", "total.displayed_flip"), column("relMSE, 99.9 %", "total.rel_mse_trimmed"),
   column("HDR-FLIP", "total.flip_mean"), column("Model", "model.rmse_rel"), column("Precision", "precision.rmse_rel"),
   column("Technique", "technique.rmse_rel"),
@@ -155,6 +156,20 @@ function redraw() {
     missing > 0 && `${wholeNumber(missing)} are not shown: hidden, or without such a figure.`].filter(Boolean).join(" ");
 }
 
+// Errors on the axes, the front and the table of what can be borne follow.
+function chooseReference(reference) {
+  state.reference = reference;
+  for (const axis of ["x", "y"]) {
+    const [kind, measure] = state[axis].key.split(".");
+    const pair = [["total", "authored"], ["model", "authored_model"]].find((names) => names.includes(kind));
+    if (pair) state[axis] = quantity(`${pair[reference === "authored" ? 1 : 0]}.${measure}`);
+    byId(`${axis}-choice`).value = state[axis].key;
+  }
+  showBestWithin();
+  state.points = [];
+  chooseScene(state.scene);
+}
+
 function chooseScene(key) {
   if (state.points.length > 0 && key === state.scene) return;
   state.scene = key;
@@ -164,16 +179,21 @@ function chooseScene(key) {
   byId("notes").replaceChildren(...notes.map((line) => make("li", {}, line)));
   state.points = page.points.filter((point) => point.scene === key);
   showTechniques();
-  const frontTag = (point) => (frontOfPoint(point).on ? `front ${probabilityText(frontOfPoint(point).probability)}` : "");
+  const frontTag = (point) => {
+    const { on, probability } = frontOfPoint(point, state.reference);
+    return on ? `front ${probabilityText(probability)}` : "";
+  };
   showTable(byId("figures-table"), FIGURE_COLUMNS, state.points, frontTag);
   showCosts(key);
   byId("save-front").replaceChildren(saveButton(byId("front"), `front-${sceneTitle(key)}`));
-  choosePoint(state.points.find((point) => frontOfPoint(point).on && point.pictures) ?? null);
+  choosePoint(state.points.find((point) => frontOfPoint(point, state.reference).on && point.pictures) ?? null);
 }
 
 function startChoices() {
   byId("scene-choice").replaceChildren(...page.scenes.map((scene) => make("option", { value: scene.key }, scene.title)));
   byId("scene-choice").addEventListener("change", () => chooseScene(byId("scene-choice").value));
+  byId("reference-choice").closest("label").hidden = !HAS_AUTHORED;
+  byId("reference-choice").addEventListener("change", () => chooseReference(byId("reference-choice").value));
   for (const axis of ["x", "y"]) {
     const select = byId(`${axis}-choice`);
     const options = (list) => list.filter((q) => page.points.some((point) => q.value(point) !== null)).map((q) => make("option", { value: q.key }, q.title));
