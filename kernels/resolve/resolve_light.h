@@ -3,6 +3,7 @@
 //
 // -DDIRECTIONAL  there are directional lights
 // -DDIRECTIONAL_SHADOWS  some of them casts a shadow
+// -DFAR_LIGHT    light past the lights' ranges is added (shared/far_light.h)
 // -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
 // -DLIGHTS_VOXELS  point and spot lights come from a voxel light buffer
 //                  (kernels/voxels/voxel_lookup.h), not from lists
@@ -36,6 +37,15 @@
 #define SOURCE_LIST(X)
 #endif
 
+#ifdef FAR_LIGHT
+#include "kernels/far_light/far_lookup.h"
+#define FAR_ARGUMENTS global const float4 *far_moments, constant FarLookup *far,
+#define GIVEN_FAR_LIGHT .far_moments = far_moments, .far = far,
+#else
+#define FAR_ARGUMENTS
+#define GIVEN_FAR_LIGHT
+#endif
+
 // What all kernels that resolve triangles take, and the values of ResolveScene and ResolveLights.
 // What a triangle number leads to (raster/raster_view.h); surfaces, vertices and materials
 // (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/light_table.h),
@@ -45,7 +55,7 @@
 // z-bins; with -DSLICES those between slices.
 #define RESOLVE_ARGUMENTS                                                                               \
   RESOLVE_SCENE_LIST(PARAMETER)                                                                         \
-  LIGHT_ARGUMENTS global const float4 *directional, global const uint2 *cells, global const index_t *light_indices, \
+  LIGHT_ARGUMENTS global const float4 *directional, FAR_ARGUMENTS global const uint2 *cells, global const index_t *light_indices, \
       global const uint *light_bins, SOURCE_LIST(PARAMETER) constant float *bin_edges,                  \
       constant float *slice_edges, constant ViewParams *view
 #ifdef GROUPS
@@ -61,13 +71,17 @@
 #define RESOLVE_LIGHTS                                                                             \
   {                                                                                                \
     .lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS}, \
-    .directional = directional, .list = light_indices, .cells = cells, .slice_edges = slice_edges, \
+    .directional = directional, GIVEN_FAR_LIGHT .list = light_indices, .cells = cells, .slice_edges = slice_edges, \
     SOURCE_LIST(GIVEN)                                                                             \
   }
 
 typedef struct ResolveLights {
   Lights lights;
   global const float4* directional;  // two each: direction to the light, and illuminance
+#ifdef FAR_LIGHT
+  global const float4* far_moments;
+  constant FarLookup* far;
+#endif
   global const index_t* list;  // null: all of them; with -DSLICES and -DWORLD_GRID where all lists begin
   uint count;
   global const uint2* cells;  // with -DSLICES: of all tiles
@@ -211,7 +225,8 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
 #endif
 #endif
 
-static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const ResolveLights* l,
+// lit: lanes with a surface.
+static inline Real3 own_light(const ShadingPoint* p, const Surface* s, mask_t lit, const ResolveLights* l,
                               constant ViewParams* view) {
   const Real3 ambient =
       reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
@@ -231,13 +246,16 @@ static inline Real3 own_light(const ShadingPoint* p, const Surface* s, const Res
     sum = add3(sum, real3(back.x * light.x, back.y * light.y, back.z * light.z));
   }
 #endif
+#ifdef FAR_LIGHT
+  sum = add3(sum, radiance_of_far_light(*p, far_light_at(p->position, lit, l->far_moments, l->far), l->far));
+#endif
   return sum;
 }
 
 // What a surface shows without point and spot lights.
-static inline Real3 base_light(const ShadingPoint* p, const Surface* s, const ResolveLights* l,
+static inline Real3 base_light(const ShadingPoint* p, const Surface* s, mask_t lit, const ResolveLights* l,
                                constant ViewParams* view) {
-  const Real3 own = own_light(p, s, l, view);
+  const Real3 own = own_light(p, s, lit, l, view);
   return real3(s->unlit ? s->base_color.x : own.x, s->unlit ? s->base_color.y : own.y,
                s->unlit ? s->base_color.z : own.z);
 }
@@ -277,7 +295,7 @@ static inline ShadingPoint resolved_point(const Attributes* a, const Surface* s,
 static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real y, real depth, mask_t lit,
                              const ResolveLights* l, constant float* bin_edges, constant ViewParams* view) {
   const ShadingPoint p = resolved_point(a, s, x, y, depth, lit, view);
-  Real3 sum = own_light(&p, s, l, view);
+  Real3 sum = own_light(&p, s, lit, l, view);
 #ifdef LIGHTS_VOXELS
   VoxelLight of_voxels = voxel_light_at(p.position, lit, l->irradiance, l->directions, l->voxels);
 #ifdef VOXEL_EXACT

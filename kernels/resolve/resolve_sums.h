@@ -11,7 +11,7 @@ static inline Real3 radiance_of_sums(const Attributes* a, const Surface* s, real
                                      mask_t covered, LightTerms sums, LightBufferParams of,
                                      const ResolveLights* l, constant ViewParams* view) {
   const ShadingPoint p = resolved_point(a, s, x, y, depth, covered, view);
-  const Real3 sum = add3(own_light(&p, s, l, view), light_of_terms(p, sums, of));
+  const Real3 sum = add3(own_light(&p, s, covered, l, view), light_of_terms(p, sums, of));
   return real3(s->unlit ? s->base_color.x : sum.x, s->unlit ? s->base_color.y : sum.y,
                s->unlit ? s->base_color.z : sum.z);
 }

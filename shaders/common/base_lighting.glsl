@@ -3,6 +3,9 @@
 #ifdef DIRECTIONAL
 #include "shaders/lights/directional.glsl"
 #endif
+#ifdef FAR_LIGHT
+#include "shaders/common/far_light.glsl"
+#endif
 
 vec3 base_lighting(Surface s, ShadingPoint p) {
   vec3 ambient = vec3(view.ambient_r, view.ambient_g, view.ambient_b);
@@ -11,6 +14,9 @@ vec3 base_lighting(Surface s, ShadingPoint p) {
   vec3 color = own;
 #ifdef DIRECTIONAL
   color += directional_light_sum(p);
+#endif
+#ifdef FAR_LIGHT
+  color += radiance_of_far_light(p, far_light_at(p.position));
 #endif
   return color;
 }

@@ -29,6 +29,7 @@ namespace lightgrid {
   UNIT(receiver_triangles) UNIT(triangle_corners) UNIT(shadow_lights) UNIT(shadow_faces) UNIT(shadow_texels) \
   /* which lights a pixel reads: one source a program */ \
   UNIT(grid_cells) UNIT(grid_indices) UNIT(grid_masks) UNIT(light_z_bins) UNIT(voxel_irradiance) UNIT(voxel_directions) \
+  UNIT(far_moments) \
   SHARE(world_cells, grid_cells) UNIT(world_indices) UNIT(world_buckets) UNIT(world_keys) \
   SHARE(light_buffer, grid_cells) UNIT(light_buffer_second) \
   SHARE(object_lights, grid_cells) \
@@ -44,7 +45,7 @@ namespace lightgrid {
 #define LIGHTGRID_UNIFORM_BLOCKS(BLOCK) \
   BLOCK(ViewParamsBlock) BLOCK(MaterialParamsBlock) BLOCK(MaterialModelsBlock) BLOCK(SliceEdgesBlock) \
   BLOCK(ZBinEdgesBlock) BLOCK(VoxelLookupBlock) BLOCK(WorldGridBlock) BLOCK(WorldViewBlock) \
-  BLOCK(ReceiverBlock)
+  BLOCK(ReceiverBlock) BLOCK(FarLookupBlock)
 // clang-format on
 
 #define LIGHTGRID_NEXT(name) name,

@@ -73,6 +73,18 @@ GlTexture make_texture_2d(GLenum format, int width, int height, int levels) {
   return texture;
 }
 
+GlTexture make_texture_3d(GLenum format, int width, int height, int depth) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_3D, 1, &name);
+  GlTexture texture(name);
+  glTextureStorage3D(name, 1, format, width, height, depth);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTextureParameteri(name, wrap, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
 GlTexture make_texture_of_samples(GLenum format, int width, int height, int samples) {
   check_gl("seen when a texture was made");
   GLint most = 0;

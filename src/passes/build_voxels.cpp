@@ -36,18 +36,6 @@ bool same(const FilledWith& a, const FilledWith& b) {
          std::memcmp(a.slices.data(), b.slices.data(), a.slices.size() * sizeof a.slices[0]) == 0;
 }
 
-GlTexture make_volume(GLenum format, glm::uvec3 size) {
-  GLuint name = 0;
-  glCreateTextures(GL_TEXTURE_3D, 1, &name);
-  GlTexture texture(name);
-  glTextureStorage3D(name, 1, format, GLsizei(size.x), GLsizei(size.y), GLsizei(size.z));
-  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    glTextureParameteri(name, wrap, GL_CLAMP_TO_EDGE);
-  return texture;
-}
-
 }  // namespace
 
 class VoxelBuffers : public PassCache {
@@ -174,9 +162,10 @@ static void voxels_to_gl(Work& work, const VoxelVolume& volume, VoxelBuffers& s)
   const VoxelGrid& g = s.placed.grid;
   const bool half = work.plan.settings.voxel_bits == 16;
   if (!s.irradiance_texture) {
-    const glm::uvec3 size(g.size_x, g.size_y, g.size_z);
-    const GLenum format = half ? GL_RGBA16F : GL_RGBA32F;
-    s.irradiance_texture = make_volume(format, size), s.directions_texture = make_volume(format, size);
+    const auto make_volume = [&] {
+      return make_texture_3d(half ? GL_RGBA16F : GL_RGBA32F, int(g.size_x), int(g.size_y), int(g.size_z));
+    };
+    s.irradiance_texture = make_volume(), s.directions_texture = make_volume();
     s.lookup_block = make_buffer(sizeof(VoxelLookup), nullptr, GL_DYNAMIC_STORAGE_BIT);
     s.texture_bytes = volume.bytes;
   }

@@ -62,14 +62,29 @@ bool is_plain(const Scene& scene, int instance) {
   return material.alpha_mode == AlphaMode::opaque && !shows_base_lighting(scene, instance);
 }
 
+// After lights.
+void plan_far_light(const Scene& scene, FramePlan& plan) {
+  if (plan.settings.far_light == 0) return;
+  const LightRanges& ranges = plan.settings.ranges;
+  const auto ends = [&](int i) { return std::isfinite(range_of(scene.lights[size_t(i)], size_t(i), ranges)); };
+  const auto first = std::ranges::find_if(plan.local, ends);
+  plan.far_light = ranges.range != LightRange::stochastic && first != plan.local.end();
+  plan.decisions.push_back(
+      {"far light", plan.far_light,
+       plan.far_light                             ? light_witness(scene, *first) + " has a range"
+       : ranges.range == LightRange::stochastic ? "the mean of random ranges is that of none"
+                                                : "no light ends"});
+}
+
 // After surfaces and lights.
 void plan_base_lighting(const Scene& scene, FramePlan& plan) {
   const auto first = std::find_if(plan.opaque.begin(), plan.opaque.end(),
                                   [&](int i) { return shows_base_lighting(scene, i); });
-  plan.base_lighting = plan.directional || first != plan.opaque.end();
+  plan.base_lighting = plan.directional || plan.far_light || first != plan.opaque.end();
   plan.decisions.push_back(
       {"base lighting", plan.base_lighting,
        plan.directional ? light_witness(scene, plan.directional_lights[0])
+       : plan.far_light ? "far light"
        : plan.base_lighting
            ? instance_witness(scene, *first)
            : "no opaque surface is emissive, unlit or has an occlusion map; no light is directional"});
@@ -432,6 +447,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   const double farthest_m = plan_surfaces(scene, view, instances, plan);
   plan_models(scene, plan);
   plan_lights(scene, view, plan);
+  plan_far_light(scene, plan);
   plan_base_lighting(scene, plan);
   plan.light_grid = needs.light_grid && plan.local_lights;
   const bool bounded = settings.depth_bounds != DepthBoundsMode::none;

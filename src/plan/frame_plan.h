@@ -126,6 +126,7 @@ struct FramePlan {
   bool directional_shadows = false;  // as light_reaches, of directional lights alone
   bool shadow_bytes = false;         // a share of a light may be hidden: a byte a pixel and light, not a bit
   bool directional = false;
+  bool far_light = false;      // light past the lights' ranges (shared/far_light.h)
   bool blend = false;          // the blended pass
   bool blend_grid = false;     // a light grid for blended surfaces
   bool base_lighting = false;  // an opaque surface shows more than point, spot and plain ambient light

@@ -98,6 +98,10 @@ std::vector<Setting>& all_settings() {
       {"light-seed", "of the random ranges, with range=stochastic",
        numbers(&LightRanges::seed,
                {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15", "16"})},
+      {"far-light",
+       "samples of a coarse volume that adds what lights send beyond their ranges, so that no light is lost where "
+       "they end",
+       named(&Settings::far_light, {{"off", 0}, {"512", 512}, {"4096", 4096}, {"32768", 32768}, {"262144", 262144}})},
       {"cull-test", "the test that decides whether a light may touch a cell",
        choices_of(cull_tests, &Settings::cull_test, &CullTestRow::test)},
       {"depth-bounds", "the interval of distances that a cell spans",
@@ -353,18 +357,26 @@ void apply_setting(Settings& settings, const std::string& assignment) {
 
 const std::vector<std::string>& model_settings() {
   static const std::vector<std::string> keys = {"brdf",  "range",      "cutoff",        "window",
-                                                "alpha", "light-seed", "shadow-blended"};
+                                                "alpha", "light-seed", "shadow-blended", "far-light"};
   return keys;
 }
 
+LightRanges meant_ranges(const Settings& settings) {
+  LightRanges ranges = settings.ranges;
+  if (settings.far_light > 0) ranges.range = LightRange::infinite;
+  return ranges;
+}
+
 bool same_model(const Settings& a, const Settings& b) {
-  return a.brdf == b.brdf && a.ranges == b.ranges && a.shadow_blended == b.shadow_blended;
+  return a.brdf == b.brdf && a.ranges == b.ranges && a.shadow_blended == b.shadow_blended &&
+         a.far_light == b.far_light;
 }
 
 Settings with_model(Settings settings, const Settings& model) {
   settings.brdf = model.brdf;
   settings.ranges = model.ranges;
   settings.shadow_blended = model.shadow_blended;
+  settings.far_light = model.far_light;
   return settings;
 }
 

@@ -106,6 +106,7 @@ struct Settings {
   int voxel_bits = 32;         // of a stored value: 16 or 32
   int voxel_lights_exact = 0;  // lights a pixel that are shaded by themselves: 0, 1, 2, 4 or 8
   bool voxel_reuse = false;    // a volume in which nothing changed is not filled again
+  int far_light = 0;  // samples of the volume of far light: 512, 4096, 32768 or 262144; 0: there is none
   WorldGridShape world_grid = WorldGridShape::cubes;
   std::optional<double> world_cell;  // a cell's edge over the radius of lights; none: what suits the lights
   ShadowMethod shadows = ShadowMethod::exact;
@@ -172,6 +173,9 @@ class OwnSetting {
   const char* key_;
   std::vector<T> values_;
 };
+
+// The ranges that the picture means: with far light, which gives back what they take away, none.
+LightRanges meant_ranges(const Settings& settings);
 
 // Keys of the settings that say which picture is meant: images with other values cannot be compared.
 const std::vector<std::string>& model_settings();

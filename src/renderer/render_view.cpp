@@ -89,6 +89,7 @@ void RenderView::drop_caches() {
   caches.clear();
   cl_lights_.reset();
   shadows = {};
+  far_light.reset();
   culler_.reset();
   for (auto& grid : grids_) grid.reset();
 }

@@ -53,13 +53,17 @@ struct Work : Seen {
 
   // Binds the view's uniform blocks, and point, spot and directional lights as the shaders read them
   // (shared/punctual_light.h).
-  void bind_lights() const { lights.bind(), shadows.bind(); }
+  void bind_lights() const {
+    lights.bind(), shadows.bind();
+    if (far_light) far_light->bind();
+  }
   GlLights lights;
   // The same for kernels: uploaded by the first call after look().
   const ClLights& cl_lights();
   // LIGHT_ARGUMENTS (shared/light_table.h).
   ClArguments light_arguments();
   ShadowMemory shadows;
+  std::optional<FarLightMemory> far_light;
 
   // Memory that OpenCL and OpenGL share, for `bytes` a pixel or a sample and spare ones, by name
   // (Targets::buffer).
@@ -120,6 +124,7 @@ struct PassCaches {
   Cached<class ObjectLights> object_lights, blended_object_lights;  // passes/find_object_lights.h
   Cached<class VoxelBuffers> voxels;                                // passes/build_voxels.cpp
   Cached<class ViewOfWorldGrid> world_grid;                         // passes/build_world_grid.cpp
+  Cached<class FarLightVolume> far_light;                           // passes/fill_far_light.cpp
   Cached<class ShadowBits> shadow_bits;                             // passes/find_shadows.cpp
   Cached<class FragmentLayers> fragment_layers;                     // passes/blended_layers.cpp
 
@@ -129,7 +134,7 @@ struct PassCaches {
   size_t memory_bytes() const;
 
  private:
-  std::array<std::unique_ptr<PassCache>*, 17> all();
+  std::array<std::unique_ptr<PassCache>*, 18> all();
 };
 
 }  // namespace lightgrid

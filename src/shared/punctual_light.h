@@ -66,6 +66,26 @@ SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
   return arrival;
 }
 
+// The part of a light that its window takes away: all of it past its range (shared/far_light.h).
+SHARED_FUNCTION Arrival arrival_beyond(Real3 position, PunctualLight light) {
+  PunctualLight endless = light;
+  endless.position.w = 0.0f;
+  Arrival arrival = arrival_at(position, endless);
+  Real3 to_light = offset_to_light(position, light);
+  real ratio = min_real(dot3(to_light, to_light) * light.position.w, REAL(1.0f));
+  // 1 - window. 1 less the window would cancel near the light.
+#ifdef WINDOW_NONE
+  real beyond = ratio < REAL(1.0f) ? REAL(0.0f) : REAL(1.0f);
+#else
+  real beyond = ratio * ratio;
+#endif
+#ifdef WINDOW_SMOOTH
+  beyond = beyond * (2.0f - beyond);
+#endif
+  arrival.attenuation = arrival.attenuation * beyond;
+  return arrival;
+}
+
 SHARED_FUNCTION Real3 radiance_of(ShadingPoint p, Arrival arrival, PunctualLight light) {
   Real3 back = scale3(reflected(p, arrival.to_light), arrival.attenuation);
   return real3(back.x * light.color.x, back.y * light.color.y, back.z * light.color.z);

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "passes/fill_far_light.h"
 #include "passes/resolve_samples.h"
 #include "techniques/technique.h"
 
@@ -109,6 +110,7 @@ bool is_approximate(const Technique& technique, const Settings& settings) {
 }
 
 Frame draw_frame(const Technique& technique, RenderView& v) {
+  fill_far_light(v, v.caches.far_light);
   Frame frame = technique.render(v);
   frame.image = resolve_samples(v, frame.image);
   return frame;

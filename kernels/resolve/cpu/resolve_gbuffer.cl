@@ -83,7 +83,7 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
       light_pixels(&lights.lights, x, y, view);
       const ShadingPoint p =
           resolved_point(a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth, covered, view);
-      const Real3 shown = base_light(&p, &s, &lights, view);
+      const Real3 shown = base_light(&p, &s, covered, &lights, view);
       store_block(image,
                   real3(covered ? shown.x : REAL(background.x), covered ? shown.y : REAL(background.y),
                         covered ? shown.z : REAL(background.z)),

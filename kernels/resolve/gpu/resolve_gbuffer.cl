@@ -50,7 +50,7 @@ kernel void resolve_gbuffer(global const uint* triangles, global const float* de
     if (image) {
       light_pixels(&lights.lights, x, y, view);
       const ShadingPoint p = resolved_point(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depths[at], 1, view);
-      const Real3 base = base_light(&p, &s, &lights, view);
+      const Real3 base = base_light(&p, &s, 1, &lights, view);
       shown = (float4)(base.x, base.y, base.z, 1.0f);
     }
   }

@@ -87,9 +87,7 @@ void add_other_groups(std::span<const ViewLight> lights, const FramePlan& plan, 
   column.values.insert(column.values.end(), bytes.begin(), bytes.end());
 }
 
-LightTable light_table(const Seen& seen) {
-  const FramePlan& plan = seen.plan;
-  const std::vector<ViewLight> lights = lights_in_view(seen.scene, seen.view, plan.settings.ranges);
+LightTable light_table(const FramePlan& plan, std::span<const ViewLight> lights) {
 #define LIGHT_COLUMN(condition, type, member, array, texels) \
   column(member, plan.*condition, Sampler::array, lights, plan.local),
   LightTable table{{LIGHT_TABLE(LIGHT_COLUMN)}, {}};
@@ -104,6 +102,10 @@ LightTable light_table(const Seen& seen) {
     table.directional.emplace_back(glm::vec3(lights[i].radiant_intensity), 0);
   }
   return table;
+}
+
+LightTable light_table(const Seen& seen) {
+  return light_table(seen.plan, lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges));
 }
 
 }  // namespace
@@ -189,14 +191,23 @@ void GlLights::bind() const {
   }
 }
 
-void ClLights::upload(ClDevice& device, const Seen& seen) {
-  const LightTable table = light_table(seen);
-  constexpr const char* what = "uploading lights";
+static constexpr const char* what = "uploading lights";
+
+static void put(UploadedBuffer (&columns)[light_column_count], ClDevice& device, const LightTable& table) {
   for (size_t i = 0; i < light_column_count; ++i) {
     // A column that no kernel of this view has read yet stays a null argument.
     const LightColumn& column = table.columns[i];
-    if (column.needed || columns_[i].bytes() > 0) columns_[i].put(device, what, column.values);
+    if (column.needed || columns[i].bytes() > 0) columns[i].put(device, what, column.values);
   }
+}
+
+void ClLightColumns::upload(ClDevice& device, const FramePlan& plan, std::span<const ViewLight> lights) {
+  put(columns_, device, light_table(plan, lights));
+}
+
+void ClLights::upload(ClDevice& device, const Seen& seen) {
+  const LightTable table = light_table(seen);
+  put(columns_, device, table);
   directional.put(device, what, table.directional);
   view.put(device, what, std::vector<ViewParams>{seen.params});
   const auto put_edges = [&](UploadedBuffer& to, int count, const auto& keys_of) {
@@ -211,13 +222,18 @@ void ClLights::upload(ClDevice& device, const Seen& seen) {
   put_edges(slice_edges, seen.plan.slices, slice_keys);
 }
 
-size_t ClLights::memory_bytes() const {
-  size_t bytes = directional.bytes() + view.bytes() + bin_edges.bytes() + slice_edges.bytes();
+size_t ClLightColumns::memory_bytes() const {
+  size_t bytes = 0;
   for (const UploadedBuffer& column : columns_) bytes += column.bytes();
   return bytes;
 }
 
-ClArguments ClLights::columns() const {
+size_t ClLights::memory_bytes() const {
+  return ClLightColumns::memory_bytes() + directional.bytes() + view.bytes() + bin_edges.bytes() +
+         slice_edges.bytes();
+}
+
+ClArguments ClLightColumns::columns() const {
   ClArguments arguments;
 #define LIGHT_NAMED(condition, type, member, array, texels) \
   arguments.emplace_back(#array, columns_[arguments.size()].buffer());
@@ -230,6 +246,15 @@ void ShadowMemory::bind() const {
   if (tiles.texture) bind_texture(Sampler::shadow_tiles, tiles.texture.name());
   if (bits.texture) bind_texture(Sampler::shadow_bits, bits.texture.name());
   if (layers.texture) bind_texture(Sampler::shadow_layers, layers.texture.name());
+}
+
+void FarLightMemory::bind() const {
+  if (texture) bind_texture(Sampler::far_moments, texture.name());
+  if (block) bind_block(UniformBlock::FarLookupBlock, block.name());
+}
+
+ClArguments FarLightMemory::arguments() {
+  return {{"far_moments", moments->cl_buffer()}, {"far", lookup.buffer()}};
 }
 
 ClArguments ShadowMemory::arguments() {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "gl/objects.h"
 #include "plan/frame_plan.h"
 #include "renderer/shared_grids.h"
+#include "scene/view_lights.h"
 #include "shared/light_table.h"
 #include "shared/view_params.h"
 
@@ -57,18 +60,38 @@ class GlLights {
   size_t light_bytes_ = 0;
 };
 
-class ClLights {
+class ClLightColumns {
  public:
-  void upload(ClDevice& device, const Seen& seen);
+  // lights: of the scene, along any axes; those of plan.local are uploaded.
+  void upload(ClDevice& device, const FramePlan& plan, std::span<const ViewLight> lights);
   size_t memory_bytes() const;
 
   // The light table's part of LIGHT_ARGUMENTS.
   ClArguments columns() const;
 
-  UploadedBuffer directional, view, bin_edges, slice_edges;  // shared/slices.h
-
- private:
+ protected:
   UploadedBuffer columns_[light_column_count];
+};
+
+class ClLights : public ClLightColumns {
+ public:
+  void upload(ClDevice& device, const Seen& seen);
+  size_t memory_bytes() const;
+
+  UploadedBuffer directional, view, bin_edges, slice_edges;  // shared/slices.h
+};
+
+// The volume of far light, which passes/fill_far_light.h fills, as base lighting reads it (shared/far_light.h). Only
+// where the plan's `far_light` is set.
+struct FarLightMemory {
+  std::optional<SharedBuffer> moments;
+  UploadedBuffer lookup;
+  GlTexture texture;  // where OpenGL draws
+  GlBuffer block;
+
+  void bind() const;
+  // FAR_ARGUMENTS of kernels/resolve/resolve_light.h.
+  ClArguments arguments();
 };
 
 // A frame's shadows, which passes/find_shadows.h fills. Only where the plan's `light_reaches` is set.
