@@ -24,7 +24,7 @@ struct Star {
 };
 
 // After each technique as it is: the rasteriser, a finer volume, the cull tests of two techniques, buffers of
-// fewer bits, the capacity of lidr; model errors of ranges, windows and BRDFs. What does not depend on the
+// fewer bits, the capacity of lidr; model errors of ranges, windows and BRDFs, and far light beyond ranges. What does not depend on the
 // technique is varied on the fastest one. So few that several views of each of the default scenes fit into
 // the default budget: --vary measures further ones.
 constexpr Star default_variations[] = {
@@ -53,8 +53,12 @@ constexpr Star default_variations[] = {
     {"visibility", "range=cutoff cutoff=0.005"},
     {"visibility", "range=cutoff cutoff=0.002"},
     {"visibility", "range=cutoff cutoff=0.001"},
-    {"visibility", "range=cutoff cutoff=0.0002"},
     {"visibility", "range=cutoff cutoff=0.0001"},
+    {"visibility", "far-light=4096"},
+    {"visibility", "range=cutoff cutoff=1 far-light=512"},
+    {"visibility", "range=cutoff cutoff=0.5 far-light=4096"},
+    {"visibility", "range=cutoff cutoff=0.2 far-light=4096"},
+    {"visibility", "range=cutoff cutoff=0.05 far-light=4096"},
     {"visibility", "range=stochastic alpha=1"},
     {"visibility", "range=stochastic alpha=0.1"},
     {"visibility", "range=stochastic alpha=0.1", 16},

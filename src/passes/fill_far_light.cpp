@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "shared/far_light.h"
+#include "cl/transfer.h"
 
 namespace lightgrid {
 namespace {
@@ -152,6 +152,14 @@ void fill_far_light(Work& work, Cached<FarLightVolume>& cache) {
     s.looked_up = true;
   }
   if (work.plan.opengl && !s.in_texture) to_texture(work, s);
+}
+
+ReadFarLight read_far_light(Work& work, Cached<FarLightVolume>& cache) {
+  FarLightVolume& s = cache.of(work);
+  ReadFarLight read{s.grid, s.origin, std::vector<glm::vec4>(s.samples() * FAR_PLANES)};
+  read_buffer(*work.renderer.cl, "reading far light", work.far_light->moments->cl_buffer(),
+              read.moments.data(), s.bytes());
+  return read;
 }
 
 }  // namespace lightgrid

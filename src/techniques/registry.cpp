@@ -40,6 +40,7 @@ bool has_effect(const Technique& technique, const Settings& settings, const std:
   if (key == "cutoff") return range == LightRange::cutoff;
   if (key == "alpha" || key == "light-seed") return range == LightRange::stochastic;
   if (key == "window") return range == LightRange::scene || range == LightRange::cutoff;
+  if (key == "far-light") return settings.far_light > 0;
   const LidrShadows own = own_shadows(technique, settings);
   if (key.ends_with("-maps")) return own == LidrShadows::final_pass;
   if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
