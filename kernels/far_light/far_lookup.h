@@ -6,19 +6,20 @@
 
 static inline FarMoments add_moments(FarMoments m, real weight, float4 a, float4 b, float yz) {
   m.x = fma(weight, REAL(a.x), m.x), m.y = fma(weight, REAL(a.y), m.y), m.z = fma(weight, REAL(a.z), m.z);
-  m.xx = fma(weight, REAL(a.w), m.xx), m.yy = fma(weight, REAL(b.x), m.yy), m.zz = fma(weight, REAL(b.y), m.zz);
-  m.xy = fma(weight, REAL(b.z), m.xy), m.xz = fma(weight, REAL(b.w), m.xz), m.yz = fma(weight, REAL(yz), m.yz);
+  m.xx = fma(weight, REAL(a.w), m.xx), m.yy = fma(weight, REAL(b.x), m.yy),
+  m.zz = fma(weight, REAL(b.y), m.zz);
+  m.xy = fma(weight, REAL(b.z), m.xy), m.xz = fma(weight, REAL(b.w), m.xz),
+  m.yz = fma(weight, REAL(yz), m.yz);
   return m;
 }
 
-// Adds the eight samples of the cell whose first is `at`; x, y and z from 0 to 1 in it. weight: 1 of the lanes in
-// that cell, 0 of others.
-static inline FarLight add_far_cell(FarLight sum, real weight, real x, real y, real z, global const float4* at,
-                                    size_t row, size_t slice, size_t samples) {
+// Adds the eight samples of the cell whose first is `at`; x, y and z from 0 to 1 in it. weight: 1 of the
+// lanes in that cell, 0 of others.
+static inline FarLight add_far_cell(FarLight sum, real weight, real x, real y, real z,
+                                    global const float4* at, size_t row, size_t slice, size_t samples) {
   for (uint corner = 0; corner < 8; ++corner) {
     const bool right = (corner & 1) != 0, up = (corner & 2) != 0, behind = (corner & 4) != 0;
-    const real share =
-        weight * (right ? x : 1.0f - x) * ((up ? y : 1.0f - y) * (behind ? z : 1.0f - z));
+    const real share = weight * (right ? x : 1.0f - x) * ((up ? y : 1.0f - y) * (behind ? z : 1.0f - z));
     global const float4* m = at + (right ? 1 : 0) + (up ? row : 0) + (behind ? slice : 0);
     const float4 last = m[6 * samples];
     sum.red = add_moments(sum.red, share, m[0], m[samples], last.x);

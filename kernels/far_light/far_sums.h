@@ -1,5 +1,5 @@
-// Far light at LANES samples of its volume (shared/far_light.h): the sum over all lights in their order, whatever
-// the device.
+// Far light at LANES samples of its volume (shared/far_light.h): the sum over all lights in their order,
+// whatever the device.
 //
 // -DSPOTS, -DVIRTUAL_LIGHTS, -DWINDOW_SMOOTH, -DWINDOW_NONE  shared/light_table.h, shared/punctual_light.h
 #pragma once
@@ -46,7 +46,8 @@ static inline FarLight far_light_of(const FarLights* lights, uint count, Real3 p
 #endif
 
 // Of lane i, into the planes of sample `at` of `samples`.
-static inline void store_far_light(const FarLight* f, uint i, global float4* moments, size_t at, size_t samples) {
+static inline void store_far_light(const FarLight* f, uint i, global float4* moments, size_t at,
+                                   size_t samples) {
   const FarMoments* const colors[3] = {&f->red, &f->green, &f->blue};
   for (uint c = 0; c < 3; ++c) {
     const FarMoments* m = colors[c];

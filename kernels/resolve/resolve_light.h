@@ -53,11 +53,12 @@
 // pixel: the same sum, since a list leaves out only zeros; with -DZ_BINS z-bins of each light; what another
 // source of lights reads (voxels, the world grid: shared/world_grid.h); with -DZ_BINS the depth keys between
 // z-bins; with -DSLICES those between slices.
-#define RESOLVE_ARGUMENTS                                                                               \
-  RESOLVE_SCENE_LIST(PARAMETER)                                                                         \
-  LIGHT_ARGUMENTS global const float4 *directional, FAR_ARGUMENTS global const uint2 *cells, global const index_t *light_indices, \
-      global const uint *light_bins, SOURCE_LIST(PARAMETER) constant float *bin_edges,                  \
-      constant float *slice_edges, constant ViewParams *view
+#define RESOLVE_ARGUMENTS                                                                    \
+  RESOLVE_SCENE_LIST(PARAMETER)                                                              \
+  LIGHT_ARGUMENTS global const float4 *directional, FAR_ARGUMENTS global const uint2 *cells, \
+      global const index_t *light_indices, global const uint *light_bins,                    \
+      SOURCE_LIST(PARAMETER) constant float *bin_edges, constant float *slice_edges,         \
+      constant ViewParams *view
 #ifdef GROUPS
 #define GIVEN_GROUP_MASKS .group_masks = light_group_masks + view->light_count + view->directional_count,
 #else
@@ -68,11 +69,10 @@
     RESOLVE_SCENE_LIST(GIVEN) GIVEN_GROUP_MASKS                                                    \
     .half_size = (float2)(0.5f * (float)view->width, 0.5f * (float)view->height)                   \
   }
-#define RESOLVE_LIGHTS                                                                             \
-  {                                                                                                \
-    .lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS}, \
-    .directional = directional, GIVEN_FAR_LIGHT .list = light_indices, .cells = cells, .slice_edges = slice_edges, \
-    SOURCE_LIST(GIVEN)                                                                             \
+#define RESOLVE_LIGHTS                                                                                   \
+  {                                                                                                      \
+    .lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS}, .directional = directional,                       \
+    GIVEN_FAR_LIGHT.list = light_indices, .cells = cells, .slice_edges = slice_edges, SOURCE_LIST(GIVEN) \
   }
 
 typedef struct ResolveLights {

@@ -24,9 +24,9 @@ struct Star {
 };
 
 // After each technique as it is: the rasteriser, a finer volume, the cull tests of two techniques, buffers of
-// fewer bits, the capacity of lidr; model errors of ranges, windows and BRDFs, and far light beyond ranges. What does not depend on the
-// technique is varied on the fastest one. So few that several views of each of the default scenes fit into
-// the default budget: --vary measures further ones.
+// fewer bits, the capacity of lidr; model errors of ranges, windows and BRDFs, and far light beyond ranges.
+// What does not depend on the technique is varied on the fastest one. So few that several views of each of
+// the default scenes fit into the default budget: --vary measures further ones.
 constexpr Star default_variations[] = {
     {"voxel_lights", "raster=opencl"},
     {"voxel_lights", "raster=opencl voxel-size=128x128x64"},

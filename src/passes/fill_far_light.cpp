@@ -9,7 +9,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t far_group = 64;         // work-items of the group shape
+constexpr size_t far_group = 64;      // work-items of the group shape
 constexpr double least_box_m = 1e-3;  // of a side
 
 FarGrid grid_of(const WorldBox& box, const glm::dvec3& origin, int samples) {
@@ -41,14 +41,16 @@ FarLookup lookup_of(const FarGrid& g, const glm::dvec3& origin, const View& view
   static_assert(sizeof lookup == sizeof rows + sizeof directions + 3 * sizeof(float));
   std::memcpy(&lookup, rows, sizeof rows);
   std::memcpy(&lookup.world_x_from_x, directions, sizeof directions);
-  lookup.last_x = float(g.size_x - 1), lookup.last_y = float(g.size_y - 1), lookup.last_z = float(g.size_z - 1);
+  lookup.last_x = float(g.size_x - 1), lookup.last_y = float(g.size_y - 1),
+  lookup.last_z = float(g.size_z - 1);
   return lookup;
 }
 
 bool sends_alike(const ViewLight& a, const ViewLight& b) {
   return a.type == b.type && a.position == b.position && a.direction == b.direction &&
-         a.radiant_intensity == b.radiant_intensity && a.radius_m == b.radius_m && a.cos_inner == b.cos_inner &&
-         a.cos_outer == b.cos_outer && a.window == b.window && a.most_falloff == b.most_falloff;
+         a.radiant_intensity == b.radiant_intensity && a.radius_m == b.radius_m &&
+         a.cos_inner == b.cos_inner && a.cos_outer == b.cos_outer && a.window == b.window &&
+         a.most_falloff == b.most_falloff;
 }
 
 }  // namespace
@@ -84,7 +86,9 @@ class FarLightVolume : public PassCache {
 
   size_t samples() const { return size_t(grid.size_x) * grid.size_y * grid.size_z; }
   size_t bytes() const { return samples() * FAR_PLANES * sizeof(glm::vec4); }
-  size_t memory_bytes() const override { return columns.memory_bytes() + bytes() * (texture_bytes > 0 ? 2 : 1); }
+  size_t memory_bytes() const override {
+    return columns.memory_bytes() + bytes() * (texture_bytes > 0 ? 2 : 1);
+  }
 
   PassKernels kernels;
   glm::dvec3 origin{0};  // of the volume, in the world

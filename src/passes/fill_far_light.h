@@ -6,9 +6,9 @@
 
 namespace lightgrid {
 
-// Fills work.far_light where the plan says so: the volume if the scene's box or a light changed since the last
-// frame, its place in the view if the camera moved. Lights of a light group that not all surfaces are in keep
-// their ends: the volume's light belongs to no surface.
+// Fills work.far_light where the plan says so: the volume if the scene's box or a light changed since the
+// last frame, its place in the view if the camera moved. Lights of a light group that not all surfaces are in
+// keep their ends: the volume's light belongs to no surface.
 void fill_far_light(Work& work, Cached<FarLightVolume>& cache);
 
 // The last frame's volume on the host, for tests.

@@ -69,8 +69,7 @@ class Resolver : public PassCache {
                        {"texels_4", s.texels_4()},
                        {"texels_8", s.texels_8()}} +
            work.light_arguments() + ClArguments{{"directional", lights.directional.buffer()}} +
-           (work.plan.far_light ? work.far_light->arguments() : ClArguments()) +
-           source_arguments(loop) +
+           (work.plan.far_light ? work.far_light->arguments() : ClArguments()) + source_arguments(loop) +
            ClArguments{{"bin_edges", lights.bin_edges.buffer()},
                        {"slice_edges", lights.slice_edges.buffer()},
                        {"view", lights.view.buffer()}};

@@ -99,9 +99,11 @@ std::vector<Setting>& all_settings() {
        numbers(&LightRanges::seed,
                {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15", "16"})},
       {"far-light",
-       "samples of a coarse volume that adds what lights send beyond their ranges, so that no light is lost where "
+       "samples of a coarse volume that adds what lights send beyond their ranges, so that no light is lost "
+       "where "
        "they end",
-       named(&Settings::far_light, {{"off", 0}, {"512", 512}, {"4096", 4096}, {"32768", 32768}, {"262144", 262144}})},
+       named(&Settings::far_light,
+             {{"off", 0}, {"512", 512}, {"4096", 4096}, {"32768", 32768}, {"262144", 262144}})},
       {"cull-test", "the test that decides whether a light may touch a cell",
        choices_of(cull_tests, &Settings::cull_test, &CullTestRow::test)},
       {"depth-bounds", "the interval of distances that a cell spans",
@@ -356,7 +358,7 @@ void apply_setting(Settings& settings, const std::string& assignment) {
 }
 
 const std::vector<std::string>& model_settings() {
-  static const std::vector<std::string> keys = {"brdf",  "range",      "cutoff",        "window",
+  static const std::vector<std::string> keys = {"brdf",  "range",      "cutoff",         "window",
                                                 "alpha", "light-seed", "shadow-blended", "far-light"};
   return keys;
 }

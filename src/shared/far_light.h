@@ -1,22 +1,22 @@
-// Far light: what lights send beyond their ranges, summed at the samples of a coarse volume of the scene and added
-// to every surface by one lookup (docs/far_light.md).
+// Far light: what lights send beyond their ranges, summed at the samples of a coarse volume of the scene and
+// added to every surface by one lookup (docs/far_light.md).
 //
-// A range's window w(d) takes a part of each light's 1 / d^2 away. The rest, (1 - w(d)) / d^2, is smooth: it grows
-// with d^2 towards the range and is nowhere above 1 / range^2. A sample stores, of all lights i, E_i = intensity_i
-// (1 - w_i(d_i)) / d_i^2 and the moments of their directions l_i
+// A range's window w(d) takes a part of each light's 1 / d^2 away. The rest, (1 - w(d)) / d^2, is smooth: it
+// grows with d^2 towards the range and is nowhere above 1 / range^2. A sample stores, of all lights i, E_i =
+// intensity_i (1 - w_i(d_i)) / d_i^2 and the moments of their directions l_i
 //
 //     V = sum E_i l_i     T = sum E_i l_i l_i^T        for red, green and blue
 //
-// which are spherical harmonics of order 2 in another basis; sum E_i is T's trace. From them follow the irradiance
-// on a diffuse surface, sum E_i max(n.l_i, 0) ~ sum E_i (3/32 + n.l_i / 2 + 15/32 (n.l_i)^2), to 1/16 E_i at most
-// (Ramamoorthi and Hanrahan, An Efficient Representation for Irradiance Environment Maps, 2001), and what a
-// specular lobe takes in.
+// which are spherical harmonics of order 2 in another basis; sum E_i is T's trace. From them follow the
+// irradiance on a diffuse surface, sum E_i max(n.l_i, 0) ~ sum E_i (3/32 + n.l_i / 2 + 15/32 (n.l_i)^2), to
+// 1/16 E_i at most (Ramamoorthi and Hanrahan, An Efficient Representation for Irradiance Environment Maps,
+// 2001), and what a specular lobe takes in.
 #pragma once
 
 #include "shared/brdf.h"
 
-// Vectors of four floats a sample, each a plane of the volume: of red x, y, z, xx; yy, zz, xy, xz; then of green
-// and of blue; then yz of red, of green, of blue.
+// Vectors of four floats a sample, each a plane of the volume: of red x, y, z, xx; yy, zz, xy, xz; then of
+// green and of blue; then yz of red, of green, of blue.
 #define FAR_PLANES 7
 
 #if defined(LIGHTGRID_GLSL)
@@ -34,7 +34,8 @@
 namespace lightgrid {
 #endif
 
-// From view space to the volume, whose axes are the world's. A place is counted in samples: 0 is the first one.
+// From view space to the volume, whose axes are the world's. A place is counted in samples: 0 is the first
+// one.
 #ifdef LIGHTGRID_GLSL
 layout(std140) uniform FarLookupBlock {
 #else
@@ -50,7 +51,8 @@ typedef struct FarLookup {
   float world_z_from_x, world_z_from_y, world_z_from_z;
   float last_x, last_y, last_z;  // places of the last samples: sizes less 1
 #ifdef LIGHTGRID_GLSL
-} far_lookup;
+}
+far_lookup;
 #else
 } FarLookup;
 
@@ -65,9 +67,12 @@ typedef struct FarGrid {
 
 // Clamped to the volume.
 SHARED_FUNCTION Real3 far_place(Real3 p FAR_ARGUMENT) {
-  real x = mad_real(FAR(x_from_x), p.x, mad_real(FAR(x_from_y), p.y, mad_real(FAR(x_from_z), p.z, FAR(x_from_1))));
-  real y = mad_real(FAR(y_from_x), p.x, mad_real(FAR(y_from_y), p.y, mad_real(FAR(y_from_z), p.z, FAR(y_from_1))));
-  real z = mad_real(FAR(z_from_x), p.x, mad_real(FAR(z_from_y), p.y, mad_real(FAR(z_from_z), p.z, FAR(z_from_1))));
+  real x =
+      mad_real(FAR(x_from_x), p.x, mad_real(FAR(x_from_y), p.y, mad_real(FAR(x_from_z), p.z, FAR(x_from_1))));
+  real y =
+      mad_real(FAR(y_from_x), p.x, mad_real(FAR(y_from_y), p.y, mad_real(FAR(y_from_z), p.z, FAR(y_from_1))));
+  real z =
+      mad_real(FAR(z_from_x), p.x, mad_real(FAR(z_from_y), p.y, mad_real(FAR(z_from_z), p.z, FAR(z_from_1))));
   return real3(min_real(max_real(x, REAL(0.0f)), REAL(FAR(last_x))),
                min_real(max_real(y, REAL(0.0f)), REAL(FAR(last_y))),
                min_real(max_real(z, REAL(0.0f)), REAL(FAR(last_z))));
@@ -106,8 +111,8 @@ SHARED_FUNCTION Real3 far_sums(FarLight light, FarMoments f) {
 }
 
 #ifndef LAMBERT
-// What a lobe with Schlick's Fresnel sends to the viewer of light from all sides is f0 times x and f90 times y, and
-// around its middle the mean cosine of that light is z. Fitted to GGX with height-correlated masking.
+// What a lobe with Schlick's Fresnel sends to the viewer of light from all sides is f0 times x and f90 times
+// y, and around its middle the mean cosine of that light is z. Fitted to GGX with height-correlated masking.
 SHARED_FUNCTION Real3 far_albedo(Lobe l) {
   real a = l.alpha, v = min_real(l.n_dot_v, REAL(1.0f)), grazing = 1.0f - v;
   real once = mad_real(mad_real(REAL(-0.135f), v, REAL(1.2844f)), v, REAL(-1.0567f));
@@ -116,8 +121,9 @@ SHARED_FUNCTION Real3 far_albedo(Lobe l) {
   real both = mad_real(mad_real(mad_real(thrice, a, twice), a, once), a, REAL(1.0f));
   real grazing2 = grazing * grazing;
   real rim = grazing2 * grazing2 * grazing / mad_real(mad_real(REAL(20.0f), a, REAL(8.0f)), a, REAL(1.0f));
-  return real3(both - rim, rim, mad_real(mad_real(mad_real(REAL(0.1745f), a, REAL(0.1341f)), a, REAL(-0.7023f)), a,
-                                         REAL(1.0f)));
+  return real3(
+      both - rim, rim,
+      mad_real(mad_real(mad_real(REAL(0.1745f), a, REAL(0.1341f)), a, REAL(-0.7023f)), a, REAL(1.0f)));
 }
 
 // The radiance that a lobe takes in, averaged over its directions.
@@ -131,7 +137,8 @@ SHARED_FUNCTION Real3 far_radiance(FarLight light, Lobe l, Real3 normal, Real3 t
                        mad_real(along, normal.z, -(smoothness * to_viewer.z)));
   middle = scale3(middle, inverse_sqrt_real(max_real(dot3(middle, middle), REAL(1e-12f))));
   real a = l.alpha;
-  real order2 = mad_real(mad_real(mad_real(REAL(0.2217f), a, REAL(0.5692f)), a, REAL(-1.6407f)), a, REAL(1.0f));
+  real order2 =
+      mad_real(mad_real(mad_real(REAL(0.2217f), a, REAL(0.5692f)), a, REAL(-1.6407f)), a, REAL(1.0f));
   real sphere = REAL(0.25f / SHADING_PI);
   Real3 direction = far_direction(middle GIVEN_FAR);
   return far_sums(light, far_factors(direction, sphere * mad_real(REAL(-2.5f), order2, REAL(1.0f)),
@@ -160,7 +167,8 @@ SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p, FarLight light FAR_A
 #ifdef SKIN
   Real3 all_sides = far_sums(light, far_factors(normal, REAL(0.25f / SHADING_PI), REAL(0.0f), REAL(0.0f)));
   Real3 subsurface = SUBSURFACE_REFLECTANCE(p);
-  back = add3(back, real3(subsurface.x * all_sides.x, subsurface.y * all_sides.y, subsurface.z * all_sides.z));
+  back =
+      add3(back, real3(subsurface.x * all_sides.x, subsurface.y * all_sides.y, subsurface.z * all_sides.z));
 #endif
 #ifndef LAMBERT
   Real3 albedo = far_albedo(p.lobe);
@@ -170,8 +178,9 @@ SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p, FarLight light FAR_A
 #else
   real rim = albedo.y;
 #endif
-  back = add3(back, real3(mad_real(p.f0.x, albedo.x, rim) * radiance.x, mad_real(p.f0.y, albedo.x, rim) * radiance.y,
-                          mad_real(p.f0.z, albedo.x, rim) * radiance.z));
+  back = add3(
+      back, real3(mad_real(p.f0.x, albedo.x, rim) * radiance.x, mad_real(p.f0.y, albedo.x, rim) * radiance.y,
+                  mad_real(p.f0.z, albedo.x, rim) * radiance.z));
 #ifdef CLEARCOAT
   Real3 of_coat = far_albedo(p.coat_lobe);
   Real3 coat = far_radiance(light, p.coat_lobe, p.coat_normal, p.to_viewer, of_coat.z GIVEN_FAR);

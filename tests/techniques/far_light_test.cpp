@@ -1,5 +1,5 @@
-// far-light: the volume against sums in double, the picture against that of lights without ranges, every technique
-// against forward, and when the volume is filled.
+// far-light: the volume against sums in double, the picture against that of lights without ranges, every
+// technique against forward, and when the volume is filled.
 #include "passes/fill_far_light.h"
 #include "plan/frame_plan.h"
 #include "scene/random.h"
@@ -71,9 +71,8 @@ TEST_P(FarLightWindows, FillTheVolumeWithWhatTheyTakeAway) {
   for (size_t i = 0; i < samples; ++i) {
     const glm::dvec3 index(double(i % read.grid.size_x), double(i / read.grid.size_x % read.grid.size_y),
                            double(i / read.grid.size_x / read.grid.size_y));
-    const glm::dvec3 at =
-        read.origin + glm::dvec3(read.grid.first_x, read.grid.first_y, read.grid.first_z) +
-        index * glm::dvec3(read.grid.spacing_x, read.grid.spacing_y, read.grid.spacing_z);
+    const glm::dvec3 at = read.origin + glm::dvec3(read.grid.first_x, read.grid.first_y, read.grid.first_z) +
+                          index * glm::dvec3(read.grid.spacing_x, read.grid.spacing_y, read.grid.spacing_z);
     glm::dvec3 first[3] = {}, of_axes[3] = {}, across[3] = {};  // of x, y, z; xx, yy, zz; xy, xz, yz
     for (const Light& light : scene.lights) {
       const glm::dvec3 to_light = glm::dvec3(light.position) - at;
@@ -161,8 +160,8 @@ TEST(FarLight, GivesBackWhatACutoffTakes) {
   }
 }
 
-// With specular lobes, whose sharp highlights of far lights the second order does not hold (docs/far_light.md tells
-// what that loses).
+// With specular lobes, whose sharp highlights of far lights the second order does not hold (docs/far_light.md
+// tells what that loses).
 TEST(FarLight, KeepsTheEnergyOfSpecularLobes) {
   Scene scene = find_builtin_scene("hall")->make();
   scene.ambient = glm::vec3(0);
@@ -197,7 +196,8 @@ int fills(TechniqueRun& run) {
   run.view().timer.enabled = true;
   run.view().timer.clear();
   run.run_frame();
-  return int(std::ranges::count(run.view().timer.records(), std::string("fill_far_light"), &PassRecord::name));
+  return int(
+      std::ranges::count(run.view().timer.records(), std::string("fill_far_light"), &PassRecord::name));
 }
 
 TEST(FarLight, IsKeptWhileLightsRest) {
@@ -230,7 +230,8 @@ TEST(FarLight, IsNothingWhereNoLightEnds) {
     EXPECT_TRUE(identical(run.image(), render(scene, view, "visibility", without)));
   }
   const Scene dark = small_scene(false).scene;
-  EXPECT_TRUE(identical(render(dark, view, "visibility", with_far_light(512)), render(dark, view, "visibility")));
+  EXPECT_TRUE(
+      identical(render(dark, view, "visibility", with_far_light(512)), render(dark, view, "visibility")));
 }
 
 // The volume's light belongs to no surface, so that a light of some surfaces alone keeps its end.
@@ -243,7 +244,8 @@ TEST(FarLight, LeavesOutLightsOfAGroup) {
                         render(s.scene, view, "visibility", with_far_light(0, 2))));
 }
 
-// far_albedo against the integral of the BRDF's own formula in double, over half vectors drawn by its distribution.
+// far_albedo against the integral of the BRDF's own formula in double, over half vectors drawn by its
+// distribution.
 TEST(FarLight, AlbedoIsThatOfTheLobe) {
   double squares = 0;
   int count = 0;

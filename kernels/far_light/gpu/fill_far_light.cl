@@ -1,5 +1,5 @@
-// Fills the volume of far light, for GPUs: a work-item takes a sample. As far_light/cpu/fill_far_light.cl, with the
-// same arguments.
+// Fills the volume of far light, for GPUs: a work-item takes a sample. As far_light/cpu/fill_far_light.cl,
+// with the same arguments.
 #define FUSED  // shared/real.h
 #define LANES 1
 #include "kernels/far_light/far_sums.h"

@@ -81,8 +81,8 @@ class ClLights : public ClLightColumns {
   UploadedBuffer directional, view, bin_edges, slice_edges;  // shared/slices.h
 };
 
-// The volume of far light, which passes/fill_far_light.h fills, as base lighting reads it (shared/far_light.h). Only
-// where the plan's `far_light` is set.
+// The volume of far light, which passes/fill_far_light.h fills, as base lighting reads it
+// (shared/far_light.h). Only where the plan's `far_light` is set.
 struct FarLightMemory {
   std::optional<SharedBuffer> moments;
   UploadedBuffer lookup;

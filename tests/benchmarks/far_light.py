@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Measures docs/results/far_light.md: writes far_light.csv beside the page, and its tables between the page's marks.
+
+    tests/benchmarks/far_light.py [--budget MINUTES] [ARGUMENT OF frontier...]     needs a built tree, an idle machine
+
+Points: visibility with ranges that end at a cutoff, without far light and with volumes of several sizes.
+"""
+import csv
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = pathlib.Path(os.environ.get("LIGHTGRID_BUILD", ROOT / "build")) / "src" / "lightgrid"
+RESULTS = ROOT / "docs" / "results" / "far_light"
+CUTOFFS = ["1", "0.5", "0.2", "0.05", "0.01"]
+SAMPLES = ["off", "512", "4096", "32768"]
+COLUMNS = ["scene", "cutoff", "far_light", "relative_time", "low", "high", "ms", "displayed_flip", "energy_rel",
+           "rel_mse_trimmed", "on_front"]
+
+
+def points():
+    for cutoff in CUTOFFS:
+        for samples in SAMPLES:
+            far = "" if samples == "off" else f",far-light={samples}"
+            yield f"visibility:range=cutoff,cutoff={cutoff}{far}"
+    yield "visibility:range=infinite"
+
+
+def measured(arguments):
+    with tempfile.TemporaryDirectory() as folder:
+        named = [word for point in points() for word in ("-t", point)]
+        subprocess.run([PROGRAM, "frontier", *arguments, *named, "-o", folder], check=True, stdout=sys.stderr)
+        answer = json.loads((pathlib.Path(folder) / "frontier.json").read_text())
+    for point in answer["points"]:
+        settings, total = point["settings"], point["error"]["total"]
+        time = point["relative_time"]
+        yield {
+            "scene": pathlib.Path(point["scene"]).stem,
+            "cutoff": settings["cutoff"] if settings["range"] == "cutoff" else "none",
+            "far_light": settings.get("far_light", "off"),
+            "relative_time": f"{time['estimate']:.3f}", "low": f"{time['ci95'][0]:.3f}", "high": f"{time['ci95'][1]:.3f}",
+            "ms": f"{point['frame_ms']['median']:.2f}",
+            "displayed_flip": f"{total['displayed_flip']['mean']:.4f}", "energy_rel": f"{total['energy_rel']:+.4f}",
+            "rel_mse_trimmed": f"{total['rel_mse_trimmed']:.3g}", "on_front": point["fronts"]["total"]["on"],
+        }
+
+
+def table(rows):
+    lines = ["| scene | cutoff | far light | times the baseline | ms | FLIP as displayed | energy | relMSE, 99.9 % | front |",
+             "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |"]
+    for r in rows:
+        lines.append(f"| `{r['scene']}` | {r['cutoff']} | {r['far_light']} | {r['relative_time']} ({r['low']} to {r['high']}) | "
+                     f"{r['ms']} | {r['displayed_flip']} | {100 * float(r['energy_rel']):+.1f} % | {r['rel_mse_trimmed']} | "
+                     f"{'yes' if r['on_front'] else ''} |")
+    return "\n".join(lines)
+
+
+def main():
+    rows = list(measured(sys.argv[1:] or ["hall", "street", "terrain", "spheres", "--size", "640x360", "--budget", "8"]))
+    with open(RESULTS.with_suffix(".csv"), "w", newline="") as out:
+        writer = csv.DictWriter(out, COLUMNS)
+        writer.writeheader()
+        writer.writerows(rows)
+    page = RESULTS.with_suffix(".md")
+    page.write_text(re.sub(r"<!-- table -->.*<!-- /table -->", lambda _: f"<!-- table -->\n{table(rows)}\n<!-- /table -->",
+                           page.read_text(), flags=re.S))
+
+
+main()
