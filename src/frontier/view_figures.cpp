@@ -197,7 +197,7 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
   const std::vector<float> depth = read_depth(run);
   record.covered_pixels = uint64_t(std::ranges::count_if(depth, [](float d) { return d > 0; }));
   record.pairs = pairs_of(run, point.contestant.settings, depth);
-  if (run.technique().limited_lists) record.overflow = record.pairs.lost;
+  if (run.limits_lists()) record.overflow = record.pairs.lost;
   if (record.view == 0) run.run_profiled_frames(100);
   const RunResult result = run.result();
   record.memory_bytes = result.memory_total;

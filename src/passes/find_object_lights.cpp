@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "passes/cap_lists.h"
 #include "scene/light_groups.h"
 
 namespace lightgrid {
@@ -39,16 +40,20 @@ void ObjectLights::update(Work& work, const DrawList& list) {
   objects_.clear();
   lights_.clear();
   reaches_.clear();
-  for (const ViewLight& light :
-       lights_in_view(work.scene, work.view, work.plan.settings.ranges, work.plan.local))
-    reaches_.emplace_back(bounds_of(light));
+  const std::vector<ViewLight> lights =
+      lights_in_view(work.scene, work.view, work.plan.settings.ranges, work.plan.local);
+  for (const ViewLight& light : lights) reaches_.emplace_back(bounds_of(light));
   std::vector<uint32_t> every_light(reaches_.size());
   std::iota(every_light.begin(), every_light.end(), 0u);
+  if (const auto& left_out = work.plan.left_out; !left_out.empty())
+    std::erase_if(every_light, [&](uint32_t light) { return left_out[light] != 0; });
   for (const DrawItem& item : list) {
     const Aabb& bounds = work.scene.meshes[work.scene.instances[item.instance].mesh].bounds;
     const ViewBox whole = box_in_view(work.transforms[item.instance].view_from_object, bounds);
-    add_item(work, item,
-             lights_reaching(whole, reaches_, lights_of_groups(work, item.instance, every_light)));
+    std::vector<uint32_t> reaching =
+        lights_reaching(whole, reaches_, lights_of_groups(work, item.instance, every_light));
+    cap_list(work.plan.settings, lights, whole.center, reaching);
+    add_item(work, item, reaching);
   }
   for (Object& object : objects_) {
     object.ranges =

@@ -158,15 +158,33 @@ double plan_surfaces(const Scene& scene, const View& view, PlannedInstances inst
   return farthest_m;
 }
 
+// Leaves out all lights but the nearest of those whose range the view sees, `seen` by index into `local`.
+void cap_view(const std::vector<ViewLight>& lights, std::vector<size_t> seen, FramePlan& plan) {
+  const size_t cap = size_t(plan.settings.view_cap);
+  if (cap == 0) return;
+  if (seen.size() > cap) {
+    std::ranges::stable_sort(seen, {}, [&](size_t i) {
+      const glm::dvec3& p = lights[size_t(plan.local[i])].position;
+      return glm::dot(p, p);
+    });
+    plan.left_out.assign(plan.local.size(), 1);
+    for (size_t i = 0; i < cap; ++i) plan.left_out[seen[i]] = 0;
+  }
+  plan.decisions.push_back({"view cap", seen.size() > cap,
+                            fmt::format("view-cap={}, {} point and spot lights in view", cap, seen.size())});
+}
+
 void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   const Frustum frustum = frustum_of(view);
   const std::vector<ViewLight> lights = lights_in_view(scene, view, plan.settings.ranges);
+  std::vector<size_t> seen_local;
   int first_spot = -1, first_virtual = -1;
   for (int i = 0; i < int(lights.size()); ++i) {
     const bool directional = is_directional(lights[i]);
     (directional ? plan.directional_lights : plan.local).push_back(i);
     const bool seen = directional || may_see_sphere(frustum, lights[i].position, lights[i].radius_m);
     plan.lights_in_view += seen;
+    if (seen && !directional) seen_local.push_back(plan.local.size() - 1);
     // A spot out of view still needs its cone: the cone makes its contribution zero in view.
     if (has_cone(lights[i]) && first_spot < 0) first_spot = i;
     if (!scene.lights[size_t(i)].is_virtual) continue;
@@ -192,6 +210,7 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
        plan.directional ? light_witness(scene, plan.directional_lights[0]) : "no light is directional"});
   plan.decisions.push_back(
       {"32-bit light indices", plan.index_bits == 32, fmt::format("{} point and spot lights", local.size())});
+  cap_view(lights, std::move(seen_local), plan);
 }
 
 void number_groups(const Scene& scene, FramePlan& plan) {
@@ -446,6 +465,12 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan.reversed_triangles = needs.reversed_triangles;
   plan.stencil = needs.stencil;
   if (needs.lists) plan.settings.grid_lists = GridLists::lists;
+  if (!needs.capped_lists) plan.settings.list_cap = plan.settings.view_cap = 0;
+  if (plan.settings.list_cap > 0 && plan.settings.grid_lists == GridLists::masks)
+    throw input_error(
+        "set list-cap={}: masks have a bit for each light, and no length; choose grid-lists=lists, or "
+        "view-cap",
+        plan.settings.list_cap);
   const double farthest_m = plan_surfaces(scene, view, instances, plan);
   plan_models(scene, plan);
   plan_lights(scene, view, plan);

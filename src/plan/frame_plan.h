@@ -70,6 +70,7 @@ struct TechniqueNeeds {
   bool shadows = true;              // light loops ask for shadows
   bool group_tiles = false;         // its tiles may have the light groups of their surfaces
   bool group_stencil = false;       // that of light volumes may test them in the stencil
+  bool capped_lists = false;        // its lists and its view may end at a number of lights
   int most_samples = 1;             // a pixel, that its passes can take
   // The technique finds those of point and spot lights itself, of so many lights at most; the pass that all
   // techniques share is then left those of directional lights.
@@ -147,6 +148,8 @@ struct FramePlan {
   std::vector<int> local, directional_lights;  // light indices by kind, in scene order
   int virtual_count = 0;                       // of the scene's lights: virtual point lights
   int lights_in_view = 0;                      // lights whose range touches the view's frustum
+  // By index into `local`, 1: left out, since the view has more than view-cap. Empty: none is.
+  std::vector<uint8_t> left_out;
 
   std::vector<Decision> decisions;
 };

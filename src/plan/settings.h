@@ -53,6 +53,9 @@ enum class ShadowMethod { exact, map, none };
 enum class PrepassSpecular { plain, fifth_term, luminance, bent };
 enum class NormalFormat { floats, octahedral, spheremap, xyz8 };
 
+// Which lights a list keeps that is longer than list-cap (docs/capped_lists.md).
+enum class ListCapOrder { index, distance, brightest };
+
 enum class VolumeMeshes {
   automatic,
   icosahedron,
@@ -75,6 +78,9 @@ struct Settings {
   SliceSpacing slice_spacing = SliceSpacing::exponential;
   int z_bins = 1;  // 1 (off), 16, 64 or 256
   GridLists grid_lists = GridLists::lists;
+  int list_cap = 0;  // most lights of a tile's, a cell's or an object's list; 0: no limit
+  ListCapOrder list_cap_order = ListCapOrder::index;
+  int view_cap = 0;      // most lights of a view; 0: no limit
   int buffer_bits = 32;  // a channel of geometry buffers and of light buffers: 8, 16 or 32
   VolumeCulling volume_culling = VolumeCulling::back_faces;
   KernelShape kernel_shape = KernelShape::automatic;

@@ -95,8 +95,11 @@ void RenderView::drop_caches() {
 }
 
 void RenderView::lights_changed() {
-  if (culler_ && plan.light_grid)
-    culler_->set_lights(cull_lights_of(scene, plan.local, plan.settings.ranges));
+  if (!culler_ || !plan.light_grid) return;
+  std::vector<CullLight> lights = cull_lights_of(scene, plan.local, plan.settings.ranges);
+  for (size_t i = 0; i < plan.left_out.size(); ++i)
+    if (plan.left_out[i]) lights[i].radius_m = -1;  // listed nowhere
+  culler_->set_lights(lights);
 }
 
 void RenderView::draw_ranges(uint32_t seed) {
@@ -129,6 +132,7 @@ void RenderView::follow_plan(const FramePlan& before) {
     for (auto& grid : grids_) grid.reset();
   }
   if (!plan.blend_grid) grids_[1].reset();
+  if (before.left_out != plan.left_out) lights_changed();
   if (culler_) culler_->set_view(cull_view(view, plan));
   caches.follow(*this);
 }

@@ -115,6 +115,7 @@ struct PassCaches {
   Cached<class PixelEdges> pixel_edges;                             // passes/find_edges.cpp
   Cached<class SampleEdges> sample_edges;                           // passes/sample_edges.cpp
   Cached<class TileGroups> tile_groups;                             // passes/tile_groups.cpp
+  Cached<class ListCaps> list_caps;                                 // passes/cap_lists.cpp
   Cached<class Resolver> resolver;                                  // passes/resolve.cpp
   Cached<class TileShading> tile_shading;                           // passes/shade_tiles.cpp
   Cached<class LightSums> light_sums;                               // passes/fill_light_buffer.cpp
@@ -134,7 +135,7 @@ struct PassCaches {
   size_t memory_bytes() const;
 
  private:
-  std::array<std::unique_ptr<PassCache>*, 18> all();
+  std::array<std::unique_ptr<PassCache>*, 19> all();
 };
 
 }  // namespace lightgrid

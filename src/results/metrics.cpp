@@ -184,6 +184,27 @@ ImageError frontier_error(const Image& image, const std::vector<glm::dvec3>& ref
                   light_difference_of(image, reference_at, 0, 0));
 }
 
+ErrorSteps error_steps(const Image& image, const Image& reference, int tile, double brightest) {
+  const auto error = [&](int x, int y) {
+    const glm::dvec4 e = glm::dvec4(image.at(x, y)) - glm::dvec4(reference.at(x, y));
+    return e.r + e.g + e.b;
+  };
+  double sums[2] = {}, pairs[2] = {};
+  const auto add = [&](double step, bool border) { sums[border] += std::abs(step), pairs[border] += 1; };
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const double here = error(x, y);
+      if (x > 0) add(here - error(x - 1, y), x % tile == 0);
+      if (y > 0) add(here - error(x, y - 1), y % tile == 0);
+    }
+  }
+  const auto mean = [&](bool border) {
+    const double mean = sums[border] / std::max(pairs[border], 1.0) / brightest;
+    return std::isfinite(mean) ? mean : 0;
+  };
+  return {mean(true), mean(false)};
+}
+
 uint64_t count_nan_pixels(const Image& image) {
   return std::count_if(image.pixels.begin(), image.pixels.end(), has_nan);
 }

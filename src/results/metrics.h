@@ -17,6 +17,9 @@ ImageError compare_images(const Image& image, const Image& reference, double bri
 ImageError frontier_error(const Image& image, const Image& reference, double brightest);
 ImageError frontier_error(const Image& image, const std::vector<glm::dvec3>& reference, double brightest);
 
+// Over `brightest`. Images of one size; without pairs of either kind 0.
+ErrorSteps error_steps(const Image& image, const Image& reference, int tile, double brightest);
+
 bool has_nan(const glm::vec4& pixel);  // in a colour channel
 uint64_t count_nan_pixels(const Image& image);
 

@@ -230,6 +230,10 @@ json to_json(const RunResult& result) {
   for (const auto& pass : result.passes) {
     if (pass.name == result.built_by) out["build"] = build_json(pass, result);
   }
+  if (const auto& l = result.limited)
+    out["limited"] = {{"lost_light", l->lost_light},
+                      {"step_at_borders", l->steps.at_borders},
+                      {"step_inside", l->steps.inside}};
   if (result.shadows) out["shadows"] = to_json(*result.shadows);
   if (const auto& s = result.samples) {
     out["samples"] = {{"edge_pixels", s->edge_pixels},

@@ -181,6 +181,19 @@ struct SampleResult {
 // Half of a listed light is far more; 8-bit geometry buffers lose less.
 inline constexpr double most_unshaded = 0.01;
 
+// How much an image's error, the sum of its channels with their signs, changes from a pixel to the next one
+// in its row or column: mean over pairs of pixels in two tiles, and in one, relative to the brightest
+// channel. Equal where tiles are not to be seen in the image.
+struct ErrorSteps {
+  double at_borders = 0, inside = 0;
+};
+
+// What lists that lack lights by design leave out, against every light on the same surfaces.
+struct LimitedLists {
+  double lost_light = 0;  // the share of all radiance, over all channels and pixels; below 0: it has more
+  ErrorSteps steps;
+};
+
 struct RunResult {
   std::string technique;
   std::string refused;  // why the machine or the technique cannot do this; empty if it ran
@@ -204,6 +217,8 @@ struct RunResult {
   // is not forward's by nature, and where every light was not drawn on these surfaces.
   std::optional<double> unshaded;
   uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
+  std::optional<LimitedLists>
+      limited;  // absent with lists of any length, and if `unshaded` could not be known
   std::vector<SkippedEffect> skipped;
   std::optional<ShadowResult> shadows;  // absent if no light casts a shadow
   std::optional<SampleResult> samples;  // absent with one sample a pixel

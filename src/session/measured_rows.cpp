@@ -175,7 +175,12 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   row.pairs = pair_counts(run, pairs, seen);
   if (const std::optional<LitPairs> blended = count_blended_pairs(run, m.shadows))
     row.pairs->blended = {blended->lit, blended->leaked, blended->acned, blended->either, !run.approximate()};
-  if (run.technique().limited_lists) row.overflow = pairs.lost;
+  if (run.limits_lists()) {
+    row.overflow = pairs.lost;
+    if (!reference.sampled() && !every_light.pixels.empty())
+      row.limited = {missing_light(image, every_light),
+                     error_steps(image, every_light, run.view().plan.settings.tile, report.brightest)};
+  }
   if (pairs.lost == 0 && !run.approximate() && !reference.sampled() && !every_light.pixels.empty())
     row.unshaded = missing_light(image, every_light);
   Image taken = run.take_image();

@@ -53,6 +53,7 @@ class TechniqueRun {
   const RenderView& view() const { return view_; }
   const Frame& frame() const { return frame_; }  // the last one
   const Technique& technique() const { return technique_; }
+  bool limits_lists() const { return lightgrid::limits_lists(technique_, view_.plan.settings); }
   bool approximate() const { return is_approximate(technique_, view_.plan.settings); }
   const std::vector<double>& frame_ms() const { return frame_ms_; }  // of recorded frames, in order
 

@@ -8,10 +8,15 @@ extern const Technique clustered{
     .name = "clustered",
     .summary = "light lists of tiles cut into depth slices",
     .source = "Olsson, Billeter, Assarsson: Clustered Shading, HPG 2012",
-    .needs = {.light_grid = true, .slices = true, .z_bins = true, .group_tiles = true, .most_samples = 8},
+    .needs = {.light_grid = true,
+              .slices = true,
+              .z_bins = true,
+              .group_tiles = true,
+              .capped_lists = true,
+              .most_samples = 8},
     .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins",
-                 "group-ids", "group-tiles", "grid-lists", "samples", "samples-resolve", "kernel-shape",
-                 "portable", "group-size"},
+                 "group-ids", "group-tiles", "grid-lists", "list-cap", "list-cap-order", "view-cap",
+                 "samples", "samples-resolve", "kernel-shape", "portable", "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

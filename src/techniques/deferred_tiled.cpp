@@ -13,8 +13,8 @@ extern const Technique deferred_tiled{
     .source = "Lauritzen: Deferred Rendering for Current and Future Rendering Pipelines, SIGGRAPH 2010",
     .needs = needs_of_shade_tiled,
     .settings = {"brdf", "buffer-bits", "group-ids", "group-tiles", "cull-test", "depth-bounds", "tile",
-                 "slice-spacing", "z-bins", "raster", "samples", "samples-shading", "texels", "kernel-shape",
-                 "portable", "group-size"},
+                 "slice-spacing", "z-bins", "list-cap", "list-cap-order", "view-cap", "raster", "samples",
+                 "samples-shading", "texels", "kernel-shape", "portable", "group-size"},
     .render = render};
 
 }  // namespace lightgrid

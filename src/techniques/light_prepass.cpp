@@ -51,7 +51,7 @@ static Frame from_tiles(RenderView& v) {
     normals = resolve_normals(v, v.caches.resolver, *surfaces.visible);
   }
   Frame frame = frame_of(v, surfaces);
-  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), cull_bounds_of(v, surfaces));
+  frame.grid = list_lights(v, surfaces);
   const LightSource lights = from_grid(v, *frame.grid);
   const TargetUse use = v.plan.opengl ? TargetUse::image : TargetUse::gbuffer;
   const DepthBuffer& depth = depth_of(v, surfaces);
@@ -77,7 +77,7 @@ static Frame render(RenderView& v) {
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
   store_samples_in_opengl(needs, settings);
   if (prepass_lights.of(settings) == PrepassLights::tiles) return;
-  needs.light_grid = false, needs.no_light_grid = "prepass-lights=volumes";
+  needs.light_grid = needs.capped_lists = false, needs.no_light_grid = "prepass-lights=volumes";
   needs.stencil = settings.volume_culling == VolumeCulling::stencil, needs.group_stencil = true;
 }
 
@@ -90,6 +90,7 @@ extern const Technique light_prepass{
               .z_bins = true,
               .chosen_raster = true,
               .group_tiles = true,
+              .capped_lists = true,
               .most_samples = 8,
               .adapt = adapt},
     .settings = {"brdf",          "prepass-lights", "prepass-specular", "prepass-shininess",
@@ -97,7 +98,8 @@ extern const Technique light_prepass{
                  "group-stencil", "group-tiles",    "volume-mesh",      "cull-test",
                  "depth-bounds",  "tile",           "slice-spacing",    "z-bins",
                  "raster",        "samples",        "samples-resolve",  "samples-shading",
-                 "texels",        "kernel-shape",   "portable",         "group-size"},
+                 "texels",        "kernel-shape",   "portable",         "group-size",
+                 "list-cap",      "list-cap-order", "view-cap"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .approximate = true};

@@ -1,5 +1,6 @@
 #include "techniques/recipes.h"
 
+#include "passes/cap_lists.h"
 #include "passes/cull_lights.h"
 #include "passes/fill_gbuffer.h"
 #include "passes/find_object_lights.h"
@@ -32,11 +33,18 @@ GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces) {
   return gbuffer;
 }
 
+ViewGrid list_lights(RenderView& v, Surfaces& surfaces) {
+  const DepthBounds bounds = cull_bounds_of(v, surfaces);
+  const ViewGrid grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds);
+  cap_lists(v, v.caches.list_caps, v.culler().params(), bounds.opaque, grid);
+  return grid;
+}
+
 Frame shade_from_light_grid(RenderView& v) {
   Surfaces surfaces = find_surfaces(v, false, true);
   if (!v.plan.light_grid) return shade_every_light(v, surfaces);  // no light has a position: nothing to list
   Frame frame = frame_of(v, surfaces);
-  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), cull_bounds_of(v, surfaces));
+  frame.grid = list_lights(v, surfaces);
   const LightSource lights = from_grid(v, *frame.grid);
   frame.image = shade(v, surfaces, lights);
   blend_from_grid(v, surfaces, lights, frame);
@@ -55,7 +63,9 @@ void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaqu
   frame.listed = opaque.listed;
   if (surfaces.visible ? v.plan.blended.empty() : !v.plan.blend) return;
   if (!v.plan.blend_grid) return blend(v, surfaces, opaque, frame.image);
-  frame.blend_grid = cull_lights_for_blended(v, v.culler(), v.blend_grid(), bounds_of(v, surfaces));
+  const DepthBounds& bounds = bounds_of(v, surfaces);
+  frame.blend_grid = cull_lights_for_blended(v, v.culler(), v.blend_grid(), bounds);
+  cap_lists(v, v.caches.list_caps, v.culler().params(), bounds.blend, *frame.blend_grid);
   blend(v, surfaces, from_grid(v, *frame.blend_grid), frame.image);
 }
 
@@ -78,7 +88,7 @@ Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
   if (gbuffer.group_numbers)
     surfaces->group_numbers =
         &group_numbers_to_cl(v, gbuffer.framebuffer, gbuffer.group_attachment(), gbuffer.group_numbers);
-  frame.grid = cull_lights(v, v.culler(), v.opaque_grid(), cull_bounds_of(v, *surfaces));
+  frame.grid = list_lights(v, *surfaces);
   const LightSource lights = from_grid(v, *frame.grid);
   frame.image = shade_tiles(v, v.caches, gbuffer, depth, lights, frame);
   blend_from_grid(v, *surfaces, lights, frame);

@@ -6,6 +6,9 @@
 
 namespace lightgrid {
 
+// The grid of opaque surfaces, its lists no longer than the setting list-cap.
+ViewGrid list_lights(RenderView& v, Surfaces& surfaces);
+
 // From a light grid, of forward_plus, clustered and visibility: surfaces, depth bounds, cull, shade, blended
 // surfaces. The plan's slices, and who draws surfaces, make the difference.
 Frame shade_from_light_grid(RenderView& v);
@@ -34,6 +37,7 @@ inline constexpr TechniqueNeeds needs_of_shade_tiled{.light_grid = true,
                                                      .z_bins = true,
                                                      .chosen_raster = true,
                                                      .group_tiles = true,
+                                                     .capped_lists = true,
                                                      .most_samples = 8,
                                                      .adapt = store_samples_in_opengl};
 

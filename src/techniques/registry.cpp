@@ -46,6 +46,7 @@ bool has_effect(const Technique& technique, const Settings& settings, const std:
   if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
     return settings.shadows == ShadowMethod::map || filters_maps(own) ||
            (own == LidrShadows::prepass && key != "shadow-filter");
+  if (key == "list-cap-order") return settings.list_cap > 0;
   if (key == "samples-resolve" || key == "samples-shading") return settings.samples > 1;
   if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
   if (key == "shadow-kept" || key == "shadow-memory" || key == "shadow-reuse" || key == "shadow-threshold")
@@ -102,6 +103,11 @@ static bool is_of_kernels(const std::string& key) {
 
 bool reads_setting(const Technique& technique, const std::string& key) {
   return holds(common_settings(), key) || holds(technique.settings, key) || is_of_kernels(key);
+}
+
+bool limits_lists(const Technique& technique, const Settings& settings) {
+  return technique.limited_lists || ((settings.list_cap > 0 || settings.view_cap > 0) &&
+                                     adapted_needs(technique, settings).capped_lists);
 }
 
 bool is_approximate(const Technique& technique, const Settings& settings) {

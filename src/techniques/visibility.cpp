@@ -7,7 +7,8 @@ namespace lightgrid {
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
   needs.slices = settings.given.contains("slices");
   if (!needs.slices) settings.slices = 1, needs.no_slices = "slices is not given";
-  if (settings.lights == ShadedLights::all) needs.light_grid = false, needs.no_light_grid = "lights=all";
+  if (settings.lights == ShadedLights::all)
+    needs.light_grid = needs.capped_lists = false, needs.no_light_grid = "lights=all";
 }
 
 extern const Technique visibility{
@@ -19,11 +20,12 @@ extern const Technique visibility{
               .z_bins = true,
               .opengl = false,
               .group_tiles = true,
+              .capped_lists = true,
               .most_samples = 8,
               .adapt = adapt},
     .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins",
-                 "group-tiles", "lights", "samples", "samples-resolve", "texels", "kernel-shape", "portable",
-                 "group-size"},
+                 "group-tiles", "list-cap", "list-cap-order", "view-cap", "lights", "samples",
+                 "samples-resolve", "texels", "kernel-shape", "portable", "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

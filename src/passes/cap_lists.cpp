@@ -1,0 +1,136 @@
+#include "passes/cap_lists.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "cl/launch.h"
+#include "renderer/upload/culler_input.h"
+#include "shared/cull_constants.h"
+
+namespace lightgrid {
+namespace {
+
+constexpr uint cap_group = 64;
+// So that products with squared distances stay in the range of float (kernels/culling/cap_lists.cl).
+constexpr double least_inverse = 1e-20, most_inverse = 1e20;
+
+double over_intensity(double value, const ViewLight& light) {
+  const glm::dvec3& i = light.radiant_intensity;
+  return value * std::clamp(1 / (i.r + i.g + i.b), least_inverse, most_inverse);
+}
+
+std::vector<cl_uint> ranks_by_distance(const std::vector<ViewLight>& lights) {
+  std::vector<cl_uint> order(lights.size()), ranks(lights.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::stable_sort(order, {},
+                           [&](cl_uint i) { return glm::dot(lights[i].position, lights[i].position); });
+  for (size_t i = 0; i < order.size(); ++i) ranks[order[i]] = cl_uint(i);
+  return ranks;
+}
+
+// The highest multiple of 4 bits that a rank below `count` needs.
+cl_uint high_bits(size_t count) {
+  cl_uint high = 0;
+  while (size_t(16) << high < count) high += 4;
+  return high;
+}
+
+cl_uint planes_of(DepthBoundsMode mode) {
+  if (mode == DepthBoundsMode::halfz || mode == DepthBoundsMode::halfz_modified) return 4;
+  return mode == DepthBoundsMode::mask32 ? 3 : 2;
+}
+
+}  // namespace
+
+class ListCaps : public PassCache {
+ public:
+  explicit ListCaps(Work&) {}
+  size_t memory_bytes() const override { return lights_.bytes() + edges_.bytes() + params_.bytes(); }
+  bool follow(Work&) override { return stale_ = true; }
+
+  void cap(Work& work, const CullParams& tiles, const TileBounds& bounds, const ViewGrid& grid) {
+    ClDevice& device = *work.renderer.cl;
+    const Settings& s = work.plan.settings;
+    const std::string defines =
+        fmt::format("-DORDER={}{}", int(s.list_cap_order), grid.index_bits == 32 ? " -DINDEX_32" : "");
+    if (!kernel_ || defines != defines_)
+      kernel_ = NamedKernel(*work.renderer.kernels, "culling/cap_lists", defines);
+    defines_ = defines;
+    if (stale_) upload(work, tiles);
+    stale_ = false;
+    const size_t cells = grid.cell_bytes / sizeof(cl_uint2);
+    ClArguments arguments = {{"cells", grid.storage->cells(grid.cell_bytes)},
+                             {"indices", grid.storage->indices(grid.index_bytes)},
+                             {"cell_count", cl_uint(cells)},
+                             {"cap", cl_uint(s.list_cap)}};
+    if (s.list_cap_order == ListCapOrder::distance)
+      arguments =
+          arguments + ClArguments{{"high", high_bits(work.plan.local.size())}, {"ranks", lights_.buffer()}};
+    if (s.list_cap_order == ListCapOrder::brightest)
+      arguments = arguments + ClArguments{{"high", cl_uint(28)},
+                                          {"lights", lights_.buffer()},
+                                          {"bounds", bounds.values},
+                                          {"planes", planes_of(bounds.mode)},
+                                          {"slice_edges", edges_.buffer()},
+                                          {"p", params_.buffer()}};
+    kernel_.launch(device, "cap_lists", cl::NDRange((cells + cap_group - 1) / cap_group * cap_group),
+                   cl::NDRange(cap_group), arguments);
+  }
+
+ private:
+  void upload(Work& work, const CullParams& tiles) {
+    ClDevice& device = *work.renderer.cl;
+    const FramePlan& plan = work.plan;
+    if (plan.settings.list_cap_order == ListCapOrder::index) return;
+    const std::vector<ViewLight> lights =
+        lights_in_view(work.scene, work.view, plan.settings.ranges, plan.local);
+    if (plan.settings.list_cap_order == ListCapOrder::distance)
+      return lights_.put(device, "uploading ranks of lights", ranks_by_distance(lights));
+    std::vector<cl_float4> uploaded;
+    for (const ViewLight& light : lights) {
+      const glm::vec4 at(light.position, over_intensity(1, light));
+      uploaded.push_back({{at.x, at.y, -at.z, at.w}});
+    }
+    lights_.put(device, "uploading lights to choose from", uploaded);
+    std::vector<float> edges =
+        slice_edges(plan.settings.slice_spacing, plan.slices, plan.slice_near_m, plan.slice_far_m);
+    edges.insert(edges.begin(), -FAR_AWAY);
+    edges.push_back(FAR_AWAY);
+    edges_.put(device, "uploading edges of slices", edges);
+    params_.put(device, "uploading the view", std::vector<CullParams>{tiles});
+  }
+
+  NamedKernel kernel_;
+  std::string defines_;
+  UploadedBuffer lights_, edges_, params_;
+  bool stale_ = true;
+};
+
+void cap_lists(Work& work, Cached<ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
+               const ViewGrid& grid) {
+  if (work.plan.settings.list_cap == 0 || grid.index_count == 0) return;
+  ListCaps& caps = cache.of(work);
+  auto pass = work.timer.pass("cap_lists", "cl");
+  caps.cap(work, tiles, bounds, grid);
+  pass.moves(grid.cell_bytes + grid.index_bytes, grid.cell_bytes + grid.index_bytes);
+}
+
+void cap_list(const Settings& settings, const std::vector<ViewLight>& lights, const glm::dvec3& middle,
+              std::vector<uint32_t>& list) {
+  const size_t cap = size_t(settings.list_cap);
+  if (cap == 0 || list.size() <= cap) return;
+  if (settings.list_cap_order != ListCapOrder::index) {
+    std::ranges::stable_sort(list, {}, [&](uint32_t i) {
+      const glm::dvec3 away = lights[i].position - middle;
+      const double distance2 = glm::dot(away, away);
+      return settings.list_cap_order == ListCapOrder::distance ? distance2
+                                                               : over_intensity(distance2, lights[i]);
+    });
+  }
+  list.resize(cap);
+  std::ranges::sort(list);
+}
+
+}  // namespace lightgrid

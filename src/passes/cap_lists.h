@@ -1,0 +1,21 @@
+// Light grids whose lists end at a number of lights, as engines have them (docs/capped_lists.md).
+#pragma once
+
+#include <vector>
+
+#include "passes/common/frame.h"
+#include "scene/view_lights.h"
+
+namespace lightgrid {
+
+// Shortens the lists of a grid of these bounds to the plan's list-cap, in place; nothing without one. Its
+// memory stays as it is.
+void cap_lists(Work& work, Cached<class ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
+               const ViewGrid& grid);
+
+// The same for a list of indices into `lights`, ascending before and after, of what has its middle here: view
+// space, metres. brightest: by the intensity, all channels together, over the squared distance to there.
+void cap_list(const Settings& settings, const std::vector<ViewLight>& lights, const glm::dvec3& middle,
+              std::vector<uint32_t>& list);
+
+}  // namespace lightgrid
