@@ -466,7 +466,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan.stencil = needs.stencil;
   if (needs.lists) plan.settings.grid_lists = GridLists::lists;
   if (!needs.capped_lists) plan.settings.list_cap = plan.settings.view_cap = 0;
-  if (plan.settings.list_cap > 0 && plan.settings.grid_lists == GridLists::masks)
+  if (needs.light_grid && plan.settings.list_cap > 0 && plan.settings.grid_lists == GridLists::masks)
     throw input_error(
         "set list-cap={}: masks have a bit for each light, and no length; choose grid-lists=lists, or "
         "view-cap",

@@ -20,7 +20,7 @@ class Check;
 
 // A row of the catalogue, and the function of its name.
 struct HardCase {
-  std::string group;  // depth, camera, lights, lists, agreement, raster, shadows, lidr, groups, samples
+  std::string group;  // depth, camera, lights, lists, agreement, raster, shadows, lidr, groups, samples, caps
   std::string name;
   std::string input;
   std::string breaks;     // the fault of naive code
@@ -50,6 +50,7 @@ std::vector<CaseRun> sample_cases();
 std::vector<CaseRun> shadow_cases();
 std::vector<CaseRun> light_index_cases();
 std::vector<CaseRun> group_cases();
+std::vector<CaseRun> cap_cases();
 
 enum class Verdict { pass, fail, skip };
 

@@ -41,9 +41,9 @@ using Run = void (*)(Check&);
 
 std::map<std::string, Run> runs_by_name() {
   std::map<std::string, Run> runs;
-  for (const auto& group : {depth_cases(), depth_bounds_cases(), camera_cases(), light_cases(), list_cases(),
-                            agreement_cases(), raster_cases(), shadow_cases(), light_index_cases(),
-                            group_cases(), sample_cases()}) {
+  for (const auto& group :
+       {depth_cases(), depth_bounds_cases(), camera_cases(), light_cases(), list_cases(), agreement_cases(),
+        raster_cases(), shadow_cases(), light_index_cases(), group_cases(), sample_cases(), cap_cases()}) {
     for (const CaseRun& c : group) {
       if (!runs.emplace(c.name, c.run).second)
         throw std::logic_error("two hard cases have the function name " + c.name);

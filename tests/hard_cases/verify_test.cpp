@@ -40,13 +40,13 @@ TEST_P(HardCasesOf, Hold) {
 
 INSTANTIATE_TEST_SUITE_P(Verify, HardCasesOf,
                          testing::Values("depth", "camera", "lights", "lists", "agreement", "raster",
-                                         "shadows", "lidr", "groups", "samples"),
+                                         "shadows", "lidr", "groups", "samples", "caps"),
                          [](const auto& info) { return std::string(info.param); });
 
 // Each has a unique name and is in one of the groups that HardCasesOf.Hold runs.
 TEST(HardCases, HaveNamesOfTheirOwnAndAGroupThatIsRun) {
-  const std::set<std::string> groups = {"depth",  "camera",  "lights", "lists",  "agreement",
-                                        "raster", "shadows", "lidr",   "groups", "samples"};
+  const std::set<std::string> groups = {"depth",   "camera", "lights", "lists",   "agreement", "raster",
+                                        "shadows", "lidr",   "groups", "samples", "caps"};
   std::set<std::string> names, used;
   for (const HardCase& c : hard_cases()) {
     EXPECT_TRUE(names.insert(c.name).second) << c.name;

@@ -2,8 +2,6 @@
 // none of their surfaces has.
 #include <gmock/gmock.h>
 
-#include <sstream>
-
 #include "base/error.h"
 #include "session/surfaces_in_double.h"
 #include "support/small_scene.h"
@@ -18,14 +16,6 @@ Scene rooms() { return find_builtin_scene("rooms")->make(); }
 
 View view_of(const Scene& scene, const char* camera) {
   return make_view(choose_camera(scene, camera), rooms_width, rooms_height);
-}
-
-// KEY=VALUE each, with spaces between.
-Settings assigned(const std::string& assignments) {
-  Settings settings;
-  std::istringstream words(assignments);
-  for (std::string word; words >> word;) apply_setting(settings, word);
-  return settings;
 }
 
 // Ways that show one picture to the bit.

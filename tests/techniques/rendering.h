@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <sstream>
 
 #include "results/metrics.h"
 #include "scene/builtin.h"
@@ -15,6 +16,14 @@
 #include "support/devices.h"
 
 namespace lightgrid {
+
+// KEY=VALUE each, with spaces between.
+inline Settings assigned(const std::string& assignments) {
+  Settings settings;
+  std::istringstream words(assignments);
+  for (std::string word; words >> word;) apply_setting(settings, word);
+  return settings;
+}
 
 inline Image render(Renderer& devices, const Scene& scene, const View& view, const std::string& technique,
                     const Settings& settings = {}) {

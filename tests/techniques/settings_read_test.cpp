@@ -28,6 +28,7 @@ const std::vector<Assignments>& contexts() {
       {"lights=grid", "samples=4"},  // of visibility
       {"kernel-shape=group"},
       {"z-bins=16"},
+      {"list-cap=1"},
       {"range=cutoff"},
       {"range=stochastic"},
       {"range=stochastic", "alpha=1"},
