@@ -24,9 +24,9 @@ struct Star {
 };
 
 // After each technique as it is: the rasteriser, a finer volume, the cull tests of two techniques, buffers of
-// fewer bits, the capacity of lidr; model errors of ranges, windows and BRDFs, and far light beyond ranges.
-// What does not depend on the technique is varied on the fastest one. So few that several views of each of
-// the default scenes fit into the default budget: --vary measures further ones.
+// fewer bits, the capacity of lidr and of engines' lists; model errors of ranges, windows and BRDFs, and far
+// light beyond ranges. What does not depend on the technique is varied on the fastest one. So few that several
+// views of each of the default scenes fit into the default budget: --vary measures further ones.
 constexpr Star default_variations[] = {
     {"voxel_lights", "raster=opencl"},
     {"voxel_lights", "raster=opencl voxel-size=128x128x64"},
@@ -36,6 +36,9 @@ constexpr Star default_variations[] = {
     {"forward_plus", "cull-test=exact"},
     {"deferred_tiled", "buffer-bits=8"},
     {"lidr", "lidr-overlap=4"},
+    {"forward_zprepass", "list-cap=8 list-cap-order=brightest"},
+    {"clustered", "list-cap=32"},
+    {"visibility", "list-cap=64 list-cap-order=distance"},
     {"visibility", "tile=32"},
     {"visibility", "cull-test=sphere"},
     {"visibility", "cull-test=aabb"},

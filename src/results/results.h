@@ -213,8 +213,8 @@ struct RunResult {
   bool own_surfaces = false;
   std::optional<ImageError> same_surfaces;
   // The share of every light's light that is not in the image although no list lacks a light: above
-  // most_unshaded, its loop does not shade what it lists. Absent where lists lack lights, where the picture
-  // is not forward's by nature, and where every light was not drawn on these surfaces.
+  // most_unshaded, its loop does not shade what it lists. Absent where lists lack lights or may, where the
+  // picture is not forward's by nature, and where every light was not drawn on these surfaces.
   std::optional<double> unshaded;
   uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
   std::optional<LimitedLists>

@@ -181,7 +181,9 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
       row.limited = {missing_light(image, every_light),
                      error_steps(image, every_light, run.view().plan.settings.tile, report.brightest)};
   }
-  if (pairs.lost == 0 && !run.approximate() && !reference.sampled() && !every_light.pixels.empty())
+  // Lists of blended surfaces, whose pairs are not counted, may have lost theirs all the same.
+  const bool capped = run.view().plan.settings.list_cap > 0 || run.view().plan.settings.view_cap > 0;
+  if (pairs.lost == 0 && !capped && !run.approximate() && !reference.sampled() && !every_light.pixels.empty())
     row.unshaded = missing_light(image, every_light);
   Image taken = run.take_image();
   if (!is_reference && !(m.shown && row.error->bit_identical)) report.images[place] = std::move(taken);

@@ -237,6 +237,11 @@ TEST(Remarks, SayThatAFailureIsByDesign) {
   report.rows[2].settings["lidr_overlap"] = "16";
   EXPECT_THAT(remarks(report).back(),
               HasSubstr("but has 1,812 lost pairs by design (a pixel has room for 16 lights); not exact"));
+  report.rows[2].settings = {{"list_cap", "64"}, {"view_cap", "off"}};
+  EXPECT_THAT(remarks(report).back(), HasSubstr("by design (a list has room for 64 lights); not exact"));
+  report.rows[2].settings["view_cap"] = "256";
+  EXPECT_THAT(remarks(report).back(),
+              HasSubstr("by design (a list has room for 64, a view has room for 256 lights); not exact"));
   report.rows[2].overflow = 0;
   EXPECT_THAT(remarks(report).back(), HasSubstr("but has 1,812 lost pairs; not exact"));
 }

@@ -55,6 +55,24 @@ TEST(CompareImages, AgreesWithAnErrorWorkedOutByHand) {
   EXPECT_FALSE(error.bit_identical);
 }
 
+// Two tiles of 2 x 2 pixels: 6 more on the right, in two channels, and 3 less at one pixel there. Over 4.
+TEST(ErrorSteps, AreThoseAcrossBordersAndInside) {
+  const auto reference = filled(4, 2, {1, 2, 4});
+  auto image = reference;
+  for (const int x : {2, 3})
+    for (const int y : {0, 1}) image.at(x, y) += glm::vec4(4, 2, 0, 0);
+  const ErrorSteps flat = error_steps(image, reference, 2, 4);
+  EXPECT_EQ(flat.at_borders, 6.0 / 4);
+  EXPECT_EQ(flat.inside, 0);
+  image.at(2, 1).b -= 3;
+  const ErrorSteps steps = error_steps(image, reference, 2, 4);
+  EXPECT_EQ(steps.at_borders, (6.0 + 3.0) / 2 / 4);  // of two pairs
+  EXPECT_EQ(steps.inside, (3.0 + 3.0) / 8 / 4);      // of four in rows and four in columns
+  EXPECT_EQ(error_steps(image, reference, 1, 4).inside, 0) << "every pair is of two tiles";
+  image.at(0, 0).r = infinity;
+  EXPECT_EQ(error_steps(image, reference, 2, 4).inside, 0) << "not a number";
+}
+
 TEST(CompareImages, P99LeavesOutTheWorstHundredth) {
   const auto reference = filled(100, 1, glm::vec3(1));
   auto image = reference;

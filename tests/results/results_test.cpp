@@ -94,6 +94,13 @@ TEST(Results, HoldTheErrorAgainstAreasOnlyWhereItWasMeasured) {
     "inside": {"pixels": 2, "max_rel": 0.75, "rmse_rel": 0.375, "rmse_shown": 0.0625}})"));
 }
 
+TEST(Results, HoldWhatLimitedListsLeaveOut) {
+  RunResult result = small_result();
+  result.limited = LimitedLists{-0.25, {0.5, 0.125}};
+  EXPECT_EQ(to_json(result)["limited"],
+            json::parse(R"({"lost_light": -0.25, "step_at_borders": 0.5, "step_inside": 0.125})"));
+}
+
 // A scene without casters has the keys above alone.
 TEST(Results, HoldShadowsOnlyWhereLightsCast) {
   RunResult result = small_result();

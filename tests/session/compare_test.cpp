@@ -80,6 +80,22 @@ TEST(CompareTechniques, TellsWhoseLoopShadesLessThanItsListsHold) {
   EXPECT_EQ(report.rows[2].unshaded.value(), 0) << "against every light on its own surfaces";
 }
 
+// What capped lists lack is counted as overflow, and its light is told apart from that of a broken loop.
+TEST(CompareTechniques, TellsWhatCappedListsLeaveOut) {
+  Settings one, none;
+  apply_setting(one, "list-cap=1");
+  const CompareReport report =
+      compared({{&find_technique("forward_plus"), one}, {&find_technique("forward_plus"), none}});
+  EXPECT_GT(report.rows[0].pairs->lost, 0u);
+  EXPECT_EQ(report.rows[0].overflow, report.rows[0].pairs->lost);
+  EXPECT_FALSE(report.rows[0].unshaded);
+  ASSERT_TRUE(report.rows[0].limited);
+  EXPECT_GT(report.rows[0].limited->lost_light, 0.01);
+  EXPECT_LT(report.rows[0].limited->lost_light, 1);
+  EXPECT_FALSE(report.rows[1].limited);
+  EXPECT_EQ(report.rows[1].overflow, 0u);
+}
+
 TEST(CompareTechniques, MakesARowOfWhatIsRefusedAndGoesOn) {
   const CompareReport report = compared({{&refuses, {}}, {&find_technique("forward_plus"), {}}});
   ASSERT_EQ(report.rows.size(), 2u);
