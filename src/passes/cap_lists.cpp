@@ -58,6 +58,7 @@ class ListCaps : public PassCache {
     if (!kernel_ || defines != defines_)
       kernel_ = NamedKernel(*work.renderer.kernels, "culling/cap_lists", defines);
     defines_ = defines;
+    if (grid.index_count == 0) return;  // after the kernel is built, which other views need
     if (stale_) upload(work, tiles);
     stale_ = false;
     const size_t cells = grid.cell_bytes / sizeof(cl_uint2);
@@ -110,7 +111,7 @@ class ListCaps : public PassCache {
 
 void cap_lists(Work& work, Cached<ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
                const ViewGrid& grid) {
-  if (work.plan.settings.list_cap == 0 || grid.index_count == 0) return;
+  if (work.plan.settings.list_cap == 0) return;
   ListCaps& caps = cache.of(work);
   auto pass = work.timer.pass("cap_lists", "cl");
   caps.cap(work, tiles, bounds, grid);
