@@ -1,6 +1,7 @@
 // The depth prepass writes depth alone; masked surfaces first test their mask.
 // LIMIT: the radiance that may lie behind a blended surface whose alpha is 1: src/passes/shade_forward.cpp.
 //   GROUP_LOCATION: as in gbuffer.frag
+//   MASKS_OF_CENTRES: shaders/common/material.glsl
 #if defined(LIMIT) || defined(MASK)
 #include "shaders/common/material.glsl"
 #endif
@@ -24,7 +25,7 @@ void main() {
 }
 #elif defined(MASK)
 void main() {
-  if (has(MATERIAL_MASK) && MASK_ALPHA(material_base_color().a) < material.alpha_cutoff) discard;
+  apply_mask(material_base_color().a);
   WRITE_GROUP
 }
 #else

@@ -55,7 +55,7 @@ uniform float alpha;
 void main() {
   Surface s = surface_here();
 #ifdef MASK
-  if (has(MATERIAL_MASK) && MASK_ALPHA(s.alpha) < material.alpha_cutoff) discard;
+  apply_mask(s.alpha);
 #endif
 #ifdef ADDED
   vec3 color = vec3(0.0);

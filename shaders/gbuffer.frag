@@ -49,7 +49,7 @@ uniform uint group_number_of_draw;
 void main() {
   Surface s = surface_here();
 #ifdef MASK
-  if (has(MATERIAL_MASK) && MASK_ALPHA(s.alpha) < material.alpha_cutoff) discard;
+  apply_mask(s.alpha);
 #endif
 #if defined(SKIN) || defined(MINNAERT)
   int model = int(material.model);

@@ -12,7 +12,7 @@ uniform uint group_number_of_draw;
 
 void main() {
 #ifdef MASK
-  if (has(MATERIAL_MASK) && MASK_ALPHA(material_base_color().a) < material.alpha_cutoff) discard;
+  apply_mask(material_base_color().a);
 #endif
   vec3 normal = shading_normal();
 #ifdef NORMAL_CHANNEL_STEPS

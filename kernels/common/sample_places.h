@@ -11,6 +11,17 @@
 
 constant int sample_places[2 * SAMPLES] = {SAMPLE_PLACES};
 
+// Of a sample's share of a pixel, as a square, pixels: 1 / sqrt(SAMPLES).
+#if SAMPLES == 2
+#define SAMPLE_SIDE 0.70710678f
+#elif SAMPLES == 4
+#define SAMPLE_SIDE 0.5f
+#elif SAMPLES == 8
+#define SAMPLE_SIDE 0.35355339f
+#else
+#define SAMPLE_SIDE 1.0f
+#endif
+
 #define SAMPLE_UNITS_X(s) sample_places[2 * (s)]
 #define SAMPLE_UNITS_Y(s) sample_places[2 * (s) + 1]
 #define SAMPLE_X(s) ((float)SAMPLE_UNITS_X(s) * (1.0f / 256))  // from the centre, pixels

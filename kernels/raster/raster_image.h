@@ -85,7 +85,7 @@ static inline PlacedTriangle placed_triangle(const RasterRecord* r, int x0, int 
 typedef struct SeenPixel {
   int x, y;
   float depth[SAMPLES];
-  bool changes[SAMPLES];
+  mask_t changes[SAMPLES];
 } SeenPixel;
 
 static inline size_t sample_place(const Image* image, int x, int y, int s) {
@@ -117,20 +117,20 @@ static inline SeenPixel see_pixel(const PlacedTriangle* t, int x, int y, bool in
   return p;
 }
 
-static inline void draw_seen(const PlacedTriangle* t, const SeenPixel* p, const Image* image) {
+static inline void draw_seen(const PlacedTriangle* t, SeenPixel p, const Image* image) {
 #ifdef ALPHA_MASKS
-  bool any = false;
-  for (int s = 0; s < SAMPLES; ++s) any |= p->changes[s];
+  mask_t any = 0;
+  for (int s = 0; s < SAMPLES; ++s) any |= p.changes[s];
   if (!any) return;
-  // One look-up, at the pixel's centre, for all samples.
-  if (t->alpha_material >= 0 &&
-      !shown_by_mask(&image->masks, t->triangle, t->instance, (uint)t->alpha_material, (float)(p->x & ~3),
-                     (float)(p->y & ~3), (float)(p->x & 3), (float)(p->y & 3))) {
-    return;
+  if (t->alpha_material >= 0) {
+    const MaskedTriangle masked =
+        masked_triangle(&image->masks, t->triangle, t->instance, (uint)t->alpha_material, (float)(p.x & ~3),
+                        (float)(p.y & ~3));
+    apply_mask(&masked, (float)(p.x & 3), (float)(p.y & 3), p.changes);
   }
 #endif
 #pragma unroll
   for (int s = 0; s < SAMPLES; ++s) {
-    if (p->changes[s]) put_pixel(image, sample_place(image, p->x, p->y, s), p->depth[s], t->triangle);
+    if (p.changes[s]) put_pixel(image, sample_place(image, p.x, p.y, s), p.depth[s], t->triangle);
   }
 }

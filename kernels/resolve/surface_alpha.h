@@ -38,10 +38,11 @@ typedef struct AlphaSource {
   float2 half_size;
 } AlphaSource;
 
-// The base colour's alpha at LANES pixels, dx and dy from the first pixel (x, y) of their block of 4 x 4. a,
-// b, c: the corners in clip space; i, j, k: their vertices.
+// The base colour's alpha at LANES places, dx and dy from the first pixel (x, y) of their block of 4 x 4. a,
+// b, c: the corners in clip space; i, j, k: their vertices. side: of the square whose texels are filtered,
+// pixels.
 static inline real alpha_at(const AlphaSource* s, uint material, float4 a, float4 b, float4 c, uint i, uint j,
-                            uint k, float x, float y, real dx, real dy) {
+                            uint k, float x, float y, real dx, real dy, float side) {
   global const SurfaceMaterial* m = s->materials + material;
   const ScreenTriangle t = screen_triangle(a, b, c, x, y, s->half_size);
   const Weights w = weights_at(&t, dx, dy);
@@ -49,8 +50,9 @@ static inline real alpha_at(const AlphaSource* s, uint material, float4 a, float
   const real alpha = m->base_color[3] * ATTRIBUTE(corners, w, sf);
   if (!(m->flags & 1u << SURFACE_BASE_COLOR)) return alpha;
   global const SurfaceMap* map = m->maps + SURFACE_BASE_COLOR;
-  const TexturePlace place =
+  TexturePlace place =
       map->flags & MAP_UV1 ? TEXTURE_PLACE(corners, w, &t, sa, sb) : TEXTURE_PLACE(corners, w, &t, s8, s9);
+  place.u_right *= side, place.v_right *= side, place.u_up *= side, place.v_up *= side;
   return alpha * filtered_alpha(s->alphas, m->alpha_base, map, place);
 }
 

@@ -96,21 +96,27 @@ vec4 material_base_color() {
   return color;
 }
 
-// The alpha that a mask is tested with; `here` is the fragment's.
-//   SAMPLES: at the pixel's centre, where all passes find the same. Centroids are no such place: in passes that
-//   test depth first, drivers leave out the samples that it hides.
-#if defined(MASK) && defined(SAMPLES)
-float alpha_at_centre() {
-  float alpha = material.base_color.a;
+#ifdef MASK
+#ifdef SAMPLES
+// At an offset from the pixel's centre, in pixels. All passes find the same there. Centroids are no such
+// place: in passes that test depth first, drivers leave out the samples that it hides.
+vec2 mask_uv(vec2 offset) {
 #ifdef BASE_COLOR_MAP
-  vec2 uv = interpolateAtOffset(fragment_uv0, vec2(0.0));
+  vec2 uv = interpolateAtOffset(fragment_uv0, offset);
 #ifdef UV1
-  if (has_uv1(0u)) uv = interpolateAtOffset(fragment_uv1, vec2(0.0));
+  if (has_uv1(0u)) uv = interpolateAtOffset(fragment_uv1, offset);
 #endif
-  if (has(MATERIAL_BASE_COLOR_MAP)) alpha *= texture(base_color_map, transformed_uv(0u, uv)).a;
+  return transformed_uv(0u, uv);
+#else
+  return offset;
 #endif
+}
+
+// Without the map's.
+float own_alpha(vec2 offset) {
+  float alpha = material.base_color.a;
 #ifdef VERTEX_COLOR
-  float of_vertices = interpolateAtOffset(fragment_color, vec2(0.0)).a;
+  float of_vertices = interpolateAtOffset(fragment_color, offset).a;
 #ifdef EVERYTHING_ON
   if (of_vertices > -0.5)  // as in material_base_color()
 #endif
@@ -118,7 +124,80 @@ float alpha_at_centre() {
 #endif
   return alpha;
 }
-#define MASK_ALPHA(here) alpha_at_centre()
+
+float alpha_at_centre() {
+  float alpha = own_alpha(vec2(0.0));
+#ifdef BASE_COLOR_MAP
+  if (has(MATERIAL_BASE_COLOR_MAP)) alpha *= texture(base_color_map, mask_uv(vec2(0.0))).a;
+#endif
+  return alpha;
+}
+#endif
+
+// Which samples a mask is tested at (shared/sample_masks.h); without a define at the pixel's centre.
+//   MASKS_AT_SAMPLES, MASKS_BY_COVERAGE  with SAMPLE_OFFSETS: from the centre, pixels
+//   MASKS_OF_CENTRES                     at centres all the same
+#if defined(SAMPLES) && !defined(MASKS_OF_CENTRES) && \
+    (defined(MASKS_AT_SAMPLES) || defined(MASKS_BY_COVERAGE))
+const vec2 sample_offsets[SAMPLES] = vec2[](SAMPLE_OFFSETS);
+
+#ifdef MASKS_AT_SAMPLES
+// A look-up's texels are the sample's share of the pixel.
+struct MaskPlane {
+  vec2 uv_right, uv_up;
+};
+
+MaskPlane mask_plane() {
+  const float side = inversesqrt(float(SAMPLES));
+  vec2 uv = mask_uv(vec2(0.0));
+  return MaskPlane(dFdx(uv) * side, dFdy(uv) * side);
+}
+float alpha_of_sample(MaskPlane p, vec2 offset) {
+  float alpha = own_alpha(offset);
+#ifdef BASE_COLOR_MAP
+  if (has(MATERIAL_BASE_COLOR_MAP))
+    alpha *= textureGrad(base_color_map, mask_uv(offset), p.uv_right, p.uv_up).a;
+#endif
+  return alpha;
+}
 #else
-#define MASK_ALPHA(here) (here)
+// Alpha and its slope at the centre: alpha to coverage, sharpened around the cutoff
+// (kernels/raster/raster_masks.h).
+struct MaskPlane {
+  float alpha, right, up;
+};
+
+MaskPlane mask_plane() {
+  float alpha = alpha_at_centre();
+  return MaskPlane(alpha, dFdx(alpha), dFdy(alpha));
+}
+float alpha_of_sample(MaskPlane p, vec2 offset) { return p.alpha + p.right * offset.x + p.up * offset.y; }
+#endif
+
+// Leaves out what the mask hides: samples or the fragment.
+void apply_mask(float here) {
+#ifndef PER_SAMPLE
+  gl_SampleMask[0] = ~0;
+#endif
+  MaskPlane p = mask_plane();
+  if (!has(MATERIAL_MASK)) return;
+#ifdef PER_SAMPLE
+  if (alpha_of_sample(p, sample_offsets[gl_SampleID]) < material.alpha_cutoff) discard;
+#else
+  int shown = 0;
+  for (int s = 0; s < SAMPLES; ++s)
+    if (alpha_of_sample(p, sample_offsets[s]) >= material.alpha_cutoff) shown |= 1 << s;
+  if (shown == 0) discard;
+  gl_SampleMask[0] = shown;
+#endif
+}
+#else
+// Leaves out the fragment where the mask hides it; `here` is its alpha.
+void apply_mask(float here) {
+#ifdef SAMPLES
+  here = alpha_at_centre();
+#endif
+  if (has(MATERIAL_MASK) && here < material.alpha_cutoff) discard;
+}
+#endif
 #endif

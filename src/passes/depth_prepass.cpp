@@ -30,8 +30,10 @@ GlTexture depth_of_centres(Work& work) {
   GlTexture depth = make_texture_2d(work.targets.depth_format(), work.grid().width, work.grid().height);
   const GlFramebuffer framebuffer = make_framebuffer({}, depth.name());
   begin_depth(work, framebuffer.name(), GL_GEQUAL);
-  draw_grouped(work, work.opaque, framebuffer.name(),
-               work.programs({"shaders/depth.vert", "shaders/depth.frag", {}, false, features_of_depth}));
+  draw_grouped(
+      work, work.opaque, framebuffer.name(),
+      work.programs(
+          {"shaders/depth.vert", "shaders/depth.frag", {"MASKS_OF_CENTRES"}, false, features_of_depth}));
   return depth;
 }
 

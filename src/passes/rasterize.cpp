@@ -62,7 +62,8 @@ class InstanceRasterizer {
         raster(*scene, *work.renderer.kernels,
                {.shape = work.plan.settings.kernel_shape,
                 .portable = work.plan.settings.portable,
-                .drawing_order = drawing_order}) {}
+                .drawing_order = drawing_order,
+                .masks = work.plan.settings.samples_masks}) {}
 
   // Draws those of `listed` that are in `drawn`. Both have the same order. Triangle numbers, and what is
   // uploaded for them, stay as long as `listed` does. `listed` stays in place until the next follow().

@@ -366,6 +366,13 @@ void plan_samples(const Scene& scene, FramePlan& plan) {
   const int samples = plan.settings.samples;
   if (samples == 1) return;
   plan.decisions.push_back({"samples", true, fmt::format("samples={}", samples)});
+  const auto masked = std::ranges::find_if(
+      plan.opaque, [&](int i) { return (plan.features_of_instance[size_t(i)] & feature_mask) != 0; });
+  const bool at_samples = plan.settings.samples_masks != SampleMasks::centre;
+  plan.decisions.push_back({"masks of samples", at_samples && masked != plan.opaque.end(),
+                            !at_samples                   ? "samples-masks=centre"
+                            : masked == plan.opaque.end() ? "no masked material in view"
+                                                          : instance_witness(scene, *masked)});
   if (!plan.light_reaches && !plan.own_shadows) return;
   const Settings& s = plan.settings;
   const char* one_sample = plan.opengl                      ? "shadows where OpenGL draws"

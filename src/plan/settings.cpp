@@ -245,6 +245,12 @@ std::vector<Setting>& all_settings() {
       {"samples-shading",
        "of surfaces that are stored for each sample: samples are shaded apart at edges alone, or everywhere",
        named(&Settings::samples_shading, {{"edges", SamplesShading::edges}, {"all", SamplesShading::all}})},
+      {"samples-masks",
+       "alpha masks of several samples: tested at the pixel's centre, at each sample, or by coverage, from "
+       "alpha at the centre and its slope",
+       named(&Settings::samples_masks, {{"centre", SampleMasks::centre},
+                                        {"samples", SampleMasks::samples},
+                                        {"coverage", SampleMasks::coverage}})},
       {"samples-resolve",
        "average of a pixel's samples: of their light, of their light after the tone map, or of their light "
        "weighted by the tone map's derivative",

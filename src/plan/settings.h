@@ -14,6 +14,7 @@
 #include "scene/light_ranges.h"
 #include "scene/material_model.h"
 #include "shared/cull_settings.h"
+#include "shared/sample_masks.h"
 
 namespace lightgrid {
 
@@ -104,6 +105,7 @@ struct Settings {
   RasterApi raster = RasterApi::opengl;
   int samples = 1;  // a pixel, at which triangles are drawn: 1, 2, 4 or 8
   SamplesShading samples_shading = SamplesShading::edges;
+  SampleMasks samples_masks = SampleMasks::centre;
   SamplesResolve samples_resolve = SamplesResolve::linear;
   TexelLayout texels = TexelLayout::packed;
   ShadedLights lights = ShadedLights::grid;

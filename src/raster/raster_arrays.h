@@ -94,9 +94,9 @@ class RasterPipeline {
 };
 
 std::unique_ptr<RasterPipeline> make_raster_cpu_pipeline(ClDevice& device, ProgramCache& programs,
-                                                         bool portable);
+                                                         bool portable, SampleMasks masks);
 // Without `wide_atomics`, or where the device has none of 64 bits, in two passes.
 std::unique_ptr<RasterPipeline> make_raster_gpu_pipeline(ClDevice& device, ProgramCache& programs,
-                                                         bool wide_atomics);
+                                                         bool wide_atomics, SampleMasks masks);
 
 }  // namespace lightgrid

@@ -18,10 +18,18 @@ constexpr uint32_t chunks_a_unit = 8, most_chunks = 64;   // enough to share out
 constexpr uint32_t most_tile_counts = uint32_t(1) << 24;  // of all chunks
 constexpr uint32_t clusters_an_item = 256;
 
+std::string alpha_masks(SampleMasks masks) {
+  const std::string at = mask_define(masks);
+  return " -DALPHA_MASKS" + (at.empty() ? "" : " -D" + at);
+}
+
 class RasterCpuPipeline : public RasterPipeline {
  public:
-  RasterCpuPipeline(ClDevice& device, ProgramCache& programs, bool portable)
-      : device_(device), programs_(programs), defines_(portable ? "-DPORTABLE" : "") {
+  RasterCpuPipeline(ClDevice& device, ProgramCache& programs, bool portable, SampleMasks masks)
+      : device_(device),
+        programs_(programs),
+        defines_(portable ? "-DPORTABLE" : ""),
+        masks_(alpha_masks(masks)) {
     transform_ = programs.kernel("raster/cpu/raster_transform", "");
     clusters_ = programs.kernel("raster/cpu/raster_clusters", "");
     order_ = programs.kernel("raster/cpu/raster_order", "");
@@ -74,7 +82,7 @@ class RasterCpuPipeline : public RasterPipeline {
            next_block_.get(), chunks_.get(), tile_counts_.get(), lists_.get(), job.counters,
            job.params_buffer);
     if (!job.triangles()) return;
-    launch(device_, "raster_tiles", kernel("raster_tiles", job, job.masks.alphas() ? " -DALPHA_MASKS" : ""),
+    launch(device_, "raster_tiles", kernel("raster_tiles", job, job.masks.alphas() ? masks_ : ""),
            cl::NDRange(std::min(tiles, units)), one, records_.get(), tile_begin_.get(), lists_.get(),
            job.instances, job.indices, job.clip, job.masks.vertices, job.masks.materials, job.masks.alphas,
            job.triangles, job.depths, job.counters, job.params_buffer);
@@ -91,8 +99,8 @@ class RasterCpuPipeline : public RasterPipeline {
 
  private:
   // Built at first use.
-  cl::Kernel& kernel(const char* name, const RasterJob& job, const char* more = "") {
-    cl::Kernel& kernel = kernels_[{name, job.samples, *more != 0}];
+  cl::Kernel& kernel(const char* name, const RasterJob& job, const std::string& more = "") {
+    cl::Kernel& kernel = kernels_[{name, job.samples, !more.empty()}];
     if (!kernel())
       kernel =
           programs_.kernel(std::string("raster/cpu/") + name, defines_ + sample_defines(job.samples) + more);
@@ -101,7 +109,7 @@ class RasterCpuPipeline : public RasterPipeline {
 
   ClDevice& device_;
   ProgramCache& programs_;
-  const std::string defines_;
+  const std::string defines_, masks_;
   cl::Kernel transform_, clusters_, order_, scan_;
   std::map<std::tuple<std::string, int, bool>, cl::Kernel> kernels_;  // by samples and masks
   GrowingBuffer buckets_, visible_, records_, next_block_, chunks_, tile_counts_, tile_begin_, lists_;
@@ -123,8 +131,11 @@ size_t pairs_of(size_t pixels) { return (pixels + 1) / 2; }
 
 class RasterGpuPipeline : public RasterPipeline {
  public:
-  RasterGpuPipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics)
-      : device_(device), programs_(programs), wide_(wide_atomics && has_64_bit_atomics(device)) {
+  RasterGpuPipeline(ClDevice& device, ProgramCache& programs, bool wide_atomics, SampleMasks masks)
+      : device_(device),
+        programs_(programs),
+        wide_(wide_atomics && has_64_bit_atomics(device)),
+        masks_(alpha_masks(masks)) {
     transform_ = programs.kernel("raster/gpu/raster_transform", "");
     clusters_ = programs.kernel("raster/gpu/raster_clusters", "");
     if (!wide_) return;
@@ -192,7 +203,7 @@ class RasterGpuPipeline : public RasterPipeline {
     std::string defines = wide_       ? "-DATOMICS=64"
                           : pass == 0 ? "-DATOMICS=32 -DPASS=1"
                                       : "-DATOMICS=32 -DPASS=2";
-    if (masks) defines += " -DALPHA_MASKS";
+    if (masks) defines += masks_;
     return kernel =
                programs_.kernel(std::string("raster/gpu/") + name, defines + sample_defines(job.samples));
   }
@@ -200,6 +211,7 @@ class RasterGpuPipeline : public RasterPipeline {
   ClDevice& device_;
   ProgramCache& programs_;
   const bool wide_;
+  const std::string masks_;
   cl::Kernel transform_, clusters_, clear_, keys_kernel_;
   std::map<std::tuple<std::string, int, int, bool>, cl::Kernel> kernels_;  // by samples, pass and masks
   GrowingBuffer visible_, records_, entries_, keys_;
@@ -208,13 +220,13 @@ class RasterGpuPipeline : public RasterPipeline {
 }  // namespace
 
 std::unique_ptr<RasterPipeline> make_raster_cpu_pipeline(ClDevice& device, ProgramCache& programs,
-                                                         bool portable) {
-  return std::make_unique<RasterCpuPipeline>(device, programs, portable);
+                                                         bool portable, SampleMasks masks) {
+  return std::make_unique<RasterCpuPipeline>(device, programs, portable, masks);
 }
 
 std::unique_ptr<RasterPipeline> make_raster_gpu_pipeline(ClDevice& device, ProgramCache& programs,
-                                                         bool wide_atomics) {
-  return std::make_unique<RasterGpuPipeline>(device, programs, wide_atomics);
+                                                         bool wide_atomics, SampleMasks masks) {
+  return std::make_unique<RasterGpuPipeline>(device, programs, wide_atomics, masks);
 }
 
 }  // namespace lightgrid

@@ -122,8 +122,8 @@ struct RasterView::State {
         options.shape == KernelShape::automatic ? device.info().cpu : options.shape == KernelShape::lanes;
     // Only the CPU form's lists are in an order.
     pipeline = cpu || options.drawing_order
-                   ? make_raster_cpu_pipeline(device, programs, options.portable)
-                   : make_raster_gpu_pipeline(device, programs, options.wide_atomics);
+                   ? make_raster_cpu_pipeline(device, programs, options.portable, options.masks)
+                   : make_raster_gpu_pipeline(device, programs, options.wide_atomics, options.masks);
     counters = device_buffer(device, RASTER_COUNTERS * sizeof(cl_uint));
   }
 

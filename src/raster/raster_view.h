@@ -52,6 +52,7 @@
 #include "raster/raster_scene.h"
 #include "shared/cull_settings.h"
 #include "shared/raster_instance.h"
+#include "shared/sample_masks.h"
 
 namespace lightgrid {
 
@@ -65,7 +66,7 @@ struct RasterInstance {
 
 struct RasterCamera {
   // 1 to 16,384 pixels a side. A pixel has 1 sample, at its centre, or 2, 4 or 8 (raster/raster_samples.h),
-  // drawn in one pass. Masks are looked up at centres.
+  // drawn in one pass.
   PixelGrid grid;
   // As CullView's: m[column][row], depth zero to one, here always reversed (near 1, far 0); perspective or
   // orthographic, off-centre, far plane infinite or not.
@@ -100,6 +101,7 @@ struct RasterOptions {
   bool cluster_cones = true;                   // leaves out clusters that face away
   bool wide_atomics = true;    // group shape: false uses 32-bit atomics, in two passes; the same bytes
   bool drawing_order = false;  // for list(): triangles in drawing order; by the lanes shape on any device
+  SampleMasks masks = SampleMasks::centre;  // of several samples a pixel
 };
 
 // The triangles of each tile of RASTER_TILE x RASTER_TILE pixels (shared/raster_params.h), for passes that

@@ -35,9 +35,16 @@ Work::Work(Seen seen, Renderer& renderer, GpuScene& gpu, std::shared_ptr<TargetP
       timer(clock_of(renderer)),
       targets(std::move(pool), grid(), plan.stencil) {}
 
-std::vector<std::string> Work::view_defines(std::vector<std::string> defines) const {
+std::vector<std::string> Work::view_defines(std::vector<std::string> defines) {
   if (view.orthographic) defines.emplace_back("ORTHOGRAPHIC");
-  if (plan.opengl && grid().samples > 1) defines.push_back(fmt::format("SAMPLES {}", grid().samples));
+  const bool samples = plan.opengl && grid().samples > 1;
+  if (samples) defines.push_back(fmt::format("SAMPLES {}", grid().samples));
+  if (const std::string masks = mask_define(plan.settings.samples_masks); samples && !masks.empty()) {
+    std::string offsets;
+    for (const glm::ivec2& place : sample_places())
+      offsets += fmt::format("{}vec2({}, {}) / 256.0", offsets.empty() ? "" : ", ", place.x, place.y);
+    defines.push_back(masks), defines.push_back("SAMPLE_OFFSETS " + offsets);
+  }
   if (plan.settings.everything_on) defines.emplace_back("EVERYTHING_ON");
   return defines;
 }
@@ -66,16 +73,19 @@ GLuint Work::color_framebuffer() {
   return targets.framebuffer({targets.texture("color", GL_RGBA32F)}, targets.depth());
 }
 
-std::vector<glm::ivec2> Work::sample_places() {
-  if (grid().samples == 1) return {{0, 0}};
-  glBindFramebuffer(GL_FRAMEBUFFER, color_framebuffer());
-  std::vector<glm::ivec2> places;
+const std::vector<glm::ivec2>& Work::sample_places() {
+  if (!sample_places_.empty()) return sample_places_;
+  if (grid().samples == 1) return sample_places_ = {{0, 0}};
+  GLint bound = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+  glBindFramebuffer(GL_FRAMEBUFFER, depth_framebuffer());
   for (GLuint s = 0; s < GLuint(grid().samples); ++s) {
     float place[2] = {0.5f, 0.5f};
     glGetMultisamplefv(GL_SAMPLE_POSITION, s, place);
-    places.emplace_back(int(std::lround((place[0] - 0.5f) * 256)), int(std::lround((place[1] - 0.5f) * 256)));
+    sample_places_.emplace_back(std::lround((place[0] - 0.5f) * 256), std::lround((place[1] - 0.5f) * 256));
   }
-  return places;
+  glBindFramebuffer(GL_FRAMEBUFFER, GLuint(bound));
+  return sample_places_;
 }
 
 SharedBuffer& Work::shared_pixels(const std::string& name, size_t bytes, TargetUse use) {

@@ -46,8 +46,8 @@ struct Work : Seen {
                            std::vector<std::string> defines);
 
   GLuint depth_framebuffer() { return targets.framebuffer({}, targets.depth()); }
-  // Where OpenGL has the samples of a pixel: from its centre, 1/256 pixel, y up.
-  std::vector<glm::ivec2> sample_places();
+  // Where OpenGL has the samples of a pixel: from its centre, 1/256 pixel, y up. Leaves what is bound.
+  const std::vector<glm::ivec2>& sample_places();
   GLuint color_framebuffer();                 // linear RGBA, 32-bit float, over the depth image
   static constexpr size_t spare_pixels = 16;  // that kernels may read past an image's end
 
@@ -77,7 +77,8 @@ struct Work : Seen {
   bool cl_lights_stale_ = true;
 
  private:
-  std::vector<std::string> view_defines(std::vector<std::string> defines) const;
+  std::vector<std::string> view_defines(std::vector<std::string> defines);
+  std::vector<glm::ivec2> sample_places_;  // once they are known
 };
 
 // A pass keeps this from frame to frame, beyond targets and programs.

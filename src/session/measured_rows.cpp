@@ -52,8 +52,9 @@ ImageError error_of(const Image& image, const Measured& m) {
 }  // namespace
 
 SampledBy sampled_by(bool own_surfaces, const Settings& settings) {
-  return {own_surfaces, settings.samples,
-          settings.samples > 1 ? settings.samples_resolve : SamplesResolve::linear};
+  const bool several = settings.samples > 1;
+  return {own_surfaces, settings.samples, several ? settings.samples_masks : SampleMasks::centre,
+          several ? settings.samples_resolve : SamplesResolve::linear};
 }
 
 // Every light on the surfaces of this run; empty: it was not drawn.

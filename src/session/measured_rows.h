@@ -23,6 +23,7 @@ struct ReferenceTriangles {
 struct SampledBy {
   bool own_surfaces = false;  // drawn in OpenCL
   int samples = 1;
+  SampleMasks masks = SampleMasks::centre;          // of one sample: at centres
   SamplesResolve resolve = SamplesResolve::linear;  // of one sample: linear
   auto operator<=>(const SampledBy&) const = default;
 };

@@ -16,7 +16,7 @@ extern const Technique clustered{
               .most_samples = 8},
     .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins",
                  "group-ids", "group-tiles", "grid-lists", "list-cap", "list-cap-order", "view-cap",
-                 "samples", "samples-resolve", "kernel-shape", "portable", "group-size"},
+                 "samples", "samples-masks", "samples-resolve", "kernel-shape", "portable", "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

@@ -19,13 +19,14 @@ static void adapt(TechniqueNeeds& needs, Settings& settings) {
   needs.stencil = settings.volume_culling == VolumeCulling::stencil;
 }
 
-extern const Technique deferred{.name = "deferred",
-                                .summary = "geometry buffer, then light volumes",
-                                .source = "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009",
-                                .needs = {.group_stencil = true, .most_samples = 8, .adapt = adapt},
-                                .settings = {"brdf", "buffer-bits", "volume-culling", "group-ids",
-                                             "group-stencil", "volume-mesh", "samples", "samples-resolve"},
-                                .render = render,
-                                .listed_by = ListedBy::pixel};
+extern const Technique deferred{
+    .name = "deferred",
+    .summary = "geometry buffer, then light volumes",
+    .source = "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009",
+    .needs = {.group_stencil = true, .most_samples = 8, .adapt = adapt},
+    .settings = {"brdf", "buffer-bits", "volume-culling", "group-ids", "group-stencil", "volume-mesh",
+                 "samples", "samples-masks", "samples-resolve"},
+    .render = render,
+    .listed_by = ListedBy::pixel};
 
 }  // namespace lightgrid

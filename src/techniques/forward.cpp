@@ -8,7 +8,8 @@ extern const Technique forward{
     .summary = "every light at every pixel",
     .source = "the baseline",
     .needs = {.most_samples = 8},
-    .settings = {"brdf", "depth-bounds", "tile", "samples", "samples-resolve", "kernel-shape"},
+    .settings = {"brdf", "depth-bounds", "tile", "samples", "samples-masks", "samples-resolve",
+                 "kernel-shape"},
     .render = [](RenderView& v) { return shade_every_light(v, find_surfaces(v)); }};
 
 }  // namespace lightgrid

@@ -11,7 +11,7 @@ extern const Technique forward_multipass{
     .source = "the baseline of Trebilco: Light Indexed Deferred Rendering, ShaderX7, 2009",
     .needs = {.reversed_triangles = true, .capped_lists = true, .most_samples = 8},
     .settings = {"brdf", "depth-bounds", "tile", "list-cap", "list-cap-order", "view-cap", "samples",
-                 "samples-resolve", "kernel-shape"},
+                 "samples-masks", "samples-resolve", "kernel-shape"},
     .render = render,
     .listed_by = ListedBy::object};
 

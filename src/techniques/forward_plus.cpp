@@ -11,7 +11,7 @@ extern const Technique forward_plus{
         {.light_grid = true, .z_bins = true, .group_tiles = true, .capped_lists = true, .most_samples = 8},
     .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slice-spacing", "z-bins", "group-ids",
                  "group-tiles", "grid-lists", "list-cap", "list-cap-order", "view-cap", "samples",
-                 "samples-resolve", "kernel-shape", "portable", "group-size"},
+                 "samples-masks", "samples-resolve", "kernel-shape", "portable", "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

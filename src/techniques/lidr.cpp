@@ -78,7 +78,8 @@ extern const Technique lidr{
     .needs = {.stencil = true, .most_samples = 8, .adapt = adapt},
     .settings = {"brdf", "lidr-packing", "lidr-overlap", "lidr-lights", "lidr-volumes", "lidr-unpack",
                  "lidr-types", "lidr-sort", "lidr-passes", "lidr-order", "lidr-shadows", "lidr-maps",
-                 "volume-mesh", "depth-bounds", "tile", "samples", "samples-resolve", "kernel-shape"},
+                 "volume-mesh", "depth-bounds", "tile", "samples", "samples-masks", "samples-resolve",
+                 "kernel-shape"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .limited_lists = true};

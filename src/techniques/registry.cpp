@@ -47,7 +47,7 @@ bool has_effect(const Technique& technique, const Settings& settings, const std:
     return settings.shadows == ShadowMethod::map || filters_maps(own) ||
            (own == LidrShadows::prepass && key != "shadow-filter");
   if (key == "list-cap-order") return settings.list_cap > 0;
-  if (key == "samples-resolve" || key == "samples-shading") return settings.samples > 1;
+  if (key.starts_with("samples-")) return settings.samples > 1;
   if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
   if (key == "shadow-kept" || key == "shadow-memory" || key == "shadow-reuse" || key == "shadow-threshold")
     return settings.given.contains(key);

@@ -25,7 +25,7 @@ extern const Technique visibility{
               .adapt = adapt},
     .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins",
                  "group-tiles", "list-cap", "list-cap-order", "view-cap", "lights", "samples",
-                 "samples-resolve", "texels", "kernel-shape", "portable", "group-size"},
+                 "samples-masks", "samples-resolve", "texels", "kernel-shape", "portable", "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

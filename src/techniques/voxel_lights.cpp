@@ -47,8 +47,8 @@ extern const Technique voxel_lights{
               .groups_of =
                   "; of directional and exact lights alone: the volume's light belongs to no surface"},
     .settings = {"brdf", "voxel-size", "voxel-space", "voxel-bits", "voxel-lights-exact", "voxel-reuse",
-                 "cull-test", "depth-bounds", "tile", "raster", "samples", "samples-resolve", "texels",
-                 "kernel-shape", "portable", "group-size"},
+                 "cull-test", "depth-bounds", "tile", "raster", "samples", "samples-masks", "samples-resolve",
+                 "texels", "kernel-shape", "portable", "group-size"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .approximate = true};

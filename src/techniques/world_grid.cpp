@@ -27,7 +27,7 @@ extern const Technique world_grid{
         "Tegelaers: Forward and Deferred Hashed Shading",
     .needs = {.chosen_raster = true, .world_grid = true, .most_samples = 8},
     .settings = {"brdf", "world-grid", "world-cell", "depth-bounds", "tile", "raster", "samples",
-                 "samples-resolve", "texels", "kernel-shape", "portable"},
+                 "samples-masks", "samples-resolve", "texels", "kernel-shape", "portable"},
     .render = render};
 
 }  // namespace lightgrid

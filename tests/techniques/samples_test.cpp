@@ -62,6 +62,12 @@ TEST_F(SamplesOfVisibility, HaveTheSameBytesInEveryShapeTileAndListOfLights) {
   EXPECT_FALSE(same_bytes(four, draw("samples=1")));
   for (const char* more : {"kernel-shape=group", "lights=all", "tile=8", "slices=8 z-bins=16"})
     EXPECT_TRUE(identical(draw(std::string("samples=4 ") + more), four)) << more;
+  for (const char* masks : {"samples=2 samples-masks=samples", "samples=4 samples-masks=samples",
+                            "samples=8 samples-masks=coverage"}) {
+    const Image image = draw(masks);
+    EXPECT_FALSE(same_bytes(image, draw(std::string(masks, 9)))) << masks;
+    EXPECT_TRUE(identical(draw(masks + std::string(" kernel-shape=group")), image)) << masks;
+  }
 }
 
 // Of a scene whose edges are all silhouettes: masks and blended surfaces cover pixels by their centres. In
@@ -287,13 +293,18 @@ TEST_F(SamplesOfOpenGl, ShowOneMaskInEveryPass) {
   // The ball is black, and lit, so that lights are in the plan.
   for (Material& m : s_.scene.materials) m.unlit = &m == &s_.scene.materials[size_t(s_.wall_material)];
   s_.scene.materials[1].base_color = {0, 0, 0, 1}, s_.scene.materials[1].metallic = 0;
-  const auto with = [&](const char* technique) {
-    return draw(technique, 4, "edges", "auto", {"brdf=lambert"});
-  };
-  const Image forward = with("forward");
-  EXPECT_FALSE(same_bytes(forward, draw("forward", 1)));
-  for (const char* technique : {"forward_multipass", "deferred", "deferred_tiled", "lidr", "light_prepass"})
-    EXPECT_LT(compare_images(with(technique), forward).max_rel, 1e-6) << technique;
+  std::vector<Image> seen = {draw("forward", 1)};
+  for (const char* masks : {"samples-masks=centre", "samples-masks=samples", "samples-masks=coverage"}) {
+    const auto with = [&](const char* technique) {
+      return draw(technique, 4, "edges", "auto", {"brdf=lambert", masks});
+    };
+    const Image forward = with("forward");
+    for (const Image& other : seen) EXPECT_FALSE(same_bytes(forward, other)) << masks;
+    seen.push_back(forward);
+    for (const char* technique :
+         {"forward_multipass", "deferred", "deferred_tiled", "lidr", "light_prepass", "forward_plus"})
+      EXPECT_LT(compare_images(with(technique), forward).max_rel, 1e-6) << technique << " " << masks;
+  }
 }
 
 // With indices of its own each sample is shaded alone.

@@ -116,14 +116,14 @@ static inline __attribute__((always_inline)) void draw_block(const TileRecord* r
   }
   if (samples == 0) return;
 #ifdef ALPHA_MASKS
-  // One look-up a pixel, at its centre, for all samples.
   if (r->alpha_material >= 0) {
     int16 any = shown[0];
     for (int s = 1; s < SAMPLES; ++s) any |= shown[s];
     if (mask_bits(any) == 0) return;
-    const mask_t passes = shown_by_mask(&place->masks, r->triangle, r->instance, (uint)r->alpha_material,
-                                        (float)(place->pixel_x + x), (float)(place->pixel_y + y), BLOCK_DX, BLOCK_DY);
-    for (int s = 0; s < SAMPLES; ++s) shown[s] &= passes;
+    const MaskedTriangle masked =
+        masked_triangle(&place->masks, r->triangle, r->instance, (uint)r->alpha_material,
+                        (float)(place->pixel_x + x), (float)(place->pixel_y + y));
+    apply_mask(&masked, BLOCK_DX, BLOCK_DY, shown);
   }
 #endif
   float16 nearest = FLT_MAX;

@@ -63,8 +63,8 @@ kernel __attribute__((reqd_work_group_size(BLOCKS * BLOCKS, 1, 1))) void raster_
         const SeenPixel one = see_in_block(&t, half_window + first, item, true, &image);
         const SeenPixel two =
             see_in_block(&t, half_window + (left ? lowest_bit(left) : first), item, left != 0, &image);
-        draw_seen(&t, &one, &image);
-        draw_seen(&t, &two, &image);
+        draw_seen(&t, one, &image);
+        draw_seen(&t, two, &image);
       }
     }
   }

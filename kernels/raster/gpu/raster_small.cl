@@ -73,7 +73,7 @@ static inline void draw_in_box(const SmallList* small, uint place, uint pixel, c
   const PlacedTriangle t = small->triangles[place];
   const int y = (int)((small_float(pixel) + 0.5f) * small->inverse_widths[place]);
   const SeenPixel seen = see_pixel(&t, (int)pixel - y * t.width, y, true, image);
-  draw_seen(&t, &seen, image);
+  draw_seen(&t, seen, image);
 }
 
 static inline Corners corners_of(float4 v) {
