@@ -9,6 +9,7 @@
 #include "frontier/fields.h"
 #include "frontier/pictures.h"
 #include "report/report.h"
+#include "results/metrics.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -102,6 +103,19 @@ json in_double_json(const SampledErrors& sampled) {
   return figures;
 }
 
+// Student's t, seven degrees of freedom a view: a view's pictures are in eight groups.
+json seeds_json(const PointFigures& p) {
+  const SeedErrors& seeds = *p.errors.seeds;
+  const double reach =
+      student_t_quantile(0.975, (BiasOfPictures::groups - 1) * p.views) * seeds.bias_mse_rel_error;
+  const auto root = [](double square) { return std::sqrt(std::max(square, 0.0)); };
+  return {
+      {"pictures", seeds.pictures},
+      {"flip_pictures", seeds.flip_pictures},
+      {"deviation", finite_json(seeds.deviation)},
+      {"bias_rmse_rel_ci95", pair_json(root(seeds.bias_mse_rel - reach), root(seeds.bias_mse_rel + reach))}};
+}
+
 json point_json(const PointFigures& p) {
   json out = finite_json(p.point);
   out["views"] = p.views;
@@ -115,6 +129,8 @@ json point_json(const PointFigures& p) {
   json& error = out["error"] = finite_json(p.errors);
   error["in_double"] = p.errors.in_double ? in_double_json(*p.errors.in_double) : json();
   if (!p.errors.authored) error.erase("authored");
+  error.erase("seeds");
+  if (p.errors.seeds) error["seeds"] = seeds_json(p);
   error["flip_views"] = p.flip_views;
   error["temporal_views"] = p.temporal_views;
   out["pairs"] = pairs_json(p.pairs);
@@ -167,7 +183,7 @@ json failure_json(const Failure& f) {
   return out;
 }
 
-std::vector<CsvColumn> csv_columns(bool truths, bool shadows, bool authored) {
+std::vector<CsvColumn> csv_columns(bool truths, bool shadows, bool authored, bool seeds) {
   std::vector<CsvColumn> all;
   const auto add_measures = [&](const std::string& within, const std::string& prefix) {
     for (const ErrorMeasure& m : frontier_error_measures()) add_columns(all, {m.key}, within, prefix);
@@ -195,6 +211,12 @@ std::vector<CsvColumn> csv_columns(bool truths, bool shadows, bool authored) {
     add_columns(all, {"mean", "visible_share"}, within + "/displayed_flip", prefix + "displayed_flip_");
   }
   add_columns(all, {"bias_rmse_rel", "deviation_rmse_rel", "temporal_rmse_rel"}, "/errors");
+  if (seeds) {
+    add_columns(all, {"pictures", "flip_pictures", "bias_mse_rel", "bias_mse_rel_error"}, "/errors/seeds",
+                "seeds_");
+    add_measures("/errors/seeds/deviation", "seeds_deviation_");
+    all.push_back({"seeds_deviation_displayed_flip_mean", "/errors/seeds/deviation/displayed_flip/mean"});
+  }
   for (const auto& [name, index] : {std::pair{"flip_start", "0"}, {"flip_stop", "1"}, {"flip_count", "2"}})
     all.push_back({name, std::string("/flip_exposures/") + index});
   add_columns(all, {"exposure_ev", "image"});
@@ -335,7 +357,8 @@ std::string csv_text(const FrontierAnswer& answer) {
   const bool truths = any([](const FrontierRecord& r) { return r.truth.has_value(); });
   const bool shadows = any([](const FrontierRecord& r) { return r.pairs.shadows.has_value(); });
   const bool authored = any([](const FrontierRecord& r) { return r.errors.authored.has_value(); });
-  return csv_table(csv_columns(truths, shadows, authored), rows);
+  const bool seeds = any([](const FrontierRecord& r) { return r.errors.seeds.has_value(); });
+  return csv_table(csv_columns(truths, shadows, authored, seeds), rows);
 }
 
 std::string cull_csv_text(const FrontierAnswer& answer) {

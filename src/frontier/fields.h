@@ -89,6 +89,15 @@ void visit_fields(T& a, Visit&& visit) {
   visit("total", a.total);
 }
 
+template <Is<SeedErrors> T, typename Visit>
+void visit_fields(T& s, Visit&& visit) {
+  visit("pictures", s.pictures);
+  visit("flip_pictures", s.flip_pictures);
+  visit("deviation", s.deviation);
+  visit("bias_mse_rel", s.bias_mse_rel);
+  visit("bias_mse_rel_error", s.bias_mse_rel_error);
+}
+
 inline constexpr std::pair<const char*, ImageError PointErrors::*> kinds_of_error[] = {
     {"model", &PointErrors::model},
     {"precision", &PointErrors::precision},
@@ -110,6 +119,7 @@ void visit_fields(T& e, Visit&& visit) {
   for (const auto& [key, kind] : kinds_of_error) visit(key, e.*kind);
   visit("in_double", e.in_double);
   visit("authored", e.authored);
+  visit("seeds", e.seeds);
   visit("bias_rmse_rel", e.bias_rmse_rel);
   visit("deviation_rmse_rel", e.deviation_rmse_rel);
   visit("temporal_rmse_rel", e.temporal_rmse_rel);

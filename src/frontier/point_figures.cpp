@@ -10,27 +10,6 @@
 namespace lightgrid {
 namespace {
 
-// One figure of several views, each NaN if one view's is.
-double mean_over(const std::vector<double>& figures) {
-  double sum = 0;
-  for (const double figure : figures) sum += figure;
-  return sum / double(figures.size());
-}
-
-double rms_over(std::vector<double> figures) {
-  for (double& figure : figures) figure *= figure;
-  return std::sqrt(mean_over(figures));
-}
-
-double largest_over(const std::vector<double>& figures) {
-  double largest = 0;
-  for (const double figure : figures) {
-    const bool is_nan = std::isnan(figure) || std::isnan(largest);
-    largest = is_nan ? std::numeric_limits<double>::quiet_NaN() : std::max(largest, figure);
-  }
-  return largest;
-}
-
 template <typename Figure>
 std::vector<double> figures_of_views(const Group& views, const Figure& figure) {
   std::vector<double> figures;
@@ -55,19 +34,18 @@ ImageError errors_over(const Group& views, const Of& of) {
   for (const ErrorMeasure& measure : frontier_error_measures()) {
     const auto figures =
         figures_of_views(views, [&](const FrontierRecord& v) { return of(v).*measure.value; });
-    all.*measure.value = measure.over_views == OverViews::largest ? largest_over(figures)
-                         : measure.over_views == OverViews::mean  ? mean_over(figures)
-                                                                  : rms_over(figures);
+    all.*measure.value = joined(figures, measure.over_views);
   }
   const auto flip = present_figures(views, [&](const FrontierRecord& v) { return of(v).flip_mean; });
-  if (!flip.empty()) all.flip_mean = mean_over(flip);
+  if (!flip.empty()) all.flip_mean = joined(flip, OverViews::mean);
   const auto displayed = [&](double DisplayedFlip::*figure) {
     return present_figures(views, [&](const FrontierRecord& v) {
       return of(v).displayed ? std::optional((*of(v).displayed).*figure) : std::nullopt;
     });
   };
   if (const auto means = displayed(&DisplayedFlip::mean); means.size() == views.size())
-    all.displayed = {mean_over(means), mean_over(displayed(&DisplayedFlip::visible))};
+    all.displayed = {joined(means, OverViews::mean),
+                     joined(displayed(&DisplayedFlip::visible), OverViews::mean)};
   return all;
 }
 
@@ -93,6 +71,23 @@ std::optional<AuthoredErrors> authored_over(const Group& views) {
   AuthoredErrors all;
   for (const auto of : {&AuthoredErrors::model, &AuthoredErrors::total})
     all.*of = errors_over(views, [&](const FrontierRecord& v) { return (*v.errors.authored).*of; });
+  return all;
+}
+
+// Where all views have them. Their ranges are independent, and so are the views' estimates of the bias.
+std::optional<SeedErrors> seeds_over(const Group& views) {
+  if (!std::ranges::all_of(views, [](const FrontierRecord* v) { return v->errors.seeds.has_value(); }))
+    return {};
+  SeedErrors all;
+  all.deviation = errors_over(views, [](const FrontierRecord& v) { return v.errors.seeds->deviation; });
+  double variance = 0;
+  for (const FrontierRecord* view : views) {
+    const SeedErrors& seeds = *view->errors.seeds;
+    all.pictures += seeds.pictures, all.flip_pictures += seeds.flip_pictures;
+    all.bias_mse_rel += seeds.bias_mse_rel / double(views.size());
+    variance += seeds.bias_mse_rel_error * seeds.bias_mse_rel_error;
+  }
+  all.bias_mse_rel_error = std::sqrt(variance) / double(views.size());
   return all;
 }
 
@@ -131,11 +126,13 @@ PointFigures over_views(const Group& views) {
   }
   all.errors.in_double = in_double_over(views);
   all.errors.authored = authored_over(views);
+  all.errors.seeds = seeds_over(views);
   for (const auto spread :
        {&PointErrors::bias_rmse_rel, &PointErrors::deviation_rmse_rel, &PointErrors::temporal_rmse_rel}) {
     const auto figures = present_figures(views, [&](const FrontierRecord& v) { return v.errors.*spread; });
-    if (!figures.empty()) all.errors.*spread = rms_over(figures);
+    if (!figures.empty()) all.errors.*spread = joined(figures, OverViews::root_mean_square);
   }
+  if (all.errors.seeds) all.errors.bias_rmse_rel = std::sqrt(std::max(all.errors.seeds->bias_mse_rel, 0.0));
   uint64_t bytes_moved = 0, counted = 0;  // views that were profiled
   for (const FrontierRecord* view : views) {
     all.pairs += view->pairs;

@@ -248,7 +248,7 @@ uint32_t PointRun::seed(int frame) const {
 
 void PointRun::go_to_frame(int number) {
   frame_ = number;
-  if (point_.frames > 1 || !has_random_ranges()) return;
+  if (!has_random_ranges()) return;
   attempt([&] { run_->draw_ranges(seed(0)); });
 }
 
@@ -258,7 +258,7 @@ void PointRun::look(const View& view) {
 
 void PointRun::draw_frames(const std::function<void(const Image& image)>& add) {
   for (int frame = 0; frame < point_.frames; ++frame) {
-    if (point_.frames > 1) run_->draw_ranges(seed(frame));
+    if (has_random_ranges()) run_->draw_ranges(seed(frame));
     run_->run_frame(true);
     if (point_.frames > 1) add(run_->image());
   }
@@ -291,7 +291,7 @@ void PointRun::draw_for_errors() {
 
 void PointRun::draw_first_frame() {
   attempt([&] {
-    if (point_.frames > 1) run_->draw_ranges(seed(0));
+    if (has_random_ranges()) run_->draw_ranges(seed(0));
     run_->run_frame(true);
   });
 }

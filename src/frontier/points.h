@@ -49,7 +49,8 @@ class PointRun {
   TechniqueRun& run() { return *run_; }
 
   void look(const View& view);
-  // One picture: all of its frames, read back and averaged. Milliseconds; 0 if refused. A refusal is kept.
+  // One picture: all of its frames, each with ranges drawn for it where they are random, read back and
+  // averaged. Milliseconds; 0 if refused. A refusal is kept.
   double draw();
   // The picture drawn last; and of an averaged one how far its frames scatter.
   const Image& image() const { return point_.frames > 1 ? mean_ : run_->image(); }
@@ -60,12 +61,12 @@ class PointRun {
   void draw_first_frame();
   // For the frame of that number: random ranges, if they are, are others in each.
   void go_to_frame(int number);
+  bool has_random_ranges() const { return point_.contestant.settings.ranges.range == LightRange::stochastic; }
 
  private:
   void attempt(const std::function<void()>& work);
   void draw_frames(const std::function<void(const Image& image)>& add);  // `add`: of averaged ones
   uint32_t seed(int frame) const;
-  bool has_random_ranges() const { return point_.contestant.settings.ranges.range == LightRange::stochastic; }
 
   ChosenPoint point_;
   std::unique_ptr<TechniqueRun> run_;

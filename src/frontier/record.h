@@ -41,6 +41,13 @@ struct AuthoredErrors {
   ImageError total;  // the picture
 };
 
+// Of random ranges: pictures with independent ranges, of which errors are means.
+struct SeedErrors {
+  int pictures = 0, flip_pictures = 0;              // and of them those of which FLIP was measured
+  ImageError deviation;                             // of each measure of the total from picture to picture
+  double bias_mse_rel = 0, bias_mse_rel_error = 0;  // over the brightest channel squared (BiasOfPictures)
+};
+
 // Errors kept apart (docs/frontier.md#errors), in the measures of the frontier (frontier_error). Truth: every
 // light, no range window.
 struct PointErrors {
@@ -51,8 +58,9 @@ struct PointErrors {
   ImageError total;      // the picture against the truth
   std::optional<SampledErrors> in_double;  // the same against the truth in double, at a sample of pixels
   std::optional<AuthoredErrors> authored;  // where the truth's lights have no ranges and those of settings do
-  // The noise of random ranges over at least 16 seeds, relative like the others: root mean square over pixels
-  // of the mean's error and of the standard deviation of one frame.
+  std::optional<SeedErrors> seeds;         // with random ranges; total and authored are then means over them
+  // Of random ranges, root mean squares over pixels, relative like the others: of the expected picture's
+  // error, 0 where it is not above the noise, and of the standard deviation of one frame.
   std::optional<double> bias_rmse_rel, deviation_rmse_rel;
   // Flicker: how much the picture's difference from the truth changes from frame to frame while the camera
   // turns by a quarter of a degree a frame; root mean square over pixels and frames.

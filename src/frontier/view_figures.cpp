@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "cl/error.h"
+#include "results/error_measures.h"
 #include "results/metrics.h"
 #include "scene/camera_path.h"
 #include "scene/random.h"
@@ -93,9 +95,9 @@ void ViewFigures::Truths::look(const View& view, const std::vector<View>& turn) 
 ViewFigures::Reference::Reference(const Image& image, double brightest_channel, const Exposure& exposure)
     : truth(&image), brightest(brightest_channel), shown(std::in_place, image, exposure) {}
 
-ImageError ViewFigures::Reference::error_of(const Image& image) const {
+ImageError ViewFigures::Reference::error_of(const Image& image, bool with_flip) const {
   ImageError error = frontier_error(image, *truth, brightest);
-  error.displayed = shown->flip_of(image);
+  if (with_flip) error.displayed = shown->flip_of(image);
   return error;
 }
 
@@ -170,7 +172,6 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
   if (point.frames > 1) {
     const double relative = brightest_ > 0 ? point_run.deviation() / brightest_ : 0;
     record.errors.deviation_rmse_rel = relative;
-    record.errors.bias_rmse_rel = bias_rmse(record.errors.total.rmse_rel, relative, point.frames);
     point_run.draw_first_frame();
   }
   record.errors.technique = frontier_error(point_run.run().image(), meant, brightest_);
@@ -206,6 +207,7 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
     record.pass_ms[pass.name] += pass.median_ms;
     record.bytes_moved += pass.bytes_read + pass.bytes_written;
   }
+  if (point_run.has_random_ranges()) measure_seeds(point_run, truths, record);
   if (turn_.empty() || !(brightest_ > 0)) return;
   const double change =
       as_meant ? flicker_of_brute_force(point, truths) : flicker_of(point_run, truths, image);
@@ -229,6 +231,73 @@ void ViewFigures::fill_flip(const Image& image, Truths& truths, FrontierRecord& 
   record.image = written.name;
   record.errors.total.flip_mean = written.flip_mean;
   record.flip = exposures_;
+}
+
+namespace {
+
+// A measure over pictures of one view: their mean and standard deviation, as over views.
+void join(const std::vector<ImageError>& pictures, ImageError& mean, ImageError* deviation) {
+  const auto moments = [](const std::vector<double>& figures) {
+    double sum = 0, squares = 0;
+    for (const double figure : figures) sum += figure;
+    const double centre = sum / double(figures.size());
+    for (const double figure : figures) squares += (figure - centre) * (figure - centre);
+    return std::pair(centre, std::sqrt(squares / double(figures.size() - 1)));
+  };
+  for (const ErrorMeasure& measure : frontier_error_measures()) {
+    std::vector<double> figures;
+    for (const ImageError& picture : pictures) figures.push_back(picture.*measure.value);
+    mean.*measure.value = joined(figures, measure.over_views);
+    if (deviation) deviation->*measure.value = moments(figures).second;
+  }
+  std::vector<double> flips, visible;
+  for (const ImageError& picture : pictures) {
+    if (!picture.displayed) continue;
+    flips.push_back(picture.displayed->mean), visible.push_back(picture.displayed->visible);
+  }
+  mean.displayed = {moments(flips).first, moments(visible).first};
+  if (deviation) deviation->displayed = {moments(flips).second, moments(visible).second};
+}
+
+constexpr int pictures_of_seeds = 32,
+              averaged_pictures_of_seeds = 8;  // the latter are of several frames each
+constexpr int flips_of_seeds = 8;              // they take long
+constexpr int frames_of_a_view = 1000;         // no two views share ranges
+
+}  // namespace
+
+// One draw of the ranges would be noise: its error is within a factor of three of what is expected.
+void ViewFigures::measure_seeds(PointRun& run, Truths& truths, FrontierRecord& record) {
+  const int pictures = record.point.frames > 1 ? averaged_pictures_of_seeds : pictures_of_seeds;
+  std::vector<ImageError> totals, authored;
+  PictureMoments moments;
+  BiasOfPictures bias;
+  for (int i = 0; i < pictures; ++i) {
+    run.go_to_frame(frames_of_a_view * (record.view + 1) + i);
+    run.draw();
+    if (!run.refused().empty()) throw machine_error("{}", run.refused());
+    const Image image = run.image();
+    const bool with_flip = i % (pictures / flips_of_seeds) == 0;
+    totals.push_back(truths.reference->error_of(image, with_flip));
+    if (truths.authored) authored.push_back(truths.authored->error_of(image, with_flip));
+    moments.add(image);
+    bias.add(image, *truths.reference->truth);
+  }
+  run.go_to_frame(0);
+  SeedErrors& seeds = record.errors.seeds.emplace();
+  seeds.pictures = pictures, seeds.flip_pictures = flips_of_seeds;
+  join(totals, record.errors.total, &seeds.deviation);
+  record.errors.model = record.errors.total;
+  if (truths.authored) {
+    join(authored, record.errors.authored->total, nullptr);
+    record.errors.authored->model = record.errors.authored->total;
+  }
+  if (!(brightest_ > 0)) return;
+  const BiasOfPictures::Estimate estimate = bias.estimate();
+  seeds.bias_mse_rel = estimate.mean_square / (brightest_ * brightest_);
+  seeds.bias_mse_rel_error = estimate.standard_error / (brightest_ * brightest_);
+  record.errors.bias_rmse_rel = std::sqrt(std::max(seeds.bias_mse_rel, 0.0));
+  if (record.point.frames == 1) record.errors.deviation_rmse_rel = moments.deviation() / brightest_;
 }
 
 // The turn begins with the view itself.

@@ -37,7 +37,7 @@ class ViewFigures {
     std::optional<ShownReference> shown;
     std::map<const Image*, DisplayedFlip> displayed = {};  // of pictures of brute force
     Reference(const Image& image, double brightest_channel, const Exposure& exposure);
-    ImageError error_of(const Image& image) const;
+    ImageError error_of(const Image& image, bool with_flip = true) const;
     ImageError error_of_brute_force(const Image& kept);
   };
   // The truths of the techniques that share surfaces: OpenGL's, or those of the rasteriser in OpenCL.
@@ -56,6 +56,7 @@ class ViewFigures {
   PairCounts pairs_of(TechniqueRun& run, const Settings& settings, const std::vector<float>& depth);
   void choose_exposure();
   void fill_flip(const Image& image, Truths& truths, FrontierRecord& record);
+  void measure_seeds(PointRun& run, Truths& truths, FrontierRecord& record);
   double flicker_of(PointRun& run, Truths& truths, const Image& first);
   double flicker_of_brute_force(const ChosenPoint& point, Truths& truths);
 

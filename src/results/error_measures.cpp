@@ -66,6 +66,17 @@ std::vector<ErrorMeasure> those(const Chosen& chosen) {
 
 }  // namespace
 
+double joined(const std::vector<double>& figures, OverViews how) {
+  double sum = 0, largest = figures.front();
+  for (const double figure : figures) {
+    sum += how == OverViews::root_mean_square ? figure * figure : figure;
+    largest = std::isnan(figure) || std::isnan(largest) ? unknown_error : std::max(largest, figure);
+  }
+  if (how == OverViews::largest) return largest;
+  const double mean = sum / double(figures.size());
+  return how == OverViews::mean ? mean : std::sqrt(mean);
+}
+
 std::span<const ErrorMeasure> error_measures() {
   static const auto rows = those([](const ErrorMeasure& m) { return m.of_compare; });
   return rows;

@@ -49,6 +49,9 @@ struct ImageDifference {
 // One figure for several views: the largest, the root mean square or the mean of theirs.
 enum class OverViews { largest, root_mean_square, mean };
 
+// NaN if a figure is. Not of none.
+double joined(const std::vector<double>& figures, OverViews how);
+
 struct ErrorMeasure {
   const char* key;             // in all files
   const char* title;           // of the column in compare's page; empty: no column

@@ -260,8 +260,34 @@ void ChangeOfError::add(const Image& image, const Image& truth) {
 
 double ChangeOfError::rmse() const { return channels_ > 0 ? std::sqrt(squares_ / double(channels_)) : 0; }
 
-double bias_rmse(double rmse_of_mean, double deviation, int count) {
-  return std::sqrt(std::max(rmse_of_mean * rmse_of_mean - deviation * deviation / std::max(count, 1), 0.0));
+void BiasOfPictures::add(const Image& image, const Image& truth) {
+  std::vector<glm::vec3>& errors = errors_[count_++ % groups];
+  errors.resize(image.pixels.size(), glm::vec3(0));
+  for (size_t i = 0; i < errors.size(); ++i) errors[i] += glm::vec3(image.pixels[i] - truth.pixels[i]);
+}
+
+// A U-statistic of the groups' means, and what it is without each of them in turn.
+BiasOfPictures::Estimate BiasOfPictures::estimate() const {
+  assert(count_ >= groups && count_ % groups == 0);
+  double with_others[groups] = {}, all = 0;  // sums of products with other groups, each pair twice
+  for (int a = 0; a < groups; ++a) {
+    for (int b = 0; b < a; ++b) {
+      double product = 0;
+      for (size_t i = 0; i < errors_[a].size(); ++i)
+        product += glm::dot(glm::dvec3(errors_[a][i]), glm::dvec3(errors_[b][i]));
+      with_others[a] += product, with_others[b] += product, all += 2 * product;
+    }
+  }
+  constexpr double n = groups;
+  const double share = n / double(count_), channels = 3 * double(errors_[0].size()),
+               of_one = share * share / channels;
+  double mean = 0, squares = 0, without[groups];
+  for (int a = 0; a < groups; ++a) {
+    without[a] = (all - 2 * with_others[a]) / ((n - 1) * (n - 2)) * of_one;
+    mean += without[a] / n;
+  }
+  for (const double w : without) squares += (w - mean) * (w - mean);
+  return {all / (n * (n - 1)) * of_one, std::sqrt((n - 1) / n * squares)};
 }
 
 }  // namespace lightgrid

@@ -57,9 +57,23 @@ class ChangeOfError {
   size_t channels_ = 0;
 };
 
-// The bias: the root mean square error of a mean of `count` random pictures, less the share of their scatter
-// in it. 0 where the error is no larger than that share.
-double bias_rmse(double rmse_of_mean, double deviation, int count);
+// The bias of random pictures: how far their expected picture is from the truth. The mean over pixels and
+// channels of its square is estimated without the pictures' scatter, as the mean product of the errors of
+// different pictures, so that it may come out below 0; its standard error by the jackknife. Pictures are
+// added up in `groups`, which are what differs then.
+class BiasOfPictures {
+ public:
+  static constexpr int groups = 8;
+  void add(const Image& image, const Image& truth);  // at least as many as groups, the same number in each
+  struct Estimate {
+    double mean_square = 0, standard_error = 0;
+  };
+  Estimate estimate() const;
+
+ private:
+  int count_ = 0;
+  std::vector<glm::vec3> errors_[groups];  // sums
+};
 
 // |a - b| of the largest channel on a log scale: black is equal, then difference_ramp() from blue (1e-7 of
 // the reference's brightest channel and below) to red (1 and above); white is NaN in either. Linear RGB, to

@@ -130,6 +130,15 @@ TEST(FrontierCommand, AnswersWhatAccuracyCostsResumesAndIsItsOwnGate) {
   for (const json& growth : answer["growth"]) EXPECT_EQ(growth["samples"].size(), 5u) << growth;
   const json noise = point_of(answer, "visibility:range=stochastic,alpha=0.1,frames=4")["error"];
   EXPECT_GT(noise["deviation_rmse_rel"], 0);
+  EXPECT_EQ(noise["seeds"]["pictures"], 2 * 8);
+  // An unbiased estimate, whose error is that of its noise.
+  const json one_frame = point_of(answer, "visibility:range=stochastic,alpha=0.1")["error"];
+  EXPECT_EQ(one_frame["seeds"]["pictures"], 2 * 32);
+  EXPECT_EQ(one_frame["seeds"]["bias_rmse_rel_ci95"][0], 0);
+  const double rmse = one_frame["total"]["rmse_rel"], deviation = one_frame["deviation_rmse_rel"];
+  EXPECT_NEAR(rmse, deviation, 0.1 * deviation);
+  EXPECT_LT(noise["total"]["rmse_rel"], 0.7 * rmse) << "of four frames";
+  EXPECT_GT(one_frame["seeds"]["deviation"]["displayed_flip"]["mean"], 0);
   EXPECT_FALSE(answer["growth"].empty());
 
   const auto recomputed = run_command("python3 " + std::string(source_folder) +

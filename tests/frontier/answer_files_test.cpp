@@ -73,6 +73,11 @@ TEST(FrontierJson, HoldsTheAnswer) {
   EXPECT_EQ(error["model"]["displayed_flip"], nullptr);
   EXPECT_EQ(error["authored"]["total"]["displayed_flip"]["mean"], 0.015625);
   EXPECT_EQ(error["authored"]["model"]["smape"], 1);
+  EXPECT_EQ(error["seeds"]["pictures"], 32);
+  EXPECT_EQ(error["seeds"]["deviation"]["rel_mse"], 5);
+  // 4e-10 and 2.1448 errors (14 degrees of freedom, of published tables) to either side.
+  EXPECT_NEAR(error["seeds"]["bias_rmse_rel_ci95"][0].get<double>(), std::sqrt(1.8552e-10), 1e-9);
+  EXPECT_NEAR(error["seeds"]["bias_rmse_rel_ci95"][1].get<double>(), std::sqrt(6.1448e-10), 1e-9);
   EXPECT_EQ(frontier["pixels_per_degree"], 67);
   EXPECT_EQ(error["total"]["rmse_rel"], 4.0 / 3);
   EXPECT_EQ(error["precision"]["p99_rel"], 0.022);
@@ -190,6 +195,9 @@ TEST(FrontierCsv, HasALineAPointAndView) {
                                                        {"model_displayed_flip_mean", ""},
                                                        {"model_low_pass_rmse_of_mean", "0.375"},
                                                        {"exposure_ev", "-1.5"},
+                                                       {"seeds_pictures", "32"},
+                                                       {"seeds_deviation_rel_mse", "5"},
+                                                       {"seeds_deviation_displayed_flip_mean", "0.5"},
                                                        {"authored_total_rmse_rel", "3"},
                                                        {"authored_total_displayed_flip_mean", "0.015625"},
                                                        {"authored_model_smape", "1"},

@@ -101,6 +101,25 @@ TEST(Answer, FrontHoldsWhatNothingBeatsInBothAndNoNaN) {
               ElementsAre("coarse", "middle", "fine", "worst of hall, alone in terrain"));
 }
 
+// The views' ranges are independent: errors of their estimates add as squares do. Below 0 it is no bias.
+TEST(Answer, JoinsTheBiasOfViewsBeforeItsRootIsTaken) {
+  const auto of_view = [](int view, double bias_mse_rel, double error) {
+    FrontierRecord r = synthetic_record(synthetic_point("hall", "random"), 1, 0.1, view);
+    r.errors.seeds = SeedErrors{32, 8, synthetic_error(1, view, 1, 1), bias_mse_rel, error};
+    return r;
+  };
+  const FrontierAnswer answer = answer_from({of_view(0, 0.05, 0.03), of_view(1, -0.01, 0.04)});
+  const PointErrors& e = answer.points.at(0).errors;
+  ASSERT_TRUE(e.seeds);
+  EXPECT_EQ(e.seeds->pictures, 64);
+  EXPECT_EQ(e.seeds->flip_pictures, 16);
+  EXPECT_NEAR(e.seeds->bias_mse_rel, 0.02, 1e-15);
+  EXPECT_NEAR(e.seeds->bias_mse_rel_error, 0.025, 1e-15);
+  EXPECT_NEAR(*e.bias_rmse_rel, std::sqrt(0.02), 1e-15);
+  EXPECT_NEAR(e.seeds->deviation.rmse_rel, std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(answer_from({of_view(0, -0.05, 0.03)}).points.at(0).errors.bias_rmse_rel, 0);
+}
+
 // Where records hold both, each reference has a front of its own.
 TEST(Answer, HasAFrontAgainstEachReference) {
   const auto of = [](const std::string& name, double ratio, double error, double authored) {

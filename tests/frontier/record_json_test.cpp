@@ -61,6 +61,12 @@ TEST(FrontierRecords, KeepEveryFieldAsJson) {
   EXPECT_EQ(read.errors.precision.rel_mse_trimmed, r.errors.precision.rel_mse_trimmed);
   EXPECT_EQ(read.errors.technique.energy_rel, r.errors.technique.energy_rel);
   EXPECT_EQ(read.exposure_ev, r.exposure_ev);
+  ASSERT_TRUE(read.errors.seeds);
+  EXPECT_EQ(read.errors.seeds->pictures, 32);
+  EXPECT_EQ(read.errors.seeds->flip_pictures, 8);
+  EXPECT_EQ(read.errors.seeds->deviation.rel_mse, r.errors.seeds->deviation.rel_mse);
+  EXPECT_EQ(read.errors.seeds->bias_mse_rel, r.errors.seeds->bias_mse_rel);
+  EXPECT_EQ(read.errors.seeds->bias_mse_rel_error, r.errors.seeds->bias_mse_rel_error);
   ASSERT_TRUE(read.errors.authored);
   EXPECT_EQ(read.errors.authored->model.smape, r.errors.authored->model.smape);
   EXPECT_EQ(read.errors.authored->total.displayed->mean, r.errors.authored->total.displayed->mean);

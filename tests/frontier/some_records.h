@@ -54,6 +54,8 @@ inline FrontierRecord some_record(int tile, int view) {
   r.errors.total.displayed = DisplayedFlip{0.03125, 0.1875};
   r.errors.authored = AuthoredErrors{some_figures(8), some_figures(9)};
   r.errors.authored->total.displayed = DisplayedFlip{0.015625, 0.125};
+  r.errors.seeds = SeedErrors{32, 8, some_figures(10), 4e-10, 1e-10};
+  r.errors.seeds->deviation.displayed = DisplayedFlip{0.5, 0.25};
   r.errors.temporal_rmse_rel = 3e-5;
   r.flip = FlipExposures{-2.5, 7.25, 10};
   r.exposure_ev = -1.5;

@@ -52,24 +52,59 @@ TEST(FrontierErrors, AreInfiniteForNaNAndForAnythingButBlackInABlackPicture) {
   EXPECT_TRUE(std::isinf(frontier_error(picture({{1, 0, 0}}), picture({{0, 0, 0}}), 0).rmse_rel));
 }
 
-// Frames scattered by a known deviation around a mean that is off by a known bias.
-TEST(FrontierErrors, SplitNoiseIntoBiasAndDeviation) {
+// Pictures whose pixels differ by the shared noise of a few lights, each there with a known probability and
+// then brighter by its inverse, beside a level of the same bias.
+void add_noisy(const Image& truth, float bias, Random& random, BiasOfPictures& of_bias,
+               PictureMoments& moments, double& mean_square) {
+  Image image = truth;
+  for (int light = 0; light < 24; ++light) {
+    const float chance = 0.2f + 0.03f * float(light);
+    const float off = random.uniform() < chance ? 1 / chance - 1 : -1;
+    for (size_t i = size_t(light); i < image.pixels.size(); i += 1 + size_t(light) % 5)
+      image.pixels[i] += glm::vec4(off * 0.1f, off * 0.05f, 0, 0);
+  }
+  for (auto& pixel : image.pixels) pixel += glm::vec4(bias, bias, bias, 0);
+  of_bias.add(image, truth);
+  moments.add(image);
+  const double rmse = frontier_error(image, truth, 1).rmse_rel;
+  mean_square += rmse * rmse;
+}
+
+// Of as many pictures as groups, the mean square error is the bias squared and the variance, whatever they
+// are.
+TEST(BiasOfPictures, IsWhatTheVarianceLeavesOfTheMeanSquareError) {
+  const Image truth(16, 8);
   Random random(3);
-  constexpr int count = 64;
-  Image truth(64, 64);
-  for (auto& pixel : truth.pixels) pixel = glm::vec4(1);
-  for (const float bias : {0.0f, 0.05f}) {
-    PictureMoments moments;
-    for (int frame = 0; frame < count; ++frame) {
-      Image image = truth;
-      for (auto& pixel : image.pixels) {
-        for (int c = 0; c < 3; ++c) pixel[c] += bias + (random.uniform() < 0.5f ? -0.2f : 0.2f);
-      }
-      moments.add(image);
+  BiasOfPictures of_bias;
+  PictureMoments moments;
+  double mean_square = 0;
+  for (int i = 0; i < BiasOfPictures::groups; ++i)
+    add_noisy(truth, 0.125f, random, of_bias, moments, mean_square);
+  const double variance = moments.deviation() * moments.deviation();
+  EXPECT_NEAR(of_bias.estimate().mean_square, mean_square / BiasOfPictures::groups - variance, 1e-7);
+}
+
+// 300 trials of 32 pictures. Student's t of seven degrees of freedom; the error is not normal, so that the
+// intervals are too wide without a bias and a little too narrow with one much larger than the noise.
+TEST(BiasOfPictures, IsEstimatedWithoutBiasAndWithAnInterval) {
+  const Image truth(16, 8);
+  Random random(5);
+  constexpr int trials = 300;
+  for (const float bias : {0.0f, 0.03f, 0.3f}) {
+    double sum = 0, squares = 0;
+    int held = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      BiasOfPictures of_bias;
+      PictureMoments moments;
+      double ignored = 0;
+      for (int i = 0; i < 32; ++i) add_noisy(truth, bias, random, of_bias, moments, ignored);
+      const BiasOfPictures::Estimate e = of_bias.estimate();
+      sum += e.mean_square, squares += e.mean_square * e.mean_square;
+      held += std::abs(e.mean_square - double(bias) * bias) <= 2.365 * e.standard_error;
     }
-    const double rmse = frontier_error(moments.mean(), truth, 1).rmse_rel;
-    EXPECT_NEAR(moments.deviation(), 0.2, 0.002);
-    EXPECT_NEAR(bias_rmse(rmse, moments.deviation(), count), bias, bias > 0 ? 0.001 : 0.005);
+    const double mean = sum / trials, error = std::sqrt((squares / trials - mean * mean) / trials);
+    EXPECT_NEAR(mean, double(bias) * bias, 3 * error) << bias;
+    EXPECT_GE(held, 0.9 * trials) << bias;
   }
 }
 

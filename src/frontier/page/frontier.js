@@ -97,6 +97,16 @@ function errorTable(point) {
       ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(measureOf(point.error.in_double, measure))))))] : [])));
 }
 
+const spread = (value, deviation) => `${errorNumber(value)} (standard deviation ${errorNumber(deviation)})`;
+
+// An unbiased estimator's bias is 0; what is measured of it is the noise that is left.
+function randomInWords({ total, seeds, deviation_rmse_rel: noise, bias_rmse_rel: bias }) {
+  const [low, high] = seeds.bias_rmse_rel_ci95;
+  const told = low > 0 ? `${errorNumber(bias)} (${errorNumber(low)} to ${errorNumber(high)})` : `not told from 0, at most ${errorNumber(high)}`;
+  return `Of ${wholeNumber(seeds.pictures)} pictures with other random ranges errors are means: FLIP as displayed ${spread(total.displayed_flip.mean, seeds.deviation.displayed_flip.mean)}, `
+    + `relMSE, 99.9 % ${spread(total.rel_mse_trimmed, seeds.deviation.rel_mse_trimmed)}. Over the brightest channel: standard deviation of a frame ${errorNumber(noise ?? 0)}, bias ${told}.`;
+}
+
 function choosePoint(point) {
   state.selected = point;
   const images = (point?.pictures ?? []).map((number, i) => [number, PICTURE_CAPTIONS[i]]).filter(([number]) => number >= 0);
@@ -116,7 +126,7 @@ function choosePoint(point) {
     errorTable(point),
     ...(sampled ? [make("p", {}, `Truth in double: at ${wholeNumber(sampled.pixels)} random pixels of opaque surfaces. There the RMSE is ${errorNumber(sampled.float_total_rmse_rel)} against the truth in float, which is within ${errorNumber(sampled.float_truth_max_rel)} of the one in double (RMSE ${errorNumber(sampled.float_truth_rmse_rel)}).`)] : []),
     ...(error.flip_views > 0 && error.flip_views < point.views ? [make("p", {}, `HDR-FLIP on ${error.flip_views} of ${point.views} views, flicker on ${error.temporal_views}.`)] : []),
-    ...(error.deviation_rmse_rel !== null ? [make("p", {}, `Of random ranges: bias ${errorNumber(error.bias_rmse_rel ?? 0)}, standard deviation of a frame ${errorNumber(error.deviation_rmse_rel)} (RMSE over the brightest channel).`)] : []),
+    ...(error.seeds ? [make("p", {}, randomInWords(error))] : []),
     ...(error.temporal_rmse_rel !== null ? [make("p", {}, `Flicker: from frame to frame of a slow turn its difference from the truth changes by ${errorNumber(error.temporal_rmse_rel)} (RMSE over the brightest channel).`)] : []),
     make("details", {}, make("summary", {}, "Settings"), ...Object.entries(point.settings).map(([key, value]) => make("div", {}, make("code", {}, `${key} = ${value}`)))))] : []));
   redraw();
