@@ -36,6 +36,9 @@ struct PointFigures {
   RelativeTime relative_time;
   PointErrors errors;
   int flip_views = 0, temporal_views = 0;  // that have FLIP, and flicker
+  // 95 % intervals over views (bootstrap_interval) by error, "total" or "authored", and measure; empty where
+  // there are fewer than six.
+  std::map<std::pair<std::string, std::string>, std::pair<double, double>> over_views;
   PairCounts pairs;                        // sums over views
   std::optional<FrontierTruth> truth;      // empty: every light without a range
   std::optional<double> exposure_ev;       // of the scene's pictures

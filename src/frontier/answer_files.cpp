@@ -131,6 +131,8 @@ json point_json(const PointFigures& p) {
   if (!p.errors.authored) error.erase("authored");
   error.erase("seeds");
   if (p.errors.seeds) error["seeds"] = seeds_json(p);
+  for (const auto& [of, interval] : p.over_views)
+    error["over_views_ci95"][of.first][of.second] = pair_json(interval.first, interval.second);
   error["flip_views"] = p.flip_views;
   error["temporal_views"] = p.temporal_views;
   out["pairs"] = pairs_json(p.pairs);

@@ -6,6 +6,7 @@
 #include "frontier/answer_steps.h"
 #include "frontier/fields.h"
 #include "frontier/round_baselines.h"
+#include "scene/random.h"
 
 namespace lightgrid {
 namespace {
@@ -91,6 +92,24 @@ std::optional<SeedErrors> seeds_over(const Group& views) {
   return all;
 }
 
+constexpr size_t least_views_of_interval = 6;
+
+void add_intervals_over_views(const Group& views, PointFigures& point) {
+  if (views.size() < least_views_of_interval) return;
+  const auto add = [&](const char* kind, const auto& of) {
+    for (const ErrorMeasure& measure : frontier_error_measures()) {
+      point.over_views[{kind, measure.key}] = bootstrap_interval(
+          figures_of_views(views, [&](const FrontierRecord& v) { return of(v.errors).*measure.value; }),
+          measure.over_views);
+    }
+    const auto flips =
+        figures_of_views(views, [&](const FrontierRecord& v) { return flip_of(v.errors, kind); });
+    point.over_views[{kind, "displayed_flip"}] = bootstrap_interval(flips, OverViews::mean);
+  };
+  add("total", [](const PointErrors& e) { return e.total; });
+  if (point.errors.authored) add("authored", [](const PointErrors& e) { return e.authored->total; });
+}
+
 // For each run, the mean over views of its time; as many runs as every view has.
 std::vector<double> means_of_runs(const Group& views) {
   size_t runs = std::numeric_limits<size_t>::max();
@@ -127,6 +146,7 @@ PointFigures over_views(const Group& views) {
   all.errors.in_double = in_double_over(views);
   all.errors.authored = authored_over(views);
   all.errors.seeds = seeds_over(views);
+  add_intervals_over_views(views, all);
   for (const auto spread :
        {&PointErrors::bias_rmse_rel, &PointErrors::deviation_rmse_rel, &PointErrors::temporal_rmse_rel}) {
     const auto figures = present_figures(views, [&](const FrontierRecord& v) { return v.errors.*spread; });
@@ -153,6 +173,20 @@ std::optional<double> percent_of_pairs(const PairCounts& pairs, uint64_t ShadowP
 }
 
 }  // namespace
+
+std::pair<double, double> bootstrap_interval(const std::vector<double>& figures, OverViews how) {
+  if (!std::ranges::all_of(figures, [](double figure) { return std::isfinite(figure); }))
+    return {unknown_error, unknown_error};
+  constexpr size_t draws = 2000;
+  Random random(Random::mix(figures.size()));
+  std::vector<double> drawn(draws), views(figures.size());
+  for (double& figure : drawn) {
+    for (double& view : views) view = figures[size_t(random.next() % figures.size())];
+    figure = joined(views, how);
+  }
+  std::ranges::sort(drawn);
+  return {drawn[draws / 40], drawn[draws - 1 - draws / 40]};
+}
 
 std::optional<double> leaked_percent(const PairCounts& pairs) {
   return percent_of_pairs(pairs, &ShadowPairs::leaked);

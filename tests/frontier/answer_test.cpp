@@ -101,6 +101,34 @@ TEST(Answer, FrontHoldsWhatNothingBeatsInBothAndNoNaN) {
               ElementsAre("coarse", "middle", "fine", "worst of hall, alone in terrain"));
 }
 
+// Of n figures with a standard deviation s the mean of n draws has s sqrt(1 / n): for 64 of 0 and 1 in turn
+// 0.0625. The binomial distribution of 64 draws has 2.5 % up to 24 and 97.5 % up to 40.
+TEST(Answer, StatesWhatOtherViewsMightHaveGiven) {
+  std::vector<double> figures;
+  for (int i = 0; i < 64; ++i) figures.push_back(i % 2);
+  const auto [low, high] = bootstrap_interval(figures, OverViews::mean);
+  EXPECT_NEAR(low, 24.0 / 64, 1.0 / 64);
+  EXPECT_NEAR(high, 40.0 / 64, 1.0 / 64);
+  EXPECT_EQ(bootstrap_interval(figures, OverViews::mean), std::pair(low, high)) << "the same in each run";
+  const auto [root_low, root_high] = bootstrap_interval(figures, OverViews::root_mean_square);
+  EXPECT_DOUBLE_EQ(root_low, std::sqrt(low)) << "of the same draws";
+  EXPECT_EQ(bootstrap_interval(std::vector<double>(9, 0.5), OverViews::mean), std::pair(0.5, 0.5));
+  figures[7] = no_figure;
+  EXPECT_TRUE(std::isnan(bootstrap_interval(figures, OverViews::mean).first));
+
+  std::vector<FrontierRecord> records;
+  for (int view = 0; view < 6; ++view)
+    records.push_back(synthetic_record(synthetic_point("hall", "a"), 1, view < 3 ? 0.1 : 0.3, view));
+  const auto of_views = [&](size_t count) {
+    return answer_from({records.begin(), records.begin() + std::ptrdiff_t(count)}).points[0].over_views;
+  };
+  EXPECT_THAT(of_views(5), IsEmpty());
+  const auto [flip_low, flip_high] = of_views(6).at({"total", "displayed_flip"});
+  EXPECT_NEAR(flip_low, 0.1 + 0.2 / 6, 0.2 / 6 + 1e-9);
+  EXPECT_NEAR(flip_high, 0.1 + 5 * 0.2 / 6, 0.2 / 6 + 1e-9);
+  EXPECT_FALSE(of_views(6).contains({"authored", "displayed_flip"}));
+}
+
 // The views' ranges are independent: errors of their estimates add as squares do. Below 0 it is no bias.
 TEST(Answer, JoinsTheBiasOfViewsBeforeItsRootIsTaken) {
   const auto of_view = [](int view, double bias_mse_rel, double error) {

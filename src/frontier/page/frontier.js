@@ -97,6 +97,12 @@ function errorTable(point) {
       ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(measureOf(point.error.in_double, measure))))))] : [])));
 }
 
+// Of the chosen reference: what other views might have given.
+function flipOverViews({ error }) {
+  const [low, high] = error.over_views_ci95?.[state.reference]?.displayed_flip ?? [null, null];
+  return low !== null && `FLIP as displayed ${errorNumber(low)} to ${errorNumber(high)} over views`;
+}
+
 const spread = (value, deviation) => `${errorNumber(value)} (standard deviation ${errorNumber(deviation)})`;
 
 // An unbiased estimator's bias is 0; what is measured of it is the noise that is left.
@@ -115,7 +121,7 @@ function choosePoint(point) {
   const summary = point && [timed && `${intervalInWords(point.relative_time, "")} times ${page.baseline}`, timed && `${intervalInWords(point.frame_ms, " ms")} a frame`,
     timed && `95 % of frames within ${threeDigits(point.frame_ms_within.p95)} ms, 99 % within ${threeDigits(point.frame_ms_within.p99)} ms`,
     timed && modesInWords(point.relative_time), timed && point.relative_time.between_processes !== null && `${percentText(100 * point.relative_time.between_processes)} between ${point.relative_time.processes} processes`,
-    `${point.views} view${point.views === 1 ? "" : "s"}`, point.pairs.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
+    `${point.views} view${point.views === 1 ? "" : "s"}`, flipOverViews(point), point.pairs.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
     quantity("leaked").value(point) !== null && `${percentText(point.leaked_percent)} of ${wholeNumber(point.pairs.shadow_pairs)} pairs leaked, ${percentText(point.acned_percent)} acned`,
     point.nan_pixels > 0 && `${wholeNumber(point.nan_pixels)} NaN pixels`,
     point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, timed && `on the front with a probability of ${probabilityText(frontOfPoint(point, state.reference).probability)}`];
