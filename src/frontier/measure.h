@@ -16,7 +16,7 @@ struct FrontierJob {
   ChosenPoint baseline;
   Settings common;
   FrontierTruth truth;
-  int views = 8;         // at most: fewer if the time allows no more
+  int views = 16;        // at most: fewer if the time allows no more
   double seconds = 180;  // for the scene, from loading to its last record
   int least_rounds = 6, most_rounds = 40;
   int controls = 3;  // the baseline as this many points of its own, in each round

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/embedded.h"
 #include "base/error.h"
 #include "cl/error.h"
 #include "results/error_measures.h"
 #include "results/metrics.h"
+#include "scene/builtin.h"
 #include "scene/camera_path.h"
 #include "scene/random.h"
 #include "session/oracle.h"
@@ -38,13 +40,20 @@ std::vector<size_t> spread_order(size_t count) {
   return order;
 }
 
+std::vector<View> path_of_views(const Scene& scene, const View& start, const SceneChoice& choice, int count) {
+  if (!choice.camera_path.empty()) return camera_path(scene, start, choice.camera_path);
+  const std::string file = "frontier/views/" + choice.scene + ".json";
+  if (choice.camera.empty() && find_builtin_scene(choice.scene) && embedded_files().contains(file))
+    return camera_path_of_keys(start, embedded_file(file), file);
+  return camera_path(scene, start, fmt::format("turn:{}", count));
+}
+
 }  // namespace
 
 std::vector<View> frontier_views(const Scene& scene, const View& start, const SceneChoice& choice,
                                  int count) {
   if (count == 1 && choice.camera_path.empty()) return {start};
-  const std::string path = choice.camera_path.empty() ? fmt::format("turn:{}", count) : choice.camera_path;
-  const std::vector<View> all = camera_path(scene, start, path);
+  const std::vector<View> all = path_of_views(scene, start, choice, count);
   std::vector<View> views;
   for (const size_t i : spread_order(std::min(all.size(), size_t(count)))) {
     views.push_back(all[i * all.size() / std::min(all.size(), size_t(count))]);

@@ -78,8 +78,10 @@ class ViewFigures {
   uint64_t seed_;
 };
 
-// `count` views along the camera path; without one, turned about the camera's place. In an order whose every
-// prefix is spread over the path.
+// `count` views along the camera path. Without one and without a chosen camera: of a built-in scene that has
+// a file in frontier/views, those of it (at most 16, from four places), the same for everybody; of others,
+// turned about the camera's place. In an order whose every prefix is spread over the path. One view: the
+// scene's first camera's.
 std::vector<View> frontier_views(const Scene& scene, const View& start, const SceneChoice& choice, int count);
 
 // Frames of a camera that turns from `start` by a quarter of a degree a frame.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -55,12 +56,9 @@ struct Key {
 
 class KeyFile {
  public:
-  explicit KeyFile(const std::string& path) : path_(path) {
-    std::ifstream file(path);
-    if (!file)
-      throw input_error("camera-path {}: neither turn:N nor dolly:N, nor a file that can be read", path);
+  KeyFile(const std::string& path, const std::string& text) : path_(path) {
     try {
-      json_ = nlohmann::json::parse(file);
+      json_ = nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception&) {
       throw input_error("camera-path {}: is not JSON", path);
     }
@@ -139,8 +137,15 @@ std::optional<int> count_of(const std::string& text, const std::string& name) {
 std::vector<View> camera_path(const Scene& scene, const View& start, const std::string& path) {
   if (const auto count = count_of(path, "turn")) return turn(start, *count);
   if (const auto count = count_of(path, "dolly")) return dolly(scene, start, *count);
+  std::ifstream file(path);
+  if (!file)
+    throw input_error("camera-path {}: neither turn:N nor dolly:N, nor a file that can be read", path);
+  return camera_path_of_keys(start, {std::istreambuf_iterator<char>(file), {}}, path);
+}
+
+std::vector<View> camera_path_of_keys(const View& start, const std::string& text, const std::string& path) {
   std::vector<View> views;
-  for (const Key& key : KeyFile(path).views()) {
+  for (const Key& key : KeyFile(path, text).views()) {
     if (key.eye == key.target) throw input_error("camera-path {}: a target is at its eye", path);
     Camera camera = look_at(key.eye, key.target);
     camera.name = path;

@@ -17,4 +17,7 @@ namespace lightgrid {
 // outside 1 to 100,000, an invalid file, and a target at its eye.
 std::vector<View> camera_path(const Scene& scene, const View& start, const std::string& path);
 
+// The same of the text of such a file; `path`: its name in errors.
+std::vector<View> camera_path_of_keys(const View& start, const std::string& text, const std::string& path);
+
 }  // namespace lightgrid

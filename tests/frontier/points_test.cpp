@@ -88,7 +88,9 @@ TEST(FrontierPoints, OfAnUnknownKeyOrValueAreRefusedByName) {
 TEST(FrontierViews, OfAnyPrefixAreSpreadOverThePath) {
   const Scene scene = find_builtin_scene("spheres")->make();
   const View start = make_view(choose_camera(scene, ""), 32, 18);
-  const std::vector<View> views = frontier_views(scene, start, {}, 8);
+  SceneChoice choice;
+  choice.scene = "spheres.glb";
+  const std::vector<View> views = frontier_views(scene, start, choice, 8);
   ASSERT_EQ(views.size(), 8u);
   const auto forward = [](const View& v) {
     return glm::transpose(glm::dmat3(v.view_from_world)) * glm::dvec3(0, 0, -1);
@@ -96,6 +98,36 @@ TEST(FrontierViews, OfAnyPrefixAreSpreadOverThePath) {
   const auto flat = [&](const View& v) { return glm::normalize(glm::dvec2(forward(v).x, forward(v).z)); };
   EXPECT_NEAR(glm::dot(flat(views[0]), flat(views[1])), -1, 1e-6) << "the second looks back";
   EXPECT_NEAR(glm::dot(flat(views[0]), flat(views[2])), 0, 1e-6) << "the third aside";
+}
+
+// The same views for everybody, whatever their number: the first of them from several places.
+TEST(FrontierViews, OfADefaultSceneAreThoseOfItsFile) {
+  for (const char* name : {"hall", "terrain", "spheres", "street"}) {
+    const Scene scene = find_builtin_scene(name)->make();
+    const View start = make_view(choose_camera(scene, ""), 32, 18);
+    SceneChoice choice;
+    choice.scene = name;
+    const std::vector<View> views = frontier_views(scene, start, choice, 16),
+                            few = frontier_views(scene, start, choice, 4);
+    ASSERT_EQ(views.size(), 16u) << name;
+    std::set<std::vector<double>> eyes, of_few, turns;
+    for (size_t i = 0; i < views.size(); ++i) {
+      const View& v = views[i];
+      const std::vector<double> eye = {v.eye.x, v.eye.y, v.eye.z};
+      eyes.insert(eye);
+      std::vector<double> turn = eye;
+      for (int c = 0; c < 3; ++c) turn.push_back(v.view_from_world[c].z);
+      turns.insert(turn);
+      if (i >= few.size()) continue;
+      EXPECT_EQ(v.view_from_world, few[i].view_from_world) << name << " " << i;
+      of_few.insert(eye);
+    }
+    EXPECT_EQ(eyes.size(), 4u) << name;
+    EXPECT_EQ(of_few.size(), 4u) << name;
+    EXPECT_EQ(turns.size(), 16u) << name;
+    choice.camera = "0";
+    EXPECT_EQ(frontier_views(scene, start, choice, 16)[1].eye, start.eye) << "a turn about a chosen camera";
+  }
 }
 
 }  // namespace
