@@ -36,7 +36,7 @@ struct FrontierCommand {
   DeviceOptions devices;
   std::string output = "out/frontier", json, gate, shard = "0/1", process, truth, baseline;
   std::vector<std::string> techniques, vary;
-  int views = 16, rounds = 40, budget = 14, page_mb = 12, processes = 1;
+  int views = 16, rounds = 120, budget = 14, page_mb = 12, processes = 1;
   bool no_growth = false;
 };
 

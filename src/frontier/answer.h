@@ -70,6 +70,9 @@ struct Control {
   RelativeTime relative_time;  // of all places together
   std::vector<double> places;  // the estimate of each
   bool passed() const;         // 1 is in the interval, and within 1 % of the estimate
+  // The interval reaches at most 1 % to either side: where nothing but noise differs, 95 in 100 estimates are
+  // then within 1 % of 1. Of `processes` like this one, their mean is to be.
+  bool is_precise(int processes = 1) const;
   // The logarithm by which the intervals of the scene's points are wider: 0 if it passed, otherwise what the
   // control is off by.
   double widening() const;

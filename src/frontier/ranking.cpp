@@ -74,6 +74,11 @@ bool Control::passed() const {
          std::abs(relative_time.estimate - 1) <= most_off;
 }
 
+bool Control::is_precise(int processes) const {
+  const double half_width = 0.5 * std::log(relative_time.high / relative_time.low);
+  return relative_time.runs > 1 && half_width <= most_off * std::sqrt(double(processes));
+}
+
 double Control::widening() const { return passed() ? 0 : std::abs(std::log(relative_time.estimate)); }
 
 std::vector<Control> controls_of(Records records) {

@@ -139,10 +139,12 @@ int TimeRounds::run() {
         (job.processes > 1 ? point.rounds() : 0) + (slow_rounds + job.processes - 1) / job.processes;
   ConditionsReader conditions;
   double longest_s = 0;
+  int precise = 0;  // of the latest rounds, those after which the controls were
   for (bool warm_up = true; done < most; warm_up = false) {
     const double before = timer.elapsed_ms() / 1000;
     if (done > before_this && before + longest_s > until_s) break;
-    if (done >= least && are_certain()) break;
+    precise = are_controls_precise(before_this) ? precise + 1 : 0;
+    if (done >= least && precise >= precise_rounds && are_certain()) break;
     std::vector<TimeOfRecord> times;
     for (size_t view = 0; view < views.size(); ++view) time_view(warm_up ? 0 : done + 1, view, times);
     const FrontierConditions of_round = conditions.sample();
@@ -198,6 +200,23 @@ bool TimeRounds::are_certain() const {
     const MedianInterval ratio = median_interval(ratios_of(point));
     return ratio.high - ratio.low <= job.interval_width * ratio.median;
   });
+}
+
+// By the rounds of this process (`before_this` are of others), since each of several gives its share of the
+// precision; of a part that goes on, all rounds count as one process's.
+bool TimeRounds::are_controls_precise(int before_this) const {
+  std::vector<FrontierRecord> of_this;
+  for (const MeasuredPoint& point : points) {
+    for (const FrontierRecord& record : point.records) {
+      FrontierRecord& times = of_this.emplace_back();
+      times.point = record.point, times.view = record.view, times.series = record.series;
+      const auto begin = std::min(size_t(before_this), record.frame_ms.size());
+      times.frame_ms.assign(record.frame_ms.begin() + begin, record.frame_ms.end());
+      times.baseline_ms.assign(record.baseline_ms.begin() + begin, record.baseline_ms.end());
+    }
+  }
+  return std::ranges::all_of(controls_of(of_this),
+                             [&](const Control& c) { return c.is_precise(job.processes); });
 }
 
 void complete(const std::vector<MeasuredPoint>& points, RecordFile& file) {

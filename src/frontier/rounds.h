@@ -21,6 +21,9 @@ struct MeasuredPoint {
 };
 
 constexpr int slow_rounds = 3;  // of slow points
+// Rounds end when the controls were precise after this many in a row. With one, rounds would end where times
+// happen to look quiet, and fewer intervals would hold the truth.
+constexpr int precise_rounds = 3;
 
 // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round.
 // A point counts with the baseline run beside it. Before each timed run, of the baseline too, the same point
@@ -35,14 +38,16 @@ struct TimeRounds {
   PointRun& baseline;
   RecordFile& file;
 
-  // Until the ratios are certain or the time is over, or this process has its share of the rounds. Returns
-  // the number of rounds that count: those that the points have from earlier processes too.
+  // Until the ratios are certain and the controls precise (Control::is_precise) or the time is over, or this
+  // process has its share of the rounds. Returns the number of rounds that count: those that the points have
+  // from earlier processes too.
   int run();
 
  private:
   void time_view(int round, size_t view, std::vector<TimeOfRecord>& times);
   double timed(PointRun& run, size_t view);  // ms
   bool are_certain() const;
+  bool are_controls_precise(int before_this) const;  // rounds of earlier processes
 };
 
 // Completes all records of the points in the file.
