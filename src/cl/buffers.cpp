@@ -83,6 +83,7 @@ void UploadedBuffer::put(ClDevice& device, const char* what, const void* data, s
   try {
     device.queue().enqueueWriteBuffer(buffer_, CL_FALSE, 0, bytes, staged.values.data(), nullptr,
                                       &staged.read);
+    if (cl::Event* const timed = device.profiler().copy_event(what)) *timed = staged.read;
   } catch (const cl::Error& error) {
     throw cl_machine_error(error, what);
   }

@@ -18,24 +18,37 @@ ClProfiler::Row& row_of(std::vector<ClProfiler::Row>& rows, const std::string& l
 cl::Event* ClProfiler::event(const std::string& label) {
   ++count_;
   ++row_of(counts_, label).launches;
-  return timing_ ? &pending_.emplace_back(Timed{label, {}}).event : nullptr;
+  return timing_ ? &pending_.emplace_back(Pending{label, false, {}}).event : nullptr;
 }
 
-std::vector<ClProfiler::Row> ClProfiler::collect() {
-  std::vector<Row> rows;
+cl::Event* ClProfiler::copy_event(const std::string& label) {
+  return timing_copies_ ? &pending_.emplace_back(Pending{label, true, {}}).event : nullptr;
+}
+
+std::vector<ClProfiler::Timed> ClProfiler::collect_each() {
+  std::vector<Timed> all;
   try {
-    for (const Timed& timed : pending_) {
-      if (!timed.event()) continue;  // the call that should have filled it failed and reported that
-      timed.event.wait();
-      Row& row = row_of(rows, timed.label);
-      ++row.launches;
-      row.ms += 1e-6 * double(timed.event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-                              timed.event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
+    for (const Pending& pending : pending_) {
+      if (!pending.event()) continue;  // the call that should have filled it failed and reported that
+      Timed& timed = all.emplace_back(Timed{pending.label, pending.copy});
+      pending.event.wait();
+      timed.ms = 1e-6 * double(pending.event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                               pending.event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
     }
   } catch (const cl::Error& error) {
     throw cl_machine_error(error, "timing a launch");
   }
   pending_.clear();
+  return all;
+}
+
+std::vector<ClProfiler::Row> ClProfiler::collect() {
+  std::vector<Row> rows;
+  for (const Timed& timed : collect_each()) {
+    Row& row = row_of(rows, timed.label);
+    ++row.launches;
+    row.ms += timed.ms;
+  }
   return rows;
 }
 

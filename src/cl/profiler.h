@@ -19,27 +19,39 @@ class ClProfiler {
 
   // Off by default: each event has a cost and is kept until collected.
   void time_launches(bool on) { timing_ = on; }
+  void time_copies(bool on) { timing_copies_ = on; }  // from and to the host, besides
 
   // Counts one launch or transfer under `label`. Returns a place for its event, or null while timing is off.
   cl::Event* event(const std::string& label);
+  // Of a copy from or to the host, which is not counted; null while these are not timed.
+  cl::Event* copy_event(const std::string& label);
 
   // Waits for the timed launches, sums them by label in order of first use, and clears them.
   std::vector<Row> collect();
+  struct Timed {
+    std::string label;
+    bool copy = false;  // copy_event
+    double ms = 0;
+  };
+  // The same one by one, in the order of their enqueuing; `pending` of them are there.
+  std::vector<Timed> collect_each();
+  size_t pending() const { return pending_.size(); }
 
   // Launches and transfers so far, timed or not.
   int count() const { return count_; }
   int count(const std::string& label) const;
 
  private:
-  struct Timed {
+  struct Pending {
     std::string label;
+    bool copy;
     cl::Event event;
   };
 
-  bool timing_ = false;
+  bool timing_ = false, timing_copies_ = false;
   int count_ = 0;
   std::vector<Row> counts_;    // by label; ms unused
-  std::deque<Timed> pending_;  // a deque, so that addresses returned by event() stay valid
+  std::deque<Pending> pending_;  // a deque, so that addresses returned by event() stay valid
 };
 
 }  // namespace lightgrid

@@ -19,13 +19,19 @@ void checked(const char* what, const Call& call) {
 void read_buffer(ClDevice& device, const char* what, const cl::Buffer& from, void* to, size_t bytes,
                  size_t offset) {
   if (bytes == 0) return;
-  checked(what, [&] { device.queue().enqueueReadBuffer(from, CL_TRUE, offset, bytes, to); });
+  checked(what, [&] {
+    device.queue().enqueueReadBuffer(from, CL_TRUE, offset, bytes, to, nullptr,
+                                     device.profiler().copy_event(what));
+  });
 }
 
 void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes,
                   size_t offset) {
   if (bytes == 0) return;
-  checked(what, [&] { device.queue().enqueueWriteBuffer(to, CL_TRUE, offset, bytes, from); });
+  checked(what, [&] {
+    device.queue().enqueueWriteBuffer(to, CL_TRUE, offset, bytes, from, nullptr,
+                                      device.profiler().copy_event(what));
+  });
 }
 
 MappedBuffer::MappedBuffer(ClDevice& device, const char* what, const cl::Buffer& buffer, size_t bytes)
@@ -45,7 +51,10 @@ MappedBuffer::~MappedBuffer() {
 
 void enqueue_write(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes) {
   if (bytes == 0) return;
-  checked(what, [&] { device.queue().enqueueWriteBuffer(to, CL_FALSE, 0, bytes, from); });
+  checked(what, [&] {
+    device.queue().enqueueWriteBuffer(to, CL_FALSE, 0, bytes, from, nullptr,
+                                      device.profiler().copy_event(what));
+  });
 }
 
 void fill_buffer(ClDevice& device, const char* what, const cl::Buffer& buffer, cl_uint value, size_t bytes) {

@@ -185,6 +185,7 @@ FrontierAnswer answer_of(const std::vector<FrontierPart>& parts) {
   rank_points(answer.points, answer.controls);
   answer.cheapest_within = cheapest_within_of(answer.points, answer.controls);
   answer.front_bands = front_bands_of(answer.points, answer.controls);
+  set_device_figures(answer);
   answer.break_even = break_evens_of(records);
   answer.shading_costs = shading_costs_of(records);
   answer.growth = growth_of(records);

@@ -23,6 +23,15 @@ struct OnFront {
   double probability = 0;
 };
 
+// What a point takes by the devices' own clocks (DeviceTimes); as in PointFigures otherwise. No runs:
+// unknown.
+struct DeviceFigures {
+  MedianInterval device_ms, hand_over_ms, copy_ms, read_back_ms;
+  LogTimes log_times;  // of device_ms
+  RelativeTime relative_time;
+  std::map<std::string, OnFront> fronts;
+};
+
 // A point over all its views. Errors: the largest max_rel, otherwise root mean squares or means over views.
 struct PointFigures {
   FrontierPoint point;
@@ -46,6 +55,7 @@ struct PointFigures {
   uint64_t bytes_moved = 0;                // a frame of the views that were profiled: the first
   uint64_t nan_pixels = 0;
   std::map<std::string, OnFront> fronts;  // by the error that it is of (front_errors)
+  DeviceFigures device;
 };
 
 // Of all pairs of a pixel and a light that casts and is in range, in per cent: those shaded though hidden,
@@ -132,6 +142,8 @@ struct FrontierAnswer {
   std::vector<ProcessConditions> processes;
   std::vector<CheapestWithin> cheapest_within;
   std::vector<FrontBand> front_bands;
+  std::vector<Control> device_controls;  // by the devices' clocks
+  std::vector<FrontBand> device_front_bands;
   std::vector<BreakEven> break_even;
   std::vector<ShadingCost> shading_costs;
   std::vector<Growth> growth;

@@ -116,6 +116,17 @@ json seeds_json(const PointFigures& p) {
       {"bias_rmse_rel_ci95", pair_json(root(seeds.bias_mse_rel - reach), root(seeds.bias_mse_rel + reach))}};
 }
 
+json on_front_json(const OnFront& front) { return {{"on", front.on}, {"probability", front.probability}}; }
+
+void add_device_json(const DeviceFigures& d, json& out) {
+  out["device_ms"] = interval_json(d.device_ms);
+  out["hand_over_ms"] = interval_json(d.hand_over_ms);
+  out["copy_ms"] = interval_json(d.copy_ms);
+  out["read_back_ms"] = interval_json(d.read_back_ms);
+  out["relative_device_time"] = relative_time_json(d.relative_time);
+  for (const auto& [of, front] : d.fronts) out["device_fronts"][of] = on_front_json(front);
+}
+
 json point_json(const PointFigures& p) {
   json out = finite_json(p.point);
   out["views"] = p.views;
@@ -145,8 +156,8 @@ json point_json(const PointFigures& p) {
   out["memory_bytes"] = p.memory_bytes;
   out["bytes_moved"] = p.bytes_moved;
   out["nan_pixels"] = p.nan_pixels;
-  for (const auto& [of, front] : p.fronts)
-    out["fronts"][of] = {{"on", front.on}, {"probability", front.probability}};
+  for (const auto& [of, front] : p.fronts) out["fronts"][of] = on_front_json(front);
+  add_device_json(p.device, out);
   return out;
 }
 
@@ -195,6 +206,7 @@ std::vector<CsvColumn> csv_columns(bool truths, bool shadows, bool authored, boo
                     "view",      "width",     "height",       "lights",        "radius_scale", "refused",
                     "runs",      "frame_ms",  "frame_ms_low", "frame_ms_high", "baseline_ms",  "ratio",
                     "ratio_low", "ratio_high"});
+  add_columns(all, {"device_ms", "hand_over_ms", "copy_ms", "read_back_ms", "baseline_device_ms"});
   add_columns(all, {"bytes_moved", "memory_bytes", "covered_pixels"});
   add_columns(all, {"listed", "lit", "lost", "wrong"}, "/pairs");
   add_columns(all, {"nan_pixels", "overflow"});
@@ -259,6 +271,8 @@ json csv_row(const FrontierAnswer& answer, size_t row) {
   for (size_t run = 0; run < r.frame_ms.size(); ++run) ratios.push_back(r.frame_ms[run] / r.baseline_ms[run]);
   const MedianInterval frame = median_interval(r.frame_ms);
   fields["runs"] = frame.runs;
+  for (const auto& [key, times] : times_by_device)
+    fields[key] = (r.*times).empty() ? json() : finite_number(median_interval(r.*times).median);
   fields["frame_ms"] = fields["baseline_ms"] = nullptr;
   if (frame.runs == 0) return fields;
   fields["baseline_ms"] = finite_number(median_interval(r.baseline_ms).median);
@@ -317,6 +331,10 @@ json page_data_of(const FrontierAnswer& answer, const PagePictures& pictures) {
                               {"opening", words.opening},
                               {"notes", words.notes}});
   }
+  // GPUs' frames end with a copy of the picture that can take longer than all else: not the default there.
+  const bool by_device = !answer.machines.empty() && answer.machines.front().cl_kind == "GPU" &&
+                         !answer.device_front_bands.empty();
+  data["default_time"] = by_device ? "relative_device" : "relative";
   // In the order of their colors.
   data["techniques"] =
       distinct(answer.part.records, [](const FrontierRecord& r) { return r.point.technique; });
@@ -346,6 +364,8 @@ json to_json(const FrontierAnswer& answer) {
           {"controls", array_of(answer.controls, control_json)},
           {"cheapest_within_flip", array_of(answer.cheapest_within, cheapest_json)},
           {"flip_front_bands", array_of(answer.front_bands, band_json)},
+          {"device_controls", array_of(answer.device_controls, control_json)},
+          {"device_flip_front_bands", array_of(answer.device_front_bands, band_json)},
           {"break_even", array_of(answer.break_even, break_even_json)},
           {"shading_costs", array_of(answer.shading_costs, cost_json)},
           {"growth", array_of(answer.growth, growth_json)},
@@ -374,12 +394,16 @@ std::string cull_csv_text(const FrontierAnswer& answer) {
 }
 
 std::string samples_csv_text(const FrontierAnswer& answer) {
-  std::string text = "row,run,process,frame_ms,baseline_ms\n";
+  std::string text = "row,run,process,frame_ms,baseline_ms,device_ms,baseline_device_ms\n";
+  const auto of = [](const std::vector<double>& times, size_t run) {
+    return run < times.size() ? figure(times[run]) : "";
+  };
   for (size_t row = 0; row < answer.part.records.size(); ++row) {
     const FrontierRecord& r = answer.part.records[row];
     for (size_t run = 0; run < r.frame_ms.size(); ++run)
-      text += fmt::format("{},{},{},{},{}\n", row, run, run < r.processes.size() ? r.processes[run] : 0,
-                          figure(r.frame_ms[run]), figure(r.baseline_ms[run]));
+      text += fmt::format("{},{},{},{},{},{},{}\n", row, run, run < r.processes.size() ? r.processes[run] : 0,
+                          figure(r.frame_ms[run]), figure(r.baseline_ms[run]), of(r.device_ms, run),
+                          of(r.baseline_device_ms, run));
   }
   return text;
 }

@@ -41,8 +41,17 @@ bool has_cull_time(const FrontierRecord& record);  // of a point of the front th
 std::vector<FrontierRecord> on_one_machine(std::vector<FrontierRecord> records,
                                            const std::vector<FrontierMachine>& machines);
 
+// The same records, timed by the devices' clocks: frame_ms and baseline_ms are device_ms and
+// baseline_device_ms. Without times where a run lacks them.
+std::vector<FrontierRecord> by_device_clock(std::vector<FrontierRecord> records);
+
+// Sets what is known by the devices' clocks, of points of the same records; their wall's figures are set.
+void set_device_figures(FrontierAnswer& answer);
+
 // Points that ran in each of their views, in the order of their first records; without points of a series.
 std::vector<PointFigures> figures_of(Records records);
+// Sets `frame_ms` and `log_times` anew, of records of the same points with other times.
+void set_times(std::vector<PointFigures>& points, Records records);
 
 // One a process of a part that took times.
 std::vector<ProcessConditions> process_conditions_of(const std::vector<FrontierPart>& parts);

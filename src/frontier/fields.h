@@ -125,6 +125,14 @@ void visit_fields(T& e, Visit&& visit) {
   visit("temporal_rmse_rel", e.temporal_rmse_rel);
 }
 
+// In the order of a round's line.
+inline constexpr std::pair<const char*, std::vector<double> FrontierRecord::*> times_by_device[] = {
+    {"device_ms", &FrontierRecord::device_ms},
+    {"hand_over_ms", &FrontierRecord::hand_over_ms},
+    {"copy_ms", &FrontierRecord::copy_ms},
+    {"read_back_ms", &FrontierRecord::read_back_ms},
+    {"baseline_device_ms", &FrontierRecord::baseline_device_ms}};
+
 // The measured thing, without its figures.
 template <Is<FrontierRecord> T, typename Visit>
 void visit_identity(T& r, Visit&& visit) {
@@ -144,6 +152,7 @@ void visit_fields(T& r, Visit&& visit) {
   visit("refused", r.refused);
   visit("frame_ms", r.frame_ms);
   visit("baseline_ms", r.baseline_ms);
+  for (const auto& [key, times] : times_by_device) visit(key, r.*times, FieldRule{.required = false});
   visit("processes", r.processes, FieldRule{.required = false});
   visit("pass_ms", r.pass_ms);
   visit("cull_ms", r.cull_ms);
@@ -166,6 +175,7 @@ void visit_fields(T& m, Visit&& visit) {
   visit("gl_device", m.gl_device);
   visit("cl_driver", m.cl_driver);
   visit("gl_driver", m.gl_driver);
+  visit("cl_kind", m.cl_kind, may_miss);
   visit("cpu", m.cpu);
   visit("governor", m.governor);
   visit("clock_mhz", m.clock_mhz, may_miss);

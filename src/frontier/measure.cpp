@@ -263,7 +263,7 @@ class SceneSweep {
     const size_t points = measured_.size();
     add_controls();
     TimeRounds rounds{job_,      timer_,     until(), std::span(views_).first(size_t(used_views_)),
-                      measured_, *baseline_, file_};
+                      measured_, *baseline_, file_,   DeviceClock(renderer_)};
     const int done = rounds.run();
     notice(fmt::format("{} points, {} views, {} rounds", points, used_views_, done));
     end_step("rounds");
@@ -303,6 +303,7 @@ FrontierMachine machine_of(const Renderer& renderer) {
   m.cl_device = device.name, m.cl_driver = device.platform + " " + device.driver;
   m.gl_device = renderer.gl ? renderer.gl->renderer : "none";
   m.gl_driver = renderer.gl ? renderer.gl->version : "none";
+  m.cl_kind = device.cpu ? "CPU" : "GPU";
   m.cpu = cpu_info("model name");
   const std::string governor = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
   m.governor = governor.empty() ? "unknown" : governor;

@@ -110,13 +110,13 @@ void add_intervals_over_views(const Group& views, PointFigures& point) {
   if (point.errors.authored) add("authored", [](const PointErrors& e) { return e.authored->total; });
 }
 
-// For each run, the mean over views of its time; as many runs as every view has.
-std::vector<double> means_of_runs(const Group& views) {
+// For each run, the mean over views of a time of it; as many runs as every view has.
+std::vector<double> means_of_runs(const Group& views, std::vector<double> FrontierRecord::*times) {
   size_t runs = std::numeric_limits<size_t>::max();
-  for (const FrontierRecord* view : views) runs = std::min(runs, view->frame_ms.size());
+  for (const FrontierRecord* view : views) runs = std::min(runs, (view->*times).size());
   std::vector<double> means(runs);
   for (const FrontierRecord* view : views) {
-    for (size_t run = 0; run < runs; ++run) means[run] += view->frame_ms[run] / double(views.size());
+    for (size_t run = 0; run < runs; ++run) means[run] += (view->*times)[run] / double(views.size());
   }
   return means;
 }
@@ -138,7 +138,10 @@ PointFigures over_views(const Group& views) {
   all.width = views.front()->width, all.height = views.front()->height;
   all.truth = views.front()->truth;
   all.exposure_ev = views.front()->exposure_ev;
-  all.frame_ms = median_interval(means_of_runs(views));
+  DeviceFigures& d = all.device;
+  d.hand_over_ms = median_interval(means_of_runs(views, &FrontierRecord::hand_over_ms));
+  d.copy_ms = median_interval(means_of_runs(views, &FrontierRecord::copy_ms));
+  d.read_back_ms = median_interval(means_of_runs(views, &FrontierRecord::read_back_ms));
   all.p95_ms = percentile_of(views, 0.95), all.p99_ms = percentile_of(views, 0.99);
   for (const auto& [key, kind] : kinds_of_error) {
     all.errors.*kind = errors_over(views, [kind = kind](const FrontierRecord& v) { return v.errors.*kind; });
@@ -224,16 +227,29 @@ std::vector<Group> grouped(const Group& records,
   return groups;
 }
 
-std::vector<PointFigures> figures_of(Records records) {
+// Of each point that ran in each of its views, without points of a series.
+static std::vector<Group> views_of_points(Records records) {
   const Group of_front = accepted(records, [](const FrontierRecord& r) { return r.series.empty(); });
+  std::vector<Group> points = grouped(of_front, [](const FrontierRecord& r) { return point_key(r.point); });
+  std::erase_if(points, [](const Group& views) {
+    return std::ranges::any_of(views, [](const FrontierRecord* view) { return !view->refused.empty(); });
+  });
+  return points;
+}
+
+void set_times(std::vector<PointFigures>& points, Records records) {
   const RoundBaselines baselines(records);
-  std::vector<PointFigures> points;
-  for (const Group& views : grouped(of_front, [](const FrontierRecord& r) { return point_key(r.point); })) {
-    if (!std::ranges::all_of(views, [](const FrontierRecord* view) { return view->refused.empty(); }))
-      continue;
-    points.push_back(over_views(views));
-    points.back().log_times = baselines.log_times(views);
+  const std::vector<Group> views = views_of_points(records);
+  for (size_t i = 0; i < points.size(); ++i) {
+    points[i].frame_ms = median_interval(means_of_runs(views[i], &FrontierRecord::frame_ms));
+    points[i].log_times = baselines.log_times(views[i]);
   }
+}
+
+std::vector<PointFigures> figures_of(Records records) {
+  std::vector<PointFigures> points;
+  for (const Group& views : views_of_points(records)) points.push_back(over_views(views));
+  set_times(points, records);
   return points;
 }
 

@@ -264,9 +264,17 @@ void PointRun::draw_frames(const std::function<void(const Image& image)>& add) {
   }
 }
 
-double PointRun::draw() {
+double PointRun::draw(DeviceClock* clock) {
+  struct Watched {  // also ends after an exception
+    PassTimer& timer;
+    Watched(PassTimer& t, DeviceClock* clock) : timer(t) { timer.watcher = clock; }
+    ~Watched() { timer.watcher = nullptr; }
+  };
   double ms = 0;
+  device_times_.reset();
   attempt([&] {
+    const Watched watched(run_->view().timer, clock);
+    if (clock) clock->start();
     const Timer timer;
     bool first = true;
     draw_frames([&](const Image& image) {
@@ -275,6 +283,7 @@ double PointRun::draw() {
       for (size_t i = 0; i < mean_.pixels.size(); ++i) mean_.pixels[i] += image.pixels[i] * weight;
     });
     ms = timer.elapsed_ms();
+    if (clock) device_times_ = clock->stop();
   });
   return ms;
 }

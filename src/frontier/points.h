@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frontier/record.h"
+#include "renderer/device_clock.h"
 #include "session/compare.h"
 #include "session/technique_run.h"
 
@@ -50,8 +51,11 @@ class PointRun {
 
   void look(const View& view);
   // One picture: all of its frames, each with ranges drawn for it where they are random, read back and
-  // averaged. Milliseconds; 0 if refused. A refusal is kept.
-  double draw();
+  // averaged. Milliseconds; 0 if refused. A refusal is kept. `clock`: measures the same picture
+  // (device_times()).
+  double draw(DeviceClock* clock = nullptr);
+  // Of the last draw() with a clock; empty too if that clock does not know, or the point is refused.
+  const std::optional<DeviceTimes>& device_times() const { return device_times_; }
   // The picture drawn last; and of an averaged one how far its frames scatter.
   const Image& image() const { return point_.frames > 1 ? mean_ : run_->image(); }
   double deviation() const { return deviation_; }
@@ -73,6 +77,7 @@ class PointRun {
   std::string refused_;
   Image mean_;
   double deviation_ = 0;
+  std::optional<DeviceTimes> device_times_;
   int frame_ = 0;
 };
 

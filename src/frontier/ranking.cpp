@@ -142,6 +142,33 @@ std::vector<FrontBand> front_bands_of(const std::vector<PointFigures>& points,
   return bands;
 }
 
+std::vector<FrontierRecord> by_device_clock(std::vector<FrontierRecord> records) {
+  for (FrontierRecord& r : records) {
+    const bool known = r.device_ms.size() == r.frame_ms.size();
+    r.frame_ms = known ? r.device_ms : std::vector<double>();
+    r.baseline_ms = known ? r.baseline_device_ms : std::vector<double>();
+  }
+  return records;
+}
+
+void set_device_figures(FrontierAnswer& answer) {
+  const std::vector<FrontierRecord> records =
+      on_one_machine(by_device_clock(answer.part.records), answer.machines);
+  std::vector<PointFigures> points = answer.points;
+  set_times(points, records);
+  answer.device_controls = controls_of(records);
+  set_relative_times(points, answer.device_controls);
+  rank_points(points, answer.device_controls);
+  for (size_t i = 0; i < points.size(); ++i) {
+    DeviceFigures& d = answer.points[i].device;
+    d.log_times = points[i].log_times;
+    d.device_ms = points[i].frame_ms, d.relative_time = points[i].relative_time;
+    d.fronts = points[i].fronts;
+  }
+  answer.device_front_bands = front_bands_of(points, answer.device_controls);
+  std::erase_if(answer.device_front_bands, [](const FrontBand& band) { return band.steps.empty(); });
+}
+
 static std::vector<CheapestWithin> cheapest_in_scene(const std::vector<PointFigures>& points,
                                                      const SceneTimes& scene, CheapestWithin within,
                                                      double widening) {

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/json_file.h"
+#include "frontier/fields.h"
 #include "frontier/record_file.h"
 
 namespace lightgrid {
@@ -91,6 +92,20 @@ void PartLines::add_record(FrontierRecord record, const std::string& place, cons
   }
 }
 
+// Before the round's times, so that a record's device times are of its first runs: where one lacks them,
+// those that follow do not count.
+void PartLines::add_device_times(const JsonFields& times) {
+  for (const std::string& key : times.names()) {
+    FrontierRecord& record = open_record(key);
+    const std::vector<double> ms = times.numbers(key);
+    if (ms.size() != std::size(times_by_device))
+      throw input_error("device_times.{}: {} times instead of {}", key, ms.size(),
+                        std::size(times_by_device));
+    if (record.device_ms.size() != record.frame_ms.size()) continue;
+    for (size_t i = 0; i < ms.size(); ++i) (record.*times_by_device[i].second).push_back(ms[i]);
+  }
+}
+
 FrontierRecord& PartLines::open_record(const std::string& key) {
   const auto found = open.find(key);
   if (found == open.end()) throw input_error("{} is no record that is open", key);
@@ -117,8 +132,10 @@ void PartLines::take(const json& line, const std::string& place, const Notice& n
     ++part.processes;
   } else if (is_of("conditions")) {
     part.conditions.push_back(conditions_of(line["conditions"]));
-  } else if (is_of("times")) {
+  } else if (is_of("times") || (line.is_object() && line.size() == 2 && line.contains("times") &&
+                                line.contains("device_times"))) {
     const JsonFields times = JsonFields(line).object("times");
+    if (line.size() == 2) add_device_times(JsonFields(line).object("device_times"));
     for (const std::string& key : times.names()) {
       FrontierRecord& record = open_record(key);
       if (times.at(key).is_string()) {

@@ -89,6 +89,8 @@ struct FrontierRecord {
 
   std::string refused;                        // why it did not run; the fields below are then empty
   std::vector<double> frame_ms, baseline_ms;  // of equal length; entry i of both ran one after the other
+  // By the devices' own clocks (DeviceTimes), of the same runs; empty, or fewer, where a device has none.
+  std::vector<double> device_ms, hand_over_ms, copy_ms, read_back_ms, baseline_device_ms;
   std::vector<int> processes;                 // of each run: the number of the process that took it, from 0
   std::map<std::string, double> pass_ms;      // medians of profiled frames
   // Times of culling, one a round: entry i of points that differ in the cull test alone was taken in one
@@ -110,6 +112,7 @@ struct FrontierRecord {
 struct FrontierMachine {
   std::string cl_device, gl_device, cl_driver, gl_driver;
   std::string cpu, governor;                  // governor: "unknown" where the system does not tell
+  std::string cl_kind;                        // "CPU" or "GPU"; empty: unknown
   double clock_mhz = 0;                       // at the start; 0: unknown
   int threads = 0;                            // of the OpenCL device: compute units
   double load_at_start = 0, load_at_end = 0;  // the system's one-minute load average

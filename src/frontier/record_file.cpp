@@ -110,14 +110,20 @@ void RecordFile::begin(const FrontierRecord& record) { add({{"open", to_json(rec
 
 void RecordFile::add_times(const std::vector<TimeOfRecord>& times) {
   if (times.empty()) return;
-  json entries = json::object();
+  json line = {{"times", json::object()}};
   for (const TimeOfRecord& time : times) {
-    json& entry = entries[time.key];
+    json& entry = line["times"][time.key];
     entry = time.refused;
-    if (time.refused.empty()) entry = {exact_number(time.frame_ms), exact_number(time.baseline_ms)};
+    if (!time.refused.empty()) continue;
+    entry = {exact_number(time.frame_ms), exact_number(time.baseline_ms)};
+    if (!time.device) continue;
+    json& by_device = line["device_times"][time.key];
+    for (const double ms : {time.device->device_ms, time.device->hand_over_ms, time.device->copy_ms,
+                            time.device->read_back_ms, time.baseline_device_ms})
+      by_device.push_back(exact_number(ms));
   }
   if (!std::exchange(process_begun_, true)) add({{"process", lines_.part.processes}});
-  add({{"times", entries}});
+  add(line);
 }
 
 void RecordFile::add_conditions(const FrontierConditions& conditions) {

@@ -13,8 +13,11 @@
 #include <vector>
 
 #include "frontier/record.h"
+#include "renderer/device_clock.h"
 
 namespace lightgrid {
+
+class JsonFields;
 
 using Notice = std::function<void(const std::string&)>;  // of one line; null: nobody reads it
 
@@ -51,6 +54,7 @@ struct PartLines {
 
  private:
   void add_record(FrontierRecord record, const std::string& place, const Notice& notice);
+  void add_device_times(const JsonFields& times);
   FrontierRecord& open_record(const std::string& key);
 };
 
@@ -64,6 +68,8 @@ struct TimeOfRecord {
   std::string key;
   double frame_ms = 0, baseline_ms = 0;
   std::string refused;  // why the point did not run; the times then do not count
+  std::optional<DeviceTimes> device = {};  // of the same frame
+  double baseline_device_ms = 0;
 };
 
 class RecordFile {

@@ -90,6 +90,10 @@ FrontierRecord record_of(const json& line) {
   FrontierRecord r = read_from<FrontierRecord>(line);
   if (r.frame_ms.size() != r.baseline_ms.size())
     throw input_error("frame_ms: {} times beside {} of baseline_ms", r.frame_ms.size(), r.baseline_ms.size());
+  for (const auto& [key, times] : times_by_device) {
+    if ((r.*times).size() != r.device_ms.size() || (r.*times).size() > r.frame_ms.size())
+      throw input_error("{}: {} times beside {} of frame_ms", key, (r.*times).size(), r.frame_ms.size());
+  }
   r.processes.resize(r.frame_ms.size(), 0);  // parts of earlier versions name none
   return r;
 }

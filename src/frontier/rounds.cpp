@@ -13,10 +13,13 @@
 namespace lightgrid {
 namespace {
 
-void add_time(const MeasuredPoint& point, size_t view, double ms, double beside,
+void add_time(const MeasuredPoint& point, size_t view, const FrameTimes& own, const FrameTimes& beside,
               std::vector<TimeOfRecord>& times) {
   const FrontierRecord& record = point.records[view];
-  if (record.refused.empty()) times.push_back({record_key(record), ms, beside, point.run.refused()});
+  if (!record.refused.empty()) return;
+  times.push_back({record_key(record), own.ms, beside.ms, point.run.refused()});
+  if (!own.device || !beside.device) return;
+  times.back().device = own.device, times.back().baseline_device_ms = beside.device->device_ms;
 }
 
 bool is_refused(const FrontierRecord& record) { return !record.refused.empty(); }
@@ -118,8 +121,14 @@ void time_variant(const std::vector<ChosenPoint>& points, Renderer& renderer, Gp
   rounds.least_rounds = rounds.most_rounds = growth_rounds;
   rounds.process = 0, rounds.processes = 1;
   const Timer timer;
-  TimeRounds{rounds,   timer, std::numeric_limits<double>::infinity(), std::span(&view, 1), measured,
-             baseline, file}
+  TimeRounds{rounds,
+             timer,
+             std::numeric_limits<double>::infinity(),
+             std::span(&view, 1),
+             measured,
+             baseline,
+             file,
+             DeviceClock(renderer)}
       .run();
   complete(measured, file);
 }
@@ -168,7 +177,7 @@ void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& ti
   }
   Random random(Random::mix(job.seed) + uint64_t(round) * 1000 + uint64_t(view));
   for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[size_t(random.next() % i)]);
-  double beside = timed(baseline, view);
+  FrameTimes beside = timed(baseline, view);
   for (size_t i = 0; i < order.size(); i += 2) {
     if (job.progress)
       job.progress(std::min(timer.elapsed_ms() / 1000 / job.seconds, 1.0),
@@ -177,19 +186,20 @@ void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& ti
     add_time(first, view, timed(first.run, view), beside, times);
     if (i + 1 == order.size()) break;
     MeasuredPoint& second = points[order[i + 1]];
-    const double ms = timed(second.run, view);
+    const FrameTimes of_second = timed(second.run, view);
     beside = timed(baseline, view);
-    add_time(second, view, ms, beside, times);
+    add_time(second, view, of_second, beside, times);
   }
 }
 
 // The baseline's frame and the point's have the same history, or their ratio would hold the difference: a
 // look leaves uploads to the next frame, and other techniques' frames between push programs out of drivers'
 // caches.
-double TimeRounds::timed(PointRun& run, size_t view) {
+FrameTimes TimeRounds::timed(PointRun& run, size_t view) {
   run.look(views[view]);
   run.draw_first_frame();
-  return run.draw();
+  const double ms = run.draw(&clock);
+  return {ms, run.device_times()};
 }
 
 // True if each ratio's interval is narrow enough.

@@ -25,9 +25,15 @@ constexpr int slow_rounds = 3;  // of slow points
 // happen to look quiet, and fewer intervals would hold the truth.
 constexpr int precise_rounds = 3;
 
+struct FrameTimes {
+  double ms = 0;
+  std::optional<DeviceTimes> device;  // of the same frame
+};
+
 // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round.
 // A point counts with the baseline run beside it. Before each timed run, of the baseline too, the same point
-// looks at the view and draws a frame that does not count. Slow points are left out of late rounds. The first
+// looks at the view and draws a frame that does not count. The timed frame's times by the wall's clock and by
+// the devices' are both recorded. Slow points are left out of late rounds. The first
 // round does not count: drivers compile in it what they dropped.
 struct TimeRounds {
   const FrontierJob& job;
@@ -37,6 +43,7 @@ struct TimeRounds {
   std::vector<MeasuredPoint>& points;  // with a record for each of `views`
   PointRun& baseline;
   RecordFile& file;
+  DeviceClock clock;
 
   // Until the ratios are certain and the controls precise (Control::is_precise) or the time is over, or this
   // process has its share of the rounds. Returns the number of rounds that count: those that the points have
@@ -45,7 +52,7 @@ struct TimeRounds {
 
  private:
   void time_view(int round, size_t view, std::vector<TimeOfRecord>& times);
-  double timed(PointRun& run, size_t view);  // ms
+  FrameTimes timed(PointRun& run, size_t view);
   bool are_certain() const;
   bool are_controls_precise(int before_this) const;  // rounds of earlier processes
 };

@@ -2,22 +2,23 @@
 
 #include <cstring>
 
+#include "renderer/device_clock.h"
+
 namespace lightgrid {
 
 HostImage::HostImage(Work& work, const ShadedImage& shaded, Image& copy) : copy_(copy) {
-  auto pass = work.timer.pass("read_back", shaded.in_cl ? "cl" : "gl");
+  auto pass = work.timer.pass(read_back_pass, shaded.in_cl ? "cl" : "gl");
   if (copy.width != work.view.width || copy.height != work.view.height ||
       copy.pixels.size() != work.grid().pixels()) {
     copy = Image(work.view.width, work.view.height);
   }
-  const char* what = "reading the image back";
   const size_t bytes = copy.pixels.size() * 16;
   if (shaded.in_cl && work.renderer.cl->info().cpu) {
-    mapped_.emplace(*work.renderer.cl, what, shaded.in_cl->cl_buffer(), bytes);
+    mapped_.emplace(*work.renderer.cl, read_back_copy, shaded.in_cl->cl_buffer(), bytes);
     return;
   }
   if (shaded.in_cl) {
-    read_buffer(*work.renderer.cl, what, shaded.in_cl->cl_buffer(), copy.pixels.data(), bytes);
+    read_buffer(*work.renderer.cl, read_back_copy, shaded.in_cl->cl_buffer(), copy.pixels.data(), bytes);
   } else {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, shaded.framebuffer);
     glReadBuffer(GL_COLOR_ATTACHMENT0);

@@ -29,12 +29,19 @@ class PassTimer {
     std::function<void(const std::string& on)> start;
     std::function<std::vector<KernelTime>(const std::string& on)> stop;  // waits for the device
   };
+  // Told of each pass as it begins and ends, also when the timer is off.
+  struct Watcher {
+    virtual ~Watcher() = default;
+    virtual void begin(const std::string& name, const std::string& on) = 0;
+    virtual void end() = 0;  // of the pass that began last and has not ended
+  };
   explicit PassTimer(Clock clock) : clock_(std::move(clock)) {}
 
   // Measures its own lifetime.
   class Scope {
    public:
-    Scope(PassTimer* timer, size_t record) : timer_(timer), record_(record) {
+    Scope(PassTimer* timer, size_t record, Watcher* watcher)
+        : timer_(timer), record_(record), watcher_(watcher) {
       if (timer_) timer_->clock_.start(timer_->records_[record_].on);
       started_ = {};
     }
@@ -42,6 +49,7 @@ class PassTimer {
     // A pass whose clock fails is not recorded, since a destructor must not throw: the frame's next wait
     // fails as well.
     ~Scope() {
+      if (watcher_) watcher_->end();
       if (!timer_) return;
       try {
         PassRecord& record = timer_->records_[record_];
@@ -60,22 +68,25 @@ class PassTimer {
    private:
     PassTimer* timer_;
     size_t record_;
+    Watcher* watcher_;
     Timer started_;
   };
 
   Scope pass(const std::string& name, const std::string& on) {
-    if (!enabled) return {nullptr, 0};
+    if (watcher) watcher->begin(name, on);
+    if (!enabled) return {nullptr, 0, watcher};
     for (size_t i = 0; i < records_.size(); ++i) {
-      if (records_[i].name == name) return {this, i};
+      if (records_[i].name == name) return {this, i, watcher};
     }
     records_.push_back({name, on, {}, {}, 0, 0});
-    return {this, records_.size() - 1};
+    return {this, records_.size() - 1, watcher};
   }
 
   const std::vector<PassRecord>& records() const { return records_; }  // in the order the passes first ran
   void clear() { records_.clear(); }
 
   bool enabled = false;
+  Watcher* watcher = nullptr;  // outlives the passes that it is told of
 
  private:
   Clock clock_;

@@ -65,7 +65,8 @@ int run(std::vector<std::string> arguments) {
   late.name = "late", late.render = render_late;
   FrontierJob job;
   job.baseline = baseline_point({}, true);
-  job.points = {{.contestant = {&late, {}}, .label = "late"}};
+  job.points.resize(1);
+  job.points[0].contestant.technique = &late, job.points[0].label = late.name;
   job.views = 1, job.growth = false, job.shaded_pairs = 100'000;
   job.seconds = std::atof(argument(3, "22").c_str());
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("known_difference.{}", getpid());

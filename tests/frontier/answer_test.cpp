@@ -40,6 +40,39 @@ std::vector<std::string> front_of(const FrontierAnswer& answer) {
   return names;
 }
 
+// Of two points, the one that is faster by the wall's clock is slower by the devices': its frames end with
+// less read-back. A point without device times is on no such front.
+TEST(Answer, FrontsByTheDevicesClocksAreTheirOwn) {
+  const auto timed = [](const char* technique, double ratio, double device_ms, double error) {
+    FrontierRecord r = synthetic_record(synthetic_point("hall", technique), ratio, error);
+    for (size_t run = 0; run < r.frame_ms.size(); ++run) {
+      r.device_ms.push_back(device_ms), r.baseline_device_ms.push_back(20);
+      r.hand_over_ms.push_back(3), r.copy_ms.push_back(0.5), r.read_back_ms.push_back(double(run));
+    }
+    return r;
+  };
+  FrontierRecord unknown = timed("clustered", 0.2, 1, 0.001);
+  unknown.device_ms.pop_back();  // of one run
+  const FrontierAnswer answer =
+      answer_from({timed("forward_plus", 0.5, 10, 0.01), timed("deferred", 0.8, 5, 0.01), unknown});
+  ASSERT_THAT(answer.points, SizeIs(3));
+  const DeviceFigures &first = answer.points[0].device, &second = answer.points[1].device;
+  EXPECT_NEAR(first.relative_time.estimate, 0.5, 1e-12);
+  EXPECT_NEAR(second.relative_time.estimate, 0.25, 1e-12);
+  EXPECT_FALSE(first.fronts.at("total").on);
+  EXPECT_TRUE(second.fronts.at("total").on);
+  EXPECT_EQ(second.fronts.at("total").probability, 1);
+  EXPECT_EQ(second.device_ms.median, 5);
+  EXPECT_EQ(second.hand_over_ms.median, 3);
+  EXPECT_EQ(second.copy_ms.median, 0.5);
+  EXPECT_EQ(second.read_back_ms.median, 4.5);
+  EXPECT_EQ(answer.points[2].device.relative_time.runs, 0);
+  EXPECT_FALSE(answer.points[2].device.fronts.at("total").on);
+  EXPECT_EQ(front_of(answer), std::vector<std::string>{"clustered"});
+  ASSERT_THAT(answer.device_front_bands, SizeIs(1));
+  EXPECT_NEAR(answer.device_front_bands[0].steps.back().low, 0.25, 1e-12);
+}
+
 TEST(Answer, SumsTimesOverViewsRunByRunAndJoinsErrors) {
   FrontierRecord a = synthetic_record(synthetic_point("hall", "forward_plus"), 1, 0, 0), b = a;
   a.frame_ms = {10, 20, 30}, a.baseline_ms = {100, 100, 100};

@@ -9,6 +9,7 @@
 
 #include "base/image.h"
 #include "base/write_file.h"
+#include "frontier/fields.h"
 #include "frontier/pictures.h"
 #include "frontier/synthetic_records.h"
 #include "support/browser.h"
@@ -265,6 +266,58 @@ TEST_F(FrontierPage, ShowsErrorsAgainstEitherReference) {
   EXPECT_GT(with["authored"]["band"].get<double>(), 100);
   EXPECT_THAT(texts(with["authored"]["tagged"]), Contains(testing::StartsWith("clustered")));
   EXPECT_EQ(with["again"], with["plain"]);
+}
+
+// On a GPU the plot begins with the devices' time, elsewhere with the wall's. Fronts, bands and probabilities
+// are of the chosen clock and the chosen reference; here no two of the four are the same. By wall visibility
+// takes twice, clustered three times as long as forward_plus; on the devices visibility half as long,
+// clustered as long.
+TEST_F(FrontierPage, HasAFrontOfEachClockAndReference) {
+  FrontierPart part = synthetic_part({synthetic_record(synthetic_point("hall", "forward_plus"), 1, 0.01),
+                                      synthetic_record(synthetic_point("hall", "visibility"), 2, 0.01),
+                                      synthetic_record(synthetic_point("hall", "clustered"), 3, 0.02)});
+  for (FrontierRecord& r : part.records) {
+    const bool visibility = r.point.label == "visibility", clustered = r.point.label == "clustered";
+    r.frame_ms.assign(r.frame_ms.size(), visibility ? 200 : clustered ? 300 : 100);
+    for (const auto& [key, times] : times_by_device) r.*times = std::vector(r.frame_ms.size(), 8.0);
+    if (visibility) r.device_ms.assign(r.frame_ms.size(), 4.0);
+    AuthoredErrors& authored = r.errors.authored.emplace();
+    authored.model = authored.total = r.errors.total;
+    authored.total.displayed = DisplayedFlip{visibility ? 0.02 : clustered ? 0.001 : 0.01, 0};
+  }
+  const auto seen_on = [&](const char* kind) {
+    part.machine.cl_kind = kind;
+    write_file(folder.path / "index.html", page_text(answer_of({part})));
+    return seen_in_browser(folder.path, "tests/frontier/frontier_page_device.js", "1280,900");
+  };
+  const json on_gpu = seen_on("GPU"), on_cpu = seen_on("CPU");
+  ASSERT_TRUE(on_gpu.is_object() && on_cpu.is_object());
+  EXPECT_THAT(texts(on_gpu["faults"]), IsEmpty());
+  EXPECT_EQ(on_gpu["axis"], "relative_device");
+  EXPECT_EQ(on_cpu["axis"], "relative");
+  EXPECT_THAT(texts(on_cpu["axes"]),
+              testing::IsSupersetOf({"relative_device", "device", "hand_over", "copy", "read_back"}));
+  EXPECT_THAT(texts(on_cpu["columns"]), testing::IsSupersetOf({"On the devices, ms", "Copies, ms"}));
+  const auto expect = [&](const json& seen, const std::vector<std::string>& front) {
+    EXPECT_EQ(texts(seen["front"]), front);
+    EXPECT_EQ(texts(seen["tagged"]), front);
+    EXPECT_EQ(seen["bandIsFront"], true);
+  };
+  expect(on_gpu["first"], {"visibility"});
+  expect(on_cpu["first"], {"forward_plus"});
+  for (const json* seen : {&on_gpu, &on_cpu}) {
+    expect((*seen)["relative total"], {"forward_plus"});
+    expect((*seen)["relative_device total"], {"visibility"});
+    expect((*seen)["relative authored"], {"clustered", "forward_plus"});
+    expect((*seen)["relative_device authored"], {"clustered", "visibility"});
+    for (const char* reference : {"total", "authored"}) {
+      const std::string of = reference;
+      EXPECT_THAT((*seen)["relative " + of]["summary"].get<std::string>(),
+                  HasSubstr("on the front with a probability of less than 1 %"));
+      EXPECT_THAT((*seen)["relative_device " + of]["summary"].get<std::string>(),
+                  HasSubstr("on the front by the devices' clocks with a probability of more than 99 %"));
+    }
+  }
 }
 
 TEST(FrontierPageText, NamesNoOtherPlaceAndEscapesWhatItShows) {

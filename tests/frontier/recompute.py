@@ -26,14 +26,19 @@ def read_points(folder):
     return {key: rows for key, rows in points.items() if not any(row["refused"] for row in rows)}
 
 
-def read_samples(folder):
-    """By row: {(process, round of it): (ms, baseline's ms)}."""
+# Of frontier.json the keys of times and fronts; of samples.csv the columns; words.
+CLOCKS = [("relative_time", "fronts", ("frame_ms", "baseline_ms"), ""),
+          ("relative_device_time", "device_fronts", ("device_ms", "baseline_device_ms"), " by the devices' clocks")]
+
+
+def read_samples(folder, columns):
+    """By row: {(process, round of it): (ms, baseline's ms)}, of rows that have such times of all their runs."""
     samples = {}
     for row in csv.DictReader(open(folder / "samples.csv", newline="")):
         of_row, process = samples.setdefault(row["row"], {}), int(row["process"])
         number = sum(p == process for p, _ in of_row)
-        of_row[process, number] = float(row["frame_ms"]), float(row["baseline_ms"])
-    return samples
+        of_row[process, number] = tuple(float(row[name]) if row[name] else None for name in columns)
+    return {row: times for row, times in samples.items() if not any(None in pair for pair in times.values())}
 
 
 def baselines(folder, samples):
@@ -209,9 +214,9 @@ def widenings(folder, samples, base):
     return answer
 
 
-def recompute(folder, of):
+def recompute(folder, of, columns):
     """{(scene, label, frames): (front, (estimate, low, high) or None)}"""
-    samples = read_samples(folder)
+    samples = read_samples(folder, columns)
     base = baselines(folder, samples)
     widen = widenings(folder, samples, base)
     times, places = {}, {}
@@ -228,9 +233,9 @@ def recompute(folder, of):
     return answer
 
 
-def drawn_fronts(folder, of_error, count=2000):
+def drawn_fronts(folder, of_error, columns, count=2000):
     """{key: share of draws in which the point is on the front}, of scenes without two modes and with one process."""
-    samples = read_samples(folder)
+    samples = read_samples(folder, columns)
     base, numbers = baselines(folder, samples), random.Random(1)
     widen = widenings(folder, samples, base)
     scenes = {}
@@ -262,9 +267,9 @@ def drawn_fronts(folder, of_error, count=2000):
     return {key: hits / count for key, hits in shares.items()}
 
 
-def different_probabilities(folder, of, stated):
+def different_probabilities(folder, of, stated, columns):
     """Shares of 2,000 draws, both: four deviations of their difference are 0.064."""
-    drawn = drawn_fronts(folder, of)
+    drawn = drawn_fronts(folder, of, columns)
     different = [key for key, share in drawn.items() if abs(share - stated[key]) > 0.064]
     for key in different:
         print(f"{key}: on the front with {stated[key]}, drawn {drawn[key]}")
@@ -278,6 +283,27 @@ def agrees(stated, computed):
         times is None or all(abs(a - b) <= 1e-6 * abs(b) for a, b in zip(times, others)))
 
 
+def different_fronts(folder, of, clock, keys, points):
+    """How many points' times, fronts and probabilities differ from those stated by a clock of CLOCKS."""
+    time_key, fronts_key, columns, words = clock
+    stated, probabilities = {}, {}
+    for key, p in zip(keys, points):
+        time, front = p[time_key], p.get(fronts_key, {}).get(of, {"on": False, "probability": 0})
+        stated[key] = front["on"], (time["estimate"], *time["ci95"]) if time["runs"] else None
+        probabilities[key] = front["probability"]
+    computed, differ = recompute(folder, of, columns), 0
+    for key in sorted(set(stated) | set(computed)):
+        if key not in stated or key not in computed or not agrees(stated[key], computed[key]):
+            differ += 1
+            print(f"{', '.join(map(str, key))}: stated {stated.get(key)}, computed {computed.get(key)}")
+    on_front = sum(front for front, _ in computed.values())
+    print(f"{of}: {len(computed)} points, {on_front} on a front{words}: {differ} points differ")
+    differences = differ or not computed
+    if set(stated) == set(computed):
+        differences += different_probabilities(folder, of, probabilities, columns)
+    return differences
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     answer = json.load(open(folder / "frontier.json"))
@@ -285,21 +311,9 @@ def main():
     keys = [(p["scene"], p["label"], p["frames"]) for p in points]
     differences = 0
     for of in sorted({of for p in points for of in p["fronts"]}):
-        stated, probabilities = {}, {}
-        for key, p in zip(keys, points):
-            time, front = p["relative_time"], p["fronts"].get(of, {"on": False, "probability": 0})
-            stated[key] = front["on"], (time["estimate"], *time["ci95"]) if time["runs"] else None
-            probabilities[key] = front["probability"]
-        computed, differ = recompute(folder, of), 0
-        for key in sorted(set(stated) | set(computed)):
-            if key not in stated or key not in computed or not agrees(stated[key], computed[key]):
-                differ += 1
-                print(f"{', '.join(map(str, key))}: stated {stated.get(key)}, computed {computed.get(key)}")
-        on_front = sum(front for front, _ in computed.values())
-        print(f"{of}: {len(computed)} points, {on_front} on a front: {differ} points differ")
-        differences += differ or not computed
-        if set(stated) == set(computed):
-            differences += different_probabilities(folder, of, probabilities)
+        for clock in CLOCKS:
+            if clock is CLOCKS[0] or any(p[clock[0]]["runs"] for p in points):
+                differences += different_fronts(folder, of, clock, keys, points)
     if len(answer.get("machines", [])) < 2:  # those of other machines are scaled
         differences += different_break_evens(folder, answer["break_even"])
     return 1 if differences or not points else 0

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "frontier/answer.h"
+#include "frontier/fields.h"
 #include "frontier/some_records.h"
 #include "support/paths.h"
 #include "support/run_command.h"
@@ -45,11 +46,19 @@ FrontierPart random_sweep(uint32_t seed) {
         record.frame_ms.clear();
         record.baseline_ms.clear();
         record.processes.clear();
+        for (const auto& [key, times] : times_by_device) (record.*times).clear();
+        const bool timed_by_device = tile != 5;
         if (refused && view == 1) record.refused = "no";
         for (uint32_t runs = random() % 3 == 0 ? 21 : 4 + random() % 9; runs > 0 && record.refused.empty();
              --runs) {
           record.baseline_ms.push_back(10 + view + 10 * noise(random));
           record.frame_ms.push_back(record.baseline_ms.back() * (ratio + noise(random)));
+          if (timed_by_device) {
+            record.baseline_device_ms.push_back(8 + view + 5 * noise(random));
+            record.device_ms.push_back(record.baseline_device_ms.back() * (1.2 - ratio / 2 + noise(random)));
+            record.hand_over_ms.push_back(0.5), record.copy_ms.push_back(0.1),
+                record.read_back_ms.push_back(1);
+          }
           // Of one process in the first scene, of two in the second.
           record.processes.push_back(record.point.scene == "hall" ? 0 : int(record.processes.size()) / 3 % 2);
         }
@@ -103,6 +112,20 @@ TEST(Recomputed, FrontsAndTimesAreThoseOfTheTables) {
   nlohmann::json& high = wrong["points"][7]["relative_time"]["ci95"][1];
   high = high.get<double>() * 1.0001;
   EXPECT_THAT(recompute(wrong).output, HasSubstr(": 1 points differ"));
+  wrong = stated;
+  nlohmann::json& device = wrong["points"][7]["relative_device_time"]["estimate"];
+  device = device.get<double>() * 1.0001;
+  EXPECT_THAT(recompute(wrong).output, HasSubstr("by the devices' clocks: 1 points differ"));
+  for (const char* of : {"total", "authored"}) {
+    wrong = stated;
+    nlohmann::json& front = wrong["points"][7]["device_fronts"][of];
+    front["on"] = !front["on"].get<bool>();
+    EXPECT_THAT(recompute(wrong).output, HasSubstr("by the devices' clocks: 1 points differ"));
+    wrong = stated;
+    nlohmann::json& probability = wrong["points"][7]["device_fronts"][of]["probability"];
+    probability = std::abs(probability.get<double>() - 0.2);
+    EXPECT_THAT(recompute(wrong).output, HasSubstr("probabilities of the front: 1 differ"));
+  }
   wrong = stated;
   nlohmann::json& probability = wrong["points"][7]["fronts"]["total"]["probability"];
   probability = std::abs(probability.get<double>() - 0.2);

@@ -1,4 +1,5 @@
 #include "frontier/record_file.h"
+#include "frontier/fields.h"
 
 #include <gmock/gmock.h>
 
@@ -178,6 +179,7 @@ TEST(RecordFile, KeepsFiguresAndRoundsOfASceneThatIsBeingMeasured) {
       records.push_back(some_record(tile, view));
       records.back().frame_ms.clear(), records.back().baseline_ms.clear(), records.back().cull_ms.clear();
       records.back().processes.clear();
+      for (const auto& [key, times] : times_by_device) (records.back().*times).clear();
     }
   }
   std::vector<std::string> keys;
@@ -186,7 +188,9 @@ TEST(RecordFile, KeepsFiguresAndRoundsOfASceneThatIsBeingMeasured) {
     RecordFile file = part.open();
     for (const FrontierRecord& r : records) file.begin(r);
     file.add_cull_times({{keys[0], 0.3}, {keys[2], 0.1}});
-    file.add_times({{keys[0], 1, 2, ""}, {keys[1], 1.0 / 3, 4, ""}, {keys[3], 0, 0, "no memory"}});
+    file.add_times({{keys[0], 1, 2, "", DeviceTimes{0.5, 0.25, 0.125, 1.0 / 7}, 1.5},
+                    {keys[1], 1.0 / 3, 4, ""},
+                    {keys[3], 0, 0, "no memory"}});
     EXPECT_TRUE(file.part().records.empty());
     file.complete(keys);
     EXPECT_EQ(file.part().records.size(), 4u);
@@ -195,6 +199,8 @@ TEST(RecordFile, KeepsFiguresAndRoundsOfASceneThatIsBeingMeasured) {
   records[0].cull_ms = {0.3}, records[2].cull_ms = {0.1};
   for (FrontierRecord& r : records) r.processes.clear();
   records[0].frame_ms = {1}, records[0].baseline_ms = {2}, records[0].processes = {0};
+  records[0].device_ms = {0.5}, records[0].hand_over_ms = {0.25}, records[0].copy_ms = {0.125};
+  records[0].read_back_ms = {1.0 / 7}, records[0].baseline_device_ms = {1.5};
   records[1].frame_ms = {1.0 / 3}, records[1].baseline_ms = {4}, records[1].processes = {0};
   records[3].refused = "no memory";
   const std::string whole = part.text();
@@ -222,6 +228,7 @@ TEST(RecordFile, KnowsWhichProcessTookATime) {
   PartFile part;
   FrontierRecord record = some_record(8, 0);
   record.frame_ms.clear(), record.baseline_ms.clear(), record.processes.clear();
+  for (const auto& [name, times] : times_by_device) (record.*times).clear();
   const std::string key = record_key(record);
   {
     RecordFile file = part.open();
@@ -241,10 +248,12 @@ TEST(RecordFile, NamesTimesOfNoRecord) {
   PartFile part;
   part.open();
   const std::string header = part.text();
-  for (const auto& [line, why] : {std::pair{R"({"times":{"abc":[1,2]}})", "abc is no record that is open"},
-                                  {R"({"complete":["abc"]})", "abc is no record that is open"},
-                                  {R"({"complete":7})", "complete: 7 is not an array"},
-                                  {R"({"times":[]})", "times: array is not an object"}}) {
+  for (const auto& [line, why] :
+       {std::pair{R"({"times":{"abc":[1,2]}})", "abc is no record that is open"},
+        {R"({"times":{},"device_times":{"abc":[1,2,3,4,5]}})", "abc is no record that is open"},
+        {R"({"complete":["abc"]})", "abc is no record that is open"},
+        {R"({"complete":7})", "complete: 7 is not an array"},
+        {R"({"times":[]})", "times: array is not an object"}}) {
     write_text(part.path, header + line + "\n");
     EXPECT_THAT(part.fault(), AllOf(HasSubstr("line 2: "), HasSubstr(why)));
   }

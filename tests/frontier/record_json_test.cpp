@@ -7,6 +7,7 @@
 #include <set>
 
 #include "frontier/faults.h"
+#include "frontier/fields.h"
 #include "frontier/record_file.h"
 #include "frontier/some_records.h"
 
@@ -37,6 +38,10 @@ TEST(FrontierRecords, KeepEveryFieldAsJson) {
   EXPECT_EQ(read.frame_ms, r.frame_ms);
   EXPECT_EQ(read.baseline_ms, r.baseline_ms);
   EXPECT_EQ(read.processes, r.processes);
+  for (const auto& [key, times] : times_by_device) {
+    EXPECT_FALSE((r.*times).empty()) << key;
+    EXPECT_EQ(read.*times, r.*times) << key;
+  }
   EXPECT_EQ(read.pass_ms, r.pass_ms);
   EXPECT_EQ(read.cull_ms, r.cull_ms);
   EXPECT_EQ(read.bytes_moved, r.bytes_moved);
@@ -110,6 +115,9 @@ TEST(FrontierRecords, NameAWrongField) {
       EXPECT_THAT(record_of(line).processes, testing::Each(0));
     } else if (name == "exposure_ev") {  // they have none either
       EXPECT_EQ(record_of(line).exposure_ev, std::nullopt);
+    } else if (std::ranges::find(times_by_device, name, [](const auto& t) { return std::string(t.first); }) !=
+               std::end(times_by_device)) {  // nor any of these
+      EXPECT_THAT(fault_of([&] { record_of(line); }), HasSubstr(" times beside "));
     } else {
       EXPECT_THAT(fault_of([&] { record_of(line); }), HasSubstr(name + " is missing"));
     }

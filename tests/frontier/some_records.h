@@ -34,6 +34,8 @@ inline FrontierRecord some_record(int tile, int view) {
   r.radius_scale = 1.5;
   r.frame_ms = {1.25 + view, 1.0 / 3, 2.5};
   r.baseline_ms = {2.5, 2.0 / 3 + view, 5};
+  r.device_ms = {0.5, 0.25, 1.0 / 7}, r.baseline_device_ms = {1.5, 1, 1.25};
+  r.hand_over_ms = {0, 0.125, 0}, r.copy_ms = {0.01, 0, 0}, r.read_back_ms = {0.3, 0.2, 0.1};
   r.processes = {0, 0, 1};
   r.pass_ms = {{"cull_lights", 0.1}, {"shade_forward", 0.7}};
   r.bytes_moved = 18446744073709551615u;

@@ -32,11 +32,17 @@ const ERRORS = [...ERROR_KINDS.flatMap((kind) => ERROR_MEASURES.map((measure) =>
   { key: "temporal", title: "Flicker, RMSE of the change", short: "Flicker", value: ({ error }) => error.temporal_rmse_rel, text: errorNumber },
   ...["Leaked", "Acned"].map((title) => ({ key: title.toLowerCase(), title: `${title} pairs, %`, short: title,
     value: (point) => point[`${title.toLowerCase()}_percent`] ?? null, text: percentText }))];
+// What wall time and the devices' time have each: the relative time, fronts and their bands.
+const WALL = { relative: (point) => point.relative_time, fronts: (point) => point.fronts, bands: page.flip_front_bands, words: "" };
+const DEVICE = { relative: (point) => point.relative_device_time, fronts: (point) => point.device_fronts, bands: page.device_flip_front_bands, words: " by the devices' clocks" };
 const COSTS = [
-  { key: "relative", title: "Time, over the baseline's", value: (point) => point.relative_time.estimate, text: threeDigits, time: true },
+  { key: "relative", clock: WALL, title: "Time, over the baseline's", value: (point) => point.relative_time.estimate, text: threeDigits, time: true },
   { key: "ms", title: "Time, ms a frame", value: (point) => point.frame_ms.median, text: threeDigits, time: true },
   { key: "p95", title: "Time that 95 % of frames are within, ms", value: (point) => point.frame_ms_within.p95, text: threeDigits, time: true },
   { key: "p99", title: "Time that 99 % of frames are within, ms", value: (point) => point.frame_ms_within.p99, text: threeDigits, time: true },
+  { key: "relative_device", title: "Time by the devices' clocks, over the baseline's", short: "On the devices, over the baseline's", value: (point) => point.relative_device_time.estimate, text: threeDigits, time: true, clock: DEVICE },
+  ...[["device", "On the devices"], ["hand_over", "Hand-over"], ["copy", "Copies"], ["read_back", "Read-back"]].map(([key, title]) => (
+    { key, title: `${title}, ms a frame`, short: `${title}, ms`, value: (point) => point[`${key}_ms`].median, text: threeDigits, time: true })),
   { key: "moved", title: "Bytes moved a frame", value: (point) => point.bytes_moved, text: byteNumber },
   { key: "listed", title: "Listed pairs a view", value: ({ pairs, views }) => pairs.listed / views, text: shortCount },
   { key: "memory", title: "Memory", value: (point) => point.memory_bytes, text: byteNumber },
@@ -45,7 +51,7 @@ const QUANTITIES = [...COSTS, ...ERRORS];
 const quantity = (key) => QUANTITIES.find((q) => q.key === key);
 // What fronts, their bands and probabilities are of, against one of the two references: total or authored.
 const frontQuantity = (reference) => quantity(`${reference}.displayed_flip`);
-const frontOfPoint = (point, reference) => point.fronts?.[reference] ?? { on: false, probability: 0 };
+const frontOfPoint = (point, reference, clock) => clock.fronts(point)?.[reference] ?? { on: false, probability: 0 };
 
 const probabilityText = (p) => (p > 0.995 ? "more than 99 %" : p < 0.005 ? "less than 1 %" : `${Math.round(100 * p)} %`);
 

@@ -12,13 +12,14 @@ function tipOf(point, { x, y, reference }) {
   const settings = Object.entries(point.settings).map(([key, value]) => `${key} ${value}`).join(", ");
   if (settings) lines.push(make("p", { class: "quiet" }, settings));
   if (point.relative_time.modes.length) add(modesInWords(point.relative_time));
-  if (x.key === "relative" && y === frontQuantity(reference)) add(`On the front with a probability of ${probabilityText(frontOfPoint(point, reference).probability)}`);
+  if (point.relative_device_time.runs > 0) add(`By the devices' clocks ${intervalInWords(point.relative_device_time, "")} times, ${intervalInWords(point.device_ms, " ms")}`);
+  if (x.clock && y === frontQuantity(reference)) add(`On the front with a probability of ${probabilityText(frontOfPoint(point, reference, x.clock).probability)}`);
   return lines;
 }
 
 // Where the front is with a probability of 95 % at each error: between two step lines, from the smallest error up.
-function bandElement({ scene, reference }, xAxis, yAxis, area) {
-  const steps = page.flip_front_bands.find((band) => band.scene === scene && band.of === reference)?.steps ?? [];
+function bandElement({ scene, reference, x }, xAxis, yAxis, area) {
+  const steps = x.clock.bands.find((band) => band.scene === scene && band.of === reference)?.steps ?? [];
   const within = (place, a, b) => Math.min(Math.max(place, Math.min(a, b)), Math.max(a, b));
   const edge = (end) => steps.flatMap(({ flip, ci95 }, i) => {
     const at = within(xAxis.at(ci95[end]), area.left, area.right), y = within(yAxis.at(flip), area.top, area.bottom);
@@ -90,7 +91,7 @@ function startFront(container, state, choose) {
     shown = placed.map((point, i) => ({ point, onFront: onFront[i], at: [xAxis.at(x.value(point)), yAxis.at(y.value(point))] }));
     const front = shown.filter((entry) => entry.onFront).sort((a, b) => a.at[0] - b.at[0]);
     const steps = front.flatMap(({ at }, i) => (i ? [[at[0], front[i - 1].at[1]], at] : [at]));
-    const banded = x.key === "relative" && y === frontQuantity(state.reference) && state.hidden.size === 0;
+    const banded = x.clock && y === frontQuantity(state.reference) && state.hidden.size === 0;
     for (const entry of shown) {
       entry.element = markerElement(entry.point.technique, { class: `point${entry.onFront ? " on-front" : ""}${entry.point === state.selected ? " selected" : ""}`,
         ...moveTo(...entry.at), "data-label": entry.point.label,
@@ -100,7 +101,7 @@ function startFront(container, state, choose) {
     const names = page.techniques.filter((technique) => placed.some((point) => point.technique === technique));
     const svg = drawing(width, height, `${y.title} against ${x.title}`, ...acrossAxis(xAxis, x.title, area), ...alongAxis(yAxis, y.title, area),
       ...(banded ? [bandElement(state, xAxis, yAxis, area)] : []), polyline(steps, { class: "step" }), ...inFront.map(({ element }) => element),
-      ...shown.filter(({ point }) => x.time && point.relative_time.modes.length).map(({ at }) => make("text", { class: "modes", x: at[0] + 7, y: at[1] - 5 }, "2")),
+      ...shown.filter(({ point }) => x.time && (x.clock ?? WALL).relative(point).modes.length).map(({ at }) => make("text", { class: "modes", x: at[0] + 7, y: at[1] - 5 }, "2")),
       make("g", { class: "only-file" }, ...markedNames(names.map((technique) => ({ technique, text: technique })), left, height + 12, 3, width - left)));
     svg.dataset.fileHeight = height + 20 * Math.ceil(names.length / 3) + 10;
     container.replaceChildren(svg, tip);

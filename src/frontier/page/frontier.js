@@ -1,6 +1,6 @@
 // Fills the page from the answer, embedded above.
 
-const state = { scene: page.scenes[0]?.key, points: [], x: quantity("relative"), y: frontQuantity("total"), reference: "total", hidden: new Set(), selected: null };
+const state = { scene: page.scenes[0]?.key, points: [], x: quantity(page.default_time), y: frontQuantity("total"), clock: quantity(page.default_time).clock, reference: "total", hidden: new Set(), selected: null };
 let drawFront = null;
 
 const sceneTitle = (key) => page.scenes.find((scene) => scene.key === key).title;
@@ -113,18 +113,21 @@ function randomInWords({ total, seeds, deviation_rmse_rel: noise, bias_rmse_rel:
     + `relMSE, 99.9 % ${spread(total.rel_mse_trimmed, seeds.deviation.rel_mse_trimmed)}. Over the brightest channel: standard deviation of a frame ${errorNumber(noise ?? 0)}, bias ${told}.`;
 }
 
+const frontOfChoice = (point) => frontOfPoint(point, state.reference, state.clock);
+
 function choosePoint(point) {
   state.selected = point;
   const images = (point?.pictures ?? []).map((number, i) => [number, PICTURE_CAPTIONS[i]]).filter(([number]) => number >= 0);
   const error = point?.error, sampled = error?.in_double;
   const timed = point?.relative_time.runs > 0;
   const summary = point && [timed && `${intervalInWords(point.relative_time, "")} times ${page.baseline}`, timed && `${intervalInWords(point.frame_ms, " ms")} a frame`,
+    point?.device_ms.runs > 0 && `on the devices ${intervalInWords(point.device_ms, " ms")}, hand-over ${threeDigits(point.hand_over_ms.median)} ms, copies ${threeDigits(point.copy_ms.median)} ms, read-back ${threeDigits(point.read_back_ms.median)} ms`,
     timed && `95 % of frames within ${threeDigits(point.frame_ms_within.p95)} ms, 99 % within ${threeDigits(point.frame_ms_within.p99)} ms`,
     timed && modesInWords(point.relative_time), timed && point.relative_time.between_processes !== null && `${percentText(100 * point.relative_time.between_processes)} between ${point.relative_time.processes} processes`,
     `${point.views} view${point.views === 1 ? "" : "s"}`, flipOverViews(point), point.pairs.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
     quantity("leaked").value(point) !== null && `${percentText(point.leaked_percent)} of ${wholeNumber(point.pairs.shadow_pairs)} pairs leaked, ${percentText(point.acned_percent)} acned`,
     point.nan_pixels > 0 && `${wholeNumber(point.nan_pixels)} NaN pixels`,
-    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, timed && `on the front with a probability of ${probabilityText(frontOfPoint(point, state.reference).probability)}`];
+    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, state.clock.relative(point).runs > 0 && `on the front${state.clock.words} with a probability of ${probabilityText(frontOfChoice(point).probability)}`];
   byId("chosen").replaceChildren(...(point ? [make("article", { class: "technique" }, make("h3", {}, nameElement(point.label)),
     make("p", { class: "summary quiet" }, summary.filter(Boolean).join(" \u00b7 ")),
     ...(images.length ? [make("div", { class: "pictures" }, ...images.map(([number, caption]) => pictureFigure(number, caption)))] : [make("p", { class: "quiet" }, "No pictures of this point were kept.")]),
@@ -138,16 +141,19 @@ function choosePoint(point) {
   redraw();
 }
 
+const measured = (key) => page.points.some((point) => quantity(key).value(point) !== null);
 const column = (title, key) => ({ title, value: quantity(key).value, text: quantity(key).text });
 const FIGURE_COLUMNS = [
   { title: "Point", value: (point) => point.label, text: (label) => pointButton(state.points.find((point) => point.label === label), nameElement(label)) },
-  column("Time, over the baseline's", "relative"), column("Frame, ms", "ms"), ...(HAS_AUTHORED ? [column("FLIP, authored ranges", "authored.displayed_flip")] : []), column("RMSE", "total.rmse_rel"), column("Largest error", "total.max_rel"),
+  column("Time, over the baseline's", "relative"), column("Frame, ms", "ms"),
+  ...["relative_device", "device", "hand_over", "copy", "read_back"].filter(measured).map((key) => column(quantity(key).short ?? quantity(key).title, key)),
+  ...(HAS_AUTHORED ? [column("FLIP, authored ranges", "authored.displayed_flip")] : []), column("RMSE", "total.rmse_rel"), column("Largest error", "total.max_rel"),
   column("FLIP as displayed", "total.displayed_flip"), column("relMSE, 99.9 %", "total.rel_mse_trimmed"),
   column("HDR-FLIP", "total.flip_mean"), column("Model", "model.rmse_rel"), column("Precision", "precision.rmse_rel"),
   column("Technique", "technique.rmse_rel"),
   { title: "Lost pairs", value: (point) => point.pairs.lost, text: wholeNumber, gate: true },
   { title: "NaN pixels", value: (point) => point.nan_pixels, text: wholeNumber, gate: true },
-  ...["leaked", "acned"].filter((key) => page.points.some((point) => quantity(key).value(point) !== null)).map((key) => column(quantity(key).title, key)),
+  ...["leaked", "acned"].filter(measured).map((key) => column(quantity(key).title, key)),
   column("Listed pairs", "listed"), column("Bytes moved", "moved"), column("Memory", "memory"),
 ];
 
@@ -186,6 +192,14 @@ function chooseReference(reference) {
   chooseScene(state.scene);
 }
 
+function showFigures() {
+  const frontTag = (point) => {
+    const { on, probability } = frontOfChoice(point);
+    return on ? `front ${probabilityText(probability)}` : "";
+  };
+  showTable(byId("figures-table"), FIGURE_COLUMNS, state.points, frontTag);
+}
+
 function chooseScene(key) {
   if (state.points.length > 0 && key === state.scene) return;
   state.scene = key;
@@ -195,14 +209,10 @@ function chooseScene(key) {
   byId("notes").replaceChildren(...notes.map((line) => make("li", {}, line)));
   state.points = page.points.filter((point) => point.scene === key);
   showTechniques();
-  const frontTag = (point) => {
-    const { on, probability } = frontOfPoint(point, state.reference);
-    return on ? `front ${probabilityText(probability)}` : "";
-  };
-  showTable(byId("figures-table"), FIGURE_COLUMNS, state.points, frontTag);
+  showFigures();
   showCosts(key);
   byId("save-front").replaceChildren(saveButton(byId("front"), `front-${sceneTitle(key)}`));
-  choosePoint(state.points.find((point) => frontOfPoint(point, state.reference).on && point.pictures) ?? null);
+  choosePoint(state.points.find((point) => frontOfChoice(point).on && point.pictures) ?? null);
 }
 
 function startChoices() {
@@ -217,7 +227,10 @@ function startChoices() {
     select.value = state[axis].key;
     select.addEventListener("change", () => {
       state[axis] = quantity(select.value);
-      redraw();
+      if (!state.x.clock || state.x.clock === state.clock) return redraw();
+      state.clock = state.x.clock;  // that fronts are of, also while the axis shows no clock's time
+      showFigures();
+      choosePoint(state.selected);
     });
   }
 }
