@@ -97,6 +97,14 @@ struct ProcessConditions {
   int shared_rounds = 0, throttled_rounds = 0;  // is_shared, is_throttled
 };
 
+// A point that draws without OpenGL, over the scene's point `visibility` as it is: round by round, so that
+// the sweep's baseline cancels. No runs: one of the two has no such times.
+struct AmongOpenCl {
+  std::string scene;
+  int point = 0, over = 0;  // indices
+  RelativeTime relative_time, relative_device_time;
+};
+
 struct FrontBand {
   std::string scene, of;  // of: the error (front_errors)
   std::vector<BandStep> steps;
@@ -144,6 +152,7 @@ struct FrontierAnswer {
   std::vector<FrontBand> front_bands;
   std::vector<Control> device_controls;  // by the devices' clocks
   std::vector<FrontBand> device_front_bands;
+  std::vector<AmongOpenCl> among_opencl;  // empty for a sweep whose baseline draws without OpenGL
   std::vector<BreakEven> break_even;
   std::vector<ShadingCost> shading_costs;
   std::vector<Growth> growth;

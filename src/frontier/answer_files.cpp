@@ -161,6 +161,14 @@ json point_json(const PointFigures& p) {
   return out;
 }
 
+json among_json(const AmongOpenCl& a) {
+  return {{"scene", a.scene},
+          {"point", a.point},
+          {"over", a.over},
+          {"relative_time", relative_time_json(a.relative_time)},
+          {"relative_device_time", relative_time_json(a.relative_device_time)}};
+}
+
 json break_even_json(const BreakEven& b) {
   return {{"scene", b.scene},
           {"tighter", b.tighter},
@@ -366,6 +374,7 @@ json to_json(const FrontierAnswer& answer) {
           {"flip_front_bands", array_of(answer.front_bands, band_json)},
           {"device_controls", array_of(answer.device_controls, control_json)},
           {"device_flip_front_bands", array_of(answer.device_front_bands, band_json)},
+          {"among_opencl", array_of(answer.among_opencl, among_json)},
           {"break_even", array_of(answer.break_even, break_even_json)},
           {"shading_costs", array_of(answer.shading_costs, cost_json)},
           {"growth", array_of(answer.growth, growth_json)},

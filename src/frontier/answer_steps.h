@@ -48,6 +48,10 @@ std::vector<FrontierRecord> by_device_clock(std::vector<FrontierRecord> records)
 // Sets what is known by the devices' clocks, of points of the same records; their wall's figures are set.
 void set_device_figures(FrontierAnswer& answer);
 
+// Whether a point with this label draws without OpenGL; of a technique that nobody knows, false.
+bool draws_in_opencl(const std::string& label);
+std::vector<AmongOpenCl> among_opencl_of(const FrontierAnswer& answer);
+
 // Points that ran in each of their views, in the order of their first records; without points of a series.
 std::vector<PointFigures> figures_of(Records records);
 // Sets `frame_ms` and `log_times` anew, of records of the same points with other times.

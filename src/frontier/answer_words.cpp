@@ -213,6 +213,31 @@ void add_truth(const FrontierAnswer& answer, const std::string& scene, std::vect
                                       : ""));
 }
 
+// What a baseline that draws with OpenGL is on this machine, where it is not what readers have in mind.
+void add_baseline(const FrontierAnswer& answer, std::vector<std::string>& sentences) {
+  if (answer.points.empty() || answer.machines.empty() || draws_in_opencl(answer.part.baseline)) return;
+  const std::string& gl = answer.machines.front().gl_device;
+  const auto is = [&](const char* name) { return gl.find(name) != std::string::npos; };
+  if (is("llvmpipe") || is("softpipe")) {
+    sentences.push_back(
+        fmt::format("OpenGL is a rasteriser in software here ({}): times over {} hold OpenCL on all of the "
+                    "processor's cores "
+                    "against it, and say nothing of a graphics card.",
+                    is("llvmpipe") ? "llvmpipe" : "softpipe", answer.part.baseline));
+  } else if (is("H100") || is("H200") || is("GH200")) {
+    sentences.push_back(
+        fmt::format("On a Hopper GPU pixel shaders run on few of its units and kernels on all: times over {} "
+                    "say more of that than "
+                    "of techniques.",
+                    answer.part.baseline));
+  } else {
+    return;
+  }
+  if (!answer.among_opencl.empty())
+    sentences.back() +=
+        " Techniques that draw in OpenCL are held against each other in a table of their own.";
+}
+
 // A control that failed, and points of two modes.
 void add_doubts(const FrontierAnswer& answer, const std::string& scene, std::vector<std::string>& sentences) {
   for (const Control& control : answer.controls) {
@@ -295,6 +320,7 @@ SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene
   SceneWords words;
   add_fastest(answer, scene, words.opening);
   if (words.opening.size() > 1) words.notes.push_back(words.opening.back()), words.opening.pop_back();
+  add_baseline(answer, words.opening);
   add_truth(answer, scene, words.opening);
   add_doubts(answer, scene, words.opening);
   add_shadows(answer, scene, words.notes);
@@ -320,6 +346,7 @@ std::vector<std::string> sentences_of(const FrontierAnswer& answer) {
   std::vector<std::string> sentences;
   if (const std::string conditions = conditions_in_words(answer); !conditions.empty())
     sentences.push_back(conditions);
+  add_baseline(answer, sentences);
   for (const std::string& scene : scenes_of(answer)) {
     for (std::string& sentence : sentences_of_scene(answer, scene)) sentences.push_back(std::move(sentence));
   }

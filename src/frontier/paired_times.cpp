@@ -264,6 +264,16 @@ std::vector<BandStep> front_band(const std::vector<std::vector<double>>& draws,
   return band;
 }
 
+LogTimes log_times_over(const LogTimes& times, const LogTimes& other) {
+  LogTimes over;
+  for (const auto& [block, ratios] : times) {
+    const auto found = other.find(block);
+    if (found == other.end()) continue;
+    for (size_t k = 0; k < ratios.size(); ++k) over[block].push_back(ratios[k] - found->second[k]);
+  }
+  return over;
+}
+
 LogTimes half_of(const LogTimes& times, int parity) {
   LogTimes half;
   for (const auto& entry : times) {

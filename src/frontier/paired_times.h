@@ -72,6 +72,9 @@ struct BandStep {
 std::vector<BandStep> front_band(const std::vector<std::vector<double>>& draws,
                                  std::span<const double> errors);
 
+// A point's times over another one's, in the rounds that both have.
+LogTimes log_times_over(const LogTimes& times, const LogTimes& other);
+
 // The rounds of even and of odd number, over all processes: best-of picks are made on one half and reported
 // on the other, since the fastest of several is also the luckiest.
 LogTimes half_of(const LogTimes& times, int parity);

@@ -5,7 +5,9 @@
 
 #include "frontier/answer_steps.h"
 #include "frontier/fields.h"
+#include "frontier/points.h"
 #include "frontier/round_baselines.h"
+#include "techniques/technique.h"
 
 namespace lightgrid {
 namespace {
@@ -167,6 +169,40 @@ void set_device_figures(FrontierAnswer& answer) {
   }
   answer.device_front_bands = front_bands_of(points, answer.device_controls);
   std::erase_if(answer.device_front_bands, [](const FrontBand& band) { return band.steps.empty(); });
+}
+
+bool draws_in_opencl(const std::string& label) {
+  const std::string name = label.substr(0, label.find(':'));
+  for (const Technique* technique : techniques()) {
+    if (technique->name != name) continue;
+    const TechniqueNeeds& needs = technique->needs;
+    return !needs.opengl || (needs.chosen_raster && label.find("raster=opencl") != std::string::npos);
+  }
+  return false;
+}
+
+std::vector<AmongOpenCl> among_opencl_of(const FrontierAnswer& answer) {
+  std::vector<AmongOpenCl> all;
+  if (draws_in_opencl(answer.part.baseline)) return all;
+  const auto over_point = [](const LogTimes& times, const LogTimes& other,
+                             const std::vector<Control>& controls, const std::string& scene) {
+    const auto control = std::ranges::find(controls, scene, &Control::scene);
+    return relative_time(log_times_over(times, other),
+                         control == controls.end() || &times == &other ? 0 : control->widening());
+  };
+  const std::string reference = baseline_point({}, false).label;  // that of a sweep without OpenGL
+  const std::vector<PointFigures>& points = answer.points;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const std::string& scene = points[i].point.scene;
+    const auto over = std::ranges::find_if(
+        points, [&](const PointFigures& p) { return p.point.scene == scene && p.point.label == reference; });
+    if (over == points.end() || !draws_in_opencl(points[i].point.label)) continue;
+    AmongOpenCl& among = all.emplace_back(AmongOpenCl{scene, int(i), int(over - points.begin())});
+    among.relative_time = over_point(points[i].log_times, over->log_times, answer.controls, scene);
+    among.relative_device_time =
+        over_point(points[i].device.log_times, over->device.log_times, answer.device_controls, scene);
+  }
+  return all;
 }
 
 static std::vector<CheapestWithin> cheapest_in_scene(const std::vector<PointFigures>& points,

@@ -73,6 +73,60 @@ TEST(Answer, FrontsByTheDevicesClocksAreTheirOwn) {
   EXPECT_NEAR(answer.device_front_bands[0].steps.back().low, 0.25, 1e-12);
 }
 
+// However noisy the baseline is, it cancels between two points of a round.
+TEST(Answer, HoldsOpenClTechniquesAgainstEachOther) {
+  std::vector<FrontierRecord> records = {
+      synthetic_record(synthetic_point("hall", "forward_plus"), 1, 0.01),
+      synthetic_record(synthetic_point("hall", "visibility"), 0.25, 0.01),
+      synthetic_record(synthetic_point("hall", "world_grid", {{"raster", "opencl"}}), 0.5, 0.02),
+      synthetic_record(synthetic_point("hall", "world_grid"), 0.5, 0.02),
+      synthetic_record(synthetic_point("street", "visibility"), 0.125, 0.01),
+      synthetic_record(synthetic_point("street", "unheard_of"), 0.125, 0.01)};
+  for (FrontierRecord& r : records) {
+    for (size_t run = 0; run < r.baseline_ms.size(); ++run) r.baseline_ms[run] = run % 2 ? 50 : 200;
+  }
+  const FrontierAnswer answer = answer_from(records);
+  ASSERT_THAT(answer.among_opencl, SizeIs(3));  // visibility itself, too
+  const AmongOpenCl& world = answer.among_opencl[1];
+  EXPECT_EQ(world.scene, "hall");
+  EXPECT_EQ(answer.points[size_t(world.point)].point.label, "world_grid:raster=opencl");
+  EXPECT_EQ(answer.points[size_t(world.over)].point.label, "visibility");
+  EXPECT_NEAR(world.relative_time.estimate, 2, 1e-12);
+  EXPECT_NEAR(world.relative_time.low, 2, 1e-12);
+  EXPECT_EQ(world.relative_time.runs, 10);
+  EXPECT_EQ(world.relative_device_time.runs, 0);
+  EXPECT_EQ(answer.among_opencl[2].scene, "street");
+  EXPECT_EQ(answer.among_opencl[2].relative_time.estimate, 1);
+
+  FrontierPart part = synthetic_part(records);
+  part.baseline = "visibility";
+  EXPECT_THAT(answer_of({part}).among_opencl, IsEmpty());
+}
+
+TEST(Answer, SaysWhatTheBaselineIsOnThisMachine) {
+  FrontierPart part = synthetic_part({synthetic_record(synthetic_point("hall", "forward_plus"), 1, 0.01),
+                                      synthetic_record(synthetic_point("hall", "visibility"), 2, 0.01)});
+  const auto said = [&](const char* gl_device, const char* baseline = "forward_plus") {
+    part.machine.gl_device = gl_device, part.baseline = baseline;
+    const FrontierAnswer answer = answer_of({part});
+    const std::string sentence = answer.sentences.empty() ? "" : answer.sentences.front();
+    const bool about = sentence.find("OpenGL is") == 0 || sentence.find("On a Hopper") == 0;
+    for (const std::string& line : words_of_scene(answer, "hall").opening)
+      EXPECT_EQ(line == sentence && about, line.find("OpenGL is") == 0 || line.find("On a Hopper") == 0);
+    EXPECT_THAT(words_of_scene(answer, "hall").opening, SizeIs(about ? 2 : 1));
+    return about ? sentence : "";
+  };
+  EXPECT_THAT(said("llvmpipe (LLVM 15.0.6, 256 bits)"),
+              AllOf(HasSubstr("software"), HasSubstr("(llvmpipe)"), HasSubstr("forward_plus")));
+  EXPECT_THAT(said("softpipe"), HasSubstr("(softpipe)"));
+  for (const char* hopper :
+       {"NVIDIA H100 80GB HBM3/PCIe/SSE2", "NVIDIA H200/PCIe/SSE2", "NVIDIA GH200 480GB"})
+    EXPECT_THAT(said(hopper), HasSubstr("few of its units"));
+  EXPECT_EQ(said("NVIDIA GeForce RTX 4090/PCIe/SSE2"), "");
+  EXPECT_EQ(said("AMD Radeon RX 7900"), "");
+  EXPECT_EQ(said("llvmpipe (LLVM 15.0.6, 256 bits)", "visibility"), "");
+}
+
 TEST(Answer, SumsTimesOverViewsRunByRunAndJoinsErrors) {
   FrontierRecord a = synthetic_record(synthetic_point("hall", "forward_plus"), 1, 0, 0), b = a;
   a.frame_ms = {10, 20, 30}, a.baseline_ms = {100, 100, 100};

@@ -57,7 +57,7 @@ inline FrontierPart synthetic_part(std::vector<FrontierRecord> records) {
   part.request = "request";
   part.commit = "0123abc";
   part.baseline = "forward_plus";
-  part.machine.cl_device = "pthread-Intel Xeon", part.machine.gl_device = "llvmpipe (LLVM 15.0.6, 256 bits)";
+  part.machine.cl_device = "pthread-Intel Xeon", part.machine.gl_device = "AMD Radeon RX 7900";
   part.machine.cl_driver = "3.1", part.machine.gl_driver = "22.3.6";
   part.machine.cpu = "Intel Xeon <2 cores>", part.machine.governor = "unknown";
   part.machine.clock_mhz = 2100, part.machine.threads = 2;

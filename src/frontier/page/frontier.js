@@ -157,6 +157,23 @@ const FIGURE_COLUMNS = [
   column("Listed pairs", "listed"), column("Bytes moved", "moved"), column("Memory", "memory"),
 ];
 
+function showAmong(scene) {
+  const among = page.among_opencl.filter((entry) => entry.scene === scene);
+  byId("among-part").hidden = among.length < 2;
+  const time = (title, key) => ({ title, value: (entry) => entry[key].estimate, text: threeDigits });
+  const interval = (key) => ({ title: "95 % interval", value: (entry) => entry[key].ci95[0], text: (low) => {
+    const { ci95 } = among.map((entry) => entry[key]).find((t) => t.ci95[0] === low);
+    return `${threeDigits(ci95[0])} to ${threeDigits(ci95[1])}`;
+  } });
+  const byDevice = among.some((entry) => entry.relative_device_time.runs > 0);
+  const label = (entry) => page.points[entry.point].label;
+  showTable(byId("among"), [
+    { title: "Point", value: label, text: (text) => pointButton(state.points.find((point) => point.label === text), nameElement(text)) },
+    time("Time", "relative_time"), interval("relative_time"),
+    ...(byDevice ? [time("On the devices", "relative_device_time"), interval("relative_device_time")] : []),
+    { title: state.reference === "authored" ? "FLIP, authored ranges" : "FLIP as displayed", value: (entry) => frontQuantity(state.reference).value(page.points[entry.point]), text: errorNumber }], among, () => "");
+}
+
 function showTechniques() {
   const names = page.techniques.filter((name) => state.points.some((point) => point.technique === name));
   byId("techniques").replaceChildren(...names.map((name) => {
@@ -210,6 +227,7 @@ function chooseScene(key) {
   state.points = page.points.filter((point) => point.scene === key);
   showTechniques();
   showFigures();
+  showAmong(key);
   showCosts(key);
   byId("save-front").replaceChildren(saveButton(byId("front"), `front-${sceneTitle(key)}`));
   choosePoint(state.points.find((point) => frontOfChoice(point).on && point.pictures) ?? null);
