@@ -31,7 +31,7 @@ install(TARGETS ${library_targets} EXPORT lightgridTargets
 set(public_headers
   base/error.h base/pixel_grid.h
   shared/cull_params.h shared/cull_settings.h shared/cull_tests.h shared/language.h shared/light_grid.h
-  shared/raster_instance.h shared/slices.h shared/view_params.h
+  shared/raster_instance.h shared/sample_masks.h shared/slices.h shared/view_params.h
   cl/device.h cl/launch.h cl/error.h cl/opencl.h cl/profiler.h cl/program_cache.h cl/transfer.h
   culling/cull_view.h culling/light_culler.h
   raster/raster_samples.h raster/raster_scene.h raster/raster_view.h
