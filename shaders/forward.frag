@@ -12,6 +12,7 @@
 #include "shared/shadow_bits.h"
 #include "shared/light_table.h"
 #include "shared/brdf.h"
+#include "shared/volume_place.h"
 #include "shaders/common/point_of_surface.glsl"
 #if !defined(PER_SAMPLE) || defined(SAMPLES_IN_A_ROW)
 #define AT_CENTRES

@@ -4,12 +4,9 @@
 
 #include "shared/far_light.h"
 
-static inline FarMoments add_moments(FarMoments m, real weight, float4 a, float4 b, float yz) {
-  m.x = fma(weight, REAL(a.x), m.x), m.y = fma(weight, REAL(a.y), m.y), m.z = fma(weight, REAL(a.z), m.z);
-  m.xx = fma(weight, REAL(a.w), m.xx), m.yy = fma(weight, REAL(b.x), m.yy),
-  m.zz = fma(weight, REAL(b.y), m.zz);
-  m.xy = fma(weight, REAL(b.z), m.xy), m.xz = fma(weight, REAL(b.w), m.xz),
-  m.yz = fma(weight, REAL(yz), m.yz);
+static inline FarMoments stored_moments(float4 a, float4 b, float yz) {
+  const FarMoments m = {REAL(a.x), REAL(a.y), REAL(a.z), REAL(a.w), REAL(b.x),
+                        REAL(b.y), REAL(b.z), REAL(b.w), REAL(yz)};
   return m;
 }
 
@@ -22,9 +19,9 @@ static inline FarLight add_far_cell(FarLight sum, real weight, real x, real y, r
     const real share = weight * (right ? x : 1.0f - x) * ((up ? y : 1.0f - y) * (behind ? z : 1.0f - z));
     global const float4* m = at + (right ? 1 : 0) + (up ? row : 0) + (behind ? slice : 0);
     const float4 last = m[6 * samples];
-    sum.red = add_moments(sum.red, share, m[0], m[samples], last.x);
-    sum.green = add_moments(sum.green, share, m[2 * samples], m[3 * samples], last.y);
-    sum.blue = add_moments(sum.blue, share, m[4 * samples], m[5 * samples], last.z);
+    sum.red = add_moments(sum.red, share, stored_moments(m[0], m[samples], last.x));
+    sum.green = add_moments(sum.green, share, stored_moments(m[2 * samples], m[3 * samples], last.y));
+    sum.blue = add_moments(sum.blue, share, stored_moments(m[4 * samples], m[5 * samples], last.z));
   }
   return sum;
 }

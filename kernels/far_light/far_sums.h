@@ -17,14 +17,6 @@ static inline PunctualLight light_at(const FarLights* lights, uint index) {
   return light;
 }
 
-// v: a direction along which `arrives` comes, with the products of its components.
-static inline FarMoments more_moments(FarMoments m, real arrives, FarMoments v) {
-  m.x = fma(arrives, v.x, m.x), m.y = fma(arrives, v.y, m.y), m.z = fma(arrives, v.z, m.z);
-  m.xx = fma(arrives, v.xx, m.xx), m.yy = fma(arrives, v.yy, m.yy), m.zz = fma(arrives, v.zz, m.zz);
-  m.xy = fma(arrives, v.xy, m.xy), m.xz = fma(arrives, v.xz, m.xz), m.yz = fma(arrives, v.yz, m.yz);
-  return m;
-}
-
 static inline FarLight far_light_of(const FarLights* lights, uint count, Real3 position) {
   FarLight sum = {{0}};
   for (uint i = 0; i < count; ++i) {
@@ -32,9 +24,9 @@ static inline FarLight far_light_of(const FarLights* lights, uint count, Real3 p
     const Arrival arrival = arrival_beyond(position, light);
     const Real3 l = arrival.to_light;
     const FarMoments v = {l.x, l.y, l.z, l.x * l.x, l.y * l.y, l.z * l.z, l.x * l.y, l.x * l.z, l.y * l.z};
-    sum.red = more_moments(sum.red, arrival.attenuation * light.color.x, v);
-    sum.green = more_moments(sum.green, arrival.attenuation * light.color.y, v);
-    sum.blue = more_moments(sum.blue, arrival.attenuation * light.color.z, v);
+    sum.red = add_moments(sum.red, arrival.attenuation * light.color.x, v);
+    sum.green = add_moments(sum.green, arrival.attenuation * light.color.y, v);
+    sum.blue = add_moments(sum.blue, arrival.attenuation * light.color.z, v);
   }
   return sum;
 }

@@ -17,6 +17,7 @@
 #include "kernels/resolve/resolve.h"
 #include "kernels/resolve/shade_pixels.h"
 #include "shared/light_grid.h"
+#include "shared/volume_place.h"
 #ifdef LIGHTS_VOXELS
 #include "kernels/voxels/voxel_lookup.h"
 #ifdef VOXEL_EXACT
@@ -69,10 +70,11 @@
     RESOLVE_SCENE_LIST(GIVEN) GIVEN_GROUP_MASKS                                                    \
     .half_size = (float2)(0.5f * (float)view->width, 0.5f * (float)view->height)                   \
   }
-#define RESOLVE_LIGHTS                                                                                   \
-  {                                                                                                      \
-    .lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS}, .directional = directional,                       \
-    GIVEN_FAR_LIGHT.list = light_indices, .cells = cells, .slice_edges = slice_edges, SOURCE_LIST(GIVEN) \
+#define RESOLVE_LIGHTS                                                                             \
+  {                                                                                                \
+    .lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS},                                             \
+    .directional = directional, .list = light_indices, .cells = cells, .slice_edges = slice_edges, \
+    SOURCE_LIST(GIVEN) GIVEN_FAR_LIGHT                                                             \
   }
 
 typedef struct ResolveLights {

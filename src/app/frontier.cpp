@@ -22,6 +22,7 @@
 #include "frontier/answer.h"
 #include "frontier/brute_force.h"
 #include "frontier/measure.h"
+#include "results/words.h"
 
 extern char** environ;
 
@@ -134,12 +135,9 @@ bool failed_gate(const FrontierCommand& o, const FrontierAnswer& answer) {
 bool tell_losses(const FrontierAnswer& answer) {
   bool failed = false;
   for (const PointFigures& p : answer.points) {
-    const auto capped = [&](const char* key) {
-      const auto found = p.point.settings.find(key);
-      return found != p.point.settings.end() && found->second != "off";
-    };
+    const auto is_capped = [&](const char* key) { return !setting_in_force(p.point.settings, key).empty(); };
     const bool limited =
-        find_technique(p.point.technique).limited_lists || capped("list_cap") || capped("view_cap");
+        find_technique(p.point.technique).limited_lists || is_capped("list_cap") || is_capped("view_cap");
     const uint64_t shadows = p.pairs.shadows ? p.pairs.shadows->faults() : 0;
     if ((p.pairs.lost == 0 || limited) && p.pairs.wrong == 0 && p.nan_pixels == 0 && shadows == 0) continue;
     failed = true;

@@ -221,14 +221,12 @@ void add_baseline(const FrontierAnswer& answer, std::vector<std::string>& senten
   if (is("llvmpipe") || is("softpipe")) {
     sentences.push_back(
         fmt::format("OpenGL is a rasteriser in software here ({}): times over {} hold OpenCL on all of the "
-                    "processor's cores "
-                    "against it, and say nothing of a graphics card.",
+                    "processor's cores against it, and say nothing of a graphics card.",
                     is("llvmpipe") ? "llvmpipe" : "softpipe", answer.part.baseline));
   } else if (is("H100") || is("H200") || is("GH200")) {
     sentences.push_back(
         fmt::format("On a Hopper GPU pixel shaders run on few of its units and kernels on all: times over {} "
-                    "say more of that than "
-                    "of techniques.",
+                    "say more of that than of techniques.",
                     answer.part.baseline));
   } else {
     return;

@@ -99,9 +99,7 @@ std::vector<Setting>& all_settings() {
        numbers(&LightRanges::seed,
                {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15", "16"})},
       {"far-light",
-       "samples of a coarse volume that adds what lights send beyond their ranges, so that no light is lost "
-       "where "
-       "they end",
+       "samples of a coarse volume that adds what lights send beyond their ranges",
        named(&Settings::far_light,
              {{"off", 0}, {"512", 512}, {"4096", 4096}, {"32768", 32768}, {"262144", 262144}})},
       {"cull-test", "the test that decides whether a light may touch a cell",

@@ -238,13 +238,11 @@ const RunResult* fastest_exact(const CompareReport& report) {
 
 std::string why_lost(const RunResult& row) {
   if (row.overflow == 0) return "";
-  const auto given = [&](const char* key) {
-    const auto found = row.settings.find(key);
-    return found != row.settings.end() && found->second != "off" ? found->second : std::string();
-  };
   std::vector<std::string> caps;
-  if (const auto cap = given("list_cap"); !cap.empty()) caps.push_back("a list has room for " + cap);
-  if (const auto cap = given("view_cap"); !cap.empty()) caps.push_back("a view has room for " + cap);
+  for (const std::string of : {"list", "view"}) {
+    const std::string cap = setting_in_force(row.settings, of + "_cap");
+    if (!cap.empty()) caps.push_back("a " + of + " has room for " + cap);
+  }
   if (!caps.empty()) return fmt::format(" by design ({} lights)", fmt::join(caps, ", "));
   const auto room = row.settings.find("lidr_overlap");
   const bool told = room != row.settings.end() && room->second != "auto";

@@ -70,6 +70,11 @@ std::string view_in_words(const CompareReport& report) {
                      with_commas(lights), lights == 1 ? "" : "s");
 }
 
+std::string setting_in_force(const std::map<std::string, std::string>& settings, const std::string& key) {
+  const auto found = settings.find(key);
+  return found != settings.end() && found->second != "off" ? found->second : "";
+}
+
 std::string settings_field(const std::map<std::string, std::string>& settings) {
   std::string field;
   for (const auto& [key, value] : settings) field += (field.empty() ? "" : " ") + key + "=" + value;

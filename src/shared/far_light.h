@@ -14,6 +14,7 @@
 #pragma once
 
 #include "shared/brdf.h"
+#include "shared/volume_place.h"
 
 // Vectors of four floats a sample, each a plane of the volume: of red x, y, z, xx; yy, zz, xy, xz; then of
 // green and of blue; then yz of red, of green, of blue.
@@ -67,26 +68,31 @@ typedef struct FarGrid {
 
 // Clamped to the volume.
 SHARED_FUNCTION Real3 far_place(Real3 p FAR_ARGUMENT) {
-  real x =
-      mad_real(FAR(x_from_x), p.x, mad_real(FAR(x_from_y), p.y, mad_real(FAR(x_from_z), p.z, FAR(x_from_1))));
-  real y =
-      mad_real(FAR(y_from_x), p.x, mad_real(FAR(y_from_y), p.y, mad_real(FAR(y_from_z), p.z, FAR(y_from_1))));
-  real z =
-      mad_real(FAR(z_from_x), p.x, mad_real(FAR(z_from_y), p.y, mad_real(FAR(z_from_z), p.z, FAR(z_from_1))));
-  return real3(min_real(max_real(x, REAL(0.0f)), REAL(FAR(last_x))),
-               min_real(max_real(y, REAL(0.0f)), REAL(FAR(last_y))),
-               min_real(max_real(z, REAL(0.0f)), REAL(FAR(last_z))));
+  return real3(place_along(p, FAR(x_from_x), FAR(x_from_y), FAR(x_from_z), FAR(x_from_1), FAR(last_x)),
+               place_along(p, FAR(y_from_x), FAR(y_from_y), FAR(y_from_z), FAR(y_from_1), FAR(last_y)),
+               place_along(p, FAR(z_from_x), FAR(z_from_y), FAR(z_from_z), FAR(z_from_1), FAR(last_z)));
 }
 
 SHARED_FUNCTION Real3 far_direction(Real3 d FAR_ARGUMENT) {
-  return real3(FAR(world_x_from_x) * d.x + FAR(world_x_from_y) * d.y + FAR(world_x_from_z) * d.z,
-               FAR(world_y_from_x) * d.x + FAR(world_y_from_y) * d.y + FAR(world_y_from_z) * d.z,
-               FAR(world_z_from_x) * d.x + FAR(world_z_from_y) * d.y + FAR(world_z_from_z) * d.z);
+  return real3(component_along(d, FAR(world_x_from_x), FAR(world_x_from_y), FAR(world_x_from_z)),
+               component_along(d, FAR(world_y_from_x), FAR(world_y_from_y), FAR(world_y_from_z)),
+               component_along(d, FAR(world_z_from_x), FAR(world_z_from_y), FAR(world_z_from_z)));
 }
 
 // Moments of one colour's light along the world's axes; or the factors of each in a sum.
 SHARED_STRUCT(FarMoments) { real x, y, z, xx, yy, zz, xy, xz, yz; };
 SHARED_STRUCT(FarLight) { FarMoments red, green, blue; };
+
+SHARED_FUNCTION FarMoments add_moments(FarMoments m, real weight, FarMoments more) {
+  FarMoments sum;
+  sum.x = mad_real(weight, more.x, m.x), sum.y = mad_real(weight, more.y, m.y);
+  sum.z = mad_real(weight, more.z, m.z);
+  sum.xx = mad_real(weight, more.xx, m.xx), sum.yy = mad_real(weight, more.yy, m.yy);
+  sum.zz = mad_real(weight, more.zz, m.zz);
+  sum.xy = mad_real(weight, more.xy, m.xy), sum.xz = mad_real(weight, more.xz, m.xz);
+  sum.yz = mad_real(weight, more.yz, m.yz);
+  return sum;
+}
 
 // Of each light E, with t = direction.l: E (mean + first t + second t^2).
 SHARED_FUNCTION FarMoments far_factors(Real3 direction, real mean, real first, real second) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "shared/brdf.h"
+#include "shared/volume_place.h"
 
 // A brick of samples: a CPU's work-item fills one. Sizes of volumes are multiples of it.
 #define VOXEL_BRICK_X 8
@@ -86,15 +87,10 @@ SHARED_FUNCTION Real3 voxel_place(Real3 position VOXEL_ARGUMENT) {
 #else
   Real3 q = position;
 #endif
-  real x = mad_real(VOXELS(x_from_x), q.x,
-                    mad_real(VOXELS(x_from_y), q.y, mad_real(VOXELS(x_from_z), q.z, VOXELS(x_from_1))));
-  real y = mad_real(VOXELS(y_from_x), q.x,
-                    mad_real(VOXELS(y_from_y), q.y, mad_real(VOXELS(y_from_z), q.z, VOXELS(y_from_1))));
-  real z = mad_real(VOXELS(z_from_x), q.x,
-                    mad_real(VOXELS(z_from_y), q.y, mad_real(VOXELS(z_from_z), q.z, VOXELS(z_from_1))));
-  return real3(min_real(max_real(x, REAL(0.0f)), REAL(VOXELS(last_x))),
-               min_real(max_real(y, REAL(0.0f)), REAL(VOXELS(last_y))),
-               min_real(max_real(z, REAL(0.0f)), REAL(VOXELS(last_z))));
+  return real3(
+      place_along(q, VOXELS(x_from_x), VOXELS(x_from_y), VOXELS(x_from_z), VOXELS(x_from_1), VOXELS(last_x)),
+      place_along(q, VOXELS(y_from_x), VOXELS(y_from_y), VOXELS(y_from_z), VOXELS(y_from_1), VOXELS(last_y)),
+      place_along(q, VOXELS(z_from_x), VOXELS(z_from_y), VOXELS(z_from_z), VOXELS(z_from_1), VOXELS(last_z)));
 }
 
 // The volume's value at a point, interpolated: irradiance on a surface that faces each light, and the sum of
@@ -106,9 +102,9 @@ SHARED_STRUCT(VoxelLight) {
 
 // From the volume's axes to view space.
 SHARED_FUNCTION Real3 turned_to_view(Real3 d VOXEL_ARGUMENT) {
-  return real3(VOXELS(view_x_from_x) * d.x + VOXELS(view_x_from_y) * d.y + VOXELS(view_x_from_z) * d.z,
-               VOXELS(view_y_from_x) * d.x + VOXELS(view_y_from_y) * d.y + VOXELS(view_y_from_z) * d.z,
-               VOXELS(view_z_from_x) * d.x + VOXELS(view_z_from_y) * d.y + VOXELS(view_z_from_z) * d.z);
+  return real3(component_along(d, VOXELS(view_x_from_x), VOXELS(view_x_from_y), VOXELS(view_x_from_z)),
+               component_along(d, VOXELS(view_y_from_x), VOXELS(view_y_from_y), VOXELS(view_y_from_z)),
+               component_along(d, VOXELS(view_z_from_x), VOXELS(view_z_from_y), VOXELS(view_z_from_z)));
 }
 
 // These take the stored numbers, remove their scale and turn them into view space.

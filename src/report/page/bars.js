@@ -4,13 +4,13 @@ const REST_COLOR = "#8a857c";
 
 // What a pass does, by its name: one color for all techniques. The first that fits counts.
 const STAGES = [
-  {name: 'copies between APIs', color: '#8c6a4f', passes: /_to_(cl|gl)$|^read_back$/},
-  {name: 'blended surfaces', color: '#c25aa0', passes: /blend/},
-  {name: 'depth bounds', color: '#7d5bb0', passes: /^depth_bounds$|^tile_distances$/},
-  {name: 'geometry buffer', color: '#2a9aa0', passes: /gbuffer|geometry_buffer|normals/},
-  {name: 'triangles and depth', color: '#3b6fb6', passes: /^depth_prepass$|^rasterize$/},
-  {name: 'light and materials', color: '#d9822b', passes: /^shade|^resolve|light_buffer|materials/},
-  {name: 'lists of lights', color: '#3f9b58', passes: /cull|light|grid|voxels|cap_lists/},
+  { name: "copies between APIs", color: "#8c6a4f", passes: /_to_(cl|gl)$|^read_back$/ },
+  { name: "blended surfaces", color: "#c25aa0", passes: /blend/ },
+  { name: "depth bounds", color: "#7d5bb0", passes: /^depth_bounds$|^tile_distances$/ },
+  { name: "geometry buffer", color: "#2a9aa0", passes: /gbuffer|geometry_buffer|normals/ },
+  { name: "triangles and depth", color: "#3b6fb6", passes: /^depth_prepass$|^rasterize$/ },
+  { name: "light and materials", color: "#d9822b", passes: /^shade|^resolve|light_buffer|materials/ },
+  { name: "lists of lights", color: "#3f9b58", passes: /cull|light|grid|voxels|cap_lists/ },
 ];
 const stageOf = (pass) => STAGES.find((stage) => stage.passes.test(pass)) ?? { name: "other", color: REST_COLOR };
 
