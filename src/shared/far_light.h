@@ -9,7 +9,7 @@
 //
 // which are spherical harmonics of order 2 in another basis; sum E_i is T's trace. From them follow the
 // irradiance on a diffuse surface, sum E_i max(n.l_i, 0) ~ sum E_i (3/32 + n.l_i / 2 + 15/32 (n.l_i)^2), to
-// 1/16 E_i at most (Ramamoorthi and Hanrahan, An Efficient Representation for Irradiance Environment Maps,
+// 3/32 E_i at most (Ramamoorthi and Hanrahan, An Efficient Representation for Irradiance Environment Maps,
 // 2001), and what a specular lobe takes in.
 #pragma once
 

@@ -161,7 +161,8 @@ TEST(FarLight, GivesBackWhatACutoffTakes) {
 }
 
 // With specular lobes, whose sharp highlights of far lights the second order does not hold (docs/far_light.md
-// tells what that loses). Here 2.2 % of the energy is missing, and the error falls to 0.36 of the bare cutoff's.
+// tells what that loses). Here 2.2 % of the energy is missing, and the error falls to 0.36 of the bare
+// cutoff's.
 TEST(FarLight, KeepsTheEnergyOfSpecularLobes) {
   Scene scene = find_builtin_scene("hall")->make();
   scene.ambient = glm::vec3(0);
