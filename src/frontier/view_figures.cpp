@@ -110,12 +110,10 @@ ImageError ViewFigures::Reference::error_of(const Image& image, bool with_flip) 
   return error;
 }
 
-ImageError ViewFigures::Reference::error_of_brute_force(const Image& kept) {
-  const auto [flip, added] = displayed.try_emplace(&kept);
-  if (added) flip->second = shown->flip_of(kept);
-  ImageError error = frontier_error(kept, *truth, brightest);
-  error.displayed = flip->second;
-  return error;
+const ImageError& ViewFigures::Reference::error_of_brute_force(const Image& kept) {
+  const auto [error, added] = of_brute_force.try_emplace(&kept);
+  if (added) error->second = error_of(kept);
+  return error->second;
 }
 
 void ViewFigures::refer(Truths& truths) {
@@ -173,7 +171,6 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
   Truths& truths = truths_of(point);
   const Image image = point_run.image();
   const Image& meant = truths.brute.picture(point.contestant.settings);
-  record.errors.total = frontier_error(image, *truths.reference->truth, brightest_);
   const bool own = has_own_surfaces(point);
   record.errors.precision = precision_.of(own);
   record.errors.in_double = precision_.in_double(image, own);

@@ -35,10 +35,10 @@ class ViewFigures {
     const Image* truth = nullptr;
     double brightest = 0;  // channel; one for both kinds of surfaces, since a highlight of one pixel makes it
     std::optional<ShownReference> shown;
-    std::map<const Image*, DisplayedFlip> displayed = {};  // of pictures of brute force
+    std::map<const Image*, ImageError> of_brute_force = {};  // of its pictures
     Reference(const Image& image, double brightest_channel, const Exposure& exposure);
     ImageError error_of(const Image& image, bool with_flip = true) const;
-    ImageError error_of_brute_force(const Image& kept);
+    const ImageError& error_of_brute_force(const Image& kept);
   };
   // The truths of the techniques that share surfaces: OpenGL's, or those of the rasteriser in OpenCL.
   struct Truths {

@@ -65,6 +65,8 @@ double hyab(const glm::dvec3& a, const glm::dvec3& b) {
 // --- Filters
 // ---------------------------------------------------------------------------------------------------------
 
+constexpr size_t rows_at_once = 16, pixels_at_once = 4096;
+
 using Kernel = std::vector<double>;  // from -radius to radius
 
 Kernel sampled(int radius, const auto& function) {
@@ -103,20 +105,25 @@ std::vector<double> filtered(const std::vector<double>& in, int width, int heigh
                              const Kernel& up) {
   const int radius_x = int(across.size() / 2), radius_y = int(up.size() / 2);
   const int padded = height + 2 * radius_y;  // rows, of which the first and the last are repeated
-  std::vector<double> rows(size_t(padded) * width), out(in.size()), row(size_t(width) + across.size() - 1);
-  for (int y = 0; y < height; ++y) {
-    const double* from = in.data() + size_t(y) * width;
-    for (size_t x = 0; x < row.size(); ++x) row[x] = from[std::clamp(int(x) - radius_x, 0, width - 1)];
-    filter_row(row.data(), 1, across, width, rows.data() + size_t(y + radius_y) * width);
-  }
+  std::vector<double> rows(size_t(padded) * width), out(in.size());
+  parallel_runs(size_t(height), rows_at_once, [&](size_t first, size_t end) {
+    std::vector<double> row(size_t(width) + across.size() - 1);
+    for (size_t y = first; y < end; ++y) {
+      const double* from = in.data() + y * width;
+      for (size_t x = 0; x < row.size(); ++x) row[x] = from[std::clamp(int(x) - radius_x, 0, width - 1)];
+      filter_row(row.data(), 1, across, width, rows.data() + (y + size_t(radius_y)) * width);
+    }
+  });
   for (int y = 0; y < padded; ++y) {
     const int from = std::clamp(y, radius_y, radius_y + height - 1);
     if (y != from)
       std::copy_n(rows.begin() + std::ptrdiff_t(from) * width, width,
                   rows.begin() + std::ptrdiff_t(y) * width);
   }
-  for (int y = 0; y < height; ++y)
-    filter_row(rows.data() + size_t(y) * width, size_t(width), up, width, out.data() + size_t(y) * width);
+  parallel_runs(size_t(height), rows_at_once, [&](size_t first, size_t end) {
+    for (size_t y = first; y < end; ++y)
+      filter_row(rows.data() + y * width, size_t(width), up, width, out.data() + y * width);
+  });
   return out;
 }
 
@@ -205,12 +212,14 @@ double color_difference(const glm::dvec3& test, const glm::dvec3& reference) {
 }
 
 Planes ycxcz_of(const Image& image) {
-  Planes planes{image.width, image.height, {}};
-  planes.pixels.reserve(image.pixels.size());
-  for (const glm::vec4& pixel : image.pixels) {
-    const glm::dvec3 rgb = has_nan(pixel) ? glm::dvec3(0) : glm::clamp(glm::dvec3(pixel), 0.0, 1.0);
-    planes.pixels.push_back(ycxcz_from_rgb(rgb));
-  }
+  Planes planes{image.width, image.height, std::vector<glm::dvec3>(image.pixels.size())};
+  parallel_runs(image.pixels.size(), pixels_at_once, [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) {
+      const glm::vec4& pixel = image.pixels[i];
+      const glm::dvec3 rgb = has_nan(pixel) ? glm::dvec3(0) : glm::clamp(glm::dvec3(pixel), 0.0, 1.0);
+      planes.pixels[i] = ycxcz_from_rgb(rgb);
+    }
+  });
   return planes;
 }
 
@@ -224,8 +233,12 @@ struct SeenImage {
 SeenImage seen_image(const Image& image, double pixels_per_degree) {
   const Planes opponent = ycxcz_of(image);
   SeenImage s{seen(opponent, pixels_per_degree), features_of(opponent, pixels_per_degree), {}};
-  for (glm::dvec3& pixel : s.color.pixels)
-    pixel = hunt_lab_from_rgb(glm::clamp(rgb_from_ycxcz(pixel), 0.0, 1.0));
+  parallel_runs(s.color.pixels.size(), pixels_at_once, [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) {
+      glm::dvec3& pixel = s.color.pixels[i];
+      pixel = hunt_lab_from_rgb(glm::clamp(rgb_from_ycxcz(pixel), 0.0, 1.0));
+    }
+  });
   for (const glm::vec4& pixel : image.pixels) s.nan.push_back(has_nan(pixel));
   return s;
 }
@@ -234,13 +247,15 @@ std::vector<float> difference_map(const SeenImage& test, const SeenImage& refere
   assert(test.color.width == reference.color.width && test.color.height == reference.color.height);
   const Features &f = test.features, &g = reference.features;
   std::vector<float> map(test.color.pixels.size());
-  for (size_t i = 0; i < map.size(); ++i) {
-    const double color = color_difference(test.color.pixels[i], reference.color.pixels[i]);
-    const double difference =
-        std::max(std::abs(f.edges[i] - g.edges[i]), std::abs(f.points[i] - g.points[i]));
-    const double feature = std::sqrt(difference / std::numbers::sqrt2);
-    map[i] = test.nan[i] || reference.nan[i] ? 1.0f : float(std::pow(color, 1 - feature));
-  }
+  parallel_runs(map.size(), pixels_at_once, [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) {
+      const double color = color_difference(test.color.pixels[i], reference.color.pixels[i]);
+      const double difference =
+          std::max(std::abs(f.edges[i] - g.edges[i]), std::abs(f.points[i] - g.points[i]));
+      const double feature = std::sqrt(difference / std::numbers::sqrt2);
+      map[i] = test.nan[i] || reference.nan[i] ? 1.0f : float(std::pow(color, 1 - feature));
+    }
+  });
   return map;
 }
 

@@ -8,12 +8,14 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/parallel.h"
 #include "results/error_measures.h"
 
 namespace lightgrid {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr size_t pixels_at_once = 4096;
 constexpr double least_channel = 1e-3;  // of the brightest: denominators of relative errors
 
 bool same_bits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
@@ -29,18 +31,25 @@ double channel_error(double a, double b) {
 template <typename ReferenceAt>
 ImageDifference difference_of(const Image& image, const ReferenceAt& reference_at, double brightest) {
   ImageDifference difference{.pixels = image.pixels.size(), .brightest = brightest};
-  std::vector<double> largest(image.pixels.size());
-  for (size_t i = 0; i < image.pixels.size(); ++i) {
-    const glm::dvec3 reference = reference_at(i);
-    for (int c = 0; c < 3; ++c) {
-      const double error = channel_error(image.pixels[i][c], reference[c]);
-      largest[i] = std::max(largest[i], error);
-      difference.sum_of_squares += error * error;
-      if (error == 0) continue;
-      const double over = std::max(reference[c], least_channel * brightest);
-      const double relative = over > 0 ? error / over : infinite;
-      difference.sum_of_relative_squares += relative * relative;
+  std::vector<double> largest(image.pixels.size()), squares(image.pixels.size()),
+      relative_squares(image.pixels.size());
+  parallel_runs(image.pixels.size(), pixels_at_once, [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) {
+      const glm::dvec3 reference = reference_at(i);
+      for (int c = 0; c < 3; ++c) {
+        const double error = channel_error(image.pixels[i][c], reference[c]);
+        if (error == 0) continue;
+        largest[i] = std::max(largest[i], error);
+        squares[i] += error * error;
+        const double over = std::max(reference[c], least_channel * brightest);
+        const double relative = over > 0 ? error / over : infinite;
+        relative_squares[i] += relative * relative;
+      }
     }
+  });
+  for (size_t i = 0; i < largest.size(); ++i) {
+    difference.sum_of_squares += squares[i];
+    difference.sum_of_relative_squares += relative_squares[i];
     difference.largest = std::max(difference.largest, largest[i]);
   }
   difference.percentile_99 = percentile_99(std::move(largest));
@@ -104,40 +113,51 @@ LightDifference light_difference_of(const Image& image, const ReferenceAt& refer
   const double e = dim * luminance;
   std::vector<double> rel_mse(pixels), smape(pixels);
   std::vector<glm::dvec3> errors(pixels);
-  for (size_t i = 0; i < pixels; ++i) {
-    const glm::dvec3 t = reference_at(i), x(image.pixels[i]);
-    for (int c = 0; c < 3; ++c) {
-      const double error = channel_error(x[c], t[c]);
-      if (error == 0) continue;
-      errors[i][c] = error < infinite ? x[c] - t[c] : infinite;
-      squares += error * error;
-      rel_mse[i] += error < infinite ? error * error / (t[c] * t[c] + e * e) / 3 : infinite;
-      smape[i] += error < infinite ? error / (std::abs(x[c]) + std::abs(t[c]) + e) / 3 : infinite;
+  parallel_runs(pixels, pixels_at_once, [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) {
+      const glm::dvec3 t = reference_at(i), x(image.pixels[i]);
+      for (int c = 0; c < 3; ++c) {
+        const double error = channel_error(x[c], t[c]);
+        if (error == 0) continue;
+        errors[i][c] = error < infinite ? x[c] - t[c] : infinite;
+        rel_mse[i] += error < infinite ? error * error / (t[c] * t[c] + e * e) / 3 : infinite;
+        smape[i] += error < infinite ? error / (std::abs(x[c]) + std::abs(t[c]) + e) / 3 : infinite;
+      }
     }
-  }
+  });
+  for (const glm::dvec3& error : errors) squares += glm::dot(error, error);
   LightDifference light;
-  std::tie(light.rel_mse, light.rel_mse_trimmed) = means_of(std::move(rel_mse));
-  std::tie(light.smape, light.smape_trimmed) = means_of(std::move(smape));
   const auto over = [&](double error, double of) { return error == 0 ? 0 : of > 0 ? error / of : infinite; };
+  parallel_for(3, [&](int measure) {
+    if (measure == 0) {
+      std::tie(light.rel_mse, light.rel_mse_trimmed) = means_of(std::move(rel_mse));
+    } else if (measure == 1) {
+      std::tie(light.smape, light.smape_trimmed) = means_of(std::move(smape));
+    } else if (width > 0) {
+      light.low_pass_rmse_of_mean =
+          squares < infinite ? over(std::sqrt(low_pass_mean_square(errors, width, height)), luminance)
+                             : infinite;
+    }
+  });
   light.energy_rel = squares < infinite ? over(sum - reference_sum, reference_sum) : infinite;
   light.rmse_of_mean = over(std::sqrt(squares / (3.0 * double(pixels))), luminance);
-  if (width > 0) {
-    light.low_pass_rmse_of_mean =
-        squares < infinite ? over(std::sqrt(low_pass_mean_square(errors, width, height)), luminance)
-                           : infinite;
-  }
   return light;
 }
 
-template <typename ReferenceAt>
-ImageError measured(const Image& image, const ReferenceAt& reference_at, double brightest,
-                    std::span<const ErrorMeasure> measures, const LightDifference& light = {}) {
+ImageError measured(const ImageDifference& difference, std::span<const ErrorMeasure> measures) {
   ImageError result;
-  if (image.pixels.empty()) return result;
-  ImageDifference difference = difference_of(image, reference_at, brightest);
-  difference.light = light;
   for (const ErrorMeasure& measure : measures) result.*measure.value = measure.of(difference);
   return result;
+}
+
+// `width`, `height`: of an image; 0: of a sample of pixels.
+template <typename ReferenceAt>
+ImageError measured_for_frontier(const Image& image, const ReferenceAt& reference_at, double brightest,
+                                 int width, int height) {
+  if (image.pixels.empty()) return {};
+  ImageDifference difference = difference_of(image, reference_at, brightest);
+  difference.light = light_difference_of(image, reference_at, width, height);
+  return measured(difference, frontier_error_measures());
 }
 
 }  // namespace
@@ -162,8 +182,11 @@ ImageError compare_images(const Image& image, const Image& reference) {
 
 ImageError compare_images(const Image& image, const Image& reference, double brightest) {
   assert(image.width == reference.width && image.height == reference.height);
-  ImageError result = measured(
-      image, [&](size_t i) { return glm::dvec3(reference.pixels[i]); }, brightest, error_measures());
+  ImageError result;
+  if (!image.pixels.empty()) {
+    const auto reference_at = [&](size_t i) { return glm::dvec3(reference.pixels[i]); };
+    result = measured(difference_of(image, reference_at, brightest), error_measures());
+  }
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     for (int c = 0; c < 3; ++c) result.bit_identical &= same_bits(image.pixels[i][c], reference.pixels[i][c]);
   }
@@ -171,17 +194,13 @@ ImageError compare_images(const Image& image, const Image& reference, double bri
 }
 
 ImageError frontier_error(const Image& image, const Image& reference, double brightest) {
-  if (image.pixels.empty()) return {};
   const auto reference_at = [&](size_t i) { return glm::dvec3(reference.pixels[i]); };
-  return measured(image, reference_at, brightest, frontier_error_measures(),
-                  light_difference_of(image, reference_at, image.width, image.height));
+  return measured_for_frontier(image, reference_at, brightest, image.width, image.height);
 }
 
 ImageError frontier_error(const Image& image, const std::vector<glm::dvec3>& reference, double brightest) {
-  if (image.pixels.empty()) return {};
   const auto reference_at = [&](size_t i) { return reference[i]; };
-  return measured(image, reference_at, brightest, frontier_error_measures(),
-                  light_difference_of(image, reference_at, 0, 0));
+  return measured_for_frontier(image, reference_at, brightest, 0, 0);
 }
 
 ErrorSteps error_steps(const Image& image, const Image& reference, int tile, double brightest) {
