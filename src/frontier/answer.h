@@ -48,11 +48,11 @@ struct PointFigures {
   // 95 % intervals over views (bootstrap_interval) by error, "total" or "authored", and measure; empty where
   // there are fewer than six.
   std::map<std::pair<std::string, std::string>, std::pair<double, double>> over_views;
-  PairCounts pairs;                        // sums over views
-  std::optional<FrontierTruth> truth;      // empty: every light without a range
-  std::optional<double> exposure_ev;       // of the scene's pictures
-  uint64_t memory_bytes = 0;               // the largest of the views
-  uint64_t bytes_moved = 0;                // a frame of the views that were profiled: the first
+  PairCounts pairs;                    // sums over views
+  std::optional<FrontierTruth> truth;  // empty: every light without a range
+  std::optional<double> exposure_ev;   // of the scene's pictures
+  uint64_t memory_bytes = 0;           // the largest of the views
+  uint64_t bytes_moved = 0;            // a frame of the views that were profiled: the first
   uint64_t nan_pixels = 0;
   std::map<std::string, OnFront> fronts;  // by the error that it is of (front_errors)
   DeviceFigures device;
@@ -151,7 +151,11 @@ struct FrontierAnswer {
   std::vector<CheapestWithin> cheapest_within;
   std::vector<FrontBand> front_bands;
   std::vector<Control> device_controls;  // by the devices' clocks
+  std::vector<CheapestWithin> device_cheapest_within;
   std::vector<FrontBand> device_front_bands;
+  // GPUs' frames end with a copy of the picture that can take longer than all else: where OpenCL runs on one
+  // and the devices have clocks, sentences and the page are of these.
+  bool by_device = false;
   std::vector<AmongOpenCl> among_opencl;  // empty for a sweep whose baseline draws without OpenGL
   std::vector<BreakEven> break_even;
   std::vector<ShadingCost> shading_costs;

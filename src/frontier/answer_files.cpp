@@ -339,10 +339,7 @@ json page_data_of(const FrontierAnswer& answer, const PagePictures& pictures) {
                               {"opening", words.opening},
                               {"notes", words.notes}});
   }
-  // GPUs' frames end with a copy of the picture that can take longer than all else: not the default there.
-  const bool by_device = !answer.machines.empty() && answer.machines.front().cl_kind == "GPU" &&
-                         !answer.device_front_bands.empty();
-  data["default_time"] = by_device ? "relative_device" : "relative";
+  data["default_time"] = answer.by_device ? "relative_device" : "relative";
   // In the order of their colors.
   data["techniques"] =
       distinct(answer.part.records, [](const FrontierRecord& r) { return r.point.technique; });
@@ -373,6 +370,7 @@ json to_json(const FrontierAnswer& answer) {
           {"cheapest_within_flip", array_of(answer.cheapest_within, cheapest_json)},
           {"flip_front_bands", array_of(answer.front_bands, band_json)},
           {"device_controls", array_of(answer.device_controls, control_json)},
+          {"device_cheapest_within_flip", array_of(answer.device_cheapest_within, cheapest_json)},
           {"device_flip_front_bands", array_of(answer.device_front_bands, band_json)},
           {"among_opencl", array_of(answer.among_opencl, among_json)},
           {"break_even", array_of(answer.break_even, break_even_json)},

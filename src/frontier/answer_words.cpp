@@ -50,6 +50,15 @@ const PointFigures* baseline_of(const FrontierAnswer& answer, const std::string&
   return nullptr;
 }
 
+// The time that sentences are of.
+const RelativeTime& time_of(const FrontierAnswer& answer, const PointFigures& p) {
+  return answer.by_device ? p.device.relative_time : p.relative_time;
+}
+
+const char* clock_in_words(const FrontierAnswer& answer) {
+  return answer.by_device ? " by the devices' clocks" : "";
+}
+
 // The fastest of the points that compute the baseline's picture; -1 if there is none.
 int fastest_same_picture(const FrontierAnswer& answer, const std::string& scene) {
   const PointFigures* baseline = baseline_of(answer, scene);
@@ -58,9 +67,10 @@ int fastest_same_picture(const FrontierAnswer& answer, const std::string& scene)
   if (baseline && !(baseline->errors.technique.max_rel <= same_picture)) baseline = nullptr;
   for (size_t i = 0; baseline && i < answer.points.size(); ++i) {
     const PointFigures& p = answer.points[i];
-    if (p.point.scene != scene || p.log_times.empty() || !same_model(p, *baseline)) continue;
+    if (p.point.scene != scene || time_of(answer, p).runs == 0 || !same_model(p, *baseline)) continue;
     if (!(p.errors.technique.max_rel <= same_picture) || p.nan_pixels || p.pairs.lost) continue;
-    if (best < 0 || p.relative_time.estimate < answer.points[best].relative_time.estimate) best = int(i);
+    if (best < 0 || time_of(answer, p).estimate < time_of(answer, answer.points[best]).estimate)
+      best = int(i);
   }
   return best;
 }
@@ -78,8 +88,9 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
   } else {
     sentences.push_back(fmt::format(
         "In {} the fastest point that computes the same picture as {} (to 1e-5 of the brightest channel) is "
-        "{}: it takes {} as long.",
-        scene_in_words(scene), answer.part.baseline, p.point.label, times_in_words(p.relative_time)));
+        "{}: it takes {} as long{}.",
+        scene_in_words(scene), answer.part.baseline, p.point.label, times_in_words(time_of(answer, p)),
+        clock_in_words(answer)));
   }
   const PointErrors& e = p.errors;
   struct Kind {
@@ -105,7 +116,8 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
 void add_cheapest_within(const FrontierAnswer& answer, const std::string& scene,
                          std::vector<std::string>& sentences) {
   std::vector<const CheapestWithin*> steps;
-  for (auto best = answer.cheapest_within.rbegin(); best != answer.cheapest_within.rend(); ++best) {
+  const auto& cheapest = answer.by_device ? answer.device_cheapest_within : answer.cheapest_within;
+  for (auto best = cheapest.rbegin(); best != cheapest.rend(); ++best) {
     if (best->scene != scene) continue;
     const bool goes_on = !steps.empty() && steps.back()->point == best->point && steps.back()->of == best->of;
     if (!goes_on) steps.push_back(nullptr);
@@ -114,10 +126,10 @@ void add_cheapest_within(const FrontierAnswer& answer, const std::string& scene,
   for (const CheapestWithin* step : steps) {
     const PointFigures& p = answer.points[step->point];
     sentences.push_back(fmt::format(
-        "FLIP as displayed up to {:g} in {}{}: {}, {} times {} (the cheapest with a probability of {}).",
+        "FLIP as displayed up to {:g} in {}{}: {}, {} times {}{} (the cheapest with a probability of {}).",
         step->error, scene_in_words(scene),
         step->of == "authored" ? ", against lights with authored ranges" : "", p.point.label,
-        three_digits(step->relative_time.estimate), answer.part.baseline,
+        three_digits(step->relative_time.estimate), answer.part.baseline, clock_in_words(answer),
         probability_in_words(step->probability)));
   }
 }

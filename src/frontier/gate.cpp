@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/error.h"
 #include "base/json_file.h"
@@ -96,7 +97,8 @@ class PointComparison {
     for (const char* percent : {"leaked_percent", "acned_percent"}) {
       if (now_.has(percent)) compare_error(fmt::format("{}: {}", name_, percent), now_, earlier_, percent);
     }
-    compare_ratios();
+    compare_ratios("relative_time", "");
+    compare_ratios("relative_device_time", " by the devices' clocks");
   }
 
  private:
@@ -139,21 +141,22 @@ class PointComparison {
     double low = 0, high = 0;
   };
 
-  static Ratio ratio_of(const JsonFields& point) {
-    const JsonFields ratio = point.object("relative_time");
+  // None in files of before times by the devices' clocks.
+  static Ratio ratio_of(const JsonFields& point, const char* key) {
+    if (!point.has(key)) return {};
+    const JsonFields ratio = point.object(key);
     if (!ratio.has("estimate")) return {};
     const std::vector<double> interval = ratio.numbers("ci95");
-    if (interval.size() != 2)
-      throw input_error("relative_time.ci95: {} numbers instead of 2", interval.size());
+    if (interval.size() != 2) throw input_error("{}.ci95: {} numbers instead of 2", key, interval.size());
     return {ratio.number("estimate"), interval[0], interval[1]};
   }
 
-  void compare_ratios() {
-    const Ratio now = ratio_of(now_), earlier = ratio_of(earlier_);
+  void compare_ratios(const char* key, const char* clock) {
+    const Ratio now = ratio_of(now_, key), earlier = ratio_of(earlier_, key);
     if (!now.estimate || !earlier.estimate || now.low <= earlier.high) return;
     result_.worse.push_back(fmt::format(
-        "{}: takes {:.3g} times the baseline's time ({:.3g} to {:.3g}), earlier {:.3g} ({:.3g} to {:.3g})",
-        name_, *now.estimate, now.low, now.high, *earlier.estimate, earlier.low, earlier.high));
+        "{}: takes {:.3g} times the baseline's time{} ({:.3g} to {:.3g}), earlier {:.3g} ({:.3g} to {:.3g})",
+        name_, *now.estimate, clock, now.low, now.high, *earlier.estimate, earlier.low, earlier.high));
   }
 
   std::string name_;
@@ -186,14 +189,17 @@ void tell_of_other_machine(const JsonFields& now, const JsonFields& earlier, Gat
 
 // The baseline against itself: where it differs, other times are in doubt too.
 void add_failed_controls(const json& now, GateResult& result) {
-  for_each_entry(now, "controls", [&](const json& control, const JsonFields& fields) {
-    if (control.value("passed", false)) return;
-    const JsonFields time = fields.object("relative_time");
-    const std::vector<double> interval = time.numbers("ci95");
-    result.worse.push_back(
-        fmt::format("{}: the baseline as a point takes {:.4g} times its own time ({:.4g} to {:.4g})",
-                    fields.text("scene"), time.number("estimate"), interval.at(0), interval.at(1)));
-  });
+  for (const auto& [controls, clock] :
+       {std::pair("controls", ""), std::pair("device_controls", " by the devices' clocks")}) {
+    for_each_entry(now, controls, [&](const json& control, const JsonFields& fields) {
+      if (control.value("passed", false)) return;
+      const JsonFields time = fields.object("relative_time");
+      const std::vector<double> interval = time.numbers("ci95");
+      result.worse.push_back(
+          fmt::format("{}: the baseline as a point takes {:.4g} times its own time{} ({:.4g} to {:.4g})",
+                      fields.text("scene"), time.number("estimate"), clock, interval.at(0), interval.at(1)));
+    });
+  }
 }
 
 GateResult compare_frontiers(const json& now, const json& earlier) {

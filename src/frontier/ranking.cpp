@@ -169,6 +169,11 @@ void set_device_figures(FrontierAnswer& answer) {
   }
   answer.device_front_bands = front_bands_of(points, answer.device_controls);
   std::erase_if(answer.device_front_bands, [](const FrontBand& band) { return band.steps.empty(); });
+  answer.device_cheapest_within = cheapest_within_of(points, answer.device_controls);
+  std::erase_if(answer.device_cheapest_within,
+                [](const CheapestWithin& best) { return best.relative_time.runs == 0; });
+  answer.by_device = !answer.machines.empty() && answer.machines.front().cl_kind == "GPU" &&
+                     !answer.device_front_bands.empty();
 }
 
 bool draws_in_opencl(const std::string& label) {

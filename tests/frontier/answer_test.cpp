@@ -53,8 +53,10 @@ TEST(Answer, FrontsByTheDevicesClocksAreTheirOwn) {
   };
   FrontierRecord unknown = timed("clustered", 0.2, 1, 0.001);
   unknown.device_ms.pop_back();  // of one run
-  const FrontierAnswer answer =
-      answer_from({timed("forward_plus", 0.5, 10, 0.01), timed("deferred", 0.8, 5, 0.01), unknown});
+  FrontierPart part =
+      synthetic_part({timed("forward_plus", 0.5, 10, 0.01), timed("deferred", 0.8, 5, 0.01), unknown});
+  part.machine.cl_kind = "CPU";
+  const FrontierAnswer answer = answer_of({part});
   ASSERT_THAT(answer.points, SizeIs(3));
   const DeviceFigures &first = answer.points[0].device, &second = answer.points[1].device;
   EXPECT_NEAR(first.relative_time.estimate, 0.5, 1e-12);
@@ -71,6 +73,24 @@ TEST(Answer, FrontsByTheDevicesClocksAreTheirOwn) {
   EXPECT_EQ(front_of(answer), std::vector<std::string>{"clustered"});
   ASSERT_THAT(answer.device_front_bands, SizeIs(1));
   EXPECT_NEAR(answer.device_front_bands[0].steps.back().low, 0.25, 1e-12);
+
+  // What is the cheapest differs likewise. Sentences are of the wall's clock, but on a GPU.
+  const auto cheapest = [&](const std::vector<CheapestWithin>& all) {
+    return answer.points[size_t(all.back().point)].point.technique;
+  };
+  EXPECT_EQ(cheapest(answer.cheapest_within), "clustered");
+  EXPECT_EQ(cheapest(answer.device_cheapest_within), "deferred");
+  EXPECT_NEAR(answer.device_cheapest_within.back().relative_time.estimate, 0.25, 1e-12);
+  EXPECT_THAT(answer.sentences,
+              Contains(HasSubstr("up to 0.001 in hall: clustered, 0.201 times forward_plus (")));
+  part.machine.cl_kind = "GPU";
+  EXPECT_THAT(
+      answer_of({part}).sentences,
+      Contains(HasSubstr("up to 0.01 in hall: deferred, 0.250 times forward_plus by the devices' clocks (")));
+  for (FrontierRecord& record : part.records) record.device_ms.clear(), record.baseline_device_ms.clear();
+  const FrontierAnswer without = answer_of({part});
+  EXPECT_THAT(without.device_cheapest_within, IsEmpty());
+  EXPECT_FALSE(without.by_device);
 }
 
 // However noisy the baseline is, it cancels between two points of a round.

@@ -109,6 +109,20 @@ TEST(Gate, IsClosedByARatioThatIsWorseWithSignificance) {
   EXPECT_THAT(held_against(earlier, now, "").worse, IsEmpty());
 }
 
+TEST(Gate, IsClosedByATimeOfTheDevicesThatIsWorse) {
+  json now = frontier(), earlier = frontier();
+  const json time = {{"estimate", 0.5}, {"ci95", {0.49, 0.51}}},
+             slower = {{"estimate", 0.6}, {"ci95", {0.52, 0.7}}};
+  earlier["points"][0]["relative_device_time"] = time;
+  now["points"][0]["relative_device_time"] = slower;
+  EXPECT_THAT(held_against(now, earlier, "").worse,
+              ElementsAre(std::string(name) + ": takes 0.6 times the baseline's time by the devices' clocks "
+                                              "(0.52 to 0.7), earlier 0.5 (0.49 to 0.51)"));
+  EXPECT_THAT(held_against(earlier, now, "").worse, IsEmpty());
+  earlier["points"][0].erase("relative_device_time");
+  EXPECT_THAT(held_against(now, earlier, "").worse, IsEmpty()) << "of a program that had none";
+}
+
 // The baseline against itself, whatever it was earlier.
 TEST(Gate, IsClosedByAControlThatDidNotPass) {
   json now = frontier();
@@ -119,6 +133,12 @@ TEST(Gate, IsClosedByAControlThatDidNotPass) {
               ElementsAre("hall: the baseline as a point takes 1.08 times its own time (1.047 to 1.092)"));
   now["controls"][0]["passed"] = true;
   EXPECT_THAT(held_against(now, now, "").worse, IsEmpty());
+  now["device_controls"] = now["controls"];
+  now["device_controls"][0]["passed"] = false;
+  EXPECT_THAT(
+      held_against(now, now, "").worse,
+      ElementsAre("hall: the baseline as a point takes 1.08 times its own time by the devices' clocks "
+                  "(1.047 to 1.092)"));
 }
 
 TEST(Gate, RefusesFilesOfTheEarlierSchema) {

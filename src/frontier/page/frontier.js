@@ -29,12 +29,12 @@ function withinCell(best) {
   if (!best) return make("td", { class: "quiet" }, "\u2013");
   const point = page.points[best.point];
   return make("td", {}, make("div", {}, pointButton(point, nameElement(point.label))),
-    make("div", { class: "note" }, `${intervalInWords(best.relative_time, "\u00d7")}, ${milliseconds(point.frame_ms.median)}`),
+    make("div", { class: "note" }, `${intervalInWords(best.relative_time, "\u00d7")}, ${milliseconds(state.clock.ms(point).median)}`),
     make("div", { class: "note" }, `the cheapest with a probability of ${probabilityText(best.probability)}`));
 }
 
 function showBestWithin() {
-  const all = page.cheapest_within_flip.filter((best) => best.of === state.reference);
+  const all = state.clock.within.filter((best) => best.of === state.reference);
   const errors = [...new Set(all.map((best) => best.flip))].sort((a, b) => b - a);
   const head = page.scenes.map((scene) => make("th", { scope: "col" }, scene.title));
   const lines = errors.map((error) => make("tr", {}, make("th", { scope: "row" }, String(error)),
