@@ -24,13 +24,23 @@ struct Star {
 };
 
 // After each technique as it is: the rasteriser, a finer volume, the cull tests of two techniques, buffers of
-// fewer bits, the capacity of lidr and of engines' lists; model errors of ranges, windows and BRDFs, and far
-// light beyond ranges. What does not depend on the technique is varied on the fastest one. So few that several
-// views of each of the default scenes fit into the default budget: --vary measures further ones.
+// fewer bits, the capacity of lidr and of engines' lists; ranges and far light beyond them, of one technique
+// of each kind of lists (windows, BRDFs and finer steps on the fastest alone). So few that several views of each of the default scenes fit into the default budget: --vary measures further ones.
 constexpr Star default_variations[] = {
     {"voxel_lights", "raster=opencl"},
     {"voxel_lights", "raster=opencl voxel-size=128x128x64"},
+    {"voxel_lights", "raster=opencl range=cutoff cutoff=0.02"},
+    {"voxel_lights", "raster=opencl range=infinite"},
     {"world_grid", "raster=opencl"},
+    {"world_grid", "raster=opencl range=cutoff cutoff=0.2"},
+    {"world_grid", "raster=opencl range=cutoff cutoff=0.02"},
+    {"world_grid", "raster=opencl range=cutoff cutoff=0.001"},
+    {"world_grid", "raster=opencl range=infinite"},
+    {"world_grid", "raster=opencl far-light=4096"},
+    {"world_grid", "raster=opencl range=cutoff cutoff=0.2 far-light=4096"},
+    {"forward_plus", "range=cutoff cutoff=0.02"},
+    {"forward_plus", "range=infinite"},
+    {"forward_plus", "far-light=4096"},
     {"forward_plus", "cull-test=sphere"},
     {"forward_plus", "cull-test=aabb"},
     {"forward_plus", "cull-test=exact"},
@@ -49,12 +59,9 @@ constexpr Star default_variations[] = {
     {"visibility", "range=cutoff cutoff=1"},
     {"visibility", "range=cutoff cutoff=0.5"},
     {"visibility", "range=cutoff cutoff=0.2"},
-    {"visibility", "range=cutoff cutoff=0.1"},
     {"visibility", "range=cutoff cutoff=0.05"},
     {"visibility", "range=cutoff cutoff=0.02"},
-    {"visibility", "range=cutoff cutoff=0.01"},
     {"visibility", "range=cutoff cutoff=0.005"},
-    {"visibility", "range=cutoff cutoff=0.002"},
     {"visibility", "range=cutoff cutoff=0.001"},
     {"visibility", "range=cutoff cutoff=0.0001"},
     {"visibility", "far-light=4096"},

@@ -55,7 +55,7 @@ TEST(KernelForms, DrawTheSameBytes) {
   if (!chooses_form("avx2", "pthread-haswell") || !chooses_form("sse2", "pthread-athlon64"))
     GTEST_SKIP() << "no PoCL here that compiles for AVX2 and SSE2";
   for (const auto& [scene, technique] : {std::pair{"hall", "visibility"},
-                                         {"street", "visibility"},
+                                         {"rooms", "visibility:list-cap=8"},
                                          {"spheres", "forward_plus_compute"},
                                          {"spheres", "deferred_tiled:samples=4"},
                                          {"spheres", "visibility:samples=4"}}) {
