@@ -53,4 +53,16 @@ install(FILES ${PROJECT_SOURCE_DIR}/cmake/lightgridConfig.cmake ${PROJECT_BINARY
         DESTINATION ${package_folder} COMPONENT library)
 if(LIGHTGRID_PROGRAM)
   install(TARGETS lightgrid RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  if(NOT CMAKE_CROSSCOMPILING)  # the program itself writes them
+    set(manual ${PROJECT_BINARY_DIR}/manual)
+    install(CODE "
+      file(MAKE_DIRECTORY ${manual})
+      foreach(form page bash zsh fish)
+        execute_process(COMMAND $<TARGET_FILE:lightgrid> manual \${form} OUTPUT_FILE ${manual}/\${form} COMMAND_ERROR_IS_FATAL ANY)
+      endforeach()" COMPONENT program)
+    install(FILES ${manual}/page DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 RENAME lightgrid.1 COMPONENT program)
+    install(FILES ${manual}/bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME lightgrid COMPONENT program)
+    install(FILES ${manual}/zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions RENAME _lightgrid COMPONENT program)
+    install(FILES ${manual}/fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d RENAME lightgrid.fish COMPONENT program)
+  endif()
 endif()

@@ -21,5 +21,6 @@ void add_verify(CommandLine& line);
 void add_bench(CommandLine& line);
 void add_frontier(CommandLine& line);
 void add_view(CommandLine& line);
+void add_manual(CommandLine& line);
 
 }  // namespace lightgrid
