@@ -1,3 +1,10 @@
+# Objects are position-independent: the program and shared libraries (liblightgrid.so, an engine's plugin) link the same
+# ones. Nobody replaces their functions at load time: without that the compiler inlines as it does in a program.
+function(lightgrid_shareable target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+endfunction()
+
 # lightgrid_folder(NAME [USES folder...] [LIBRARIES lib...] [WITHOUT file...])
 #
 # Makes src/NAME a library target of its own. Its headers are found as "NAME/x.h", and only by the targets that
@@ -14,6 +21,7 @@ function(lightgrid_folder name)
   list(TRANSFORM arg_USES PREPEND lightgrid_)
   if(sources)
     add_library(lightgrid_${name} STATIC ${sources})
+    lightgrid_shareable(lightgrid_${name})
     set(scope PUBLIC)
   else()
     add_library(lightgrid_${name} INTERFACE)
@@ -33,5 +41,6 @@ function(lightgrid_part name)
   list(TRANSFORM arg_SOURCES PREPEND ${PROJECT_SOURCE_DIR}/src/${arg_OF}/)
   list(TRANSFORM arg_USES PREPEND lightgrid_)
   add_library(lightgrid_${name} STATIC ${arg_SOURCES})
+  lightgrid_shareable(lightgrid_${name})
   target_link_libraries(lightgrid_${name} PUBLIC lightgrid_${arg_OF} ${arg_USES} ${arg_LIBRARIES})
 endfunction()

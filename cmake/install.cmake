@@ -15,13 +15,6 @@ foreach(target IN LISTS library_targets)
   add_library(lightgrid::${name} ALIAS ${target})
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src/${name} ${library_root}/lightgrid/${name} SYMBOLIC)
   target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${library_root}> $<INSTALL_INTERFACE:include>)
-  get_target_property(type ${target} TYPE)
-  if(type STREQUAL STATIC_LIBRARY)
-    # Shared libraries, such as an engine's plugin, may link these. Nobody replaces their functions at load time: without
-    # that the compiler inlines as it does in a program.
-    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    target_compile_options(${target} PRIVATE -fno-semantic-interposition)
-  endif()
 endforeach()
 install(TARGETS ${library_targets} EXPORT lightgridTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)

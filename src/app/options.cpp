@@ -12,43 +12,38 @@
 
 namespace lightgrid {
 
+namespace {
+
+void add_fields(Subcommand& command, SceneChoice& o, ChoiceField::Of of) {
+  for (const ChoiceField& field : choice_fields()) {
+    if (field.of != of) continue;
+    const std::string name = std::string("--") + field.name;
+    if (const auto* text = std::get_if<std::string SceneChoice::*>(&field.value)) {
+      command.option(name, o.*(*text), field.help);
+    } else if (const auto* whole = std::get_if<int SceneChoice::*>(&field.value)) {
+      command.option(name, o.*(*whole), field.help, 0, field.most);
+    } else {
+      command.option(name, o.*std::get<uint64_t SceneChoice::*>(field.value), field.help);
+    }
+  }
+}
+
+}  // namespace
+
 void add_scene_options(Subcommand& command, SceneChoice& o) {
   command.option("scene", o.scene, "a .gltf or .glb file, or a built-in scene");
-  command.option("--size", o.size, "image size, WxH");
-  command.option("--lights", o.lights, "scatter N lights; with --lights-file, its first N", 0, most_lights);
+  add_fields(command, o, ChoiceField::Of::scene);
   add_view_options(command, o);
 }
 
 void add_view_options(Subcommand& command, SceneChoice& o) {
-  command.option("--camera", o.camera, "name, index or eye:x,y,z,target:x,y,z,fov:degrees,near:metres");
-  command.option("--lights-file", o.lights_file, "lights as JSON, instead of the scene's own");
-  command.option("--light-radius", o.light_radius, "range of scattered lights in metres, MIN,MAX");
-  command.option("--ambient", o.ambient, "radiance from all sides instead of the scene's own; 0: none");
-  command.option("--shadows", o.shadows,
-                 "lights that cast shadows: the N most important, all or none (default: as the scene says)");
-  command.option("--virtual-lights", o.virtual_lights,
-                 "places N virtual point lights where surfaces reflect the others", 0, most_virtual_lights);
-  command.option("--virtual-from", o.virtual_from,
-                 "lights that are reflected: the N most important, or all (default)");
-  command.option("--virtual-nearest", o.virtual_nearest,
-                 "virtual lights count as no nearer, in metres, or auto: by what each stands for (default)");
-  command.option("--seed", o.seed, "seed of the scatter, and of the places of virtual lights");
-  command.option("--brdf", o.brdf, "ggx, blinn or lambert: short for --set brdf=…");
-  command.option("--time", o.time, "seconds into the animations of the file; not given: at rest");
+  add_fields(command, o, ChoiceField::Of::view);
   command.list("--set", o.set, "a setting, KEY=VALUE; may be repeated");
 }
 
-void add_exposure_option(Subcommand& command, SceneChoice& o) {
-  command.option(
-      "--exposure", o.exposure,
-      "of pictures, in stops: linear values times 2^EV, or auto (default: auto for files, 0 for built-in "
-      "scenes)");
-}
+void add_exposure_option(Subcommand& command, SceneChoice& o) { add_fields(command, o, ChoiceField::Of::picture); }
 
-void add_path_option(Subcommand& command, SceneChoice& o) {
-  command.option("--light-motion", o.light_motion, "lights that move: none, orbit or drift");
-  command.option("--camera-path", o.camera_path, "a moving camera: turn:N, dolly:N or a JSON file of keys");
-}
+void add_path_option(Subcommand& command, SceneChoice& o) { add_fields(command, o, ChoiceField::Of::path); }
 
 void add_device_options(Subcommand& command, DeviceOptions& o) {
   command.option("--device", o.device, "OpenCL device, by a part of its name");

@@ -3,10 +3,9 @@
 
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "app/commands.h"
 #include "app/options.h"
+#include "session/tables.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -39,25 +38,11 @@ void print_techniques() {
   }
 }
 
-nlohmann::ordered_json to_json() {
-  nlohmann::ordered_json json = {{"techniques", nlohmann::ordered_json::array()},
-                                 {"common_settings", common_settings()},
-                                 {"settings", nlohmann::ordered_json::array()}};
-  for (const Technique* t : techniques()) {
-    json["techniques"].push_back(
-        {{"name", t->name}, {"summary", t->summary}, {"source", t->source}, {"settings", t->settings}});
-  }
-  for (const SettingHelp& s : setting_help()) {
-    json["settings"].push_back({{"key", s.key}, {"values", s.values}, {"meaning", s.meaning}, {"any_number", s.any_number}});
-  }
-  return json;
-}
-
 int list_techniques(const std::string& json) {
   if (json.empty()) {
     print_techniques();
   } else {
-    write_json(json, to_json().dump(1));
+    write_json(json, techniques_json().dump(1));
   }
   return 0;
 }

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace lightgrid {
 
@@ -19,8 +20,17 @@ class Error : public std::runtime_error {
   ErrorKind kind() const { return kind_; }
   int exit_code() const { return static_cast<int>(kind_); }
 
+  // throw input_error("set {}: …", …).about("tile"): the setting, option or field of a file that is wrong, by its
+  // name there. Messages of fields that begin with their names need none.
+  Error&& about(std::string field) && {
+    field_ = std::move(field);
+    return std::move(*this);
+  }
+  const std::string& field() const { return field_; }  // empty: not told
+
  private:
   ErrorKind kind_;
+  std::string field_;
 };
 
 // throw input_error("{}: light {} \"{}\": radius is NaN", path, i, name);

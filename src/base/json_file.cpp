@@ -164,7 +164,7 @@ bool JsonFile::has(const std::string& field) const { return JsonFields(json_).ha
 const json& JsonFile::at(const std::string& field) const { return JsonFields(json_, path_ + ": ").at(field); }
 
 Error JsonFile::error(const std::string& field, const json& value, const std::string& fault) const {
-  return input_error("{}: {} {} {}", path_, field, told(value), fault);
+  return input_error("{}: {} {} {}", path_, field, told(value), fault).about(field);
 }
 
 Error JsonFile::error(const std::string& field, const std::string& fault) const {

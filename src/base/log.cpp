@@ -3,6 +3,9 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <mutex>
+#include <utility>
+
 namespace lightgrid {
 namespace {
 
@@ -15,7 +18,28 @@ spdlog::logger& logger() {
   return *instance;
 }
 
+struct Sink {
+  std::mutex mutex;
+  LogSink write;
+};
+
+Sink& sink() {
+  static Sink* const shared = new Sink;  // outlives every thread
+  return *shared;
+}
+
+void log_line(bool warning, const std::string& line) {
+  const std::lock_guard lock(sink().mutex);
+  if (sink().write) return sink().write(warning, line);
+  warning ? logger().warn(line) : logger().info(line);
+}
+
 }  // namespace
+
+void set_log_sink(LogSink write) {
+  const std::lock_guard lock(sink().mutex);
+  sink().write = std::move(write);
+}
 
 void set_log_level(LogLevel level) {
   logger().set_level(level == LogLevel::quiet     ? spdlog::level::err
@@ -23,7 +47,7 @@ void set_log_level(LogLevel level) {
                                                   : spdlog::level::info);
 }
 
-void log_info_line(const std::string& line) { logger().info(line); }
-void log_warning_line(const std::string& line) { logger().warn(line); }
+void log_info_line(const std::string& line) { log_line(false, line); }
+void log_warning_line(const std::string& line) { log_line(true, line); }
 
 }  // namespace lightgrid

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <string>
 
 namespace lightgrid {
@@ -10,6 +11,11 @@ namespace lightgrid {
 enum class LogLevel { quiet, normal, verbose };
 
 void set_log_level(LogLevel level);
+
+// Lines go to `sink` instead of stderr; empty: to stderr again. For programs that this is a library of. Lines of two
+// threads do not overlap.
+using LogSink = std::function<void(bool warning, const std::string& line)>;
+void set_log_sink(LogSink sink);
 
 void log_info_line(const std::string& line);
 void log_warning_line(const std::string& line);

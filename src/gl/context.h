@@ -27,6 +27,8 @@ class GlContext {
   // Makes it this thread's context and loads the functions of gl.h from its library: OSMesa's and EGL's
   // differ.
   virtual void make_current() = 0;
+  // Leaves this thread without a context, so that another one can make this its own.
+  virtual void leave() = 0;
 
   std::string backend;   // "osmesa" or "egl"
   std::string vendor, renderer, version;

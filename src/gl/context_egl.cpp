@@ -88,6 +88,10 @@ class EglGlContext final : public GlContext {
     load_gl_functions(get_gl_function);
   }
 
+  void leave() override {
+    egl().eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
+
  private:
   static Error failure(const char* call) {
     return machine_error("{} failed with EGL error {:#x}", call, egl().eglGetError());
@@ -106,8 +110,7 @@ class EglGlContext final : public GlContext {
   }
 
   void release() {
-    if (egl().eglGetCurrentContext() == context_)
-      egl().eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (egl().eglGetCurrentContext() == context_) EglGlContext::leave();
     egl().eglDestroyContext(display_, context_);
   }
 

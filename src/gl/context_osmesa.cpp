@@ -77,9 +77,11 @@ class OsmesaGlContext final : public GlContext {
     load_gl_functions(osmesa().get_proc_address);
   }
 
+  void leave() override { osmesa().make_current(nullptr, nullptr, 0, 0, 0); }
+
  private:
   void release() {
-    if (osmesa().current() == context_) osmesa().make_current(nullptr, nullptr, 0, 0, 0);
+    if (osmesa().current() == context_) OsmesaGlContext::leave();
     osmesa().destroy(context_);
   }
 

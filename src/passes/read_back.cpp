@@ -27,9 +27,13 @@ HostImage::HostImage(Work& work, const ShadedImage& shaded, Image& copy) : copy_
   pass.moves(bytes, bytes);
 }
 
+const glm::vec4* HostImage::pixels() const {
+  return mapped_ ? static_cast<const glm::vec4*>(mapped_->data()) : copy_.pixels.data();
+}
+
 void HostImage::keep() {
   if (!mapped_) return;
-  std::memcpy(copy_.pixels.data(), mapped_->data(), copy_.pixels.size() * 16);
+  std::memcpy(copy_.pixels.data(), pixels(), copy_.pixels.size() * 16);
   mapped_.reset();
 }
 

@@ -14,6 +14,8 @@ namespace lightgrid {
 class HostImage {
  public:
   HostImage(Work& work, const ShadedImage& shaded, Image& copy);
+  // Row 0 at the bottom.
+  const glm::vec4* pixels() const;
   // Into `copy`, if it is not there.
   void keep();
 

@@ -172,6 +172,13 @@ void apply_skin(std::span<const glm::dmat4> joints, const SkinWeights& skin, Mes
   }
 }
 
+TangentNeed tangent_need(const Material& material) {
+  const TextureSlot& map =
+      material.normal_map.texture >= 0 ? material.normal_map : material.clearcoat_normal_map;
+  if (map.texture < 0) return TangentNeed::none;
+  return map.uv_set == 0 ? TangentNeed::along_uv0 : TangentNeed::along_uv1;
+}
+
 void complete_mesh(TangentNeed tangents, Mesh& mesh) {
   if (mesh.normals.empty()) {
     make_flat_normals(mesh);

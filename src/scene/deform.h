@@ -20,6 +20,9 @@ void apply_morph_targets(std::span<const MorphTarget> targets, std::span<const d
 // `joints` contains all joints of `skin`.
 void apply_skin(std::span<const glm::dmat4> joints, const SkinWeights& skin, Mesh& mesh);
 
+// The tangents that a mesh of this material needs.
+TangentNeed tangent_need(const Material& material);
+
 // Computes normals and tangents that are missing and needed, drops unused tangents, sets bounds.
 void complete_mesh(TangentNeed tangents, Mesh& mesh);
 

@@ -95,7 +95,7 @@ class Fields {
 
   template <typename Value>
   Error error(const char* field, const std::string& fault, const Value& value) const {
-    return input_error("{}: {} {} {}", where_, field, value, fault);
+    return input_error("{}: {} {} {}", where_, field, value, fault).about(field);
   }
 
   std::string text(const char* field, const char* absent) const {

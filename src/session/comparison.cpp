@@ -58,20 +58,6 @@ double cost_of(const LoadedView& view) {
   return double(view.view.width) * view.view.height * double(64 + view.lights.size());
 }
 
-std::vector<Contestant> runnable(const Comparison& comparison, const Renderer& devices) {
-  const CompareChoice& choice = comparison.choice;
-  if (devices.gl) return comparison.contestants;
-  if (!choice.techniques.empty()) {
-    const auto needs_opengl = [](const Contestant& c) { return !own_surfaces(*c.technique, c.settings); };
-    if (std::ranges::any_of(comparison.contestants, needs_opengl)) devices.require_gl();
-    return comparison.contestants;
-  }
-  log_warning(
-      "{}; left out, since they draw with it: forward, forward_plus. The reference is visibility:lights=all",
-      devices.why_no_gl);
-  return chosen_contestants(techniques_without_opengl, chosen_settings(choice.scene), choice.compare);
-}
-
 }  // namespace
 
 const std::vector<std::string>& default_techniques() {
@@ -79,11 +65,49 @@ const std::vector<std::string>& default_techniques() {
   return names;
 }
 
+std::vector<Contestant> contestants_of(const CompareChoice& choice) {
+  return chosen_contestants(choice.techniques.empty() ? default_techniques() : choice.techniques,
+                            chosen_settings(choice.scene), choice.compare);
+}
+
+std::vector<Contestant> runnable(const CompareChoice& choice, const std::vector<Contestant>& contestants,
+                                 const Renderer& devices) {
+  if (devices.gl) return contestants;
+  if (!choice.techniques.empty()) {
+    const auto needs_opengl = [](const Contestant& c) { return !own_surfaces(*c.technique, c.settings); };
+    if (std::ranges::any_of(contestants, needs_opengl)) devices.require_gl();
+    return contestants;
+  }
+  log_warning(
+      "{}; left out, since they draw with it: forward, forward_plus. The reference is visibility:lights=all",
+      devices.why_no_gl);
+  return chosen_contestants(techniques_without_opengl, chosen_settings(choice.scene), choice.compare);
+}
+
+CompareReport compare_view(Renderer& devices, Scene& scene, const View& view, const SceneChoice& view_choice,
+                           const CompareChoice& choice, const std::vector<Contestant>& contestants,
+                           const std::function<void(double done, const std::string& step)>& progress,
+                           const std::string& which, bool all_may_refuse) {
+  CompareOptions options{.frames = choice.timing.frames,
+                         .warmup = choice.timing.warmup,
+                         .reference = parse_reference(choice.reference),
+                         .seed = view_choice.seed,
+                         .path = chosen_path(scene, view, view_choice),
+                         .flip = choice.flip,
+                         .all_may_refuse = all_may_refuse};
+  if (!options.path.empty()) options.advance = chosen_motion(scene, view_choice);
+  options.progress = progress;
+  options.exposure = [&](const Image& reference) { return chosen_exposure(view_choice, reference); };
+  options.notice = [&](const std::string& what) { log_info("{}{}", which, what); };
+  CompareReport report = compare_techniques(devices, scene, view, contestants, options);
+  report.exposure = chosen_exposure(view_choice, picture_of(report));
+  tell_exposure(report.exposure, which);
+  return report;
+}
+
 Comparison load_comparison(const CompareChoice& choice) {
   Comparison comparison{choice, {}, {}};
-  comparison.contestants =
-      chosen_contestants(choice.techniques.empty() ? default_techniques() : choice.techniques,
-                         chosen_settings(choice.scene), choice.compare);
+  comparison.contestants = contestants_of(choice);
   parse_reference(choice.reference);
   parse_gl_backend(choice.devices.gl);
   comparison.views = load_views(chosen_views(choice));
@@ -95,7 +119,7 @@ void run_comparison(const Comparison& comparison,
                     const std::function<void(CompareReport report)>& found) {
   const CompareChoice& choice = comparison.choice;
   Renderer devices(choice.devices.device, parse_gl_backend(choice.devices.gl));
-  const std::vector<Contestant> contestants = runnable(comparison, devices);
+  const std::vector<Contestant> contestants = runnable(choice, comparison.contestants, devices);
   const size_t count = comparison.views.size();
   const std::vector<SceneChoice> choices = chosen_views(choice);
   double total = 0, before = 0;
@@ -104,24 +128,12 @@ void run_comparison(const Comparison& comparison,
     const LoadedView& view = comparison.views[i];
     const double cost = cost_of(view);
     const std::string which = count > 1 ? fmt::format("{}/{} {}: ", i + 1, count, view.scene->name) : "";
-    Scene& scene = view.with_lights();
-    CompareOptions options{.frames = choice.timing.frames,
-                           .warmup = choice.timing.warmup,
-                           .reference = parse_reference(choice.reference),
-                           .seed = choice.scene.seed,
-                           .path = chosen_path(scene, view.view, choice.scene),
-                           .flip = choice.flip,
-                           .all_may_refuse = count > 1};
-    if (!options.path.empty()) options.advance = chosen_motion(scene, choices[i]);
-    options.progress = [&](double done, const std::string& step) {
-      if (progress) progress((before + done * cost) / total, which + step);
-    };
-    options.exposure = [&](const Image& reference) { return chosen_exposure(choices[i], reference); };
-    options.notice = [&](const std::string& what) { log_info("{}{}", which, what); };
-    CompareReport report = compare_techniques(devices, scene, view.view, contestants, options);
-    report.exposure = chosen_exposure(choices[i], picture_of(report));
-    tell_exposure(report.exposure, which);
-    found(std::move(report));
+    found(compare_view(
+        devices, view.with_lights(), view.view, choices[i], choice, contestants,
+        [&](double done, const std::string& step) {
+          if (progress) progress((before + done * cost) / total, which + step);
+        },
+        which, count > 1));
     before += cost;
   }
 }

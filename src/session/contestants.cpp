@@ -36,7 +36,8 @@ void apply_own_setting(Contestant& contestant, const std::string& assignment) {
   if (!reads_setting(*contestant.technique, key)) {
     throw input_error("techniques {}:{}: {} does not read {}; it reads {}", contestant.technique->name,
                       assignment, contestant.technique->name, key,
-                      fmt::join(contestant.technique->settings, ", "));
+                      fmt::join(contestant.technique->settings, ", "))
+        .about(key);
   }
 }
 
@@ -133,7 +134,8 @@ void check_given_settings(const Settings& settings, const std::vector<const Tech
     const bool one = names.size() == 1;
     throw input_error(
         "set {}: {} {} not read it, and it would change nothing; lightgrid techniques lists what each reads",
-        key, fmt::join(names, ", "), one ? "does" : "do");
+        key, fmt::join(names, ", "), one ? "does" : "do")
+        .about(key);
   }
 }
 

@@ -121,6 +121,63 @@ void place_virtual_lights(Scene& scene, const SceneChoice& choice) {
 
 }  // namespace
 
+const std::vector<ChoiceField>& choice_fields() {
+  using enum ChoiceField::Of;
+  static const std::vector<ChoiceField> fields = {
+      {"size", "image size, WxH", scene, &SceneChoice::size},
+      {"lights", "scatter N lights; with --lights-file, its first N", scene, &SceneChoice::lights, most_lights},
+      {"camera", "name, index or eye:x,y,z,target:x,y,z,fov:degrees,near:metres", view, &SceneChoice::camera},
+      {"lights-file", "lights as JSON, instead of the scene's own", view, &SceneChoice::lights_file},
+      {"light-radius", "range of scattered lights in metres, MIN,MAX", view, &SceneChoice::light_radius},
+      {"ambient", "radiance from all sides instead of the scene's own; 0: none", view, &SceneChoice::ambient},
+      {"shadows", "lights that cast shadows: the N most important, all or none (default: as the scene says)", view,
+       &SceneChoice::shadows},
+      {"virtual-lights", "places N virtual point lights where surfaces reflect the others", view,
+       &SceneChoice::virtual_lights, most_virtual_lights},
+      {"virtual-from", "lights that are reflected: the N most important, or all (default)", view,
+       &SceneChoice::virtual_from},
+      {"virtual-nearest",
+       "virtual lights count as no nearer, in metres, or auto: by what each stands for (default)", view,
+       &SceneChoice::virtual_nearest},
+      {"seed", "seed of the scatter, and of the places of virtual lights", view, &SceneChoice::seed},
+      {"brdf", "ggx, blinn or lambert: short for --set brdf=…", view, &SceneChoice::brdf},
+      {"time", "seconds into the animations of the file; not given: at rest", view, &SceneChoice::time},
+      {"exposure",
+       "of pictures, in stops: linear values times 2^EV, or auto (default: auto for files, 0 for built-in scenes)",
+       picture, &SceneChoice::exposure},
+      {"light-motion", "lights that move: none, orbit or drift", path, &SceneChoice::light_motion},
+      {"camera-path", "a moving camera: turn:N, dolly:N or a JSON file of keys", path, &SceneChoice::camera_path},
+  };
+  return fields;
+}
+
+void set_choice_field(SceneChoice& choice, const std::string& assignment) {
+  const size_t equals = std::min(assignment.find('='), assignment.size());
+  const std::string name = assignment.substr(0, equals);
+  const auto& fields = choice_fields();
+  const auto field = std::ranges::find_if(fields, [&](const ChoiceField& f) { return f.name == name; });
+  if (equals == assignment.size() || field == fields.end()) {
+    std::vector<std::string> names;
+    for (const ChoiceField& f : fields) names.emplace_back(f.name);
+    throw input_error("{}: not NAME=VALUE with the name of a field{}; fields are {}", assignment,
+                      did_you_mean(name, names), fmt::join(names, ", "))
+        .about(name);
+  }
+  const std::string value = assignment.substr(equals + 1);
+  if (const auto* text = std::get_if<std::string SceneChoice::*>(&field->value)) {
+    choice.*(*text) = value;
+  } else if (const auto* whole = std::get_if<int SceneChoice::*>(&field->value)) {
+    const auto number = parse_number<int>(value);
+    if (!number || *number < 0 || *number > field->most)
+      throw input_error("{} {}: not a number from 0 to {}", name, value, field->most).about(name);
+    choice.*(*whole) = *number;
+  } else {
+    const auto number = parse_number<uint64_t>(value);
+    if (!number) throw input_error("{} {}: not a whole number of 64 bits", name, value).about(name);
+    choice.*std::get<uint64_t SceneChoice::*>(field->value) = *number;
+  }
+}
+
 std::unique_ptr<VirtualLights> chosen_virtual_lights(Scene& scene, const SceneChoice& choice) {
   const VirtualLightSettings settings = virtual_settings(choice);
   if (settings.count == 0) return nullptr;
@@ -165,7 +222,8 @@ Scene load_scene(const std::string& name) {
     std::vector<std::string> names;
     for (const BuiltinScene& s : builtin_scenes()) names.emplace_back(s.name);
     throw input_error("{}: no such file, and no built-in scene of that name{}; there are {}", name,
-                      did_you_mean(name, names), fmt::join(names, ", "));
+                      did_you_mean(name, names), fmt::join(names, ", "))
+        .about("scene");
   }
   return load_gltf(name);
 }

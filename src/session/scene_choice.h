@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/image.h"
@@ -15,6 +16,8 @@
 #include "session/virtual_lights.h"
 
 namespace lightgrid {
+
+inline constexpr int most_lights = 10'000'000, most_virtual_lights = 1'000'000;
 
 // Fields as in docs/command_line.md.
 struct SceneChoice {
@@ -39,6 +42,20 @@ struct SceneChoice {
   std::string exposure;  // of pictures: stops, or auto; empty: auto for files, 0 for built-in scenes
 };
 
+// The fields by their names, which command lines have as options and messages as their first word.
+struct ChoiceField {
+  enum class Of { scene, view, picture, path };  // which commands have it as an option
+  const char* name;
+  const char* help;
+  Of of;
+  std::variant<std::string SceneChoice::*, int SceneChoice::*, uint64_t SceneChoice::*> value;
+  int most = 0;  // of an int, from 0
+};
+const std::vector<ChoiceField>& choice_fields();
+
+// Sets one from "NAME=VALUE". Throws Error(input) that lists the names. Values of text are checked when they are used.
+void set_choice_field(SceneChoice& choice, const std::string& assignment);
+
 struct DeviceOptions {
   std::string device;
   std::string gl = "auto";
@@ -48,8 +65,6 @@ struct TimingOptions {
   int frames = 5;
   int warmup = 1;
 };
-
-inline constexpr int most_lights = 10'000'000, most_virtual_lights = 1'000'000;
 
 struct ImageSize {
   int width = 0, height = 0;

@@ -5,7 +5,6 @@
 #include "gl/bindings.h"
 #include "gl/gl.h"
 #include "passes/find_shadows.h"
-#include "passes/read_back.h"
 #include "results/metrics.h"
 
 namespace lightgrid {
@@ -47,20 +46,25 @@ void TechniqueRun::draw_frame() {
   if (opengl) check_gl(technique_.name);
 }
 
-double TechniqueRun::render() {
+double TechniqueRun::render(const std::function<void(HostImage& image)>& take) {
   const Timer timer;
   draw_frame();
   HostImage image(view_, frame_.image, image_);
   const double ms = timer.elapsed_ms();
-  image.keep();
+  take(image);
   if (view_.renderer.gl) check_gl(technique_.name);
   return ms;
 }
 
 double TechniqueRun::run_frame(bool warmup) {
-  const double ms = render();
+  const double ms = render([](HostImage& image) { image.keep(); });
   if (!warmup) frame_ms_.push_back(ms);
   return ms;
+}
+
+double TechniqueRun::run_frame(const std::function<void(const glm::vec4* pixels)>& take) {
+  frame_ms_.push_back(render([&](HostImage& image) { take(image.pixels()); }));
+  return frame_ms_.back();
 }
 
 void TechniqueRun::run_profiled_frames(double most_ms) {
@@ -71,7 +75,7 @@ void TechniqueRun::run_profiled_frames(double most_ms) {
   } enabled(view_.timer);
   const Timer timer;
   for (int i = 0; i < 5 && (i == 0 || timer.elapsed_ms() < most_ms); ++i) {
-    render();
+    render([](HostImage& image) { image.keep(); });
   }
 }
 

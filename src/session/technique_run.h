@@ -1,8 +1,10 @@
 // Runs a technique on a view and measures it.
 #pragma once
 
+#include <functional>
 #include <utility>
 
+#include "passes/read_back.h"
 #include "results/results.h"
 #include "techniques/technique.h"
 
@@ -37,6 +39,9 @@ class TechniqueRun {
   // recorded unless `warmup`. image() is a copy, which that time does not count on an OpenCL device that is a
   // CPU: there the host can read the original.
   double run_frame(bool warmup = false);
+  // The same, for a caller that keeps the image itself: `take` reads its pixels, row 0 at the bottom, where they are.
+  // image() is then an older frame's.
+  double run_frame(const std::function<void(const glm::vec4* pixels)>& take);
   // One frame whose image stays on its device, for a window: frame().image. image() is then an older frame's.
   void draw_frame();
   // More frames with a wait after each pass, for pass times: up to five, or as many as fit in the time.
@@ -61,7 +66,7 @@ class TechniqueRun {
   RunResult result() const;
 
  private:
-  double render();  // ms
+  double render(const std::function<void(HostImage& image)>& take);  // ms
 
   const Technique& technique_;
   std::unique_ptr<GpuScene> own_scene_;

@@ -59,6 +59,7 @@ class WindowGlContext final : public GlContext {
     glfwMakeContextCurrent(window_);
     load_gl_functions(window_function);
   }
+  void leave() override { glfwMakeContextCurrent(nullptr); }
 
  private:
   GLFWwindow* window_;

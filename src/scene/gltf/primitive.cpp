@@ -160,13 +160,6 @@ std::optional<Primitive> read_primitive(Document& doc, const tinygltf::Primitive
   return out;
 }
 
-TangentNeed tangent_need(const Material& material) {
-  const TextureSlot& map =
-      material.normal_map.texture >= 0 ? material.normal_map : material.clearcoat_normal_map;
-  if (map.texture < 0) return TangentNeed::none;
-  return map.uv_set == 0 ? TangentNeed::along_uv0 : TangentNeed::along_uv1;
-}
-
 void spend_on_flat_normals(const Document& doc, const Mesh& mesh, Budget& budget, const std::string& place) {
   if (mesh.normals.empty() && mesh.indices.size() > mesh.positions.size())
     spend(doc, budget.vertices, mesh.indices.size() - mesh.positions.size(), place, "vertices");

@@ -29,9 +29,6 @@ std::optional<Primitive> read_primitive(Document& doc, const tinygltf::Primitive
                                         const std::vector<Material>& materials, Budget& budget,
                                         const std::string& place);
 
-// The tangents that a mesh of this material needs.
-TangentNeed tangent_need(const Material& material);
-
 // Subtracts the vertices that flat normals would add from the budget.
 void spend_on_flat_normals(const Document& doc, const Mesh& mesh, Budget& budget, const std::string& place);
 
