@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/log.h"
 #include "base/version.h"
@@ -13,8 +15,13 @@
 namespace lightgrid::c {
 namespace {
 
-std::recursive_mutex& opengl_turn() {
-  static std::recursive_mutex* const turn = new std::recursive_mutex;  // outlives every thread
+struct OpenGlTurn {
+  std::recursive_mutex mutex;
+  GlContext* current = nullptr;  // of the calls that hold it
+};
+
+OpenGlTurn& opengl_turn() {
+  static OpenGlTurn* const turn = new OpenGlTurn;  // outlives every thread
   return *turn;
 }
 
@@ -50,7 +57,7 @@ nlohmann::ordered_json table(const std::string& name) {
 
 OpenDevice::OpenDevice(const std::string& device, GlBackend backend) {
   const auto lock = backend == GlBackend::none ? std::unique_lock<std::recursive_mutex>()
-                                               : std::unique_lock(opengl_turn());
+                                               : std::unique_lock(opengl_turn().mutex);
   renderer_ = std::make_unique<Renderer>(device, backend);
   name = renderer_->cl->info().name;
   if (!renderer_->gl) return;
@@ -59,11 +66,15 @@ OpenDevice::OpenDevice(const std::string& device, GlBackend backend) {
 }
 
 OpenDevice::~OpenDevice() {
-  const auto lock = renderer_->gl ? std::unique_lock(opengl_turn()) : std::unique_lock<std::recursive_mutex>();
-  if (renderer_->gl) renderer_->gl->make_current();
-  last_rasterized.reset();
-  renderer_.reset();
+  const std::lock_guard lock(turn());
+  {
+    const Turn in_context(*this);
+    last_rasterized.reset();
+  }
+  renderer_.reset();  // makes its own context current where it has to
 }
+
+std::recursive_mutex& OpenDevice::turn() { return renderer_->gl ? opengl_turn().mutex : own_turn_; }
 
 std::shared_ptr<DeviceScene> OpenDevice::follow(const std::shared_ptr<LoadedScene>& scene) {
   std::erase_if(scenes_, [](const auto& held) { return held.second.expired(); });
@@ -80,16 +91,19 @@ std::shared_ptr<DeviceScene> OpenDevice::follow(const std::shared_ptr<LoadedScen
   return held;
 }
 
-Turn::Turn(OpenDevice& device) {
-  GlContext* const context = device.renderer().gl.get();
-  if (!context) return;
-  lock_ = std::unique_lock(opengl_turn());
-  context->make_current();
-  context_ = context;
+Turn::Turn(OpenDevice& device) : lock_(device.turn()), context_(device.renderer().gl.get()) {
+  if (!context_) return;
+  context_->make_current();
+  outer_ = std::exchange(opengl_turn().current, context_);
 }
 
 Turn::~Turn() {
-  if (context_) context_->leave();
+  if (!context_) return;
+  opengl_turn().current = outer_;
+  try {
+    outer_ ? outer_->make_current() : context_->leave();
+  } catch (const Error&) {  // the outer call's next OpenGL call tells
+  }
 }
 
 }  // namespace lightgrid::c

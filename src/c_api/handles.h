@@ -71,6 +71,7 @@ class OpenDevice {
   ~OpenDevice();
 
   Renderer& renderer() { return *renderer_; }
+  std::recursive_mutex& turn();
   std::string name, opengl;
 
   // The scene as it now is.
@@ -79,12 +80,13 @@ class OpenDevice {
   std::shared_ptr<DeviceScene> last_rasterized;
 
  private:
+  std::recursive_mutex own_turn_;
   std::unique_ptr<Renderer> renderer_;
   std::map<const LoadedScene*, std::weak_ptr<DeviceScene>> scenes_;
 };
 
-// While a call uses a device. OpenGL's functions and some of the program's records of it belong to the process: calls
-// that have it take turns, and leave their thread without its context.
+// While a call uses a device: calls on one take turns. OpenGL's functions and some of the program's records of it belong
+// to the process, so that all calls that have it take turns. They leave their thread without its context.
 class Turn {
  public:
   explicit Turn(OpenDevice& device);
@@ -94,7 +96,7 @@ class Turn {
 
  private:
   std::unique_lock<std::recursive_mutex> lock_;
-  GlContext* context_ = nullptr;
+  GlContext *context_, *outer_ = nullptr;  // outer_: of the call from whose callback this one comes
 };
 
 // Runs `work` on a device that the handle holds, and then lets go of what the handle held.

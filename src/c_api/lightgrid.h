@@ -5,7 +5,7 @@
  *   lightgrid_scene* scene;
  *   lightgrid_view* view;
  *   if (lightgrid_device_open(NULL, "auto", &device) || lightgrid_scene_load("hall", NULL, &scene) ||
- *       lightgrid_view_open(device, scene, "forward_plus:tile=32", NULL, &view) ||
+ *       lightgrid_view_open(device, scene, NULL, NULL, &view) ||
  *       lightgrid_view_render(view, &image))
  *     fprintf(stderr, "%s\n", lightgrid_error_message());
  *
@@ -19,12 +19,11 @@
  * order: a view keeps its device and its scene alive. Memory that is handed in is read or written during the call
  * alone, never kept. A `const char*` that is returned belongs to the library.
  *
- * Threads. Every object is for one thread at a time, not always the same one; a device with its views, lists and
- * comparisons counts as one object. Two devices work at the same time, and a scene may serve both as long as nobody
- * changes it; drawing with OpenGL is the exception: calls on devices that have it take turns within the process. Such
- * a call leaves its thread without a current OpenGL context. Functions without an object may be called from any thread.
- * A callback runs in the thread of its call, and may call nothing here but lightgrid_error_message, lightgrid_error_field
- * and lightgrid_free.
+ * Threads. Any function may be called from any thread. Calls on one device, with its views, take turns; two devices work
+ * at the same time, unless both draw with OpenGL, which takes turns within the process. A call on a device with OpenGL
+ * leaves its thread without a current OpenGL context. A scene, lists or a report must not be used in one thread while
+ * another one changes or frees it; views and comparisons use their scene. A callback runs in the thread of its call, and
+ * may call nothing here but lightgrid_error_message, lightgrid_error_field and lightgrid_free.
  *
  * The process. Nothing is printed (lightgrid_set_log), no environment variable set, no handler of signals installed.
  *

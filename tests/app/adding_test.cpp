@@ -75,6 +75,7 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       {"src/app/inspect.cpp", {"forward_plus"}},
       {"src/app/plan.cpp", {"forward_plus"}},
       {"src/app/view.cpp", {"forward_plus", "visibility"}},
+      {"src/c_api/grids.cpp", {"forward_plus"}},
       {"src/bench/runs.cpp", {"forward_plus"}},
       {"src/capture/capture.cpp", {"forward_plus", "visibility"}},
       {"src/session/comparison.cpp", {"forward", "forward_plus", "visibility"}},

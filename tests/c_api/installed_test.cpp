@@ -22,7 +22,7 @@ std::set<std::string> declared() {
   return names;
 }
 
-TEST(CLibrary, ShowsTheSymbolsOfItsHeaderAndNoOthers) {
+TEST(CLibrarySymbols, AreThoseOfTheHeaderAndNoOthers) {
   if (!has_tool("nm")) GTEST_SKIP() << "there is no nm";
   std::istringstream lines(must_run(std::string("nm -D --defined-only ") + LIGHTGRID_C_LIBRARY));
   std::set<std::string> shown;
@@ -46,7 +46,7 @@ void write_stub(const std::filesystem::path& path) {
 }
 
 // UPDATE_ABI=1 writes it anew.
-TEST(CLibrary, KeepsItsAbi) {
+TEST(CLibraryAbi, IsTheCommittedOne) {
   if (!has_tool("abidiff")) GTEST_SKIP() << "there is no abidiff (Debian: abigail-tools)";
   if (must_run("uname -m") != "x86_64\n") GTEST_SKIP() << "lightgrid.abi is that of x86-64";
   const TempFolder temp;
@@ -59,7 +59,7 @@ TEST(CLibrary, KeepsItsAbi) {
   must_run("abidiff --no-show-locs " + known + " " + stub);
 }
 
-TEST(CLibrary, InstalledIsFoundByPkgConfigAndDrawsInTheExample) {
+TEST(CLibraryInstalled, IsFoundByPkgConfigAndDrawsInTheExample) {
   for (const char* tool : {LIGHTGRID_CMAKE, "cc", "pkg-config"})
     if (!has_tool(tool)) GTEST_SKIP() << "there is no " << tool;
   const TempFolder temp;

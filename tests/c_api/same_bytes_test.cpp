@@ -223,6 +223,22 @@ TEST(CThreads, MayTakeTurns) {
   EXPECT_EQ(first, second);
 }
 
+TEST(CThreads, OfOneDeviceTakeTurns) {
+  for (const char* opengl : {"none", "auto"}) {
+    const OwnedDevice device = open_device(opengl);
+    const OwnedScene scenes[] = {hall(), hall()};
+    const char* const technique = opengl == std::string("none") ? "visibility" : "forward_plus";
+    const std::vector<float> expected = rendered(open_view(device, scenes[0], technique)).values;
+    const auto draw = [&](int i) {
+      const OwnedView view = open_view(device, scenes[i], technique);
+      for (int frame = 0; frame < 5; ++frame) EXPECT_TRUE(rendered(view).values == expected);
+    };
+    std::thread other([&] { draw(1); });
+    draw(0);
+    other.join();
+  }
+}
+
 // The same scene by arrays.
 OwnedScene in_c(const Scene& from, const Words& fields) {
   lightgrid_scene* made = nullptr;
