@@ -41,7 +41,9 @@ void add_view_options(Subcommand& command, SceneChoice& o) {
   command.list("--set", o.set, "a setting, KEY=VALUE; may be repeated");
 }
 
-void add_exposure_option(Subcommand& command, SceneChoice& o) { add_fields(command, o, ChoiceField::Of::picture); }
+void add_exposure_option(Subcommand& command, SceneChoice& o) {
+  add_fields(command, o, ChoiceField::Of::picture);
+}
 
 void add_path_option(Subcommand& command, SceneChoice& o) { add_fields(command, o, ChoiceField::Of::path); }
 

@@ -12,8 +12,8 @@ enum class LogLevel { quiet, normal, verbose };
 
 void set_log_level(LogLevel level);
 
-// Lines go to `sink` instead of stderr; empty: to stderr again. For programs that this is a library of. Lines of two
-// threads do not overlap.
+// Lines go to `sink` instead of stderr; empty: to stderr again. For programs that this is a library of. Lines
+// of two threads do not overlap.
 using LogSink = std::function<void(bool warning, const std::string& line)>;
 void set_log_sink(LogSink sink);
 

@@ -19,10 +19,11 @@ LastError& last_error() {
   return last;
 }
 
-// The option or setting that a message begins with: "size 0x0: …", "set tile=7: …". Other messages begin with a file.
+// The option or setting that a message begins with: "size 0x0: …", "set tile=7: …". Other messages begin with
+// a file.
 std::string named_first(const std::string& message) {
-  static constexpr const char* others[] = {"scene",  "technique", "techniques", "gl",    "frames",
-                                           "warmup", "reference", "compare",    "flip",  "view"};
+  static constexpr const char* others[] = {"scene",  "technique", "techniques", "gl",   "frames",
+                                           "warmup", "reference", "compare",    "flip", "view"};
   const std::string word = message.substr(0, message.find_first_of(" :"));
   if (word == "set") {
     const size_t from = std::min(message.size(), word.size() + 1);

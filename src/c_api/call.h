@@ -1,4 +1,5 @@
-// What every function of lightgrid.h does around its work: exceptions become a status and this thread's last error.
+// What every function of lightgrid.h does around its work: exceptions become a status and this thread's last
+// error.
 #pragma once
 
 #include <string>

@@ -37,9 +37,10 @@ void set_field(CompareChoice& choice, const std::string& assignment) {
   } else if (name == "set") {
     choice.scene.set.push_back(value);
   } else {
-    throw input_error("{}: not NAME=VALUE with the name of a field; fields are frames, warmup, reference, flip, "
-                      "compare, set",
-                      assignment)
+    throw input_error(
+        "{}: not NAME=VALUE with the name of a field; fields are frames, warmup, reference, flip, "
+        "compare, set",
+        assignment)
         .about(name);
   }
 }
@@ -52,8 +53,9 @@ using namespace lightgrid::c;
 
 extern "C" {
 
-lightgrid_status lightgrid_compare(lightgrid_device* device, lightgrid_scene* scene, const char* const* techniques,
-                                   const char* const* fields, lightgrid_progress_function progress, void* user,
+lightgrid_status lightgrid_compare(lightgrid_device* device, lightgrid_scene* scene,
+                                   const char* const* techniques, const char* const* fields,
+                                   lightgrid_progress_function progress, void* user,
                                    lightgrid_report** report) {
   return call([&] {
     lightgrid_report*& out = needed(report, "report");
@@ -85,9 +87,12 @@ lightgrid_status lightgrid_compare(lightgrid_device* device, lightgrid_scene* sc
 
 void lightgrid_report_free(lightgrid_report* report) { delete report; }
 
-const char* lightgrid_report_json(const lightgrid_report* report) { return report ? report->json.c_str() : nullptr; }
+const char* lightgrid_report_json(const lightgrid_report* report) {
+  return report ? report->json.c_str() : nullptr;
+}
 
-lightgrid_status lightgrid_report_image(const lightgrid_report* report, size_t row, const lightgrid_image* image) {
+lightgrid_status lightgrid_report_image(const lightgrid_report* report, size_t row,
+                                        const lightgrid_image* image) {
   return call([&] {
     const CompareReport& from = needed(report, "report").report;
     if (row >= from.rows.size()) throw wrong("row", "{}: there are {} rows", row, from.rows.size());

@@ -45,8 +45,13 @@ nlohmann::ordered_json table(const std::string& name) {
     for (const char* flip : {"flip_mean", "displayed_flip"}) rows.push_back(flip);
   } else if (name == "devices") {
     for (const ClDeviceInfo& d : list_cl_devices())
-      rows.push_back({{"name", d.name}, {"platform", d.platform}, {"driver", d.driver}, {"version", d.version},
-                      {"cpu", d.cpu}, {"compute_units", d.compute_units}, {"global_bytes", d.global_bytes}});
+      rows.push_back({{"name", d.name},
+                      {"platform", d.platform},
+                      {"driver", d.driver},
+                      {"version", d.version},
+                      {"cpu", d.cpu},
+                      {"compute_units", d.compute_units},
+                      {"global_bytes", d.global_bytes}});
   } else {
     throw wrong("table", "there is no {}; tables are techniques, scenes, fields, measures and devices", name);
   }

@@ -17,7 +17,8 @@ View view_of(const lightgrid_projection& in) {
   view.clip_from_view = matrix_of(in.clip_from_view, "projection.clip_from_view");
   view.view_from_world = matrix_of(in.view_from_world, "projection.view_from_world");
   for (int i = 0; i < 3; ++i) {
-    if (!std::isfinite(in.eye[i])) throw wrong(fmt::format("projection.eye[{}]", i), "{} is not finite", in.eye[i]);
+    if (!std::isfinite(in.eye[i]))
+      throw wrong(fmt::format("projection.eye[{}]", i), "{} is not finite", in.eye[i]);
     view.eye[i] = in.eye[i];
   }
   view.orthographic = view.clip_from_view[3][3] != 0;
@@ -33,8 +34,9 @@ CapturedFrame frame_of(const lightgrid_projection& projection, const lightgrid_i
   frame.view.near_m = near_distance(cull_view(frame.view));
   frame.lights = lights_of(lights, count);
   frame.depth.resize(frame.view.grid().values());
-  if (depth) read_pixels(checked(depth, "depth", LIGHTGRID_R_F32, frame.view.width, frame.view.height),
-                         frame.depth.data());
+  if (depth)
+    read_pixels(checked(depth, "depth", LIGHTGRID_R_F32, frame.view.width, frame.view.height),
+                frame.depth.data());
   return frame;
 }
 
@@ -127,7 +129,8 @@ lightgrid_status lightgrid_rasterize(lightgrid_device* device, lightgrid_scene* 
     raster.set_camera({view.grid(), view.clip_from_view, view.view_from_world, view.eye});
     const Visibility seen = raster.draw();
     const size_t bytes = view.grid().values() * 4;
-    if (triangles) write_pixels(*triangles, MappedBuffer(*on.renderer().cl, "triangles", seen.triangle, bytes).data());
+    if (triangles)
+      write_pixels(*triangles, MappedBuffer(*on.renderer().cl, "triangles", seen.triangle, bytes).data());
     if (depth) write_pixels(*depth, MappedBuffer(*on.renderer().cl, "depth", seen.depth, bytes).data());
   });
 }

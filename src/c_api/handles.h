@@ -15,7 +15,8 @@
 
 namespace lightgrid::c {
 
-// A scene that may change between frames. Its counters tell what changed since a device or a view last read it.
+// A scene that may change between frames. Its counters tell what changed since a device or a view last read
+// it.
 class LoadedScene {
  public:
   // view: of a choice that was already applied to the scene.
@@ -25,7 +26,8 @@ class LoadedScene {
   Scene scene;
   const SceneChoice choice;
 
-  // The view that the fields choose, and with it their lights, at the first call. May be called from two threads.
+  // The view that the fields choose, and with it their lights, at the first call. May be called from two
+  // threads.
   const View& view();
   // The fields' camera for an image of this width over height.
   Camera camera(double aspect) const;
@@ -85,8 +87,9 @@ class OpenDevice {
   std::map<const LoadedScene*, std::weak_ptr<DeviceScene>> scenes_;
 };
 
-// While a call uses a device: calls on one take turns. OpenGL's functions and some of the program's records of it belong
-// to the process, so that all calls that have it take turns. They leave their thread without its context.
+// While a call uses a device: calls on one take turns. OpenGL's functions and some of the program's records
+// of it belong to the process, so that all calls that have it take turns. They leave their thread without its
+// context.
 class Turn {
  public:
   explicit Turn(OpenDevice& device);
@@ -133,7 +136,7 @@ struct lightgrid_view {
   const lightgrid::Technique* technique = nullptr;
   lightgrid::Settings settings;
   lightgrid::View view;
-  std::shared_ptr<lightgrid::GpuScene> gpu;           // that the run reads
+  std::shared_ptr<lightgrid::GpuScene> gpu;  // that the run reads
   std::unique_ptr<lightgrid::TechniqueRun> run;
   uint64_t shape = 0, time = 0;  // of the scene when `run` last read it
   bool drawn = false;            // a frame of this camera and this scene

@@ -59,13 +59,15 @@ const lightgrid_image& checked(const lightgrid_image* image, const std::string& 
   if (!in.pixels) throw wrong(name + ".pixels", "is null");
   if (in.format != format)
     throw wrong(name + ".format", "{} is not {}, {}", int(in.format), int(format), format_names[format]);
-  for (const auto& [field, side, wanted] : {std::tuple(".width", in.width, width), {".height", in.height, height}}) {
+  for (const auto& [field, side, wanted] :
+       {std::tuple(".width", in.width, width), {".height", in.height, height}}) {
     if (side < 1 || side > most_side) throw wrong(name + field, "{} is not from 1 to {}", side, most_side);
     if (wanted && side != wanted) throw wrong(name + field, "{} is not {}", side, wanted);
   }
   const ptrdiff_t row = ptrdiff_t(size_t(in.width) * pixel_bytes(format));
   if (std::abs(in.row_bytes) < row)
-    throw wrong(name + ".row_bytes", "{} is less than the {} of a row of {} pixels", in.row_bytes, row, in.width);
+    throw wrong(name + ".row_bytes", "{} is less than the {} of a row of {} pixels", in.row_bytes, row,
+                in.width);
   const size_t aligned = format == LIGHTGRID_RGB_U8 ? 1 : 4;
   if (reinterpret_cast<uintptr_t>(in.pixels) % aligned || size_t(std::abs(in.row_bytes)) % aligned)
     throw wrong(name + ".pixels", "pixels or row_bytes are no multiple of {}", aligned);
@@ -105,8 +107,8 @@ lightgrid_status lightgrid_save(const char* path, const lightgrid_image* image, 
   });
 }
 
-lightgrid_status lightgrid_measure(const lightgrid_image* image, const lightgrid_image* reference, const char* measure,
-                                   double* value) {
+lightgrid_status lightgrid_measure(const lightgrid_image* image, const lightgrid_image* reference,
+                                   const char* measure, double* value) {
   return call([&] {
     double& out = needed(value, "value");
     const std::string name = &needed(measure, "measure");
@@ -123,8 +125,9 @@ lightgrid_status lightgrid_flip(const lightgrid_image* image, const lightgrid_im
       throw wrong("pixels_per_degree", "{} is neither 0 nor from 1 to 1000", pixels_per_degree);
     const auto exposures = flip_exposures(pair.reference);
     if (!exposures)
-      throw wrong("reference", "half of its pixels or more are black or one is not finite, so that no exposures "
-                               "follow from it");
+      throw wrong("reference",
+                  "half of its pixels or more are black or one is not finite, so that no exposures "
+                  "follow from it");
     const double density = pixels_per_degree == 0 ? default_pixels_per_degree : pixels_per_degree;
     write_pixels(out, hdr_flip_map(pair.image, pair.reference, *exposures, density).data());
   });

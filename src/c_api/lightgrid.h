@@ -1,5 +1,6 @@
-/* lightgrid as a C library: scenes with very many lights rendered by each known technique, light lists, visibility and
- * measures of images. C99; docs/c_interface.md has the book's words for it, docs/examples/render_c a whole program.
+/* lightgrid as a C library: scenes with very many lights rendered by each known technique, light lists,
+ * visibility and measures of images. C99; docs/c_interface.md has the book's words for it,
+ * docs/examples/render_c a whole program.
  *
  *   lightgrid_device* device;
  *   lightgrid_scene* scene;
@@ -9,30 +10,33 @@
  *       lightgrid_view_render(view, &image))
  *     fprintf(stderr, "%s\n", lightgrid_error_message());
  *
- * Errors. A function that returns lightgrid_status has done nothing if that is not LIGHTGRID_OK, and has set what
- * lightgrid_error_message() and lightgrid_error_field() return in this thread. Arguments are checked: null where
- * something is needed, sizes that do not fit, numbers that are not finite give LIGHTGRID_INPUT. A pointer to freed
- * memory, or to fewer values than its size says, cannot be noticed.
+ * Errors. A function that returns lightgrid_status has done nothing if that is not LIGHTGRID_OK, and has set
+ * what lightgrid_error_message() and lightgrid_error_field() return in this thread. Arguments are checked:
+ * null where something is needed, sizes that do not fit, numbers that are not finite give LIGHTGRID_INPUT. A
+ * pointer to freed memory, or to fewer values than its size says, cannot be noticed.
  *
- * Ownership. What a function writes through a pointer to a pointer is the caller's: a device, scene, view, lists or
- * report until its own close or free function, a text until lightgrid_free. All of these take null. They may go in any
- * order: a view keeps its device and its scene alive. Memory that is handed in is read or written during the call
- * alone, never kept. A `const char*` that is returned belongs to the library.
+ * Ownership. What a function writes through a pointer to a pointer is the caller's: a device, scene, view,
+ * lists or report until its own close or free function, a text until lightgrid_free. All of these take null.
+ * They may go in any order: a view keeps its device and its scene alive. Memory that is handed in is read or
+ * written during the call alone, never kept. A `const char*` that is returned belongs to the library.
  *
- * Threads. Any function may be called from any thread. Calls on one device, with its views, take turns; two devices work
- * at the same time, unless both draw with OpenGL, which takes turns within the process. A call on a device with OpenGL
- * leaves its thread without a current OpenGL context. A scene, lists or a report must not be used in one thread while
- * another one changes or frees it; views and comparisons use their scene. A callback runs in the thread of its call, and
- * may call nothing here but lightgrid_error_message, lightgrid_error_field and lightgrid_free.
+ * Threads. Any function may be called from any thread. Calls on one device, with its views, take turns; two
+ * devices work at the same time, unless both draw with OpenGL, which takes turns within the process. A call
+ * on a device with OpenGL leaves its thread without a current OpenGL context. A scene, lists or a report must
+ * not be used in one thread while another one changes or frees it; views and comparisons use their scene. A
+ * callback runs in the thread of its call, and may call nothing here but lightgrid_error_message,
+ * lightgrid_error_field and lightgrid_free.
  *
- * The process. Nothing is printed (lightgrid_set_log), no environment variable set, no handler of signals installed.
+ * The process. Nothing is printed (lightgrid_set_log), no environment variable set, no handler of signals
+ * installed.
  *
- * Spaces and units. World space is right-handed, y up, metres; view space looks along -z. Angles are radians, cones
- * half-angles, colours linear. A matrix has 16 values, column after column, for column vectors (as OpenGL and glTF).
- * Depth is reversed in views: 1 at the near plane, 0 at the far one and where there is no surface.
+ * Spaces and units. World space is right-handed, y up, metres; view space looks along -z. Angles are radians,
+ * cones half-angles, colours linear. A matrix has 16 values, column after column, for column vectors (as
+ * OpenGL and glTF). Depth is reversed in views: 1 at the near plane, 0 at the far one and where there is no
+ * surface.
  *
- * Versions. Functions and structs of LIGHTGRID_0 stay as they are once lightgrid is 1.0; before that a minor version
- * may change them. */
+ * Versions. Functions and structs of LIGHTGRID_0 stay as they are once lightgrid is 1.0; before that a minor
+ * version may change them. */
 #ifndef LIGHTGRID_H
 #define LIGHTGRID_H
 
@@ -46,11 +50,14 @@ extern "C" {
 #pragma GCC visibility push(default)
 #endif
 
+/* INPUT: an argument or a file is wrong; the message names it, the field and the value. MACHINE: this machine
+ * cannot do it, for want of a device or of memory; the message says what would help. CANCELLED: the progress
+ * function asked for it. */
 typedef enum lightgrid_status {
   LIGHTGRID_OK = 0,
-  LIGHTGRID_INPUT = 2,     /* an argument or a file is wrong; the message names it, the field and the value */
-  LIGHTGRID_MACHINE = 3,   /* this machine cannot do it: no device, not enough memory; the message says what would help */
-  LIGHTGRID_CANCELLED = 4  /* the progress function asked for it */
+  LIGHTGRID_INPUT = 2,
+  LIGHTGRID_MACHINE = 3,
+  LIGHTGRID_CANCELLED = 4
 } lightgrid_status;
 
 typedef struct lightgrid_device lightgrid_device;
@@ -64,20 +71,22 @@ const char* lightgrid_version(void);
 
 /* Of this thread's last failure, until its next one; one line, never null. */
 const char* lightgrid_error_message(void);
-/* What that was about: an argument ("image.row_bytes", "lights[3].radius_m"), a field ("light-radius"), a setting
+/* What that was about: an argument ("image.row_bytes", "lights[3].radius_m"), a field ("light-radius"), a
+ * setting
  * ("tile") or a field of a file; empty if the message is about nothing that has a name. */
 const char* lightgrid_error_field(void);
 
 /* Frees a text. */
 void lightgrid_free(char* text);
 
-/* Notes and warnings about scenes and techniques, one line each, for the whole process; null: they are dropped, as at
- * first. `line` is valid during the call. Calls do not overlap, and may come from any thread. */
+/* Notes and warnings about scenes and techniques, one line each, for the whole process; null: they are
+ * dropped, as at first. `line` is valid during the call. Calls do not overlap, and may come from any thread.
+ */
 typedef void (*lightgrid_log_function)(int is_warning, const char* line, void* user);
 void lightgrid_set_log(lightgrid_log_function function, void* user);
 
-/* A table as JSON: "techniques" (with all settings, as `lightgrid techniques --json`), "scenes" (names and summaries),
- * "fields" (of scenes), "measures" or "devices" (OpenCL's). */
+/* A table as JSON: "techniques" (with all settings, as `lightgrid techniques --json`), "scenes" (names and
+ * summaries), "fields" (of scenes), "measures" or "devices" (OpenCL's). */
 lightgrid_status lightgrid_describe(const char* table, char** json);
 
 /* ---- Images: rows of pixels in the caller's memory ---- */
@@ -89,8 +98,8 @@ typedef enum lightgrid_format {
   LIGHTGRID_RGB_U8 = 3    /* three bytes, sRGB */
 } lightgrid_format;
 
-/* Row 0 is the bottom row. An image that begins with its top row in memory has `pixels` at its last row and negative
- * row_bytes; nothing is copied for that. */
+/* Row 0 is the bottom row. An image that begins with its top row in memory has `pixels` at its last row and
+ * negative row_bytes; nothing is copied for that. */
 typedef struct lightgrid_image {
   void* pixels; /* of row 0 */
   int32_t width, height;
@@ -98,47 +107,59 @@ typedef struct lightgrid_image {
   ptrdiff_t row_bytes; /* from a row to the one above it; at least a row's pixels, or at most minus that */
 } lightgrid_image;
 
-/* The exposure, in stops, at which the logarithmic mean of the luminances becomes 0.18, to half a stop. RGBA_F32. */
+/* The exposure, in stops, at which the logarithmic mean of the luminances becomes 0.18, to half a stop.
+ * RGBA_F32. */
 lightgrid_status lightgrid_exposure(const lightgrid_image* image, double* stops);
-/* What a PNG file shows: 2^stops times the linear values, the tone map, the sRGB curve. From RGBA_F32 to RGB_U8. */
+/* What a PNG file shows: 2^stops times the linear values, the tone map, the sRGB curve. From RGBA_F32 to
+ * RGB_U8. */
 lightgrid_status lightgrid_srgb(const lightgrid_image* image, double stops, const lightgrid_image* picture);
 /* .png: what lightgrid_srgb makes; .exr: the linear values. RGBA_F32. */
 lightgrid_status lightgrid_save(const char* path, const lightgrid_image* image, double stops);
-/* A measure of how far `image` is from `reference`, by its name: see lightgrid_describe("measures"). "flip_mean" (HDR-FLIP
- * over exposures that follow from the reference) is NaN where half of the reference or more is black. RGBA_F32. */
-lightgrid_status lightgrid_measure(const lightgrid_image* image, const lightgrid_image* reference, const char* measure,
-                                   double* value);
-/* HDR-FLIP of each pixel, 0 (no visible difference) to 1. RGBA_F32 and RGBA_F32 to R_F32. pixels_per_degree: 0 for 67. */
+/* A measure of how far `image` is from `reference`, by its name: see lightgrid_describe("measures").
+ * "flip_mean" (HDR-FLIP over exposures that follow from the reference) is NaN where half of the reference or
+ * more is black. RGBA_F32. */
+lightgrid_status lightgrid_measure(const lightgrid_image* image, const lightgrid_image* reference,
+                                   const char* measure, double* value);
+/* HDR-FLIP of each pixel, 0 (no visible difference) to 1. RGBA_F32 and RGBA_F32 to R_F32. pixels_per_degree:
+ * 0 for 67. */
 lightgrid_status lightgrid_flip(const lightgrid_image* image, const lightgrid_image* reference,
                                 double pixels_per_degree, const lightgrid_image* map);
 
 /* ---- Devices ---- */
 
-/* `name`: a part of the OpenCL device's name, or "#2"; null or empty: a GPU if there is one, else the first. `opengl`:
- * "auto", "egl", "osmesa", or "none": OpenCL alone, which the technique `visibility`, lists and rasterising need. */
+/* `name`: a part of the OpenCL device's name, or "#2"; null or empty: a GPU if there is one, else the first.
+ * `opengl`: "auto", "egl", "osmesa", or "none": OpenCL alone, which the technique `visibility`, lists and
+ * rasterising need. */
 lightgrid_status lightgrid_device_open(const char* name, const char* opengl, lightgrid_device** device);
 void lightgrid_device_close(lightgrid_device* device);
-/* The OpenCL device's name, and the OpenGL renderer's, empty without one; valid as long as the device. Null of null. */
+/* The OpenCL device's name, and the OpenGL renderer's, empty without one; valid as long as the device. Null
+ * of null. */
 const char* lightgrid_device_name(const lightgrid_device* device);
 const char* lightgrid_device_opengl(const lightgrid_device* device);
 
 /* ---- Scenes ---- */
 
-/* A null-terminated array of "NAME=VALUE" is named `fields` here, or null for none. Those of a scene are the command
- * line's options of that name: size, lights, camera, lights-file, light-radius, ambient, shadows, virtual-lights,
- * virtual-from, virtual-nearest, seed, brdf, time, exposure, light-motion, camera-path (docs/command_line.md). */
+/* A null-terminated array of "NAME=VALUE" is named `fields` here, or null for none. Those of a scene are the
+ * command line's options of that name: size, lights, camera, lights-file, light-radius, ambient, shadows,
+ * virtual-lights, virtual-from, virtual-nearest, seed, brdf, time, exposure, light-motion, camera-path
+ * (docs/command_line.md). */
 
 /* `name`: a built-in scene, or the path of a .gltf or .glb file. */
 lightgrid_status lightgrid_scene_load(const char* name, const char* const* fields, lightgrid_scene** scene);
-/* An empty scene, for the functions below; `name` is for messages and reports. Fields apply at the first view. */
+/* An empty scene, for the functions below; `name` is for messages and reports. Fields apply at the first
+ * view. */
 lightgrid_status lightgrid_scene_create(const char* name, const char* const* fields, lightgrid_scene** scene);
 void lightgrid_scene_free(lightgrid_scene* scene);
 
 /* 8-bit RGBA, row 0 is v = 0. is_srgb: 1 for colours, 0 for data. */
-lightgrid_status lightgrid_scene_add_texture(lightgrid_scene* scene, int32_t width, int32_t height, const uint8_t* rgba,
-                                             int is_srgb, int32_t* number);
+lightgrid_status lightgrid_scene_add_texture(lightgrid_scene* scene, int32_t width, int32_t height,
+                                             const uint8_t* rgba, int is_srgb, int32_t* number);
 
-typedef enum lightgrid_alpha { LIGHTGRID_OPAQUE = 0, LIGHTGRID_MASK = 1, LIGHTGRID_BLEND = 2 } lightgrid_alpha;
+typedef enum lightgrid_alpha {
+  LIGHTGRID_OPAQUE = 0,
+  LIGHTGRID_MASK = 1,
+  LIGHTGRID_BLEND = 2
+} lightgrid_alpha;
 
 /* glTF's material. Maps are numbers of textures, or -1. */
 typedef struct lightgrid_material {
@@ -159,20 +180,22 @@ lightgrid_status lightgrid_scene_add_material(lightgrid_scene* scene, const ligh
 
 /* A list of triangles, counter-clockwise from the front. */
 typedef struct lightgrid_mesh {
-  const float* positions;  /* 3 a vertex */
-  const float* normals;    /* 3 a vertex, or null: flat ones */
-  const float* uv;         /* 2 a vertex, or null */
-  const float* colors;     /* 4 a vertex, linear, or null */
+  const float* positions; /* 3 a vertex */
+  const float* normals;   /* 3 a vertex, or null: flat ones */
+  const float* uv;        /* 2 a vertex, or null */
+  const float* colors;    /* 4 a vertex, linear, or null */
   size_t vertex_count;
   const uint32_t* indices; /* 3 a triangle */
   size_t index_count;
   int32_t material;
 } lightgrid_mesh;
-lightgrid_status lightgrid_scene_add_mesh(lightgrid_scene* scene, const lightgrid_mesh* mesh, int32_t* number);
+lightgrid_status lightgrid_scene_add_mesh(lightgrid_scene* scene, const lightgrid_mesh* mesh,
+                                          int32_t* number);
 
 /* world_from_object: affine; null: none. */
-lightgrid_status lightgrid_scene_add_instance(lightgrid_scene* scene, int32_t mesh, const double* world_from_object,
-                                              int casts_shadow, int32_t* number);
+lightgrid_status lightgrid_scene_add_instance(lightgrid_scene* scene, int32_t mesh,
+                                              const double* world_from_object, int casts_shadow,
+                                              int32_t* number);
 /* Moves one, also between frames of views. */
 lightgrid_status lightgrid_scene_move_instance(lightgrid_scene* scene, int32_t instance,
                                                const double* world_from_object);
@@ -198,14 +221,16 @@ typedef struct lightgrid_light {
   uint32_t groups; /* lights instances that share a bit */
 } lightgrid_light;
 void lightgrid_default_light(lightgrid_light* light);
-/* In place of all lights that the scene has. The next frame of each view has them; equally many of the same types in
- * the same order cost least. */
-lightgrid_status lightgrid_scene_set_lights(lightgrid_scene* scene, const lightgrid_light* lights, size_t count);
-/* Writes up to `capacity` lights, and how many there are to `count`. lights may be null with a capacity of 0. */
+/* In place of all lights that the scene has. The next frame of each view has them; equally many of the same
+ * types in the same order cost least. */
+lightgrid_status lightgrid_scene_set_lights(lightgrid_scene* scene, const lightgrid_light* lights,
+                                            size_t count);
+/* Writes up to `capacity` lights, and how many there are to `count`. lights may be null if capacity is 0. */
 lightgrid_status lightgrid_scene_get_lights(lightgrid_scene* scene, lightgrid_light* lights, size_t capacity,
                                             size_t* count);
 /* Radiance from all sides, and of pixels without a surface; three floats each, or null: as it is. */
-lightgrid_status lightgrid_scene_set_ambient(lightgrid_scene* scene, const float* ambient, const float* background);
+lightgrid_status lightgrid_scene_set_ambient(lightgrid_scene* scene, const float* ambient,
+                                             const float* background);
 
 typedef struct lightgrid_camera {
   double world_from_view[16]; /* rigid; looks along its -z, y up */
@@ -214,15 +239,16 @@ typedef struct lightgrid_camera {
   double near_m, far_m;       /* far may be infinite in perspective */
   int32_t orthographic;
 } lightgrid_camera;
-/* One of the scene's by name or number, or "eye:x,y,z,target:x,y,z,fov:degrees,near:metres"; null or empty: the one that
- * the scene's field `camera` chose, else the program's own choice for an image of this width over height. */
+/* One of the scene's by name or number, or "eye:x,y,z,target:x,y,z,fov:degrees,near:metres"; null or empty:
+ * the one that the scene's field `camera` chose, else the program's own choice for an image of this width
+ * over height. */
 lightgrid_status lightgrid_scene_camera(lightgrid_scene* scene, const char* which, double aspect,
                                         lightgrid_camera* camera);
 
 /* ---- Views: a scene seen by one camera, drawn by one technique ---- */
 
-/* `technique`: NAME or NAME:KEY=VALUE,…; null: forward_plus, or visibility without OpenGL. `settings`: KEY=VALUE each,
- * as --set. The camera and the size are those of the scene's fields. */
+/* `technique`: NAME or NAME:KEY=VALUE,…; null: forward_plus, or visibility without OpenGL. `settings`:
+ * KEY=VALUE each, as --set. The camera and the size are those of the scene's fields. */
 lightgrid_status lightgrid_view_open(lightgrid_device* device, lightgrid_scene* scene, const char* technique,
                                      const char* const* settings, lightgrid_view** view);
 void lightgrid_view_close(lightgrid_view* view);
@@ -232,11 +258,11 @@ lightgrid_status lightgrid_view_look(lightgrid_view* view, const lightgrid_camer
 lightgrid_status lightgrid_view_size(const lightgrid_view* view, int32_t* width, int32_t* height);
 /* Draws a frame into an image of the view's size: RGBA_F32. */
 lightgrid_status lightgrid_view_render(lightgrid_view* view, const lightgrid_image* image);
-/* Of the last frame: the depth of opaque surfaces (R_F32), and how many lights each pixel's list has (R_U32). */
+/* Of the last frame: the depth of opaque surfaces (R_F32), and the lights in each pixel's list (R_U32). */
 lightgrid_status lightgrid_view_depth(lightgrid_view* view, const lightgrid_image* depth);
 lightgrid_status lightgrid_view_listed(lightgrid_view* view, const lightgrid_image* counts);
-/* The last frame's figures, with the times of its passes, for which it draws up to five more: what `lightgrid render
- * --json` writes, without the exposure. */
+/* The last frame's figures, with the times of its passes, for which it draws up to five more: what
+ * `lightgrid render --json` writes, without the exposure. */
 lightgrid_status lightgrid_view_profile(lightgrid_view* view, char** json);
 
 /* ---- Light lists and visibility, for renderers of one's own ---- */
@@ -251,8 +277,8 @@ lightgrid_status lightgrid_project(const lightgrid_camera* camera, int32_t width
                                    lightgrid_projection* projection);
 
 /* The lights that may reach the surfaces of each tile, as `lightgrid cull` finds them. `depth`: R_F32, of the
- * projection's size; null: needs the setting depth-bounds=none. `technique` (null: forward_plus) decides whether there
- * are slices and z-bins. Lights are numbered without directional ones, which are in no list. */
+ * projection's size; null: needs the setting depth-bounds=none. `technique` (null: forward_plus) decides
+ * whether there are slices and z-bins. Lights are numbered without directional ones, which are in no list. */
 lightgrid_status lightgrid_cull(lightgrid_device* device, const lightgrid_projection* projection,
                                 const lightgrid_image* depth, const lightgrid_light* lights, size_t count,
                                 const char* technique, const char* const* settings, lightgrid_lists** lists);
@@ -273,30 +299,34 @@ typedef struct lightgrid_grid {
 } lightgrid_grid;
 lightgrid_status lightgrid_lists_get(const lightgrid_lists* lists, lightgrid_grid* grid);
 
-/* The number of the nearest opaque triangle at each pixel (R_U32; 0xffffffff: none) and its depth (R_F32); either may
- * be null. Triangles are counted over instances in their order, and in each over its mesh's indices. The depth of the
- * projection is reversed. The bytes are the same on every device. */
+/* The number of the nearest opaque triangle at each pixel (R_U32; 0xffffffff: none) and its depth (R_F32);
+ * either may be null. Triangles are counted over instances in their order, and in each over its mesh's
+ * indices. The depth of the projection is reversed. The bytes are the same on every device. */
 lightgrid_status lightgrid_rasterize(lightgrid_device* device, lightgrid_scene* scene,
                                      const lightgrid_projection* projection, const lightgrid_image* triangles,
                                      const lightgrid_image* depth);
 
 /* ---- Comparisons: techniques side by side, held against every light at every pixel and the oracle ---- */
 
-/* Called after each step with the share that is done, 0 to 1, and the next step's name. Any value but 0 ends the
- * comparison with LIGHTGRID_CANCELLED. */
+/* Called after each step with the share that is done, 0 to 1, and the next step's name. Any value but 0 ends
+ * the comparison with LIGHTGRID_CANCELLED. */
 typedef int (*lightgrid_progress_function)(double done, const char* step, void* user);
 
-/* The scene's view by each of the techniques ("NAME:KEY=VALUE,…", null-terminated; null: the command line's). Fields:
- * frames, warmup, reference, flip (1 or 0), and set and compare, which may be repeated; as `lightgrid compare` has them.
- * Without OpenGL techniques that need it are an error if they are named, and left out otherwise. */
-lightgrid_status lightgrid_compare(lightgrid_device* device, lightgrid_scene* scene, const char* const* techniques,
-                                   const char* const* fields, lightgrid_progress_function progress, void* user,
+/* The scene's view by each of the techniques ("NAME:KEY=VALUE,…", null-terminated; null: the command line's).
+ * Fields: frames, warmup, reference, flip (1 or 0), and set and compare, which may be repeated; as `lightgrid
+ * compare` has them. Without OpenGL techniques that need it are an error if they are named, and left out
+ * otherwise. */
+lightgrid_status lightgrid_compare(lightgrid_device* device, lightgrid_scene* scene,
+                                   const char* const* techniques, const char* const* fields,
+                                   lightgrid_progress_function progress, void* user,
                                    lightgrid_report** report);
 void lightgrid_report_free(lightgrid_report* report);
-/* The text of results.json (docs/results_json.md): the tree of all results. Valid as long as the report. Null of null. */
+/* The text of results.json (docs/results_json.md): the tree of all results. Valid as long as the report. Null
+ * of null. */
 const char* lightgrid_report_json(const lightgrid_report* report);
 /* The image of one of its "rows": RGBA_F32. */
-lightgrid_status lightgrid_report_image(const lightgrid_report* report, size_t row, const lightgrid_image* image);
+lightgrid_status lightgrid_report_image(const lightgrid_report* report, size_t row,
+                                        const lightgrid_image* image);
 /* Everything that `lightgrid compare -o` writes: index.html, results.json, results.csv, pictures. */
 lightgrid_status lightgrid_report_save(const lightgrid_report* report, const char* folder);
 

@@ -16,8 +16,10 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double largest_float = std::numeric_limits<float>::max();
 constexpr size_t most_values = size_t(1) << 31;
 
-double in_range(const std::string& name, double value, double least = -largest_float, double most = largest_float) {
-  if (!(value >= least && value <= most)) throw wrong(name, "{} is not from {:g} to {:g}", value, least, most);
+double in_range(const std::string& name, double value, double least = -largest_float,
+                double most = largest_float) {
+  if (!(value >= least && value <= most))
+    throw wrong(name, "{} is not from {:g} to {:g}", value, least, most);
   return value;
 }
 
@@ -36,11 +38,20 @@ glm::vec<n, float> checked_color(const std::string& name, const float* values) {
 Light light_of(const lightgrid_light& in, const std::string& name) {
   Light out;
   switch (in.type) {
-    case LIGHTGRID_POINT: out.type = LightType::point; break;
-    case LIGHTGRID_SPOT: out.type = LightType::spot; break;
-    case LIGHTGRID_DIRECTIONAL: out.type = LightType::directional; break;
-    case LIGHTGRID_VIRTUAL: make_virtual(out); break;
-    default: throw wrong(name + ".type", "{} is no type of light", int(in.type));
+    case LIGHTGRID_POINT:
+      out.type = LightType::point;
+      break;
+    case LIGHTGRID_SPOT:
+      out.type = LightType::spot;
+      break;
+    case LIGHTGRID_DIRECTIONAL:
+      out.type = LightType::directional;
+      break;
+    case LIGHTGRID_VIRTUAL:
+      make_virtual(out);
+      break;
+    default:
+      throw wrong(name + ".type", "{} is no type of light", int(in.type));
   }
   for (int i = 0; i < 3 && !is_directional(out); ++i)
     out.position[i] = in_range(fmt::format("{}.position[{}]", name, i), in.position[i]);
@@ -58,11 +69,13 @@ Light light_of(const lightgrid_light& in, const std::string& name) {
   if (intensity_overflows(out))
     throw wrong(name + ".intensity", "{} times color passes the largest float", in.intensity);
   out.radius_m = float(in_range(name + ".radius_m", in.radius_m, 0, infinite));
-  if (in.source_radius_m >= 0) out.source_m = float(in_range(name + ".source_radius_m", in.source_radius_m, 0));
+  if (in.source_radius_m >= 0)
+    out.source_m = float(in_range(name + ".source_radius_m", in.source_radius_m, 0));
   if (out.is_virtual) {
     out.nearest_m = float(in_range(name + ".nearest_m", in.nearest_m, 0));
   } else if (out.type == LightType::spot) {
-    out.outer_cone_rad = float(in_range(name + ".outer_cone_rad", in.outer_cone_rad, 0, float(std::numbers::pi)));
+    out.outer_cone_rad =
+        float(in_range(name + ".outer_cone_rad", in.outer_cone_rad, 0, float(std::numbers::pi)));
     out.inner_cone_rad = float(in_range(name + ".inner_cone_rad", in.inner_cone_rad, 0, in.outer_cone_rad));
     if (!(out.inner_cone_rad < out.outer_cone_rad))
       throw wrong(name + ".inner_cone_rad", "{} is not below outer_cone_rad", in.inner_cone_rad);
@@ -80,10 +93,10 @@ lightgrid_light light_from(const Light& in) {
   out.intensity = in.intensity, out.radius_m = in.radius_m;
   out.inner_cone_rad = in.inner_cone_rad, out.outer_cone_rad = in.outer_cone_rad;
   out.source_radius_m = in.source_m, out.nearest_m = in.nearest_m;
-  out.type = in.is_virtual                           ? LIGHTGRID_VIRTUAL
-             : in.type == LightType::point           ? LIGHTGRID_POINT
-             : in.type == LightType::spot            ? LIGHTGRID_SPOT
-                                                     : LIGHTGRID_DIRECTIONAL;
+  out.type = in.is_virtual                 ? LIGHTGRID_VIRTUAL
+             : in.type == LightType::point ? LIGHTGRID_POINT
+             : in.type == LightType::spot  ? LIGHTGRID_SPOT
+                                           : LIGHTGRID_DIRECTIONAL;
   out.casts_shadow = in.casts_shadow;
   out.groups = in.groups;
   return out;
@@ -91,8 +104,8 @@ lightgrid_light light_from(const Light& in) {
 
 // Whether lists, plans and programs made for one fit the other.
 bool alike(const Light& a, const Light& b) {
-  return a.type == b.type && a.is_virtual == b.is_virtual && a.casts_shadow == b.casts_shadow && a.groups == b.groups &&
-         std::isinf(a.radius_m) == std::isinf(b.radius_m);
+  return a.type == b.type && a.is_virtual == b.is_virtual && a.casts_shadow == b.casts_shadow &&
+         a.groups == b.groups && std::isinf(a.radius_m) == std::isinf(b.radius_m);
 }
 
 glm::dmat4 affine_of(const double* values, const char* name) {
@@ -110,7 +123,8 @@ Material material_of(const lightgrid_material& in, size_t textures) {
     slot.texture = checked_number(name, number, -1, textures, "textures");
   };
   m.base_color = checked_color<4>("material.base_color", in.base_color);
-  m.metallic = share("material.metallic", in.metallic), m.roughness = share("material.roughness", in.roughness);
+  m.metallic = share("material.metallic", in.metallic),
+  m.roughness = share("material.roughness", in.roughness);
   m.emissive = checked_color<3>("material.emissive", in.emissive);
   m.ior = float(in_range("material.ior", in.ior, 1, 100));
   m.clearcoat = share("material.clearcoat", in.clearcoat);
@@ -132,8 +146,8 @@ Material material_of(const lightgrid_material& in, size_t textures) {
 
 bool has_maps(const Material& m) {
   const auto used = [](const TextureSlot& slot) { return slot.texture >= 0; };
-  return used(m.base_color_map) || used(m.metallic_roughness_map) || used(m.normal_map) || used(m.occlusion_map) ||
-         used(m.emissive_map);
+  return used(m.base_color_map) || used(m.metallic_roughness_map) || used(m.normal_map) ||
+         used(m.occlusion_map) || used(m.emissive_map);
 }
 
 template <typename T>
@@ -161,7 +175,8 @@ Mesh mesh_of(const lightgrid_mesh& in, const Material& material) {
   mesh.indices.assign(in.indices, in.indices + in.index_count);
   for (size_t i = 0; i < mesh.indices.size(); ++i)
     if (mesh.indices[i] >= in.vertex_count)
-      throw wrong("mesh.indices", "index {} is {}: there are {} vertices", i, mesh.indices[i], in.vertex_count);
+      throw wrong("mesh.indices", "index {} is {}: there are {} vertices", i, mesh.indices[i],
+                  in.vertex_count);
   complete_mesh(tangent_need(material), mesh);
   return mesh;
 }
@@ -206,7 +221,8 @@ std::vector<Light> lights_of(const lightgrid_light* lights, size_t count) {
 glm::dmat4 matrix_of(const double* values, const char* name) {
   needed(values, name);
   glm::dmat4 m;
-  for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = in_range(fmt::format("{}[{}]", name, i), values[i], -1e30, 1e30);
+  for (int i = 0; i < 16; ++i)
+    m[i / 4][i % 4] = in_range(fmt::format("{}[{}]", name, i), values[i], -1e30, 1e30);
   return m;
 }
 
@@ -237,7 +253,8 @@ lightgrid_status lightgrid_scene_load(const char* name, const char* const* field
   });
 }
 
-lightgrid_status lightgrid_scene_create(const char* name, const char* const* fields, lightgrid_scene** scene) {
+lightgrid_status lightgrid_scene_create(const char* name, const char* const* fields,
+                                        lightgrid_scene** scene) {
   return call([&] {
     lightgrid_scene*& out = needed(scene, "scene");
     SceneChoice choice = choice_of(name ? name : "scene", fields);
@@ -250,12 +267,13 @@ lightgrid_status lightgrid_scene_create(const char* name, const char* const* fie
 
 void lightgrid_scene_free(lightgrid_scene* scene) { delete scene; }
 
-lightgrid_status lightgrid_scene_add_texture(lightgrid_scene* scene, int32_t width, int32_t height, const uint8_t* rgba,
-                                             int is_srgb, int32_t* number) {
+lightgrid_status lightgrid_scene_add_texture(lightgrid_scene* scene, int32_t width, int32_t height,
+                                             const uint8_t* rgba, int is_srgb, int32_t* number) {
   return call([&] {
     Scene& to = needed(scene, "scene").loaded->scene;
     needed(rgba, "rgba");
-    Bitmap bitmap{.width = int(in_range("width", width, 1, 8192)), .height = int(in_range("height", height, 1, 8192))};
+    Bitmap bitmap{.width = int(in_range("width", width, 1, 8192)),
+                  .height = int(in_range("height", height, 1, 8192))};
     bitmap.rgba.assign(rgba, rgba + size_t(width) * size_t(height) * 4);
     Texture texture{.bitmap = int(to.bitmaps.size()), .srgb = is_srgb != 0};
     to.bitmaps.push_back(std::move(bitmap)), to.textures.push_back(texture);
@@ -267,8 +285,24 @@ lightgrid_status lightgrid_scene_add_texture(lightgrid_scene* scene, int32_t wid
 void lightgrid_default_material(lightgrid_material* material) {
   if (!material) return;
   const Material m;
-  *material = {{1, 1, 1, 1}, m.metallic, m.roughness, {0, 0, 0}, m.ior, 0, 0, LIGHTGRID_OPAQUE, m.alpha_cutoff,
-               1,            1,          0,           0,         -1,    -1, -1, -1,              -1};
+  *material = {{1, 1, 1, 1},
+               m.metallic,
+               m.roughness,
+               {0, 0, 0},
+               m.ior,
+               0,
+               0,
+               LIGHTGRID_OPAQUE,
+               m.alpha_cutoff,
+               1,
+               1,
+               0,
+               0,
+               -1,
+               -1,
+               -1,
+               -1,
+               -1};
 }
 
 lightgrid_status lightgrid_scene_add_material(lightgrid_scene* scene, const lightgrid_material* material,
@@ -281,7 +315,8 @@ lightgrid_status lightgrid_scene_add_material(lightgrid_scene* scene, const ligh
   });
 }
 
-lightgrid_status lightgrid_scene_add_mesh(lightgrid_scene* scene, const lightgrid_mesh* mesh, int32_t* number) {
+lightgrid_status lightgrid_scene_add_mesh(lightgrid_scene* scene, const lightgrid_mesh* mesh,
+                                          int32_t* number) {
   return call([&] {
     Scene& to = needed(scene, "scene").loaded->scene;
     const lightgrid_mesh& in = needed(mesh, "mesh");
@@ -294,8 +329,9 @@ lightgrid_status lightgrid_scene_add_mesh(lightgrid_scene* scene, const lightgri
   });
 }
 
-lightgrid_status lightgrid_scene_add_instance(lightgrid_scene* scene, int32_t mesh, const double* world_from_object,
-                                              int casts_shadow, int32_t* number) {
+lightgrid_status lightgrid_scene_add_instance(lightgrid_scene* scene, int32_t mesh,
+                                              const double* world_from_object, int casts_shadow,
+                                              int32_t* number) {
   return call([&] {
     Scene& to = needed(scene, "scene").loaded->scene;
     Instance instance;
@@ -321,11 +357,12 @@ lightgrid_status lightgrid_scene_move_instance(lightgrid_scene* scene, int32_t i
 void lightgrid_default_light(lightgrid_light* light) {
   if (!light) return;
   const Light l;
-  *light = {{0, 0, 0},        {0, 0, -1},       {1, 1, 1}, 1, l.radius_m, l.inner_cone_rad,
-            l.outer_cone_rad, l.source_m,       0,         LIGHTGRID_POINT, 0, all_groups};
+  *light = {{0, 0, 0},  {0, 0, -1}, {1, 1, 1},       1, l.radius_m, l.inner_cone_rad, l.outer_cone_rad,
+            l.source_m, 0,          LIGHTGRID_POINT, 0, all_groups};
 }
 
-lightgrid_status lightgrid_scene_set_lights(lightgrid_scene* scene, const lightgrid_light* lights, size_t count) {
+lightgrid_status lightgrid_scene_set_lights(lightgrid_scene* scene, const lightgrid_light* lights,
+                                            size_t count) {
   return call([&] {
     LoadedScene& to = *needed(scene, "scene").loaded;
     std::vector<Light> all = lights_of(lights, count);
@@ -352,7 +389,8 @@ lightgrid_status lightgrid_scene_get_lights(lightgrid_scene* scene, lightgrid_li
   });
 }
 
-lightgrid_status lightgrid_scene_set_ambient(lightgrid_scene* scene, const float* ambient, const float* background) {
+lightgrid_status lightgrid_scene_set_ambient(lightgrid_scene* scene, const float* ambient,
+                                             const float* background) {
   return call([&] {
     LoadedScene& to = *needed(scene, "scene").loaded;
     const glm::vec3 sides = ambient ? checked_color<3>("ambient", ambient) : to.scene.ambient;

@@ -1,5 +1,5 @@
-#include "c_api/images.h"
 #include "c_api/handles.h"
+#include "c_api/images.h"
 #include "plan/plan_changes.h"
 #include "session/contestants.h"
 #include "session/oracle.h"

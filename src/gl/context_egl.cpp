@@ -88,9 +88,7 @@ class EglGlContext final : public GlContext {
     load_gl_functions(get_gl_function);
   }
 
-  void leave() override {
-    egl().eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  }
+  void leave() override { egl().eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 
  private:
   static Error failure(const char* call) {

@@ -368,8 +368,7 @@ void apply_setting(Settings& settings, const std::string& assignment) {
     std::vector<std::string> keys;
     for (const Setting& s : all) keys.push_back(s.key);
     throw input_error("set {}: not KEY=VALUE with a known key{}; keys are {}", assignment,
-                      did_you_mean(key, keys), fmt::join(keys, ", "))
-        .about(key);
+                      did_you_mean(key, keys), fmt::join(keys, ", "));
   }
   const std::string value = assignment.substr(equals + 1);
   std::vector<std::string> values;
@@ -387,11 +386,9 @@ void apply_setting(Settings& settings, const std::string& assignment) {
     return;
   }
   if (setting->number)
-    throw input_error("set {}: {} is a number from {:g} to {:g}", assignment, key, least_number, most_number)
-        .about(key);
+    throw input_error("set {}: {} is a number from {:g} to {:g}", assignment, key, least_number, most_number);
   throw input_error("set {}: \"{}\" is not a value of {}{}; values are {}", assignment, value, key,
-                    did_you_mean(value, values), fmt::join(values, ", "))
-      .about(key);
+                    did_you_mean(value, values), fmt::join(values, ", "));
 }
 
 const std::vector<std::string>& model_settings() {

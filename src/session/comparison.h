@@ -42,15 +42,16 @@ void run_comparison(const Comparison& comparison,
                     const std::function<void(double done, const std::string& step)>& progress,
                     const std::function<void(CompareReport report)>& found);
 
-// One view of it, on devices that are open, of a scene that is loaded: what `choice` says about scenes, sizes, numbers
-// of lights and devices is not read, and what `view_choice` says about the scene only where it moves. `which` begins
-// the lines of the log.
+// One view of it, on devices that are open, of a scene that is loaded: what `choice` says about scenes,
+// sizes, numbers of lights and devices is not read, and what `view_choice` says about the scene only where it
+// moves. `which` begins the lines of the log.
 CompareReport compare_view(Renderer& devices, Scene& scene, const View& view, const SceneChoice& view_choice,
                            const CompareChoice& choice, const std::vector<Contestant>& contestants,
                            const std::function<void(double done, const std::string& step)>& progress,
                            const std::string& which = "", bool all_may_refuse = false);
 
-// The contestants of the fields; before devices are opened, and those of them that the devices can draw, as above.
+// The contestants of the fields; before devices are opened, and those of them that the devices can draw, as
+// above.
 std::vector<Contestant> contestants_of(const CompareChoice& choice);
 std::vector<Contestant> runnable(const CompareChoice& choice, const std::vector<Contestant>& contestants,
                                  const Renderer& devices);

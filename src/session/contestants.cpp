@@ -134,8 +134,7 @@ void check_given_settings(const Settings& settings, const std::vector<const Tech
     const bool one = names.size() == 1;
     throw input_error(
         "set {}: {} {} not read it, and it would change nothing; lightgrid techniques lists what each reads",
-        key, fmt::join(names, ", "), one ? "does" : "do")
-        .about(key);
+        key, fmt::join(names, ", "), one ? "does" : "do");
   }
 }
 

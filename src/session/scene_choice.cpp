@@ -125,13 +125,14 @@ const std::vector<ChoiceField>& choice_fields() {
   using enum ChoiceField::Of;
   static const std::vector<ChoiceField> fields = {
       {"size", "image size, WxH", scene, &SceneChoice::size},
-      {"lights", "scatter N lights; with --lights-file, its first N", scene, &SceneChoice::lights, most_lights},
+      {"lights", "scatter N lights; with --lights-file, its first N", scene, &SceneChoice::lights,
+       most_lights},
       {"camera", "name, index or eye:x,y,z,target:x,y,z,fov:degrees,near:metres", view, &SceneChoice::camera},
       {"lights-file", "lights as JSON, instead of the scene's own", view, &SceneChoice::lights_file},
       {"light-radius", "range of scattered lights in metres, MIN,MAX", view, &SceneChoice::light_radius},
       {"ambient", "radiance from all sides instead of the scene's own; 0: none", view, &SceneChoice::ambient},
-      {"shadows", "lights that cast shadows: the N most important, all or none (default: as the scene says)", view,
-       &SceneChoice::shadows},
+      {"shadows", "lights that cast shadows: the N most important, all or none (default: as the scene says)",
+       view, &SceneChoice::shadows},
       {"virtual-lights", "places N virtual point lights where surfaces reflect the others", view,
        &SceneChoice::virtual_lights, most_virtual_lights},
       {"virtual-from", "lights that are reflected: the N most important, or all (default)", view,
@@ -143,10 +144,12 @@ const std::vector<ChoiceField>& choice_fields() {
       {"brdf", "ggx, blinn or lambert: short for --set brdf=…", view, &SceneChoice::brdf},
       {"time", "seconds into the animations of the file; not given: at rest", view, &SceneChoice::time},
       {"exposure",
-       "of pictures, in stops: linear values times 2^EV, or auto (default: auto for files, 0 for built-in scenes)",
+       "of pictures, in stops: linear values times 2^EV, or auto (default: auto for files, 0 for built-in "
+       "scenes)",
        picture, &SceneChoice::exposure},
       {"light-motion", "lights that move: none, orbit or drift", path, &SceneChoice::light_motion},
-      {"camera-path", "a moving camera: turn:N, dolly:N or a JSON file of keys", path, &SceneChoice::camera_path},
+      {"camera-path", "a moving camera: turn:N, dolly:N or a JSON file of keys", path,
+       &SceneChoice::camera_path},
   };
   return fields;
 }

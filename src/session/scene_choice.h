@@ -53,7 +53,8 @@ struct ChoiceField {
 };
 const std::vector<ChoiceField>& choice_fields();
 
-// Sets one from "NAME=VALUE". Throws Error(input) that lists the names. Values of text are checked when they are used.
+// Sets one from "NAME=VALUE". Throws Error(input) that lists the names. Values of text are checked when they
+// are used.
 void set_choice_field(SceneChoice& choice, const std::string& assignment);
 
 struct DeviceOptions {

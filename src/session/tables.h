@@ -5,8 +5,8 @@
 
 namespace lightgrid {
 
-// {"techniques": [{"name", "summary", "source", "settings"}], "common_settings", "settings": [{"key", "values",
-// "meaning", "any_number"}]}; the first value is the default.
+// {"techniques": [{"name", "summary", "source", "settings"}], "common_settings", "settings": [{"key",
+// "values", "meaning", "any_number"}]}; the first value is the default.
 nlohmann::ordered_json techniques_json();
 
 }  // namespace lightgrid

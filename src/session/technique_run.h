@@ -39,8 +39,8 @@ class TechniqueRun {
   // recorded unless `warmup`. image() is a copy, which that time does not count on an OpenCL device that is a
   // CPU: there the host can read the original.
   double run_frame(bool warmup = false);
-  // The same, for a caller that keeps the image itself: `take` reads its pixels, row 0 at the bottom, where they are.
-  // image() is then an older frame's.
+  // The same, for a caller that keeps the image itself: `take` reads its pixels, row 0 at the bottom, where
+  // they are. image() is then an older frame's.
   double run_frame(const std::function<void(const glm::vec4* pixels)>& take);
   // One frame whose image stays on its device, for a window: frame().image. image() is then an older frame's.
   void draw_frame();

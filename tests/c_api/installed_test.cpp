@@ -34,13 +34,14 @@ TEST(CLibrarySymbols, AreThoseOfTheHeaderAndNoOthers) {
   EXPECT_EQ(shown, expected);
 }
 
-// A library of empty functions that is made of the header alone, so that the ABI is that of what callers compile, and
-// of nothing inside.
+// A library of empty functions that is made of the header alone, so that the ABI is that of what callers
+// compile, and of nothing inside.
 void write_stub(const std::filesystem::path& path) {
   std::string text = "#include <stddef.h>\n#include <stdint.h>\n" + header();
   text = std::regex_replace(text, std::regex("#include <std(def|int)\\.h>"), "");
-  text = std::regex_replace(text, std::regex(R"(\n(lightgrid_status|const char\*) (lightgrid_\w+\([^;]*\));)"),
-                            "\n$1 $2 { return 0; }");
+  text =
+      std::regex_replace(text, std::regex(R"(\n(lightgrid_status|const char\*) (lightgrid_\w+\([^;]*\));)"),
+                         "\n$1 $2 { return 0; }");
   text = std::regex_replace(text, std::regex(R"(\nvoid (lightgrid_\w+\([^;]*\));)"), "\nvoid $1 {}");
   std::ofstream(path) << "#include <stddef.h>\n#include <stdint.h>\n" << text;
 }
@@ -53,7 +54,8 @@ TEST(CLibraryAbi, IsTheCommittedOne) {
   const std::string stub = temp.path / "liblightgrid.so", source = temp.path / "lightgrid.c",
                     known = std::string(source_folder) + "/src/c_api/lightgrid.abi";
   write_stub(source);
-  must_run("cc -std=c99 -g -w -fdebug-prefix-map=" + temp.path.string() + "=. -shared -fPIC -Wl,-soname,liblightgrid.so.0 -o " + stub + " " + source);
+  must_run("cc -std=c99 -g -w -fdebug-prefix-map=" + temp.path.string() +
+           "=. -shared -fPIC -Wl,-soname,liblightgrid.so.0 -o " + stub + " " + source);
   if (std::getenv("UPDATE_ABI"))
     must_run("abidw --no-corpus-path --no-comp-dir-path --no-show-locs --out-file " + known + " " + stub);
   must_run("abidiff --no-show-locs " + known + " " + stub);
@@ -63,16 +65,19 @@ TEST(CLibraryInstalled, IsFoundByPkgConfigAndDrawsInTheExample) {
   for (const char* tool : {LIGHTGRID_CMAKE, "cc", "pkg-config"})
     if (!has_tool(tool)) GTEST_SKIP() << "there is no " << tool;
   const TempFolder temp;
-  const std::string prefix = temp.path / "prefix", program = temp.path / "render_c", picture = temp.path / "p.png";
-  must_run(fmt::format("{} --install {} --component c_library --prefix {}", LIGHTGRID_CMAKE, LIGHTGRID_BUILD_DIR, prefix));
+  const std::string prefix = temp.path / "prefix", program = temp.path / "render_c",
+                    picture = temp.path / "p.png";
+  must_run(fmt::format("{} --install {} --component c_library --prefix {}", LIGHTGRID_CMAKE,
+                       LIGHTGRID_BUILD_DIR, prefix));
   const std::string found = must_run("dirname $(find " + prefix + " -name lightgrid.pc)");
   const std::string pkgconfig = found.substr(0, found.find('\n'));
-  must_run(fmt::format("cd {} && cc -std=c99 -pedantic -Wall -Wextra -Werror {}/docs/examples/render_c/main.c -o {} "
-                       "$(PKG_CONFIG_PATH={} pkg-config --cflags --libs lightgrid) {}",
-                       temp.path.string(), source_folder, program, pkgconfig, LIGHTGRID_C_FLAGS));
+  must_run(fmt::format(
+      "cd {} && cc -std=c99 -pedantic -Wall -Wextra -Werror {}/docs/examples/render_c/main.c -o {} "
+      "$(PKG_CONFIG_PATH={} pkg-config --cflags --libs lightgrid) {}",
+      temp.path.string(), source_folder, program, pkgconfig, LIGHTGRID_C_FLAGS));
   const std::string out = must_run(fmt::format("LD_LIBRARY_PATH={}/.. {} {}", pkgconfig, program, picture));
-  // By hand: the image's centre shows the point (0, 0, 0). Lamps 27, 28, 35 and 36 are 1.25 m off in x and in z and
-  // reach it.
+  // By hand: the image's centre shows the point (0, 0, 0). Lamps 27, 28, 35 and 36 are 1.25 m off in x and in
+  // z and reach it.
   EXPECT_THAT(out, testing::StartsWith("10 x 6 tiles, "));
   const size_t centre = out.find("centre:");
   ASSERT_NE(centre, out.npos) << out;

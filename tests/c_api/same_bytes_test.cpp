@@ -41,7 +41,8 @@ class CImages : public testing::TestWithParam<const char*> {};
 
 TEST_P(CImages, HaveTheBytesOfTheCommandLines) {
   const TempFolder folder;
-  const std::string technique = GetParam(), exr = folder.path / "theirs.exr", png = folder.path / "theirs.png";
+  const std::string technique = GetParam(), exr = folder.path / "theirs.exr",
+                    png = folder.path / "theirs.png";
   const bool opengl = !technique.starts_with("visibility");
   must_succeed(of_hall("render", {"-t", technique, "-o", exr}));
   must_succeed(of_hall("render", {"-t", technique, "-o", png, "--exposure", "1.5"}));
@@ -59,7 +60,9 @@ TEST_P(CImages, HaveTheBytesOfTheCommandLines) {
   const lightgrid_image from_top = {&top_first[size_t(row) * 70], 133, 71, LIGHTGRID_RGBA_F32, -4 * row};
   must(lightgrid_view_render(view.get(), &from_top));
   for (int y = 0; y < 71; ++y) {
-    ASSERT_EQ(std::memcmp(&top_first[size_t(row * (70 - y))], &image.values[size_t(133 * 4 * y)], 133 * 16), 0) << y;
+    ASSERT_EQ(std::memcmp(&top_first[size_t(row * (70 - y))], &image.values[size_t(133 * 4 * y)], 133 * 16),
+              0)
+        << y;
     ASSERT_EQ(top_first[size_t(row * (70 - y) + 133 * 4)], -1) << y;
   }
 }
@@ -100,8 +103,8 @@ TEST(CLists, HaveTheBytesOfTheCommandLines) {
   std::vector<lightgrid_light> lights(count);
   must(lightgrid_scene_get_lights(scene.get(), lights.data(), count, &count));
   lightgrid_lists* culled = nullptr;
-  must(lightgrid_cull(opencl_device().get(), &projection, &depth.image, lights.data(), count, "forward_plus:tile=32",
-                      Words{"cull-test=exact", "grid-lists=masks"}, &culled));
+  must(lightgrid_cull(opencl_device().get(), &projection, &depth.image, lights.data(), count,
+                      "forward_plus:tile=32", Words{"cull-test=exact", "grid-lists=masks"}, &culled));
   const OwnedLists owned(culled);
   lightgrid_grid grid;
   must(lightgrid_lists_get(culled, &grid));
@@ -110,7 +113,8 @@ TEST(CLists, HaveTheBytesOfTheCommandLines) {
   EXPECT_GT(grid.index_count, 0u);
   EXPECT_TRUE(bytes_of(grid.cells, 2 * grid.cell_count) == file_bytes(lists_folder + "/grid.u32"));
   EXPECT_TRUE(bytes_of(grid.indices, grid.index_count) == file_bytes(lists_folder + "/indices.u32"));
-  EXPECT_TRUE(bytes_of(grid.masks, grid.mask_words * grid.cell_count) == file_bytes(lists_folder + "/masks.u32"));
+  EXPECT_TRUE(bytes_of(grid.masks, grid.mask_words * grid.cell_count) ==
+              file_bytes(lists_folder + "/masks.u32"));
 }
 
 // Every pixel's list, and its count as view_listed gives it.
@@ -152,8 +156,8 @@ nlohmann::json without_times(nlohmann::json json) {
 
 TEST(CCompare, HasTheResultsOfTheCommandLine) {
   const TempFolder folder;
-  must_succeed(of_hall("compare", {"-t", "visibility:lights=all,visibility:tile=32", "--gl", "none", "--frames", "1", "-o",
-                                   folder.path / "theirs"}));
+  must_succeed(of_hall("compare", {"-t", "visibility:lights=all,visibility:tile=32", "--gl", "none",
+                                   "--frames", "1", "-o", folder.path / "theirs"}));
   const OwnedScene scene = hall();
   lightgrid_report* compared = nullptr;
   std::vector<double> done;
@@ -161,8 +165,9 @@ TEST(CCompare, HasTheResultsOfTheCommandLine) {
     static_cast<std::vector<double>*>(to)->push_back(share);
     return 0;
   };
-  must(lightgrid_compare(opencl_device().get(), scene.get(), Words{"visibility:lights=all", "visibility:tile=32"},
-                         Words{"frames=1"}, note, &done, &compared));
+  must(lightgrid_compare(opencl_device().get(), scene.get(),
+                         Words{"visibility:lights=all", "visibility:tile=32"}, Words{"frames=1"}, note, &done,
+                         &compared));
   const OwnedReport report(compared);
   const auto ours = nlohmann::json::parse(lightgrid_report_json(compared)),
              theirs = nlohmann::json::parse(file_bytes(folder.path / "theirs/results.json"));
@@ -185,7 +190,8 @@ TEST(CCompare, EndsWhereTheProgressFunctionWantsTo) {
   int calls = 0;
   const auto second = [](double, const char*, void* user) { return int(++*static_cast<int*>(user) == 2); };
   lightgrid_report* report = nullptr;
-  EXPECT_EQ(lightgrid_compare(opencl_device().get(), scene.get(), Words{"visibility"}, nullptr, second, &calls, &report),
+  EXPECT_EQ(lightgrid_compare(opencl_device().get(), scene.get(), Words{"visibility"}, nullptr, second,
+                              &calls, &report),
             LIGHTGRID_CANCELLED);
   EXPECT_EQ(calls, 2);
   EXPECT_EQ(report, nullptr);
@@ -252,7 +258,7 @@ OwnedScene in_c(const Scene& from, const Words& fields) {
     must(lightgrid_scene_add_material(made, &material, nullptr));
   }
   for (const Mesh& m : from.meshes) {
-    const lightgrid_mesh mesh = {&m.positions[0].x, &m.normals[0].x,   m.uv0.empty() ? nullptr : &m.uv0[0].x,
+    const lightgrid_mesh mesh = {&m.positions[0].x, &m.normals[0].x,    m.uv0.empty() ? nullptr : &m.uv0[0].x,
                                  nullptr,           m.positions.size(), m.indices.data(),
                                  m.indices.size(),  m.material};
     must(lightgrid_scene_add_mesh(made, &mesh, nullptr));
@@ -312,8 +318,8 @@ TEST_P(CScenes, FromArraysAreDrawnAsTheirCppTwinsAndFollowWhatMoves) {
   lamps.pop_back(), small.scene.lights.pop_back();
   must(lightgrid_scene_set_lights(scene.get(), lamps.data(), lamps.size()));
   add_instance(small.scene, "ball", small.ball, placed({-0.6, 0.4, -3.2}));
-  must(lightgrid_scene_add_instance(scene.get(), small.ball, &small.scene.instances.back().world_from_object[0][0], 1,
-                                    nullptr));
+  must(lightgrid_scene_add_instance(scene.get(), small.ball,
+                                    &small.scene.instances.back().world_from_object[0][0], 1, nullptr));
   EXPECT_EQ(rendered(view).values, drawn_in_cpp(small.scene, technique.c_str()));
 }
 

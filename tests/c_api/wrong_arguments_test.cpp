@@ -23,7 +23,9 @@ OwnedScene spheres() { return load_scene("spheres", {"size=64x36", "lights=8"});
 
 TEST(CErrors, TellTheFieldOfAScene) {
   lightgrid_scene* scene = nullptr;
-  const auto load = [&](const char* name, const Words& fields) { return lightgrid_scene_load(name, fields, &scene); };
+  const auto load = [&](const char* name, const Words& fields) {
+    return lightgrid_scene_load(name, fields, &scene);
+  };
   expect_wrong(load("hull", {}), "scene", "did you mean hall?");
   expect_wrong(load("hall", {"size=0x5"}), "size", "size 0x5: not WxH");
   expect_wrong(load("hall", {"lights=many"}), "lights", "lights many: not a number");
@@ -73,7 +75,8 @@ TEST(CErrors, TellTheFieldOfALight) {
   expect_wrong(set([&](lightgrid_light& l) { l.position[2] = INFINITY; }), "lights[1].position[2]");
   expect_wrong(set([&](lightgrid_light& l) { l.color[0] = -1; }), "lights[1].color[0]");
   expect_wrong(set([&](lightgrid_light& l) { l.type = lightgrid_light_type(9); }), "lights[1].type");
-  expect_wrong(set([&](lightgrid_light& l) { l.type = LIGHTGRID_SPOT, l.direction[2] = 0; }), "lights[1].direction");
+  expect_wrong(set([&](lightgrid_light& l) { l.type = LIGHTGRID_SPOT, l.direction[2] = 0; }),
+               "lights[1].direction");
   expect_wrong(set([&](lightgrid_light& l) { l.type = LIGHTGRID_SPOT, l.inner_cone_rad = l.outer_cone_rad; }),
                "lights[1].inner_cone_rad");
   expect_wrong(set([&](lightgrid_light& l) { l.intensity = 3e38f, l.color[0] = 9; }), "lights[1].intensity");
@@ -192,12 +195,16 @@ TEST(CErrors, AreWhatNullGives) {
   expect_wrong(lightgrid_project(nullptr, 1, 1, &projection), "camera");
   expect_wrong(lightgrid_cull(device, nullptr, nullptr, nullptr, 0, nullptr, nullptr, &lists), "projection");
   expect_wrong(lightgrid_cull(device, &projection, nullptr, nullptr, 0, nullptr, nullptr, &lists), "depth");
-  expect_wrong(lightgrid_cull(device, &projection, nullptr, nullptr, 0, "forward", nullptr, &lists), "technique");
+  expect_wrong(lightgrid_cull(device, &projection, nullptr, nullptr, 0, "forward", nullptr, &lists),
+               "technique");
   expect_wrong(lightgrid_lists_get(nullptr, &grid), "lists");
   expect_wrong(lightgrid_rasterize(device, scene.get(), nullptr, nullptr, nullptr), "projection");
-  expect_wrong(lightgrid_compare(nullptr, scene.get(), nullptr, nullptr, nullptr, nullptr, &report), "device");
-  expect_wrong(lightgrid_compare(device, scene.get(), nullptr, Words{"frames=0"}, nullptr, nullptr, &report), "frames");
-  expect_wrong(lightgrid_compare(device, scene.get(), nullptr, Words{"frame=1"}, nullptr, nullptr, &report), "frame");
+  expect_wrong(lightgrid_compare(nullptr, scene.get(), nullptr, nullptr, nullptr, nullptr, &report),
+               "device");
+  expect_wrong(lightgrid_compare(device, scene.get(), nullptr, Words{"frames=0"}, nullptr, nullptr, &report),
+               "frames");
+  expect_wrong(lightgrid_compare(device, scene.get(), nullptr, Words{"frame=1"}, nullptr, nullptr, &report),
+               "frame");
   expect_wrong(lightgrid_report_image(nullptr, 0, &image.image), "report");
   expect_wrong(lightgrid_report_save(nullptr, nullptr), "folder");
   EXPECT_EQ(lightgrid_device_name(nullptr), nullptr);
@@ -235,8 +242,9 @@ TEST(CMeasures, AreThoseOfTheProgram) {
 
 TEST(CLog, HasTheLinesOfTheProgramAndNothingIsPrinted) {
   std::vector<std::string> lines;
-  lightgrid_set_log([](int, const char* line, void* to) { static_cast<std::vector<std::string>*>(to)->push_back(line); },
-                    &lines);
+  lightgrid_set_log(
+      [](int, const char* line, void* to) { static_cast<std::vector<std::string>*>(to)->push_back(line); },
+      &lines);
   testing::internal::CaptureStderr();
   load_scene("particles", {"size=64x36", "time=1"});
   lightgrid_set_log(nullptr, nullptr);
