@@ -12,7 +12,7 @@ target_link_libraries(lightgrid_c PRIVATE lightgrid_session lightgrid_report)
 target_include_directories(lightgrid_c INTERFACE ${PROJECT_BINARY_DIR}/include/c_api)  # "c_api/lightgrid.h", for tests
 # Only what the map names is visible: two libraries of one process may hold other versions of anything inside.
 target_link_options(lightgrid_c PRIVATE -Wl,--version-script=${c_api}/lightgrid.map)
-if(NOT LIGHTGRID_SANITIZE)
+if(NOT LIGHTGRID_SANITIZE AND NOT LIGHTGRID_FUZZ)  # whose functions are the program's
   target_link_options(lightgrid_c PRIVATE -Wl,--no-undefined)
 endif()
 set_target_properties(lightgrid_c PROPERTIES OUTPUT_NAME lightgrid SOVERSION 0 VERSION ${PROJECT_VERSION} LINKER_LANGUAGE CXX

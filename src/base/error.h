@@ -20,8 +20,8 @@ class Error : public std::runtime_error {
   ErrorKind kind() const { return kind_; }
   int exit_code() const { return static_cast<int>(kind_); }
 
-  // throw input_error("{}: light {}: radius is NaN", …).about("radius"): the setting, option or field of a file
-  // that is wrong, by its name there. A message that begins with that name, or "set" and it, needs none.
+  // throw input_error("{}: light {}: radius is NaN", …).about("radius"): the setting, option or field of a
+  // file that is wrong, by its name there. A message that begins with that name, or "set" and it, needs none.
   Error&& about(std::string field) && {
     field_ = std::move(field);
     return std::move(*this);

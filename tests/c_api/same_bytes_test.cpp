@@ -297,30 +297,48 @@ class CScenes : public testing::TestWithParam<const char*> {};
 TEST_P(CScenes, FromArraysAreDrawnAsTheirCppTwinsAndFollowWhatMoves) {
   const std::string technique = GetParam();
   SmallScene small = small_scene_of_casters();
+  std::vector<Light>& theirs = small.scene.lights;
+  for (Light& light : theirs) light.radius_m = 1.3f;
   const OwnedDevice device = open_device(technique == "visibility" ? "none" : "auto");
   const OwnedScene scene = in_c(small.scene, small_fields);
-  std::vector<lightgrid_light> lamps = lamps_of(small.scene);
-  must(lightgrid_scene_set_lights(scene.get(), lamps.data(), lamps.size()));
+  std::vector<lightgrid_light> ours = lamps_of(small.scene);
+  must(lightgrid_scene_set_lights(scene.get(), ours.data(), ours.size()));
   const OwnedView view = open_view(device, scene, technique.c_str());
-  EXPECT_EQ(rendered(view).values, drawn_in_cpp(small.scene, technique.c_str()));
+  std::vector<float> before = rendered(view).values;
+  EXPECT_TRUE(before == drawn_in_cpp(small.scene, technique.c_str()));
+  const auto expect_the_same = [&](const char* what) {
+    const std::vector<float> now = rendered(view).values;
+    EXPECT_FALSE(now == before) << what;
+    EXPECT_TRUE(now == drawn_in_cpp(small.scene, technique.c_str())) << what;
+    before = now;
+  };
+  const auto set_lights = [&] { must(lightgrid_scene_set_lights(scene.get(), ours.data(), ours.size())); };
 
-  // Lights that move and change, and an instance.
-  lamps[1].position[0] += 0.5, lamps[2].radius_m = 2.5f, lamps[3].color[1] = 0.25f, lamps[4].intensity = 5;
-  small.scene.lights[1].position.x += 0.5, small.scene.lights[2].radius_m = 2.5f;
-  small.scene.lights[3].color.y = 0.25f, small.scene.lights[4].intensity = 5;
-  must(lightgrid_scene_set_lights(scene.get(), lamps.data(), lamps.size()));
+  ours[1].position[0] += 1.7, theirs[1].position.x += 1.7;
+  ours[4].radius_m = 2.2f, theirs[4].radius_m = 2.2f;
+  ours[3].color[1] = 0.25f, theirs[3].color.y = 0.25f;
+  ours[5].intensity = 5, theirs[5].intensity = 5;
+  set_lights();
+  expect_the_same("lights that move and change");
+
   glm::dmat4& ball = small.scene.instances[1].world_from_object;
-  ball[3].x -= 0.4;
+  ball[3].x -= 0.6;
   must(lightgrid_scene_move_instance(scene.get(), 1, &ball[0][0]));
-  EXPECT_EQ(rendered(view).values, drawn_in_cpp(small.scene, technique.c_str()));
+  expect_the_same("an instance that moves");
 
-  // Fewer lights, one more instance.
-  lamps.pop_back(), small.scene.lights.pop_back();
-  must(lightgrid_scene_set_lights(scene.get(), lamps.data(), lamps.size()));
+  ours[0].type = LIGHTGRID_DIRECTIONAL, theirs[0].type = LightType::directional;
+  ours[2].type = LIGHTGRID_SPOT, theirs[2].type = LightType::spot;
+  set_lights();
+  expect_the_same("lights of other types");
+
+  ours.pop_back(), theirs.pop_back();
+  set_lights();
+  expect_the_same("fewer lights");
+
   add_instance(small.scene, "ball", small.ball, placed({-0.6, 0.4, -3.2}));
   must(lightgrid_scene_add_instance(scene.get(), small.ball,
                                     &small.scene.instances.back().world_from_object[0][0], 1, nullptr));
-  EXPECT_EQ(rendered(view).values, drawn_in_cpp(small.scene, technique.c_str()));
+  expect_the_same("an instance more");
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, CScenes, testing::Values("visibility", "forward_plus", "world_grid"));
