@@ -63,12 +63,11 @@ def c_image(array: np.ndarray, name: str, kind: str) -> Any:
 
 
 class Memory:
-    """Memory that is not NumPy's as an array, which keeps its owner."""
+    """Memory that is not NumPy's as an array, which keeps its owner. Writable, since NumPy 1 exports no other by DLPack."""
 
-    def __init__(self, owner: Any, address: int, shape: tuple[int, ...], kind: str, strides: Any = None,
-                 read_only: bool = True) -> None:
+    def __init__(self, owner: Any, address: int, shape: tuple[int, ...], kind: str, strides: Any = None) -> None:
         self._owner = owner
-        self.__array_interface__ = {"data": (address, read_only), "shape": shape, "typestr": kind, "strides": strides,
+        self.__array_interface__ = {"data": (address, False), "shape": shape, "typestr": kind, "strides": strides,
                                     "version": 3}
 
 
@@ -80,7 +79,7 @@ def output(out: Any, name: str, kind: str, height: int, width: int) -> np.ndarra
     array = as_array(out)
     if not isinstance(out, np.ndarray) and hasattr(out, "__dlpack__"):
         # NumPy calls all such memory read-only, since DLPack cannot say that it is not.
-        return np.asarray(Memory(array, array.ctypes.data, array.shape, array.dtype.str, array.strides, False))
+        return np.asarray(Memory(array, array.ctypes.data, array.shape, array.dtype.str, array.strides))
     if not isinstance(out, np.ndarray) or not array.flags.writeable:
         raise InputError(f"{name}: is read-only", name)
     return array

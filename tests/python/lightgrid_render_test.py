@@ -140,6 +140,7 @@ class ListsOfLights(unittest.TestCase):
         kept = indices()
         gc.collect()
         self.assertTrue((kept < 20).all())
+        self.assertTrue(np.shares_memory(np.from_dlpack(kept), kept))
 
 
 class Scenes(unittest.TestCase):
