@@ -85,7 +85,7 @@ std::shared_ptr<DeviceScene> OpenDevice::follow(const std::shared_ptr<LoadedScen
   std::erase_if(scenes_, [](const auto& held) { return held.second.expired(); });
   std::weak_ptr<DeviceScene>& known = scenes_[scene.get()];
   std::shared_ptr<DeviceScene> held = known.lock();
-  if (!held) known = held = std::make_shared<DeviceScene>(scene, nullptr);
+  if (!held) known = held = std::make_shared<DeviceScene>(DeviceScene{.scene = scene});
   if (!held->gpu || held->shape != scene->shape()) {
     held->gpu = std::make_shared<GpuScene>(renderer(), scene->scene);
     held->raster.reset();

@@ -50,7 +50,7 @@ DeviceScene::Raster& raster_of(OpenDevice& device, DeviceScene& held) {
   std::shared_ptr<RasterScene> geometry = held.gpu->in_raster(TexelLayout::packed);
   if (!held.raster) {
     RasterView view(*geometry, *device.renderer().kernels);
-    held.raster = std::make_unique<DeviceScene::Raster>(std::move(geometry), std::move(view));
+    held.raster.reset(new DeviceScene::Raster{std::move(geometry), std::move(view)});
   }
   DeviceScene::Raster& raster = *held.raster;
   if (raster.shape == scene.shape() && raster.time == scene.time()) return raster;

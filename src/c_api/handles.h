@@ -56,7 +56,7 @@ class LoadedScene {
 // A scene on a device.
 struct DeviceScene {
   std::shared_ptr<LoadedScene> scene;
-  std::shared_ptr<GpuScene> gpu;  // another one after the scene's shape changed
+  std::shared_ptr<GpuScene> gpu{};  // another one after the scene's shape changed
   uint64_t shape = 0, time = 0;   // of the scene when `gpu` last read it
 
   struct Raster {
