@@ -13,39 +13,16 @@
 // Without ORDER the first lights are kept.
 #define LANES 1
 #include "kernels/common/index_type.h"
-#include "kernels/culling/cell.h"
+#include "kernels/culling/cell_middle.h"
 
 #if ORDER == 2
 // Beyond these, products with 1 / intensity could leave the range of float.
 #define LEAST_DISTANCE2 1e-12f
 #define MOST_DISTANCE2 1e17f
 
-typedef struct Middle {
-  float x, y;  // slopes; orthographic: metres
-  float near, far;
-  uint orthographic;
-} Middle;
-
-static inline Middle middle_of(uint cell, global const float* bounds, uint planes,
-                               global const float* slice_edges, constant CullParams* p) {
-  const uint tiles = p->tiles_x * p->tiles_y, tile = cell % tiles, slice = cell / tiles;
-  const uint tx = tile % p->tiles_x, ty = tile / p->tiles_x;
-  const TileSides s = tile_sides((float)tx, (float)ty, p);
-  bounds += (size_t)(ty / BIN_TILES * p->bins_x + tx / BIN_TILES) * planes * BIN_SIZE +
-            slot_of_tile(tx % BIN_TILES, ty % BIN_TILES);
-  Middle m = {0.5f * (s.x0 + s.x1), 0.5f * (s.y0 + s.y1), bounds[0], bounds[BIN_SIZE], p->orthographic};
-  if (planes == 4) {
-    m.near = fmin(m.near, bounds[2 * BIN_SIZE]);
-    m.far = fmax(m.far, bounds[3 * BIN_SIZE]);
-  }
-  m.near = fmax(m.near, slice_edges[slice]);
-  m.far = fmin(m.far, slice_edges[slice + 1]);
-  return m;
-}
-
 static inline uint key_of(float4 light, Middle m) {
-  const float d = fmax(fmin(light.z, m.far), m.near), scale = m.orthographic ? 1.0f : d;
-  const float x = light.x - m.x * scale, y = light.y - m.y * scale, z = light.z - d;
+  const float4 at = point_of_middle(light.z, m);
+  const float x = light.x - at.x, y = light.y - at.y, z = light.z - at.z;
   const float distance2 = (x * x + y * y) + z * z;
   return as_uint(fmin(fmax(distance2, LEAST_DISTANCE2), MOST_DISTANCE2) * light.w);
 }

@@ -4,20 +4,10 @@
 // -DSPOTS, -DVIRTUAL_LIGHTS, -DWINDOW_SMOOTH, -DWINDOW_NONE  shared/light_table.h, shared/punctual_light.h
 #pragma once
 
+#include "kernels/common/light_columns.h"
 #include "shared/far_light.h"
-#include "shared/punctual_light.h"
 
-typedef struct FarLights {
-  LIGHT_TABLE(LIGHT_ARRAY)
-} FarLights;
-
-static inline PunctualLight light_at(const FarLights* lights, uint index) {
-  PunctualLight light;
-  LIGHT_TABLE(LIGHT_ELEMENT)
-  return light;
-}
-
-static inline FarLight far_light_of(const FarLights* lights, uint count, Real3 position) {
+static inline FarLight far_light_of(const LightColumns* lights, uint count, Real3 position) {
   FarLight sum = {{0}};
   for (uint i = 0; i < count; ++i) {
     const PunctualLight light = light_at(lights, i);

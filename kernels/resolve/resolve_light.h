@@ -10,7 +10,8 @@
 // -DVOXEL_EXACT  of a list, as many lights a pixel are shaded by themselves, those that matter most, and only
 //                the rest comes from the volume
 // -DWORLD_GRID   lists are those of the world grid: a pixel takes that of the cell around its position
-// -DSHADOWS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSPECULAR, -DSKIN, -DMINNAERT
+// -DLIST_FACTORS, -DSHADOWS, -DINDEX_32, -DZ_BINS, -DSPOTS, -DBLINN, -DLAMBERT, -DCLEARCOAT, -DSPECULAR,
+// -DSKIN, -DMINNAERT
 //                as kernels/resolve/shade_pixels.h says
 #pragma once
 
@@ -58,8 +59,8 @@
   RESOLVE_SCENE_LIST(PARAMETER)                                                              \
   LIGHT_ARGUMENTS global const float4 *directional, FAR_ARGUMENTS global const uint2 *cells, \
       global const index_t *light_indices, global const uint *light_bins,                    \
-      SOURCE_LIST(PARAMETER) constant float *bin_edges, constant float *slice_edges,         \
-      constant ViewParams *view
+      FACTOR_ARGUMENTS SOURCE_LIST(PARAMETER)                                                \
+  constant float *bin_edges, constant float *slice_edges, constant ViewParams *view
 #ifdef GROUPS
 #define GIVEN_GROUP_MASKS .group_masks = light_group_masks + view->light_count + view->directional_count,
 #else
@@ -72,7 +73,7 @@
   }
 #define RESOLVE_LIGHTS                                                                             \
   {                                                                                                \
-    .lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS},                                             \
+    .lights = {GIVEN_LIGHTS light_bins GIVEN_FACTORS(light_indices) GIVEN_SHADOWS},                \
     .directional = directional, .list = light_indices, .cells = cells, .slice_edges = slice_edges, \
     SOURCE_LIST(GIVEN) GIVEN_FAR_LIGHT                                                             \
   }
@@ -177,7 +178,7 @@ static inline Real3 sum_of_world_lists(Real3 sum, const ShadingPoint* p, mask_t 
     } else {
       ++other;
     }
-    sum = with_light(sum, p, lit, min(light, everywhere), &l->lights);
+    sum = with_light(sum, p, lit, min(light, everywhere), 1.0f, &l->lights);
   }
   return sum;
 }

@@ -12,6 +12,8 @@
 // -DSKIN, -DMINNAERT  some surface has that model: shared/material_models.h
 // -DGROUPS    light groups are asked for: shared/light_table.h
 // -DSHADOWS   some light casts a shadow: shared/shadow_bits.h
+// -DLIST_FACTORS  lists are samples: each light counts as often as its place in `list_factors` says
+//             (kernels/culling/sample_lists.cl)
 #pragma once
 
 #include "kernels/common/index_type.h"
@@ -24,12 +26,26 @@
 typedef struct Lights {
   LIGHT_TABLE(LIGHT_ARRAY)
   global const uint* bins;
+#ifdef LIST_FACTORS
+  global const index_t* lists;  // all of them
+  global const float* factors;
+#endif
 #ifdef SHADOWS
   global const uint2* shadow_tiles;
   global const uint* shadow_bits;
   ShadowsHere shadows;
 #endif
 } Lights;
+
+#ifdef LIST_FACTORS
+#define FACTOR_ARGUMENTS global const float *list_factors,
+#define GIVEN_FACTORS(indices) , indices, list_factors
+#define FACTOR_OF(list, i, lights) (lights)->factors[(list) + (i) - (lights)->lists]
+#else
+#define FACTOR_ARGUMENTS
+#define GIVEN_FACTORS(indices)
+#define FACTOR_OF(list, i, lights) 1.0f
+#endif
 
 // Before a loop over lights: the pixels that it is for, by the first of them.
 static inline void light_pixels(Lights* lights, uint x, uint y, constant ViewParams* view) {
@@ -88,9 +104,10 @@ static inline mask_t in_range(Real3 position, PunctualLight light) {
   return dot3(d, d) * light.position.w < REAL(1.0f);
 }
 
-// A light that reaches none of the lit pixels, or that none of them faces or sees, would add exact zeros. Few of a
-// list's lights reach a given block of pixels, so the cheaper test comes first.
-static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uint index,
+// A light that reaches none of the lit pixels, or that none of them faces or sees, would add exact zeros. Few
+// of a list's lights reach a given block of pixels, so the cheaper test comes first. It counts `factor`
+// times.
+static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uint index, float factor,
                                const Lights* lights) {
   const PunctualLight light = light_at(lights, index);
 #ifdef GROUPS
@@ -112,6 +129,7 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
 #ifdef SHADOWS
   if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
 #endif
+  arrival.attenuation = arrival.attenuation * factor;
   return add3(sum, radiance_of(*p, arrival, light));
 }
 
@@ -121,6 +139,12 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
 static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list,
                                 uint count, PixelBins bins, const Lights* lights) {
   uint met[STRETCH];
+#ifdef LIST_FACTORS
+  float factors[STRETCH];
+#define MET_FACTOR(i) factors[i]
+#else
+#define MET_FACTOR(i) 1.0f
+#endif
   for (uint begin = 0; begin < count; begin += STRETCH) {
     const uint end = min(begin + STRETCH, count);
     uint n = 0;
@@ -129,9 +153,12 @@ static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, gl
     for (uint i = begin; i < end; ++i) {
       const uint index = list ? list[i] : i;
       met[n] = index;
+#ifdef LIST_FACTORS
+      factors[n] = FACTOR_OF(list, i, lights);
+#endif
       n += !list || bins_meet(lights->bins[index], bins.first, bins.last) ? 1 : 0;
     }
-    for (uint i = 0; i < n; ++i) sum = with_light(sum, p, lit, met[i], lights);
+    for (uint i = 0; i < n; ++i) sum = with_light(sum, p, lit, met[i], MET_FACTOR(i), lights);
   }
   return sum;
 }
@@ -143,7 +170,7 @@ static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, gl
 #ifdef Z_BINS
     if (list && !bins_meet(lights->bins[index], bins.first, bins.last)) continue;
 #endif
-    sum = with_light(sum, p, lit, index, lights);
+    sum = with_light(sum, p, lit, index, FACTOR_OF(list, i, lights), lights);
   }
   return sum;
 }

@@ -41,7 +41,12 @@ vec3 light_sum(ShadingPoint p) {
     while ((left.x | left.y) != 0u) {
       uint half_block = left.x != 0u ? 0u : 1u, bit = uint(findLSB(left[half_block]));
       left[half_block] &= left[half_block] - 1u;
-      sum += punctual_light(p, int(light_of_entry(block + half_block * 32u + bit)));
+      uint entry = block + half_block * 32u + bit;
+#ifdef LIST_FACTORS
+      sum += factor_of_entry(entry) * punctual_light(p, int(light_of_entry(entry)));
+#else
+      sum += punctual_light(p, int(light_of_entry(entry)));
+#endif
     }
   }
   return sum_if(block >= end && left == uvec2(0u), sum);

@@ -4,6 +4,12 @@
 uniform usamplerBuffer grid_cells;    // first, count
 uniform usamplerBuffer grid_indices;
 
+#ifdef LIST_FACTORS
+uniform samplerBuffer list_factors;  // how many times each light of a list counts: kernels/culling/sample_lists.cl
+
+float factor_of_entry(uint entry) { return texelFetch(list_factors, int(entry)).r; }
+#endif
+
 uint light_of_entry(uint entry) { return texelFetch(grid_indices, int(entry)).r; }
 
 #ifdef LONG_LOOPS
@@ -23,7 +29,11 @@ vec3 light_sum(ShadingPoint p) {
   uint end = range.x + range.y, bin = z_bin_here();
   vec3 sum = vec3(0.0);
   for (uint i = next_entry(range.x, end, bin); i < end; i = next_entry(i + 1u, end, bin)) {
+#ifdef LIST_FACTORS
+    sum += factor_of_entry(i) * punctual_light(p, int(light_of_entry(i)));
+#else
     sum += punctual_light(p, int(light_of_entry(i)));
+#endif
   }
   return sum;
 }

@@ -7,6 +7,7 @@
 
 #include "cl/launch.h"
 #include "renderer/upload/culler_input.h"
+#include "renderer/upload/lights.h"
 #include "shared/cull_constants.h"
 
 namespace lightgrid {
@@ -53,10 +54,15 @@ class ListCaps : public PassCache {
   void cap(Work& work, const CullParams& tiles, const TileBounds& bounds, const ViewGrid& grid) {
     ClDevice& device = *work.renderer.cl;
     const Settings& s = work.plan.settings;
-    const std::string defines =
-        fmt::format("-DORDER={}{}", int(s.list_cap_order), grid.index_bits == 32 ? " -DINDEX_32" : "");
+    const bool samples = s.samples_lists();
+    std::string defines = grid.index_bits == 32 ? " -DINDEX_32" : "";
+    if (samples)
+      for (const char* define : light_table_defines(work.plan)) defines += fmt::format(" -D{}", define);
+    else
+      defines += fmt::format(" -DORDER={}", int(s.list_cap_order));
     if (!kernel_ || defines != defines_)
-      kernel_ = NamedKernel(*work.renderer.kernels, "culling/cap_lists", defines);
+      kernel_ = NamedKernel(*work.renderer.kernels, samples ? "culling/sample_lists" : "culling/cap_lists",
+                            defines);
     defines_ = defines;
     if (grid.index_count == 0) return;  // after the kernel is built, which other views need
     if (stale_) upload(work, tiles);
@@ -66,16 +72,20 @@ class ListCaps : public PassCache {
                              {"indices", grid.storage->indices(grid.index_bytes)},
                              {"cell_count", cl_uint(cells)},
                              {"cap", cl_uint(s.list_cap)}};
+    const ClArguments of_cells = {{"bounds", bounds.values},
+                                  {"planes", planes_of(bounds.mode)},
+                                  {"slice_edges", edges_.buffer()},
+                                  {"p", params_.buffer()}};
+    if (samples)
+      arguments =
+          arguments +
+          ClArguments{{"seed", cl_uint(s.list_seed)}, {"factors", grid.storage->factors(grid.factor_bytes)}} +
+          work.cl_lights().columns() + of_cells;
     if (s.list_cap_order == ListCapOrder::distance)
       arguments =
           arguments + ClArguments{{"high", high_bits(work.plan.local.size())}, {"ranks", lights_.buffer()}};
     if (s.list_cap_order == ListCapOrder::brightest)
-      arguments = arguments + ClArguments{{"high", cl_uint(28)},
-                                          {"lights", lights_.buffer()},
-                                          {"bounds", bounds.values},
-                                          {"planes", planes_of(bounds.mode)},
-                                          {"slice_edges", edges_.buffer()},
-                                          {"p", params_.buffer()}};
+      arguments = arguments + ClArguments{{"high", cl_uint(28)}, {"lights", lights_.buffer()}} + of_cells;
     kernel_.launch(device, "cap_lists", cl::NDRange((cells + cap_group - 1) / cap_group * cap_group),
                    cl::NDRange(cap_group), arguments);
   }
@@ -89,12 +99,14 @@ class ListCaps : public PassCache {
         lights_in_view(work.scene, work.view, plan.settings.ranges, plan.local);
     if (plan.settings.list_cap_order == ListCapOrder::distance)
       return lights_.put(device, "uploading ranks of lights", ranks_by_distance(lights));
-    std::vector<cl_float4> uploaded;
-    for (const ViewLight& light : lights) {
-      const glm::vec4 at(light.position, over_intensity(1, light));
-      uploaded.push_back({{at.x, at.y, -at.z, at.w}});
+    if (plan.settings.list_cap_order == ListCapOrder::brightest) {
+      std::vector<cl_float4> uploaded;
+      for (const ViewLight& light : lights) {
+        const glm::vec4 at(light.position, over_intensity(1, light));
+        uploaded.push_back({{at.x, at.y, -at.z, at.w}});
+      }
+      lights_.put(device, "uploading lights to choose from", uploaded);
     }
-    lights_.put(device, "uploading lights to choose from", uploaded);
     std::vector<float> edges =
         slice_edges(plan.settings.slice_spacing, plan.slices, plan.slice_near_m, plan.slice_far_m);
     edges.insert(edges.begin(), -FAR_AWAY);
@@ -110,12 +122,15 @@ class ListCaps : public PassCache {
 };
 
 void cap_lists(Work& work, Cached<ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
-               const ViewGrid& grid) {
-  if (work.plan.settings.list_cap == 0) return;
+               ViewGrid& grid) {
+  const bool samples = work.plan.settings.samples_lists();
+  if (work.plan.settings.list_cap == 0 || (samples && !work.plan.sampled_lists)) return;
+  if (samples) grid.factor_bytes = std::max<size_t>(grid.index_count, 1) * sizeof(cl_float);
   ListCaps& caps = cache.of(work);
   auto pass = work.timer.pass("cap_lists", "cl");
   caps.cap(work, tiles, bounds, grid);
-  pass.moves(grid.cell_bytes + grid.index_bytes, grid.cell_bytes + grid.index_bytes);
+  const size_t bytes = grid.cell_bytes + grid.index_bytes + grid.factor_bytes;
+  pass.moves(bytes, bytes);
 }
 
 void cap_list(const Settings& settings, const std::vector<ViewLight>& lights, const glm::dvec3& middle,

@@ -9,9 +9,9 @@
 namespace lightgrid {
 
 // Shortens the lists of a grid of these bounds to the plan's list-cap, in place; nothing without one. Its
-// memory stays as it is.
+// memory stays as it is, but that sampled lists get factors.
 void cap_lists(Work& work, Cached<class ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
-               const ViewGrid& grid);
+               ViewGrid& grid);
 
 // The same for a list of indices into `lights`, ascending before and after, of what has its middle here: view
 // space, metres. brightest: by the intensity, all channels together, over the squared distance to there.

@@ -35,6 +35,11 @@ GlLightLoop grid_to_gl(Work& work, const ViewGrid& grid) {
     loop.textures = {{Sampler::grid_cells, storage.cells_.texture.name()},
                      {Sampler::grid_indices, storage.indices_.texture.name()}};
   }
+  if (grid.factor_bytes) {
+    loop.defines.emplace_back("LIST_FACTORS");
+    storage.factors_.buffer->hand_to_gl(grid.factor_bytes);
+    loop.textures.push_back({Sampler::list_factors, storage.factors_.texture.name()});
+  }
   if (storage.z_bins_.texture)
     loop.textures.push_back({Sampler::light_z_bins, storage.z_bins_.texture.name()});
   return loop;
@@ -45,6 +50,10 @@ ClLightLoop grid_in_cl(const ViewGrid& grid) {
   if (grid.mask_bytes) return loop;
   loop.cells = grid.storage->cells(grid.cell_bytes), loop.indices = grid.storage->indices(grid.index_bytes);
   if (grid.z_bin_bytes) loop.z_bins = grid.storage->z_bins(grid.z_bin_bytes);
+  if (grid.factor_bytes) {
+    loop.defines = " -DLIST_FACTORS";
+    loop.more = {{"list_factors", grid.storage->factors(grid.factor_bytes)}};
+  }
   return loop;
 }
 

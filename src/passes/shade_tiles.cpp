@@ -118,7 +118,9 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
   const char* name = several ? "shade_tile_samples" : "shade_tiles";
   const glm::vec3 background =
       base_lighting ? glm::vec3(0) : work.scene.background;  // in the image already, or not
-  s.kernels.of(name, (base_lighting ? " -DBASE_LIGHTING" : "") + sample_defines(work.sample_places()))
+  s.kernels
+      .of(name, lights.in_cl->defines + (base_lighting ? " -DBASE_LIGHTING" : "") +
+                    sample_defines(work.sample_places()))
       .launch(*work.renderer.cl, name, items, group,
               ClArguments{{"first", gbuffer.surfaces[0]->cl_buffer()},
                           {"second", gbuffer.surfaces[1]->cl_buffer()},
@@ -129,8 +131,9 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
                   group_number_arguments(work.plan, gbuffer.group_numbers) + work.light_arguments() +
                   ClArguments{{"cells", lights.in_cl->cells},
                               {"indices", lights.in_cl->indices},
-                              {"light_bins", lights.in_cl->z_bins},
-                              {"bin_edges", table.bin_edges.buffer()},
+                              {"light_bins", lights.in_cl->z_bins}} +
+                  lights.in_cl->more +
+                  ClArguments{{"bin_edges", table.bin_edges.buffer()},
                               {"image", gbuffer.image->cl_buffer()},
                               {"background", cl_float4{{background.r, background.g, background.b, 0}}},
                               {"view", table.view.buffer()}} +

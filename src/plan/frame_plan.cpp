@@ -478,6 +478,10 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
         "set list-cap={}: masks have a bit for each light, and no length; choose grid-lists=lists, or "
         "view-cap",
         plan.settings.list_cap);
+  if (needs.capped_lists && !needs.sampled_lists && plan.settings.samples_lists())
+    throw input_error(
+        "set list-cap-order=sampled: the technique's lists do not say how many times a light counts; choose "
+        "forward_plus, clustered, forward_plus_compute, deferred_tiled or visibility, or another order");
   const double farthest_m = plan_surfaces(scene, view, instances, plan);
   plan_models(scene, plan);
   plan_lights(scene, view, plan);
@@ -496,6 +500,12 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
        : !plan.light_grid ? "no light grid"
        : !plan.blend      ? "no blended material in view"
                           : "without depth bounds, one grid serves all surfaces"});
+  if (plan.settings.samples_lists()) {
+    plan.sampled_lists = plan.light_grid && plan.local.size() > size_t(plan.settings.list_cap);
+    plan.decisions.push_back(
+        {"sampled lists", plan.sampled_lists,
+         fmt::format("list-cap={}, {} point and spot lights", plan.settings.list_cap, plan.local.size())});
+  }
   plan.world_grid = needs.world_grid && plan.local_lights;
   if (needs.world_grid) {
     plan.decisions.push_back(

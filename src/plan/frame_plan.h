@@ -71,6 +71,7 @@ struct TechniqueNeeds {
   bool group_tiles = false;         // its tiles may have the light groups of their surfaces
   bool group_stencil = false;       // that of light volumes may test them in the stencil
   bool capped_lists = false;        // its lists and its view may end at a number of lights
+  bool sampled_lists = false;       // of these lists, each light may count several times
   int most_samples = 1;             // a pixel, that its passes can take
   // The technique finds those of point and spot lights itself, of so many lights at most; the pass that all
   // techniques share is then left those of directional lights.
@@ -98,6 +99,7 @@ struct FramePlan {
   std::vector<uint32_t> features_of_instance;  // one for each of the scene's instances; 0 if not in view
 
   bool light_grid = false;    // culling kernels and the grid's buffers
+  bool sampled_lists = false;  // longer lists than list-cap become samples
   bool world_grid = false;    // lists in cells of the world
   bool local_lights = false;  // at least one point or spot light
   bool spots = false;         // compile cone code

@@ -98,8 +98,7 @@ std::vector<Setting>& all_settings() {
       {"light-seed", "of the random ranges, with range=stochastic",
        numbers(&LightRanges::seed,
                {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15", "16"})},
-      {"far-light",
-       "samples of a coarse volume that adds what lights send beyond their ranges",
+      {"far-light", "samples of a coarse volume that adds what lights send beyond their ranges",
        named(&Settings::far_light,
              {{"off", 0}, {"512", 512}, {"4096", 4096}, {"32768", 32768}, {"262144", 262144}})},
       {"cull-test", "the test that decides whether a light may touch a cell",
@@ -131,10 +130,16 @@ std::vector<Setting>& all_settings() {
                                    {"256", 256}})},
       {"list-cap-order",
        "the lights that a longer list keeps: the scene's first, the nearest to the eye or to the object's "
-       "middle, or those that add the most to the cell's or the object's middle",
+       "middle, those that add the most to the cell's or the object's middle, or lights drawn at random, "
+       "which "
+       "count so often that the expected picture is that of whole lists",
        named(&Settings::list_cap_order, {{"index", ListCapOrder::index},
                                          {"distance", ListCapOrder::distance},
-                                         {"brightest", ListCapOrder::brightest}})},
+                                         {"brightest", ListCapOrder::brightest},
+                                         {"sampled", ListCapOrder::sampled}})},
+      {"list-seed", "of the lights drawn, with list-cap-order=sampled",
+       numbers(&Settings::list_seed,
+               {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15", "16"})},
       {"view-cap", "the most lights of a view: those nearest to the eye of the lights whose range it sees",
        named(&Settings::view_cap, {{"off", 0},
                                    {"1", 1},

@@ -7,7 +7,7 @@ namespace lightgrid {
 size_t most_texture_bytes(GLenum format) {
   GLint texels = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
-  return size_t(texels) * (format == GL_RG32UI ? 8 : format == GL_R32UI ? 4 : 2);
+  return size_t(texels) * (format == GL_RG32UI ? 8 : format == GL_R32UI || format == GL_R32F ? 4 : 2);
 }
 
 cl::Buffer& SharedTexture::at_least(Renderer& renderer, size_t bytes, GLenum format, bool for_gl) {
@@ -41,9 +41,12 @@ cl::Buffer& SharedGridStorage::masks(size_t bytes) { return grown(masks_, bytes,
 
 cl::Buffer& SharedGridStorage::z_bins(size_t bytes) { return grown(z_bins_, bytes, GL_R32UI); }
 
+cl::Buffer& SharedGridStorage::factors(size_t bytes) { return grown(factors_, bytes, GL_R32F); }
+
 size_t SharedGridStorage::allocated_bytes() const {
   size_t bytes = 0;
-  for (const SharedTexture* shared : {&cells_, &indices_, &masks_, &z_bins_}) bytes += shared->bytes();
+  for (const SharedTexture* shared : {&cells_, &indices_, &masks_, &z_bins_, &factors_})
+    bytes += shared->bytes();
   return bytes;
 }
 

@@ -31,9 +31,10 @@ class SharedGridStorage : public GridStorage {
   cl::Buffer& indices(size_t bytes) override;
   cl::Buffer& masks(size_t bytes) override;
   cl::Buffer& z_bins(size_t bytes) override;
+  cl::Buffer& factors(size_t bytes);  // of sampled lists, a float an index
   int index_bits() const { return index_bits_; }
   size_t allocated_bytes() const;
-  SharedTexture cells_, indices_, masks_, z_bins_;
+  SharedTexture cells_, indices_, masks_, z_bins_, factors_;
 
  private:
   cl::Buffer& grown(SharedTexture& shared, size_t bytes, GLenum format);

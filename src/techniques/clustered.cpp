@@ -13,10 +13,12 @@ extern const Technique clustered{
               .z_bins = true,
               .group_tiles = true,
               .capped_lists = true,
+              .sampled_lists = true,
               .most_samples = 8},
-    .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins",
-                 "group-ids", "group-tiles", "grid-lists", "list-cap", "list-cap-order", "view-cap",
-                 "samples", "samples-masks", "samples-resolve", "kernel-shape", "portable", "group-size"},
+    .settings = {"brdf",          "cull-test",       "depth-bounds", "tile",        "slices",
+                 "slice-spacing", "z-bins",          "group-ids",    "group-tiles", "grid-lists",
+                 "list-cap",      "list-cap-order",  "list-seed",    "view-cap",    "samples",
+                 "samples-masks", "samples-resolve", "kernel-shape", "portable",    "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

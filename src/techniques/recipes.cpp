@@ -35,7 +35,7 @@ GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces) {
 
 ViewGrid list_lights(RenderView& v, Surfaces& surfaces) {
   const DepthBounds bounds = cull_bounds_of(v, surfaces);
-  const ViewGrid grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds);
+  ViewGrid grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds);
   cap_lists(v, v.caches.list_caps, v.culler().params(), bounds.opaque, grid);
   return grid;
 }

@@ -38,6 +38,7 @@ inline constexpr TechniqueNeeds needs_of_shade_tiled{.light_grid = true,
                                                      .chosen_raster = true,
                                                      .group_tiles = true,
                                                      .capped_lists = true,
+                                                     .sampled_lists = true,
                                                      .most_samples = 8,
                                                      .adapt = store_samples_in_opengl};
 

@@ -47,6 +47,7 @@ bool has_effect(const Technique& technique, const Settings& settings, const std:
     return settings.shadows == ShadowMethod::map || filters_maps(own) ||
            (own == LidrShadows::prepass && key != "shadow-filter");
   if (key == "list-cap-order") return settings.list_cap > 0;
+  if (key == "list-seed") return settings.samples_lists();
   if (key.starts_with("samples-")) return settings.samples > 1;
   if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
   if (key == "shadow-kept" || key == "shadow-memory" || key == "shadow-reuse" || key == "shadow-threshold")
@@ -110,9 +111,13 @@ bool limits_lists(const Technique& technique, const Settings& settings) {
                                      adapted_needs(technique, settings).capped_lists);
 }
 
+bool samples_lists(const Technique& technique, const Settings& settings) {
+  return settings.samples_lists() && adapted_needs(technique, settings).sampled_lists;
+}
+
 bool is_approximate(const Technique& technique, const Settings& settings) {
   return technique.approximate || settings.shadows != ShadowMethod::exact || settings.soft_shadows() ||
-         settings.picks_shadows() || settings.shadow_threshold > 0 ||
+         settings.picks_shadows() || settings.shadow_threshold > 0 || samples_lists(technique, settings) ||
          own_shadows(technique, settings) != LidrShadows::pass;
 }
 

@@ -21,11 +21,14 @@ extern const Technique visibility{
               .opengl = false,
               .group_tiles = true,
               .capped_lists = true,
+              .sampled_lists = true,
               .most_samples = 8,
               .adapt = adapt},
-    .settings = {"brdf", "cull-test", "depth-bounds", "tile", "slices", "slice-spacing", "z-bins",
-                 "group-tiles", "list-cap", "list-cap-order", "view-cap", "lights", "samples",
-                 "samples-masks", "samples-resolve", "texels", "kernel-shape", "portable", "group-size"},
+    .settings = {"brdf",     "cull-test",      "depth-bounds",  "tile",
+                 "slices",   "slice-spacing",  "z-bins",        "group-tiles",
+                 "list-cap", "list-cap-order", "list-seed",     "view-cap",
+                 "lights",   "samples",        "samples-masks", "samples-resolve",
+                 "texels",   "kernel-shape",   "portable",      "group-size"},
     .render = shade_from_light_grid};
 
 }  // namespace lightgrid

@@ -28,7 +28,7 @@ std::vector<CapFault> cap_faults() {
       {"low_bits_ignored", "shift >= 0; shift -= 4", "shift >= 8; shift -= 4", {"cut_and_turned_views"}},
       {"counts_all_digits", "if ((key & known) == last)", "if (true)", {"of_every_brightness"}},
       {"nearest_to_the_eye",
-       "const float d = fmax(fmin(light.z, m.far), m.near)",
+       "const float d = fmax(fmin(distance, m.far), m.near)",
        "const float d = m.near",
        {"cut_and_turned_views"}},
       {"orthographic_slopes", "m.orthographic ? 1.0f : d;", "d;", {"cut_and_turned_views"}},

@@ -10,7 +10,7 @@
 #include "kernels/far_light/far_sums.h"
 
 kernel void fill_far_light(LIGHT_ARGUMENTS constant FarGrid* grid, global float4* moments) {
-  const FarLights lights = {GIVEN_LIGHTS};
+  const LightColumns lights = {GIVEN_LIGHTS};
   const uint first = 16 * get_global_id(0), samples = grid->size_x * grid->size_y * grid->size_z;
   const whole at = LANE_INDEX + (whole)((int)first), size_x = (int)grid->size_x, size_y = (int)grid->size_y;
   const whole row = at / size_x;

@@ -5,7 +5,7 @@
 #include "kernels/far_light/far_sums.h"
 
 kernel void fill_far_light(LIGHT_ARGUMENTS constant FarGrid* grid, global float4* moments) {
-  const FarLights lights = {GIVEN_LIGHTS};
+  const LightColumns lights = {GIVEN_LIGHTS};
   const uint at = get_global_id(0), samples = grid->size_x * grid->size_y * grid->size_z;
   if (at >= samples) return;
   const uint row = at / grid->size_x;

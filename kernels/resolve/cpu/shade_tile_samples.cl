@@ -40,11 +40,11 @@ kernel void shade_tile_samples(global const channel_t* first, global const chann
                                global const MaterialModelRecord* models, global const float* depth,
                                GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
                                global const index_t* indices, global const uint* light_bins,
-                               constant float* bin_edges, global float* image, float4 background,
-                               constant ViewParams* view, global const ushort* edges) {
+                               FACTOR_ARGUMENTS constant float* bin_edges, global float* image,
+                               float4 background, constant ViewParams* view, global const ushort* edges) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
   const uint2 range = cells[tile_y * view->tiles_x + tile_x];
-  Lights lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS};
+  Lights lights = {GIVEN_LIGHTS light_bins GIVEN_FACTORS(indices) GIVEN_SHADOWS};
   SampleWalk walk = {tile_x * TILE, min(tile_x * TILE + TILE, view->width),
                      min(tile_y * TILE + TILE, view->height), tile_x * TILE, tile_y * TILE, 0};
   SampleBatch b;

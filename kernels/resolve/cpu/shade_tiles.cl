@@ -10,6 +10,7 @@
 // cells, indices  light grid (shared/light_grid.h)
 // light_bins, bin_edges  z-bins of each light, and the depth keys between them
 //                        (shared/slices.h); with -DZ_BINS alone
+// FACTOR_ARGUMENTS  kernels/resolve/shade_pixels.h; with -DLIST_FACTORS alone
 // image           RGBA a pixel. With -DBASE_LIGHTING it holds what surfaces show
 //                 without these lights, which are added
 // background      of pixels without a surface; without -DBASE_LIGHTING alone
@@ -69,18 +70,17 @@ static inline void store_half(global float* image, float8 r, float8 g, float8 b,
 
 kernel void shade_tiles(global const channel_t* first, global const channel_t* second,
                         global const channel_t* coats, global const channel_t* specular,
-                        global const MaterialModelRecord* models,
-                        global const float* depth, GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS
-                        global const uint2* cells,
+                        global const MaterialModelRecord* models, global const float* depth,
+                        GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
                         global const index_t* indices, global const uint* light_bins,
-                        constant float* bin_edges, global float* image, float4 background,
+                        FACTOR_ARGUMENTS constant float* bin_edges, global float* image, float4 background,
                         constant ViewParams* view) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
   const uint2 range = cells[tile_y * view->tiles_x + tile_x];
 #ifdef BASE_LIGHTING
   if (range.y == 0) return;
 #endif
-  Lights lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS};
+  Lights lights = {GIVEN_LIGHTS light_bins GIVEN_FACTORS(indices) GIVEN_SHADOWS};
   const uint x_end = min(tile_x * TILE + TILE, view->width), y_end = min(tile_y * TILE + TILE, view->height);
   for (uint y = tile_y * TILE; y < y_end; y += 1 + HALF_DY) {
     for (uint x = tile_x * TILE; x < x_end; x += 8 + HALF_DX) {

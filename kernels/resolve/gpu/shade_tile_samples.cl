@@ -11,14 +11,14 @@ kernel void shade_tile_samples(global const channel_t* first, global const chann
                                global const MaterialModelRecord* models, global const float* depth,
                                GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
                                global const index_t* indices, global const uint* light_bins,
-                               constant float* bin_edges, global float* image, float4 background,
-                               constant ViewParams* view, global const ushort* edges) {
+                               FACTOR_ARGUMENTS constant float* bin_edges, global float* image,
+                               float4 background, constant ViewParams* view, global const ushort* edges) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
   const uint2 range = cells[cell_of_pixel(x, y, view->tile_size, view->tiles_x)];
   const size_t at = (size_t)y * view->width + x;
   const bool edge = at_edge(edges, at);
-  Lights lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS};
+  Lights lights = {GIVEN_LIGHTS light_bins GIVEN_FACTORS(indices) GIVEN_SHADOWS};
 #ifdef BASE_LIGHTING
   float4 shown = ((global const float4*)image)[at];
 #else

@@ -7,11 +7,10 @@
 
 kernel void shade_tiles(global const channel_t* first, global const channel_t* second,
                         global const channel_t* coats, global const channel_t* specular,
-                        global const MaterialModelRecord* models,
-                        global const float* depth, GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS
-                        global const uint2* cells,
+                        global const MaterialModelRecord* models, global const float* depth,
+                        GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
                         global const index_t* indices, global const uint* light_bins,
-                        constant float* bin_edges, global float* image, float4 background,
+                        FACTOR_ARGUMENTS constant float* bin_edges, global float* image, float4 background,
                         constant ViewParams* view) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
@@ -21,7 +20,7 @@ kernel void shade_tiles(global const channel_t* first, global const channel_t* s
   const bool lit = depth[at] > 0.0f && color.w > 0.0f;
   Real3 sum = real3(background.x, background.y, background.z);
   if (lit) {
-    Lights lights = {GIVEN_LIGHTS light_bins GIVEN_SHADOWS};
+    Lights lights = {GIVEN_LIGHTS light_bins GIVEN_FACTORS(indices) GIVEN_SHADOWS};
     const Real3 position = position_of_pixel((float)x + 0.5f, (float)y + 0.5f, depth[at], view);
     const Real3 to_viewer = direction_to_viewer(position);
     ShadingPoint p = point_of_texels(position, to_viewer, normal, color);

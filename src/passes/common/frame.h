@@ -36,8 +36,9 @@ struct TriangleBuffer {
 // A light grid, and where it lies.
 struct ViewGrid : LightGrid {
   SharedGridStorage* storage = nullptr;
+  size_t factor_bytes = 0;  // 0: lists are no samples
 
-  size_t bytes() const { return cell_bytes + index_bytes + mask_bytes + z_bin_bytes; }
+  size_t bytes() const { return cell_bytes + index_bytes + mask_bytes + z_bin_bytes + factor_bytes; }
 };
 
 // Reads the lights that a frame used at each pixel of opaque surfaces, for the oracle, from where its passes
