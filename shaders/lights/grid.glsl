@@ -5,7 +5,8 @@ uniform usamplerBuffer grid_cells;    // first, count
 uniform usamplerBuffer grid_indices;
 
 #ifdef LIST_FACTORS
-uniform samplerBuffer list_factors;  // how many times each light of a list counts: kernels/culling/sample_lists.cl
+// How many times each light of a list counts: kernels/culling/sample_lists.cl.
+uniform samplerBuffer list_factors;
 
 float factor_of_entry(uint entry) { return texelFetch(list_factors, int(entry)).r; }
 #endif

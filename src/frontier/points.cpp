@@ -12,6 +12,7 @@
 #include "cl/error.h"
 #include "passes/shadows/certificates.h"
 #include "results/metrics.h"
+#include "scene/random.h"
 #include "session/contestants.h"
 
 namespace lightgrid {
@@ -49,6 +50,8 @@ constexpr Star default_variations[] = {
     {"forward_zprepass", "list-cap=8 list-cap-order=brightest"},
     {"clustered", "list-cap=32"},
     {"visibility", "list-cap=64 list-cap-order=distance"},
+    {"visibility", "list-cap=8 list-cap-order=sampled"},
+    {"visibility", "range=infinite list-cap=16 list-cap-order=sampled"},
     {"visibility", "tile=32"},
     {"visibility", "cull-test=sphere"},
     {"visibility", "cull-test=aabb"},
@@ -170,7 +173,7 @@ void vary(std::vector<ChosenPoint>& points, const std::vector<ChosenPoint>& arou
       Settings settings = centre.contestant.settings;
       if (key == "frames") {
         const int frames = frames_of(value);
-        if (settings.ranges.range != LightRange::stochastic) continue;
+        if (!is_random(technique, settings)) continue;
         points.push_back(point(technique, settings, frames));
         read = true;
         continue;
@@ -183,7 +186,7 @@ void vary(std::vector<ChosenPoint>& points, const std::vector<ChosenPoint>& arou
   }
   if (!read)
     throw input_error("vary {}: no technique reads {}", text,
-                      key == "frames" ? "frames without range=stochastic" : key);
+                      key == "frames" ? "frames without range=stochastic or list-cap-order=sampled" : key);
 }
 
 }  // namespace
@@ -249,14 +252,22 @@ PointRun::PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const Ch
   });
 }
 
+bool PointRun::is_random() const {
+  return lightgrid::is_random(*point_.contestant.technique, point_.contestant.settings);
+}
+
+// Seeds of lists that follow one another complement each other: those of a picture's frames do, but pictures
+// are independent.
 uint32_t PointRun::seed(int frame) const {
-  return point_.contestant.settings.ranges.seed + uint32_t(frame_ * point_.frames + frame);
+  const Settings& settings = point_.contestant.settings;
+  if (has_random_ranges()) return settings.ranges.seed + uint32_t(frame_ * point_.frames + frame);
+  return uint32_t(Random::mix((uint64_t(settings.list_seed) << 32) + uint64_t(frame_))) + uint32_t(frame);
 }
 
 void PointRun::go_to_frame(int number) {
   frame_ = number;
-  if (!has_random_ranges()) return;
-  attempt([&] { run_->draw_ranges(seed(0)); });
+  if (!is_random()) return;
+  attempt([&] { run_->draw_random(seed(0)); });
 }
 
 void PointRun::look(const View& view) {
@@ -265,7 +276,7 @@ void PointRun::look(const View& view) {
 
 void PointRun::draw_frames(const std::function<void(const Image& image)>& add) {
   for (int frame = 0; frame < point_.frames; ++frame) {
-    if (has_random_ranges()) run_->draw_ranges(seed(frame));
+    if (is_random()) run_->draw_random(seed(frame));
     run_->run_frame(true);
     if (point_.frames > 1) add(run_->image());
   }
@@ -307,7 +318,7 @@ void PointRun::draw_for_errors() {
 
 void PointRun::draw_first_frame() {
   attempt([&] {
-    if (has_random_ranges()) run_->draw_ranges(seed(0));
+    if (is_random()) run_->draw_random(seed(0));
     run_->run_frame(true);
   });
 }

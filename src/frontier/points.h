@@ -16,15 +16,15 @@ namespace lightgrid {
 
 struct ChosenPoint {
   Contestant contestant;
-  int frames = 1;  // averaged, each with other random ranges
+  int frames = 1;  // averaged, each with other random numbers
   std::string label;
 };
 
 // `techniques` as compare's -t, or empty: the default points, of which those that need OpenGL are left out
 // without it. `truth`: where lights of the scene cast, what points are held to; the default points then vary
 // shadows, and their samples of spheres if the truth's lights are such. `vary`: "KEY=V1,V2": each technique
-// that reads KEY with each value, one key at a time; "frames=1,4,16": averaged frames of points with
-// range=stochastic. Duplicates are dropped. Throws Error(input) that names what is wrong.
+// that reads KEY with each value, one key at a time; "frames=1,4,16": averaged frames of random points
+// (is_random). Duplicates are dropped. Throws Error(input) that names what is wrong.
 std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& techniques,
                                        const std::vector<std::string>& vary, const Settings& common,
                                        bool opengl, const std::optional<FrontierTruth>& truth = {});
@@ -38,7 +38,7 @@ std::string label_of(const Contestant& contestant, int frames);
 
 FrontierPoint described(const std::string& scene, const ChosenPoint& point);
 
-// A point that runs: a technique's frames, or the mean of several with random ranges.
+// A point that runs: a technique's frames, or the mean of several with other random numbers.
 class PointRun {
  public:
   // Refused at once if the technique cannot run.
@@ -50,7 +50,7 @@ class PointRun {
   TechniqueRun& run() { return *run_; }
 
   void look(const View& view);
-  // One picture: all of its frames, each with ranges drawn for it where they are random, read back and
+  // One picture: all of its frames, each with random numbers of its own where there are any, read back and
   // averaged. Milliseconds; 0 if refused. A refusal is kept. `clock`: measures the same picture
   // (device_times()).
   double draw(DeviceClock* clock = nullptr);
@@ -63,9 +63,11 @@ class PointRun {
   void draw_for_errors();
   // The first of its frames alone.
   void draw_first_frame();
-  // For the frame of that number: random ranges, if they are, are others in each.
+  // For the frame of that number: random numbers, if there are any, are others in each.
   void go_to_frame(int number);
   bool has_random_ranges() const { return point_.contestant.settings.ranges.range == LightRange::stochastic; }
+  // Random ranges or lists: no two frames are alike.
+  bool is_random() const;
 
  private:
   void attempt(const std::function<void()>& work);

@@ -22,7 +22,7 @@ struct FrontierPoint {
   std::map<std::string, std::string>
       settings;       // those that it reads, all of them, by the keys of results.json
   std::string label;  // "forward_plus:tile=8": what differs from the defaults
-  int frames = 1;     // averaged frames, each with other random ranges (range=stochastic); 1: not averaged
+  int frames = 1;     // averaged frames, each with other random numbers; 1: not averaged
 };
 
 // The picture against the truth in double, at a random pixel of each of `pixels` equal shares of the opaque
@@ -41,7 +41,7 @@ struct AuthoredErrors {
   ImageError total;  // the picture
 };
 
-// Of random ranges: pictures with independent ranges, of which errors are means.
+// Of random ranges and lists: independent pictures, of which errors are means.
 struct SeedErrors {
   int pictures = 0, flip_pictures = 0;              // and of them those of which FLIP was measured
   ImageError deviation;                             // of each measure of the total from picture to picture
@@ -58,9 +58,10 @@ struct PointErrors {
   ImageError total;      // the picture against the truth
   std::optional<SampledErrors> in_double;  // the same against the truth in double, at a sample of pixels
   std::optional<AuthoredErrors> authored;  // where the truth's lights have no ranges and those of settings do
-  std::optional<SeedErrors> seeds;         // with random ranges; total and authored are then means over them
-  // Of random ranges, root mean squares over pixels, relative like the others: of the expected picture's
-  // error, 0 where it is not above the noise, and of the standard deviation of one frame.
+  std::optional<SeedErrors> seeds;         // of random points; total and authored are then means over them
+  // Of the same, root mean squares over pixels, relative like the others: of the expected picture's error
+  // (random ranges: against the truth; lists: against what the settings mean), 0 where it is not above the
+  // noise, and of the standard deviation of one frame.
   std::optional<double> bias_rmse_rel, deviation_rmse_rel;
   // Flicker: how much the picture's difference from the truth changes from frame to frame while the camera
   // turns by a quarter of a degree a frame; root mean square over pixels and frames.

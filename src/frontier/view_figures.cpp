@@ -213,7 +213,7 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
     record.pass_ms[pass.name] += pass.median_ms;
     record.bytes_moved += pass.bytes_read + pass.bytes_written;
   }
-  if (point_run.has_random_ranges()) measure_seeds(point_run, truths, record);
+  if (point_run.is_random()) measure_seeds(point_run, truths, record);
   if (turn_.empty() || !(brightest_ > 0)) return;
   const double change =
       as_meant ? flicker_of_brute_force(point, truths) : flicker_of(point_run, truths, image);
@@ -268,16 +268,21 @@ void join(const std::vector<ImageError>& pictures, ImageError& mean, ImageError*
 constexpr int pictures_of_seeds = 32,
               averaged_pictures_of_seeds = 8;  // the latter are of several frames each
 constexpr int flips_of_seeds = 8;              // they take long
-constexpr int frames_of_a_view = 1000;         // no two views share ranges
+constexpr int frames_of_a_view = 1000;         // no two views share random numbers
 
 }  // namespace
 
-// One draw of the ranges would be noise: its error is within a factor of three of what is expected.
+// One draw would be noise: its error is within a factor of three of what is expected.
 void ViewFigures::measure_seeds(PointRun& run, Truths& truths, FrontierRecord& record) {
   const int pictures = record.point.frames > 1 ? averaged_pictures_of_seeds : pictures_of_seeds;
   std::vector<ImageError> totals, authored;
   PictureMoments moments;
   BiasOfPictures bias;
+  // The mean over random ranges is the picture without ranges, that over samples of lists the one of whole
+  // lists.
+  const bool ranges = run.has_random_ranges();
+  const Image& expected =
+      ranges ? *truths.reference->truth : truths.brute.picture(run.point().contestant.settings);
   for (int i = 0; i < pictures; ++i) {
     run.go_to_frame(frames_of_a_view * (record.view + 1) + i);
     run.draw();
@@ -287,16 +292,16 @@ void ViewFigures::measure_seeds(PointRun& run, Truths& truths, FrontierRecord& r
     totals.push_back(truths.reference->error_of(image, with_flip));
     if (truths.authored) authored.push_back(truths.authored->error_of(image, with_flip));
     moments.add(image);
-    bias.add(image, *truths.reference->truth);
+    bias.add(image, expected);
   }
   run.go_to_frame(0);
   SeedErrors& seeds = record.errors.seeds.emplace();
   seeds.pictures = pictures, seeds.flip_pictures = flips_of_seeds;
   join(totals, record.errors.total, &seeds.deviation);
-  record.errors.model = record.errors.total;
+  if (ranges) record.errors.model = record.errors.total;
   if (truths.authored) {
     join(authored, record.errors.authored->total, nullptr);
-    record.errors.authored->model = record.errors.authored->total;
+    if (ranges) record.errors.authored->model = record.errors.authored->total;
   }
   if (!(brightest_ > 0)) return;
   const BiasOfPictures::Estimate estimate = bias.estimate();

@@ -28,7 +28,8 @@ namespace lightgrid {
   /* shadows that lidr finds itself */ \
   UNIT(receiver_triangles) UNIT(triangle_corners) UNIT(shadow_lights) UNIT(shadow_faces) UNIT(shadow_texels) \
   /* which lights a pixel reads: one source a program */ \
-  UNIT(grid_cells) UNIT(grid_indices) UNIT(grid_masks) UNIT(light_z_bins) UNIT(list_factors) UNIT(voxel_irradiance) UNIT(voxel_directions) \
+  UNIT(grid_cells) UNIT(grid_indices) UNIT(grid_masks) UNIT(light_z_bins) UNIT(list_factors) \
+  UNIT(voxel_irradiance) UNIT(voxel_directions) \
   UNIT(far_moments) \
   SHARE(world_cells, grid_cells) UNIT(world_indices) UNIT(world_buckets) UNIT(world_keys) \
   SHARE(light_buffer, grid_cells) UNIT(light_buffer_second) \

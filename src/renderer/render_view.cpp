@@ -102,7 +102,9 @@ void RenderView::lights_changed() {
   culler_->set_lights(lights);
 }
 
-void RenderView::draw_ranges(uint32_t seed) {
+void RenderView::draw_random(uint32_t seed) {
+  settings_.list_seed = plan.settings.list_seed = seed;
+  if (plan.settings.ranges.range != LightRange::stochastic) return;
   settings_.ranges.seed = seed;
   look(view);
   lights_changed();

@@ -37,8 +37,9 @@ struct RenderView : Work {
   void release();
   // Call after look() if point or spot lights of the scene moved or changed.
   void lights_changed();
-  // Other random ranges (range=stochastic) for the frames that follow.
-  void draw_ranges(uint32_t seed);
+  // Other random ranges (range=stochastic) and samples of lists (list-cap-order=sampled) for the frames that
+  // follow.
+  void draw_random(uint32_t seed);
 
   PassCaches caches;
 

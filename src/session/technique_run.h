@@ -32,8 +32,8 @@ class TechniqueRun {
     if (!changes.lights.empty()) view_.lights_changed();
   }
 
-  // Other random ranges of the lights (RenderView::draw_ranges), for the frames that follow.
-  void draw_ranges(uint32_t seed) { view_.draw_ranges(seed); }
+  // Other random numbers (RenderView::draw_random), for the frames that follow.
+  void draw_random(uint32_t seed) { view_.draw_random(seed); }
 
   // One frame. Returns its time in ms, from the first draw until the host can read the image, which is
   // recorded unless `warmup`. image() is a copy, which that time does not count on an OpenCL device that is a

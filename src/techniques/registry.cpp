@@ -115,6 +115,10 @@ bool samples_lists(const Technique& technique, const Settings& settings) {
   return settings.samples_lists() && adapted_needs(technique, settings).sampled_lists;
 }
 
+bool is_random(const Technique& technique, const Settings& settings) {
+  return settings.ranges.range == LightRange::stochastic || samples_lists(technique, settings);
+}
+
 bool is_approximate(const Technique& technique, const Settings& settings) {
   return technique.approximate || settings.shadows != ShadowMethod::exact || settings.soft_shadows() ||
          settings.picks_shadows() || settings.shadow_threshold > 0 || samples_lists(technique, settings) ||

@@ -56,6 +56,7 @@ TEST(KernelForms, DrawTheSameBytes) {
     GTEST_SKIP() << "no PoCL here that compiles for AVX2 and SSE2";
   for (const auto& [scene, technique] : {std::pair{"hall", "visibility"},
                                          {"rooms", "visibility:list-cap=8"},
+                                         {"rooms", "visibility:list-cap=8,list-cap-order=sampled"},
                                          {"spheres", "forward_plus_compute"},
                                          {"spheres", "deferred_tiled:samples=4"},
                                          {"spheres", "visibility:samples=4"}}) {

@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <numeric>
-#include <random>
 
 #include "base/error.h"
 #include "reference/position.h"
 #include "support/small_scene.h"
+#include "techniques/many_lights.h"
 #include "techniques/rendering.h"
 
 namespace lightgrid::capped {
@@ -15,20 +15,6 @@ namespace {
 
 using glm::dvec3;
 constexpr int width = 75, height = 53;
-
-// 90 lights of different brightness and range among the wall and the ball, some of them behind the eye.
-Scene many_lights() {
-  Scene scene = small_scene(false).scene;
-  std::mt19937 random(20261127);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * double(random() % 10000) / 1e4;
-  };
-  for (int i = 0; i < 90; ++i) {
-    add_point(scene, "lamp", {uniform(-2, 2), uniform(-2, 2), uniform(-4.5, 0.5)}, {1, 0.9f, 0.8f},
-              float(uniform(0.1, 5)), float(uniform(0.4, 3)));
-  }
-  return scene;
-}
 
 View from(double x) { return make_view(look_at({x, 0, 0}, {0, 0, -3}), width, height); }
 
@@ -204,14 +190,6 @@ TEST(CappedLists, WithRoomForEveryLightNoByteChanges) {
       EXPECT_EQ(count_listed_pairs(capped.run, capped.depth).lost, 0u) << technique;
     }
   }
-}
-
-// Blended surfaces have a grid of their own, or the same lists as objects.
-Scene with_glass() {
-  SmallScene s{many_lights()};
-  s.wall_material = 0, s.ball_material = 1;
-  add_pane_before_wall(s, 0.4f);
-  return s.scene;
 }
 
 TEST(CappedLists, ArePictures) {

@@ -3,6 +3,7 @@
 #include "session/oracle_sample.h"
 #include "support/small_scene.h"
 #include "techniques/lidr_scenes.h"
+#include "techniques/moments.h"
 #include "techniques/rendering.h"
 
 namespace lightgrid {
@@ -53,51 +54,6 @@ INSTANTIATE_TEST_SUITE_P(
                     LightRanges{.window = RangeWindow::none}, LightRanges{.range = LightRange::infinite},
                     random_ranges));
 
-// Per pixel and channel, over images that are added.
-class Moments {
- public:
-  explicit Moments(size_t values) : sum_(values), squares_(values) {}
-  void add(const std::vector<double>& values) {
-    for (size_t i = 0; i < values.size(); ++i) sum_[i] += values[i], squares_[i] += values[i] * values[i];
-    ++count_;
-  }
-  size_t size() const { return sum_.size(); }
-  double mean(size_t i) const { return sum_[i] / count_; }
-  double variance(size_t i) const {
-    return std::max(squares_[i] - sum_[i] * sum_[i] / count_, 0.0) / (count_ - 1);
-  }
-  double standard_error(size_t i) const { return std::sqrt(variance(i) / count_); }
-
- private:
-  std::vector<double> sum_, squares_;
-  double count_ = 0;
-};
-
-double mean_variance(const Moments& m) {
-  double sum = 0;
-  for (size_t i = 0; i < m.size(); ++i) sum += m.variance(i);
-  return sum / double(m.size());
-}
-
-double share_that_varies(const Moments& m) {
-  size_t varying = 0;
-  for (size_t i = 0; i < m.size(); ++i) varying += m.standard_error(i) > 1e-3 * m.mean(i);
-  return double(varying) / double(m.size());
-}
-
-double share_within_four_errors(const Moments& m, const std::vector<double>& truth, double rounding) {
-  size_t within = 0;
-  for (size_t i = 0; i < m.size(); ++i)
-    within += std::abs(m.mean(i) - truth[i]) <= 4 * m.standard_error(i) + rounding;
-  return double(within) / double(m.size());
-}
-
-std::vector<double> channels(const std::vector<glm::dvec3>& radiance) {
-  std::vector<double> values;
-  for (const glm::dvec3& c : radiance) values.insert(values.end(), {c.r, c.g, c.b});
-  return values;
-}
-
 constexpr int seeds = 1024;
 
 struct Stochastic : testing::Test {
@@ -123,13 +79,9 @@ TEST_F(Stochastic, MeanOverSeedsConvergesToThePictureWithoutRanges) {
   Moments single(truth.size()), of_16(truth.size());
   std::vector<double> sum(truth.size());
   for (int seed = 1; seed <= seeds; ++seed) {
-    run->draw_ranges(uint32_t(seed));
+    run->draw_random(uint32_t(seed));
     run->run_frame();
-    std::vector<double> values;
-    for (const uint32_t pixel : oracle->pixels()) {
-      const glm::vec4& color = run->image().pixels[pixel];
-      values.insert(values.end(), {color.r, color.g, color.b});
-    }
+    const std::vector<double> values = channels(run->image(), oracle->pixels());
     single.add(values);
     for (size_t i = 0; i < values.size(); ++i) sum[i] += values[i] / 16;
     if (seed % 16 == 0) {

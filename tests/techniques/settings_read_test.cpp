@@ -29,6 +29,7 @@ const std::vector<Assignments>& contexts() {
       {"kernel-shape=group"},
       {"z-bins=16"},
       {"list-cap=1"},
+      {"list-cap=1", "list-cap-order=sampled"},
       {"range=cutoff"},
       {"range=stochastic"},
       {"range=stochastic", "alpha=1"},

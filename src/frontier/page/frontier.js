@@ -109,7 +109,7 @@ const spread = (value, deviation) => `${errorNumber(value)} (standard deviation 
 function randomInWords({ total, seeds, deviation_rmse_rel: noise, bias_rmse_rel: bias }) {
   const [low, high] = seeds.bias_rmse_rel_ci95;
   const told = low > 0 ? `${errorNumber(bias)} (${errorNumber(low)} to ${errorNumber(high)})` : `not told from 0, at most ${errorNumber(high)}`;
-  return `Of ${wholeNumber(seeds.pictures)} pictures with other random ranges errors are means: FLIP as displayed ${spread(total.displayed_flip.mean, seeds.deviation.displayed_flip.mean)}, `
+  return `Of ${wholeNumber(seeds.pictures)} pictures with other random numbers errors are means: FLIP as displayed ${spread(total.displayed_flip.mean, seeds.deviation.displayed_flip.mean)}, `
     + `relMSE, 99.9 % ${spread(total.rel_mse_trimmed, seeds.deviation.rel_mse_trimmed)}. Over the brightest channel: standard deviation of a frame ${errorNumber(noise ?? 0)}, bias ${told}.`;
 }
 
