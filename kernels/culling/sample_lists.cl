@@ -11,28 +11,18 @@
 // cells, indices  the light grid
 // factors    out, one an index: float bits. Until the end the lights' weights
 // cap        at least 1
-// seed       of the random numbers, which follow the golden ratio from seed to seed, and from tile to tile
-// the plastic
-//            number, so that neighbours differ (M. Roberts, "The unreasonable effectiveness of quasirandom
-//            sequences", 2018)
+// seed       of the random numbers (kernels/culling/random_of_cell.h)
 // LIGHT_ARGUMENTS  of lights (shared/light_table.h)
 // bounds     depth bounds, of `planes` floats a tile (kernels/culling/depth_bounds.h)
 // slice_edges  metres, slices + 1 of them
 // -DINDEX_32, and what kernels/common/light_columns.h names
 #define LANES 1
-#include "kernels/common/hash.h"
 #include "kernels/common/index_type.h"
 #include "kernels/common/light_columns.h"
-#include "kernels/culling/cell_middle.h"
+#include "kernels/culling/random_of_cell.h"
 
 // Beside a weight, which is 2^24 at most: the light is kept for certain.
 #define CERTAIN 0x80000000u
-
-static inline uint random_of_cell(uint cell, uint seed, constant CullParams* p) {
-  const uint tiles = p->tiles_x * p->tiles_y, tile = cell % tiles;
-  const uint across = tile % p->tiles_x * 3242174889u, up = tile / p->tiles_x * 2447445414u;
-  return across + up + mixed(cell / tiles) + seed * 2654435769u;
-}
 
 // About what a light adds to the cell's surfaces. What the middle does not see of it, past its range or its
 // cone, other pixels may: a sixteenth of the light without either counts in any case.

@@ -51,7 +51,7 @@ constexpr Star default_variations[] = {
     {"clustered", "list-cap=32"},
     {"visibility", "list-cap=64 list-cap-order=distance"},
     {"visibility", "list-cap=8 list-cap-order=sampled"},
-    {"visibility", "range=infinite list-cap=16 list-cap-order=sampled"},
+    {"visibility", "range=infinite list-cap=16 list-cap-order=tree"},
     {"visibility", "tile=32"},
     {"visibility", "cull-test=sphere"},
     {"visibility", "cull-test=aabb"},

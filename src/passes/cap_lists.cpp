@@ -8,6 +8,7 @@
 #include "cl/launch.h"
 #include "renderer/upload/culler_input.h"
 #include "renderer/upload/lights.h"
+#include "scene/light_tree.h"
 #include "shared/cull_constants.h"
 
 namespace lightgrid {
@@ -48,7 +49,10 @@ cl_uint planes_of(DepthBoundsMode mode) {
 class ListCaps : public PassCache {
  public:
   explicit ListCaps(Work&) {}
-  size_t memory_bytes() const override { return lights_.bytes() + edges_.bytes() + params_.bytes(); }
+  size_t memory_bytes() const override {
+    return lights_.bytes() + edges_.bytes() + params_.bytes() + nodes_.bytes() + leaves_.bytes() +
+           eye_.bytes();
+  }
   bool follow(Work&) override { return stale_ = true; }
 
   void cap(Work& work, const CullParams& tiles, const TileBounds& bounds, const ViewGrid& grid) {
@@ -60,10 +64,7 @@ class ListCaps : public PassCache {
       for (const char* define : light_table_defines(work.plan)) defines += fmt::format(" -D{}", define);
     else
       defines += fmt::format(" -DORDER={}", int(s.list_cap_order));
-    if (!kernel_ || defines != defines_)
-      kernel_ = NamedKernel(*work.renderer.kernels, samples ? "culling/sample_lists" : "culling/cap_lists",
-                            defines);
-    defines_ = defines;
+    use(work, samples ? "culling/sample_lists" : "culling/cap_lists", defines);
     if (grid.index_count == 0) return;  // after the kernel is built, which other views need
     if (stale_) upload(work, tiles);
     stale_ = false;
@@ -72,36 +73,90 @@ class ListCaps : public PassCache {
                              {"indices", grid.storage->indices(grid.index_bytes)},
                              {"cell_count", cl_uint(cells)},
                              {"cap", cl_uint(s.list_cap)}};
-    const ClArguments of_cells = {{"bounds", bounds.values},
-                                  {"planes", planes_of(bounds.mode)},
-                                  {"slice_edges", edges_.buffer()},
-                                  {"p", params_.buffer()}};
     if (samples)
       arguments =
           arguments +
           ClArguments{{"seed", cl_uint(s.list_seed)}, {"factors", grid.storage->factors(grid.factor_bytes)}} +
-          work.cl_lights().columns() + of_cells;
+          work.cl_lights().columns() + of_cells(bounds);
     if (s.list_cap_order == ListCapOrder::distance)
       arguments =
           arguments + ClArguments{{"high", high_bits(work.plan.local.size())}, {"ranks", lights_.buffer()}};
     if (s.list_cap_order == ListCapOrder::brightest)
-      arguments = arguments + ClArguments{{"high", cl_uint(28)}, {"lights", lights_.buffer()}} + of_cells;
-    kernel_.launch(device, "cap_lists", cl::NDRange((cells + cap_group - 1) / cap_group * cap_group),
-                   cl::NDRange(cap_group), arguments);
+      arguments =
+          arguments + ClArguments{{"high", cl_uint(28)}, {"lights", lights_.buffer()}} + of_cells(bounds);
+    launch(device, "cap_lists", cells, arguments);
+  }
+
+  void draw(Work& work, const CullParams& tiles, const TileBounds& bounds, const ViewGrid& grid) {
+    ClDevice& device = *work.renderer.cl;
+    const Settings& s = work.plan.settings;
+    use(work, "culling/sample_tree",
+        fmt::format("-DCAP={}{}", s.list_cap, grid.index_bits == 32 ? " -DINDEX_32" : ""));
+    if (stale_) upload(work, tiles);
+    stale_ = false;
+    const size_t cells = grid.cell_bytes / sizeof(cl_uint2);
+    launch(device, "lists_of_tree", cells,
+           ClArguments{{"cells", grid.storage->cells(grid.cell_bytes)},
+                       {"indices", grid.storage->indices(grid.index_bytes)},
+                       {"cell_count", cl_uint(cells)},
+                       {"seed", cl_uint(s.list_seed)},
+                       {"factors", grid.storage->factors(grid.factor_bytes)},
+                       {"nodes", nodes_.buffer()},
+                       {"lights", leaves_.buffer()},
+                       {"leaves", cl_uint(leaf_count_)},
+                       {"world_from_view", eye_.buffer()}} +
+               of_cells(bounds));
   }
 
  private:
+  void use(Work& work, const char* kernel, const std::string& defines) {
+    if (!kernel_ || defines != defines_) kernel_ = NamedKernel(*work.renderer.kernels, kernel, defines);
+    defines_ = defines;
+  }
+
+  ClArguments of_cells(const TileBounds& bounds) {
+    return {{"bounds", bounds.values},
+            {"planes", planes_of(bounds.mode)},
+            {"slice_edges", edges_.buffer()},
+            {"p", params_.buffer()}};
+  }
+
+  void launch(ClDevice& device, const char* label, size_t cells, const ClArguments& arguments) {
+    kernel_.launch(device, label, cl::NDRange((cells + cap_group - 1) / cap_group * cap_group),
+                   cl::NDRange(cap_group), arguments);
+  }
+
+  // Kept while lights rest; the eye is not.
+  void upload_tree(Work& work) {
+    ClDevice& device = *work.renderer.cl;
+    if (tree_of_ != work.gpu.lights_version() || leaf_count_ == 0) {
+      View world;
+      world.view_from_world = glm::dmat4(1);
+      const LightTree tree =
+          light_tree(lights_in_view(work.scene, world, work.plan.settings.ranges, work.plan.local));
+      nodes_.put(device, "uploading a tree of lights", tree.nodes);
+      leaves_.put(device, "uploading a tree of lights", tree.lights);
+      leaf_count_ = tree.lights.size(), tree_of_ = work.gpu.lights_version();
+    }
+    const glm::mat3 axes(glm::transpose(glm::dmat3(work.view.view_from_world)));
+    eye_.put(device, "uploading the view",
+             std::vector<glm::vec4>{glm::vec4(axes[0], 0), glm::vec4(axes[1], 0), glm::vec4(axes[2], 0),
+                                    glm::vec4(glm::vec3(work.view.eye), 0)});
+  }
+
   void upload(Work& work, const CullParams& tiles) {
     ClDevice& device = *work.renderer.cl;
     const FramePlan& plan = work.plan;
+    const auto lights = [&] {
+      return lights_in_view(work.scene, work.view, plan.settings.ranges, plan.local);
+    };
     if (plan.settings.list_cap_order == ListCapOrder::index) return;
-    const std::vector<ViewLight> lights =
-        lights_in_view(work.scene, work.view, plan.settings.ranges, plan.local);
     if (plan.settings.list_cap_order == ListCapOrder::distance)
-      return lights_.put(device, "uploading ranks of lights", ranks_by_distance(lights));
+      return lights_.put(device, "uploading ranks of lights", ranks_by_distance(lights()));
+    if (plan.light_tree) upload_tree(work);
     if (plan.settings.list_cap_order == ListCapOrder::brightest) {
       std::vector<cl_float4> uploaded;
-      for (const ViewLight& light : lights) {
+      for (const ViewLight& light : lights()) {
         const glm::vec4 at(light.position, over_intensity(1, light));
         uploaded.push_back({{at.x, at.y, -at.z, at.w}});
       }
@@ -118,6 +173,9 @@ class ListCaps : public PassCache {
   NamedKernel kernel_;
   std::string defines_;
   UploadedBuffer lights_, edges_, params_;
+  UploadedBuffer nodes_, leaves_, eye_;  // of the light tree
+  size_t leaf_count_ = 0;
+  int tree_of_ = 0;  // the version of its lights
   bool stale_ = true;
 };
 
@@ -131,6 +189,24 @@ void cap_lists(Work& work, Cached<ListCaps>& cache, const CullParams& tiles, con
   caps.cap(work, tiles, bounds, grid);
   const size_t bytes = grid.cell_bytes + grid.index_bytes + grid.factor_bytes;
   pass.moves(bytes, bytes);
+}
+
+ViewGrid lists_of_tree(Work& work, Cached<ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
+                       SharedGridStorage& storage) {
+  ListCaps& caps = cache.of(work);
+  const FramePlan& plan = work.plan;
+  ViewGrid grid;
+  grid.storage = &storage;
+  grid.cells_x = int(tiles.tiles_x), grid.cells_y = int(tiles.tiles_y), grid.slices = plan.slices;
+  const size_t cells = size_t(tiles.tiles_x) * tiles.tiles_y * size_t(plan.slices);
+  grid.index_count = cells * size_t(plan.settings.list_cap), grid.index_bits = plan.index_bits;
+  grid.cell_bytes = cells * sizeof(cl_uint2);
+  grid.index_bytes = grid.index_count * size_t(plan.index_bits / 8);
+  grid.factor_bytes = grid.index_count * sizeof(cl_float);
+  auto pass = work.timer.pass("lists_of_tree", "cl");
+  caps.draw(work, tiles, bounds, grid);
+  pass.moves(caps.memory_bytes(), grid.bytes());
+  return grid;
 }
 
 void cap_list(const Settings& settings, const std::vector<ViewLight>& lights, const glm::dvec3& middle,

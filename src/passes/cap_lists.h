@@ -13,8 +13,12 @@ namespace lightgrid {
 void cap_lists(Work& work, Cached<class ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
                ViewGrid& grid);
 
-// The same for a list of indices into `lights`, ascending before and after, of what has its middle here: view
-// space, metres. brightest: by the intensity, all channels together, over the squared distance to there.
+// The plan's light tree in place of culling: a grid of these bounds, whose lists are drawn from all lights.
+ViewGrid lists_of_tree(Work& work, Cached<class ListCaps>& cache, const CullParams& tiles,
+                       const TileBounds& bounds, SharedGridStorage& storage);
+
+// cap_lists for a list of indices into `lights`, ascending before and after, of what has its middle here:
+// view space, metres. brightest: by the intensity, all channels together, over the squared distance to there.
 void cap_list(const Settings& settings, const std::vector<ViewLight>& lights, const glm::dvec3& middle,
               std::vector<uint32_t>& list);
 

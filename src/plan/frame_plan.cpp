@@ -78,6 +78,22 @@ void plan_far_light(const Scene& scene, FramePlan& plan) {
                                 : "no light ends"});
 }
 
+void check_sampled_lists(const TechniqueNeeds& needs, const Settings& s) {
+  if (!s.samples_lists()) return;
+  const bool tree = s.list_cap_order == ListCapOrder::tree;
+  if (!needs.sampled_lists)
+    throw input_error(
+        "set list-cap-order={}: the technique's lists do not say how many times a light counts; choose "
+        "forward_plus, clustered, forward_plus_compute, deferred_tiled or visibility, or another order",
+        tree ? "tree" : "sampled");
+  if (tree && needs.z_bins && s.z_bins > 1)
+    throw input_error(
+        "set z-bins={}: with list-cap-order=tree no light is sorted into bins; choose z-bins=off", s.z_bins);
+  if (tree && s.view_cap > 0)
+    throw input_error("set view-cap={}: list-cap-order=tree draws from all lights; choose view-cap=off",
+                      s.view_cap);
+}
+
 // After surfaces and lights.
 void plan_base_lighting(const Scene& scene, FramePlan& plan) {
   const auto first = std::find_if(plan.opaque.begin(), plan.opaque.end(),
@@ -478,10 +494,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
         "set list-cap={}: masks have a bit for each light, and no length; choose grid-lists=lists, or "
         "view-cap",
         plan.settings.list_cap);
-  if (needs.capped_lists && !needs.sampled_lists && plan.settings.samples_lists())
-    throw input_error(
-        "set list-cap-order=sampled: the technique's lists do not say how many times a light counts; choose "
-        "forward_plus, clustered, forward_plus_compute, deferred_tiled or visibility, or another order");
+  if (needs.capped_lists) check_sampled_lists(needs, plan.settings);
   const double farthest_m = plan_surfaces(scene, view, instances, plan);
   plan_models(scene, plan);
   plan_lights(scene, view, plan);
@@ -505,6 +518,11 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
     plan.decisions.push_back(
         {"sampled lists", plan.sampled_lists,
          fmt::format("list-cap={}, {} point and spot lights", plan.settings.list_cap, plan.local.size())});
+    plan.light_tree = plan.sampled_lists && plan.settings.list_cap_order == ListCapOrder::tree;
+    plan.decisions.push_back({"light tree", plan.light_tree,
+                              plan.light_tree      ? "list-cap-order=tree, in place of culling"
+                              : plan.sampled_lists ? "list-cap-order=sampled"
+                                                   : "nothing is drawn"});
   }
   plan.world_grid = needs.world_grid && plan.local_lights;
   if (needs.world_grid) {

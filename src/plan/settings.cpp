@@ -130,14 +130,16 @@ std::vector<Setting>& all_settings() {
                                    {"256", 256}})},
       {"list-cap-order",
        "the lights that a longer list keeps: the scene's first, the nearest to the eye or to the object's "
-       "middle, those that add the most to the cell's or the object's middle, or lights drawn at random, "
-       "which "
-       "count so often that the expected picture is that of whole lists",
+       "middle, those that add the most to the cell's or the object's middle; or lights drawn at random, "
+       "from "
+       "the list or from a tree of all lights, which count so often that the expected picture is that of "
+       "whole lists",
        named(&Settings::list_cap_order, {{"index", ListCapOrder::index},
                                          {"distance", ListCapOrder::distance},
                                          {"brightest", ListCapOrder::brightest},
-                                         {"sampled", ListCapOrder::sampled}})},
-      {"list-seed", "of the lights drawn, with list-cap-order=sampled",
+                                         {"sampled", ListCapOrder::sampled},
+                                         {"tree", ListCapOrder::tree}})},
+      {"list-seed", "of the lights drawn, with list-cap-order=sampled or tree",
        numbers(&Settings::list_seed,
                {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15", "16"})},
       {"view-cap", "the most lights of a view: those nearest to the eye of the lights whose range it sees",

@@ -56,8 +56,8 @@ enum class NormalFormat { floats, octahedral, spheremap, xyz8 };
 
 // Which lights a list keeps that is longer than list-cap (docs/capped_lists.md).
 // sampled: at random, and each light counts so often that the expected sum is the longer list's
-// (docs/sampled_lists.md).
-enum class ListCapOrder { index, distance, brightest, sampled };
+// (docs/sampled_lists.md). tree: the same of all lights, from a tree.
+enum class ListCapOrder { index, distance, brightest, sampled, tree };
 
 enum class VolumeMeshes {
   automatic,
@@ -83,7 +83,7 @@ struct Settings {
   GridLists grid_lists = GridLists::lists;
   int list_cap = 0;  // most lights of a tile's, a cell's or an object's list; 0: no limit
   ListCapOrder list_cap_order = ListCapOrder::index;
-  uint32_t list_seed = 1;  // of ListCapOrder::sampled
+  uint32_t list_seed = 1;  // of ListCapOrder::sampled and tree
   int view_cap = 0;      // most lights of a view; 0: no limit
   int buffer_bits = 32;  // a channel of geometry buffers and of light buffers: 8, 16 or 32
   VolumeCulling volume_culling = VolumeCulling::back_faces;
@@ -142,7 +142,9 @@ struct Settings {
   int group_size = 0;  // work-items of the group shape that cull a block of tiles; 0: the culler's own choice
   // Every effect's code and buffers, called for or not: what a plan is tested against.
   bool everything_on = false;
-  bool samples_lists() const { return list_cap > 0 && list_cap_order == ListCapOrder::sampled; }
+  bool samples_lists() const {
+    return list_cap > 0 && (list_cap_order == ListCapOrder::sampled || list_cap_order == ListCapOrder::tree);
+  }
   // A share of a light may be hidden from a point.
   bool picks_shadows() const { return shadows == ShadowMethod::exact && shadow_pick > 0; }
   bool soft_shadows() const {

@@ -34,6 +34,9 @@ GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces) {
 }
 
 ViewGrid list_lights(RenderView& v, Surfaces& surfaces) {
+  if (v.plan.light_tree)
+    return lists_of_tree(v, v.caches.list_caps, v.culler().params(), bounds_of(v, surfaces).opaque,
+                         v.opaque_grid());
   const DepthBounds bounds = cull_bounds_of(v, surfaces);
   ViewGrid grid = cull_lights(v, v.culler(), v.opaque_grid(), bounds);
   cap_lists(v, v.caches.list_caps, v.culler().params(), bounds.opaque, grid);
@@ -64,8 +67,13 @@ void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaqu
   if (surfaces.visible ? v.plan.blended.empty() : !v.plan.blend) return;
   if (!v.plan.blend_grid) return blend(v, surfaces, opaque, frame.image);
   const DepthBounds& bounds = bounds_of(v, surfaces);
-  frame.blend_grid = cull_lights_for_blended(v, v.culler(), v.blend_grid(), bounds);
-  cap_lists(v, v.caches.list_caps, v.culler().params(), bounds.blend, *frame.blend_grid);
+  if (v.plan.light_tree) {
+    frame.blend_grid =
+        lists_of_tree(v, v.caches.list_caps, v.culler().params(), bounds.blend, v.blend_grid());
+  } else {
+    frame.blend_grid = cull_lights_for_blended(v, v.culler(), v.blend_grid(), bounds);
+    cap_lists(v, v.caches.list_caps, v.culler().params(), bounds.blend, *frame.blend_grid);
+  }
   blend(v, surfaces, from_grid(v, *frame.blend_grid), frame.image);
 }
 

@@ -10,7 +10,7 @@ const STAGES = [
   { name: "geometry buffer", color: "#2a9aa0", passes: /gbuffer|geometry_buffer|normals/ },
   { name: "triangles and depth", color: "#3b6fb6", passes: /^depth_prepass$|^rasterize$/ },
   { name: "light and materials", color: "#d9822b", passes: /^shade|^resolve|light_buffer|materials/ },
-  { name: "lists of lights", color: "#3f9b58", passes: /cull|light|grid|voxels|cap_lists/ },
+  { name: "lists of lights", color: "#3f9b58", passes: /cull|light|grid|voxels|cap_lists|lists_of_tree/ },
 ];
 const stageOf = (pass) => STAGES.find((stage) => stage.passes.test(pass)) ?? { name: "other", color: REST_COLOR };
 
