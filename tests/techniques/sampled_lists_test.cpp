@@ -323,18 +323,32 @@ TEST(SampledLists, ArePictures) {
 
 // A camera and lights that move: the tree is of the world, and of the lights as they are.
 TEST(SampledLists, FromATreeFollowCameraAndLights) {
-  const Scene scene = many_lights();
+  Renderer& devices = opencl_devices();
+  Scene scene = many_lights();
   const std::string settings = drawn_from("tree", 8);
-  TechniqueRun run(opencl_devices(), scene, view_of(), assigned(settings), find_technique("visibility"));
+  GpuScene gpu(devices, scene);
+  TechniqueRun run(devices, gpu, view_of(), assigned(settings), find_technique("visibility"));
   run.run_frame();
   const View aside = make_view(look_at({0.8, 0.3, 0.2}, {0, 0, -3}), 29, 17);
+  const auto expect_new = [&](const char* what) {
+    run.run_frame();
+    for (const char* shape : {" kernel-shape=lanes", " kernel-shape=group"})
+      EXPECT_TRUE(
+          identical(run.image(), render(devices, scene, aside, "visibility", assigned(settings + shape))))
+          << what;
+    EXPECT_FALSE(identical(run.image(),
+                           render(devices, scene, aside, "visibility", assigned(settings + " list-seed=2"))));
+  };
   run.look(aside);
-  run.run_frame();
-  for (const char* shape : {" kernel-shape=lanes", " kernel-shape=group"})
-    EXPECT_TRUE(identical(run.image(),
-                          render(opencl_devices(), scene, aside, "visibility", assigned(settings + shape))));
-  EXPECT_FALSE(identical(run.image(), render(opencl_devices(), scene, aside, "visibility",
-                                             assigned(settings + " list-seed=2"))));
+  expect_new("camera");
+  SceneChanges changes;
+  for (int i = 0; i < int(scene.lights.size()); ++i) {
+    scene.lights[size_t(i)].position.x += i % 2 ? 0.7 : -0.4;
+    changes.lights.push_back(i);
+  }
+  gpu.update(changes);
+  run.look(aside, changes);
+  expect_new("lights");
 }
 
 TEST(SampledLists, AreRefusedWhereNothingSaysHowOftenALightCounts) {
