@@ -25,8 +25,9 @@ struct Star {
 };
 
 // After each technique as it is: the rasteriser, a finer volume, the cull tests of two techniques, buffers of
-// fewer bits, the capacity of lidr and of engines' lists; ranges and far light beyond them, of one technique
-// of each kind of lists (windows, BRDFs and finer steps on the fastest alone). So few that several views of each of the default scenes fit into the default budget: --vary measures further ones.
+// fewer bits, the capacity of lidr and of engines' lists, lists that are samples; ranges and far light beyond
+// them, of one technique of each kind of lists (windows, BRDFs and finer steps on the fastest alone). So few
+// that several views of each of the default scenes fit into the default budget: --vary measures further ones.
 constexpr Star default_variations[] = {
     {"voxel_lights", "raster=opencl"},
     {"voxel_lights", "raster=opencl voxel-size=128x128x64"},
@@ -261,7 +262,8 @@ bool PointRun::is_random() const {
 uint32_t PointRun::seed(int frame) const {
   const Settings& settings = point_.contestant.settings;
   if (has_random_ranges()) return settings.ranges.seed + uint32_t(frame_ * point_.frames + frame);
-  return uint32_t(Random::mix((uint64_t(settings.list_seed) << 32) + uint64_t(frame_))) + uint32_t(frame);
+  const auto picture = uint32_t(frame_ == 0 ? 0 : Random::mix(uint64_t(frame_)));
+  return settings.list_seed + picture + uint32_t(frame);
 }
 
 void PointRun::go_to_frame(int number) {

@@ -181,17 +181,19 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
     point_run.draw_first_frame();
   }
   record.errors.technique = frontier_error(point_run.run().image(), meant, brightest_);
+  // Frames of random ranges mean one each.
+  const bool means_one_picture = point.frames == 1 || !point_run.has_random_ranges();
   const bool as_meant = point.frames == 1 && record.errors.technique.max_rel <= as_brute_force;
   record.exposure_ev = exposure_->ev;
   const auto compare = [&](Reference& reference, ImageError& model, ImageError& total) {
-    if (point.frames == 1) model = reference.error_of_brute_force(meant);
+    if (means_one_picture) model = reference.error_of_brute_force(meant);
     if (as_meant) {
       total = frontier_error(image, *reference.truth, reference.brightest);
       total.displayed = model.displayed;
     } else {
       total = reference.error_of(image);
     }
-    if (point.frames > 1) model = total;
+    if (!means_one_picture) model = total;
   };
   compare(*truths.reference, record.errors.model, record.errors.total);
   if (has_authored_) {
