@@ -57,6 +57,7 @@ TEST(KernelForms, DrawTheSameBytes) {
   for (const auto& [scene, technique] : {std::pair{"hall", "visibility"},
                                          {"rooms", "visibility:list-cap=8"},
                                          {"rooms", "visibility:list-cap=8,list-cap-order=sampled"},
+                                         {"rooms", "visibility:list-cap=8,list-cap-order=tree"},
                                          {"spheres", "forward_plus_compute"},
                                          {"spheres", "deferred_tiled:samples=4"},
                                          {"spheres", "visibility:samples=4"}}) {
