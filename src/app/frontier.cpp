@@ -199,6 +199,7 @@ std::vector<bool> check_request(const FrontierCommand& o) {
 FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Shard& shard) {
   FrontierJob job;
   job.common = chosen_settings(o.scene);
+  if (!job.common.given.contains("samples")) job.common = with_samples(std::move(job.common), 1);
   job.baseline = baseline_point(job.common, renderer.gl != nullptr, o.baseline);
   job.views = o.views;
   job.seed = o.scene.seed;

@@ -107,7 +107,7 @@ Subject load_frame(const SceneChoice& o) {
 Subject load_subject(const SceneChoice& o) {
   std::error_code unreadable;
   if (std::filesystem::is_directory(o.scene, unreadable)) return load_frame(o);
-  return {load_chosen_scene(o), {}, chosen_settings(o)};
+  return {load_chosen_scene(o), {}, with_samples(chosen_settings(o), 1)};
 }
 
 struct OpenCl {

@@ -58,7 +58,8 @@ int plan(PlanOptions o) {
   const GroupProposal proposal = leaks ? propose_groups(*leaks, chosen.scene) : GroupProposal();
   if (!o.groups.empty()) write_json(o.groups, lights_file_text(with_groups(chosen.scene, proposal)));
   std::optional<EdgeShare> edges;
-  if (settings.samples > 1) edges = find_edge_share(chosen.scene, chosen.view, settings.samples);
+  if (const int samples = plan.settings.samples; samples > 1)
+    edges = find_edge_share(chosen.scene, chosen.view, samples);
   if (o.json.empty()) {
     std::fputs(describe(plan, chosen.scene).c_str(), stdout);
     if (edges) std::fputs(describe(*edges, chosen.view).c_str(), stdout);

@@ -12,7 +12,8 @@ SceneCapture::SceneCapture(Renderer& renderer, const Scene& scene, const View& v
                            const Technique& technique)
     : gpu_(renderer, scene),
       opengl_(draws_with_opengl(technique.needs, settings)),
-      view_(renderer, gpu_, view, settings, find_technique(opengl_ ? "forward_plus" : "visibility").needs) {}
+      view_(renderer, gpu_, view, with_samples(settings, 1),
+            find_technique(opengl_ ? "forward_plus" : "visibility").needs) {}
 
 CapturedFrame SceneCapture::frame(const View& view, const SceneChanges& changes) {
   gpu_.update(changes);

@@ -108,6 +108,16 @@ GlTexture make_texture_of_samples(GLenum format, int width, int height, int samp
   return texture;
 }
 
+bool has_samples(int samples) {
+  try {
+    make_texture_of_samples(GL_RGBA32F, 1, 1, samples);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::machine) throw;
+    return false;
+  }
+  return true;
+}
+
 GlTexture make_buffer_texture(GLenum format, GLuint buffer) {
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);

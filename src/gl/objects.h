@@ -49,6 +49,8 @@ GlBuffer make_buffer(size_t bytes, const void* data, GLbitfield flags = 0);
 GlTexture make_texture_2d(GLenum format, int width, int height, int levels = 1);
 // Interpolated between texels, and clamped to the edge.
 GlTexture make_texture_3d(GLenum format, int width, int height, int depth);
+// Whether make_texture_of_samples() can make one.
+bool has_samples(int samples);
 // Of just so many samples a pixel, 2 or more. Throws Error(machine) too where the machine draws them with
 // another number, and names it.
 GlTexture make_texture_of_samples(GLenum format, int width, int height, int samples);

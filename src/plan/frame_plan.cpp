@@ -377,11 +377,42 @@ void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_
                                               : "no light grid"});
 }
 
+// What finds shadows for one sample a pixel alone, if anything does here. After shadows.
+const char* shadows_of_one_sample(const FramePlan& plan) {
+  if (!plan.light_reaches && !plan.own_shadows) return nullptr;
+  const Settings& s = plan.settings;
+  return plan.opengl                      ? "shadows where OpenGL draws"
+         : s.shadows == ShadowMethod::map ? "shadow maps"
+         : s.soft_shadows()               ? "shadows of shadow-rays"
+         : s.picks_shadows()              ? "shadows of shadow-pick"
+                                          : nullptr;
+}
+
+// Why one sample a pixel is drawn, although the scene asks for more; empty: they are drawn. The same for
+// every view of the scene.
+std::string why_one_sample(const Scene& scene, const TechniqueNeeds& needs, const FramePlan& plan) {
+  const auto& given = plan.settings.given;
+  if (given.contains("samples")) return fmt::format("samples={}", plan.settings.samples);
+  if (scene.samples > needs.most_samples)
+    return fmt::format("the technique with these settings takes {}", needs.most_samples);
+  if (plan.opengl && !needs.opengl_samples) return "OpenGL on this machine cannot draw them";
+  const char* of_one_sample = shadows_of_one_sample(plan);
+  return of_one_sample ? fmt::format("{} are found for one", of_one_sample) : "";
+}
+
 // After shadows.
-void plan_samples(const Scene& scene, FramePlan& plan) {
-  const int samples = plan.settings.samples;
+void plan_samples(const Scene& scene, const TechniqueNeeds& needs, FramePlan& plan) {
+  int& samples = plan.settings.samples;
+  const bool own = samples > 1;
+  if (!own && scene.samples > 1) {
+    const std::string why_one = why_one_sample(scene, needs, plan);
+    if (why_one.empty()) samples = scene.samples;
+    plan.decisions.push_back({"samples", why_one.empty(),
+                              fmt::format("the scene asks for {} a pixel{}{}", scene.samples,
+                                          why_one.empty() ? "" : "; ", why_one)});
+  }
   if (samples == 1) return;
-  plan.decisions.push_back({"samples", true, fmt::format("samples={}", samples)});
+  if (own) plan.decisions.push_back({"samples", true, fmt::format("samples={}", samples)});
   const auto masked = std::ranges::find_if(
       plan.opaque, [&](int i) { return (plan.features_of_instance[size_t(i)] & feature_mask) != 0; });
   const bool at_samples = plan.settings.samples_masks != SampleMasks::centre;
@@ -389,19 +420,13 @@ void plan_samples(const Scene& scene, FramePlan& plan) {
                             !at_samples                   ? "samples-masks=centre"
                             : masked == plan.opaque.end() ? "no masked material in view"
                                                           : instance_witness(scene, *masked)});
-  if (!plan.light_reaches && !plan.own_shadows) return;
-  const Settings& s = plan.settings;
-  const char* one_sample = plan.opengl                      ? "shadows where OpenGL draws"
-                           : s.shadows == ShadowMethod::map ? "shadow maps"
-                           : s.soft_shadows()               ? "shadows of shadow-rays"
-                           : s.picks_shadows()              ? "shadows of shadow-pick"
-                                                            : nullptr;
-  if (!one_sample) return;
+  const char* of_one_sample = shadows_of_one_sample(plan);
+  if (!of_one_sample) return;
   const auto caster = std::ranges::find_if(scene.lights, &Light::casts_shadow);
   throw input_error(
       "set samples={}: light {} \"{}\" casts a shadow, and {} are found for one sample a "
       "pixel; choose samples=1 or shadows=none",
-      samples, caster - scene.lights.begin(), caster->name, one_sample);
+      samples, caster - scene.lights.begin(), caster->name, of_one_sample);
 }
 
 void turn_everything_on(const Scene& scene, const View& view, FramePlan& plan, const TechniqueNeeds& needs) {
@@ -533,7 +558,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan_slices(view, needs, farthest_m, plan);
   plan_groups(scene, needs, plan);
   plan_shadows(scene, view, needs, instances, plan);
-  plan_samples(scene, plan);
+  plan_samples(scene, needs, plan);
   plan.shadow_bytes = settings.soft_shadows() || settings.picks_shadows() ||
                       (settings.shadows == ShadowMethod::map && settings.shadow_taps > 1) ||
                       (plan.light_reaches && has_veils(scene, settings.blended_casters()));

@@ -425,6 +425,11 @@ Settings with_model(Settings settings, const Settings& model) {
 
 int most_stencil_groups(VolumeCulling culling) { return culling == VolumeCulling::stencil ? 7 : 8; }
 
+Settings with_samples(Settings settings, int samples) {
+  settings.samples = samples, settings.given.insert("samples");
+  return settings;
+}
+
 Settings with_exact_shadows(Settings settings) {
   settings.shadows = ShadowMethod::exact, settings.shadow_threshold = 0;
   return settings;

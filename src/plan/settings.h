@@ -200,6 +200,9 @@ Settings with_model(Settings settings, const Settings& model);
 // The most bits that group-stencil may use: counting faces needs one of the 8.
 int most_stencil_groups(VolumeCulling culling);
 
+// With so many samples a pixel, whatever the scene asks for.
+Settings with_samples(Settings settings, int samples);
+
 // With shadows found exactly: of a reference.
 Settings with_exact_shadows(Settings settings);
 

@@ -1,5 +1,6 @@
 #include "renderer/render_view.h"
 
+#include "gl/objects.h"
 #include "plan/settings.h"
 
 namespace lightgrid {
@@ -19,6 +20,11 @@ bool same_culler(const FramePlan& a, const FramePlan& b) {
   return a.blend_grid == b.blend_grid && a.index_bits == b.index_bits && a.light_grid == b.light_grid;
 }
 
+TechniqueNeeds with_opengl_samples(TechniqueNeeds needs, const Renderer& renderer, const Scene& scene) {
+  if (scene.samples > 1 && renderer.gl) needs.opengl_samples = has_samples(scene.samples);
+  return needs;
+}
+
 Seen seen_by(const View& view, const Scene& scene, const Settings& settings, const TechniqueNeeds& needs) {
   FramePlan plan = plan_frame(scene, view, settings, needs);
   const ViewParams params = params_of(view, plan, scene.ambient);
@@ -29,10 +35,11 @@ Seen seen_by(const View& view, const Scene& scene, const Settings& settings, con
 
 RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
                        const TechniqueNeeds& needs, std::shared_ptr<TargetPool> pool)
-    : Work(seen_by(view, gpu.scene(), with_tuned(settings, renderer.tuned), needs), renderer, gpu,
-           pool ? pool : std::make_shared<TargetPool>()),
+    : Work(seen_by(view, gpu.scene(), with_tuned(settings, renderer.tuned),
+                   with_opengl_samples(needs, renderer, gpu.scene())),
+           renderer, gpu, pool ? pool : std::make_shared<TargetPool>()),
       settings_(with_tuned(settings, renderer.tuned)),
-      needs_(needs),
+      needs_(with_opengl_samples(needs, renderer, gpu.scene())),
       shared_pool_(std::move(pool)) {
   if (plan.opengl) renderer.require_gl();
   if (plan.opengl && plan.reversed_triangles) gpu.in_gl().add_reversed_triangles();

@@ -174,6 +174,7 @@ struct Scene {
   std::vector<Camera> cameras;
   glm::vec3 ambient{0.02f};        // constant radiance from all sides; occlusion maps darken it
   glm::vec3 background{0};         // radiance without any surface
+  int samples = 1;                 // a pixel, that it asks to be drawn with: 1, 2, 4 or 8 (docs/samples.md)
   std::vector<std::string> group_names;  // of light groups, by number; empty: it has none
   std::shared_ptr<const Rig> rig;  // moving parts; null: none. Copies of a scene share it
   std::optional<double> time_s;    // of the pose, as last given to set_time; empty: at rest

@@ -36,9 +36,7 @@ void return_freed_memory(const Renderer& renderer) {
 void time_interleaved(std::vector<ContestantRun>& entries, const Compared& compared) {
   const CompareOptions& options = compared.options;
   Image memory;
-  const auto hands_on = [&](const ContestantRun& e) {
-    return e.run && !compared.every_light.is(e.run->technique(), e.contestant->settings);
-  };
+  const auto hands_on = [&](const ContestantRun& e) { return e.run && !compared.every_light.is(*e.run); };
   const int rounds = options.warmup + options.frames;
   const auto tell = [&](int round, size_t i) {
     const double done = round + double(i) / double(entries.size());

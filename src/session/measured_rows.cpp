@@ -65,15 +65,19 @@ const Image& every_light_of(const TechniqueRun& run, const Measured& m) {
   return own && !m.reference.run().frame().triangles ? m.every_light_on_own : m.reference.image;
 }
 
+// The contestant's, with as many samples as its run draws.
+Settings planned_settings(const ContestantRun& e) {
+  return with_samples(e.contestant->settings, e.run->view().plan.settings.samples);
+}
+
 // With the samples of each row on these surfaces that has others than `drawn`.
 void draw_every_light_with_samples(const Compared& compared, const std::vector<ContestantRun>& entries,
                                    bool own, const SampledBy& drawn, Measured& m) {
   for (const ContestantRun& e : entries) {
-    const Settings& settings = e.contestant->settings;
+    if (!e.run || own_surfaces(*e.contestant->technique, e.contestant->settings) != own) continue;
+    const Settings settings = planned_settings(e);
     const SampledBy by = sampled_by(own, settings);
-    if (!e.run || own_surfaces(*e.contestant->technique, settings) != own || by == drawn ||
-        m.every_light_with.contains(by))
-      continue;
+    if (by == drawn || m.every_light_with.contains(by)) continue;
     const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, settings, own);
     run->run_frame(true);
     m.every_light_with[by] = run->take_image();
@@ -98,8 +102,7 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
   }
   compared.tell(0.8, fmt::format("reference: {}", every_light_on(true)));
   const auto failure = failure_of([&] {
-    const std::unique_ptr<TechniqueRun> run =
-        make_run_of_every_light(compared, own->contestant->settings, true);
+    const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, planned_settings(*own), true);
     run->run_frame(true);
     m.every_light_on_own = run->take_image();
     ImageError error = error_of(m.every_light_on_own, m);
@@ -107,7 +110,7 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
     error.silhouettes =
         silhouette_error(m.every_light_on_own, own_triangles(*run), m.reference.image, m.triangles.shown);
     report.own_surfaces->error = std::move(error);
-    draw_every_light_with_samples(compared, entries, true, sampled_by(true, own->contestant->settings), m);
+    draw_every_light_with_samples(compared, entries, true, sampled_by(true, planned_settings(*own)), m);
   });
   if (failure) report.own_surfaces->why_not = failure->what(), m.every_light_on_own = {};
 }
@@ -148,6 +151,7 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   const Reference& reference = m.reference;
   const bool is_reference = &run == &reference.run();
   if (!is_reference) run.run_frame(true);
+  m.has_samples |= run.view().plan.settings.samples > 1;
   const Image& image = is_reference ? reference.image : run.image();
   RunResult row = is_reference ? m.result : run.result();
   row.own_surfaces = run.frame().triangles.has_value();
@@ -264,8 +268,7 @@ std::vector<uint32_t> measure_against_oracle(CompareReport& report, Measured& m,
 
 // Each image against the mean over pixels' areas, where some row has several samples.
 void measure_areas(CompareReport& report, const Compared& compared, Measured& m) {
-  const auto has_samples = [](const Contestant& c) { return c.settings.samples > 1; };
-  if (std::ranges::none_of(compared.contestants, has_samples)) return;
+  if (!m.has_samples) return;
   compared.tell(0.9, "oracle: 256 places a pixel");
   const AreaTruth truth = area_truth(m.reference.run().view(), m.shadows.occlusion());
   const double brightest = brightest_channel(m.reference.image), white = 1 / double(report.exposure.scale());

@@ -37,6 +37,7 @@ struct Measured {
   ShadowTruth shadows;
   RunResult result;
   std::optional<FlipExposures> exposures{};
+  bool has_samples = false;       // some row has several a pixel
   bool shown = false;             // the report will have the reference's image
   Image every_light_on_own = {};  // surfaces, where rows have such and the reference has OpenGL's; or empty
   // Every light with other samples a pixel, where rows have such.

@@ -24,13 +24,13 @@ Settings with_reference_shadows(const Compared& c, Settings settings) {
 std::unique_ptr<TechniqueRun> make_own_run(const Compared& c) {
   Settings common =
       c.contestants.empty() ? Settings{} : with_reference_shadows(c, c.contestants.front().settings);
-  common.samples = 1;
+  common = with_samples(std::move(common), 1);
   if (c.every_light.chosen_lights) common.lights = ShadedLights::all;
   return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, common, *c.every_light.technique);
 }
 
 bool draws_reference(const ContestantRun& entry, const Compared& c) {
-  return entry.run && c.every_light.is(entry.run->technique(), entry.contestant->settings);
+  return entry.run && c.every_light.is(*entry.run);
 }
 
 std::string time_in_words(double ms) {

@@ -27,6 +27,7 @@ struct EveryLight {
            (!point_shadows || (!settings.soft_shadows() && !settings.picks_shadows())) &&
            settings.shadows == ShadowMethod::exact && settings.shadow_threshold == 0 && settings.samples == 1;
   }
+  bool is(const TechniqueRun& run) const { return is(run.technique(), run.view().plan.settings); }
   std::string name() const { return technique->name + std::string(chosen_lights ? ":lights=all" : ""); }
 };
 

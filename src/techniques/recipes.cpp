@@ -81,6 +81,11 @@ void store_samples_in_opengl(TechniqueNeeds& needs, Settings& settings) {
   if (settings.raster == RasterApi::opencl) needs.most_samples = 1;
 }
 
+void adapt_shade_tiled(TechniqueNeeds& needs, Settings& settings) {
+  store_samples_in_opengl(needs, settings);
+  if (settings.samples_resolve != SamplesResolve::linear) needs.most_samples = 1;
+}
+
 Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
   // If no light has a position, nothing adds to a geometry buffer. OpenGL fills it all the same, for its
   // image.

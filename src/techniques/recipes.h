@@ -32,6 +32,7 @@ void store_samples_in_opengl(TechniqueNeeds& needs, Settings& settings);
 // into a geometry buffer; then OpenCL adds the lights of each tile's list to its image, and blended surfaces
 // are laid over it. Without `surfaces`, OpenGL finds depth while it fills the geometry buffer.
 Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces);
+void adapt_shade_tiled(TechniqueNeeds& needs, Settings& settings);  // samples' light is averaged as it is
 inline constexpr TechniqueNeeds needs_of_shade_tiled{.light_grid = true,
                                                      .lists = true,
                                                      .z_bins = true,
@@ -40,7 +41,7 @@ inline constexpr TechniqueNeeds needs_of_shade_tiled{.light_grid = true,
                                                      .capped_lists = true,
                                                      .sampled_lists = true,
                                                      .most_samples = 8,
-                                                     .adapt = store_samples_in_opengl};
+                                                     .adapt = adapt_shade_tiled};
 
 // forward_multipass and forward_zprepass share this: each object with the lights that reach its visible part,
 // `lights_a_draw` in each draw, added up; then blended surfaces. own_apart: the first draw has base lighting

@@ -203,7 +203,7 @@ const Image& ReferencePicture::draw(const View& view, const Settings& settings) 
   if (run_ && same_model(model_, settings)) {
     run_->look(view);
   } else {
-    model_ = with_model({}, settings);
+    model_ = with_samples(with_model({}, settings), 1);
     const EveryLight forward = every_light_technique(renderer_);
     run_ = std::make_unique<TechniqueRun>(renderer_, gpu_, view, model_, *forward.technique);
   }

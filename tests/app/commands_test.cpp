@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "support/gltf_builder.h"
 #include "support/read_files.h"
 #include "support/run_program.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::IsSupersetOf;
+using testing::Not;
 using testing::StartsWith;
 
 // A row as docs/results_json.md has it.
@@ -229,6 +231,28 @@ TEST(PlanCommand, TellsWithoutAnyDeviceWhatIsNeededAndWhy) {
     EXPECT_NE(decision["why"], "");
     EXPECT_THAT(text.out, HasSubstr(decision["why"].get<std::string>()));
   }
+}
+
+TEST(PlanCommand, TellsOfTheSamplesThatASceneAsksForAndOfItsEdges) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.root["scenes"] = {{{"nodes", {0}}, {"extras", {{"samples", 4}}}}};
+  const ModelFolder folder;
+  const std::string file = folder.write("made.gltf", made.text());
+  const std::vector<std::string> no_device = {"OCL_ICD_VENDORS=/nonexistent"};
+  const auto plan = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"plan", file, "--size", "64x36"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(arguments, no_device);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out;
+  };
+  EXPECT_THAT(plan({}), HasSubstr("yes samples: the scene asks for 4 a pixel\n"));
+  EXPECT_THAT(plan({}), HasSubstr("of 2304 with samples=4"));
+  EXPECT_EQ(nlohmann::json::parse(plan({"--json", "-"}))["edges"]["samples"], 4);
+  const std::string one = plan({"-t", "deferred_tiled:raster=opencl"});
+  EXPECT_THAT(
+      one, HasSubstr(" no samples: the scene asks for 4 a pixel; the technique with these settings takes 1"));
+  EXPECT_THAT(one, Not(HasSubstr("pixels with edges")));
 }
 
 TEST(PlanCommand, TellsOfEachLightThatCastsWhetherItsShadowsAreFound) {

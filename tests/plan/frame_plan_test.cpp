@@ -94,6 +94,34 @@ TEST(FramePlan, WhatIsAddedTakesNothingAway) {
   }
 }
 
+TEST(FramePlan, TakesTheSamplesThatTheSceneAsksForOrSaysWhyNot) {
+  SmallScene s = small_scene();
+  s.scene.samples = 4;
+  constexpr TechniqueNeeds of_opengl{.light_grid = true, .most_samples = 8}, of_one{.light_grid = true},
+      without_four{.most_samples = 8, .opengl_samples = false},
+      of_opencl{.opengl = false, .most_samples = 8, .opengl_samples = false};
+  const auto expect = [&](const TechniqueNeeds& needs, const std::vector<std::string>& set, int samples,
+                          const std::string& why) {
+    Settings settings;
+    for (const std::string& assignment : set) apply_setting(settings, assignment);
+    const FramePlan plan = plan_frame(s.scene, small_view(32, 18), settings, needs);
+    EXPECT_EQ(plan.settings.samples, samples) << why;
+    EXPECT_EQ(decision(plan, "samples").why, why);
+    EXPECT_EQ(decision(plan, "samples").needed, samples > 1) << why;
+  };
+  expect(of_opengl, {}, 4, "the scene asks for 4 a pixel");
+  expect(of_opencl, {}, 4, "the scene asks for 4 a pixel");
+  expect(of_opengl, {"samples=1"}, 1, "the scene asks for 4 a pixel; samples=1");
+  expect(of_opengl, {"samples=2"}, 2, "samples=2");
+  expect(of_one, {}, 1, "the scene asks for 4 a pixel; the technique with these settings takes 1");
+  expect(without_four, {}, 1, "the scene asks for 4 a pixel; OpenGL on this machine cannot draw them");
+  s.scene.lights[0].casts_shadow = true;
+  expect(of_opengl, {}, 1, "the scene asks for 4 a pixel; shadows where OpenGL draws are found for one");
+  expect(of_opencl, {}, 4, "the scene asks for 4 a pixel");
+  expect(of_opencl, {"shadows=map"}, 1, "the scene asks for 4 a pixel; shadow maps are found for one");
+  expect(of_opengl, {"shadows=none"}, 4, "the scene asks for 4 a pixel");
+}
+
 TEST(FramePlan, WhatIsOutOfViewDoesNotCount) {
   for (const Effect& effect : effects()) {
     SmallScene s = small_scene();

@@ -20,6 +20,26 @@ TEST(GltfNodes, translation_rotation_and_scale_apply_in_reverse_order) {
   expect_near(at(world, {0, 0, 1}), {10, 20, 34});
 }
 
+TEST(GltfNodes, extras_of_the_scene_ask_for_samples) {
+  GltfBuilder made = GltfBuilder::triangle();
+  EXPECT_EQ(made.load().samples, 1);
+  made.root["scenes"] = {{{"nodes", {0}}, {"extras", {{"samples", 8}}}},
+                         {{"nodes", {0}}, {"extras", {{"samples", 4.0}}}},
+                         {{"nodes", {0}}}};
+  EXPECT_EQ(made.load().samples, 8);
+  made.root["scene"] = 1;
+  EXPECT_EQ(made.load().samples, 4) << "of the default scene";
+  made.root["scene"] = 2;
+  EXPECT_EQ(made.load().samples, 1);
+  made.root["scene"] = 0;
+  for (const json& wrong : {json(3), json(0), json(-4), json(4.5), json(16), json("4"), json(true), json()}) {
+    made.root["scenes"][0]["extras"]["samples"] = wrong;
+    EXPECT_THAT(made.refusal(), HasSubstr("scenes[0].extras.samples is not 1, 2, 4 or 8")) << wrong;
+  }
+  made.root["scene"] = 1;
+  EXPECT_EQ(made.load().samples, 4) << "a scene that is not shown is not read";
+}
+
 TEST(GltfNodes, a_matrix_is_stored_by_columns_and_children_follow_their_parents) {
   GltfBuilder made = GltfBuilder::triangle();
   made.root["nodes"] = {{{"children", {1}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}},

@@ -47,6 +47,36 @@ CompareReport compared_samples(const Scene& scene, const std::vector<int>& sampl
                             {.frames = 1, .warmup = 0, .shaded_samples = 100});
 }
 
+// Rows are those of the setting; the reference has one sample a pixel, whatever the scene asks for.
+TEST(AreaError, OfRowsWhoseSceneAsksForSamples) {
+  Scene scene = in_the_sun().scene;
+  const std::vector<Contestant> plain = {{&find_technique("forward"), {.samples = 4}},
+                                         {&find_technique("visibility"), {.samples = 4}},
+                                         {&find_technique("visibility"), {}}};
+  const std::vector<Contestant> of_scene = {{&find_technique("forward"), {}},
+                                            {&find_technique("visibility"), {}},
+                                            {&find_technique("visibility"), with_samples({}, 1)}};
+  const auto compared = [&](const std::vector<Contestant>& contestants) {
+    return compare_techniques(software_devices(), scene, small_view(33, 17), contestants,
+                              {.frames = 1, .warmup = 0, .shaded_samples = 100});
+  };
+  const CompareReport given = compared(plain);
+  scene.samples = 4;
+  const CompareReport asked = compared(of_scene);
+  EXPECT_EQ(asked.reference_image.pixels, given.reference_image.pixels);
+  for (size_t i = 0; i < given.rows.size(); ++i) {
+    const RunResult &a = given.rows[i], &b = asked.rows[i];
+    ASSERT_TRUE(a.error && b.error && a.error->area && b.error->area) << i << b.refused;
+    EXPECT_EQ(a.settings, b.settings);
+    EXPECT_EQ(a.error->rmse, b.error->rmse) << i;
+    EXPECT_EQ(a.error->area->edges.rmse_rel, b.error->area->edges.rmse_rel) << i;
+    EXPECT_EQ(a.same_surfaces.has_value(), b.same_surfaces.has_value()) << i;
+    if (a.same_surfaces && b.same_surfaces) {
+      EXPECT_EQ(a.same_surfaces->rmse, b.same_surfaces->rmse) << i;
+    }
+  }
+}
+
 // Of random places errors at edges would fall by the square root of 2 a step: a slope of -0.5.
 TEST(AreaError, OfCompareFallsAtEdgesAndIsSmallInside) {
   const CompareReport report = compared_samples(in_the_sun().scene, {1, 2, 4, 8});

@@ -36,6 +36,34 @@ TEST(Samples, AreTakenByTechniquesThatDeclareThemAndRefusedByOthersByName) {
   }
 }
 
+// The picture of the setting, and of one sample where the technique cannot take them.
+TEST(Samples, AreDrawnWhereTheSceneAsksForThem) {
+  SmallScene plain = small_scene(), asks = small_scene();
+  effect("blend").add(plain), effect("blend").add(asks);
+  asks.scene.samples = 4;
+  const View view = small_view(33, 17);
+  for (const Technique* technique : techniques()) {
+    Settings four;
+    apply_setting(four, "samples=4");
+    const Image drawn = render(asks.scene, view, technique->name, {});
+    EXPECT_TRUE(identical(drawn, render(plain.scene, view, technique->name, four))) << technique->name;
+    Settings one;
+    apply_setting(one, "samples=1");
+    EXPECT_FALSE(same_bytes(drawn, render(asks.scene, view, technique->name, one))) << technique->name;
+    EXPECT_TRUE(identical(render(asks.scene, view, technique->name, one),
+                          render(plain.scene, view, technique->name, {})))
+        << technique->name;
+  }
+  Settings opencl;
+  apply_setting(opencl, "raster=opencl");
+  EXPECT_TRUE(identical(render(asks.scene, view, "deferred_tiled", opencl),
+                        render(plain.scene, view, "deferred_tiled", opencl)));
+  Settings weighted;
+  apply_setting(weighted, "samples-resolve=weighted");
+  EXPECT_TRUE(identical(render(asks.scene, view, "deferred_tiled", weighted),
+                        render(plain.scene, view, "deferred_tiled", {})));
+}
+
 FineTruth truth_of(const Scene& scene, int width, int height) {
   return {test_devices(), scene, small_view(FineTruth::side * width, FineTruth::side * height)};
 }

@@ -190,6 +190,20 @@ GroupEntries read_groups(const Reporter& report, const json& root) {
   return out;
 }
 
+SampleEntries read_samples(const json& root) {
+  SampleEntries out;
+  if (!root.contains("scenes")) return out;
+  const json::json_pointer samples("/extras/samples");
+  for (size_t i = 0; i < root["scenes"].size(); ++i) {
+    if (!root["scenes"][i].contains(samples)) continue;
+    const json& value = root["scenes"][i][samples];
+    int& entry = out[int(i)];
+    for (const int possible : {1, 2, 4, 8})
+      if (value.is_number() && value.get<double>() == possible) entry = possible;
+  }
+  return out;
+}
+
 constexpr int max_nesting = 64;  // the format itself needs about 10
 
 constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
@@ -357,6 +371,7 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text) {
   PreparedJson out;
   out.models = take_models(report, root);
   out.shadows = read_shadows(root), out.groups = read_groups(report, root);
+  out.samples = read_samples(root);
   out.animations = take_animations(report, root);  // before the indices of all the rest are checked
   Tidier(report).tidy_object(root, true);
   out.buffers = take_buffers(report, root);

@@ -60,6 +60,9 @@ struct GroupEntries {
   std::map<int, GroupLists> of_node, of_light;
 };
 
+// extras.samples of scenes, by their index; 0: not 1, 2, 4 or 8.
+using SampleEntries = std::map<int, int>;
+
 struct PreparedJson {
   std::string text;  // for tinygltf: no buffers, images, animations, extras or unsupported extensions
   std::vector<BufferEntry> buffers;
@@ -68,6 +71,7 @@ struct PreparedJson {
   std::vector<ModelEntry> models;
   ShadowEntries shadows;
   GroupEntries groups;
+  SampleEntries samples;
   // tinygltf rejects indices without a buffer view, which Draco and sparse accessors may have: those
   // accessors get this index, one past the end of the file's own views.
   int absent_view = 0;

@@ -47,12 +47,19 @@ void read_node_transform(const Document& doc, const tinygltf::Node& node, const 
   if (!node.scale.empty()) out.transform.scale = {node.scale[0], node.scale[1], node.scale[2]};
 }
 
-std::vector<int> roots_of(Document& doc, int scene) {
+// -1: the file has no scenes.
+int chosen_scene(const Document& doc, int scene) {
   const tinygltf::Model& model = doc.model;
   if (scene < 0) scene = model.defaultScene;
   if (scene < 0 && !model.scenes.empty()) scene = 0;
   if (scene >= 0 && static_cast<size_t>(scene) >= model.scenes.size())
     throw doc.error("scene {} was requested, but there are {}", scene, model.scenes.size());
+  return scene;
+}
+
+std::vector<int> roots_of(Document& doc, int scene) {
+  const tinygltf::Model& model = doc.model;
+  scene = chosen_scene(doc, scene);
   if (scene >= 0) return model.scenes[scene].nodes;
   std::vector<char> is_child(model.nodes.size(), 0);
   for (size_t i = 0; i < model.nodes.size(); ++i)
@@ -70,6 +77,14 @@ std::vector<int> roots_of(Document& doc, int scene) {
 
 std::string node_label(const Document& doc, int node) {
   return label("node", node, doc.model.nodes[node].name);
+}
+
+int samples_of_scene(const Document& doc, int scene) {
+  scene = chosen_scene(doc, scene);
+  const auto found = doc.samples.find(scene);
+  if (found == doc.samples.end()) return 1;
+  if (found->second == 0) throw doc.error("scenes[{}].extras.samples is not 1, 2, 4 or 8", scene);
+  return found->second;
 }
 
 std::optional<bool> node_casts_shadow(const Document& doc, int node) {

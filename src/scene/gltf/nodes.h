@@ -25,6 +25,9 @@ struct PlacedNode {
 // deeper than limits.max_node_depth, a matrix that is not finite or not affine.
 std::vector<PlacedNode> place_nodes(Document& doc, int scene);
 
+// extras.samples of that scene; 1 without it. An error if it is not 1, 2, 4 or 8.
+int samples_of_scene(const Document& doc, int scene);
+
 // The same nodes as rig nodes.
 std::vector<RigNode> rig_nodes(const Document& doc, const std::vector<PlacedNode>& nodes);
 
