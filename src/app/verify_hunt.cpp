@@ -8,6 +8,7 @@
 #include "app/progress.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "verify/hunt_cases.h"
 #include "verify/hunt_shadows.h"
 
 namespace lightgrid {
@@ -56,6 +57,22 @@ void print(const verify::ShadowHuntReport& report) {
   }
 }
 
+void print(const verify::CaseHuntReport& report) {
+  const auto row = [](const verify::CaseHuntTally& t) {
+    fmt::print("  {:<13} {:>8} {:>12} {:>12} {:>8} {:>7} {:>7}  {}\n", t.name, t.cases, t.trials, t.contacts,
+               t.lost, t.failed.size(), t.skipped, t.why);
+  };
+  fmt::print("{}, seed {}\n", report.device, report.seed);
+  fmt::print("  {:<13} {:>8} {:>12} {:>12} {:>8} {:>7} {:>7}\n", "class", "cases", "trials", "contacts",
+             "lost", "failed", "skipped");
+  for (const verify::CaseHuntTally& tally : report.classes) row(tally);
+  row(report.total());
+  for (const verify::CaseHuntTally& tally : report.classes) {
+    for (const uint64_t seed : tally.failed)
+      fmt::print("failed: --hunt 1 --cases --contacts 1 --seed {} --filter '^{}$'\n", seed, tally.name);
+  }
+}
+
 template <typename Report>
 int tell(const Report& report, const std::string& json) {
   if (!json.empty()) write_json(json, verify::to_json(report).dump(1) + "\n");
@@ -70,6 +87,8 @@ void add_hunt_options(Subcommand& command, HuntCommand& o) {
                  "instead, minutes of random views with lights that barely reach a pixel, on one device");
   command.flag("--shadow-pairs", o.shadows,
                "with --hunt: of random scenes instead, each pair of a pixel and a light that casts a shadow");
+  command.flag("--cases", o.cases,
+               "with --hunt: random cases of samples and of light indices instead, against their oracles");
   command.option("--contacts", o.contacts,
                  "with --hunt: ends after this many contacts instead of a time; 0: by time");
   command.option("--seed", o.seed, "with --hunt: seed of its random numbers");
@@ -86,9 +105,13 @@ int run_hunt(const HuntCommand& o, verify::CullEngine& engine, const std::string
                               .few_settings = o.contacts > 0 && o.contacts < short_hunt,
                               .save = o.save,
                               .progress = progress_bar()};
-  if (!o.shadows) return tell(verify::hunt(engine, options), json);
-  if (!o.save.empty()) throw input_error("verify: --save {} cannot be combined with --shadow-pairs", o.save);
-  return tell(verify::hunt_shadows(engine, options), json);
+  if (o.shadows && o.cases) throw input_error("verify: --cases cannot be combined with --shadow-pairs");
+  if (!o.shadows && !o.cases) return tell(verify::hunt(engine, options), json);
+  if (!o.save.empty())
+    throw input_error("verify: --save {} cannot be combined with {}", o.save,
+                      o.cases ? "--cases" : "--shadow-pairs");
+  return o.cases ? tell(verify::hunt_cases(engine, options), json)
+                 : tell(verify::hunt_shadows(engine, options), json);
 }
 
 }  // namespace lightgrid

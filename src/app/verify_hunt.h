@@ -11,14 +11,14 @@ namespace lightgrid {
 struct HuntCommand {
   std::string minutes, save;
   uint64_t contacts = 0, seed = 1;
-  bool shadows = false;
+  bool shadows = false, cases = false;
   bool asked() const { return !minutes.empty(); }
 };
 
 void add_hunt_options(Subcommand& command, HuntCommand& options);
 
 // Runs on one device, for the classes whose name matches `filter`. Returns the exit status: 1 if a light was
-// lost or a shadow wrong, a view was refused or the kernel shapes differed.
+// lost, a shadow wrong or a case failed, a view was refused or the kernel shapes differed.
 int run_hunt(const HuntCommand& options, verify::CullEngine& engine, const std::string& filter,
              const std::string& json);
 

@@ -8,6 +8,7 @@
 #include "gl/bindings.h"
 #include "gl/gl.h"
 #include "passes/find_shadows.h"
+#include "passes/rasterize.h"
 #include "passes/read_outs.h"
 #include "passes/surfaces.h"
 #include "techniques/technique.h"
@@ -139,32 +140,37 @@ class DeviceEngine : public CullEngine {
     return images;
   }
 
-  std::vector<LightIndexImage> light_indices(const Scene& scene, std::span<const View> views,
-                                             const Settings& settings) override {
-    if (!opengl().gl) return {};
-    const Technique& technique = find_technique("lidr");
-    with_opengl_->gl->make_current();
-    GpuScene gpu(*with_opengl_, scene);
-    RenderView v(*with_opengl_, gpu, views.front(), settings, technique.needs);
-    std::vector<LightIndexImage> images;
+  std::vector<ListImage> lists(const Scene& scene, const std::string& name, std::span<const View> views,
+                               const Settings& settings) override {
+    const Technique& technique = find_technique(name);
+    Renderer* renderer = renderer_for(technique, settings);
+    if (!renderer) return {};
+    GpuScene gpu(*renderer, scene);
+    RenderView v(*renderer, gpu, views.front(), settings, technique.needs);
+    std::vector<ListImage> images;
     for (const View& view : views) {
       if (!images.empty()) v.look(view);
-      reset_gl_state();
+      if (renderer->gl) reset_gl_state();
       const Frame frame = technique.render(v);
-      LightIndexImage& image = images.emplace_back();
-      image.depths = read_depth(v);
+      ListImage& image = images.emplace_back();
+      image.depths = depths_of(v, frame);
       image.lists = frame.listed(image.depths);
-      check_gl(technique.name);
+      if (frame.depth && v.grid().samples > 1) {
+        image.of_samples.resize(v.grid().values());
+        read_buffer(*renderer->cl, "depths", lightgrid::rasterize(v, v.caches).depth().values,
+                    image.of_samples.data(), image.of_samples.size() * 4);
+      }
+      if (renderer->gl) check_gl(technique.name);
     }
     return images;
   }
 
   std::vector<GroupImage> group_images(const Scene& scene, const std::string& name,
                                        std::span<const View> views, const Settings& settings) override {
-    Renderer& renderer = opengl();
     const Technique& technique = find_technique(name);
-    if (!renderer.gl && technique.needs.opengl && settings.raster == RasterApi::opengl) return {};
-    if (renderer.gl) renderer.gl->make_current();
+    Renderer* found = renderer_for(technique, settings);
+    if (!found) return {};
+    Renderer& renderer = *found;
     GpuScene gpu(renderer, scene);
     RenderView v(renderer, gpu, views.front(), settings, technique.needs);
     std::vector<GroupImage> images;
@@ -186,13 +192,15 @@ class DeviceEngine : public CullEngine {
   }
 
  private:
-  // With OpenGL, where the machine has it.
-  Renderer& opengl() {
+  // With OpenGL, where the machine has it; null where it has not and the technique draws with it.
+  Renderer* renderer_for(const Technique& technique, const Settings& settings) {
     if (!with_opengl_) {
       with_opengl_ = std::make_unique<Renderer>(substring_, GlBackend::automatic);
       with_opengl_->kernels->alter(alter_);
     }
-    return *with_opengl_;
+    if (!with_opengl_->gl && draws_with_opengl(technique.needs, settings)) return nullptr;
+    if (with_opengl_->gl) with_opengl_->gl->make_current();
+    return with_opengl_.get();
   }
 
   static std::vector<glm::vec4> read_pixels(RenderView& v, const ShadedImage& image) {

@@ -53,10 +53,12 @@ struct RasterImage {
   uint64_t invalid_triangles = 0;
 };
 
-// Light indices, read back from their images.
-struct LightIndexImage {
+// What a technique lists, read back.
+struct ListImage {
   std::vector<float> depths;  // a pixel, row 0 at the bottom; 0 for background
-  ListedLights lists;         // of opaque surfaces, one a pixel
+  std::vector<float>
+      of_samples;      // the same of each sample, where OpenCL draws several: a pixel's are adjacent
+  ListedLights lists;  // of opaque surfaces
 };
 
 // What a frame's light loops read where lights cast shadows, and the surfaces that they shade.
@@ -113,9 +115,10 @@ class CullEngine {
   // Nothing from an engine that only culls.
   virtual std::optional<RasterImage> rasterize(const RasterOptions&, const RasterInput&) { return {}; }
 
-  // What lidr lists at each pixel, a view after the other in one run. Nothing from an engine without OpenGL.
-  // No light of the scene may cast.
-  virtual std::vector<LightIndexImage> light_indices(const Scene&, std::span<const View>, const Settings&) {
+  // What a technique lists at each pixel, a view after the other in one run. Nothing from an engine that only
+  // culls, or without OpenGL where the technique draws with it. No light of the scene may cast.
+  virtual std::vector<ListImage> lists(const Scene&, const std::string& /*technique*/, std::span<const View>,
+                                       const Settings&) {
     return {};
   }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <ctime>
 #include <optional>
-#include <regex>
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +16,7 @@
 #include "culling/view_depth.h"
 #include "plan/settings.h"
 #include "verify/check.h"
+#include "verify/chosen_by_name.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -152,19 +152,10 @@ std::filesystem::path save_loss(const std::filesystem::path& folder, const HuntS
 }
 
 std::vector<HuntClass> chosen_classes(const std::string& filter) {
-  std::vector<HuntClass> chosen;
-  try {
-    const std::regex pattern(filter);
-    for (int i = 0; i < hunt_class_count; ++i) {
-      if (std::regex_search(name_of(HuntClass(i)), pattern)) chosen.push_back(HuntClass(i));
-    }
-  } catch (const std::regex_error&) {
-    throw input_error("filter: \"{}\" is not a regular expression", filter);
-  }
-  if (chosen.empty())
-    throw input_error("filter: no class of the hunt matches \"{}\"; names are like wide or off_centre",
-                      filter);
-  return chosen;
+  std::vector<HuntClass> all;
+  for (int i = 0; i < hunt_class_count; ++i) all.push_back(HuntClass(i));
+  return chosen_by_name(
+      all, filter, [](HuntClass c) { return name_of(c); }, "class of the hunt", "wide or off_centre");
 }
 
 class Hunt {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <regex>
 
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/timer.h"
 #include "scene/builtin/compose.h"
+#include "verify/chosen_by_name.h"
 #include "verify/shadow_scenes.h"
 
 namespace lightgrid::verify {
@@ -246,19 +246,9 @@ HuntedScene hunted_scene(const ShadowHuntClass& hunted, uint64_t seed) {
 }
 
 std::vector<ShadowHuntClass> chosen_shadow_classes(const std::string& filter) {
-  std::vector<ShadowHuntClass> chosen;
-  try {
-    const std::regex pattern(filter);
-    for (const ShadowHuntClass& hunted : shadow_hunt_classes) {
-      if (std::regex_search(hunted.name, pattern)) chosen.push_back(hunted);
-    }
-  } catch (const std::regex_error&) {
-    throw input_error("filter: \"{}\" is not a regular expression", filter);
-  }
-  if (chosen.empty())
-    throw input_error(
-        "filter: no class of the hunt of shadows matches \"{}\"; names are like slivers or rooms", filter);
-  return chosen;
+  return chosen_by_name(
+      shadow_hunt_classes, filter, [](const ShadowHuntClass& c) { return c.name; },
+      "class of the hunt of shadows", "slivers or rooms");
 }
 
 class ShadowHunt {

@@ -2,12 +2,17 @@
 // another.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
+#include <sstream>
+
+#include <fmt/ranges.h>
 
 #include "reference/lit_set.h"
 #include "reference/position.h"
 #include "scene/view_lights.h"
-#include "verify/check.h"
+#include "verify/hunt_cases.h"
 #include "verify/shadow_scenes.h"
 
 namespace lightgrid::verify {
@@ -18,7 +23,7 @@ using glm::dvec3;
 constexpr int no_limit = 1 << 20;
 
 struct Listing {
-  const char* settings;  // assignments, split at spaces
+  std::string settings;  // assignments, split at spaces
   int room = no_limit;   // lights that a pixel holds: further ones are lost
 };
 
@@ -41,16 +46,12 @@ void light_indices(Check& c, Scene scene, const std::vector<View>& views,
   for (Light& light : scene.lights) light.casts_shadow = false;
   for (const Listing& listing : listings) {
     Settings settings;
-    for (size_t at = 0; listing.settings[at];) {
-      const std::string_view rest(listing.settings + at);
-      const std::string_view word = rest.substr(0, rest.find(' '));
-      apply_setting(settings, std::string(word));
-      at += word.size() + (word.size() < rest.size());
-    }
+    std::istringstream words(listing.settings);
+    for (std::string word; words >> word;) apply_setting(settings, word);
     const bool box = settings.volume_mesh == VolumeMeshes::box;
     const bool behind = settings.lidr_volumes == LidrVolumes::front_faces;
     const bool anywhere = settings.lidr_volumes == LidrVolumes::no_prepass;  // along the sight, or past it
-    const std::vector<LightIndexImage> images = c.engine.light_indices(scene, views, settings);
+    const std::vector<ListImage> images = c.engine.lists(scene, "lidr", views, settings);
     if (images.empty()) return c.skip("the engine draws no light volumes");
     for (size_t i = 0; i < views.size(); ++i) {
       const View& view = views[i];
@@ -135,8 +136,7 @@ void full_pixels(Check& c) {
     const std::string overlap = fmt::format("lidr-overlap={}", room);
     const std::string sorted = overlap + " lidr-packing=sort", both = overlap + " lidr-packing=maxblend-sort",
                       faces = overlap + " lidr-volumes=front-faces";
-    light_indices(c, coincident(room), {of_floor()},
-                  {{overlap.c_str()}, {sorted.c_str()}, {both.c_str()}, {faces.c_str()}});
+    light_indices(c, coincident(room), {of_floor()}, {{overlap}, {sorted}, {both}, {faces}});
   }
 }
 
@@ -146,9 +146,8 @@ void past_the_limit(Check& c) {
     const std::string overlap = fmt::format("lidr-overlap={}", room);
     const std::string sorted = overlap + " lidr-packing=sort", both = overlap + " lidr-packing=maxblend-sort",
                       faces = overlap + " lidr-volumes=front-faces";
-    light_indices(
-        c, coincident(room + 3), {of_floor()},
-        {{overlap.c_str(), room}, {sorted.c_str(), room}, {both.c_str(), room}, {faces.c_str(), room}});
+    light_indices(c, coincident(room + 3), {of_floor()},
+                  {{overlap, room}, {sorted, room}, {both, room}, {faces, room}});
   }
 }
 
@@ -240,7 +239,124 @@ void cones_and_ranges(Check& c) {
                  {"lidr-packing=maxblend-sort"}});
 }
 
+// A packing with its room, and as few lights as it certainly holds.
+struct RandomPacking {
+  std::string settings;
+  int overlap = 1, room = 1;            // channels or slots of a pass; of all passes
+  bool sorted = false, inside = false;  // lists surfaces inside volumes alone
+};
+RandomPacking random_packing(Random& random, bool passes) {
+  const auto one_of = [&](auto... values) {
+    const std::common_type_t<decltype(values)...> all[] = {values...};
+    return all[random.next() % sizeof...(values)];
+  };
+  RandomPacking packing;
+  const std::string name = one_of("bitshift", "maxblend", "sort", "maxblend-sort");
+  packing.sorted = name.ends_with("sort");
+  packing.overlap = name == "maxblend" ? one_of(1, 2, 4) : one_of(1, 2, 4, 8);
+  packing.room = packing.overlap;
+  const std::string volumes = one_of("stencil", "stencil", "front-faces", "no-prepass");
+  packing.inside = volumes == "stencil";
+  packing.settings =
+      fmt::format("lidr-packing={} lidr-overlap={} lidr-volumes={} lidr-unpack={} volume-mesh={}", name,
+                  packing.overlap, volumes, one_of("integer", "float"), one_of("auto", "icosahedron", "box"));
+  if (packing.sorted && passes) {
+    const int count = one_of(1, 2, 4);
+    packing.room *= count;
+    const bool still = packing.inside && random.next() % 2;  // else groups depend on the view
+    packing.settings += fmt::format(" lidr-passes={} lidr-sort={}", count, still ? "still" : "view");
+  }
+  return packing;
+}
+
+View random_view_of_floor(Random& random) {
+  const double angle = random.uniform(0, 6.28f), away = random.uniform(0.5f, 6), up = random.uniform(0.1f, 5);
+  const dvec3 target = in_cube(random, 1);
+  const double fov = random.uniform(0.2f, 1.8f);
+  return shadow_view({away * std::cos(angle), up, away * std::sin(angle)}, {target.x, 0.2, target.z},
+                     1 + int(random.next() % 100), 1 + int(random.next() % 80), fov);
+}
+
+void add_random_light(Scene& scene, Random& random) {
+  dvec3 at = in_cube(random, 3);
+  at.y = std::abs(at.y) - 0.1;
+  if (!scene.lights.empty() && random.next() % 8 == 0)
+    at = scene.lights[random.next() % scene.lights.size()].position;
+  const float radius =
+      random.next() % 16 == 0 ? std::numeric_limits<float>::infinity() : std::exp2(random.uniform(-8, 4));
+  if (random.next() % 3 == 0)
+    add_spot_lamp(scene, at, at + any_direction(random), random.uniform(0.02f, 3.1f), radius);
+  else
+    add_lamp(scene, at, radius);
+}
+
+// Lights that reach no surface, before and between the others, so that these have any index.
+void add_far_lights(Scene& scene, Random& random) {
+  constexpr size_t totals[] = {1, 14, 15, 16, 254, 255, 256, 257, 300, 4099};
+  const size_t total = totals[random.next() % std::size(totals)];
+  while (scene.lights.size() < total) {
+    Scene far;
+    Light light = add_lamp(far, {in_cube(random, 9).x, 1000, in_cube(random, 9).z}, 1e-3f);
+    scene.lights.insert(scene.lights.begin() + std::ptrdiff_t(random.next() % (scene.lights.size() + 1)),
+                        light);
+  }
+}
+
+// What is packed is unpacked: no more lights than there is room for, in any packing; each is listed where it
+// lights, and nothing else is.
+void packings(Check& c, Random& random) {
+  const RandomPacking packing = random_packing(random, true);
+  Scene scene = floor_scene();
+  const uint64_t lights = 1 + random.next() % uint64_t(packing.room);
+  for (uint64_t i = 0; i < lights; ++i) add_random_light(scene, random);
+  // Behind front faces in view everything is listed, and groups of still lights are of all.
+  if (packing.inside) add_far_lights(scene, random);
+  const View first = random_view_of_floor(random), second = random_view_of_floor(random);
+  light_indices(c, scene, {first, second, first}, {{packing.settings}});
+}
+
+// More lights than there is room for, which all reach all surfaces: a pixel has those of most influence.
+void priority(Check& c, Random& random) {
+  const RandomPacking packing = random_packing(random, false);
+  Scene scene = floor_scene();
+  const uint64_t more = 1 + random.next() % 20;
+  for (uint64_t i = 0; i < uint64_t(packing.overlap) + more; ++i) {
+    const dvec3 at = in_cube(random, 3);
+    const float radius = random.uniform(20, 200);
+    Light& light = add_lamp(scene, {at.x, std::abs(at.y), at.z}, radius);
+    light.casts_shadow = false, light.intensity = std::exp2(random.uniform(-3, 3));
+  }
+  const View view = random_view_of_floor(random);
+  Settings settings;
+  std::istringstream words(packing.settings);
+  for (std::string word; words >> word;) apply_setting(settings, word);
+  const std::vector<ListImage> images = c.engine.lists(scene, "lidr", {&view, 1}, settings);
+  if (images.empty()) return c.skip("the engine draws no light volumes");
+  const std::vector<ViewLight> lights = lights_in_view(scene, view);
+  std::vector<uint32_t> expected(lights.size());
+  std::iota(expected.begin(), expected.end(), 0u);
+  std::ranges::sort(expected, std::greater(), [&](uint32_t i) { return influence_of(lights[i]); });
+  expected.resize(size_t(packing.overlap));
+  std::ranges::sort(expected);
+  const ListedLights& lists = images[0].lists;
+  for (size_t pixel = 0; pixel < images[0].depths.size(); ++pixel) {
+    if (!(images[0].depths[pixel] > 0)) continue;
+    const size_t cell = lists.cell_of_pixel[pixel];
+    const auto from = lists.indices.begin() + std::ptrdiff_t(lists.first[cell]);
+    std::vector<uint32_t> listed(from, from + lists.count[cell]);
+    std::ranges::sort(listed);
+    c.contacts(expected.size());
+    if (!c.that(listed == expected, "{}: pixel {} lists {}, not {}", packing.settings, pixel,
+                fmt::join(listed, " "), fmt::join(expected, " ")))
+      return;
+  }
+}
+
 }  // namespace
+
+std::vector<RandomCase> random_light_index_cases() {
+  return {{"packings", packings}, {"priority", priority}};
+}
 
 std::vector<CaseRun> light_index_cases() {
   return CASES(first_and_last_index, full_pixels, past_the_limit, eye_in_volumes, groups_that_touch,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -17,6 +16,7 @@
 #include "reference/lit_set.h"
 #include "renderer/render_view.h"
 #include "shared/cull_tests.h"
+#include "verify/chosen_by_name.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -83,17 +83,10 @@ const std::vector<HardCase>& hard_cases() {
 }
 
 std::vector<const HardCase*> chosen_cases(const std::string& filter) {
-  std::vector<const HardCase*> chosen;
-  try {
-    const std::regex pattern(filter);
-    for (const HardCase& hard_case : hard_cases())
-      if (std::regex_search(full_name(hard_case), pattern)) chosen.push_back(&hard_case);
-  } catch (const std::regex_error&) {
-    throw input_error("filter: \"{}\" is not a regular expression", filter);
-  }
-  if (chosen.empty())
-    throw input_error("filter: no case's name matches \"{}\"; names are like depth/all_sky", filter);
-  return chosen;
+  std::vector<const HardCase*> all;
+  for (const HardCase& hard_case : hard_cases()) all.push_back(&hard_case);
+  return chosen_by_name(
+      all, filter, [](const HardCase* c) { return full_name(*c); }, "case's name", "depth/all_sky");
 }
 
 Outcome outcome_of(const std::function<void(Check&)>& run, CullEngine& engine, uint64_t adversarial_lights) {

@@ -4,11 +4,17 @@
 #include <cmath>
 #include <functional>
 
-#include "scene/random.h"
+#include "reference/lit_set.h"
+#include "reference/position.h"
+#include "scene/view_lights.h"
+#include "verify/hunt_cases.h"
 #include "verify/raster_check.h"
+#include "verify/shadow_scenes.h"
 
 namespace lightgrid::verify {
 namespace {
+
+using glm::dvec3;
 
 constexpr int numbers[] = {2, 4, 8};
 // As verify/raster_check.cpp lists them, in pixels and y up.
@@ -249,7 +255,88 @@ void sizes_of_samples(Check& c) {
   });
 }
 
+// Triangles of all kinds, whose corners may lie on places of samples or around the eye.
+void coverage(Check& c, Random& random) {
+  const int samples = numbers[random.next() % std::size(numbers)];
+  const int width = 1 + int(random.next() % 140), height = 1 + int(random.next() % 140);
+  const std::vector<Place> at = places(samples);
+  RasterInput input = scene_with(samples, width, height, random.next() % 2);
+  const uint64_t triangles = 1 + random.next() % 200;
+  for (uint64_t i = 0; i < triangles; ++i) {
+    const uint64_t kind = random.next() % 5;
+    const double reach = std::exp2(random.uniform(-8, kind == 0 ? 20.0f : 6.0f)),
+                 x = random.uniform() * width, y = random.uniform() * height, d = random.uniform(0.5f, 9);
+    const auto corner = [&] {
+      if (kind == 1) {
+        const float ex = random.uniform(-5, 5), ey = random.uniform(-5, 5), ez = random.uniform(-5, 5);
+        return glm::vec3(ex, ey, ez);
+      }
+      double px = x + reach * random.uniform(-1, 1), py = y + reach * random.uniform(-1, 1);
+      const Place& p = at[size_t(random.next() % at.size())];
+      if (kind >= 3) px = std::floor(px) + 0.5 + p.x, py = std::floor(py) + 0.5 + p.y;
+      return raster_position(input, px, py, kind == 4 ? d : double(random.uniform(0.5f, 9)));
+    };
+    add_raster_triangle(input, corner);
+  }
+  input.instances.resize(1 + random.next() % 2);
+  raster(c, input);
+}
+
+// The point that the view shows at a place in pixels, of this depth. Not of oblique near planes.
+dvec3 position_at(const View& view, double px, double py, double depth) {
+  const double z = position_from_depth(view, int(px), int(py), depth).z;
+  const double d = view.orthographic ? 1 : -z;
+  return {view_x_of_pixel(view, px) * d, view_y_of_pixel(view, py) * d, z};
+}
+
+// Lights that barely reach a random scene: each is listed in the tile of every sample that it lights.
+void edge_lists(Check& c, Random& random) {
+  const int samples = numbers[random.next() % std::size(numbers)];
+  Scene scene = empty_shadow_scene();
+  const ShadowTriangles triangles = random.next() % 2 ? sliver_soup(random, 100) : coplanar_soup(random, 30);
+  add_triangles(scene, triangles);
+  if (random.next() % 2) add_triangles(scene, quad_of({-4, -2.25f, 4}, {8, 0, 0}, {0, 0, -8}, 3, 2));
+  for (int i = 0; i < 200; ++i) {
+    const dvec3 on = on_triangle(random, triangles[size_t(random.next() % triangles.size())]);
+    const double reach = std::exp2(random.uniform(-8, 2)), past = 1 + std::exp2(random.uniform(-20, -1));
+    add_lamp(scene, on + any_direction(random) * reach, float(reach * past)).casts_shadow = false;
+  }
+  const dvec3 eye = in_cube(random, 4), target = in_cube(random, 1);
+  const View view = shadow_view(eye, target, 1 + int(random.next() % 120), 1 + int(random.next() % 90),
+                                random.uniform(0.1f, 2));
+  Settings settings;
+  settings.samples = samples, settings.tile = 8 << random.next() % 3;
+  const CullTestRow& row = cull_tests[random.next() % std::size(cull_tests)];
+  settings.cull_test = row.test;
+  settings.depth_bounds = depth_bounds_modes[random.next() % std::size(depth_bounds_modes)].mode;
+  settings.kernel_shape = random.next() % 2 ? KernelShape::lanes : KernelShape::group;
+  const std::vector<ListImage> images = c.engine.lists(scene, "visibility", {&view, 1}, settings);
+  if (images.empty()) return c.skip("the engine draws no samples");
+  const std::vector<ViewLight> lights = lights_in_view(scene, view);
+  const ListedLights& lists = images[0].lists;
+  const std::vector<Place> at = places(samples);
+  const int across = (view.width + settings.tile - 1) / settings.tile;
+  for (size_t i = 0; i < images[0].of_samples.size(); ++i) {
+    const double depth = images[0].of_samples[i];
+    if (!(depth > 0)) continue;
+    const int pixel = int(i) / samples, x = pixel % view.width, y = pixel / view.width;
+    const Place& p = at[i % size_t(samples)];
+    const dvec3 position = position_at(view, x + 0.5 + p.x, y + 0.5 + p.y, depth);
+    const size_t cell = size_t(y / settings.tile) * size_t(across) + size_t(x / settings.tile);
+    const auto first = lists.indices.begin() + std::ptrdiff_t(lists.first.at(cell));
+    for (uint32_t light = 0; light < lights.size(); ++light) {
+      if (!is_lit(lights[light], position)) continue;
+      c.trials(1), c.contacts(1);
+      if (std::find(first, first + lists.count[cell], light) == first + lists.count[cell])
+        c.lost("samples={}, tile={}, {}: light {} reaches sample {} of pixel {} {}", samples, settings.tile,
+               row.name, light, i % size_t(samples), x, y);
+    }
+  }
+}
+
 }  // namespace
+
+std::vector<RandomCase> random_sample_cases() { return {{"coverage", coverage}, {"edge_lists", edge_lists}}; }
 
 std::vector<CaseRun> sample_cases() {
   return CASES(one_sample_alone, edges_at_samples, on_sample_places, fan_around_a_sample,

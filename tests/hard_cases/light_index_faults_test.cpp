@@ -109,9 +109,9 @@ class Spoiled : public CullEngine {
                       const DepthImage& depth, bool blend) override {
     return library_->cull_depth(options, view, lights, depth, blend);
   }
-  std::vector<LightIndexImage> light_indices(const Scene& scene, std::span<const View> views,
-                                             const Settings& settings) override {
-    std::vector<LightIndexImage> images = library_->light_indices(scene, views, settings);
+  std::vector<ListImage> lists(const Scene& scene, const std::string& technique, std::span<const View> views,
+                               const Settings& settings) override {
+    std::vector<ListImage> images = library_->lists(scene, technique, views, settings);
     for (size_t i = 0; i < images.size(); ++i) {
       const std::vector<ViewLight> lights = lights_in_view(scene, views[i]);
       const ListedLights before = std::move(images[i].lists);
