@@ -74,17 +74,27 @@ struct SceneRequest {
   bool casts = false;  // some light of the scene
 };
 
-std::optional<bool> parse_truth(const std::string& text) {
-  if (text.empty()) return {};
-  if (text == "infinite") return false;
-  if (text == "own") return true;
-  throw input_error("truth {}: neither infinite nor own", text);
+// Empty: as the points and the scene's lights call for.
+enum class TruthChoice { called_for, infinite, own, area };
+TruthChoice parse_truth(const std::string& text) {
+  if (text.empty()) return TruthChoice::called_for;
+  if (text == "infinite") return TruthChoice::infinite;
+  if (text == "own") return TruthChoice::own;
+  if (text == "area") return TruthChoice::area;
+  throw input_error("truth {}: neither infinite, own nor area", text);
 }
 
 SceneRequest request_of_scene(const FrontierCommand& o, bool casts, const Settings& common, bool opengl) {
-  SceneRequest request{{}, chosen_truth(common, casts, parse_truth(o.truth)), casts};
+  const TruthChoice choice = parse_truth(o.truth);
+  const auto own =
+      choice == TruthChoice::called_for ? std::optional<bool>() : choice != TruthChoice::infinite;
+  SceneRequest request{{}, chosen_truth(common, casts, own), casts};
   const auto shadows = casts ? std::optional(request.truth) : std::nullopt;
   request.points = chosen_points(o.techniques, o.vary, common, opengl, shadows);
+  const auto has_samples = [](const ChosenPoint& p) { return p.contestant.settings.samples > 1; };
+  const bool areas = choice == TruthChoice::area ||
+                     (choice == TruthChoice::called_for && std::ranges::any_of(request.points, has_samples));
+  request.truth = chosen_truth(common, casts, own, areas);
   return request;
 }
 
@@ -353,8 +363,8 @@ void add_frontier(CommandLine& line) {
                  "NAME[:KEY=VALUE…]: what times are over (default: forward_plus, without OpenGL visibility)");
   command.option(
       "--truth", o->truth,
-      "ranges of the lights in the picture that errors are against: infinite, or own, those of the "
-      "settings (default: infinite; where lights cast shadows, own)");
+      "the picture that errors are against: lights of infinite range, of their own, or these averaged over "
+      "each pixel's area (default: infinite; where lights cast shadows, own; with several samples, area)");
   command.option("--rounds", o->rounds,
                  "times of each point and view, at most: fewer if the intervals are narrow before", 1, 1000);
   command.flag("--no-growth", o->no_growth, "leaves out how times grow with lights, pixels and ranges");

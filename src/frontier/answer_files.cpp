@@ -247,7 +247,7 @@ std::vector<CsvColumn> csv_columns(bool truths, bool shadows, bool authored, boo
   add_measures(sampled + "/picture", "in_double_");
   add_columns(all, {"max_rel", "rmse_rel"}, sampled + "/picture_in_float", "in_double_float_total_");
   add_columns(all, {"max_rel", "rmse_rel"}, sampled + "/truth", "in_double_float_truth_");
-  if (truths) add_columns(all, {"own_ranges", "shadow_source", "shadow_rays"}, "/truth", "truth_");
+  if (truths) add_columns(all, {"own_ranges", "shadow_source", "shadow_rays", "places"}, "/truth", "truth_");
   if (!shadows) return all;
   add_columns(all, {"leaked", "acned", "either"}, "/pairs/shadows");
   add_columns(all, {"pixels", "pairs"}, "/pairs/shadows", "shadow_");

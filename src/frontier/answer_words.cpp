@@ -217,12 +217,13 @@ void add_truth(const FrontierAnswer& answer, const std::string& scene, std::vect
       answer.points, [&](const PointFigures& p) { return p.point.scene == scene && p.truth; });
   if (of_scene == answer.points.end()) return;
   const FrontierTruth& truth = *of_scene->truth;
-  sentences.push_back(fmt::format("Errors in {} are against every light {}{}.", scene_in_words(scene),
-                                  truth.own_ranges ? "with its range" : "without a range",
-                                  truth.source_m > 0
-                                      ? fmt::format(", each a sphere of {:g} m with {} shadow rays a pixel",
-                                                    truth.source_m, truth.shadow_rays)
-                                      : ""));
+  sentences.push_back(fmt::format(
+      "Errors in {} are against every light {}{}{}.", scene_in_words(scene),
+      truth.own_ranges ? "with its range" : "without a range",
+      truth.source_m > 0 ? fmt::format(", each a sphere of {:g} m with {} shadow rays a pixel",
+                                       truth.source_m, truth.shadow_rays)
+                         : "",
+      truth.places ? fmt::format(", and the mean over each pixel's area, of {} places", *truth.places) : ""));
 }
 
 // What a baseline that draws with OpenGL is on this machine, where it is not what readers have in mind.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include "results/error_measures.h"
 #include "results/metrics.h"
@@ -14,12 +15,14 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t least_pixels = 400, most_pixels = 20000;
+constexpr int places_a_side = 16;   // of a pixel, in a truth of areas
 constexpr int rays_of_truth = 256;  // to a sphere; docs/shadows.md has their error
 
 }  // namespace
 
-FrontierTruth chosen_truth(const Settings& common, bool casts, std::optional<bool> own_ranges) {
-  FrontierTruth truth{.own_ranges = own_ranges.value_or(casts)};
+FrontierTruth chosen_truth(const Settings& common, bool casts, std::optional<bool> own_ranges, bool areas) {
+  FrontierTruth truth{.own_ranges = own_ranges.value_or(casts || areas)};
+  if (areas) truth.places = places_a_side * places_a_side;
   const bool spheres = common.given.contains("shadow-source") || common.shadow_rays > 1;
   if (casts && spheres && common.shadow_source_m > 0)
     truth.source_m = common.shadow_source_m, truth.shadow_rays = rays_of_truth;
@@ -28,6 +31,18 @@ FrontierTruth chosen_truth(const Settings& common, bool casts, std::optional<boo
 
 bool counts_shadow_pairs(const Settings& settings, const FrontierTruth& truth) {
   return truth.source_m == 0 && !settings.soft_shadows() && !settings.picks_shadows();
+}
+
+View part_of_view(const View& view, int x, int y, int width, int height, int scale) {
+  View part = view;
+  part.width = width * scale, part.height = height * scale;
+  const double across = double(view.width) / width, up = double(view.height) / height;
+  for (int column = 0; column < 4; ++column) {
+    glm::dvec4& c = part.clip_from_view[column];
+    c.x = across * c.x + (across - 2.0 * x / width - 1) * c.w;
+    c.y = up * c.y + (up - 2.0 * y / height - 1) * c.w;
+  }
+  return part;
 }
 
 BruteForce::BruteForce(Renderer& renderer, GpuScene& gpu, const Settings& common, const FrontierTruth& truth,
@@ -40,12 +55,15 @@ BruteForce::BruteForce(Renderer& renderer, GpuScene& gpu, const Settings& common
       pool_(std::make_shared<TargetPool>()) {}
 
 void BruteForce::look(const View& view) {
+  if (view != view_) of_areas_.reset();  // it takes 256 frames
   view_ = view;
   pictures_.clear();
 }
 
 Settings BruteForce::meaning(const Settings& settings, double source_m) const {
   Settings meaning = with_exact_shadows(with_model(common_, settings));
+  meaning = with_samples(std::move(meaning), truth_.places ? settings.samples : 1);
+  meaning.samples_masks = settings.samples_masks, meaning.samples_resolve = settings.samples_resolve;
   meaning.lights = ShadedLights::all;
   meaning.ranges = meant_ranges(meaning), meaning.far_light = 0;
   meaning.shadow_pick = 0;
@@ -54,8 +72,14 @@ Settings BruteForce::meaning(const Settings& settings, double source_m) const {
 }
 
 const Image& BruteForce::kept(const Settings& meaning) {
+  const auto samples_of = [](const Settings& s) {
+    return s.samples == 1 ? std::tuple(1, SampleMasks(), SamplesResolve())
+                          : std::tuple(s.samples, s.samples_masks, s.samples_resolve);
+  };
   for (const auto& [of, image] : pictures_) {
-    if (same_model(of, meaning) && of.shadow_source_m == meaning.shadow_source_m) return image;
+    if (same_model(of, meaning) && of.shadow_source_m == meaning.shadow_source_m &&
+        samples_of(of) == samples_of(meaning))
+      return image;
   }
   return pictures_.emplace_back(meaning, drawn(meaning)).second;
 }
@@ -64,6 +88,33 @@ Image BruteForce::drawn(const Settings& meaning) {
   TechniqueRun run(renderer_, gpu_, view_, meaning, technique_, pool_);
   run.run_frame(true);
   return run.take_image();
+}
+
+// Drawn at 16 times the size, a part after the other, from lists: these hold every light that reaches a
+// pixel. Textures are filtered with a place's share of the pixel.
+Image BruteForce::mean_over_areas(const Settings& meaning) {
+  Settings settings = with_samples(meaning, 1);
+  settings.lights = ShadedLights::grid;
+  const int width = (view_.width + places_a_side - 1) / places_a_side,
+            height = (view_.height + places_a_side - 1) / places_a_side;
+  const auto part_at = [&](int x, int y) { return part_of_view(view_, x, y, width, height, places_a_side); };
+  TechniqueRun run(renderer_, gpu_, part_at(0, 0), settings, find_technique("visibility"));
+  run.prepare();
+  Image mean(view_.width, view_.height);
+  for (int y = 0; y < view_.height; y += height) {
+    for (int x = 0; x < view_.width; x += width) {
+      run.look(part_at(x, y));
+      run.run_frame(true);
+      const Image& part = run.image();
+      for (size_t i = 0; i < part.pixels.size(); ++i) {
+        const int px = x + int(i) % part.width / places_a_side, py = y + int(i) / part.width / places_a_side;
+        if (px < mean.width && py < mean.height)
+          mean.pixels[size_t(py) * size_t(mean.width) + size_t(px)] +=
+              part.pixels[i] / float(places_a_side * places_a_side);
+      }
+    }
+  }
+  return mean;
 }
 
 static double source_of(const Settings& settings, const FrontierTruth& truth) {
@@ -84,7 +135,9 @@ const Image& BruteForce::picture_of_points(const Settings& settings) { return ke
 const Image& BruteForce::truth() {
   Settings settings = common_;
   if (!truth_.own_ranges) settings.ranges = {.range = LightRange::infinite};
-  return kept(meaning(settings, truth_.source_m));
+  if (!truth_.places) return kept(meaning(settings, truth_.source_m));
+  if (!of_areas_) of_areas_ = mean_over_areas(meaning(settings, truth_.source_m));
+  return *of_areas_;
 }
 
 const Image& BruteForce::authored() { return kept(meaning(common_, truth_.source_m)); }
@@ -104,19 +157,19 @@ std::vector<uint32_t> random_pixels(const std::vector<uint32_t>& pixels, size_t 
 
 Precision::Precision(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& common,
                      const FrontierTruth& truth, size_t pairs)
-    : renderer_(renderer), common_(common), truth_(truth), pairs_(pairs) {
+    : renderer_(renderer), common_(with_samples(common, 1)), truth_(truth), pairs_(pairs) {
   for (Sample& sample : samples_) {
     for (const ErrorMeasure& measure : frontier_error_measures()) sample.precision.*measure.value = unknown;
   }
   if (!renderer_.gl) return;
-  opengl_.emplace(renderer, gpu, view, common, find_technique("forward_plus"));
-  visibility_.emplace(renderer, gpu, view, common, find_technique("visibility"));
+  opengl_.emplace(renderer, gpu, view, common_, find_technique("forward_plus"));
+  visibility_.emplace(renderer, gpu, view, common_, find_technique("visibility"));
 }
 
 void Precision::judge(Sample& sample, BruteForce& brute, const std::vector<glm::dvec3>& with_ranges) const {
   sample.precision =
       frontier_error(at_pixels(brute.picture_of_points(common_), sample.pixels), with_ranges, brightest_);
-  if (truth_.source_m > 0) return;
+  if (truth_.source_m > 0 || truth_.places) return;
   const Image float_truth = at_pixels(brute.truth(), sample.pixels);
   sample.truth_in_float = frontier_error(float_truth, sample.truth, brightest_);
   sample.float_truth.assign(float_truth.pixels.begin(), float_truth.pixels.end());
@@ -160,7 +213,7 @@ void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own, u
 
 std::optional<SampledErrors> Precision::in_double(const Image& picture, bool own_surfaces) const {
   const Sample& sample = samples_[own_surfaces];
-  if (!opengl_ || sample.pixels.empty() || truth_.source_m > 0) return {};
+  if (!opengl_ || sample.pixels.empty() || truth_.source_m > 0 || truth_.places) return {};
   const Image at_sample = at_pixels(picture, sample.pixels);
   return SampledErrors{int(sample.pixels.size()), frontier_error(at_sample, sample.truth, brightest_),
                        frontier_error(at_sample, sample.float_truth, brightest_), sample.truth_in_float};

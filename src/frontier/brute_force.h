@@ -15,12 +15,18 @@ namespace lightgrid {
 
 // The truth that a sweep's pictures are compared with. Where lights cast, all lights keep their ranges unless
 // `own_ranges` says otherwise, so that the error of ranges does not cover that of shadows. Where the settings
-// also give shadows a source (shadow-source, or shadow-rays), lights that cast are spheres.
-FrontierTruth chosen_truth(const Settings& common, bool casts, std::optional<bool> own_ranges = {});
+// also give shadows a source (shadow-source, or shadow-rays), lights that cast are spheres. areas: it is the
+// mean over pixels' areas; lights then keep their ranges for the same reason.
+FrontierTruth chosen_truth(const Settings& common, bool casts, std::optional<bool> own_ranges = {},
+                           bool areas = false);
 
 // Whether the oracle can tell whether a pair's shadow is right: not where a light is partly hidden, or a
 // pixel's lights share one estimate.
 bool counts_shadow_pairs(const Settings& settings, const FrontierTruth& truth);
+
+// The view at `scale` times its size, of which the part from pixel (x, y) of the view, of so many of its
+// pixels.
+View part_of_view(const View& view, int x, int y, int width, int height, int scale);
 
 // Pictures of one view, for techniques that share its surfaces: OpenGL's (`forward`) or those of the
 // rasteriser in OpenCL (`visibility:lights=all`). Float; their own error against the oracle in double is
@@ -34,12 +40,14 @@ class BruteForce {
   void look(const View& view);  // forgets the pictures of the view before
 
   // With the BRDF, ranges and window of `settings`, and exact shadows of points, or of spheres: the truth's,
-  // or those of `settings`.
+  // or those of `settings`. With their samples, where the truth is of pixels' areas; else of pixels' centres.
   const Image& picture(const Settings& settings);
   Image draw(const Settings& settings);  // the same, not kept
   // With exact shadows of points.
   const Image& picture_of_points(const Settings& settings);
   const Image& truth();
+  // Of areas: the same for both kinds of surfaces.
+  void take_truth(const Image& of_areas) { of_areas_ = of_areas; }
   double brightest();  // channel of the truth
   const Image& authored();  // the truth whose lights have the ranges of `common`
 
@@ -47,6 +55,7 @@ class BruteForce {
   Settings meaning(const Settings& settings, double source_m) const;
   const Image& kept(const Settings& meaning);
   Image drawn(const Settings& meaning);
+  Image mean_over_areas(const Settings& meaning);
 
   Renderer& renderer_;
   GpuScene& gpu_;
@@ -56,6 +65,7 @@ class BruteForce {
   View view_;
   std::shared_ptr<TargetPool> pool_;
   std::list<std::pair<Settings, Image>> pictures_;  // with their meanings
+  std::optional<Image> of_areas_;                   // the truth, where it is of areas
 };
 
 // On the surfaces that OpenGL shows, at opaque pixels, with the BRDF of `common`. For techniques with
@@ -75,7 +85,8 @@ class Precision {
 
   // Brute force with the ranges of `common` in float against the same in double, with shadows of points.
   const ImageError& of(bool own_surfaces) const { return samples_[own_surfaces].precision; }
-  // A picture of that view against the truth in double. None where the truth's lights are spheres.
+  // A picture of that view against the truth in double. None where the truth's lights are spheres, or it is
+  // of areas.
   std::optional<SampledErrors> in_double(const Image& picture, bool own_surfaces) const;
 
  private:

@@ -56,6 +56,7 @@ void visit_fields(T& t, Visit&& visit) {
   visit("own_ranges", t.own_ranges);
   visit("shadow_source", t.source_m);
   visit("shadow_rays", t.shadow_rays, FieldRule{.low = 1});
+  visit("places", t.places, FieldRule{.low = 1, .required = false});
 }
 
 template <Is<DisplayedFlip> T, typename Visit>

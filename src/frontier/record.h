@@ -68,11 +68,13 @@ struct PointErrors {
   std::optional<double> temporal_rmse_rel;
 };
 
-// The lights of a truth that is not the usual one of every light without a range (docs/frontier.md#shadows).
+// The lights of a truth that is not the usual one of every light without a range (docs/frontier.md#shadows),
+// or the mean over pixels' areas (docs/frontier.md#samples).
 struct FrontierTruth {
   bool own_ranges = false;  // those of the sweep's settings
   double source_m = 0;      // lights that cast are spheres of this radius, in metres; 0: points
   int shadow_rays = 1;      // for each pixel and light that casts
+  std::optional<int> places{};  // of each pixel's area, whose mean it is; empty: pixels' centres
 
   bool operator==(const FrontierTruth&) const = default;
 };

@@ -101,6 +101,12 @@ void ViewFigures::Truths::look(const View& view, const std::vector<View>& turn) 
   flicker.clear();
 }
 
+void ViewFigures::Truths::take_truths(Truths& of_areas, size_t frames) {
+  brute.take_truth(of_areas.brute.truth());
+  for (size_t frame = 1; frame < frames; ++frame)
+    turned[frame - 1].take_truth(of_areas.turned[frame - 1].truth());
+}
+
 ViewFigures::Reference::Reference(const Image& image, double brightest_channel, const Exposure& exposure)
     : truth(&image), brightest(brightest_channel), shown(std::in_place, image, exposure) {}
 
@@ -141,6 +147,7 @@ void ViewFigures::look(const View& view, int index, bool own, bool whole) {
   if (own && renderer_.gl) used.push_back(&truths_[1]);
   for (Truths* truths : used) truths->look(view, turn_);
   BruteForce& first = truths_[0].brute;
+  if (truth_.places && used.size() > 1) truths_[1].take_truths(truths_[0], turn_.size());
   // Where a median pixel is black, HDR-FLIP has no exposures.
   exposures_ = whole ? flip_exposures(first.truth()) : std::nullopt;
   for (Truths* truths : used) {

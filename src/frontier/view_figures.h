@@ -49,6 +49,7 @@ class ViewFigures {
     std::optional<Reference> reference, authored;
     std::map<const Image*, double> flicker;  // of pictures of brute force
     void look(const View& view, const std::vector<View>& turn);
+    void take_truths(Truths& of_areas, size_t frames);  // of a turn
   };
   Truths& truths_of(const ChosenPoint& point);
   void refer(Truths& truths);

@@ -88,7 +88,8 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       {"src/passes/light_index/blending.cpp", {"lidr"}},
       {"src/passes/light_index/layout.cpp", {"lidr"}},
       // Its hard cases.
-      {"src/verify/device_engine.cpp", {"lidr"}},
+      {"src/verify/light_index_cases.cpp", {"lidr"}},
+      {"src/verify/samples.cpp", {"visibility"}},
       // Ways to draw light groups that hard cases compare.
       {"src/verify/group_cases.cpp",
        {"clustered", "deferred", "deferred_tiled", "forward", "forward_multipass", "forward_plus",

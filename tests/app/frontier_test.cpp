@@ -215,6 +215,30 @@ TEST(FrontierCommand, SharesRoundsAmongProcesses) {
   EXPECT_EQ(json::parse(file_bytes(folder.path / "frontier.json"))["points"], answer["points"]);
 }
 
+// Errors are against pixels' areas where samples vary, and then fall with them.
+TEST(FrontierCommand, HoldsSamplesAgainstAreas) {
+  const TempFolder folder;
+  const auto answer_to = [&](const std::string& name, const std::vector<std::string>& more) {
+    const fs::path out = folder.path / name;
+    const ProgramRun run =
+        run_program(std::vector<std::string>{"frontier", "hall", "--size", "48x27", "--views", "1",
+                                             "--rounds", "1", "--no-growth", "-t", "visibility", "--vary",
+                                             "samples=1,4", "-o", out.string()} +
+                    more);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return json::parse(file_bytes(out / "frontier.json"));
+  };
+  const auto error_of = [](const json& answer, const std::string& label) {
+    return point_of(answer, label)["error"]["total"]["displayed_flip"]["mean"].get<double>();
+  };
+  const json areas = answer_to("areas", {}), centres = answer_to("centres", {"--truth", "own"});
+  EXPECT_EQ(point_of(areas, "visibility")["truth"]["places"], 256);
+  EXPECT_LT(error_of(areas, "visibility:samples=4"), 0.8 * error_of(areas, "visibility"));
+  EXPECT_EQ(point_of(areas, "visibility:samples=4")["error"]["technique"]["max_rel"], 0);
+  EXPECT_FALSE(point_of(centres, "visibility")["truth"].contains("places"));
+  EXPECT_EQ(error_of(centres, "visibility"), 0);
+}
+
 // Exact shadows have no wrong pair and no error, without shadows light leaks, and what one estimate hides is
 // not counted. Where lights are spheres, more rays come nearer to the truth, and the shadows of points differ
 // from it.
