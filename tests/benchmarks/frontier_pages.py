@@ -28,9 +28,9 @@ SAMPLES = ROOT / "docs/results/frontier"
 PAGE = ROOT / "docs/results/frontier.md"
 PICTURE = ROOT / "docs/images/frontier_planes.svg"
 # The time of a run that its tables and picture show, and its name there.
-CLOCKS = {"cpu": ("relative_time", "frame_ms", "fronts", "flip_front_bands", "controls", "wall time"),
+CLOCKS = {"cpu": ("relative_time", "frame_ms", "fronts", "flip_front_bands", "controls", "cheapest_within_flip", "wall time"),
           "h100": ("relative_device_time", "device_ms", "device_fronts", "device_flip_front_bands", "device_controls",
-                   "device time")}
+                   "device_cheapest_within_flip", "device time")}
 NAMES = {"cpu": "two CPU cores", "h100": "H100"}
 
 
@@ -50,10 +50,9 @@ def answer_of(program, run):
         if joined is None:
             joined = answer
             continue
-        for name in ("cheapest_within_flip", "break_even"):  # name points by their index
+        for name in ("cheapest_within_flip", "device_cheapest_within_flip"):  # name points by their index
             for entry in answer[name]:
-                if "point" in entry:
-                    entry["point"] += len(joined["points"])
+                entry["point"] += len(joined["points"])
         for name, value in answer.items():
             if isinstance(value, list):
                 joined[name] += value
@@ -92,7 +91,7 @@ def table(head, rows):
 class Run:
     def __init__(self, name, answer):
         self.name, self.answer = name, answer
-        self.time, self.ms, self.fronts, self.bands, self.controls, self.clock = CLOCKS[name]
+        self.time, self.ms, self.fronts, self.bands, self.controls, self.within, self.clock = CLOCKS[name]
 
     def points(self, scene):
         points = [p for p in self.answer["points"] if p["scene"] == scene and p[self.time]["estimate"] is not None]
@@ -157,11 +156,11 @@ class Run:
     def made_bear(self, of="total"):
         rows = []
         for scene in self.answer["scenes"]:
-            for c in self.answer["cheapest_within_flip"]:
+            for c in self.answer[self.within]:
                 if c["scene"] == scene and c["of"] == of:
                     p = self.answer["points"][c["point"]]
                     rows.append([f"`{scene}`", f"{c['flip']:g}", f"`{p['label']}`", interval(c["relative_time"]), f"{100 * c['probability']:.0f} %"])
-        return table(["scene", "FLIP up to", "cheapest point", "times `forward_plus`, wall time", "the cheapest with"], rows)
+        return table(["scene", "FLIP up to", "cheapest point", "times `forward_plus`", "the cheapest with"], rows)
 
     def made_range(self):
         labels = ["visibility"] + [f"visibility:range=cutoff,cutoff={c}" for c in ("0.2", "0.05", "0.005", "0.001", "0.0001")] + ["visibility:range=infinite"]
@@ -175,12 +174,16 @@ class Run:
         return table(["point", *(f"`{s}`: ms / FLIP / energy" for s in self.answer["scenes"])], rows)
 
     def made_break_even(self):
+        steps = [("forward_plus", "forward_plus:cull-test=sphere", "`sphere` to `planes+aabb`"),
+                 ("forward_plus:cull-test=exact", "forward_plus", "`planes+aabb` to `exact`")]
+        ends = lambda ci: f"{three(ci[0])} to {'never' if ci[1] is None else three(ci[1])}" if ci else "-"
         rows = []
-        for b in self.answer["break_even"]:
-            ci = b["ci95"]
-            low_high = f"{three(ci[0])} to {'never' if ci[1] is None else three(ci[1])}" if ci and b["rounds"] else "-"
-            rows.append([f"`{b['scene']}`", f"`{b['tighter']}`", f"`{b['looser']}`", low_high])
-        return table(["scene", "tighter", "looser", "pays from, ns a pixel and light (95 %)"], rows)
+        for tighter, looser, words in steps:
+            of = {b["scene"]: b for b in self.answer["break_even"] if (b["tighter"], b["looser"]) == (tighter, looser)}
+            rows.append([words, *(ends(of[s]["ci95"]) if s in of and of[s]["rounds"] else "-" for s in self.answer["scenes"])])
+        costs = {c["scene"]: c for c in self.answer["shading_costs"] if (c["technique"], c["brdf"]) == ("forward_plus", "ggx")}
+        rows.append(["a pixel and light of `forward_plus`", *(f"{three(costs[s]['ns_per_pixel_light'])} ({ends(costs[s]['ci95'])})" if s in costs else "-" for s in self.answer["scenes"])])
+        return table(["", *(f"`{s}`" for s in self.answer["scenes"])], rows)
 
     def made(self, what):
         name, *arguments = what
