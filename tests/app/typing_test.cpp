@@ -172,7 +172,7 @@ TEST(Options, MeanTheSameInEveryCommand) {
   std::map<std::string, std::pair<std::string, Option>> first;
   size_t compared = 0;
   for (const char* command : {"render", "compare", "plan", "capture", "cull", "inspect", "info", "scenes",
-                              "techniques", "devices", "bench", "verify", "view", "frontier"}) {
+                              "techniques", "devices", "bench", "verify", "view", "frontier", "golden"}) {
     const std::map<std::string, Option> options = options_of(command);
     EXPECT_TRUE(options.contains("--gl")) << command;
     EXPECT_TRUE(options.contains("--json") || std::string(command) == "view") << command;

@@ -1,0 +1,282 @@
+// lightgrid golden record|check DIR: pictures held by hash, not by threshold (docs/golden.md).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "base/error.h"
+#include "base/log.h"
+#include "base/version.h"
+#include "base/write_file.h"
+#include "results/metrics.h"
+#include "results/results.h"
+#include "session/contestants.h"
+#include "session/golden.h"
+
+namespace lightgrid {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+struct GoldenOptions {
+  std::string action, folder, technique = "visibility", output, json, junit, sarif;
+  std::vector<std::string> scenes;
+  SceneChoice scene;
+  DeviceOptions devices;
+};
+
+constexpr const char* golden_file = "golden.json";
+
+std::string text_of(const ChoiceField& field, const SceneChoice& choice) {
+  return std::visit([&](auto member) { return fmt::format("{}", choice.*member); }, field.value);
+}
+
+// The fields of a choice that are not the defaults.
+ordered_json choice_json(const SceneChoice& choice) {
+  ordered_json object = ordered_json::object();
+  for (const ChoiceField& field : choice_fields()) {
+    if (text_of(field, choice) != text_of(field, {})) object[field.name] = text_of(field, choice);
+  }
+  return object;
+}
+
+struct GoldenScene {
+  std::string technique;
+  SceneChoice choice;
+};
+
+// Draws each view of the choice, and hands it over.
+void draw_views(const GoldenScene& golden, DeviceOptions devices,
+                const std::function<void(size_t view, TechniqueRun& run)>& take) {
+  SceneChoice choice = golden.choice;
+  std::string name = golden.technique;
+  take_own_settings(name, choice.set);
+  const Settings settings = chosen_settings(choice);
+  const Technique& technique = find_technique(name);
+  check_given_settings(settings, {&technique});
+  choice.device = devices.device;
+  ChosenScene chosen = load_chosen_scene(choice);
+  std::vector<View> path = chosen_path(chosen.scene, chosen.view, choice);
+  Renderer renderer = open_devices(devices, name, settings);
+  const SceneMotion advance = chosen_motion(chosen.scene, choice);
+  if (path.empty() && choice.light_motion != "none") advance(0);
+  GpuScene gpu(renderer, chosen.scene);
+  TechniqueRun run(renderer, gpu, chosen.view, settings, technique);
+  for (size_t i = 0; i < std::max<size_t>(1, path.size()); ++i) {
+    if (!path.empty()) {
+      const SceneChanges changes = advance ? advance(i) : SceneChanges();
+      gpu.update(changes);
+      run.look(path[i], changes);
+    }
+    run.run_frame();
+    if (renderer.counts().cl_programs == 0)
+      throw machine_error("{}: no OpenCL kernel ran: a picture without one says nothing", choice.scene);
+    take(i, run);
+  }
+}
+
+int record(const GoldenOptions& o) {
+  if (o.scenes.empty()) throw input_error("golden record: SCENE is missing: one or more");
+  return with_output_folder(o.folder, [&] {
+    ordered_json scenes;
+    size_t count = 0;
+    for (const std::string& scene : o.scenes) {
+      GoldenScene golden{o.technique, o.scene};
+      golden.choice.scene = scene;
+      ordered_json views;
+      draw_views(golden, o.devices, [&](size_t, TechniqueRun& run) {
+        if (views.empty() && !own_surfaces(run.technique(), run.view().plan.settings))
+          log_warning("{}: {} draws with OpenGL: its bytes hold for this driver alone", scene, o.technique);
+        views.push_back(to_json(golden_view(run)));
+        ++count;
+      });
+      scenes.push_back({{"scene", scene},
+                        {"technique", o.technique},
+                        {"options", choice_json(o.scene)},
+                        {"set", o.scene.set},
+                        {"views", views}});
+    }
+    const ordered_json file = {{"lightgrid_golden", 1},
+                               {"version", version_of_build()},
+                               {"commit", commit_of_build()},
+                               {"scenes", scenes}};
+    const std::filesystem::path path = std::filesystem::path(o.folder) / golden_file;
+    write_file(path, file.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    fmt::print("{}: {} views\n", path.string(), count);
+    return 0;
+  });
+}
+
+struct CheckedView {
+  std::string name, stage, message;  // the latter two are empty where nothing differs
+};
+
+struct RecordedScene {
+  GoldenScene golden;
+  std::vector<GoldenView> views;
+};
+
+std::vector<RecordedScene> read_golden(const std::filesystem::path& path) {
+  const std::string text = read_small_file(path, 64 << 20, "a golden file");
+  try {
+    const json parsed = parsed_json(text, 8);
+    const JsonFields file(parsed);
+    if (file.count("lightgrid_golden") != 1)
+      throw input_error("lightgrid_golden: {} is a later format than this program reads",
+                        file.count("lightgrid_golden"));
+    std::vector<RecordedScene> scenes;
+    const json& list = file.at("scenes");
+    if (!list.is_array() || list.empty()) throw input_error("scenes: is not a list of one or more");
+    for (size_t i = 0; i < list.size(); ++i) {
+      const JsonFields fields(list[i], fmt::format("scenes[{}].", i));
+      RecordedScene& scene = scenes.emplace_back();
+      scene.golden.choice.scene = fields.text("scene");
+      scene.golden.technique = fields.text("technique");
+      const JsonFields options = fields.object("options");
+      for (const std::string& name : options.names())
+        set_choice_field(scene.golden.choice, name + "=" + options.text(name));
+      const json& set = fields.at("set");
+      if (!set.is_array() || !std::ranges::all_of(set, [](const json& s) { return s.is_string(); }))
+        throw input_error("scenes[{}].set: is not a list of texts", i);
+      scene.golden.choice.set = set.get<std::vector<std::string>>();
+      const json& views = fields.at("views");
+      if (!views.is_array() || views.empty())
+        throw input_error("scenes[{}].views: is not a list of one or more", i);
+      for (size_t v = 0; v < views.size(); ++v)
+        scene.views.push_back(golden_view(JsonFields(views[v], fmt::format("scenes[{}].views[{}].", i, v))));
+    }
+    return scenes;
+  } catch (const Error& error) {
+    throw Error(error.kind(), path.string() + ": " + error.what());
+  }
+}
+
+std::string xml_escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '&') escaped += "&amp;";
+    else if (c == '<') escaped += "&lt;";
+    else if (c == '"') escaped += "&quot;";
+    else escaped += c;
+  }
+  return escaped;
+}
+
+std::string junit_text(const std::vector<CheckedView>& checked) {
+  const auto differ = std::ranges::count_if(checked, [](const CheckedView& c) { return !c.stage.empty(); });
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"lightgrid golden\" tests=\"{}\" "
+      "failures=\"{}\">\n",
+      checked.size(), differ);
+  for (const CheckedView& c : checked) {
+    text += fmt::format("  <testcase classname=\"golden\" name=\"{}\"", xml_escaped(c.name));
+    text += c.stage.empty() ? "/>\n"
+                            : fmt::format("><failure type=\"{}\" message=\"{}\"/></testcase>\n", c.stage,
+                                          xml_escaped(c.message));
+  }
+  return text + "</testsuite>\n";
+}
+
+ordered_json sarif(const std::vector<CheckedView>& checked, const std::string& file) {
+  ordered_json rules = ordered_json::array(), results = ordered_json::array();
+  for (const char* stage : golden_stages)
+    rules.push_back({{"id", stage},
+                     {"shortDescription", {{"text", fmt::format("{} is the first stage that differs", stage)}}}});
+  for (const CheckedView& c : checked) {
+    if (c.stage.empty()) continue;
+    const ordered_json location = {{"physicalLocation", {{"artifactLocation", {{"uri", file}}}}}};
+    results.push_back({{"ruleId", c.stage},
+                       {"level", "error"},
+                       {"message", {{"text", c.name + ": " + c.message}}},
+                       {"locations", ordered_json::array({location})}});
+  }
+  const ordered_json driver = {{"name", "lightgrid golden"}, {"version", version_of_build()}, {"rules", rules}};
+  const ordered_json run = {{"tool", {{"driver", driver}}}, {"results", results}};
+  return {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
+          {"version", "2.1.0"},
+          {"runs", ordered_json::array({run})}};
+}
+
+std::string in_words(const GoldenDifference& d, const GoldenView& view) {
+  return fmt::format("differs first in {}: {} of {} tiles, the first at pixels {},{} to {},{}",
+                     golden_stages[d.stage], d.tiles, view.stages[d.stage].size(), d.tile_x * view.tile,
+                     d.tile_y * view.tile, std::min(view.width, (d.tile_x + 1) * view.tile) - 1,
+                     std::min(view.height, (d.tile_y + 1) * view.tile) - 1);
+}
+
+int check(const GoldenOptions& o) {
+  for (const auto& [option, path] : {std::pair{"--json", o.json}, {"--junit", o.junit}, {"--sarif", o.sarif}})
+    if (!path.empty()) check_output_file(option, path);
+  const std::string path = (std::filesystem::path(o.folder) / golden_file).string();
+  const std::vector<RecordedScene> scenes = read_golden(path);
+  if (!o.output.empty()) make_folder(o.output);
+  std::vector<CheckedView> checked;
+  for (size_t s = 0; s < scenes.size(); ++s) {
+    const RecordedScene& scene = scenes[s];
+    size_t drawn = 0;
+    draw_views(scene.golden, o.devices, [&](size_t i, TechniqueRun& run) {
+      ++drawn;
+      if (i >= scene.views.size()) return;
+      CheckedView& c = checked.emplace_back();
+      c.name = fmt::format("{} {} {}", scene.golden.choice.scene, scene.golden.technique, i);
+      const GoldenView view = golden_view(run);
+      if (const auto difference = first_difference(scene.views[i], view)) {
+        c.stage = golden_stages[difference->stage];
+        c.message = in_words(*difference, view);
+        if (!o.output.empty())
+          save_exr(std::filesystem::path(o.output) / fmt::format("{:02}_{:04}_drawn.exr", s, i), run.image());
+      }
+      if (o.json != "-") fmt::print("{}: {}\n", c.name, c.stage.empty() ? "same" : c.message);
+    });
+    if (drawn != scene.views.size())
+      throw input_error("{}: scenes[{}].views: {} are recorded, and {} were drawn", path, s, scene.views.size(),
+                        drawn);
+  }
+  if (!o.junit.empty()) write_json(o.junit, junit_text(checked));
+  if (!o.sarif.empty()) write_json(o.sarif, sarif(checked, path).dump(1));
+  if (!o.json.empty()) {
+    ordered_json views;
+    for (const CheckedView& c : checked)
+      views.push_back({{"view", c.name}, {"same", c.stage.empty()}, {"stage", c.stage}, {"message", c.message}});
+    write_json(o.json, ordered_json{{"views", views}}.dump(1));
+  }
+  return std::ranges::any_of(checked, [](const CheckedView& c) { return !c.stage.empty(); });
+}
+
+int golden(const GoldenOptions& o) {
+  if (o.folder.empty()) throw input_error("golden: DIR is missing: the folder of {}", golden_file);
+  parse_gl_backend(o.devices.gl);
+  if (o.action == "record") return record(o);
+  if (o.action != "check") throw input_error("golden {}: is neither record nor check", o.action);
+  if (!o.scenes.empty()) throw input_error("golden check: {}: takes no scene but DIR's", o.scenes.front());
+  return check(o);
+}
+
+}  // namespace
+
+void add_golden(CommandLine& line) {
+  auto o = std::make_shared<GoldenOptions>();
+  Subcommand command = line.add("golden", "pictures held by hash: record them, or check that they are drawn again",
+                                [o] { return golden(*o); });
+  command.option("action", o->action, "record or check");
+  command.option("folder", o->folder, "folder of golden.json");
+  command.list("scene", o->scenes, "of record, one or more: .gltf or .glb files, or built-in scenes");
+  command.option("--size", o->scene.size, "image size, WxH");
+  command.option("--lights", o->scene.lights, "scatter N lights; with --lights-file, its first N", 0,
+                 most_lights);
+  add_view_options(command, o->scene);
+  add_path_option(command, o->scene);
+  add_device_options(command, o->devices);
+  add_technique_option(command, o->technique, technique_names());
+  command.option("-o,--output", o->output, "of check: folder for the pictures of views that differ");
+  command.option("--json", o->json, "of check: results as JSON into a file, - for stdout");
+  command.option("--junit", o->junit, "of check: results as JUnit XML into a file");
+  command.option("--sarif", o->sarif, "of check: differences as SARIF 2.1.0 into a file");
+}
+
+}  // namespace lightgrid
