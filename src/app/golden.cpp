@@ -159,10 +159,14 @@ std::vector<RecordedScene> read_golden(const std::filesystem::path& path) {
 std::string xml_escaped(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
-    if (c == '&') escaped += "&amp;";
-    else if (c == '<') escaped += "&lt;";
-    else if (c == '"') escaped += "&quot;";
-    else escaped += c;
+    if (c == '&')
+      escaped += "&amp;";
+    else if (c == '<')
+      escaped += "&lt;";
+    else if (c == '"')
+      escaped += "&quot;";
+    else
+      escaped += c;
   }
   return escaped;
 }
@@ -185,8 +189,9 @@ std::string junit_text(const std::vector<CheckedView>& checked) {
 ordered_json sarif(const std::vector<CheckedView>& checked, const std::string& file) {
   ordered_json rules = ordered_json::array(), results = ordered_json::array();
   for (const char* stage : golden_stages)
-    rules.push_back({{"id", stage},
-                     {"shortDescription", {{"text", fmt::format("{} is the first stage that differs", stage)}}}});
+    rules.push_back(
+        {{"id", stage},
+         {"shortDescription", {{"text", fmt::format("{} is the first stage that differs", stage)}}}});
   for (const CheckedView& c : checked) {
     if (c.stage.empty()) continue;
     const ordered_json location = {{"physicalLocation", {{"artifactLocation", {{"uri", file}}}}}};
@@ -195,7 +200,8 @@ ordered_json sarif(const std::vector<CheckedView>& checked, const std::string& f
                        {"message", {{"text", c.name + ": " + c.message}}},
                        {"locations", ordered_json::array({location})}});
   }
-  const ordered_json driver = {{"name", "lightgrid golden"}, {"version", version_of_build()}, {"rules", rules}};
+  const ordered_json driver = {
+      {"name", "lightgrid golden"}, {"version", version_of_build()}, {"rules", rules}};
   const ordered_json run = {{"tool", {{"driver", driver}}}, {"results", results}};
   return {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
           {"version", "2.1.0"},
@@ -234,15 +240,16 @@ int check(const GoldenOptions& o) {
       if (o.json != "-") fmt::print("{}: {}\n", c.name, c.stage.empty() ? "same" : c.message);
     });
     if (drawn != scene.views.size())
-      throw input_error("{}: scenes[{}].views: {} are recorded, and {} were drawn", path, s, scene.views.size(),
-                        drawn);
+      throw input_error("{}: scenes[{}].views: {} are recorded, and {} were drawn", path, s,
+                        scene.views.size(), drawn);
   }
   if (!o.junit.empty()) write_json(o.junit, junit_text(checked));
   if (!o.sarif.empty()) write_json(o.sarif, sarif(checked, path).dump(1));
   if (!o.json.empty()) {
     ordered_json views;
     for (const CheckedView& c : checked)
-      views.push_back({{"view", c.name}, {"same", c.stage.empty()}, {"stage", c.stage}, {"message", c.message}});
+      views.push_back(
+          {{"view", c.name}, {"same", c.stage.empty()}, {"stage", c.stage}, {"message", c.message}});
     write_json(o.json, ordered_json{{"views", views}}.dump(1));
   }
   return std::ranges::any_of(checked, [](const CheckedView& c) { return !c.stage.empty(); });
@@ -261,8 +268,9 @@ int golden(const GoldenOptions& o) {
 
 void add_golden(CommandLine& line) {
   auto o = std::make_shared<GoldenOptions>();
-  Subcommand command = line.add("golden", "pictures held by hash: record them, or check that they are drawn again",
-                                [o] { return golden(*o); });
+  Subcommand command =
+      line.add("golden", "pictures held by hash: record them, or check that they are drawn again",
+               [o] { return golden(*o); });
   command.option("action", o->action, "record or check");
   command.option("folder", o->folder, "folder of golden.json");
   command.list("scene", o->scenes, "of record, one or more: .gltf or .glb files, or built-in scenes");

@@ -78,8 +78,8 @@ GoldenView golden_view(TechniqueRun& run) {
 
 std::optional<GoldenDifference> first_difference(const GoldenView& recorded, const GoldenView& drawn) {
   if (recorded.width != drawn.width || recorded.height != drawn.height || recorded.tile != drawn.tile)
-    throw input_error("width {}, height {}, tile {}: the view that is drawn has {}, {} and {}", recorded.width,
-                      recorded.height, recorded.tile, drawn.width, drawn.height, drawn.tile);
+    throw input_error("width {}, height {}, tile {}: the view that is drawn has {}, {} and {}",
+                      recorded.width, recorded.height, recorded.tile, drawn.width, drawn.height, drawn.tile);
   for (size_t stage = 0; stage < golden_stages.size(); ++stage) {
     const std::vector<std::string>&a = recorded.stages[stage], &b = drawn.stages[stage];
     const auto first = size_t(std::ranges::mismatch(a, b).in1 - a.begin());
