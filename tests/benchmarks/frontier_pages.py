@@ -210,7 +210,7 @@ def color_of(point):
 
 class Plane:
     """A scene's points in the plane of error and time; both logarithmic, with a line of its own for 0."""
-    width, height, left, top = 260, 230, 46, 24
+    width, height, left, top = 260, 260, 46, 24
     least_flip = 1e-3
 
     def __init__(self, run, scene, x, y, ends):

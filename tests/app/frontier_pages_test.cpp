@@ -1,0 +1,54 @@
+// docs/results/frontier.md, its picture and its tables are what their samples make.
+#include <gmock/gmock.h>
+
+#include "support/read_files.h"
+#include "support/run_program.h"
+
+namespace lightgrid {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+ProgramRun checked_pages(const fs::path& root) {
+  return run_words(
+      {"python3", root / "tests/benchmarks/frontier_pages.py", "--check", "--program", lightgrid_program});
+}
+
+TEST(FrontierPages, AreMadeFromTheirSamples) {
+  if (run_words({"python3", "--version"}).status != 0) GTEST_SKIP() << "no Python here";
+  const ProgramRun run = checked_pages(source_folder);
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+}
+
+// The check can fail: for each file, with one figure changed.
+TEST(FrontierPages, OfOtherFiguresAreFound) {
+  if (run_words({"python3", "--version"}).status != 0) GTEST_SKIP() << "no Python here";
+  const TempFolder folder;
+  for (const char* path : {"tests/benchmarks", "docs/results/frontier", "docs/images"})
+    fs::create_directories(folder.path / path);
+  const fs::path from = source_folder, page = "docs/results/frontier.md",
+                 table = "docs/results/frontier/h100.csv", picture = "docs/images/frontier_planes.svg";
+  for (const fs::path& file : {fs::path("tests/benchmarks/frontier_pages.py"),
+                               fs::path("tests/benchmarks/frontier_table.py"), page, picture})
+    fs::copy(from / file, folder.path / file);
+  fs::copy(from / table.parent_path(), folder.path / table.parent_path(),
+           fs::copy_options::recursive);
+  const ProgramRun copy = checked_pages(folder.path);
+  ASSERT_EQ(copy.status, 0) << copy.err;
+  for (const fs::path& file : {page, table, picture}) {
+    const std::string right = file_bytes(folder.path / file);
+    std::string wrong = right;
+    const size_t figure = wrong.rfind("0.");  // the last one of a table, a row or a path
+    ASSERT_NE(figure, std::string::npos) << file;
+    wrong[figure] = '7';
+    std::ofstream(folder.path / file) << wrong;
+    const ProgramRun run = checked_pages(folder.path);
+    EXPECT_EQ(run.status, 1) << file;
+    EXPECT_THAT(run.err, HasSubstr(file.string() + ": is not what its samples make"));
+    std::ofstream(folder.path / file) << right;
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid
