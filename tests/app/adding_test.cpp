@@ -77,6 +77,7 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       {"src/app/view.cpp", {"forward_plus", "visibility"}},
       {"src/c_api/grids.cpp", {"forward_plus"}},
       {"src/bench/runs.cpp", {"forward_plus"}},
+      {"src/app/golden.cpp", {"visibility"}},
       {"src/capture/capture.cpp", {"forward_plus", "visibility"}},
       {"src/session/comparison.cpp", {"forward", "forward_plus", "visibility"}},
       {"src/session/scene_choice.cpp", {"forward_plus", "visibility"}},
