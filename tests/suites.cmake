@@ -37,9 +37,9 @@ foreach(line IN LISTS lines)
     add_entry(${suite} "${suite}.*")
     if(suite IN_LIST of_each_form)
       # But for hard cases of shadows, which take minutes: Soups/RaysInSoups holds rays in each form. Those of OpenGL's lists
-      # and of caps have no code of a form; KernelForms draws capped lists with each.
+      # and of caps have no code of a form; KernelForms draws groups and capped lists with each.
       foreach(form avx2 sse2)
-        set(but ${suite}.Hold/shadows:${suite}.Hold/lidr:${suite}.Hold/caps)
+        set(but ${suite}.Hold/shadows:${suite}.Hold/lidr:${suite}.Hold/caps:${suite}.Hold/groups)
         add_entry(${form}/${suite} "${suite}.*-${but}" POCL_KERNELLIB_NAME=${form})
       endforeach()
     endif()
