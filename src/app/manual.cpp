@@ -42,7 +42,7 @@ bool takes_value(const CLI::Option& option) { return option.get_items_expected_m
 // What may follow an option, or stand for the scene; empty: anything.
 std::vector<std::string> values_of(const std::string& name) {
   std::vector<std::string> values;
-  if (name == "--technique") {
+  if (name == "--technique" || name == "--techniques") {
     for (const Technique* technique : techniques()) values.emplace_back(technique->name);
   } else if (name == "scene") {
     for (const BuiltinScene& scene : builtin_scenes()) values.emplace_back(scene.name);
@@ -162,8 +162,7 @@ std::string zsh_completion(CLI::App& app) {
     cases += fmt::format("    {}) _arguments \\\n", command->get_name());
     for (const CLI::Option* option : options_of(*command, app)) {
       const std::vector<std::string> names = names_of(*option);
-      const std::vector<std::string> values =
-          values_of(names.back() == "--techniques" ? "--technique" : names.back());
+      const std::vector<std::string> values = values_of(names.back());
       for (const std::string& name : names) {
         cases += fmt::format("      '*{}[{}]{}' \\\n", name, zsh_quoted(option->get_description()),
                              !takes_value(*option) ? ""
@@ -209,7 +208,7 @@ std::string fish_completion(CLI::App& app) {
       for (const std::string& name : option->get_snames()) text += " -s " + name;
       for (const std::string& name : option->get_lnames()) text += " -l " + name;
       const std::string name = names_of(*option).back();
-      const std::vector<std::string> values = values_of(name == "--techniques" ? "--technique" : name);
+      const std::vector<std::string> values = values_of(name);
       if (takes_value(*option))
         text += values.empty() ? " -r" : fmt::format(" -x -a '{}'", fmt::join(values, " "));
       text += fmt::format(" -d '{}'\n", fish_quoted(option->get_description()));

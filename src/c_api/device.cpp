@@ -72,9 +72,10 @@ OpenDevice::OpenDevice(const std::string& device, GlBackend backend) {
 
 OpenDevice::~OpenDevice() {
   const std::lock_guard lock(turn());
-  {
+  try {
     const Turn in_context(*this);
     last_rasterized.reset();
+  } catch (const Error&) {  // the context is lost
   }
   renderer_.reset();  // makes its own context current where it has to
 }

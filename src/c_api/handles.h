@@ -57,7 +57,7 @@ class LoadedScene {
 struct DeviceScene {
   std::shared_ptr<LoadedScene> scene;
   std::shared_ptr<GpuScene> gpu{};  // another one after the scene's shape changed
-  uint64_t shape = 0, time = 0;   // of the scene when `gpu` last read it
+  uint64_t shape = 0, time = 0;     // of the scene when `gpu` last read it
 
   struct Raster {
     std::shared_ptr<RasterScene> scene;

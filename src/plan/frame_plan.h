@@ -100,7 +100,7 @@ struct FramePlan {
   std::vector<uint32_t> features_of_instance;  // one for each of the scene's instances; 0 if not in view
 
   bool light_grid = false;    // culling kernels and the grid's buffers
-  bool light_tree = false;    // samples from a tree of all lights, in place of culling
+  bool light_tree = false;     // samples from a tree of all lights, in place of culling
   bool sampled_lists = false;  // longer lists than list-cap become samples
   bool world_grid = false;    // lists in cells of the world
   bool local_lights = false;  // at least one point or spot light

@@ -130,10 +130,9 @@ std::vector<Setting>& all_settings() {
                                    {"256", 256}})},
       {"list-cap-order",
        "the lights that a longer list keeps: the scene's first, the nearest to the eye or to the object's "
-       "middle, those that add the most to the cell's or the object's middle; or lights drawn at random, "
-       "from "
-       "the list or from a tree of all lights, which count so often that the expected picture is that of "
-       "whole lists",
+       "middle, those that add the most to the cell's or the object's middle; or lights drawn at random, from "
+       "the list or a tree of all lights, which count so often that the expected picture is that of whole "
+       "lists",
        named(&Settings::list_cap_order, {{"index", ListCapOrder::index},
                                          {"distance", ListCapOrder::distance},
                                          {"brightest", ListCapOrder::brightest},

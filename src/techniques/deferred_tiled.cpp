@@ -12,13 +12,7 @@ extern const Technique deferred_tiled{
     .summary = "a geometry buffer, lit in OpenCL from per-tile light lists",
     .source = "Lauritzen: Deferred Rendering for Current and Future Rendering Pipelines, SIGGRAPH 2010",
     .needs = needs_of_shade_tiled,
-    .settings = {"brdf",          "buffer-bits",     "group-ids",
-                 "group-tiles",   "cull-test",       "depth-bounds",
-                 "tile",          "slice-spacing",   "z-bins",
-                 "list-cap",      "list-cap-order",  "list-seed",
-                 "view-cap",      "raster",          "samples",
-                 "samples-masks", "samples-shading", "texels",
-                 "kernel-shape",  "portable",        "group-size"},
+    .settings = settings_of_shade_tiled,
     .render = render};
 
 }  // namespace lightgrid

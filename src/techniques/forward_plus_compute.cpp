@@ -11,13 +11,7 @@ extern const Technique forward_plus_compute{
     .summary = "per-tile light lists, shaded in OpenCL",
     .source = "Harada, McKee, Yang: Forward+, Eurographics 2012; the loop as in Lauritzen, SIGGRAPH 2010",
     .needs = needs_of_shade_tiled,
-    .settings = {"brdf",          "buffer-bits",     "group-ids",
-                 "group-tiles",   "cull-test",       "depth-bounds",
-                 "tile",          "slice-spacing",   "z-bins",
-                 "list-cap",      "list-cap-order",  "list-seed",
-                 "view-cap",      "raster",          "samples",
-                 "samples-masks", "samples-shading", "texels",
-                 "kernel-shape",  "portable",        "group-size"},
+    .settings = settings_of_shade_tiled,
     .render = render};
 
 }  // namespace lightgrid

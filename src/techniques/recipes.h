@@ -42,6 +42,11 @@ inline constexpr TechniqueNeeds needs_of_shade_tiled{.light_grid = true,
                                                      .sampled_lists = true,
                                                      .most_samples = 8,
                                                      .adapt = adapt_shade_tiled};
+inline const std::vector<const char*> settings_of_shade_tiled = {
+    "brdf",         "buffer-bits",   "group-ids", "group-tiles",   "cull-test",       "depth-bounds",
+    "tile",         "slice-spacing", "z-bins",    "list-cap",      "list-cap-order",  "list-seed",
+    "view-cap",     "raster",        "samples",   "samples-masks", "samples-shading", "texels",
+    "kernel-shape", "portable",      "group-size"};
 
 // forward_multipass and forward_zprepass share this: each object with the lights that reach its visible part,
 // `lights_a_draw` in each draw, added up; then blended surfaces. own_apart: the first draw has base lighting

@@ -267,7 +267,9 @@ TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
   const Naming expected = {
       {"src/shared/light_table.h", {"answers"}},
       {"src/reference/attenuation.h", {"answers"}},
+      // Shadows, and groups.
       {"src/plan/frame_plan.cpp", {"answers"}},
+      {"src/plan/light_plan.cpp", {"answers"}},
       // radiance_from, with which shaders/lights and voxel-lights-exact end.
       {"src/shared/punctual_light.h", {"arrives", "asks"}},
       // The volume of voxel_lights has no shadows, nor has what is taken out of it.

@@ -13,9 +13,9 @@ using testing::HasSubstr;
 // Kernels without optimisation have the same bytes and the same warnings.
 ProgramRun run_form(const std::string& form, const std::filesystem::path& cache,
                     const std::vector<std::string>& arguments) {
-  return run_program(arguments, {"POCL_KERNELLIB_NAME=" + form, "XDG_CACHE_HOME=" + cache.string(),
-                                 "LIGHTGRID_CL_CACHE=driver", "LIGHTGRID_CL_QUICK_BUILD=all",
-                                 "LIGHTGRID_TUNED=off"});
+  return run_program(arguments,
+                     {"POCL_KERNELLIB_NAME=" + form, "XDG_CACHE_HOME=" + cache.string(),
+                      "LIGHTGRID_CL_CACHE=driver", "LIGHTGRID_CL_QUICK_BUILD=all", "LIGHTGRID_TUNED=off"});
 }
 
 bool chooses_form(const std::string& form, const char* cpu) {
@@ -41,11 +41,12 @@ TEST_P(KernelForm, PrintsNothingAtItsFirstStart) {
   EXPECT_EQ(run.err, "");
 }
 
-std::string image_of_form(const char* form, const std::string& scene, const std::string& technique) {
-  const TempFolder cache, output;
+std::string image_of_form(const std::string& form, const std::filesystem::path& caches,
+                          const std::string& scene, const std::string& technique) {
+  const TempFolder output;
   const std::string image = output.path / "image.exr";
   const ProgramRun run =
-      run_form(form, cache.path, {"render", scene, "--size", "96x54", "-t", technique, "-o", image});
+      run_form(form, caches / form, {"render", scene, "--size", "96x54", "-t", technique, "-o", image});
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.err, "");
   return file_bytes(image);
@@ -54,16 +55,18 @@ std::string image_of_form(const char* form, const std::string& scene, const std:
 TEST(KernelForms, DrawTheSameBytes) {
   if (!chooses_form("avx2", "pthread-haswell") || !chooses_form("sse2", "pthread-athlon64"))
     GTEST_SKIP() << "no PoCL here that compiles for AVX2 and SSE2";
+  const TempFolder caches;  // pictures share kernels
   for (const auto& [scene, technique] : {std::pair{"hall", "visibility"},
                                          {"rooms", "visibility:list-cap=8"},
                                          {"rooms", "visibility:list-cap=8,list-cap-order=sampled"},
                                          {"rooms", "visibility:samples=4,list-cap=8,list-cap-order=tree"},
                                          {"spheres", "forward_plus_compute"},
                                          {"spheres", "deferred_tiled:samples=4"}}) {
-    const std::string image = image_of_form("avx512", scene, technique);
+    const std::string image = image_of_form("avx512", caches.path, scene, technique);
     EXPECT_THAT(image, HasSubstr("channels"));
     for (const char* form : {"avx2", "sse2"})
-      EXPECT_TRUE(image_of_form(form, scene, technique) == image) << scene << ' ' << technique << ' ' << form;
+      EXPECT_TRUE(image_of_form(form, caches.path, scene, technique) == image)
+          << scene << ' ' << technique << ' ' << form;
   }
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "frontier/record.h"
+#include "frontier/answer.h"
 
 namespace lightgrid {
 
@@ -64,6 +64,10 @@ inline FrontierPart synthetic_part(std::vector<FrontierRecord> records) {
   part.machine.load_at_start = 0.2, part.machine.load_at_end = 1.9;
   part.records = std::move(records);
   return part;
+}
+
+inline FrontierAnswer answer_from(std::vector<FrontierRecord> records) {
+  return answer_of({synthetic_part(std::move(records))});
 }
 
 // Two scenes of two views, every kind of figure. In hall, by ratio and error: visibility (0.3, 1e-4), its
