@@ -29,6 +29,15 @@ function(add_entry name filter)
                        ENVIRONMENT "${environment};${ARGN}")
 endfunction()
 
+# The forms of the CPU kernels that are not this machine's own, which tests without POCL_KERNELLIB_NAME hold.
+set(other_forms avx2 sse2)
+if(EXISTS /proc/cpuinfo)
+  file(STRINGS /proc/cpuinfo flags REGEX "^flags" LIMIT_COUNT 1)
+  if(flags MATCHES " avx2" AND NOT flags MATCHES " avx512f")
+    set(other_forms sse2)
+  endif()
+endif()
+
 string(REPLACE "\n" ";" lines "${lines}")
 foreach(line IN LISTS lines)
   string(REGEX REPLACE " +#.*" "" line "${line}")
@@ -38,7 +47,7 @@ foreach(line IN LISTS lines)
     if(suite IN_LIST of_each_form)
       # But for hard cases of shadows, which take minutes: Soups/RaysInSoups holds rays in each form. Those of OpenGL's lists
       # and of caps have no code of a form; KernelForms draws groups and capped lists with each.
-      foreach(form avx2 sse2)
+      foreach(form IN LISTS other_forms)
         set(but ${suite}.Hold/shadows:${suite}.Hold/lidr:${suite}.Hold/caps:${suite}.Hold/groups)
         add_entry(${form}/${suite} "${suite}.*-${but}" POCL_KERNELLIB_NAME=${form})
       endforeach()

@@ -102,6 +102,7 @@ std::string malformed(const HostGrid& grid, size_t lights) {
 void Check::fail(const std::string& why) {
   if (outcome_.verdict != Verdict::fail) outcome_.why = why;
   outcome_.verdict = Verdict::fail;
+  if (ends_at_failure_) throw Ended();
 }
 
 void Check::skip(const std::string& why) {
@@ -139,7 +140,7 @@ std::vector<CullerOptions> every_tile() { return {{.tile = 16}, {.tile = 8}, {.t
 std::vector<CullerOptions> Check::in_both_shapes(const CullerOptions& options) const {
   CullerOptions lanes = options, group = options;
   lanes.shape = KernelShape::lanes, group.shape = KernelShape::group;
-  if (!engine.is_the_library()) return {lanes};
+  if (!engine.has_both_shapes()) return {lanes};
   return {lanes, group};
 }
 

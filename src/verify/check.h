@@ -76,8 +76,8 @@ std::string to_string(const CullerOptions& options);
 
 class Check {
  public:
-  Check(CullEngine& engine, uint64_t adversarial_lights)
-      : engine(engine), adversarial_lights(adversarial_lights) {}
+  Check(CullEngine& engine, uint64_t adversarial_lights, bool ends_at_failure = false)
+      : engine(engine), adversarial_lights(adversarial_lights), ends_at_failure_(ends_at_failure) {}
 
   CullEngine& engine;
   const uint64_t adversarial_lights;  // number of tangent lights in the bulk case
@@ -138,7 +138,8 @@ class Check {
   }
   void contacts(uint64_t more) { outcome_.contacts += more; }
   void trials(uint64_t more) { outcome_.trials += more; }
-  void fail(const std::string& why);
+  void fail(const std::string& why);  // throws Ended where that ends the case
+  struct Ended {};
   void skip(const std::string& why);
 
   Outcome outcome() const;
@@ -153,6 +154,7 @@ class Check {
                     std::span<const DepthInterval> bounds, const Touching& touching,
                     const CullerOptions& options, const HostGrid& grid, bool counts);
 
+  const bool ends_at_failure_;
   Outcome outcome_;
   uint64_t listed_ = 0, touching_ = 0;  // under the first settings
 };

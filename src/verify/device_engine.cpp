@@ -48,9 +48,10 @@ std::vector<CastingTriangle> triangles_of(const Scene& scene, const TriangleBuff
 
 class DeviceEngine : public CullEngine {
  public:
-  DeviceEngine(const std::string& substring, ProgramCache::Alter alter)
+  DeviceEngine(const std::string& substring, ProgramCache::Alter alter, bool both_shapes)
       : substring_(substring),
         alter_(std::move(alter)),
+        both_shapes_(both_shapes),
         device_(substring),
         programs_(device_),
         storage_(device_),
@@ -58,6 +59,7 @@ class DeviceEngine : public CullEngine {
 
   std::string name() const override { return name_; }
   bool is_the_library() const override { return true; }
+  bool has_both_shapes() const override { return both_shapes_; }
 
   HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
                 std::span<const DepthInterval> bounds) override {
@@ -282,6 +284,7 @@ class DeviceEngine : public CullEngine {
 
   const std::string substring_;
   const ProgramCache::Alter alter_;
+  const bool both_shapes_;
   std::unique_ptr<Renderer> renderer_;     // of shadows: made at first use
   std::unique_ptr<Renderer> with_opengl_;  // of light indices and groups: likewise
   ClDevice device_;
@@ -294,8 +297,9 @@ class DeviceEngine : public CullEngine {
 
 }  // namespace
 
-std::unique_ptr<CullEngine> device_engine(const std::string& substring, ProgramCache::Alter alter) {
-  return std::make_unique<DeviceEngine>(substring, std::move(alter));
+std::unique_ptr<CullEngine> device_engine(const std::string& substring, ProgramCache::Alter alter,
+                                          bool both_shapes) {
+  return std::make_unique<DeviceEngine>(substring, std::move(alter), both_shapes);
 }
 
 }  // namespace lightgrid::verify

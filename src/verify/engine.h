@@ -92,6 +92,8 @@ class CullEngine {
 
   // The library has both kernel shapes, and every depth-bounds mode.
   virtual bool is_the_library() const = 0;
+  // Whether cases hold both kernel shapes to the same bytes.
+  virtual bool has_both_shapes() const { return is_the_library(); }
 
   virtual HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
                         std::span<const DepthInterval> bounds) = 0;
@@ -138,7 +140,8 @@ class CullEngine {
 
 // The library on the OpenCL device whose "platform name" contains `substring`. Keeps its cullers: cases of
 // all kinds reuse the same ones, as frames do. alter: changes the kernels that shadows() runs
-// (cl/program_cache.h).
-std::unique_ptr<CullEngine> device_engine(const std::string& substring, ProgramCache::Alter alter = {});
+// (cl/program_cache.h). both_shapes: whether cases run the shape for GPUs too.
+std::unique_ptr<CullEngine> device_engine(const std::string& substring, ProgramCache::Alter alter = {},
+                                          bool both_shapes = true);
 
 }  // namespace lightgrid::verify

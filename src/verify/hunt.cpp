@@ -222,7 +222,7 @@ class Hunt {
     const HostGrid grid = engine_.cull_depth(setting.options, view.view, culled, view.depth, view.blended);
     const std::vector<HuntLoss> lost = lost_contacts(view, lights.contacts, setting.options.tile, grid);
     tally.contacts += lights.contacts.size(), contacts_ += lights.contacts.size();
-    if (setting.both_shapes && engine_.is_the_library()) compare_shapes(tally, view, setting, culled, grid);
+    if (setting.both_shapes && engine_.has_both_shapes()) compare_shapes(tally, view, setting, culled, grid);
     if (lost.empty()) return;
     if (tally.lost == 0) tally.why = words(setting, view, lights, lost[0], seed);
     tally.lost += lost.size();

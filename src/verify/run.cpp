@@ -89,16 +89,30 @@ std::vector<const HardCase*> chosen_cases(const std::string& filter) {
       all, filter, [](const HardCase* c) { return full_name(*c); }, "case's name", "depth/all_sky");
 }
 
-Outcome outcome_of(const std::function<void(Check&)>& run, CullEngine& engine, uint64_t adversarial_lights) {
-  Check check(engine, adversarial_lights);
+namespace {
+
+Outcome outcome_of(const std::function<void(Check&)>& run, Check check) {
   try {
-    run(check);
-  } catch (const Error& error) {
-    check.fail(error.what());
-  } catch (const cl::Error& error) {
-    check.fail(cl_machine_error(error).what());
+    try {
+      run(check);
+    } catch (const Error& error) {
+      check.fail(error.what());
+    } catch (const cl::Error& error) {
+      check.fail(cl_machine_error(error).what());
+    }
+  } catch (const Check::Ended&) {
   }
   return check.outcome();
+}
+
+}  // namespace
+
+Outcome outcome_of(const std::function<void(Check&)>& run, CullEngine& engine, uint64_t adversarial_lights) {
+  return outcome_of(run, Check(engine, adversarial_lights));
+}
+
+bool fails(const HardCase& hard_case, CullEngine& engine, uint64_t adversarial_lights) {
+  return outcome_of(hard_case.run, Check(engine, adversarial_lights, true)).verdict == Verdict::fail;
 }
 
 Outcome run_case(const HardCase& hard_case, CullEngine& engine, uint64_t adversarial_lights) {
