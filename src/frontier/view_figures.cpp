@@ -274,16 +274,19 @@ void join(const std::vector<ImageError>& pictures, ImageError& mean, ImageError*
   if (deviation) deviation->displayed = {moments(flips).second, moments(visible).second};
 }
 
-constexpr int pictures_of_seeds = 32,
-              averaged_pictures_of_seeds = 8;  // the latter are of several frames each
-constexpr int flips_of_seeds = 8;              // they take long
-constexpr int frames_of_a_view = 1000;         // no two views share random numbers
+// Of a point's first view, and of its others: they show what changes from view to view, and so many more of them
+// fit into the same time.
+constexpr int pictures_of_first_view = 32, pictures_of_a_view = 8;  // of averaged frames the latter everywhere
+constexpr int flips_of_first_view = 8, flips_of_a_view = 4;         // FLIP takes long
+constexpr int frames_of_a_view = 1000;                              // no two views share random numbers
 
 }  // namespace
 
 // One draw would be noise: its error is within a factor of three of what is expected.
 void ViewFigures::measure_seeds(PointRun& run, Truths& truths, FrontierRecord& record) {
-  const int pictures = record.point.frames > 1 ? averaged_pictures_of_seeds : pictures_of_seeds;
+  const bool first = record.view == 0;
+  const int pictures = first && record.point.frames == 1 ? pictures_of_first_view : pictures_of_a_view;
+  const int flips = first ? flips_of_first_view : flips_of_a_view;
   std::vector<ImageError> totals, authored;
   PictureMoments moments;
   BiasOfPictures bias;
@@ -297,7 +300,7 @@ void ViewFigures::measure_seeds(PointRun& run, Truths& truths, FrontierRecord& r
     run.draw();
     if (!run.refused().empty()) throw machine_error("{}", run.refused());
     const Image image = run.image();
-    const bool with_flip = i % (pictures / flips_of_seeds) == 0;
+    const bool with_flip = i % (pictures / flips) == 0;
     totals.push_back(truths.reference->error_of(image, with_flip));
     if (truths.authored) authored.push_back(truths.authored->error_of(image, with_flip));
     moments.add(image);
@@ -305,7 +308,7 @@ void ViewFigures::measure_seeds(PointRun& run, Truths& truths, FrontierRecord& r
   }
   run.go_to_frame(0);
   SeedErrors& seeds = record.errors.seeds.emplace();
-  seeds.pictures = pictures, seeds.flip_pictures = flips_of_seeds;
+  seeds.pictures = pictures, seeds.flip_pictures = flips;
   join(totals, record.errors.total, &seeds.deviation);
   if (ranges) record.errors.model = record.errors.total;
   if (truths.authored) {
