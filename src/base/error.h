@@ -9,16 +9,19 @@
 
 namespace lightgrid {
 
+// Whose fault it is; the number is the exit code of the program and the status of the C interface.
 enum class ErrorKind {
   input = 2,    // the arguments or a file are wrong; the message names the file, the field and the value
   machine = 3,  // this machine cannot do it (no device, out of memory); the message says what would help
 };
 
+// What every function of the libraries throws.
 class Error : public std::runtime_error {
  public:
+  // One line, as a user reads it.
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
-  ErrorKind kind() const { return kind_; }
-  int exit_code() const { return static_cast<int>(kind_); }
+  ErrorKind kind() const { return kind_; }                   // whose fault it is
+  int exit_code() const { return static_cast<int>(kind_); }  // its number
 
   // throw input_error("{}: light {}: radius is NaN", …).about("radius"): the setting, option or field of a
   // file that is wrong, by its name there. A message that begins with that name, or "set" and it, needs none.
@@ -39,6 +42,7 @@ Error input_error(fmt::format_string<Args...> format, Args&&... args) {
   return {ErrorKind::input, fmt::format(format, std::forward<Args>(args)...)};
 }
 
+// The same for what this machine cannot do.
 template <typename... Args>
 Error machine_error(fmt::format_string<Args...> format, Args&&... args) {
   return {ErrorKind::machine, fmt::format(format, std::forward<Args>(args)...)};

@@ -10,7 +10,7 @@ struct PixelGrid {
   int width = 0, height = 0;  // pixels
   int samples = 1;            // a pixel
 
-  size_t pixels() const { return size_t(width) * size_t(height); }
+  size_t pixels() const { return size_t(width) * size_t(height); }  // of the image
   size_t values() const { return pixels() * size_t(samples); }  // of a buffer with one value a sample
   // In such a buffer, without gaps: x fastest, rows from the bottom; the samples of a pixel follow one
   // another.

@@ -60,11 +60,11 @@ typedef enum lightgrid_status {
   LIGHTGRID_CANCELLED = 4
 } lightgrid_status;
 
-typedef struct lightgrid_device lightgrid_device;
-typedef struct lightgrid_scene lightgrid_scene;
-typedef struct lightgrid_view lightgrid_view;
-typedef struct lightgrid_lists lightgrid_lists;
-typedef struct lightgrid_report lightgrid_report;
+typedef struct lightgrid_device lightgrid_device; /* an OpenCL device, with or without an OpenGL context */
+typedef struct lightgrid_scene lightgrid_scene;   /* meshes, materials, lights and cameras, in host memory */
+typedef struct lightgrid_view lightgrid_view;     /* a scene on a device, drawn by one technique */
+typedef struct lightgrid_lists lightgrid_lists;   /* a light grid, in host memory */
+typedef struct lightgrid_report lightgrid_report; /* a comparison's results and images */
 
 /* Of the library that is loaded: "0.1.0, commit 15179abf". */
 const char* lightgrid_version(void);
@@ -82,6 +82,7 @@ void lightgrid_free(char* text);
  * dropped, as at first. `line` is valid during the call. Calls do not overlap, and may come from any thread.
  */
 typedef void (*lightgrid_log_function)(int is_warning, const char* line, void* user);
+/* From now on; `user` is handed to each call. */
 void lightgrid_set_log(lightgrid_log_function function, void* user);
 
 /* A table as JSON: "techniques" (with all settings, as `lightgrid techniques --json`), "scenes" (names and
@@ -90,6 +91,7 @@ lightgrid_status lightgrid_describe(const char* table, char** json);
 
 /* ---- Images: rows of pixels in the caller's memory ---- */
 
+/* What a pixel is. */
 typedef enum lightgrid_format {
   LIGHTGRID_RGBA_F32 = 0, /* four floats: linear light, alpha is coverage */
   LIGHTGRID_R_F32 = 1,    /* one float */
@@ -101,8 +103,8 @@ typedef enum lightgrid_format {
  * negative row_bytes; nothing is copied for that. */
 typedef struct lightgrid_image {
   void* pixels; /* of row 0 */
-  int32_t width, height;
-  lightgrid_format format;
+  int32_t width, height;   /* pixels, 1 or more */
+  lightgrid_format format; /* as the function that takes the image says */
   ptrdiff_t row_bytes; /* from a row to the one above it; at least a row's pixels, or at most minus that */
 } lightgrid_image;
 
@@ -154,6 +156,7 @@ void lightgrid_scene_free(lightgrid_scene* scene);
 lightgrid_status lightgrid_scene_add_texture(lightgrid_scene* scene, int32_t width, int32_t height,
                                              const uint8_t* rgba, int is_srgb, int32_t* number);
 
+/* glTF's alphaMode: alpha is ignored, cuts off, or is the share that covers what is behind. */
 typedef enum lightgrid_alpha {
   LIGHTGRID_OPAQUE = 0,
   LIGHTGRID_MASK = 1,
@@ -162,18 +165,20 @@ typedef enum lightgrid_alpha {
 
 /* glTF's material. Maps are numbers of textures, or -1. */
 typedef struct lightgrid_material {
-  float base_color[4];
-  float metallic, roughness;
-  float emissive[3];
-  float ior;
-  float clearcoat, clearcoat_roughness;
-  lightgrid_alpha alpha;
-  float alpha_cutoff;
-  float normal_scale, occlusion_strength;
-  int32_t double_sided, unlit;
-  int32_t base_color_map, metallic_roughness_map, normal_map, occlusion_map, emissive_map;
+  float base_color[4];                    /* linear, and alpha; 0 to 1 */
+  float metallic, roughness;              /* 0 to 1 */
+  float emissive[3];                      /* radiance, linear */
+  float ior;                              /* index of refraction; 0: all is reflected */
+  float clearcoat, clearcoat_roughness;   /* 0 to 1; clearcoat 0: no coat */
+  lightgrid_alpha alpha;                  /* how alpha is read */
+  float alpha_cutoff;                     /* with LIGHTGRID_MASK: what is below is not there */
+  float normal_scale, occlusion_strength; /* of the maps */
+  int32_t double_sided, unlit;            /* 0 or 1 */
+  int32_t base_color_map, metallic_roughness_map, normal_map, occlusion_map, emissive_map; /* or -1 */
 } lightgrid_material;
+/* White, rough metal, opaque, without maps: glTF's defaults. */
 void lightgrid_default_material(lightgrid_material* material);
+/* Writes its number, which meshes name: 0 for the first. */
 lightgrid_status lightgrid_scene_add_material(lightgrid_scene* scene, const lightgrid_material* material,
                                               int32_t* number);
 
@@ -183,11 +188,12 @@ typedef struct lightgrid_mesh {
   const float* normals;   /* 3 a vertex, or null: flat ones */
   const float* uv;        /* 2 a vertex, or null */
   const float* colors;    /* 4 a vertex, linear, or null */
-  size_t vertex_count;
-  const uint32_t* indices; /* 3 a triangle */
-  size_t index_count;
-  int32_t material;
+  size_t vertex_count;    /* of each of the arrays above */
+  const uint32_t* indices; /* 3 a triangle, each below vertex_count */
+  size_t index_count;      /* a multiple of 3 */
+  int32_t material;        /* its number */
 } lightgrid_mesh;
+/* Writes its number, which instances name: 0 for the first. Without an instance it is not drawn. */
 lightgrid_status lightgrid_scene_add_mesh(lightgrid_scene* scene, const lightgrid_mesh* mesh,
                                           int32_t* number);
 
@@ -199,6 +205,7 @@ lightgrid_status lightgrid_scene_add_instance(lightgrid_scene* scene, int32_t me
 lightgrid_status lightgrid_scene_move_instance(lightgrid_scene* scene, int32_t instance,
                                                const double* world_from_object);
 
+/* What a light sends where. */
 typedef enum lightgrid_light_type {
   LIGHTGRID_POINT = 0,
   LIGHTGRID_SPOT = 1,
@@ -206,19 +213,21 @@ typedef enum lightgrid_light_type {
   LIGHTGRID_VIRTUAL = 3 /* a virtual point light: emits with the cosine from its direction */
 } lightgrid_light_type;
 
+/* In world space. */
 typedef struct lightgrid_light {
-  double position[3];
+  double position[3]; /* of all but directional lights */
   float direction[3]; /* of spots, directional and virtual lights; any length above 0 */
-  float color[3];
+  float color[3];     /* linear, times intensity */
   float intensity; /* candela, or lux of a directional light */
   float radius_m;  /* where its light ends; infinite: nowhere */
-  float inner_cone_rad, outer_cone_rad;
+  float inner_cone_rad, outer_cone_rad; /* of a spot: full light inside, none outside; inner < outer */
   float source_radius_m; /* of its sphere, for soft shadows; below 0: the setting's */
   float nearest_m;       /* of a virtual light */
-  lightgrid_light_type type;
-  int32_t casts_shadow;
+  lightgrid_light_type type; /* the default: LIGHTGRID_POINT */
+  int32_t casts_shadow;      /* 0 or 1 */
   uint32_t groups; /* lights instances that share a bit */
 } lightgrid_light;
+/* A white point light of one candela at the origin, without a range, a shadow or groups of its own. */
 void lightgrid_default_light(lightgrid_light* light);
 /* In place of all lights that the scene has. The next frame of each view has them; equally many of the same
  * types in the same order cost least. */
@@ -231,12 +240,13 @@ lightgrid_status lightgrid_scene_get_lights(lightgrid_scene* scene, lightgrid_li
 lightgrid_status lightgrid_scene_set_ambient(lightgrid_scene* scene, const float* ambient,
                                              const float* background);
 
+/* A view of the world, of any size in pixels. */
 typedef struct lightgrid_camera {
   double world_from_view[16]; /* rigid; looks along its -z, y up */
   double fov_y_rad;           /* of a perspective camera */
   double half_height_m;       /* of an orthographic one */
   double near_m, far_m;       /* far may be infinite in perspective */
-  int32_t orthographic;
+  int32_t orthographic;       /* 0 or 1 */
 } lightgrid_camera;
 /* One of the scene's by name or number, or "eye:x,y,z,target:x,y,z,fov:degrees,near:metres"; null or empty:
  * the one that the scene's field `camera` chose, else the program's own choice for an image of this width
@@ -266,12 +276,14 @@ lightgrid_status lightgrid_view_profile(lightgrid_view* view, char** json);
 
 /* ---- Light lists and visibility, for renderers of one's own ---- */
 
+/* A view as renderers have it. */
 typedef struct lightgrid_projection {
   double clip_from_view[16];  /* depth from zero to one, reversed or (for lists) standard */
   double view_from_world[16]; /* rigid; its translation is not used */
   double eye[3];              /* world */
   int32_t width, height;      /* pixels */
 } lightgrid_projection;
+/* That of a camera for an image of this size: reversed depth. */
 lightgrid_status lightgrid_project(const lightgrid_camera* camera, int32_t width, int32_t height,
                                    lightgrid_projection* projection);
 
@@ -287,15 +299,16 @@ void lightgrid_lists_free(lightgrid_lists* lists);
 typedef struct lightgrid_grid {
   int32_t cells_x, cells_y, slices, tile; /* tile: pixels a side */
   const uint32_t* cells;                  /* two a cell: the first of its indices, and how many */
-  size_t cell_count;
+  size_t cell_count;                      /* cells_x * cells_y * slices */
   const uint32_t* indices; /* of lights, ascending in each cell */
-  size_t index_count;
+  size_t index_count;      /* of all lists together */
   const uint32_t* masks; /* with grid-lists=masks: a bit a light, in mask_words words a cell; else null */
-  size_t mask_words;
+  size_t mask_words;     /* a cell */
   const uint32_t* z_bins; /* with z-bins: a word a light; else null */
-  size_t z_bin_count;
+  size_t z_bin_count;     /* lights, or 0 */
   const float* slice_edges; /* metres, slices - 1 of them */
 } lightgrid_grid;
+/* What they hold; nothing is copied. */
 lightgrid_status lightgrid_lists_get(const lightgrid_lists* lists, lightgrid_grid* grid);
 
 /* The number of the nearest opaque triangle at each pixel (R_U32; 0xffffffff: none) and its depth (R_F32);

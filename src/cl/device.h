@@ -10,10 +10,12 @@
 
 namespace lightgrid {
 
+// A device as its driver describes it.
 struct ClDeviceInfo {
-  std::string name, platform, vendor, driver, version;
-  bool cpu = false;
-  int compute_units = 0;
+  std::string name, platform, vendor, driver, version;  // as OpenCL gives them, without spaces at the ends
+  bool cpu = false;                                     // a CPU, as PoCL has it; else a GPU or another kind
+  int compute_units = 0;                                // CPU threads, or a GPU's multiprocessors
+  // All memory, what a work-group shares, and the most of one buffer.
   size_t global_bytes = 0, local_bytes = 0, max_allocation_bytes = 0;
   size_t max_group_items = 0;   // work-items of a work-group
   bool exact_division = false;  // can round division and square root correctly, in single precision
@@ -23,6 +25,7 @@ struct ClDeviceInfo {
 // Why this device's light grids may differ from other devices' in some bytes; empty if no reason is known.
 std::string why_not_the_same_bytes(const ClDeviceInfo& device);
 
+// For one thread at a time, with all objects that were made with it.
 class ClDevice {
  public:
   // The first device whose "platform name" contains `substring` (any case), or with "#2" the one at that
@@ -40,11 +43,11 @@ class ClDevice {
   ClDevice(const ClDevice&) = delete;
   ClDevice& operator=(const ClDevice&) = delete;
 
-  const ClDeviceInfo& info() const { return info_; }
-  cl::Device& device() { return device_; }
-  cl::Context& context() { return context_; }
+  const ClDeviceInfo& info() const { return info_; }  // as when it was opened
+  cl::Device& device() { return device_; }            // for calls of OpenCL itself
+  cl::Context& context() { return context_; }         // all buffers are its
   cl::CommandQueue& queue() { return queue_; }  // in order; with profiling if it was created here
-  ClProfiler& profiler() { return profiler_; }
+  ClProfiler& profiler() { return profiler_; }  // of what goes through the queue
 
  private:
   ClDeviceInfo info_;

@@ -29,7 +29,9 @@ void launch(ClDevice& device, const std::string& label, cl::Kernel& kernel, cons
 
 // An argument with the name of its parameter: a buffer, which the caller keeps, or a value.
 struct ClArgument {
+  // `parameter`, which must outlive it, is the name in the kernel.
   ClArgument(const char* parameter, const cl::Buffer& buffer) : ClArgument(parameter, buffer()) {}
+  // A number or a plain struct of up to 16 bytes, copied.
   template <typename Value>
   requires std::is_trivially_copyable_v<Value> ClArgument(const char* parameter, const Value& given)
       : name(parameter), bytes(sizeof given) {
@@ -37,9 +39,9 @@ struct ClArgument {
     std::memcpy(value, &given, sizeof given);
   }
 
-  const char* name;
-  size_t bytes;
-  unsigned char value[16];
+  const char* name;         // of the parameter
+  size_t bytes;             // of the value, as clSetKernelArg takes it
+  unsigned char value[16];  // the first `bytes` of it
 };
 
 // Arguments in the order of a kernel's parameters; parts of it may come from different places.
@@ -47,6 +49,7 @@ struct ClArguments : std::vector<ClArgument> {
   using std::vector<ClArgument>::vector;
 };
 
+// One after the other.
 inline ClArguments operator+(ClArguments first, const ClArguments& more) {
   first.insert(first.end(), more.begin(), more.end());
   return first;
@@ -58,8 +61,9 @@ inline ClArguments operator+(ClArguments first, const ClArguments& more) {
 class NamedKernel {
  public:
   NamedKernel() = default;
+  // As ProgramCache::kernel finds it.
   NamedKernel(ProgramCache& programs, const std::string& file, const std::string& defines);
-  explicit operator bool() const { return kernel_() != nullptr; }
+  explicit operator bool() const { return kernel_() != nullptr; }  // false: made without a kernel
 
   // As launch() above.
   void launch(ClDevice& device, const std::string& label, const cl::NDRange& global, const cl::NDRange& local,

@@ -11,9 +11,10 @@ namespace lightgrid {
 
 class ClProfiler {
  public:
+  // A label's launches and copies.
   struct Row {
-    std::string label;
-    int launches = 0;
+    std::string label;  // as launch() has it
+    int launches = 0;   // and copies on the device
     double ms = 0;  // on the device, start to end, summed over the launches
   };
 
@@ -28,14 +29,15 @@ class ClProfiler {
 
   // Waits for the timed launches, sums them by label in order of first use, and clears them.
   std::vector<Row> collect();
+  // A single launch or copy.
   struct Timed {
-    std::string label;
+    std::string label;  // as launch() has it
     bool copy = false;  // copy_event
-    double ms = 0;
+    double ms = 0;      // on the device, start to end
   };
   // The same one by one, in the order of their enqueuing; `pending` of them are there.
   std::vector<Timed> collect_each();
-  size_t pending() const { return pending_.size(); }
+  size_t pending() const { return pending_.size(); }  // timed, and not collected yet
 
   // Launches and transfers so far, timed or not.
   int count() const { return count_; }

@@ -32,12 +32,13 @@ class ProgramCache {
   // The same for a source that is not embedded; `file` names it in messages (tests, tools).
   cl::Kernel kernel_of_source(const std::string& file, const std::string& source, const std::string& defines);
 
+  // Kernels that were asked for, by where they came from.
   struct Counts {
     int built = 0;      // compiled from source
     int from_disk = 0;  // loaded from a binary
-    int from_memory = 0;
+    int from_memory = 0;  // built or loaded before
   };
-  const Counts& counts() const { return counts_; }
+  const Counts& counts() const { return counts_; }  // so far
 
   // Changes the text of each embedded kernel before it is built, from now on. For tests, which plant faults.
   using Alter = std::function<std::string(std::string text)>;
@@ -46,6 +47,7 @@ class ProgramCache {
   // From now on the set receives the file and the defines of each embedded kernel in use; null: no longer.
   void note_kernels(std::set<std::string>* asked) { asked_ = asked; }
 
+  // Where binaries are stored; empty if neither variable is set. Nothing is created.
   static std::filesystem::path default_folder();
 
  private:

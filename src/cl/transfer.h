@@ -18,10 +18,12 @@ void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, cons
 // copied.
 class MappedBuffer {
  public:
+  // Throws Error(machine) where it cannot be mapped. `device` outlives this object.
   MappedBuffer(ClDevice& device, const char* what, const cl::Buffer& buffer, size_t bytes);
   ~MappedBuffer();
   MappedBuffer(const MappedBuffer&) = delete;
   MappedBuffer& operator=(const MappedBuffer&) = delete;
+  // `bytes` of them.
   const void* data() const { return data_; }
 
  private:
@@ -43,6 +45,7 @@ void copy_buffer(ClDevice& device, const char* what, const cl::Buffer& from, con
 // Waits for the queue where an exception leaves its scope: what enqueue_write reads may then be freed.
 class WaitOnFailure {
  public:
+  // `device` outlives this object.
   explicit WaitOnFailure(ClDevice& device) : device_(device), exceptions_(std::uncaught_exceptions()) {}
   ~WaitOnFailure();
   WaitOnFailure(const WaitOnFailure&) = delete;
@@ -53,6 +56,7 @@ class WaitOnFailure {
   const int exceptions_;
 };
 
+// Waits for everything that has been enqueued.
 void finish_queue(ClDevice& device, const char* what);
 
 }  // namespace lightgrid

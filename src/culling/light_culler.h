@@ -53,7 +53,8 @@ struct DepthInput {
 
 // What bounds depend on beside the surfaces.
 struct BoundsView {
-  int width = 0, height = 0, tile = 0;
+  int width = 0, height = 0, tile = 0;  // pixels: the image, a tile's side
+  // As CullView's.
   glm::dmat4 clip_from_view{1};
   glm::dmat3 view_from_world{1};
   glm::dvec3 eye{0};
@@ -65,20 +66,22 @@ struct BoundsView {
 // next depth_bounds. Bounds serve their own view, with any lights, slices and z-bins, as often as is wanted;
 // with another view they are Error(input).
 struct TileBounds {
-  cl::Buffer values;
-  DepthBoundsMode mode = DepthBoundsMode::minmax;
+  cl::Buffer values;                               // floats
+  DepthBoundsMode mode = DepthBoundsMode::minmax;  // decides how many a tile
   std::shared_ptr<const BoundsView> view;  // whose surfaces `values` are of now
   // The groups of the surfaces in each tile, a word a tile in the order of `values`: a light that has none of
   // them is not listed there. Null, as the culler gives it: every light may be. The caller sets and keeps it.
   cl::Buffer groups{};
 };
 
+// What a depth buffer gives.
 struct DepthBounds {
   TileBounds opaque;  // of the surfaces in the depth buffer
   TileBounds blend;   // from the near plane to the farthest visible blended surface; null unless
                       // CullerOptions::blend
 };
 
+// The surfaces of a tile lie between.
 struct DepthInterval {
   float near = 0, far = 0;  // metres along the view axis; near > far: no surface
   bool operator==(const DepthInterval&) const = default;
@@ -96,10 +99,12 @@ class GridStorage {
   virtual cl::Buffer& z_bins(size_t bytes) = 0;  // called only if the view has z-bins
 };
 
+// Buffers that grow and never shrink.
 class ClGridStorage : public GridStorage {
  public:
   explicit ClGridStorage(ClDevice& device);  // outlives it
   ~ClGridStorage() override;
+  // As GridStorage's. Throw Error(machine) where the device has no such memory.
   cl::Buffer& cells(size_t bytes) override;
   cl::Buffer& indices(size_t bytes) override;
   cl::Buffer& masks(size_t bytes) override;
@@ -128,11 +133,11 @@ struct LightGrid {
 
 // A grid on the host, in the same order; indices are widened to 32 bits.
 struct HostGrid {
-  int cells_x = 0, cells_y = 0, slices = 1;
-  std::vector<glm::uvec2> cells;  // first, count
-  std::vector<uint32_t> indices;
-  std::vector<uint32_t> masks;   // empty without masks
-  std::vector<uint32_t> z_bins;  // a word a light; empty without z-bins
+  int cells_x = 0, cells_y = 0, slices = 1;  // cells_x * cells_y * slices cells
+  std::vector<glm::uvec2> cells;             // first, count
+  std::vector<uint32_t> indices;             // of lights, all lists one after the other
+  std::vector<uint32_t> masks;               // empty without masks
+  std::vector<uint32_t> z_bins;              // a word a light; empty without z-bins
   bool operator==(const HostGrid&) const = default;
 };
 // Waits.
@@ -144,11 +149,11 @@ enum class DepthFormat { d32f, d24, d16 };
 
 // shared/cull_settings.h describes the choices and their sources.
 struct CullerOptions {
-  CullTest cull_test = default_cull_test;
-  DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;
+  CullTest cull_test = default_cull_test;                  // of a light against a cell
+  DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;  // what of its depths a tile keeps
   KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the grid is the same
   int tile = 16;                               // pixels a side: 8, 16, 32 or 64
-  DepthFormat depth_format = DepthFormat::d32f;
+  DepthFormat depth_format = DepthFormat::d32f;  // of the graphics API's depth buffer
   int samples = 1;  // depth values a pixel: 1, 2, 4 or 8; more than one makes cells span whole pixels
   GridLists lists = GridLists::lists;  // masks: bitmasks as well
   bool blend = false;                  // depth bounds and a grid for blended surfaces
@@ -162,12 +167,13 @@ struct CullerOptions {
 // All input of the culling kernels, with the layout of the device's memory: for checks that compute the grid
 // otherwise.
 struct CullInputs {
-  CullParams params{};
-  DepthBoundsMode mode = DepthBoundsMode::minmax;
+  CullParams params{};                             // the kernels' view
+  DepthBoundsMode mode = DepthBoundsMode::minmax;  // of `bounds`
   std::vector<float> lights, bounds;  // kernels/culling/light_arrays.h, depth_bounds.h
   std::vector<glm::vec2> slices;      // near and far of each, metres; a single slice is infinite
 };
 
+// Culls the lights of one scene for one view at a time.
 class LightCuller {
  public:
   // Device and cache outlive it. Kernels are built at first use or taken from the cache. Throws Error(input)
@@ -205,7 +211,7 @@ class LightCuller {
   uint32_t invalid_depth_tiles();
 
   size_t memory_bytes() const;  // of all buffers except the grid's
-  KernelShape shape() const;
+  KernelShape shape() const;    // lanes or group: never automatic
   const CullParams& params() const;  // tiles_x, tiles_y and the rest of the kernels' view
 
  private:

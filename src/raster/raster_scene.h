@@ -13,8 +13,8 @@ namespace lightgrid {
 // Object space. Three indices a triangle, each below positions.size(), counter-clockwise seen from the front.
 // Both are copied.
 struct RasterMesh {
-  std::span<const glm::vec3> positions;
-  std::span<const uint32_t> indices;
+  std::span<const glm::vec3> positions;  // one a vertex, metres or the instance's unit
+  std::span<const uint32_t> indices;     // three a triangle
   // Its triangles are taken in the order of its indices, as views with RasterOptions::drawing_order need;
   // else in one that leaves out more of those that are out of view or face away. Images are the same.
   bool drawing_order = false;
@@ -28,6 +28,7 @@ struct RasterMasks {
   cl::Buffer alphas;     // chains of alphas, four a texel
 };
 
+// Meshes on a device, and the masks of their materials.
 class RasterScene {
  public:
   // `device` outlives it, and it outlives its views. It may be moved.

@@ -56,14 +56,16 @@
 
 namespace lightgrid {
 
+// A mesh at a place.
 struct RasterInstance {
-  int mesh = 0;
+  int mesh = 0;                     // by its number in set_meshes
   glm::dmat4 world_from_object{1};  // affine, finite; a negative determinant turns front faces around
-  bool two_sided = false;
+  bool two_sided = false;           // true: its back faces are drawn too
   int alpha_material = -1;  // 0 or more: the material whose alpha decides which pixels it covers
   bool drawn = true;        // false: its triangles keep their numbers and are left out
 };
 
+// What a view sees.
 struct RasterCamera {
   // 1 to 16,384 pixels a side. A pixel has 1 sample, at its centre, or 2, 4 or 8 (raster/raster_samples.h),
   // drawn in one pass.
@@ -75,6 +77,7 @@ struct RasterCamera {
   glm::dvec3 eye{0};              // world, metres
 };
 
+// Visibility::triangle where no triangle is.
 constexpr uint32_t no_triangle = 0xffffffffu;
 
 // The view's own buffers, written again by the next draw(), of grid.values() values in PixelGrid's order.
@@ -95,6 +98,7 @@ struct RasterBuffers {
   cl::Buffer clip;               // float4 (x, y, z, w) a vertex of each instance
 };
 
+// How a view draws. But for `masks` the image does not depend on them, other than thin triangles (above).
 struct RasterOptions {
   KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the same bytes
   bool portable = false;                       // no builtins of one kind of CPU; the same bytes
@@ -108,8 +112,8 @@ struct RasterOptions {
 // draw them otherwise: tile t, x fastest from the lower left, has records[lists[i]] for i from tile_begin[t]
 // to below tile_begin[t + 1]. The view's own buffers, written again by the next draw() or list().
 struct RasterLists {
-  cl::Buffer records, tile_begin, lists;
-  uint32_t tiles_x = 0, tiles_y = 0;
+  cl::Buffer records, tile_begin, lists;  // RasterRecord each (shared/raster_params.h); uint each; uint each
+  uint32_t tiles_x = 0, tiles_y = 0;      // tiles, the last ones may be cut
 };
 
 // What the last draw() did.
@@ -124,6 +128,7 @@ struct RasterCounts {
 
 class RasterPipeline;
 
+// One camera's image of a scene, again and again.
 class RasterView {
  public:
   // Compiles the kernels. `scene` and `programs`, both of one device, outlive it.
@@ -152,8 +157,8 @@ class RasterView {
   // left follow up to 15 triangles of its mesh that come after it.
   RasterLists list();
 
-  const RasterBuffers& buffers() const;
-  const RasterCounts& counts() const;
+  const RasterBuffers& buffers() const;  // null before set_instances
+  const RasterCounts& counts() const;    // of the last draw() or list()
   size_t memory_bytes() const;  // on the device, without the scene's
 
  private:

@@ -34,8 +34,8 @@ namespace lightgrid {
 
 // Object space. Three indices a triangle, each below positions.size(). Both are copied.
 struct RayMesh {
-  std::span<const glm::vec3> positions;
-  std::span<const uint32_t> indices;
+  std::span<const glm::vec3> positions;  // one a vertex
+  std::span<const uint32_t> indices;     // three a triangle
 };
 
 // What lets light through triangles of instances with an alpha material, where its alpha at the point that is
@@ -47,8 +47,9 @@ struct RayMasks {
   cl::Buffer alphas;     // chains of alphas, four a texel
 };
 
+// A mesh at a place.
 struct RayInstance {
-  int mesh = 0;
+  int mesh = 0;                     // by its number in set_meshes
   glm::dmat4 world_from_object{1};  // affine, finite
   int alpha_material = -1;          // 0 or more: the material whose alpha decides where it lets light through
   bool casts = true;                // false: its triangles have numbers and hide nothing
@@ -56,6 +57,7 @@ struct RayInstance {
       false;  // alpha hides that share of a light, in place of a cutoff: for kernels (rays_share) alone
 };
 
+// Choices of a RayScene.
 struct RayOptions {
   KernelShape shape =
       KernelShape::automatic;  // of occlusion(): lanes on a CPU, group elsewhere; the same bits
@@ -65,7 +67,7 @@ struct RayOptions {
 
 // Relative to the scene's origin, metres.
 struct RayPoint {
-  glm::vec3 position{0};
+  glm::vec3 position{0};  // of the surface
   float gap = 1e-3f;  // the last metres before it, in which nothing hides it
   int own = -1;       // the triangle that it lies on, which does not hide it
 };
@@ -75,10 +77,11 @@ using RayLight = glm::dvec4;
 
 // 16 points, from 16 * block on, that share a light.
 struct RayPacket {
-  uint32_t block = 0, light = 0;
+  uint32_t block = 0, light = 0;  // index of the points over 16; of the light
   uint32_t lanes = 0xffff;  // a bit for each point that is meant
 };
 
+// Triangles that hide lights, and the tree over them.
 class RayScene {
  public:
   // Compiles nothing yet. `device` and `programs` outlive it. Throws machine: no cl_khr_fp64; input: an
@@ -106,8 +109,8 @@ class RayScene {
                                   std::span<const RayPacket> packets);
 
   glm::dvec3 origin() const;  // each coordinate is a float
-  uint32_t triangles() const;
-  uint32_t first_triangle(size_t instance) const;
+  uint32_t triangles() const;                      // of all instances, also those left out
+  uint32_t first_triangle(size_t instance) const;  // its number
   // Left out, since a corner is not finite or further than 1e15 m from the origin.
   uint32_t invalid_triangles() const;
   int builds() const;  // of the tree, until now

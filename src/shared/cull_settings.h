@@ -16,10 +16,11 @@ enum class GridLists { lists, masks };
 
 // The table of depth-bounds modes: settings, culling, checks and inspection loop over it.
 struct DepthBoundsRow {
-  DepthBoundsMode mode;
-  const char* name;  // the setting depth-bounds
+  DepthBoundsMode mode;  // its place in the table
+  const char* name;      // the setting depth-bounds
 };
 
+// In the order of DepthBoundsMode.
 inline constexpr DepthBoundsRow depth_bounds_modes[] = {
     {DepthBoundsMode::none, "none"},
     {DepthBoundsMode::minmax, "minmax"},
@@ -28,8 +29,10 @@ inline constexpr DepthBoundsRow depth_bounds_modes[] = {
     {DepthBoundsMode::mask32, "mask32"},
 };
 
+// The row of a mode.
 constexpr const DepthBoundsRow& row_of(DepthBoundsMode mode) { return depth_bounds_modes[int(mode)]; }
 
+// Whether row_of finds each.
 constexpr bool rows_are_in_order() {
   int mode = 0;
   for (const DepthBoundsRow& row : depth_bounds_modes) {

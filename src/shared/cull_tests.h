@@ -11,7 +11,7 @@ static_assert(default_cull_test == CullTest::planes_aabb);
 
 // The parts of a test of a light's sphere, besides the cell's interval of distances. All must hold.
 struct CullTestRow {
-  CullTest test;
+  CullTest test;     // its place in the table
   const char* name;  // the setting cull-test
   bool sphere;       // the sphere around the cell's box
   bool planes;       // the cell's side planes
@@ -19,6 +19,7 @@ struct CullTestRow {
   bool distance;     // the distance to the cell itself
 };
 
+// In the order of CullTest.
 inline constexpr CullTestRow cull_tests[] = {
     {CullTest::sphere, "sphere", true, false, false, false},
     {CullTest::planes, "planes", false, true, false, false},
@@ -27,8 +28,10 @@ inline constexpr CullTestRow cull_tests[] = {
     {CullTest::exact, "exact", false, true, true, true},
 };
 
+// The row of a test.
 constexpr const CullTestRow& row_of(CullTest test) { return cull_tests[int(test)]; }
 
+// Whether row_of finds each.
 constexpr bool cull_tests_are_in_order() {
   int test = 0;
   for (const CullTestRow& row : cull_tests) {

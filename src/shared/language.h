@@ -8,8 +8,10 @@
 #define SHARED_FUNCTION
 #else
 #include <cstdint>
+// Begins a function of every language.
 #define SHARED_FUNCTION static inline
 namespace lightgrid {
+// As in OpenCL C and GLSL.
 using uint = std::uint32_t;
 }
 #endif

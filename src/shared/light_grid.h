@@ -9,7 +9,7 @@ namespace lightgrid {
 #endif
 
 #define BIN_TILES 8u  // a bin is 8 x 8 tiles
-#define BIN_SIZE 64u
+#define BIN_SIZE 64u  // tiles of a bin
 
 // Cells are ordered x fastest, then y from the bottom, then slice from the near plane.
 SHARED_FUNCTION uint cell_of_pixel(uint x, uint y, uint tile_size, uint tiles_x) {

@@ -7,7 +7,7 @@
 namespace lightgrid {
 #endif
 
-#define RASTER_TWO_SIDED 1u
+#define RASTER_TWO_SIDED 1u  // back faces are drawn
 #define RASTER_MIRRORED \
   2u  // world_from_object has a negative determinant: front faces are clockwise in the image
 
@@ -19,7 +19,7 @@ typedef struct RasterInstanceRecord {
   uint first_index;                     // of the mesh, in `indices`
   uint first_vertex, vertex_count;      // of the mesh, in arrays of all meshes' vertices
   uint first_position;                  // of the mesh, in the rasteriser's own blocks of 16
-  uint first_clip_vertex;
+  uint first_clip_vertex;               // of the instance, in this frame's positions
   uint flags;          // RASTER_TWO_SIDED, RASTER_MIRRORED
   int alpha_material;  // below 0: opaque
 } RasterInstanceRecord;

@@ -7,6 +7,7 @@
 
 #include "shared/language.h"
 
+// Lengths of the tables of edges: powers of two.
 #define MOST_SLICES 64u
 #define MOST_Z_BINS 256u
 
@@ -42,9 +43,11 @@ namespace lightgrid {
   return reached;
 
 #if !defined(LIGHTGRID_GLSL) || defined(SLICES)
+// 0 is the slice at the eye. `edges`: MOST_SLICES of them.
 SHARED_FUNCTION uint slice_of_key(float key EDGES){RETURN_REACHED(MOST_SLICES, SLICE_EDGE)}
 #endif
 #if !defined(LIGHTGRID_GLSL) || defined(Z_BINS)
+// The same for z-bins. `edges`: MOST_Z_BINS of them.
 SHARED_FUNCTION uint z_bin_of_key(float key EDGES){RETURN_REACHED(MOST_Z_BINS, Z_BIN_EDGE)}
 
 // A light's z-bins in one word: the first in the low half, one past the last in the high half. True if any of
@@ -52,6 +55,7 @@ SHARED_FUNCTION uint z_bin_of_key(float key EDGES){RETURN_REACHED(MOST_Z_BINS, Z
 SHARED_FUNCTION bool bins_meet(uint bins, uint first, uint last) {
   return last >= (bins & 0xffffu) && first < bins >> 16;
 }
+// The same for one bin.
 SHARED_FUNCTION bool bins_hold(uint bins, uint bin) { return bins_meet(bins, bin, bin); }
 #endif
 
