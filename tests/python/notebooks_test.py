@@ -15,7 +15,7 @@ class Notebooks(unittest.TestCase):
             from nbclient import NotebookClient
         except ImportError:
             self.skipTest("there is no nbclient or ipykernel (Debian: python3-nbclient, python3-ipykernel)")
-        self.assertGreaterEqual(len(notebooks), 2)
+        self.assertGreaterEqual(len(notebooks), 5)
         with tempfile.TemporaryDirectory() as folder:
             environment = {**os.environ, "IPYTHONDIR": folder, "JUPYTER_RUNTIME_DIR": folder, "JUPYTER_CONFIG_DIR": folder}
             for path in notebooks:
