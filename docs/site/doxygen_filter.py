@@ -4,7 +4,8 @@
 Comments need no marks. One before a declaration is about it, and about those that follow it without a blank line or
 another comment between. One before a blank line is about nothing. One behind the declarations of a line, or in further
 lines below that, is about them alone. The first of a file is about the file, and about its first type where that has
-none. Destructors, moves and what is deleted or defaulted need no words and are left out.
+none. Destructors, moves and what is deleted or defaulted need no words and are left out, as is the namespace lightgrid: all
+is in it.
 """
 import re
 import sys
@@ -12,13 +13,14 @@ import sys
 CODE = re.compile(r"(?P<code>(?:[^/\"]|/(?!/)|\"(?:[^\"\\]|\\.)*\")*)(?P<mark>// ?)?(?P<words>.*)")
 SCOPE = re.compile(r"(inline |typedef )?(struct|class|enum|union|namespace)\b|extern \"C\"|layout\(")
 NEEDS_NONE = re.compile(r"(virtual )?~\w+\(.*|.*= (delete|default);|(\w+)\(\3&&\).*|static_assert.*|friend .*")
-DECLARATORS = re.compile(r"((?:const )?[\w:]+(?:<[\w:]+>)?[*&]?) (\w+(?:\[\d+\])?(?: = [^,;(]+)?(?:, \w+(?:\[\d+\])?(?: = [^,;(]+)?)+);")
+ONE = r"\w+(?:\[\d+\])?(?: = [^,;(]+)?"
+DECLARATORS = re.compile(rf"((?:const )?[\w:]+(?:<[\w:]+>)?[*&]?) ({ONE}(?:, {ONE})+);")
 NO_DECLARATION = re.compile(r"[{}]|(private|public|protected):|using \w+<|#(?!define)")
 
 
 def plain(words):
-    """Words that doxygen would take for commands or links; four more spaces before code."""
-    return "     " + words if words.startswith("  ") else re.sub(r"([\\@#<>&$])", r"\\\1", words)
+    """Words that doxygen would take for commands or links; two more spaces before code."""
+    return "  " + words if words.startswith("  ") else re.sub(r"([\\@#<>&$])", r"\\\1", words)
 
 
 def line_comments(text):
@@ -35,7 +37,9 @@ def line_comments(text):
         if inside or opens:
             inside = "*/" not in line
             line = line.replace("*/", "").rstrip()
-        yield line
+        # typedef struct NAME { … } NAME; as doxygen shows it best
+        line = re.sub(r"^typedef (?=(struct|enum) \w+ \{)", "", line)
+        yield re.sub(r"^\} \w+;", "};", line)
 
 
 class Filter:
@@ -105,6 +109,8 @@ class Filter:
             self.scopes.append("other" if SCOPE.match(stripped) and not was_body else "body")
             if self.scopes[-1] == "other":
                 self.about = []
+        if re.fullmatch(r"(inline )?namespace lightgrid \{|\} *// namespace lightgrid", text):
+            out = ""
         self.unfinished = not re.search(r"[;{}:]$", stripped) and not stripped.startswith("#")
         if self.scopes and self.scopes[-1] == "other" and stripped.endswith(",") and not was_body and "(" not in stripped:
             self.unfinished = False  # a value of an enumeration

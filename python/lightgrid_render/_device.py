@@ -27,6 +27,7 @@ class Device:
 
     @property
     def name(self) -> str:
+        """The OpenCL device's name."""
         return text(lib.lightgrid_device_name(self._handle))
 
     @property
@@ -199,6 +200,7 @@ class Report:
 
     @property
     def rows(self) -> list[dict[str, Any]]:
+        """A dictionary a technique and settings: the rows of results.json."""
         return self.results["rows"]
 
     def image(self, row: int) -> Image:

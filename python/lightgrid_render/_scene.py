@@ -37,7 +37,7 @@ class Scene:
 
     @classmethod
     def empty(cls, name: str = "scene", **fields: Any) -> "Scene":
-        """Without anything, for add_…; fields as above, which apply at the first view."""
+        """Without anything yet; fields as above, which apply at the first view."""
         scene = cls.__new__(cls)
         scene._handle = made("lightgrid_scene", lib.lightgrid_scene_free,
                              lambda out: lib.lightgrid_scene_create(encoded(name), _fields(fields), out))
@@ -132,12 +132,14 @@ class Scene:
         return number[0]
 
     def add_instance(self, mesh: int, world_from_object: Any = None, casts_shadow: bool = True) -> int:
+        """A mesh, by its number, at a place: a matrix as written on paper, or None. Returns the instance's number."""
         matrix = ffi.NULL if world_from_object is None else arrays.c_matrix(world_from_object, "world_from_object")
         number = ffi.new("int32_t*")
         check(lib.lightgrid_scene_add_instance(self._handle, mesh, matrix, int(casts_shadow), number))
         return number[0]
 
     def move_instance(self, instance: int, world_from_object: Any) -> None:
+        """Another place for an instance, from the next frame of all views on."""
         check(lib.lightgrid_scene_move_instance(self._handle, instance,
                                                 arrays.c_matrix(world_from_object, "world_from_object")))
 
@@ -174,4 +176,5 @@ class Scene:
         return Camera._from_c(out)
 
     def projection(self, size: Sequence[int], which: Any = None) -> Projection:
+        """What camera() gives, for an image of this width and height."""
         return self.camera(which, size[0] / size[1] if size[1] else 0).project(size)

@@ -32,6 +32,17 @@ def floor(**fields):
     return lg.Scene.from_arrays([mesh], **fields)
 
 
+class PublicNames(unittest.TestCase):
+    def test_have_words(self):
+        without = []
+        for name in set(lg.__all__) - {"light_dtype"}:  # data, with a comment
+            value = getattr(lg, name)
+            members = {f"{name}.{key}": member for key, member in vars(value).items()
+                       if not key.startswith("_")} if isinstance(value, type) else {}
+            without += [key for key, member in {name: value, **members}.items() if not getattr(member, "__doc__", None)]
+        self.assertEqual(without, [])
+
+
 class Images(unittest.TestCase):
     def test_has_the_bytes_of_the_command_lines(self):
         with tempfile.TemporaryDirectory() as folder:
