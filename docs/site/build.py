@@ -120,7 +120,8 @@ def lay_out_live_pages(source, folder, program):
     """A report and a frontier, small, as the program writes them here."""
     run([program, "--quiet", "compare", "hall", "--size", "320x180", "-o", folder / "report"])
     run([program, "--quiet", "frontier", "hall", "--size", "160x90", "--views", "2", "--rounds", "8", "--no-growth",
-         "--budget", "1", "--page-mb", "1", "-t", "forward_plus,visibility", "-t", "visibility:range=cutoff", "-o", folder / "frontier"])
+         "--budget", "1", "--page-mb", "1", "-t", "forward_plus,visibility", "-t", "visibility:range=cutoff",
+         "-o", folder / "frontier"])
     text = "# A report and a frontier\n\nAs the program wrote them on the machine that built this site.\n"
     for name, command in (("report", "lightgrid compare hall"), ("frontier", "lightgrid frontier hall")):
         shutil.copy(folder / name / "index.html", source / f"live/{name}.html")
@@ -161,7 +162,7 @@ def dead_links(site):
 def main(folder, program, library, *headers):
     folder, headers = pathlib.Path(folder).resolve(), [pathlib.Path(h).resolve() for h in headers]
     os.environ.update(LIGHTGRID_PROGRAM=program, LIGHTGRID_LIBRARY=library, PYTHONPATH=str(checkout / "python"),
-                      PYTHONDONTWRITEBYTECODE="1", LIGHTGRID_API_XML=str(folder / "api/xml"))
+                      PYTHONDONTWRITEBYTECODE="1", PYDEVD_DISABLE_FILE_VALIDATION="1", LIGHTGRID_API_XML=str(folder / "api/xml"))
     source, site = folder / "source", folder / "html"
     for old in (source, site, folder / "doctrees"):
         shutil.rmtree(old, ignore_errors=True)
@@ -182,7 +183,8 @@ def main(folder, program, library, *headers):
     text += toctree("Results", ["live_pages"] + linked_pages(contents, "Results"))
     text += toctree("Lab notes", linked_pages(contents, "Lab notes", named=True))
     (source / "index.md").write_text(text, encoding="utf-8")
-    print(run([sys.executable, "-m", "sphinx", "-n", "-W", "--keep-going", "-q", "-b", "html", "-d", folder / "doctrees", source, site]), end="")
+    print(run([sys.executable, "-m", "sphinx", "-n", "-W", "--keep-going", "-q", "-b", "html",
+               "-d", folder / "doctrees", source, site]), end="")
     dead = sorted(dead_links(site))
     if dead:
         sys.exit("\n".join(dead))

@@ -37,7 +37,7 @@ def links_to_notebooks(app, name, source):
     source[0] = re.sub(r"(\]\([\w./]*)\.ipynb\)", r"\1.md)", source[0])
 
 
-def code_in_words(app, kind, name, what, options, lines):
+def code_in_words(app, what, name, value, options, lines):
     """A module's example is code, as in Markdown."""
     first = next((i for i, line in enumerate(lines) if line.startswith("    ")), None)
     if what == "module" and first:
