@@ -16,6 +16,7 @@
 #include "results/results.h"
 #include "session/contestants.h"
 #include "session/golden.h"
+#include "session/golden_pictures.h"
 
 namespace lightgrid {
 namespace {
@@ -26,11 +27,16 @@ using nlohmann::ordered_json;
 struct GoldenOptions {
   std::string action, folder, technique = "visibility", output, json, junit, sarif;
   std::vector<std::string> scenes;
+  bool pictures = false;
   SceneChoice scene;
   DeviceOptions devices;
 };
 
 constexpr const char* golden_file = "golden.json";
+constexpr int golden_format = 2;
+
+// Of the files of a view.
+std::string picture_name(size_t scene, size_t view) { return fmt::format("{:02}_{:04}", scene, view); }
 
 std::string text_of(const ChoiceField& field, const SceneChoice& choice) {
   return std::visit([&](auto member) { return fmt::format("{}", choice.*member); }, field.value);
@@ -86,13 +92,17 @@ int record(const GoldenOptions& o) {
     ordered_json scenes;
     size_t count = 0;
     for (const std::string& scene : o.scenes) {
+      const size_t number = scenes.size();
       GoldenScene golden{o.technique, o.scene};
       golden.choice.scene = scene;
       ordered_json views;
-      draw_views(golden, o.devices, [&](size_t, TechniqueRun& run) {
+      draw_views(golden, o.devices, [&](size_t i, TechniqueRun& run) {
         if (views.empty() && !own_surfaces(run.technique(), run.view().plan.settings))
           log_warning("{}: {} draws with OpenGL: its bytes hold for this driver alone", scene, o.technique);
-        views.push_back(to_json(golden_view(run)));
+        const GoldenPixels pixels = golden_pixels(run);
+        views.push_back(to_json(golden_view(pixels)));
+        if (o.pictures)
+          save_golden_pixels(std::filesystem::path(o.folder) / (picture_name(number, i) + ".exr"), pixels);
         ++count;
       });
       scenes.push_back({{"scene", scene},
@@ -101,7 +111,7 @@ int record(const GoldenOptions& o) {
                         {"set", o.scene.set},
                         {"views", views}});
     }
-    const ordered_json file = {{"lightgrid_golden", 1},
+    const ordered_json file = {{"lightgrid_golden", golden_format},
                                {"version", version_of_build()},
                                {"commit", commit_of_build()},
                                {"scenes", scenes}};
@@ -114,6 +124,9 @@ int record(const GoldenOptions& o) {
 
 struct CheckedView {
   std::string name, stage, message;  // the latter two are empty where nothing differs
+  std::optional<GoldenDifference> difference;
+  std::optional<glm::ivec2> pixel;  // where pixels are stored
+  std::optional<DisplayedFlip> flip;
 };
 
 struct RecordedScene {
@@ -126,9 +139,10 @@ std::vector<RecordedScene> read_golden(const std::filesystem::path& path) {
   try {
     const json parsed = parsed_json(text, 8);
     const JsonFields file(parsed);
-    if (file.count("lightgrid_golden") != 1)
-      throw input_error("lightgrid_golden: {} is a later format than this program reads",
-                        file.count("lightgrid_golden"));
+    if (file.count("lightgrid_golden") != golden_format)
+      throw input_error(
+          "lightgrid_golden: {} is another format than {}, which this program reads: record again",
+          file.count("lightgrid_golden"), golden_format);
     std::vector<RecordedScene> scenes;
     const json& list = file.at("scenes");
     if (!list.is_array() || list.empty()) throw input_error("scenes: is not a list of one or more");
@@ -215,6 +229,38 @@ std::string in_words(const GoldenDifference& d, const GoldenView& view) {
                      std::min(view.height, (d.tile_y + 1) * view.tile) - 1);
 }
 
+// Compares a view with the recorded one, and writes its pictures if it differs and a folder is given.
+CheckedView checked_view(const GoldenOptions& o, const RecordedScene& scene, const std::string& picture,
+                         size_t i, TechniqueRun& run) {
+  CheckedView c{fmt::format("{} {} {}", scene.golden.choice.scene, scene.golden.technique, i)};
+  const GoldenView& expected = scene.views[i];
+  const GoldenPixels pixels = golden_pixels(run);
+  const GoldenView drawn = golden_view(pixels);
+  c.difference = first_difference(expected, drawn);
+  if (!c.difference) return c;
+  c.stage = golden_stages[c.difference->stage];
+  c.message = in_words(*c.difference, drawn);
+  const auto recorded = load_golden_pixels(std::filesystem::path(o.folder) / (picture + ".exr"), expected);
+  const Exposure exposure = chosen_exposure(scene.golden.choice, recorded ? recorded->image : pixels.image);
+  const GoldenPictures pictures{expected, drawn, *c.difference, pixels, recorded, exposure};
+  if (recorded) {
+    c.pixel = first_pixel(*recorded, pixels, drawn, *c.difference);
+    c.flip = pictures.flip();
+    c.message += fmt::format("; the first pixel {},{}; FLIP {:.4f}, visible at {:.2f} % of the pixels",
+                             c.pixel->x, c.pixel->y, c.flip->mean, 100 * c.flip->visible);
+  }
+  if (!o.output.empty()) pictures.save(o.output, picture);
+  return c;
+}
+
+ordered_json to_json(const CheckedView& c) {
+  ordered_json view = {{"view", c.name}, {"same", !c.difference}, {"stage", c.stage}, {"message", c.message}};
+  view["tile"] = c.difference ? json{c.difference->tile_x, c.difference->tile_y} : json();
+  view["pixel"] = c.pixel ? json{c.pixel->x, c.pixel->y} : json();
+  view["displayed_flip"] = c.flip ? json{{"mean", c.flip->mean}, {"visible_share", c.flip->visible}} : json();
+  return view;
+}
+
 int check(const GoldenOptions& o) {
   for (const auto& [option, path] : {std::pair{"--json", o.json}, {"--junit", o.junit}, {"--sarif", o.sarif}})
     if (!path.empty()) check_output_file(option, path);
@@ -228,16 +274,8 @@ int check(const GoldenOptions& o) {
     draw_views(scene.golden, o.devices, [&](size_t i, TechniqueRun& run) {
       ++drawn;
       if (i >= scene.views.size()) return;
-      CheckedView& c = checked.emplace_back();
-      c.name = fmt::format("{} {} {}", scene.golden.choice.scene, scene.golden.technique, i);
-      const GoldenView view = golden_view(run);
-      if (const auto difference = first_difference(scene.views[i], view)) {
-        c.stage = golden_stages[difference->stage];
-        c.message = in_words(*difference, view);
-        if (!o.output.empty())
-          save_exr(std::filesystem::path(o.output) / fmt::format("{:02}_{:04}_drawn.exr", s, i), run.image());
-      }
-      if (o.json != "-") fmt::print("{}: {}\n", c.name, c.stage.empty() ? "same" : c.message);
+      const CheckedView& c = checked.emplace_back(checked_view(o, scene, picture_name(s, i), i, run));
+      if (o.json != "-") fmt::print("{}: {}\n", c.name, c.difference ? c.message : "same");
     });
     if (drawn != scene.views.size())
       throw input_error("{}: scenes[{}].views: {} are recorded, and {} were drawn", path, s,
@@ -247,12 +285,10 @@ int check(const GoldenOptions& o) {
   if (!o.sarif.empty()) write_json(o.sarif, sarif(checked, path).dump(1));
   if (!o.json.empty()) {
     ordered_json views;
-    for (const CheckedView& c : checked)
-      views.push_back(
-          {{"view", c.name}, {"same", c.stage.empty()}, {"stage", c.stage}, {"message", c.message}});
+    for (const CheckedView& c : checked) views.push_back(to_json(c));
     write_json(o.json, ordered_json{{"views", views}}.dump(1));
   }
-  return std::ranges::any_of(checked, [](const CheckedView& c) { return !c.stage.empty(); });
+  return std::ranges::any_of(checked, [](const CheckedView& c) { return c.difference.has_value(); });
 }
 
 int golden(const GoldenOptions& o) {
@@ -260,6 +296,7 @@ int golden(const GoldenOptions& o) {
   parse_gl_backend(o.devices.gl);
   if (o.action == "record") return record(o);
   if (o.action != "check") throw input_error("golden {}: is neither record nor check", o.action);
+  if (o.pictures) throw input_error("golden check: --pictures: is an option of record; see -o");
   if (!o.scenes.empty()) throw input_error("golden check: {}: takes no scene but DIR's", o.scenes.front());
   return check(o);
 }
@@ -281,6 +318,7 @@ void add_golden(CommandLine& line) {
   add_path_option(command, o->scene);
   add_device_options(command, o->devices);
   add_technique_option(command, o->technique, technique_names());
+  command.flag("--pictures", o->pictures, "of record: stores each view's pixels too, as DIR/SCENE_VIEW.exr");
   command.option("-o,--output", o->output, "of check: folder for the pictures of views that differ");
   command.option("--json", o->json, "of check: results as JSON into a file, - for stdout");
   command.option("--junit", o->junit, "of check: results as JUnit XML into a file");

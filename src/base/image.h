@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -53,13 +54,28 @@ std::vector<uint8_t> srgb_bytes_as_is(const Image& image);
 // with a palette.
 std::vector<uint8_t> encode_png(int width, int height, int channels, const std::vector<uint8_t>& bytes);
 void save_png(const std::filesystem::path& path, const Image& image, const Exposure& exposure = {});
+// The same without the tone map (srgb_bytes_as_is).
+void save_png_as_is(const std::filesystem::path& path, const Image& image);
 void save_exr(const std::filesystem::path& path, const Image& image);  // 32-bit float RGB, linear
+
+// A channel of an EXR file: the 32 bits of a float, or a whole number, of each pixel; row 0 at the bottom.
+struct ExrChannel {
+  std::string name;
+  bool whole = false;
+  std::vector<uint32_t> words;
+};
+void save_exr(const std::filesystem::path& path, int width, int height,
+              const std::vector<ExrChannel>& channels);  // in the order of their names' bytes
+// In the file's order. Throws Error(input) unless the file is an EXR of rows with one part, of this size, and
+// of at most 16 channels of 32 bits.
+std::vector<ExrChannel> load_exr(const std::filesystem::path& path, int width, int height);
 
 // Throws Error(input) unless the extension is .png or .exr; call it before long work.
 void check_image_path(const std::filesystem::path& path);
 
 // By extension: .png exposed and through the tone map, .exr linear; anything else is an input error.
-// All three write the file whole or not at all, and throw as write_file does (base/write_file.h).
+// Whatever saves a picture writes the file whole or not at all, and throw as write_file does
+// (base/write_file.h).
 void save_image(const std::filesystem::path& path, const Image& image, const Exposure& exposure = {});
 
 }  // namespace lightgrid

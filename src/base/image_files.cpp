@@ -2,6 +2,7 @@
 #include <tinyexr.h>
 
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cctype>
 #include <cstring>
@@ -10,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/image.h"
+#include "base/json_file.h"
 #include "base/write_file.h"
 
 namespace lightgrid {
@@ -46,6 +48,16 @@ Palette find_palette(const std::vector<uint8_t>& rgb) {
 void append(png_structp png, png_bytep data, size_t size) {
   auto& out = *static_cast<std::vector<uint8_t>*>(png_get_io_ptr(png));
   out.insert(out.end(), data, data + size);
+}
+
+std::vector<uint32_t> turned_over(const std::vector<uint32_t>& words, int width, int height) {
+  std::vector<uint32_t> rows;
+  rows.reserve(words.size());
+  for (int row = height - 1; row >= 0; --row) {
+    const auto first = words.begin() + ptrdiff_t(row) * width;
+    rows.insert(rows.end(), first, first + width);
+  }
+  return rows;
 }
 
 std::string extension_of(const std::filesystem::path& path) {
@@ -88,34 +100,42 @@ void save_png(const std::filesystem::path& path, const Image& image, const Expos
   write_file(path, encode_png(image.width, image.height, 3, srgb_bytes(image, exposure)));
 }
 
+void save_png_as_is(const std::filesystem::path& path, const Image& image) {
+  write_file(path, encode_png(image.width, image.height, 3, srgb_bytes_as_is(image)));
+}
+
 void save_exr(const std::filesystem::path& path, const Image& image) {
-  // Channels are stored in the order of their names: B, G, R.
-  std::array<std::vector<float>, 3> planes;
-  for (int c = 0; c < 3; ++c) {
-    auto& plane = planes[c];
-    plane.reserve(image.pixels.size());
-    for (int row = image.height - 1; row >= 0; --row) {
-      for (int x = 0; x < image.width; ++x) plane.push_back(image.at(x, row)[2 - c]);
-    }
+  std::vector<ExrChannel> channels;
+  for (const auto& [name, channel] : {std::pair{"B", 2}, {"G", 1}, {"R", 0}}) {
+    std::vector<uint32_t>& words = channels.emplace_back(ExrChannel{name, false, {}}).words;
+    words.reserve(image.pixels.size());
+    for (const glm::vec4& pixel : image.pixels) words.push_back(std::bit_cast<uint32_t>(pixel[channel]));
   }
-  std::array<unsigned char*, 3> data;
-  std::array<EXRChannelInfo, 3> channels = {};
-  std::array<int, 3> types;
-  types.fill(TINYEXR_PIXELTYPE_FLOAT);
-  for (int c = 0; c < 3; ++c) {
-    data[c] = reinterpret_cast<unsigned char*>(planes[c].data());
-    channels[c].name[0] = "BGR"[c];
+  save_exr(path, image.width, image.height, channels);
+}
+
+void save_exr(const std::filesystem::path& path, int width, int height,
+              const std::vector<ExrChannel>& channels) {
+  std::vector<std::vector<uint32_t>> planes;  // row 0 at the top
+  std::vector<unsigned char*> data;
+  std::vector<EXRChannelInfo> infos(channels.size());
+  std::vector<int> types;
+  for (size_t c = 0; c < channels.size(); ++c) {
+    planes.push_back(turned_over(channels[c].words, width, height));
+    data.push_back(reinterpret_cast<unsigned char*>(planes.back().data()));
+    channels[c].name.copy(infos[c].name, sizeof infos[c].name - 1);
+    types.push_back(channels[c].whole ? TINYEXR_PIXELTYPE_UINT : TINYEXR_PIXELTYPE_FLOAT);
   }
   EXRImage exr;
   InitEXRImage(&exr);
-  exr.num_channels = 3;
+  exr.num_channels = int(channels.size());
   exr.images = data.data();
-  exr.width = image.width;
-  exr.height = image.height;
+  exr.width = width;
+  exr.height = height;
   EXRHeader header;
   InitEXRHeader(&header);
-  header.num_channels = 3;
-  header.channels = channels.data();
+  header.num_channels = exr.num_channels;
+  header.channels = infos.data();
   header.pixel_types = types.data();
   header.requested_pixel_types = types.data();
   header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
@@ -127,6 +147,49 @@ void save_exr(const std::filesystem::path& path, const Image& image) {
   std::vector<uint8_t> bytes(encoded, encoded + size);
   std::free(encoded);
   write_file(path, bytes);
+}
+
+std::vector<ExrChannel> load_exr(const std::filesystem::path& path, int width, int height) {
+  constexpr int most_channels = 16;
+  const size_t pixels = size_t(width) * size_t(height);
+  const std::string text = read_small_file(path, (pixels * most_channels + (1 << 20)) * 4, "an EXR file");
+  const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
+  const auto require = [&](bool good, const char* what) {
+    if (!good) throw input_error("{}: {}", path.string(), what);
+  };
+  const char* why = nullptr;  // lost: a sentence of tinyexr's
+  EXRVersion version;
+  require(ParseEXRVersionFromMemory(&version, bytes, text.size()) == TINYEXR_SUCCESS, "is not an EXR file");
+  require(!version.tiled && !version.multipart && !version.non_image, "has tiles or several parts");
+  struct Read {
+    EXRHeader header;
+    EXRImage image;
+    bool has_image = false;  // tinyexr frees what it could not read, and leaves the pointers
+    Read() { InitEXRHeader(&header), InitEXRImage(&image); }
+    ~Read() {
+      if (has_image) FreeEXRImage(&image);
+      FreeEXRHeader(&header);
+    }
+  } read;
+  require(ParseEXRHeaderFromMemory(&read.header, &version, bytes, text.size(), &why) == TINYEXR_SUCCESS,
+          "its header is broken");
+  const EXRBox2i box = read.header.data_window;
+  require(box.min_x == 0 && box.min_y == 0 && box.max_x == width - 1 && box.max_y == height - 1,
+          "has another size");
+  require(read.header.num_channels <= most_channels, "has more than 16 channels");
+  for (int c = 0; c < read.header.num_channels; ++c)
+    require(read.header.pixel_types[c] != TINYEXR_PIXELTYPE_HALF, "has a channel of 16 bits");
+  read.has_image =
+      LoadEXRImageFromMemory(&read.image, &read.header, bytes, text.size(), &why) == TINYEXR_SUCCESS;
+  require(read.has_image && read.image.images && read.image.width == width && read.image.height == height,
+          "its pixels are broken");
+  std::vector<ExrChannel> channels;
+  for (int c = 0; c < read.header.num_channels; ++c) {
+    const auto* words = reinterpret_cast<const uint32_t*>(read.image.images[c]);
+    channels.push_back({read.header.channels[c].name, read.header.pixel_types[c] == TINYEXR_PIXELTYPE_UINT,
+                        turned_over({words, words + pixels}, width, height)});
+  }
+  return channels;
 }
 
 void check_image_path(const std::filesystem::path& path) {

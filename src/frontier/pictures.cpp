@@ -30,17 +30,6 @@ uint64_t hash_of(const Image& image) {
   return hash;
 }
 
-void save_as_is(const std::filesystem::path& path, const Image& image) {
-  write_file(path, encode_png(image.width, image.height, 3, srgb_bytes_as_is(image)));
-}
-
-Image flip_picture(const std::vector<float>& map, int width, int height) {
-  constexpr uint32_t top = 253;  // steps of the ramp
-  std::vector<uint32_t> steps;
-  for (const float value : map) steps.push_back(uint32_t(std::lround(double(value) * top)));
-  return heat_map(width, height, steps, top);
-}
-
 constexpr int most_reduction = 8;
 constexpr float fine_quality = 85, coarse_quality = 60;  // of WebP
 
@@ -129,8 +118,8 @@ PictureFiles::Written PictureFiles::write(const std::string& scene, const Image&
     return found->second;
   }
   save_png(folder_ / (name + ".png"), image, exposure_);
-  save_as_is(folder_ / (name + ".difference.png"), difference_image(image, truth));
-  if (flip) save_as_is(folder_ / (name + ".flip.png"), flip_picture(map, image.width, image.height));
+  save_png_as_is(folder_ / (name + ".difference.png"), difference_image(image, truth));
+  if (flip) save_png_as_is(folder_ / (name + ".flip.png"), flip_picture(map, image.width, image.height));
   return found->second;
 }
 

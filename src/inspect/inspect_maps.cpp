@@ -59,8 +59,7 @@ void write_inspection_maps(const std::filesystem::path& folder, const CapturedFr
   const int width = frame.view.width, height = frame.view.height;
   parallel_for(int(files.size()), [&](int i) {
     const File& file = files[size_t(i)];
-    const Image image = heat_map(width, height, *file.counts, file.top);
-    write_file(folder / file.name, encode_png(width, height, 3, srgb_bytes_as_is(image)));
+    save_png_as_is(folder / file.name, heat_map(width, height, *file.counts, file.top));
   });
 }
 

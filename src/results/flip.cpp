@@ -286,6 +286,15 @@ Image exposed(const Image& image, double stops) {
   return out;
 }
 
+// Of a PNG file's bytes, row 0 at the top as there.
+SeenImage seen_on_display(const std::vector<uint8_t>& bytes, int width, int height) {
+  Image linear(width, height);
+  for (size_t i = 0; i < linear.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) linear.pixels[i][c] = linear_from_srgb(float(bytes[3 * i + size_t(c)]) / 255);
+  }
+  return seen_image(linear, default_pixels_per_degree);
+}
+
 }  // namespace
 
 std::vector<float> flip_map(const Image& test, const Image& reference, double pixels_per_degree) {
@@ -332,24 +341,40 @@ std::vector<float> hdr_flip_map(const Image& test, const Image& reference, const
   return HdrFlip(reference, exposures, pixels_per_degree).map(test);
 }
 
-ShownReference::ShownReference(const Image& reference, const Exposure& exposure) {
-  const auto seen_on_display = [width = reference.width,
-                                height = reference.height](const std::vector<uint8_t>& bytes) {
-    Image linear(width, height);
-    for (size_t i = 0; i < linear.pixels.size(); ++i) {
-      for (int c = 0; c < 3; ++c)
-        linear.pixels[i][c] = linear_from_srgb(float(bytes[3 * i + size_t(c)]) / 255);
-    }
-    return seen_image(linear, default_pixels_per_degree);
+std::vector<float> displayed_flip_map(const Image& image, const Image& reference, const Exposure& exposure) {
+  const auto seen = [&](const Image& picture) {
+    return seen_on_display(srgb_bytes(picture, exposure), picture.width, picture.height);
   };
+  const std::vector<float> from_the_top = difference_map(seen(image), seen(reference));
+  std::vector<float> map;
+  map.reserve(from_the_top.size());
+  for (auto row = from_the_top.end(); row != from_the_top.begin();) {
+    row -= image.width;
+    map.insert(map.end(), row, row + image.width);
+  }
+  return map;
+}
+
+DisplayedFlip displayed_flip_of(const std::vector<float>& map) {
+  const auto visible = std::ranges::count_if(map, [](float flip) { return flip > visible_flip; });
+  return {mean_of(map), double(visible) / double(map.size())};
+}
+
+Image flip_picture(const std::vector<float>& map, int width, int height) {
+  constexpr uint32_t top = 253;  // steps of the ramp
+  std::vector<uint32_t> steps;
+  for (const float value : map) steps.push_back(uint32_t(std::lround(double(value) * top)));
+  return heat_map(width, height, steps, top);
+}
+
+ShownReference::ShownReference(const Image& reference, const Exposure& exposure) {
+  const int width = reference.width, height = reference.height;
   const auto expected = std::make_shared<std::vector<uint8_t>>(srgb_bytes(reference, exposure));
-  const auto seen_reference = std::make_shared<SeenImage>(seen_on_display(*expected));
+  const auto seen_reference = std::make_shared<SeenImage>(seen_on_display(*expected, width, height));
   flip_of_ = [=](const Image& image) -> DisplayedFlip {
     const std::vector<uint8_t> shown = srgb_bytes(image, exposure);
     if (shown == *expected) return {};
-    const std::vector<float> map = difference_map(seen_on_display(shown), *seen_reference);
-    const auto visible = std::ranges::count_if(map, [](float flip) { return flip > visible_flip; });
-    return {mean_of(map), double(visible) / double(map.size())};
+    return displayed_flip_of(difference_map(seen_on_display(shown, width, height), *seen_reference));
   };
 }
 

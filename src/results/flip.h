@@ -51,7 +51,12 @@ class HdrFlip {
 
 double mean_of(const std::vector<float>& map);
 
-// Between the pictures that PNG files show (srgb_bytes).
+// A map's values as colours, black where it is 0, to be stored as a heat map is.
+Image flip_picture(const std::vector<float>& map, int width, int height);
+
+// Between the pictures that PNG files show (srgb_bytes): per pixel, row 0 at the bottom, and over all.
+std::vector<float> displayed_flip_map(const Image& image, const Image& reference, const Exposure& exposure);
+DisplayedFlip displayed_flip_of(const std::vector<float>& map);
 DisplayedFlip displayed_flip(const Image& image, const Image& reference, const Exposure& exposure = {});
 
 // The same with the reference's part computed once, for many images.

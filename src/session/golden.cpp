@@ -13,7 +13,7 @@
 namespace lightgrid {
 namespace {
 
-// FNV-1a with a word a step.
+// FNV-1a with a word a step. A pixel has the lower half of a hash.
 struct Hash {
   uint64_t value = 0xcbf29ce484222325;
   void add(uint64_t word) { value = (value ^ word) * 0x100000001b3, value ^= value >> 32; }
@@ -37,39 +37,65 @@ std::vector<std::string> hash_tiles(const GoldenView& view,
 }
 
 // Of each cell's list, in the order in which its lights are summed.
-std::vector<uint64_t> hashes_of_lists(const ListedLights& lists) {
-  std::vector<uint64_t> hashes;
+std::vector<uint32_t> hashes_of_lists(const ListedLights& lists) {
+  std::vector<uint32_t> hashes;
   for (size_t cell = 0; cell < lists.count.size(); ++cell) {
     Hash hash;
     for (uint32_t i = 0; i < lists.count[cell]; ++i) hash.add(lists.indices[lists.first[cell] + i]);
     hash.add(lists.count[cell]);
-    hashes.push_back(hash.value);
+    hashes.push_back(uint32_t(hash.value));
   }
   return hashes;
 }
 
+uint32_t hash_of(const SceneTriangle& triangle) {
+  Hash hash;
+  hash.add(uint32_t(triangle.instance));
+  for (const uint32_t vertex : triangle.vertices) hash.add(vertex);
+  return uint32_t(hash.value);
+}
+
 }  // namespace
 
-GoldenView golden_view(TechniqueRun& run) {
-  GoldenView view{.width = run.image().width, .height = run.image().height, .stages = {}};
-  while (size_t(view.across()) * size_t(view.down()) > most_tiles) view.tile *= 2;
+bool GoldenPixels::same(size_t stage, const GoldenPixels& other, size_t pixel) const {
+  const auto bits = [pixel](const Image& image) {
+    return std::bit_cast<std::array<uint32_t, 3>>(glm::vec3(image.pixels[pixel]));
+  };
+  switch (stage) {
+    case 0:
+      return triangles[pixel] == other.triangles[pixel];
+    case 1:
+      return depth[pixel] == other.depth[pixel];
+    case 2:
+      return lists[pixel] == other.lists[pixel];
+    default:
+      return bits(image) == bits(other.image);
+  }
+}
 
+GoldenPixels golden_pixels(TechniqueRun& run) {
   const std::vector<float> depth = read_depth(run);
   const ListedLights lists = listed_lights(run, depth);
-  const std::vector<uint64_t> of_lists = hashes_of_lists(lists);
-  const std::vector<SceneTriangle> triangles = shown_triangles(run);
-  const Image& image = run.image();
-  view.stages[0] = hash_tiles(view, [&](Hash& hash, size_t pixel) {
-    hash.add(uint32_t(triangles[pixel].instance));
-    for (const uint32_t vertex : triangles[pixel].vertices) hash.add(vertex);
-  });
-  view.stages[1] =
-      hash_tiles(view, [&](Hash& hash, size_t pixel) { hash.add(std::bit_cast<uint32_t>(depth[pixel])); });
-  view.stages[2] = hash_tiles(view, [&](Hash& hash, size_t pixel) {
+  const std::vector<uint32_t> of_lists = hashes_of_lists(lists);
+  GoldenPixels pixels;
+  pixels.image = run.image();
+  for (const SceneTriangle& triangle : shown_triangles(run)) pixels.triangles.push_back(hash_of(triangle));
+  for (size_t pixel = 0; pixel < depth.size(); ++pixel) {
     const uint32_t cell = lists.cell_of_pixel.empty() ? 0 : lists.cell_of_pixel[pixel];
-    hash.add(depth[pixel] != 0 && cell < of_lists.size() ? of_lists[cell] : 0);
-  });
-  view.stages[3] = hash_tiles(view, [&](Hash& hash, size_t pixel) {
+    pixels.depth.push_back(std::bit_cast<uint32_t>(depth[pixel]));
+    pixels.lists.push_back(depth[pixel] != 0 && cell < of_lists.size() ? of_lists[cell] : 0);
+  }
+  return pixels;
+}
+
+GoldenView golden_view(const GoldenPixels& pixels) {
+  const Image& image = pixels.image;
+  GoldenView view{.width = image.width, .height = image.height, .stages = {}};
+  while (size_t(view.across()) * size_t(view.down()) > most_tiles) view.tile *= 2;
+  size_t stage = 0;
+  for (const std::vector<uint32_t>* words : {&pixels.triangles, &pixels.depth, &pixels.lists})
+    view.stages[stage++] = hash_tiles(view, [&](Hash& hash, size_t pixel) { hash.add((*words)[pixel]); });
+  view.stages[stage] = hash_tiles(view, [&](Hash& hash, size_t pixel) {
     for (int channel = 0; channel < 3; ++channel)
       hash.add(std::bit_cast<uint32_t>(image.pixels[pixel][channel]));
   });

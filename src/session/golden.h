@@ -14,6 +14,19 @@ namespace lightgrid {
 // In the order of the frame: a stage reads the ones before it.
 inline constexpr std::array golden_stages = {"triangles", "depth", "lists", "radiance"};
 
+// What the stages left at each pixel, row 0 at the bottom.
+struct GoldenPixels {
+  std::vector<uint32_t> triangles;  // a hash of the nearest opaque one: its instance and vertices
+  std::vector<uint32_t> depth;      // the bits of a float
+  std::vector<uint32_t> lists;      // a hash of the lights that it reads, in their order; 0 on background
+  Image image;                      // radiance, without the tone map; alpha does not count
+
+  bool same(size_t stage, const GoldenPixels& other, size_t pixel) const;
+};
+
+// Of the run's last frame.
+GoldenPixels golden_pixels(TechniqueRun& run);
+
 // Hashes of a view, 16 hexadecimal digits a tile; rows of tiles from the bottom.
 struct GoldenView {
   int width = 0, height = 0;
@@ -24,8 +37,8 @@ struct GoldenView {
   int down() const { return (height + tile - 1) / tile; }
 };
 
-// Of the run's last frame. The tile is 64 pixels, doubled until a view has 64 tiles or fewer.
-GoldenView golden_view(TechniqueRun& run);
+// The tile is 64 pixels, doubled until a view has 64 tiles or fewer.
+GoldenView golden_view(const GoldenPixels& pixels);
 
 struct GoldenDifference {
   size_t stage = 0;  // the first that differs

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/image.h"
+#include "base/write_file.h"
 #include "support/temp_folder.h"
 
 namespace lightgrid {
@@ -98,6 +99,56 @@ TEST(SaveExr, KeepsEveryFloatIncludingNanAndInfinity) {
     }
   }
   std::free(loaded);
+}
+
+std::vector<ExrChannel> channels_of(int width, int height) {
+  std::vector<ExrChannel> channels = {{"R", false, {}}, {"depth", false, {}}, {"lists", true, {}}};
+  for (ExrChannel& channel : channels) {
+    for (int i = 0; i < width * height; ++i) channel.words.push_back(uint32_t(i) * 0x9e3779b9u);
+  }
+  return channels;
+}
+
+TEST(LoadExr, ReadsTheBitsThatWereSaved) {
+  const TempFolder folder;
+  for (const auto& [width, height] : {std::pair{17, 9}, {1, 1}, {33, 65}}) {
+    const auto saved = channels_of(width, height);
+    save_exr(folder.path / "a.exr", width, height, saved);
+    const auto loaded = load_exr(folder.path / "a.exr", width, height);
+    ASSERT_EQ(loaded.size(), saved.size());
+    for (size_t c = 0; c < saved.size(); ++c) {
+      EXPECT_EQ(loaded[c].name, saved[c].name);
+      EXPECT_EQ(loaded[c].whole, saved[c].whole);
+      EXPECT_EQ(loaded[c].words, saved[c].words);
+    }
+    EXPECT_THROW(load_exr(folder.path / "a.exr", width + 1, height), Error);
+  }
+}
+
+TEST(LoadExr, RefusesBrokenFiles) {
+  const TempFolder folder;
+  save_exr(folder.path / "a.exr", 33, 20, channels_of(33, 20));
+  const std::vector<uint8_t> right = content(folder.path / "a.exr");
+  const auto refused = [&](const std::vector<uint8_t>& bytes) {
+    write_file(folder.path / "broken.exr", bytes);
+    try {
+      load_exr(folder.path / "broken.exr", 33, 20);
+      return false;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      return true;
+    }
+  };
+  for (size_t size = 0; size < right.size(); size += 1 + size / 16)
+    EXPECT_TRUE(refused({right.begin(), right.begin() + ptrdiff_t(size)})) << size;
+  // A changed byte may leave a file with other pixels, but ends neither the program nor in another error.
+  size_t refusals = 0;
+  for (size_t at = 0; at < std::min<size_t>(right.size(), 600); ++at) {
+    std::vector<uint8_t> bytes = right;
+    bytes[at] ^= uint8_t(1u << at % 8);
+    refusals += refused(bytes);
+  }
+  EXPECT_GT(refusals, 20u);
 }
 
 TEST(SaveImage, ChoosesByExtensionWhateverItsCase) {
