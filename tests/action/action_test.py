@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """action_test.py PROGRAM: the composite action's steps, run by bash as a runner does, with a built program.
 
-Not run here: what a runner alone does (uploads, `if:`), and the installation from a package or a checkout.
+Not run here: what a runner alone does (uploads, `if:`); apt-get and the build of a checkout are stand-ins.
 77, skipped, without PyYAML (Debian: python3-yaml)."""
 import json
 import os
@@ -15,8 +15,8 @@ import unittest
 try:
     import yaml
 except ImportError:
-    if os.path.exists("/usr/bin/python3") and not os.environ.get("ACTION_TEST_RETRIED"):  # a virtual environment
-        os.environ["ACTION_TEST_RETRIED"] = "1"
+    if os.path.exists("/usr/bin/python3") and not os.environ.get("ACTION_TEST_RETRIED"):
+        os.environ["ACTION_TEST_RETRIED"] = "1"  # this Python was a virtual environment's
         os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
     print("skipped: no PyYAML (Debian: python3-yaml)")
     sys.exit(77)
@@ -33,7 +33,7 @@ def load(path):
 class Runner:
     """Runs the steps that have `run`, with `env` as expressions say; stops at the first that fails."""
 
-    def __init__(self, folder, inputs):
+    def __init__(self, folder, inputs, action_path=ACTION):
         action = load(ACTION / "action.yml")
         values = {name: str(i.get("default", "")) for name, i in action["inputs"].items()} | inputs
         self.known = {f"inputs.{name}": value for name, value in values.items()}
@@ -45,7 +45,7 @@ class Runner:
             outputs = folder / f"outputs_{step['id']}"
             env = os.environ | {name: self.value_of(text) for name, text in step.get("env", {}).items()}
             env |= {"GITHUB_OUTPUT": str(outputs), "GITHUB_STEP_SUMMARY": str(self.summary),
-                    "GITHUB_ACTION_PATH": str(ACTION)}
+                    "GITHUB_ACTION_PATH": str(action_path), "PATH": f"{folder}/bin:{os.environ['PATH']}"}
             # As GitHub's documentation has `shell: bash`.
             command = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"]]
             ran = subprocess.run(command, cwd=folder, env=env, text=True, capture_output=True)
@@ -70,10 +70,15 @@ class Action(unittest.TestCase):
         self.golden["scenes"] = [s for s in self.golden["scenes"] if s["scene"] == "rooms"]
         self.assertEqual(len(self.golden["scenes"]), 1)
 
-    def run_steps(self, inputs=None, folder="pictures in a folder"):
+    def run_steps(self, inputs=None, folder="pictures in a folder", **paths):
         (self.folder / folder).mkdir()
         (self.folder / folder / "golden.json").write_text(json.dumps(self.golden))
-        return Runner(self.folder, {"folder": folder, "program": PROGRAM} | (inputs or {}))
+        return Runner(self.folder, {"folder": folder, "program": PROGRAM} | (inputs or {}), **paths)
+
+    def stand_in(self, path, script):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("#!/bin/bash\n" + script)
+        path.chmod(0o755)
 
     def test_same(self):
         ran = self.run_steps()
@@ -81,7 +86,8 @@ class Action(unittest.TestCase):
         self.assertIn("rooms visibility 0: same", ran.summary.read_text())
         self.assertEqual(ran.known["steps.check.outputs.status"], "0")
         self.assertIn('failures="0"', (self.folder / "golden-output/junit.xml").read_text())
-        self.assertEqual(json.loads((self.folder / "golden-output/golden.sarif").read_text())["runs"][0]["results"], [])
+        sarif = json.loads((self.folder / "golden-output/golden.sarif").read_text())
+        self.assertEqual(sarif["runs"][0]["results"], [])
 
     def test_a_difference_fails_and_leaves_its_files(self):
         self.golden["scenes"][0]["set"] = ["window=none"]
@@ -103,6 +109,27 @@ class Action(unittest.TestCase):
         ran = self.run_steps({"program": "", "deb": "none.deb"})
         self.assertEqual(ran.status, 2, ran.out)
         self.assertIn("::error::deb: there is no file none.deb", ran.out)
+
+    def test_a_package_is_installed_with_its_opencl(self):
+        log = self.folder / "log"
+        self.stand_in(self.folder / "bin/sudo", 'exec "$@"\n')
+        self.stand_in(self.folder / "bin/apt-get", f'printf "%s|" "$@" >> "{log}"\n')
+        self.stand_in(self.folder / "bin/lightgrid", 'printf "%s|" "$@"\n')
+        (self.folder / "a package.deb").touch()
+        ran = self.run_steps({"program": "", "deb": "a package.deb"})
+        self.assertEqual(ran.status, 0, ran.out)
+        self.assertEqual(log.read_text(), "update|install|-y|--no-install-recommends|"
+                         f"{self.folder.resolve()}/a package.deb|pocl-opencl-icd|")
+        self.assertIn("golden|check|pictures in a folder|-o|golden-output/pictures|", ran.out)
+
+    def test_a_checkout_is_built(self):
+        self.stand_in(self.folder / "checkout/lightgrid", 'printf "%s|" "$@"\n')
+        path = self.folder / "checkout/.github/actions/lightgrid"
+        path.mkdir(parents=True)
+        ran = self.run_steps({"program": ""}, action_path=path)
+        self.assertEqual(ran.status, 0, ran.out)
+        self.assertTrue(ran.out.startswith("--yes|--version|"), ran.out)
+        self.assertIn("golden|check|pictures in a folder|", ran.out)
 
     def test_expressions_and_inputs_are_declared(self):
         action = load(ACTION / "action.yml")

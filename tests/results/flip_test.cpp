@@ -143,6 +143,18 @@ TEST(Flip, OfFlatImagesIsTheColourDifferenceAlone) {
   EXPECT_GT(mean_of(flip_map(green, black)), 0.5);
 }
 
+TEST(Flip, MapAsDisplayedHasRow0AtTheBottom) {
+  Image image(9, 5);
+  const Image reference = image;
+  image.at(7, 1) = glm::vec4(1);
+  const std::vector<float> map = displayed_flip_map(image, reference, {});
+  const auto worst = size_t(std::ranges::max_element(map) - map.begin());
+  EXPECT_EQ(worst, size_t(1 * 9 + 7));
+  const DisplayedFlip flip = displayed_flip(image, reference);
+  EXPECT_NEAR(displayed_flip_of(map).mean, flip.mean, 1e-7);
+  EXPECT_EQ(displayed_flip_of(map).visible, flip.visible);
+}
+
 TEST(Flip, CountsNanAsOne) {
   Image image = noise(9, 9, 1);
   const Image reference = image;
