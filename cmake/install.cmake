@@ -46,6 +46,11 @@ install(FILES ${PROJECT_SOURCE_DIR}/cmake/lightgridConfig.cmake ${PROJECT_BINARY
         DESTINATION ${package_folder} COMPONENT library)
 if(LIGHTGRID_PROGRAM)
   install(TARGETS lightgrid RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  set(packaging ${PROJECT_SOURCE_DIR}/packaging)
+  install(FILES ${packaging}/lightgrid.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT program)
+  install(FILES ${packaging}/io.github.lightgrid.lightgrid.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo
+          COMPONENT program)
+  install(FILES ${packaging}/lightgrid.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps COMPONENT program)
   if(NOT CMAKE_CROSSCOMPILING)  # the program itself writes them
     set(manual ${PROJECT_BINARY_DIR}/manual)
     install(CODE "

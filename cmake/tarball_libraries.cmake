@@ -1,0 +1,23 @@
+# Run by CPack before it packs a tree: the libraries that bin/lightgrid and lib/liblightgrid.so need are added as lib/lightgrid,
+# where only these two look for them, relative to themselves. The rest is of every system (as in python/setup.py).
+cmake_policy(VERSION 3.22)
+set(root ${CPACK_TEMPORARY_INSTALL_DIRECTORY})
+file(GLOB library ${root}/lib*/liblightgrid.so.*.*.*)
+file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${root}/bin/lightgrid LIBRARIES ${library} RESOLVED_DEPENDENCIES_VAR needed
+     PRE_EXCLUDE_REGEXES "^(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+|z|OpenCL))\\.so")
+cmake_path(GET library PARENT_PATH folder)
+foreach(path IN LISTS needed)
+  file(COPY ${path} DESTINATION ${folder}/lightgrid FOLLOW_SYMLINK_CHAIN)
+endforeach()
+cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${root} OUTPUT_VARIABLE lib)
+file(GLOB bundled ${folder}/lightgrid/*)
+function(look_in place)
+  execute_process(COMMAND patchelf --set-rpath ${place} ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+look_in($ORIGIN/../${lib}/lightgrid ${root}/bin/lightgrid)
+look_in($ORIGIN/lightgrid ${library})
+foreach(path IN LISTS bundled)
+  if(NOT IS_SYMLINK ${path})
+    look_in($ORIGIN ${path})
+  endif()
+endforeach()
