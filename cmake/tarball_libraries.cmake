@@ -1,12 +1,22 @@
 # Run by CPack before it packs a tree: the libraries that bin/lightgrid and lib/liblightgrid.so need are added as lib/lightgrid,
-# where only these two look for them, relative to themselves. The rest is of every system (as in python/setup.py).
+# where only these two look for them, relative to themselves. The rest is of every system (as in python/setup.py). Licences are
+# in share/licenses/lightgrid: the project's, and on Debian those of the added libraries.
 cmake_policy(VERSION 3.22)
 set(root ${CPACK_TEMPORARY_INSTALL_DIRECTORY})
 file(GLOB library ${root}/lib*/liblightgrid.so.*.*.*)
 file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${root}/bin/lightgrid LIBRARIES ${library} RESOLVED_DEPENDENCIES_VAR needed
      PRE_EXCLUDE_REGEXES "^(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+|z|OpenCL))\\.so")
 cmake_path(GET library PARENT_PATH folder)
+set(licenses ${root}/share/licenses/lightgrid)
+file(COPY ${CMAKE_CURRENT_LIST_DIR}/../LICENSE DESTINATION ${licenses})
+find_program(DPKG_QUERY dpkg-query)
 foreach(path IN LISTS needed)
+  if(DPKG_QUERY)
+    cmake_path(GET path FILENAME name)
+    execute_process(COMMAND ${DPKG_QUERY} -S */${name} OUTPUT_VARIABLE owner COMMAND_ERROR_IS_FATAL ANY)
+    string(REGEX REPLACE "[:,].*" "" owner ${owner})
+    configure_file(/usr/share/doc/${owner}/copyright ${licenses}/${owner}.txt COPYONLY)
+  endif()
   file(COPY ${path} DESTINATION ${folder}/lightgrid FOLLOW_SYMLINK_CHAIN)
 endforeach()
 cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${root} OUTPUT_VARIABLE lib)

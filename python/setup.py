@@ -2,7 +2,8 @@
 
 LIGHTGRID_LIBRARY: the library; without it the wheel holds none, and finds the system's. With LIGHTGRID_BUNDLE=1 the wheel also
 holds the libraries that this one needs, under names of their own, but for those that every system has and for the loader of
-OpenCL drivers; needs patchelf and ldd. The tag is then that of this system's C library (manylinux)."""
+OpenCL drivers; needs patchelf and ldd. On Debian their licences are beside them. The tag is then that of this system's C library
+(manylinux)."""
 import os
 import pathlib
 import platform
@@ -26,6 +27,15 @@ def version() -> str:
     return re.search(r"project\(lightgrid VERSION ([0-9.]+)", cmake).group(1)
 
 
+def copy_licence(name: str, folder: pathlib.Path) -> None:
+    """Of the Debian package that has the library `name`; nothing on other systems."""
+    if not shutil.which("dpkg-query"):
+        return
+    owner = subprocess.run(["dpkg-query", "-S", f"*/{name}"], check=True, capture_output=True, text=True).stdout.split(":")[0]
+    folder.mkdir(exist_ok=True)
+    shutil.copyfile(f"/usr/share/doc/{owner}/copyright", folder / f"{owner}.txt")
+
+
 def bundle_needed(library: pathlib.Path) -> None:
     """The libraries that it needs into its folder, where they find each other."""
     lines = subprocess.run(["ldd", str(library)], check=True, capture_output=True, text=True).stdout.splitlines()
@@ -33,6 +43,7 @@ def bundle_needed(library: pathlib.Path) -> None:
     own = {name: f"liblightgrid_{name[3:]}" for name in found if not of_every_system.fullmatch(name)}
     for name, renamed in own.items():
         shutil.copyfile(found[name], library.parent / renamed)
+        copy_licence(name, library.parent / "licenses")
         subprocess.run(["patchelf", "--set-soname", renamed, str(library.parent / renamed)], check=True)
     for file in [library] + [library.parent / renamed for renamed in own.values()]:
         needed = subprocess.run(["patchelf", "--print-needed", str(file)], check=True, capture_output=True, text=True)
