@@ -15,8 +15,9 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[2]
 debian = root / "debian"
 cmake, build, library = sys.argv[1:4]
-# What only making the packages needs, not building the program.
-packaging = {"debhelper-compat", "dh-sequence-python3", "pybuild-plugin-pyproject", "python3-all", "python3-setuptools", "python3-wheel"}
+# What only making the packages needs, not building the program. git: `lightgrid --version` names the commit.
+packaging = {"debhelper-compat", "dh-sequence-python3", "git", "pybuild-plugin-pyproject", "python3-all", "python3-setuptools",
+             "python3-wheel"}
 
 
 def output(*words: str, **environment: str) -> str:
