@@ -99,6 +99,8 @@ class DebianLists(unittest.TestCase):
     def test_versions_are_the_projects(self):
         version = re.search(r"project\(lightgrid VERSION ([0-9.]+)", (root / "CMakeLists.txt").read_text())[1]
         self.assertEqual(re.match(r"lightgrid \(([^)]+)\)", (debian / "changelog").read_text())[1], version)
+        for recipe, pattern in (("vcpkg/vcpkg.json", '"version": "([^"]+)"'), ("conda/meta.yaml", 'version: "([^"]+)"')):
+            self.assertEqual(re.search(pattern, (root / "packaging" / recipe).read_text())[1], version, recipe)
         [metainfo] = (root / "packaging").glob("*.metainfo.xml")
         self.assertEqual(re.search(r'<release version="([^"]+)"', metainfo.read_text())[1], version)
 
