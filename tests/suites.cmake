@@ -17,9 +17,8 @@ function(add_entry name filter)
   endif()
   set(environment LIGHTGRID_TUNED=off)
   # .ci/run sets LIGHTGRID_CL_QUICK_BUILD=all. Read here, since this runs when ctest starts.
-  # Other forms (ARGN) of the hard cases take a third of the time unoptimised; the machine's own form holds optimised kernels.
   if("$ENV{LIGHTGRID_CL_QUICK_BUILD}" STREQUAL all AND NOT suite IN_LIST unoptimised_suites AND
-     (folder IN_LIST optimised_folders OR suite MATCHES "PassCases$") AND NOT (ARGN AND suite MATCHES "HardCasesOf$"))
+     (folder IN_LIST optimised_folders OR suite MATCHES "PassCases$"))
     list(APPEND environment LIGHTGRID_CL_QUICK_BUILD=gpu)
   endif()
   set(labels ${folder})
