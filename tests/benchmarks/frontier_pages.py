@@ -199,7 +199,7 @@ class Run:
 
 # --- The picture
 
-COLORS = [("visibility", "far-light", "#d1495b", "visibility with far light"), ("visibility", "", "#1b6ca8", "visibility"),
+COLORS = [("", "far-light", "#d1495b", "with far light"), ("visibility", "", "#1b6ca8", "visibility"),
           ("world_grid", "", "#2a9d5c", "world_grid"), ("voxel_lights", "", "#8e6bbf", "voxel_lights"), ("lidr", "", "#b8860b", "lidr"),
           ("", "", "#8a8f98", "other techniques, drawn with OpenGL")]
 
