@@ -7,9 +7,11 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/findings.h"
 #include "app/options.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "base/write_file.h"
 #include "results/metrics.h"
@@ -170,21 +172,6 @@ std::vector<RecordedScene> read_golden(const std::filesystem::path& path) {
   }
 }
 
-std::string xml_escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&')
-      escaped += "&amp;";
-    else if (c == '<')
-      escaped += "&lt;";
-    else if (c == '"')
-      escaped += "&quot;";
-    else
-      escaped += c;
-  }
-  return escaped;
-}
-
 std::string junit_text(const std::vector<CheckedView>& checked) {
   const auto differ = std::ranges::count_if(checked, [](const CheckedView& c) { return !c.stage.empty(); });
   std::string text = fmt::format(
@@ -201,25 +188,13 @@ std::string junit_text(const std::vector<CheckedView>& checked) {
 }
 
 ordered_json sarif(const std::vector<CheckedView>& checked, const std::string& file) {
-  ordered_json rules = ordered_json::array(), results = ordered_json::array();
+  std::vector<FindingRule> rules;
+  std::vector<Finding> findings;
   for (const char* stage : golden_stages)
-    rules.push_back(
-        {{"id", stage},
-         {"shortDescription", {{"text", fmt::format("{} is the first stage that differs", stage)}}}});
-  for (const CheckedView& c : checked) {
-    if (c.stage.empty()) continue;
-    const ordered_json location = {{"physicalLocation", {{"artifactLocation", {{"uri", file}}}}}};
-    results.push_back({{"ruleId", c.stage},
-                       {"level", "error"},
-                       {"message", {{"text", c.name + ": " + c.message}}},
-                       {"locations", ordered_json::array({location})}});
-  }
-  const ordered_json driver = {
-      {"name", "lightgrid golden"}, {"version", version_of_build()}, {"rules", rules}};
-  const ordered_json run = {{"tool", {{"driver", driver}}}, {"results", results}};
-  return {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
-          {"version", "2.1.0"},
-          {"runs", ordered_json::array({run})}};
+    rules.push_back({stage, fmt::format("{} is the first stage that differs", stage)});
+  for (const CheckedView& c : checked)
+    if (!c.stage.empty()) findings.push_back({c.stage, c.name + ": " + c.message, file});
+  return sarif_log("lightgrid golden", rules, findings);
 }
 
 std::string in_words(const GoldenDifference& d, const GoldenView& view) {

@@ -32,6 +32,8 @@ std::optional<std::pair<T, T>> parse_pair(std::string_view text, char separator)
 // "; did you mean NAME?" with the nearest of the names; nothing if none is near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
+std::string xml_escaped(std::string_view text);  // for text and attributes of XML and HTML
+
 std::string base64(const std::vector<uint8_t>& bytes);
 // None if the text is not base64. The padding may be missing.
 std::optional<std::vector<uint8_t>> base64_decoded(std::string_view text);

@@ -79,6 +79,7 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       {"src/bench/runs.cpp", {"forward_plus"}},
       {"src/app/golden.cpp", {"visibility"}},
       {"src/capture/capture.cpp", {"forward_plus", "visibility"}},
+      {"src/session/light_limits.cpp", {"forward_zprepass", "visibility"}},
       {"src/session/comparison.cpp", {"forward", "forward_plus", "visibility"}},
       {"src/session/scene_choice.cpp", {"forward_plus", "visibility"}},
       // The reference.

@@ -168,11 +168,12 @@ TEST(Options, MeanTheSameInEveryCommand) {
                                            "--lights",  // likewise
                                            "--technique",   "--output",  "--compare", "--filter", "--frames",
                                            "--replay",      "--seed",    "--set",     "--device", "--json",
-                                           "--camera-path", "--page-mb", "--gl"};
+                                           "--camera-path", "--page-mb", "--gl",      "--sarif"};
   std::map<std::string, std::pair<std::string, Option>> first;
   size_t compared = 0;
-  for (const char* command : {"render", "compare", "plan", "capture", "cull", "inspect", "info", "scenes",
-                              "techniques", "devices", "bench", "verify", "view", "frontier", "golden"}) {
+  for (const char* command :
+       {"render", "compare", "plan", "capture", "cull", "inspect", "info", "scenes", "techniques", "devices",
+        "bench", "verify", "view", "frontier", "golden", "check"}) {
     const std::map<std::string, Option> options = options_of(command);
     EXPECT_TRUE(options.contains("--gl")) << command;
     EXPECT_TRUE(options.contains("--json") || std::string(command) == "view") << command;

@@ -1,0 +1,44 @@
+#include "report/limits_page.h"
+
+#include <fmt/format.h>
+
+#include "base/embedded.h"
+#include "base/text.h"
+#include "report/report.h"
+
+namespace lightgrid {
+
+static std::string section_text(const LimitSection& section) {
+  std::string text =
+      fmt::format("<section>\n<h2>{}: <span class=\"{}\">{}</span></h2>\n", xml_escaped(section.title),
+                  section.holds ? "good" : "bad", section.holds ? "holds" : "drops lights");
+  if (!section.pictures.empty()) text += "<div class=\"pair\">\n";
+  for (const PagePicture& picture : section.pictures)
+    text +=
+        fmt::format("<figure><img alt=\"{0}\" data-picture=\"{1}\"><figcaption>{0}</figcaption></figure>\n",
+                    xml_escaped(picture.caption), picture.number);
+  if (!section.pictures.empty()) text += "</div>\n";
+  for (const std::string& sentence : section.sentences)
+    text += fmt::format("<p>{}</p>\n", xml_escaped(sentence));
+  return text + fmt::format("<p class=\"quiet\">Source: <a href=\"{0}\">{0}</a></p>\n</section>\n",
+                            xml_escaped(section.source));
+}
+
+std::string limits_page(const LimitsPage& page) {
+  std::string sections;
+  for (const bool holds : {false, true}) {
+    for (const LimitSection& section : page.sections)
+      if (section.holds == holds) sections += section_text(section);
+  }
+  std::string pictures;
+  for (const std::vector<uint8_t>& png : page.pictures)
+    pictures += fmt::format("{}\"data:image/png;base64,{}\"", pictures.empty() ? "" : ",\n", base64(png));
+  return filled(embedded_file("report/page/limits.html"), {{"style", embedded_file("report/page/style.css")},
+                                                           {"scene", xml_escaped(page.scene)},
+                                                           {"view", xml_escaped(page.view)},
+                                                           {"verdict", xml_escaped(page.verdict)},
+                                                           {"sections", sections},
+                                                           {"pictures", pictures}});
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,34 @@
+// The page of `lightgrid check`: one self-contained HTML file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lightgrid {
+
+struct PagePicture {
+  std::string caption;
+  size_t number = 0;  // in LimitsPage::pictures
+};
+
+// A limit of an engine.
+struct LimitSection {
+  std::string title;
+  bool holds = true;
+  std::vector<std::string> sentences;
+  std::string source;                 // URL
+  std::vector<PagePicture> pictures;  // side by side
+};
+
+struct LimitsPage {
+  std::string scene, view;  // headings
+  std::string verdict;
+  std::vector<LimitSection> sections;
+  std::vector<std::vector<uint8_t>> pictures;  // PNG, each once
+};
+
+// Failing limits first.
+std::string limits_page(const LimitsPage& page);
+
+}  // namespace lightgrid
