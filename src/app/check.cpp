@@ -17,6 +17,7 @@
 #include "results/results.h"
 #include "session/contestants.h"
 #include "session/light_limits.h"
+#include "session/limit_words.h"
 #include "session/technique_run.h"
 
 namespace lightgrid {
@@ -26,6 +27,7 @@ using nlohmann::ordered_json;
 
 struct CheckOptions {
   std::string engine = "all", json, sarif, html;
+  bool shorten = false;
   SceneChoice scene;
   DeviceOptions devices;
 };
@@ -49,53 +51,6 @@ struct CheckedScene {
   }
 };
 
-std::string counted_in(const LimitResult& result) {
-  const EngineLimit& limit = *result.limit;
-  if (limit.scope == LimitScope::distance)
-    return fmt::format("{} lights beyond {} m", result.worst.counted, limit.most);
-  const char* kind = *result.worst.kind ? result.worst.kind : "lights";
-  return fmt::format("{} {}, room for {}", result.worst.counted,
-                     limit.scope == LimitScope::pool ? "entries" : kind, result.most);
-}
-
-std::string places_of(size_t count, LimitScope scope) {
-  const char* names[] = {"view", "views", "mesh", "meshes", "cell", "cells"};
-  const int kind = scope == LimitScope::mesh ? 2 : scope == LimitScope::cell ? 4 : 0;
-  return fmt::format("{} {}", count, names[kind + (count != 1)]);
-}
-
-std::string dropped_in_words(const DroppedLight& dropped, const EngineLimit& limit, const Scene& scene) {
-  return fmt::format("{} ({}; {})", name_of_light(dropped.light, scene), words_of(dropped.first, scene),
-                     places_of(dropped.places, limit.scope));
-}
-
-// What the text and the page say of a limit, below its heading.
-std::vector<std::string> sentences_of(const LimitResult& result, const Scene& scene, size_t most_lights) {
-  const EngineLimit& limit = *result.limit;
-  std::vector<std::string> lines;
-  if (result.holds()) {
-    lines.push_back(fmt::format("at most {}{}", counted_in(result),
-                                result.worst.counted ? ", in " + words_of(result.worst, scene) : ""));
-    return lines;
-  }
-  lines.push_back(fmt::format("over in {} of {} frames, in {}; most in {}: {}", result.frames_over,
-                              result.frames, places_of(result.places_over, limit.scope),
-                              words_of(result.worst, scene), counted_in(result)));
-  std::vector<std::string> named;
-  for (const DroppedLight& dropped : result.dropped) {
-    if (named.size() == most_lights) break;
-    named.push_back(dropped_in_words(dropped, limit, scene));
-  }
-  const size_t more = result.dropped.size() - named.size();
-  lines.push_back(fmt::format("{} of {} lights {}: {}{}", result.dropped.size(), scene.lights.size(),
-                              limit.scope == LimitScope::pool ? "may be dropped" : "dropped",
-                              fmt::join(named, ", "), more ? fmt::format(" and {} more", more) : ""));
-  if (limit.order == LimitOrder::unknown && limit.scope != LimitScope::pool)
-    lines.push_back("which ones is not known: these are the last in the scene's order");
-  lines.push_back(std::string("change: ") + limit.change);
-  return lines;
-}
-
 void print_text(const std::vector<LimitResult>& results, const Scene& scene, const std::string& engine) {
   constexpr size_t most_lights = 3;
   for (const LimitResult& result : results) {
@@ -110,6 +65,25 @@ void print_text(const std::vector<LimitResult>& results, const Scene& scene, con
   for (const UnlimitedEngine& unlimited : unlimited_engines())
     if (engine == "all" || engine == unlimited.engine)
       fmt::print("{}: holds: {}\n", unlimited.engine, unlimited.why);
+}
+
+// Along the path; shorten: with ranges of 90 % to 10 % too.
+std::vector<LimitResult> counted(const std::vector<const EngineLimit*>& limits, const LightRanges& ranges,
+                                 CheckedScene& checked, bool shorten) {
+  std::vector<LightCheck> checks;
+  for (int tenths = 10; tenths >= (shorten ? 1 : 10); --tenths)
+    checks.emplace_back(limits, ranges, tenths / 10.0);
+  for (size_t i = 0; i < checked.path.size(); ++i) {
+    const View& view = checked.move_to(i);
+    for (LightCheck& check : checks) check.count(checked.chosen.scene, view);
+  }
+  std::vector<LimitResult> results = checks.front().results();
+  for (size_t r = 0; r < results.size(); ++r) {
+    const auto holds = [&](const LightCheck& check) { return check.results()[r].holds(); };
+    const auto first = std::ranges::find_if(checks, holds);
+    if (first != checks.end()) results[r].holds_at = double(10 - (first - checks.begin())) / 10;
+  }
+  return results;
 }
 
 ordered_json place_json(const LimitPlace& place, const Scene& scene) {
@@ -135,6 +109,7 @@ ordered_json limit_json(const LimitResult& result, const Scene& scene) {
                        {"not_verified", limit.not_verified},
                        {"change", limit.change},
                        {"holds", result.holds()},
+                       {"holds_at_ranges", result.holds_at > 0 ? ordered_json(result.holds_at) : nullptr},
                        {"frames_over", result.frames_over},
                        {"places_over", result.places_over},
                        {"worst", place_json(result.worst, scene)},
@@ -190,7 +165,7 @@ ordered_json check_sarif(const std::vector<LimitResult>& results, const Scene& s
       findings.push_back(
           {id_of(limit),
            fmt::format("{} {}{}. {}", limit.engine, limit.scope == LimitScope::pool ? "may drop " : "drops ",
-                       dropped_in_words(dropped, limit, scene), limit.change),
+                       words_of(dropped, limit, scene), limit.change),
            file, name_of_light(dropped.light, scene)});
   }
   return sarif_log("lightgrid check", rules, findings);
@@ -265,7 +240,7 @@ class LimitPictures {
 };
 
 std::string page_of(const CheckOptions& o, const std::vector<LimitResult>& results, CheckedScene& checked) {
-  constexpr size_t most_lights = 20;
+  constexpr size_t most_lights = 8;
   const Scene& scene = checked.chosen.scene;
   LimitsPage page;
   page.scene = scene.name;
@@ -300,12 +275,7 @@ int check(CheckOptions o) {
   check_given_settings(settings, techniques());
   o.scene.device = o.devices.device;
   CheckedScene checked(o.scene);
-  LightCheck lights(limits, settings.ranges);
-  for (size_t i = 0; i < checked.path.size(); ++i) {
-    const View& view = checked.move_to(i);
-    lights.count(checked.chosen.scene, view);
-  }
-  const std::vector<LimitResult>& results = lights.results();
+  const std::vector<LimitResult> results = counted(limits, settings.ranges, checked, o.shorten);
   const Scene& scene = checked.chosen.scene;
   if (!o.json.empty()) write_json(o.json, text_of(check_json(results, checked, o.engine)));
   if (!o.sarif.empty()) write_json(o.sarif, text_of(check_sarif(results, scene, o.scene.scene)));
@@ -325,6 +295,7 @@ void add_check(CommandLine& line) {
   add_exposure_option(command, o->scene);
   add_device_options(command, o->devices);
   command.option("--engine", o->engine, "an engine by its name, or all (docs/check.md)");
+  command.flag("--shorten", o->shorten, "finds how far all lights' ranges must shrink until limits hold");
   command.option("--json", o->json, "results as JSON into a file, - for stdout");
   command.option("--sarif", o->sarif, "dropped lights as SARIF 2.1.0 into a file, - for stdout");
   command.option("--html", o->html, "a page with pictures of what limits look like, into a file");

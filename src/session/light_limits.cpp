@@ -59,8 +59,9 @@ struct LimitFrame {
   std::vector<SeenObject> objects;
   std::vector<LightBox> view_boxes;  // of instances in view, in view space
 
-  LimitFrame(const Scene& scene, const View& view, const LightRanges& ranges)
+  LimitFrame(const Scene& scene, const View& view, const LightRanges& ranges, double range_factor)
       : scene(scene), view(view), in_view(lights_in_view(scene, view, ranges)) {
+    for (ViewLight& light : in_view) light.radius_m *= range_factor;
     const Frustum frustum = frustum_of(view);
     for (size_t i = 0; i < in_view.size(); ++i) {
       in_world.push_back(bounds_of(scene.lights[i], in_view[i].radius_m));
@@ -262,7 +263,9 @@ std::vector<int> objects_of(const Scene& scene) {
   return firsts;
 }
 
-LightCheck::LightCheck(std::vector<const EngineLimit*> limits, const LightRanges& ranges) : ranges_(ranges) {
+LightCheck::LightCheck(const std::vector<const EngineLimit*>& limits, const LightRanges& ranges,
+                       double range_factor)
+    : ranges_(ranges), range_factor_(range_factor) {
   for (const EngineLimit* limit : limits) {
     LimitResult& result = results_.emplace_back();
     result.limit = limit;
@@ -271,7 +274,7 @@ LightCheck::LightCheck(std::vector<const EngineLimit*> limits, const LightRanges
 }
 
 void LightCheck::count(const Scene& scene, const View& view) {
-  const LimitFrame frame(scene, view, ranges_);
+  const LimitFrame frame(scene, view, ranges_, range_factor_);
   Lights kept;
   const char* engine = "";
   for (LimitResult& result : results_) {
@@ -283,18 +286,6 @@ void LightCheck::count(const Scene& scene, const View& view) {
     ++result.frames;
   }
   ++frame_;
-}
-
-std::string words_of(const LimitPlace& place, const Scene& scene) {
-  std::string words = fmt::format("frame {}", place.frame);
-  if (place.instance >= 0)
-    words += fmt::format(", mesh {} \"{}\"", place.instance, scene.instances[size_t(place.instance)].name);
-  if (place.cell.x >= 0) words += fmt::format(", cell {},{},{}", place.cell.x, place.cell.y, place.cell.z);
-  return words;
-}
-
-std::string name_of_light(int light, const Scene& scene) {
-  return fmt::format("light {} \"{}\"", light, scene.lights[size_t(light)].name);
 }
 
 std::optional<LimitPicture> limit_picture(const EngineLimit& limit, const Scene& scene, std::string& why) {

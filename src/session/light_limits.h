@@ -37,13 +37,16 @@ struct LimitResult {
   std::vector<DroppedLight> dropped;  // by index
   std::vector<int> lost;              // those that the view of the worst frame drops as a whole
 
+  double holds_at = 0;  // how far ranges must shrink: a factor on all; 0: none that was tried
+
   bool holds() const { return places_over == 0; }
 };
 
 class LightCheck {
  public:
-  // ranges: of the scene's lights.
-  LightCheck(std::vector<const EngineLimit*> limits, const LightRanges& ranges);
+  // ranges: of the scene's lights; each is multiplied by range_factor.
+  LightCheck(const std::vector<const EngineLimit*>& limits, const LightRanges& ranges,
+             double range_factor = 1);
 
   // The next frame of a path. Point and spot lights without intensity or with a range of 0 count nowhere.
   void count(const Scene& scene, const View& view);
@@ -52,6 +55,7 @@ class LightCheck {
 
  private:
   LightRanges ranges_;
+  double range_factor_;
   std::vector<LimitResult> results_;
   size_t frame_ = 0;
 };
@@ -59,9 +63,6 @@ class LightCheck {
 // A glTF node's instances, one a primitive, are one object of an engine: those that follow one another with
 // one name and one place. Index of the first instance, for each instance.
 std::vector<int> objects_of(const Scene& scene);
-
-std::string words_of(const LimitPlace& place, const Scene& scene);  // `frame 3, mesh 4 "floor"`
-std::string name_of_light(int light, const Scene& scene);           // `light 17 "lamp"`
 
 // How a broken limit is drawn: techniques with settings (docs/capped_lists.md), as take_own_settings reads
 // them.

@@ -13,6 +13,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 struct Check : testing::Test {
   TempFolder folder;
@@ -106,6 +107,23 @@ TEST_F(Check, ThePageShowsTheLimitBesideEveryLight) {
   // Without a picture it says why.
   EXPECT_EQ(this->run(9, {"--engine", "babylon", "--html", path}).status, 1);
   EXPECT_THAT(file_bytes(path), HasSubstr("No picture: list-cap leaves out lights that do not reach a mesh"));
+}
+
+TEST_F(Check, ShortenFindsTheRangesThatHold) {
+  const ProgramRun view = run(400, {"--engine", "filament", "--shorten"});
+  EXPECT_THAT(view.out, Not(HasSubstr("holds with all ranges")));  // all are within the view
+  std::ofstream(folder.path / "far.json") << [] {
+    json list = json::array();
+    for (int i = 0; i < 9; ++i)
+      list.push_back({{"type", "point"}, {"position", {0, 100 + i, 0}}, {"intensity", 1}, {"radius", 150}});
+    return json{{"lights", list}}.dump();
+  }();
+  const ProgramRun mesh = run_program({"check", "spheres", "--engine", "godot-mobile", "--lights-file",
+                                       folder.path / "far.json", "--shorten", "--json", "-"});
+  EXPECT_EQ(mesh.status, 1) << mesh.err;
+  const double factor = json::parse(mesh.out)["limits"][0]["holds_at_ranges"];
+  EXPECT_GE(factor, 0.1);
+  EXPECT_LT(factor, 1);
 }
 
 TEST_F(Check, EnginesWithoutALimitHold) {

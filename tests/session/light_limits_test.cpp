@@ -15,6 +15,7 @@
 #include "scene/builtin/shapes.h"
 #include "scene/random.h"
 #include "session/light_cells.h"
+#include "session/limit_words.h"
 #include "support/paths.h"
 #include "support/read_files.h"
 #include "techniques/technique.h"
@@ -319,6 +320,17 @@ TEST(LightLimits, FramesOfAPathAddUp) {
   EXPECT_EQ(result.dropped[0].first.frame, 0u);
   EXPECT_EQ(result.dropped[0].places, 2u);
   EXPECT_EQ(result.dropped[1].first.frame, 2u);
+}
+
+TEST(LightLimits, ShorterRangesReachFewerMeshes) {
+  Level level;
+  for (int i = 0; i < 9; ++i)
+    level.point({0.1f * float(i), 0, -10}, i == 8 ? 3.f : 9.f);  // 2 m before the wall
+  for (const double factor : {1.0, 0.7, 0.6}) {
+    LightCheck check(limits_of("urp-forward"), {}, factor);
+    check.count(level.scene, level.view);
+    EXPECT_EQ(check.results()[1].holds(), factor == 0.6) << factor;  // 1.8 m
+  }
 }
 
 TEST(LightLimits, DirectionalAndDarkLightsTakeNoRoom) {
