@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/findings.h"
 #include "app/options.h"
+#include "app/progress.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/write_file.h"
@@ -73,15 +74,18 @@ std::vector<LimitResult> counted(const std::vector<const EngineLimit*>& limits, 
   std::vector<LightCheck> checks;
   for (int tenths = 10; tenths >= (shorten ? 1 : 10); --tenths)
     checks.emplace_back(limits, ranges, tenths / 10.0);
+  const auto progress = progress_bar();
   for (size_t i = 0; i < checked.path.size(); ++i) {
+    progress(double(i) / double(checked.path.size()), fmt::format("frame {}", i));
     const View& view = checked.move_to(i);
     for (LightCheck& check : checks) check.count(checked.chosen.scene, view);
   }
+  progress(1, "");
   std::vector<LimitResult> results = checks.front().results();
-  for (size_t r = 0; r < results.size(); ++r) {
-    const auto holds = [&](const LightCheck& check) { return check.results()[r].holds(); };
-    const auto first = std::ranges::find_if(checks, holds);
-    if (first != checks.end()) results[r].holds_at = double(10 - (first - checks.begin())) / 10;
+  for (size_t c = checks.size(); c-- > 0;) {
+    const std::vector<LimitResult> shorter = checks[c].results();
+    for (size_t r = 0; r < results.size(); ++r)
+      if (shorter[r].holds()) results[r].holds_at = double(10 - c) / 10;
   }
   return results;
 }

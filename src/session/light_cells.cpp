@@ -23,9 +23,9 @@ Edges edges_of_three(const View& view) {
   const int across = (view.width + tile - 1) / tile, up = (view.height + tile - 1) / tile;
   for (int i = 0; i <= across; ++i) edges.x.push_back(2.0 * i / across - 1);
   for (int i = 0; i <= up; ++i) edges.y.push_back(2.0 * i / up - 1);
+  const double near_m = std::max(view.near_m, 1e-6);  // an orthographic view may have none
   const double far_m = std::isfinite(view.far_m) ? view.far_m : default_far_m;
-  for (int k = 0; k <= slices; ++k)
-    edges.z.push_back(view.near_m * std::pow(far_m / view.near_m, double(k) / slices));
+  for (int k = 0; k <= slices; ++k) edges.z.push_back(near_m * std::pow(far_m / near_m, double(k) / slices));
   return edges;
 }
 
@@ -100,40 +100,33 @@ bool meets(const LightBox& box, const glm::dvec3& center, double radius) {
   return glm::dot(away, away) <= radius * radius;
 }
 
-size_t LightCells::entries() const {
-  size_t sum = 0;
-  for (const auto& list : lights) sum += list.size();
-  return sum;
-}
-
-LightCells cells_of(LimitCells layout, const View& view, const std::vector<ViewLight>& in_view,
-                    const std::vector<int>& lights) {
+glm::ivec3 each_cell(LimitCells layout, const View& view, const std::vector<ViewLight>& in_view,
+                     const std::vector<int>& lights, const CellVisit& visit) {
   const Edges edges =
       layout == LimitCells::three ? edges_of_three(view) : edges_of_unreal(view, in_view, lights);
-  LightCells cells;
-  cells.size = ivec3(edges.x.size() - 1, edges.y.size() - 1, edges.z.size() - 1);
-  for (int z = 0; z < cells.size.z; ++z) {
-    std::vector<int> of_slice;
+  const ivec3 size(edges.x.size() - 1, edges.y.size() - 1, edges.z.size() - 1);
+  std::vector<int> of_slice, of_cell;
+  for (int z = 0; z < size.z; ++z) {
+    of_slice.clear();
     std::ranges::copy_if(lights, std::back_inserter(of_slice), [&](int i) {
       const ViewLight& light = in_view[size_t(i)];
       return light.radius_m - light.position.z >= edges.z[size_t(z)] &&
              -light.position.z - light.radius_m <= edges.z[size_t(z) + 1];
     });
-    for (int y = 0; y < cells.size.y; ++y) {
-      for (int x = 0; x < cells.size.x; ++x) {
+    for (int y = 0; y < size.y; ++y) {
+      for (int x = 0; x < size.x; ++x) {
         const LightBox box = box_of_cell(view, edges, {x, y, z});
-        std::vector<int>& list = cells.lights.emplace_back();
-        cells.boxes.push_back(box);
-        for (const int i : of_slice) {
+        of_cell.clear();
+        std::ranges::copy_if(of_slice, std::back_inserter(of_cell), [&](int i) {
           const ViewLight& light = in_view[size_t(i)];
-          if (meets(box, light.position, light.radius_m) &&
-              (layout == LimitCells::three || !outside_cone(box, light)))
-            list.push_back(i);
-        }
+          return meets(box, light.position, light.radius_m) &&
+                 (layout == LimitCells::three || !outside_cone(box, light));
+        });
+        visit({x, y, z}, box, of_cell);
       }
     }
   }
-  return cells;
+  return size;
 }
 
 }  // namespace lightgrid

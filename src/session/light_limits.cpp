@@ -104,8 +104,10 @@ void set_order(LimitOrder order, const LimitFrame& frame, Lights& lights) {
 // Counts of one limit in one frame.
 class LimitCount {
  public:
-  LimitCount(const LimitFrame& frame, size_t number, LimitResult& result)
-      : frame_(frame), limit_(*result.limit), number_(number), result_(result) {}
+  // numbers: of the lights in LimitResult::dropped.
+  LimitCount(const LimitFrame& frame, size_t number, LimitResult& result,
+             std::unordered_map<int, size_t>& numbers)
+      : frame_(frame), limit_(*result.limit), number_(number), result_(result), numbers_(numbers) {}
 
   // `kept`: those of the engine's earlier limits; this one removes what it drops from the view.
   void run(Lights& kept) {
@@ -118,8 +120,9 @@ class LimitCount {
       case LimitScope::mesh:
         return meshes(lights);
       case LimitScope::cell:
-      case LimitScope::pool:
         return cells(lights);
+      case LimitScope::pool:
+        return pool(lights);
       case LimitScope::distance:
         return drop_from(kept, distance(lights));
     }
@@ -145,8 +148,9 @@ class LimitCount {
     return found;
   }
 
-  static void drop_from(Lights& kept, const Lights& dropped) {
-    std::erase_if(kept, [&](int i) { return std::ranges::find(dropped, i) != dropped.end(); });
+  static void drop_from(Lights& kept, Lights dropped) {
+    std::ranges::sort(dropped);
+    std::erase_if(kept, [&](int i) { return std::ranges::binary_search(dropped, i); });
   }
 
   // The lights that a place with these lights drops. Points and spots apart, where they count so.
@@ -180,11 +184,11 @@ class LimitCount {
     if (place.counted > worst_over_.counted) worst_over_ = place;
     lost_.insert(lost_.end(), lights.begin(), lights.end());
     for (const int i : lights) {
-      const auto at = std::ranges::lower_bound(result_.dropped, i, {}, &DroppedLight::light);
-      if (at != result_.dropped.end() && at->light == i)
-        ++at->places;
+      const auto [at, is_new] = numbers_.try_emplace(i, result_.dropped.size());
+      if (is_new)
+        result_.dropped.push_back({i, place, 1});
       else
-        result_.dropped.insert(at, {i, place, 1});
+        ++result_.dropped[at->second].places;
     }
   }
 
@@ -205,13 +209,11 @@ class LimitCount {
   }
 
   void cells(const Lights& lights) {
-    const LightCells cells = cells_of(limit_.cells, frame_.view, frame_.in_view, lights);
-    if (limit_.scope == LimitScope::pool) return pool(cells, lights);
-    for (size_t c = 0; c < cells.lights.size(); ++c) {
-      if (cells.lights[c].size() > std::min(result_.most, result_.worst.counted) &&
-          shows_surface(cells.boxes[c]))
-        take({.cell = cells.cell(c)}, cells.lights[c]);
-    }
+    each_cell(limit_.cells, frame_.view, frame_.in_view, lights,
+              [&](const glm::ivec3& cell, const LightBox& box, const Lights& of_cell) {
+                if (of_cell.size() > std::min(result_.most, result_.worst.counted) && shows_surface(box))
+                  take({.cell = cell}, of_cell);
+              });
   }
 
   // Cells in empty space drop lights that nobody misses.
@@ -220,11 +222,15 @@ class LimitCount {
   }
 
   // Which entries are lost depends on the order of threads: all lights may be.
-  void pool(const LightCells& cells, const Lights& lights) {
+  void pool(const Lights& lights) {
+    size_t entries = 0;
+    const glm::ivec3 cells =
+        each_cell(limit_.cells, frame_.view, frame_.in_view, lights,
+                  [&](const glm::ivec3&, const LightBox&, const Lights& list) { entries += list.size(); });
     LimitPlace place;
-    result_.most = size_t(limit_.most) * cells.lights.size();
-    note(place, cells.entries());
-    if (place.counted > result_.most) drop(place, lights);
+    result_.most = size_t(limit_.most) * size_t(cells.x) * size_t(cells.y) * size_t(cells.z);
+    note(place, entries);
+    if (entries > result_.most) drop(place, lights);
   }
 
   Lights distance(const Lights& lights) {
@@ -243,6 +249,7 @@ class LimitCount {
   const EngineLimit& limit_;
   size_t number_;
   LimitResult& result_;
+  std::unordered_map<int, size_t>& numbers_;
   size_t over_ = 0;
   LimitPlace worst_over_;
   Lights lost_;
@@ -265,7 +272,7 @@ std::vector<int> objects_of(const Scene& scene) {
 
 LightCheck::LightCheck(const std::vector<const EngineLimit*>& limits, const LightRanges& ranges,
                        double range_factor)
-    : ranges_(ranges), range_factor_(range_factor) {
+    : ranges_(ranges), range_factor_(range_factor), numbers_(limits.size()) {
   for (const EngineLimit* limit : limits) {
     LimitResult& result = results_.emplace_back();
     result.limit = limit;
@@ -277,15 +284,22 @@ void LightCheck::count(const Scene& scene, const View& view) {
   const LimitFrame frame(scene, view, ranges_, range_factor_);
   Lights kept;
   const char* engine = "";
-  for (LimitResult& result : results_) {
+  for (size_t i = 0; i < results_.size(); ++i) {
+    LimitResult& result = results_[i];
     if (std::string(engine) != result.limit->engine) kept = frame.seen;
     engine = result.limit->engine;
-    LimitCount count(frame, frame_, result);
+    LimitCount count(frame, frame_, result, numbers_[i]);
     count.run(kept);
     count.finish();
     ++result.frames;
   }
   ++frame_;
+}
+
+std::vector<LimitResult> LightCheck::results() const {
+  std::vector<LimitResult> results = results_;
+  for (LimitResult& result : results) std::ranges::sort(result.dropped, {}, &DroppedLight::light);
+  return results;
 }
 
 std::optional<LimitPicture> limit_picture(const EngineLimit& limit, const Scene& scene, std::string& why) {

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "scene/camera.h"
@@ -51,12 +52,13 @@ class LightCheck {
   // The next frame of a path. Point and spot lights without intensity or with a range of 0 count nowhere.
   void count(const Scene& scene, const View& view);
 
-  const std::vector<LimitResult>& results() const { return results_; }
+  std::vector<LimitResult> results() const;  // in the order of the limits
 
  private:
   LightRanges ranges_;
   double range_factor_;
-  std::vector<LimitResult> results_;
+  std::vector<std::unordered_map<int, size_t>> numbers_;  // of each limit's dropped lights
+  std::vector<LimitResult> results_;  // their lights in the order in which they were dropped
   size_t frame_ = 0;
 };
 
