@@ -1,7 +1,9 @@
-// Blocks of 4 x 4 pixels of images, a lane each, row by row from the lower left.
+// Blocks of 4 x 4 pixels of images, a lane each, row by row from the lower left: with 16 lanes alone.
 #pragma once
 
 #include "shared/real.h"
+
+#if LANES == 16
 
 // 4 x 4 values of an image from (x, y) on. Where the block ends outside, rows and columns stop at the image's
 // last.
@@ -55,3 +57,4 @@ static inline void store_block(global float* image, Real3 c, real w, uint x, uin
     for (uint i = 0; i < 4 * columns; ++i) at[4 * (size_t)width * row + i] = ((const float*)&rows[row])[i];
   }
 }
+#endif

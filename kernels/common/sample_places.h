@@ -9,6 +9,8 @@
 #define SAMPLE_PLACES 0, 0
 #endif
 
+#define ALL_SAMPLES ((1u << SAMPLES) - 1u)  // a bit each
+
 constant int sample_places[2 * SAMPLES] = {SAMPLE_PLACES};
 
 // Of a sample's share of a pixel, as a square, pixels: 1 / sqrt(SAMPLES).

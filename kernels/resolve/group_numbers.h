@@ -36,19 +36,6 @@ static inline whole groups_of_numbers(uint number, global const uint* masks, uin
 // Of kernels that write them: after all other arguments. With -DGROUP_NUMBERS alone.
 #ifdef GROUP_NUMBERS
 #define GROUP_NUMBERS_OUT , global group_number_t *group_numbers
-#if LANES == 16
-static inline void store_group_numbers(global group_number_t* to, whole numbers, mask_t covered, uint x,
-                                       uint y, uint width, uint height) {
-  const uint columns = min(width - x, 4u), lines = min(height - y, 4u);
-  for (uint line = 0; line < lines; ++line) {
-    for (uint i = 0; i < columns; ++i) {
-      const uint lane = 4 * line + i;
-      to[(size_t)(y + line) * width + x + i] =
-          (group_number_t)(((const int*)&covered)[lane] ? ((const int*)&numbers)[lane] : 0);
-    }
-  }
-}
-#endif
 #endif
 #else
 #define GROUP_NUMBER_ARGUMENTS

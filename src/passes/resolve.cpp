@@ -41,7 +41,7 @@ class Resolver : public PassCache {
 
   size_t memory_bytes() const override { return scene_bytes_; }
 
-  // "resolve", "resolve_gbuffer", "resolve_normals", "resolve_materials" or "blend". NVIDIA's compiler gives
+  // NVIDIA's compiler gives
   // these kernels 80 registers and more. Then too few groups run side by side to hide the memory's latency.
   NamedKernel& kernel(Work& work, const char* stem, const std::string& more_defines = "") {
     const bool limit = work.renderer.cl->info().platform == "NVIDIA CUDA";
@@ -141,6 +141,13 @@ ClArguments visible_arguments(const VisibilityBuffer& visible) {
   return {{"triangles", visible.triangles().numbers}, {"depths", visible.pixel_depth().values}};
 }
 
+// Of samples, and where they see several surfaces.
+ClArguments edge_arguments(const VisibilityBuffer& visible) {
+  return {{"triangles", visible.image.triangle},
+          {"depths", visible.image.depth},
+          {"edges", visible.pixels->edges}};
+}
+
 cl_float4 background(const Seen& seen) {
   const glm::vec3& background = seen.scene.background;
   return {{background.r, background.g, background.b, 1}};
@@ -159,10 +166,7 @@ static void resolve_edges(Work& work, Resolver& r, const VisibilityBuffer& visib
                                      (traced.empty() ? "" : work.shadows.traced_defines));
   auto pass = work.timer.pass("resolve_edges", "cl");
   r.launch(work, kernel, "resolve_edges",
-           traced +
-               ClArguments{{"triangles", visible.image.triangle},
-                           {"depths", visible.image.depth},
-                           {"edges", visible.pixels->edges}} +
+           traced + edge_arguments(visible) +
                r.arguments(work, visible.raster, visible.surfaces, *lights.in_cl) +
                ClArguments{{"background", background(work)}, {"image", r.image.cl_buffer()}});
   pass.moves(work.grid().pixels() / 8 + lights.bytes + r.scene(work).memory_bytes(), 0);
@@ -184,26 +188,47 @@ ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer&
   return {0, &r.image};
 }
 
+// The images that the kernels write.
+static ClArguments images_out(const Work& work, const GBufferInCl& g) {
+  return ClArguments{{"background", background(work)},
+                     {"first", g.surfaces[0]->cl_buffer()},
+                     {"second", g.surfaces[1]->cl_buffer()},
+                     {"coats", g.in_cl(gbuffer_coat)},
+                     {"specular", g.in_cl(gbuffer_specular)},
+                     {"image", g.base_lighting == BaseLighting::in_image ? g.image->cl_buffer() : cl::Buffer()}} +
+         group_numbers_out(g.group_numbers);
+}
+
+// Over what resolve_gbuffer() stored: the pixels whose samples see several surfaces.
+static void resolve_gbuffer_edges(Work& work, Resolver& r, const VisibilityBuffer& visible, const GBufferInCl& g,
+                                  const std::string& defines) {
+  NamedKernel& kernel = r.kernel(work, "resolve_gbuffer_edges", defines);
+  auto pass = work.timer.pass("resolve_gbuffer_edges", "cl");
+  r.launch(work, kernel, "resolve_gbuffer_edges",
+           edge_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) + images_out(work, g));
+  pass.moves(work.grid().pixels() / 8 + r.scene(work).memory_bytes(), 0);
+}
+
 GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                             BaseLighting base_lighting) {
   Resolver& r = resolving(work, cache);
-  const GBufferInCl g = gbuffer_in_cl_of(work, base_lighting, TargetUse::gbuffer);
-  const bool image = base_lighting == BaseLighting::in_image;
-  NamedKernel& kernel =
-      r.kernel(work, "resolve_gbuffer",
-               fmt::format(" -DBUFFER_BITS={}{}", g.layout->bits, group_numbers_out(work.plan)));
-  auto pass = work.timer.pass("resolve_gbuffer", "cl");
-  r.launch(work, kernel, "resolve_gbuffer",
-           visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) +
-               ClArguments{{"background", background(work)},
-                           {"first", g.surfaces[0]->cl_buffer()},
-                           {"second", g.surfaces[1]->cl_buffer()},
-                           {"coats", g.in_cl(gbuffer_coat)},
-                           {"specular", g.in_cl(gbuffer_specular)},
-                           {"image", image ? g.image->cl_buffer() : cl::Buffer()}} +
-               group_numbers_out(g.group_numbers));
-  pass.moves(work.grid().values() * (image ? 8 : 4) + r.scene(work).memory_bytes(),
-             work.grid().values() * (g.bytes() + (image ? 16 : 0)));
+  GBufferInCl g = gbuffer_in_cl_of(work, base_lighting, TargetUse::gbuffer);
+  const std::string defines =
+      fmt::format(" -DBUFFER_BITS={}{}{}", g.layout->bits, group_numbers_out(work.plan),
+                  sample_defines(work.grid().samples));
+  {
+    NamedKernel& kernel = r.kernel(work, "resolve_gbuffer", defines);
+    auto pass = work.timer.pass("resolve_gbuffer", "cl");
+    r.launch(work, kernel, "resolve_gbuffer",
+             visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) +
+                 images_out(work, g));
+    const size_t image_bytes = base_lighting == BaseLighting::in_image ? 16 : 0;
+    pass.moves(work.grid().pixels() * (image_bytes > 0 ? 8 : 4) + r.scene(work).memory_bytes(),
+               work.grid().values() * g.bytes() + work.grid().pixels() * image_bytes);
+  }
+  if (!visible.pixels) return g;
+  resolve_gbuffer_edges(work, r, visible, g, defines);
+  g.edges = visible.pixels->edges;
   return g;
 }
 

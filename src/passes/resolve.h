@@ -12,7 +12,8 @@ ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer&
                     const LightSource& lights);
 
 // The surface of every pixel into a geometry buffer of the layout of buffer-bits, as fill_gbuffer does with
-// OpenGL. With BaseLighting::in_image it writes the image too.
+// OpenGL. With BaseLighting::in_image it writes the image too. With several samples a pixel each stores the
+// surface that it sees, which is shaded once a pixel, as by resolve(); the image takes their mean.
 GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                             BaseLighting base_lighting);
 

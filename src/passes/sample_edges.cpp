@@ -50,12 +50,12 @@ class SampleEdges : public PassCache {
   GrowingBuffer edges_;
 };
 
-// Of these edges; null: all pixels are at one. Waits.
+// Of these edges; null: all pixels are at one. bytes: of all images. Waits.
 static SampleFigures figures_of_edges(Work& work, const cl::Buffer& edges, const DepthBuffer& depth,
-                                      size_t bytes_a_sample) {
+                                      size_t bytes) {
   const PixelGrid grid = work.grid();
   const size_t samples = size_t(grid.samples);
-  std::vector<uint16_t> bits(grid.pixels() / 16 + 1, 0xffff);
+  std::vector<uint16_t> bits((grid.pixels() + 15) / 16, 0xffff);
   std::vector<float> depths(grid.values());
   const auto read = [&](const cl::Buffer& buffer, auto& values) {
     read_buffer(*work.renderer.cl, "counting pixels at edges", buffer, values.data(),
@@ -73,7 +73,7 @@ static SampleFigures figures_of_edges(Work& work, const cl::Buffer& edges, const
     figures.covered += covered;
     figures.surfaces.push_back(edge ? uint32_t(samples) : 0);
   }
-  figures.bytes = grid.values() * bytes_a_sample + (edges() ? bits.size() * 2 : 0);
+  figures.bytes = bytes + (edges() ? bits.size() * 2 : 0);
   return figures;
 }
 
@@ -82,9 +82,12 @@ cl::Buffer sample_edges(Work& work, Cached<SampleEdges>& cache, const StoredSurf
   if (work.grid().samples == 1) return {};
   cl::Buffer edges;
   if (work.plan.settings.samples_shading == SamplesShading::edges)
-    edges = cache.of(work).find(work, surfaces, depth);
-  frame.sample_figures = [&work, edges, depth, bytes_a_sample] {
-    return figures_of_edges(work, edges, depth, bytes_a_sample);
+    edges = surfaces.edges() ? surfaces.edges : cache.of(work).find(work, surfaces, depth);
+  size_t bytes = work.grid().values() * bytes_a_sample;
+  // Of find_edges, which has triangle numbers, and a surface a pixel.
+  if (surfaces.edges()) bytes += work.grid().values() * 4 + work.grid().pixels() * 8;
+  frame.sample_figures = [&work, edges, depth, bytes] {
+    return figures_of_edges(work, edges, depth, bytes);
   };
   return edges;
 }

@@ -1,4 +1,4 @@
-// Where OpenGL stored surfaces with several samples a pixel: the pixels whose samples are several surfaces.
+// Where surfaces are stored for several samples a pixel: the pixels whose samples are several surfaces.
 #pragma once
 
 #include <vector>
@@ -12,6 +12,7 @@ struct StoredSurfaces {
   std::vector<SharedBuffer*> images;
   size_t bytes = 0;
   SharedBuffer* group_numbers = nullptr;
+  cl::Buffer edges;  // where they are known already, of find_edges; null: they have to be found
 };
 
 // A bit a pixel, 16 in a ushort: 1 at edges (kernels/resolve/sample_edges.h). Null with one sample a pixel,

@@ -245,10 +245,11 @@ void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_
 }
 
 // What finds shadows for one sample a pixel alone, if anything does here. After shadows.
-const char* shadows_of_one_sample(const FramePlan& plan) {
+const char* shadows_of_one_sample(const TechniqueNeeds& needs, const FramePlan& plan) {
   if (!plan.light_reaches && !plan.own_shadows) return nullptr;
   const Settings& s = plan.settings;
   return plan.opengl                      ? "shadows where OpenGL draws"
+         : needs.stored_surfaces          ? "shadows of stored surfaces"
          : s.shadows == ShadowMethod::map ? "shadow maps"
          : s.soft_shadows()               ? "shadows of shadow-rays"
          : s.picks_shadows()              ? "shadows of shadow-pick"
@@ -263,7 +264,7 @@ std::string why_one_sample(const Scene& scene, const TechniqueNeeds& needs, cons
   if (scene.samples > needs.most_samples)
     return fmt::format("the technique with these settings takes {}", needs.most_samples);
   if (plan.opengl && !needs.opengl_samples) return "OpenGL on this machine cannot draw them";
-  const char* of_one_sample = shadows_of_one_sample(plan);
+  const char* of_one_sample = shadows_of_one_sample(needs, plan);
   return of_one_sample ? fmt::format("{} are found for one", of_one_sample) : "";
 }
 
@@ -287,7 +288,7 @@ void plan_samples(const Scene& scene, const TechniqueNeeds& needs, FramePlan& pl
                             !at_samples                   ? "samples-masks=centre"
                             : masked == plan.opaque.end() ? "no masked material in view"
                                                           : instance_witness(scene, *masked)});
-  const char* of_one_sample = shadows_of_one_sample(plan);
+  const char* of_one_sample = shadows_of_one_sample(needs, plan);
   if (!of_one_sample) return;
   const auto caster = std::ranges::find_if(scene.lights, &Light::casts_shadow);
   throw input_error(

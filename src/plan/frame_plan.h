@@ -73,6 +73,7 @@ struct TechniqueNeeds {
   bool capped_lists = false;        // its lists and its view may end at a number of lights
   bool sampled_lists = false;       // of these lists, each light may count several times
   int most_samples = 1;             // a pixel, that its passes can take
+  bool stored_surfaces = false;     // where OpenCL draws, light passes read surfaces that another pass stored
   bool opengl_samples = true;       // OpenGL on this machine can draw as many as the scene asks for
   // The technique finds those of point and spot lights itself, of so many lights at most; the pass that all
   // techniques share is then left those of directional lights.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cl/transfer.h"
+#include "raster/raster_samples.h"
 
 namespace lightgrid {
 
@@ -75,7 +76,10 @@ GLuint Work::color_framebuffer() {
 
 const std::vector<glm::ivec2>& Work::sample_places() {
   if (!sample_places_.empty()) return sample_places_;
-  if (grid().samples == 1) return sample_places_ = {{0, 0}};
+  if (grid().samples == 1 || !plan.opengl) {
+    const auto places = raster_samples(grid().samples);
+    return sample_places_ = {places.begin(), places.end()};
+  }
   GLint bound = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
   glBindFramebuffer(GL_FRAMEBUFFER, depth_framebuffer());

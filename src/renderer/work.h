@@ -46,7 +46,8 @@ struct Work : Seen {
                            std::vector<std::string> defines);
 
   GLuint depth_framebuffer() { return targets.framebuffer({}, targets.depth()); }
-  // Where OpenGL has the samples of a pixel: from its centre, 1/256 pixel, y up. Leaves what is bound.
+  // Where the samples of a pixel lie, which OpenGL says where it draws: from its centre, 1/256 pixel, y up.
+  // Leaves what is bound.
   const std::vector<glm::ivec2>& sample_places();
   GLuint color_framebuffer();                 // linear RGBA, 32-bit float, over the depth image
   static constexpr size_t spare_pixels = 16;  // that kernels may read past an image's end

@@ -82,7 +82,6 @@ void store_samples_in_opengl(TechniqueNeeds& needs, Settings& settings) {
 }
 
 void adapt_shade_tiled(TechniqueNeeds& needs, Settings& settings) {
-  store_samples_in_opengl(needs, settings);
   if (settings.samples_resolve != SamplesResolve::linear) needs.most_samples = 1;
 }
 

@@ -41,6 +41,7 @@ inline constexpr TechniqueNeeds needs_of_shade_tiled{.light_grid = true,
                                                      .capped_lists = true,
                                                      .sampled_lists = true,
                                                      .most_samples = 8,
+                                                     .stored_surfaces = true,
                                                      .adapt = adapt_shade_tiled};
 inline const std::vector<const char*> settings_of_shade_tiled = {
     "brdf",         "buffer-bits",   "group-ids", "group-tiles",   "cull-test",       "depth-bounds",

@@ -125,9 +125,13 @@ TEST(RasterInOpenCl, DrawsTheSameBytesWithoutOpenGl) {
       new Renderer("", GlBackend::none);  // never closed, as support/devices.h says
   const Scene scene = every_effect();
   const View view = small_view(71, 37);
-  const Image image = render(scene, view, "deferred_tiled", opencl);
   for (const char* technique : {"deferred_tiled", "forward_plus_compute"}) {
-    EXPECT_TRUE(identical(render(*opencl_alone, scene, view, technique, opencl), image)) << technique;
+    for (const int samples : {1, 4}) {
+      const Settings of{.raster = RasterApi::opencl, .samples = samples};
+      EXPECT_TRUE(identical(render(*opencl_alone, scene, view, technique, of),
+                            render(scene, view, technique, of)))
+          << technique << ' ' << samples;
+    }
     EXPECT_THROW(TechniqueRun(*opencl_alone, scene, view, {}, find_technique(technique)), Error) << technique;
   }
 }

@@ -136,6 +136,7 @@ TEST(ShadowedSamplesRefused, ByNameWhereShadowsAreFoundForOneSample) {
   EXPECT_THAT(refusal(visibility, {"shadow-rays=4"}), HasSubstr("shadow-rays"));
   EXPECT_THAT(refusal(visibility, {"shadow-pick=1"}), HasSubstr("shadow-pick"));
   EXPECT_THAT(refusal("world_grid", {"raster=opencl", "shadow-pick=1"}), HasSubstr("shadow-pick"));
+  EXPECT_THAT(refusal("deferred_tiled", {"raster=opencl"}), HasSubstr("shadows of stored surfaces"));
   EXPECT_THAT(refusal("forward", {}), HasSubstr("shadows where OpenGL draws"));
   EXPECT_THAT(refusal("lidr", {"lidr-shadows=prepass"}), HasSubstr("shadows where OpenGL draws"));
   EXPECT_EQ(refusal(visibility, {}), "none");

@@ -9,22 +9,8 @@
 #define FUSED  // shared/real.h
 #define LANES 16
 #include "kernels/resolve/resolve_block.h"
-#include "kernels/resolve/group_numbers.h"
 #include "kernels/resolve/resolve_light.h"
-#include "kernels/resolve/stored_normals.h"
-
-static inline void store_normals(global normal_t* to, Real3 n, uint x, uint y, uint width, uint height) {
-#ifdef NORMAL_CHANNEL_STEPS
-  const uint16 packed = packed_normal(n);
-  const uint columns = min(width - x, 4u), lines = min(height - y, 4u);
-  for (uint line = 0; line < lines; ++line) {
-    for (uint i = 0; i < columns; ++i)
-      to[(size_t)(y + line) * width + x + i] = ((const uint*)&packed)[4 * line + i];
-  }
-#else
-  store_block((global float*)to, n, REAL(0.0f), x, y, width, height);
-#endif
-}
+#include "kernels/resolve/store_normals.h"
 
 kernel void resolve_normals(global const uint* triangles, RESOLVE_ARGUMENTS,
                             global normal_t* normals GROUP_NUMBERS_OUT) {
@@ -38,11 +24,10 @@ kernel void resolve_normals(global const uint* triangles, RESOLVE_ARGUMENTS,
       Surface s = {0};
       add_materials(&s, a, &scene, covered);
       const Real3 n = shading_normal(a, &s);
-      const real none = 0.0f;
-      store_normals(normals, real3(covered ? n.x : none, covered ? n.y : none, covered ? n.z : REAL(1.0f)), x,
-                    y, width, height);
+      const TexelPlaces places = texels_of_block(x, y, width, height);
+      store_normals(normals, n, covered, &places);
 #ifdef GROUP_NUMBERS
-      store_group_numbers(group_numbers, a->group_number, covered, x, y, width, height);
+      store_group_numbers(group_numbers, a->group_number, covered, &places);
 #endif
     }
   }

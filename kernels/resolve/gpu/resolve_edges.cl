@@ -30,14 +30,13 @@ kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global 
 #endif
   const uint base_x = x & ~(EDGE_BLOCK - 1u), base_y = y & ~(EDGE_BLOCK - 1u);
   // The background comes first, as it does where it needs no shading.
-  float4 color = 0.0f;
+  uint missed = 0;
   for (uint s = 0; s < SAMPLES; ++s)
-    if (triangles[(size_t)at * SAMPLES + s] == SURFACE_NONE) color.w += 1.0f;
-  color = begun_with(background, color.w * (1.0f / SAMPLES));
-  for (uint left = ALL_SAMPLES; left != 0;) {
+    missed |= triangles[(size_t)at * SAMPLES + s] == SURFACE_NONE ? 1u << s : 0u;
+  float4 color = begun_with(background, share_of(missed));
+  for (uint left = ALL_SAMPLES & ~missed; left != 0;) {
     const PixelSurface p =
         next_surface(triangles + (size_t)at * SAMPLES, depths + (size_t)at * SAMPLES, &left);
-    if (p.triangle == SURFACE_NONE) continue;
     const float dx = (float)(x - base_x) + p.off_x, dy = (float)(y - base_y) + p.off_y;
     const float x_here = (float)base_x + 0.5f + dx, y_here = (float)base_y + 0.5f + dy;
 #ifdef SHADOWS_TRACED
@@ -49,7 +48,7 @@ kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global 
     add_triangle(&a, &scene, p.triangle, 1, (float)base_x, (float)base_y, dx, dy);
     add_material(&s, &a, &scene, (uint)a.material, 1);
     const Real3 shown = radiance(&a, &s, x_here, y_here, p.depth, 1, &lights, bin_edges, view);
-    color = add_light(color, (float3)(shown.x, shown.y, shown.z), p.share);
+    color = add_light(color, (float3)(shown.x, shown.y, shown.z), share_of(p.samples));
   }
   ((global float4*)image)[at] = averaged(color);
 }

@@ -89,7 +89,8 @@ struct GBufferInCl {
   SharedBuffer* image = nullptr;                              // for light passes to add to, or to write
   SharedBuffer* group_numbers = nullptr;                      // null without
   size_t group_bytes = 0;
-  size_t bytes() const { return layout->bytes(images) + group_bytes; }  // a pixel, without `image`
+  cl::Buffer edges;  // StoredSurfaces::edges (passes/sample_edges.h)
+  size_t bytes() const { return layout->bytes(images) + group_bytes; }  // a sample, without `image`
   cl::Buffer in_cl(size_t i) const { return surfaces[i] ? surfaces[i]->cl_buffer() : cl::Buffer(); }
 };
 

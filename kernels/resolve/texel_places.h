@@ -1,0 +1,57 @@
+// Where the texels of LANES surfaces go, in images that store one for each sample, those of a pixel side by
+// side: a surface's texel is stored for every sample that sees it.
+//
+// -DSAMPLES        kernels/common/sample_places.h; without, a pixel has one texel
+// -DGROUP_NUMBERS  kernels/resolve/group_numbers.h
+#pragma once
+
+#include "kernels/common/sample_places.h"
+#include "kernels/resolve/group_numbers.h"
+#include "shared/real.h"
+
+#if LANES == 16
+typedef struct TexelPlaces {
+  uint count;
+  uint lane[16 * SAMPLES], at[16 * SAMPLES];  // of texels in turn: whose they are, and their place
+} TexelPlaces;
+
+// samples: those of the pixel that see the lane's surface, a bit each.
+static inline void add_texels(TexelPlaces* to, uint lane, uint pixel, uint samples) {
+  for (; samples != 0; samples &= samples - 1)
+    to->lane[to->count] = lane, to->at[to->count++] = pixel * SAMPLES + lowest_bit(samples);
+}
+
+// All samples of a block of 4 x 4 pixels from (x, y) on, a lane each.
+static inline TexelPlaces texels_of_block(uint x, uint y, uint width, uint height) {
+  TexelPlaces to;
+  to.count = 0;
+  const uint columns = min(width - x, 4u), lines = min(height - y, 4u);
+  for (uint line = 0; line < lines; ++line)
+    for (uint i = 0; i < columns; ++i) add_texels(&to, 4 * line + i, (y + line) * width + x + i, ALL_SAMPLES);
+  return to;
+}
+#else
+typedef struct TexelPlaces {
+  size_t pixel;
+  uint samples;
+} TexelPlaces;
+#endif
+
+// Of kernels with GROUP_NUMBERS_OUT (kernels/resolve/group_numbers.h).
+#ifdef GROUP_NUMBERS
+#if LANES == 16
+static inline void store_group_numbers(global group_number_t* to, whole numbers, mask_t covered,
+                                       const TexelPlaces* places) {
+  const whole stored = covered ? numbers : (whole)(0);
+  for (uint i = 0; i < places->count; ++i)
+    to[places->at[i]] = (group_number_t)((const int*)&stored)[places->lane[i]];
+}
+#else
+static inline void store_group_numbers(global group_number_t* to, whole number, mask_t covered,
+                                       const TexelPlaces* places) {
+  for (uint s = 0; s < SAMPLES; ++s)
+    if (places->samples >> s & 1u)
+      to[places->pixel * SAMPLES + s] = (group_number_t)(covered ? number : 0);
+}
+#endif
+#endif
