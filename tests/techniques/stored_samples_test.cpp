@@ -87,9 +87,10 @@ TEST(StoredSamples, ShowWhatPicturesOfOneSampleShowThere) {
     EXPECT_FALSE(same_bytes(edges.image, all));
     EXPECT_LT(compare_images(edges.image, all).rmse_rel, 2e-3) << samples;
     // Of two samples each is the centroid of the surface that it sees alone.
-    if (samples == 2)
-      EXPECT_LT(compare_images(edges.image, frame_of_samples(scene, "visibility", "samples=2").image).max_rel,
-                rounding_of_lights);
+    if (samples == 2) {
+      const Image visibility = frame_of_samples(scene, "visibility", "samples=2").image;
+      EXPECT_LT(compare_images(edges.image, visibility).max_rel, rounding_of_lights);
+    }
   }
 }
 
