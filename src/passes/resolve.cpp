@@ -141,13 +141,6 @@ ClArguments visible_arguments(const VisibilityBuffer& visible) {
   return {{"triangles", visible.triangles().numbers}, {"depths", visible.pixel_depth().values}};
 }
 
-// Of samples, and where they see several surfaces.
-ClArguments edge_arguments(const VisibilityBuffer& visible) {
-  return {{"triangles", visible.image.triangle},
-          {"depths", visible.image.depth},
-          {"edges", visible.pixels->edges}};
-}
-
 cl_float4 background(const Seen& seen) {
   const glm::vec3& background = seen.scene.background;
   return {{background.r, background.g, background.b, 1}};
@@ -155,21 +148,24 @@ cl_float4 background(const Seen& seen) {
 
 }  // namespace
 
-// Over the image of resolve(): the pixels whose samples see several surfaces.
-static void resolve_edges(Work& work, Resolver& r, const VisibilityBuffer& visible,
-                          const LightSource& lights) {
-  const ClArguments& traced = work.shadows.traced;
-  const char* average = average_define(work.plan.settings);
-  NamedKernel& kernel = r.kernel(work, "resolve_edges",
-                                 lights.in_cl->defines + sample_defines(work.grid().samples) +
-                                     (average ? fmt::format(" -D{}", average) : "") +
-                                     (traced.empty() ? "" : work.shadows.traced_defines));
-  auto pass = work.timer.pass("resolve_edges", "cl");
-  r.launch(work, kernel, "resolve_edges",
-           traced + edge_arguments(visible) +
-               r.arguments(work, visible.raster, visible.surfaces, *lights.in_cl) +
-               ClArguments{{"background", background(work)}, {"image", r.image.cl_buffer()}});
-  pass.moves(work.grid().pixels() / 8 + lights.bytes + r.scene(work).memory_bytes(), 0);
+// Over what another kernel left: the pixels whose samples see several surfaces. traced: before all arguments.
+static void over_edges(Work& work, Resolver& r, const VisibilityBuffer& visible, const char* stem,
+                       const std::string& defines, const ClArguments& images, const ClLightLoop& loop = {},
+                       const ClArguments& traced = {}) {
+  NamedKernel& kernel = r.kernel(work, stem, defines);
+  auto pass = work.timer.pass(stem, "cl");
+  r.launch(work, kernel, stem,
+           traced +
+               ClArguments{{"triangles", visible.image.triangle},
+                           {"depths", visible.image.depth},
+                           {"edges", visible.pixels->edges}} +
+               r.arguments(work, visible.raster, visible.surfaces, loop) + images);
+  pass.moves(work.grid().pixels() / 8 + r.scene(work).memory_bytes(), 0);
+}
+
+static std::string averages(const Settings& settings) {
+  const char* define = average_define(settings);
+  return define ? fmt::format(" -D{}", define) : "";
 }
 
 ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
@@ -184,7 +180,12 @@ ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer&
     pass.moves(work.grid().pixels() * 8 + lights.bytes + r.scene(work).memory_bytes(),
                work.grid().pixels() * 16);
   }
-  if (visible.pixels) resolve_edges(work, r, visible, lights);
+  if (!visible.pixels) return {0, &r.image};
+  const ClArguments& traced = work.shadows.traced;
+  over_edges(work, r, visible, "resolve_edges",
+             lights.in_cl->defines + sample_defines(work.grid().samples) + averages(work.plan.settings) +
+                 (traced.empty() ? "" : work.shadows.traced_defines),
+             {{"background", background(work)}, {"image", r.image.cl_buffer()}}, *lights.in_cl, traced);
   return {0, &r.image};
 }
 
@@ -197,16 +198,6 @@ static ClArguments images_out(const Work& work, const GBufferInCl& g) {
                      {"specular", g.in_cl(gbuffer_specular)},
                      {"image", g.base_lighting == BaseLighting::in_image ? g.image->cl_buffer() : cl::Buffer()}} +
          group_numbers_out(g.group_numbers);
-}
-
-// Over what resolve_gbuffer() stored: the pixels whose samples see several surfaces.
-static void resolve_gbuffer_edges(Work& work, Resolver& r, const VisibilityBuffer& visible, const GBufferInCl& g,
-                                  const std::string& defines) {
-  NamedKernel& kernel = r.kernel(work, "resolve_gbuffer_edges", defines);
-  auto pass = work.timer.pass("resolve_gbuffer_edges", "cl");
-  r.launch(work, kernel, "resolve_gbuffer_edges",
-           edge_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) + images_out(work, g));
-  pass.moves(work.grid().pixels() / 8 + r.scene(work).memory_bytes(), 0);
 }
 
 GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
@@ -227,25 +218,31 @@ GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const Visibilit
                work.grid().values() * g.bytes() + work.grid().pixels() * image_bytes);
   }
   if (!visible.pixels) return g;
-  resolve_gbuffer_edges(work, r, visible, g, defines);
+  over_edges(work, r, visible, "resolve_gbuffer_edges", defines, images_out(work, g));
   g.edges = visible.pixels->edges;
   return g;
 }
 
 NormalsInCl resolve_normals(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible) {
   Resolver& r = resolving(work, cache);
-  const NormalsInCl normals = normals_in_cl_of(work, TargetUse::gbuffer);
+  NormalsInCl normals = normals_in_cl_of(work, TargetUse::gbuffer);
   const char* define = normals.layout->define;
-  NamedKernel& kernel = r.kernel(work, "resolve_normals",
-                                 (define ? fmt::format(" -D{}", define) : "") + group_numbers_out(work.plan));
-  auto pass = work.timer.pass("resolve_normals", "cl");
-  r.launch(work, kernel, "resolve_normals",
-           ClArguments{{"triangles", visible.image.triangle}} +
-               r.arguments(work, visible.raster, visible.surfaces) +
-               ClArguments{{"normals", normals.image->cl_buffer()}} +
-               group_numbers_out(normals.group_numbers));
-  pass.moves(work.grid().values() * 4 + r.scene(work).memory_bytes(),
-             work.grid().values() * normals.layout->image.bytes);
+  const std::string defines = (define ? fmt::format(" -D{}", define) : "") + group_numbers_out(work.plan) +
+                              sample_defines(work.grid().samples);
+  const ClArguments images =
+      ClArguments{{"normals", normals.image->cl_buffer()}} + group_numbers_out(normals.group_numbers);
+  {
+    NamedKernel& kernel = r.kernel(work, "resolve_normals", defines);
+    auto pass = work.timer.pass("resolve_normals", "cl");
+    r.launch(work, kernel, "resolve_normals",
+             ClArguments{{"triangles", visible.triangles().numbers}} +
+                 r.arguments(work, visible.raster, visible.surfaces) + images);
+    pass.moves(work.grid().pixels() * 4 + r.scene(work).memory_bytes(),
+               work.grid().values() * normals.layout->image.bytes);
+  }
+  if (!visible.pixels) return normals;
+  over_edges(work, r, visible, "resolve_normals_edges", defines, images);
+  normals.edges = visible.pixels->edges;
   return normals;
 }
 
@@ -253,20 +250,26 @@ ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const Visibil
                               const LightBufferInCl& sums) {
   Resolver& r = resolving(work, cache);
   const Settings& s = work.plan.settings;
-  NamedKernel& kernel = r.kernel(work, "resolve_materials",
-                                 fmt::format(" -DBUFFER_BITS={}{}", s.buffer_bits, specular_define(s)));
-  auto pass = work.timer.pass("resolve_materials", "cl");
-  r.launch(work, kernel, "resolve_materials",
-           visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) +
-               ClArguments{{"background", background(work)},
-                           {"first", sums.first->cl_buffer()},
-                           {"second", sums.second ? sums.second->cl_buffer() : cl::Buffer()},
-                           {"scale", cl_float(stored_scale(work))},
-                           {"exponent", cl_float(s.prepass_shininess)},
-                           {"reference", cl_float(reference_light(work.scene, work.plan))},
-                           {"image", r.image.cl_buffer()}});
-  pass.moves(work.grid().values() * (8 + sums.bytes()) + r.scene(work).memory_bytes(),
-             work.grid().pixels() * 16);
+  const bool apart = visible.pixels && s.samples_shading == SamplesShading::all;
+  const std::string defines = fmt::format(" -DBUFFER_BITS={}{}{}{}", s.buffer_bits, specular_define(s),
+                                          sample_defines(work.grid().samples), apart ? " -DSAMPLES_APART" : "");
+  const ClArguments images = {{"background", background(work)},
+                              {"first", sums.first->cl_buffer()},
+                              {"second", sums.second ? sums.second->cl_buffer() : cl::Buffer()},
+                              {"scale", cl_float(stored_scale(work))},
+                              {"exponent", cl_float(s.prepass_shininess)},
+                              {"reference", cl_float(reference_light(work.scene, work.plan))},
+                              {"image", r.image.cl_buffer()}};
+  {
+    NamedKernel& kernel = r.kernel(work, "resolve_materials", defines);
+    auto pass = work.timer.pass("resolve_materials", "cl");
+    r.launch(work, kernel, "resolve_materials",
+             visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) + images);
+    pass.moves(work.grid().pixels() * 8 + work.grid().values() * sums.bytes() + r.scene(work).memory_bytes(),
+               work.grid().pixels() * 16);
+  }
+  if (visible.pixels)
+    over_edges(work, r, visible, "resolve_materials_edges", defines + averages(s), images);
   return {0, &r.image};
 }
 

@@ -57,7 +57,8 @@ static Frame from_tiles(RenderView& v) {
   const DepthBuffer& depth = depth_of(v, surfaces);
   const size_t normal_bytes = normals.layout->image.bytes;
   const cl::Buffer edges = sample_edges(
-      v, v.caches.sample_edges, {{normals.image}, normal_bytes, normals.group_numbers}, depth,
+      v, v.caches.sample_edges, {{normals.image}, normal_bytes, normals.group_numbers, normals.edges},
+      depth,
       normal_bytes + bytes_of_light_buffer(v.plan.settings) + group_number_bytes(v.plan) + 4, frame);
   frame.image = shade_materials(
       v, surfaces, fill_light_buffer(v, v.caches.light_sums, normals, depth, lights, use, edges));
@@ -75,7 +76,6 @@ static Frame render(RenderView& v) {
 }
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
-  store_samples_in_opengl(needs, settings);
   if (prepass_lights.of(settings) == PrepassLights::tiles) return;
   needs.light_grid = needs.capped_lists = false, needs.no_light_grid = "prepass-lights=volumes";
   needs.stencil = settings.volume_culling == VolumeCulling::stencil, needs.group_stencil = true;
@@ -92,6 +92,7 @@ extern const Technique light_prepass{
               .group_tiles = true,
               .capped_lists = true,
               .most_samples = 8,
+              .stored_surfaces = true,
               .adapt = adapt},
     .settings = {"brdf",          "prepass-lights", "prepass-specular", "prepass-shininess",
                  "buffer-bits",   "normals",        "volume-culling",   "group-ids",

@@ -77,10 +77,6 @@ void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaqu
   blend(v, surfaces, from_grid(v, *frame.blend_grid), frame.image);
 }
 
-void store_samples_in_opengl(TechniqueNeeds& needs, Settings& settings) {
-  if (settings.raster == RasterApi::opencl) needs.most_samples = 1;
-}
-
 void adapt_shade_tiled(TechniqueNeeds& needs, Settings& settings) {
   if (settings.samples_resolve != SamplesResolve::linear) needs.most_samples = 1;
 }

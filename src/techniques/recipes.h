@@ -25,9 +25,6 @@ void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaqu
 // buffer, unless directional lights, which fill its image, need their shadows first.
 GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces);
 
-// For adapt: geometry buffers have several samples where OpenGL draws them.
-void store_samples_in_opengl(TechniqueNeeds& needs, Settings& settings);
-
 // deferred_tiled and forward_plus_compute, which with OpenGL find depth differently, share these: surfaces
 // into a geometry buffer; then OpenCL adds the lights of each tile's list to its image, and blended surfaces
 // are laid over it. Without `surfaces`, OpenGL finds depth while it fills the geometry buffer.

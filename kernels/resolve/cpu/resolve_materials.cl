@@ -9,32 +9,30 @@
 // exponent, reference  LightBufferParams (shared/light_buffer.h)
 // image       out: RGBA a pixel, linear, row 0 at the bottom
 // -DTILE      pixels a side, a multiple of 8 (default 16)
+// -DSAMPLES, -DSAMPLES_APART  kernels/resolve/resolve_sums.h; pixels at edges have no triangle here
 // -DPREPASS_…, -DBUFFER_BITS, -DORTHOGRAPHIC, and what kernels/resolve/resolve.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
 #include "kernels/resolve/resolve_block.h"
 #include "kernels/resolve/resolve_sums.h"
 
-static inline LightTerms sums_of_block(global const light_channel_t* first,
-                                       global const light_channel_t* second, float scale, uint x, uint y,
-                                       uint width, uint height) {
-  float terms[6][16];
-  for (uint i = 0; i < 16; ++i) {
-    const size_t at = (size_t)min(y + i / 4, height - 1) * width + min(x + i % 4, width - 1);
-    const float4 t = LOAD_CHANNELS(4, at, first) * scale;
-    terms[0][i] = t.x, terms[1][i] = t.y, terms[2][i] = t.z, terms[3][i] = t.w;
-#ifdef PREPASS_FIFTH_TERM
-    const float2 u = LOAD_CHANNELS(2, at, second) * scale;
-    terms[4][i] = u.x, terms[5][i] = u.y;
-#endif
+// Of pixels of one surface: the mean over the samples that have sums of their own.
+static inline Real3 shown_by_block(const Attributes* a, const Surface* s, real depth, mask_t covered,
+                                   global const light_channel_t* first, global const light_channel_t* second,
+                                   float scale, LightBufferParams of, const ResolveLights* lights, uint x, uint y,
+                                   constant ViewParams* view) {
+  Real3 shown = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
+#pragma unroll 1
+  for (uint sample = 0; sample < READ_SAMPLES; ++sample) {
+    size_t at[16];
+    for (uint i = 0; i < 16; ++i)
+      at[i] = ((size_t)min(y + i / 4, view->height - 1) * view->width + min(x + i % 4, view->width - 1)) * SAMPLES +
+              sample;
+    const Real3 one = radiance_of_sums(a, s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,
+                                       covered, stored_sums(first, second, scale, at), of, lights, view);
+    shown = add3(shown, scale3(one, REAL(1.0f / READ_SAMPLES)));
   }
-  LightTerms sums = no_terms();
-  sums.diffuse = real3(vload16(0, terms[0]), vload16(0, terms[1]), vload16(0, terms[2]));
-  sums.specular = vload16(0, terms[3]);
-#ifdef PREPASS_FIFTH_TERM
-  sums.weight = vload16(0, terms[4]), sums.rim = vload16(0, terms[5]);
-#endif
-  return sums;
+  return shown;
 }
 
 kernel void resolve_materials(global const uint* triangles, global const float* depths, RESOLVE_ARGUMENTS,
@@ -55,10 +53,9 @@ kernel void resolve_materials(global const uint* triangles, global const float* 
         Surface s = {0};
         add_materials(&s, a, &scene, covered);
         const real depth = block_depths(&walk, depths, x, y);
-        const LightTerms sums = sums_of_block(first, second, scale, x, y, width, height);
         light_pixels(&lights.lights, x, y, view);
-        const Real3 shown = radiance_of_sums(a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY,
-                                             depth, covered, sums, of, &lights, view);
+        const Real3 shown =
+            shown_by_block(a, &s, depth, covered, first, second, scale, of, &lights, x, y, view);
         color = real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);
       }
       store_block(image, color, REAL(1.0f), x, y, width, height);

@@ -21,17 +21,16 @@ kernel void resolve_materials(global const uint* triangles, global const float* 
     add_triangle(&a, &scene, triangle, 1, (float)(x & ~3u), (float)(y & ~3u), (float)(x & 3u),
                  (float)(y & 3u));
     add_material(&s, &a, &scene, (uint)a.material, 1);
-    LightTerms sums = no_terms();
-    const float4 t = LOAD_CHANNELS(4, at, first) * scale;
-    sums.diffuse = real3(t.x, t.y, t.z), sums.specular = t.w;
-#ifdef PREPASS_FIFTH_TERM
-    const float2 u = LOAD_CHANNELS(2, at, second) * scale;
-    sums.weight = u.x, sums.rim = u.y;
-#endif
     const LightBufferParams of = {exponent, reference};
     light_pixels(&lights.lights, x, y, view);
-    const Real3 shown =
-        radiance_of_sums(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depths[at], 1, sums, of, &lights, view);
+    Real3 shown = real3(0.0f, 0.0f, 0.0f);
+    for (uint sample = 0; sample < READ_SAMPLES; ++sample) {
+      const size_t in_buffer = at * SAMPLES + sample;
+      const Real3 one =
+          radiance_of_sums(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depths[at], 1,
+                           stored_sums(first, second, scale, &in_buffer), of, &lights, view);
+      shown = add3(shown, scale3(one, 1.0f / READ_SAMPLES));
+    }
     color = (float4)(shown.x, shown.y, shown.z, 1.0f);
   }
   ((global float4*)image)[at] = color;

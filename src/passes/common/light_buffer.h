@@ -95,6 +95,7 @@ struct NormalsInCl {
   const NormalLayout* layout = nullptr;
   SharedBuffer* image = nullptr;
   SharedBuffer* group_numbers = nullptr;  // null: none
+  cl::Buffer edges;                       // StoredSurfaces::edges (passes/sample_edges.h)
 };
 
 // The view's buffer, written or not. use: gbuffer where it is no copy.
