@@ -32,7 +32,7 @@ typedef struct EdgeSurfaces {
 } EdgeSurfaces;
 
 #define TRIANGLE_OF(ordered) ((uint)((ordered) >> 16))
-#define SURFACE_OF(ordered) ((uint)(ordered) & 0xffffu)
+#define SURFACE_OF(ordered) ((uint)(ordered)&0xffffu)
 
 // Shell's method: mostly some dozens.
 static inline void sort_by_triangle(EdgeSurfaces* e) {
@@ -87,8 +87,8 @@ static inline void add_edge_pixel(EdgeSurfaces* e, global const uint* triangles,
 
 // Of the square from (x0, y0) on.
 static inline void find_edge_surfaces(EdgeSurfaces* e, global const uint* triangles,
-                                      global const float* depths, global const ushort* edges, uint x0, uint y0,
-                                      uint width, uint height) {
+                                      global const float* depths, global const ushort* edges, uint x0,
+                                      uint y0, uint width, uint height) {
   e->base_x = x0 & ~(EDGE_BLOCK - 1u), e->base_y = y0 & ~(EDGE_BLOCK - 1u);
   e->pixel_count = e->count = 0;
   fetch_square(triangles, depths, edges, x0 + SIDE, y0, width, height);

@@ -26,8 +26,7 @@ typedef struct ResolvedSurface {
 // left: samples whose surfaces were not yet taken.
 static inline ResolvedSurface next_resolved(global const uint* triangles, global const float* depths, uint at,
                                             uint* left, uint x, uint y, const ResolveScene* scene) {
-  const PixelSurface p =
-      next_surface(triangles + (size_t)at * SAMPLES, depths + (size_t)at * SAMPLES, left);
+  const PixelSurface p = next_surface(triangles + (size_t)at * SAMPLES, depths + (size_t)at * SAMPLES, left);
   const uint base_x = x & ~(EDGE_BLOCK - 1u), base_y = y & ~(EDGE_BLOCK - 1u);
   const float dx = (float)(x - base_x) + p.off_x, dy = (float)(y - base_y) + p.off_y;
   ResolvedSurface r = {p.triangle, p.samples, (float)base_x + 0.5f + dx, (float)base_y + 0.5f + dy, p.depth};

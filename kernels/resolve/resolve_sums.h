@@ -19,8 +19,8 @@
 
 // The sums of the samples `at` in the light buffer.
 #if LANES == 16
-static inline LightTerms stored_sums(global const light_channel_t* first, global const light_channel_t* second,
-                                     float scale, const size_t* at) {
+static inline LightTerms stored_sums(global const light_channel_t* first,
+                                     global const light_channel_t* second, float scale, const size_t* at) {
   float terms[6][16];
   for (uint i = 0; i < 16; ++i) {
     const float4 t = LOAD_CHANNELS(4, at[i], first) * scale;
@@ -39,8 +39,8 @@ static inline LightTerms stored_sums(global const light_channel_t* first, global
   return sums;
 }
 #else
-static inline LightTerms stored_sums(global const light_channel_t* first, global const light_channel_t* second,
-                                     float scale, const size_t* at) {
+static inline LightTerms stored_sums(global const light_channel_t* first,
+                                     global const light_channel_t* second, float scale, const size_t* at) {
   LightTerms sums = no_terms();
   const float4 t = LOAD_CHANNELS(4, *at, first) * scale;
   sums.diffuse = real3(t.x, t.y, t.z), sums.specular = t.w;

@@ -27,13 +27,15 @@ typedef struct SurfaceImages {
   global group_number_t* group_numbers;
 #endif
 } SurfaceImages;
-#define SURFACE_IMAGES                                                                                 \
+#define SURFACE_IMAGES                                                                                    \
   global channel_t *first, global channel_t *second, global channel_t *coats, global channel_t *specular, \
       global float *image GROUP_NUMBERS_OUT
 #ifdef GROUP_NUMBERS
-#define GIVEN_SURFACE_IMAGES {first, second, coats, specular, group_numbers}
+#define GIVEN_SURFACE_IMAGES \
+  { first, second, coats, specular, group_numbers }
 #else
-#define GIVEN_SURFACE_IMAGES {first, second, coats, specular}
+#define GIVEN_SURFACE_IMAGES \
+  { first, second, coats, specular }
 #endif
 
 #if LANES == 16
@@ -48,8 +50,7 @@ static inline void store_texels(global channel_t* to, Texels t, const TexelPlace
 #endif
   channel_t texels[64];
   for (uint i = 0; i < 4; ++i) vstore16(TO_CHANNELS(16, rows[i]), i, texels);
-  for (uint i = 0; i < places->count; ++i)
-    vstore4(vload4(places->lane[i], texels), places->at[i], to);
+  for (uint i = 0; i < places->count; ++i) vstore4(vload4(places->lane[i], texels), places->at[i], to);
 }
 #else
 static inline void store_texels(global channel_t* to, Texels t, const TexelPlaces* places) {
@@ -61,8 +62,8 @@ static inline void store_texels(global channel_t* to, Texels t, const TexelPlace
 #endif
 
 // covered: lanes with a surface; of others zeros are stored.
-static inline void store_surface(const SurfaceImages* to, const Attributes* a, const Surface* s, mask_t covered,
-                                 const TexelPlaces* places) {
+static inline void store_surface(const SurfaceImages* to, const Attributes* a, const Surface* s,
+                                 mask_t covered, const TexelPlaces* places) {
   const Real3 n = shading_normal(a, s);
   Texels normal, color;
   texels_of_surface(&normal, &color, n, s->base_color, s->metallic, s->roughness, number_of(s), s->unlit,
@@ -71,7 +72,8 @@ static inline void store_surface(const SurfaceImages* to, const Attributes* a, c
   store_texels(to->second, color, places);
 #ifdef CLEARCOAT
   if (to->coats)
-    store_texels(to->coats, texels_of_coat(coat_normal(a, s), n, s->coat, s->coat_roughness, covered), places);
+    store_texels(to->coats, texels_of_coat(coat_normal(a, s), n, s->coat, s->coat_roughness, covered),
+                 places);
 #endif
 #ifdef SPECULAR
   if (to->specular) store_texels(to->specular, texels_of_specular(s->f0, s->f90, covered), places);

@@ -50,8 +50,7 @@ static inline void store_group_numbers(global group_number_t* to, whole numbers,
 static inline void store_group_numbers(global group_number_t* to, whole number, mask_t covered,
                                        const TexelPlaces* places) {
   for (uint s = 0; s < SAMPLES; ++s)
-    if (places->samples >> s & 1u)
-      to[places->pixel * SAMPLES + s] = (group_number_t)(covered ? number : 0);
+    if (places->samples >> s & 1u) to[places->pixel * SAMPLES + s] = (group_number_t)(covered ? number : 0);
 }
 #endif
 #endif

@@ -191,12 +191,13 @@ ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer&
 
 // The images that the kernels write.
 static ClArguments images_out(const Work& work, const GBufferInCl& g) {
-  return ClArguments{{"background", background(work)},
-                     {"first", g.surfaces[0]->cl_buffer()},
-                     {"second", g.surfaces[1]->cl_buffer()},
-                     {"coats", g.in_cl(gbuffer_coat)},
-                     {"specular", g.in_cl(gbuffer_specular)},
-                     {"image", g.base_lighting == BaseLighting::in_image ? g.image->cl_buffer() : cl::Buffer()}} +
+  return ClArguments{
+             {"background", background(work)},
+             {"first", g.surfaces[0]->cl_buffer()},
+             {"second", g.surfaces[1]->cl_buffer()},
+             {"coats", g.in_cl(gbuffer_coat)},
+             {"specular", g.in_cl(gbuffer_specular)},
+             {"image", g.base_lighting == BaseLighting::in_image ? g.image->cl_buffer() : cl::Buffer()}} +
          group_numbers_out(g.group_numbers);
 }
 
@@ -204,9 +205,8 @@ GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const Visibilit
                             BaseLighting base_lighting) {
   Resolver& r = resolving(work, cache);
   GBufferInCl g = gbuffer_in_cl_of(work, base_lighting, TargetUse::gbuffer);
-  const std::string defines =
-      fmt::format(" -DBUFFER_BITS={}{}{}", g.layout->bits, group_numbers_out(work.plan),
-                  sample_defines(work.grid().samples));
+  const std::string defines = fmt::format(" -DBUFFER_BITS={}{}{}", g.layout->bits,
+                                          group_numbers_out(work.plan), sample_defines(work.grid().samples));
   {
     NamedKernel& kernel = r.kernel(work, "resolve_gbuffer", defines);
     auto pass = work.timer.pass("resolve_gbuffer", "cl");
@@ -251,8 +251,9 @@ ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const Visibil
   Resolver& r = resolving(work, cache);
   const Settings& s = work.plan.settings;
   const bool apart = visible.pixels && s.samples_shading == SamplesShading::all;
-  const std::string defines = fmt::format(" -DBUFFER_BITS={}{}{}{}", s.buffer_bits, specular_define(s),
-                                          sample_defines(work.grid().samples), apart ? " -DSAMPLES_APART" : "");
+  const std::string defines =
+      fmt::format(" -DBUFFER_BITS={}{}{}{}", s.buffer_bits, specular_define(s),
+                  sample_defines(work.grid().samples), apart ? " -DSAMPLES_APART" : "");
   const ClArguments images = {{"background", background(work)},
                               {"first", sums.first->cl_buffer()},
                               {"second", sums.second ? sums.second->cl_buffer() : cl::Buffer()},
@@ -268,8 +269,7 @@ ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const Visibil
     pass.moves(work.grid().pixels() * 8 + work.grid().values() * sums.bytes() + r.scene(work).memory_bytes(),
                work.grid().pixels() * 16);
   }
-  if (visible.pixels)
-    over_edges(work, r, visible, "resolve_materials_edges", defines + averages(s), images);
+  if (visible.pixels) over_edges(work, r, visible, "resolve_materials_edges", defines + averages(s), images);
   return {0, &r.image};
 }
 

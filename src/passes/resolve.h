@@ -17,11 +17,12 @@ ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer&
 GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                             BaseLighting base_lighting);
 
-// The normal of every pixel in the format of the setting normals, as fill_normals does with OpenGL.
+// The normal of every pixel, or of every sample's surface, in the format of the setting normals, as
+// fill_normals does with OpenGL.
 NormalsInCl resolve_normals(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible);
 
-// Every pixel's material under its sums of light: the material pass of light_prepass. The image stays in
-// OpenCL's memory.
+// Every pixel's material under its sums of light: the material pass of light_prepass. With several samples a
+// pixel a surface shows the mean over the sums of its samples. The image stays in OpenCL's memory.
 ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                               const LightBufferInCl& sums);
 

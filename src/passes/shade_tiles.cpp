@@ -148,8 +148,8 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
 ShadedImage shade_tiles(Work& work, PassCaches& caches, const GBuffer& gbuffer, const DepthBuffer& depth,
                         const LightSource& lights, Frame& frame) {
   const GBufferInCl in_cl = gbuffer.in_cl ? *gbuffer.in_cl : gbuffer_to_cl(work, gbuffer);
-  StoredSurfaces surfaces{.bytes = in_cl.layout->images[0].bytes, .group_numbers = in_cl.group_numbers,
-                          .edges = in_cl.edges};
+  StoredSurfaces surfaces{
+      .bytes = in_cl.layout->images[0].bytes, .group_numbers = in_cl.group_numbers, .edges = in_cl.edges};
   for (const size_t i : in_cl.images) surfaces.images.push_back(in_cl.surfaces[i]);
   const cl::Buffer edges = sample_edges(work, caches.sample_edges, surfaces, depth, in_cl.bytes() + 4, frame);
   add_light(work, caches.tile_shading, in_cl, depth, lights, edges);

@@ -57,8 +57,7 @@ static Frame from_tiles(RenderView& v) {
   const DepthBuffer& depth = depth_of(v, surfaces);
   const size_t normal_bytes = normals.layout->image.bytes;
   const cl::Buffer edges = sample_edges(
-      v, v.caches.sample_edges, {{normals.image}, normal_bytes, normals.group_numbers, normals.edges},
-      depth,
+      v, v.caches.sample_edges, {{normals.image}, normal_bytes, normals.group_numbers, normals.edges}, depth,
       normal_bytes + bytes_of_light_buffer(v.plan.settings) + group_number_bytes(v.plan) + 4, frame);
   frame.image = shade_materials(
       v, surfaces, fill_light_buffer(v, v.caches.light_sums, normals, depth, lights, use, edges));

@@ -128,8 +128,8 @@ TEST(RasterInOpenCl, DrawsTheSameBytesWithoutOpenGl) {
   for (const char* technique : {"deferred_tiled", "forward_plus_compute"}) {
     for (const int samples : {1, 4}) {
       const Settings of{.raster = RasterApi::opencl, .samples = samples};
-      EXPECT_TRUE(identical(render(*opencl_alone, scene, view, technique, of),
-                            render(scene, view, technique, of)))
+      EXPECT_TRUE(
+          identical(render(*opencl_alone, scene, view, technique, of), render(scene, view, technique, of)))
           << technique << ' ' << samples;
     }
     EXPECT_THROW(TechniqueRun(*opencl_alone, scene, view, {}, find_technique(technique)), Error) << technique;

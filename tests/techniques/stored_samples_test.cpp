@@ -1,5 +1,5 @@
-// A geometry buffer of samples that OpenCL fills (raster=opencl): every sample against a picture of one sample
-// there, pixels of one surface against visibility, and the same bytes in every form.
+// Surfaces and normals of samples that OpenCL stores (raster=opencl): every sample against a picture of one
+// sample there, pixels of one surface against visibility, and the same bytes in every form.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,8 @@ Scene cards() {
   SmallScene s = small_scene();
   s.scene.instances.resize(1);
   for (int i = 0; i < 25; ++i) {
-    const glm::vec3 center(0.6f * float(i % 5) - 1.2f, 0.4f * float(i / 5) - 0.8f, -2.8f - 0.1f * float(i % 3));
+    const glm::vec3 center(0.6f * float(i % 5) - 1.2f, 0.4f * float(i / 5) - 0.8f,
+                           -2.8f - 0.1f * float(i % 3));
     Mesh card;
     shapes::add_quad(card, center, {0.31f, 0.13f, 0.1f * float(i % 4)}, {-0.11f, 0.27f, 0.2f}, 1, 1);
     const int material = add_material(s.scene, "card", {0.2f + 0.03f * float(i), 0.5f, 0.9f}, 0, 0.7f);
@@ -79,7 +80,8 @@ TEST(StoredSamples, ShowWhatPicturesOfOneSampleShowThere) {
     const SampledFrame edges = frame_of_samples(scene, "deferred_tiled", set + "edges");
     for (size_t i = 0; i < mean.pixels.size(); ++i) {
       if (edges.figures.surfaces[i] > 0) {
-        EXPECT_LT(apart(edges.image, all, i), rounding_of_lights * brightest_channel(all)) << samples << ' ' << i;
+        EXPECT_LT(apart(edges.image, all, i), rounding_of_lights * brightest_channel(all))
+            << samples << ' ' << i;
       }
     }
     EXPECT_FALSE(same_bytes(edges.image, all));
@@ -116,6 +118,23 @@ TEST(StoredSamples, ShowVisibilitysPictureInBothShapes) {
         frame_of_samples(scene, "forward_plus_compute", std::string("raster=opencl samples=4 ") + more).image,
         stored.image))
         << more;
+}
+
+// Sums of light for each sample: under the matt model, which a light buffer has exactly, the picture of a
+// geometry buffer.
+TEST(StoredSamples, OfLightPrepassShowTheSamePicture) {
+  const Scene scene = cards();
+  for (const char* shading : {"samples-shading=all", "samples-shading=edges"}) {
+    const std::string set = std::string("raster=opencl brdf=lambert samples=4 ") + shading;
+    const SampledFrame stored = frame_of_samples(scene, "deferred_tiled", set),
+                       sums = frame_of_samples(scene, "light_prepass", set);
+    EXPECT_LT(compare_images(sums.image, stored.image).max_rel, rounding_of_lights) << shading;
+    EXPECT_EQ(sums.figures.edge_pixels, stored.figures.edge_pixels);
+    EXPECT_EQ(sums.figures.shadings, stored.figures.shadings);
+    EXPECT_TRUE(
+        identical(frame_of_samples(scene, "light_prepass", set + " kernel-shape=group").image, sums.image))
+        << shading;
+  }
 }
 
 // Images of coats, reflectance and group numbers.

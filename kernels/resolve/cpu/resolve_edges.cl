@@ -52,8 +52,9 @@ kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global 
 #ifdef SHADOWS_TRACED
         trace_from_batch(&traced, &b, &scene, view);
 #endif
-        keep_light(&e, &b, radiance(&b.attributes, &b.material, b.x, b.y, b.depth, b.covered, &lights,
-                                    bin_edges, view));
+        keep_light(
+            &e, &b,
+            radiance(&b.attributes, &b.material, b.x, b.y, b.depth, b.covered, &lights, bin_edges, view));
       }
       show_edges(&e, background, image);
     }

@@ -34,8 +34,7 @@ kernel void resolve_gbuffer_edges(global const uint* triangles, global const flo
         const TexelPlaces places = texels_of_batch(&e, i);
         store_surface(&images, &b.attributes, &b.material, b.covered, &places);
         if (!image) continue;
-        const ShadingPoint p =
-            resolved_point(&b.attributes, &b.material, b.x, b.y, b.depth, b.covered, view);
+        const ShadingPoint p = resolved_point(&b.attributes, &b.material, b.x, b.y, b.depth, b.covered, view);
         keep_light(&e, &b, base_light(&p, &b.material, b.covered, &lights, view));
       }
       if (image) show_edges(&e, background, image);

@@ -19,14 +19,15 @@
 // Of pixels of one surface: the mean over the samples that have sums of their own.
 static inline Real3 shown_by_block(const Attributes* a, const Surface* s, real depth, mask_t covered,
                                    global const light_channel_t* first, global const light_channel_t* second,
-                                   float scale, LightBufferParams of, const ResolveLights* lights, uint x, uint y,
-                                   constant ViewParams* view) {
+                                   float scale, LightBufferParams of, const ResolveLights* lights, uint x,
+                                   uint y, constant ViewParams* view) {
   Real3 shown = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
 #pragma unroll 1
   for (uint sample = 0; sample < READ_SAMPLES; ++sample) {
     size_t at[16];
     for (uint i = 0; i < 16; ++i)
-      at[i] = ((size_t)min(y + i / 4, view->height - 1) * view->width + min(x + i % 4, view->width - 1)) * SAMPLES +
+      at[i] = ((size_t)min(y + i / 4, view->height - 1) * view->width + min(x + i % 4, view->width - 1)) *
+                  SAMPLES +
               sample;
     const Real3 one = radiance_of_sums(a, s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,
                                        covered, stored_sums(first, second, scale, at), of, lights, view);

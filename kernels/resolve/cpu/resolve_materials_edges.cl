@@ -1,6 +1,7 @@
-// Radiance of pixels at edges under the sums of light of their samples, for CPUs: a work-item takes a tile, 16
-// surfaces at a time (kernels/resolve/edge_surfaces.h). A surface is resolved once a pixel, at its centroid,
-// and shows the mean of its light under the sums of each sample that sees it. Other pixels keep their colours.
+// Radiance of pixels at edges under the sums of light of their samples, for CPUs: a work-item takes a tile,
+// 16 surfaces at a time (kernels/resolve/edge_surfaces.h). A surface is resolved once a pixel, at its
+// centroid, and shows the mean of its light under the sums of each sample that sees it. Other pixels keep
+// their colours.
 //
 // triangles, depths, edges  as edge_surfaces.h says
 // RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h; of the lights only directional ones are read

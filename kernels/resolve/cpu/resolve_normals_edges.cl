@@ -1,6 +1,6 @@
 // The normals of pixels at edges into an image of samples, for CPUs: each surface's once a pixel, as
-// resolve/cpu/resolve_gbuffer_edges.cl stores surfaces. Other pixels, and samples without a surface, keep what
-// resolve_normals stored.
+// resolve/cpu/resolve_gbuffer_edges.cl stores surfaces. Other pixels, and samples without a surface, keep
+// what resolve_normals stored.
 //
 // triangles, depths, edges  kernels/resolve/edge_surfaces.h
 // RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h; no lights are read

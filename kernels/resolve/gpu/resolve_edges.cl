@@ -37,8 +37,7 @@ kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global 
     trace_from(&traced, 1, r.x, r.y, r.depth, view);
     trace_from_triangle(&traced, r.triangle, triangle_instance, 1);
 #endif
-    const Real3 shown =
-        radiance(&r.attributes, &r.material, r.x, r.y, r.depth, 1, &lights, bin_edges, view);
+    const Real3 shown = radiance(&r.attributes, &r.material, r.x, r.y, r.depth, 1, &lights, bin_edges, view);
     color = add_light(color, (float3)(shown.x, shown.y, shown.z), share_of(r.samples));
   }
   ((global float4*)image)[at] = averaged(color);

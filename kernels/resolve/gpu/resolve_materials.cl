@@ -26,9 +26,8 @@ kernel void resolve_materials(global const uint* triangles, global const float* 
     Real3 shown = real3(0.0f, 0.0f, 0.0f);
     for (uint sample = 0; sample < READ_SAMPLES; ++sample) {
       const size_t in_buffer = at * SAMPLES + sample;
-      const Real3 one =
-          radiance_of_sums(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depths[at], 1,
-                           stored_sums(first, second, scale, &in_buffer), of, &lights, view);
+      const Real3 one = radiance_of_sums(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depths[at], 1,
+                                         stored_sums(first, second, scale, &in_buffer), of, &lights, view);
       shown = add3(shown, scale3(one, 1.0f / READ_SAMPLES));
     }
     color = (float4)(shown.x, shown.y, shown.z, 1.0f);

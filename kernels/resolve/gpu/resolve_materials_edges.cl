@@ -1,5 +1,5 @@
-// Radiance of pixels at edges under the sums of light of their samples, for GPUs: a work-item a pixel, surface
-// after surface. As resolve/cpu/resolve_materials_edges.cl, with the same arguments.
+// Radiance of pixels at edges under the sums of light of their samples, for GPUs: a work-item a pixel,
+// surface after surface. As resolve/cpu/resolve_materials_edges.cl, with the same arguments.
 #define FUSED  // shared/real.h
 #define LANES 1
 #include "kernels/resolve/pixel_surfaces.h"
