@@ -76,7 +76,7 @@ TEST(HuntOfCases, FindsNothingInTheLibraryAndDependsOnTheSeedAlone) {
   EXPECT_GE(first.total().contacts, 100'000u);
 }
 
-TEST(HuntOfCases, FindsASampleThatShowsAnothersTriangle) {
+TEST(HuntOfFaults, FindsASampleThatShowsAnothersTriangle) {
   AlteredLibrary engine;
   engine.of_images = [](RasterImage& image, int samples) {
     for (size_t i = 1; i < image.triangles.size(); i += size_t(samples))
@@ -85,19 +85,19 @@ TEST(HuntOfCases, FindsASampleThatShowsAnothersTriangle) {
   expect_found("^coverage$", engine);
 }
 
-TEST(HuntOfCases, FindsListsOfCentres) {
+TEST(HuntOfFaults, FindsListsOfCentres) {
   AlteredLibrary engine;
   engine.lists_of_centres = true;
   expect_found("^edge_lists$", engine);
 }
 
-TEST(HuntOfCases, FindsAnIndexThatLosesItsHighByte) {
+TEST(HuntOfFaults, FindsAnIndexThatLosesItsHighByte) {
   AlteredLibrary engine;
   engine.of_indices = [](uint32_t& index) { index &= 255; };
   expect_found("^packings$", engine);
 }
 
-TEST(HuntOfCases, FindsAWrongOrder) {
+TEST(HuntOfFaults, FindsAWrongOrder) {
   AlteredLibrary engine;
   engine.of_indices = [](uint32_t& index) { index = index == 0 ? 1 : index == 1 ? 0 : index; };
   expect_found("^priority$", engine);
