@@ -61,7 +61,7 @@ TEST(KernelForms, DrawTheSameBytes) {
                                          {"rooms", "visibility:list-cap=8,list-cap-order=sampled"},
                                          {"rooms", "visibility:samples=4,list-cap=8,list-cap-order=tree"},
                                          {"spheres", "forward_plus_compute"},
-                                         {"spheres", "deferred_tiled:samples=4"}}) {
+                                         {"spheres", "deferred_tiled:raster=opencl,samples=4"}}) {
     const std::string image = image_of_form("avx512", caches.path, scene, technique);
     EXPECT_THAT(image, HasSubstr("channels"));
     for (const char* form : {"avx2", "sse2"})
