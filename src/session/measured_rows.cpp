@@ -102,7 +102,10 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
   }
   compared.tell(0.8, fmt::format("reference: {}", every_light_on(true)));
   const auto failure = failure_of([&] {
-    const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, planned_settings(*own), true);
+    // With the reference's samples: surfaces are held against the same number of them.
+    const Settings settings =
+        with_samples(own->contestant->settings, m.reference.run().view().plan.settings.samples);
+    const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, settings, true);
     run->run_frame(true);
     m.every_light_on_own = run->take_image();
     ImageError error = error_of(m.every_light_on_own, m);
@@ -110,7 +113,7 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
     error.silhouettes =
         silhouette_error(m.every_light_on_own, own_triangles(*run), m.reference.image, m.triangles.shown);
     report.own_surfaces->error = std::move(error);
-    draw_every_light_with_samples(compared, entries, true, sampled_by(true, planned_settings(*own)), m);
+    draw_every_light_with_samples(compared, entries, true, sampled_by(true, settings), m);
   });
   if (failure) report.own_surfaces->why_not = failure->what(), m.every_light_on_own = {};
 }

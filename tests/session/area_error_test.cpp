@@ -106,6 +106,19 @@ TEST(AreaError, IsMeasuredOnlyWhereARowHasSamples) {
   EXPECT_FALSE(report.rows[0].error->area);
 }
 
+// Else what samples change at edges would be told of the rasteriser.
+TEST(AreaError, OfOpenClsSurfacesIsAgainstAsManySamplesAsTheReferenceHas) {
+  const Scene scene = in_the_sun().scene;
+  const CompareReport one = compared_samples(scene, {1}), four = compared_samples(scene, {4});
+  ASSERT_TRUE(one.own_surfaces && one.own_surfaces->error && four.own_surfaces && four.own_surfaces->error);
+  EXPECT_EQ(four.own_surfaces->error->rmse, one.own_surfaces->error->rmse);
+  EXPECT_EQ(four.own_surfaces->error->silhouettes->silhouettes,
+            one.own_surfaces->error->silhouettes->silhouettes);
+  ASSERT_TRUE(four.rows[0].same_surfaces && four.rows[0].error);
+  EXPECT_TRUE(four.rows[0].same_surfaces->bit_identical) << "against every light on four samples";
+  EXPECT_GT(four.rows[0].error->rmse, 10 * four.own_surfaces->error->rmse);
+}
+
 // Two pictures of the mean: by rays in double, and by the rasteriser at 16 times the size, shadows included.
 TEST(AreaTruth, IsThePictureAtSixteenTimesTheSize) {
   const SmallScene s = small_scene_of_casters();
