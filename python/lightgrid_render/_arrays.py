@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 import os
 import tempfile
-from typing import Any, Sequence
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 
@@ -199,7 +199,10 @@ def as_lights(value: Any) -> np.ndarray:
     """An array of lights, from one, or from dictionaries."""
     if isinstance(value, np.ndarray) and value.dtype == light_dtype:
         return np.ascontiguousarray(value.reshape(-1))
-    rows = [lights(1, **row) for row in value]
+    given = list(value)
+    if not all(isinstance(row, Mapping) for row in given):
+        raise InputError("lights: neither an array of light_dtype nor dictionaries of its columns", "lights")
+    rows = [lights(1, **row) for row in given]
     made = np.zeros(len(rows), light_dtype)  # np.concatenate would leave out the gaps between fields
     for i, row in enumerate(rows):
         made[i] = row[0]

@@ -13,7 +13,7 @@ import numpy as np
 from . import _arrays as arrays
 from ._arrays import Camera, Image, Projection, c_image, output
 from ._c import check, encoded, ffi, in_callbacks, lib, made, strings, text, word, words
-from ._scene import Scene
+from ._scene import Scene, handle_of
 
 
 class Device:
@@ -61,7 +61,7 @@ class Device:
         """The nearest opaque triangle's number at each pixel (0xffffffff: none), and its depth; the top row first."""
         width, height = projection.size
         triangles, depth = np.empty((height, width), np.uint32), np.empty((height, width), np.float32)
-        check(lib.lightgrid_rasterize(self._handle, scene._handle, projection._c(),
+        check(lib.lightgrid_rasterize(self._handle, handle_of(scene), projection._c(),
                                       c_image(triangles, "triangles", "R_U32"), c_image(depth, "depth", "R_F32")))
         return triangles, depth
 
@@ -82,11 +82,11 @@ class Device:
         def step(done: float, what: Any, _: Any) -> int:
             return int(bool(tell and tell(done, text(what))))
 
-        chosen = ffi.NULL if techniques is None else strings(techniques)
+        chosen = ffi.NULL if techniques is None else strings([techniques] if isinstance(techniques, str) else techniques)
         try:
             with in_callbacks():
                 handle = made("lightgrid_report", lib.lightgrid_report_free, lambda out: lib.lightgrid_compare(
-                    self._handle, scene._handle, chosen, words(fields), step, ffi.NULL, out))
+                    self._handle, handle_of(scene), chosen, words(fields), step, ffi.NULL, out))
         except Exception:
             if raised:
                 raise raised[0] from None
@@ -105,7 +105,7 @@ class View:
         name = ffi.NULL if technique is None else technique.encode()
         self.device, self.scene = device, scene
         self._handle = made("lightgrid_view", lib.lightgrid_view_close, lambda out: lib.lightgrid_view_open(
-            device._handle, scene._handle, name, words(settings), out))
+            device._handle, handle_of(scene), name, words(settings), out))
 
     @property
     def size(self) -> tuple[int, int]:

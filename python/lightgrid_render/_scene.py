@@ -19,7 +19,7 @@ def _fields(fields: Mapping[str, Any]) -> Any:
     for name, value in fields.items():
         if value is None:
             continue
-        if name == "size" and not isinstance(value, str):
+        if name == "size" and np.iterable(value) and not isinstance(value, str):
             value = "x".join(word(v) for v in value)
         elif name == "camera":
             value = arrays.camera_word(value)
@@ -178,3 +178,9 @@ class Scene:
     def projection(self, size: Sequence[int], which: Any = None) -> Projection:
         """What camera() gives, for an image of this width and height."""
         return self.camera(which, size[0] / size[1] if size[1] else 0).project(size)
+
+
+def handle_of(scene: Any) -> Any:
+    if not isinstance(scene, Scene):
+        raise InputError(f"scene: {scene!r} is no Scene, such as Scene('hall')", "scene")
+    return scene._handle
