@@ -33,7 +33,9 @@ Renderer::~Renderer() {
 }
 
 void Renderer::require_gl() const {
-  if (!gl) throw machine_error("{}; only the technique visibility draws without OpenGL", why_no_gl);
+  if (!gl)
+    throw machine_error("{}; visibility draws without it, and so do techniques with raster=opencl",
+                        why_no_gl);
 }
 
 const GlProgram& Renderer::program(const std::string& vertex, const std::string& fragment,
