@@ -18,7 +18,7 @@ from ._scene import Scene, handle_of
 
 class Device:
     """Device(): an OpenCL device, a GPU if there is one, and OpenGL where it can be had. opengl: "auto", "egl", "osmesa", or
-    "none": OpenCL alone, for the technique visibility, light lists and rasterising."""
+    "none": OpenCL alone, for visibility, techniques with raster="opencl", light lists and rasterising."""
 
     def __init__(self, name: str | None = None, opengl: str = "auto") -> None:
         wish = ffi.NULL if name is None else name.encode()
@@ -82,7 +82,9 @@ class Device:
         def step(done: float, what: Any, _: Any) -> int:
             return int(bool(tell and tell(done, text(what))))
 
-        chosen = ffi.NULL if techniques is None else strings([techniques] if isinstance(techniques, str) else techniques)
+        if isinstance(techniques, str):
+            techniques = [techniques]
+        chosen = ffi.NULL if techniques is None else strings(techniques)
         try:
             with in_callbacks():
                 handle = made("lightgrid_report", lib.lightgrid_report_free, lambda out: lib.lightgrid_compare(
