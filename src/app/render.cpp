@@ -9,8 +9,11 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "base/error.h"
+#include "base/log.h"
+#include "base/timer.h"
 #include "plan/plan_changes.h"
 #include "results/path_changes.h"
+#include "results/words.h"
 #include "session/contestants.h"
 #include "session/technique_run.h"
 
@@ -79,6 +82,11 @@ int render(RenderOptions o) {
   const Exposure exposure = chosen_exposure(o.scene, run.image());
   tell_exposure(exposure);
   save_image(o.output, run.image(), exposure);
+  if (o.timing.frames > 1) {
+    const double ms = spread_of(run.frame_ms()).median;
+    log_info("a frame takes {} ms: {} frames a second (median of {})", short_number(ms),
+             short_number(1000 / ms), o.timing.frames);
+  }
   if (!o.json.empty()) {
     run.run_profiled_frames();
     nlohmann::json json = to_json(run.result());

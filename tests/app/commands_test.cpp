@@ -75,6 +75,7 @@ TEST(RenderCommand, PrintsOneRowOfResultsOnStdout) {
   EXPECT_EQ(row["settings"]["tile"], 32);
   EXPECT_EQ(row["lights"]["total"], 1024);
   EXPECT_EQ(row["frame_ms"]["runs"], 3);
+  EXPECT_NE(run.err.find("frames a second (median of 3)"), std::string::npos) << run.err;
   EXPECT_EQ(row["nan_pixels"], 0);
 }
 
