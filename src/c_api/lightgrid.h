@@ -129,8 +129,8 @@ lightgrid_status lightgrid_flip(const lightgrid_image* image, const lightgrid_im
 /* ---- Devices ---- */
 
 /* `name`: a part of the OpenCL device's name, or "#2"; null or empty: a GPU if there is one, else the first.
- * `opengl`: "auto", "egl", "osmesa", or "none": OpenCL alone, which the technique `visibility`, lists and
- * rasterising need. */
+ * `opengl`: "auto", "egl", "osmesa", or "none": OpenCL alone, which is enough for `visibility`, techniques with
+ * raster=opencl, lists and rasterising. */
 lightgrid_status lightgrid_device_open(const char* name, const char* opengl, lightgrid_device** device);
 void lightgrid_device_close(lightgrid_device* device);
 /* The OpenCL device's name, and the OpenGL renderer's, empty without one; valid as long as the device. Null
