@@ -149,7 +149,7 @@ enum class DepthFormat { d32f, d24, d16 };
 
 // shared/cull_settings.h describes the choices and their sources.
 struct CullerOptions {
-  CullTest cull_test = default_cull_test;                  // of a light against a cell
+  CullTest cull_test = default_cull_test;  // of a light against a cell: a name of shared/cull_tests.h
   DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;  // what of its depths a tile keeps
   KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the grid is the same
   int tile = 16;                               // pixels a side: 8, 16, 32 or 64
