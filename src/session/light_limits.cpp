@@ -157,11 +157,13 @@ class LimitCount {
   Lights take(LimitPlace place, const Lights& lights) {
     if (limit_.kinds != LimitKinds::each) return take_kind(place, lights);
     Lights kinds[2], dropped;
+    const size_t over_before = over_;
     for (const int i : lights) kinds[has_cone(frame_.in_view[size_t(i)])].push_back(i);
     for (int spots = 0; spots < 2; ++spots) {
       place.kind = spots ? "spots" : "points";
       for (const int i : take_kind(place, kinds[spots])) dropped.push_back(i);
     }
+    over_ = std::min(over_, over_before + 1);  // one place, even if both kinds are over
     return dropped;
   }
 

@@ -156,6 +156,17 @@ TEST(LightLimits, AMeshTakesSoManyOfTheLightsThatReachIt) {
   }
 }
 
+TEST(LightLimits, AMeshWithTooManyPointsAndTooManySpotsIsOnePlace) {
+  Level level;
+  for (int i = 0; i < 9; ++i) {
+    level.spot({0, 0, -11.9f}, {0, 0, -13}, 1);
+    level.point({0, 0, -11.9f}, 1);
+  }
+  const LimitResult result = result_of(level, "godot-mobile/mesh");
+  EXPECT_EQ(result.places_over, 1u);
+  EXPECT_EQ(result.dropped.size(), 2u);
+}
+
 TEST(LightLimits, ALightReachesAMeshAsTheEngineSays) {
   Level level;
   // 1 m from the wall's corner along each axis: out of a range of 1.5 m, but their boxes meet.
