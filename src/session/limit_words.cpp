@@ -20,18 +20,23 @@ std::string places_of(size_t count, LimitScope scope) {
   return fmt::format("{} {}", count, names[kind + (count != 1)]);
 }
 
+// Many files name neither nodes nor lights.
+std::string numbered(const char* kind, int number, const std::string& name) {
+  return name.empty() ? fmt::format("{} {}", kind, number) : fmt::format("{} {} \"{}\"", kind, number, name);
+}
+
 }  // namespace
 
 std::string words_of(const LimitPlace& place, const Scene& scene) {
   std::string words = fmt::format("frame {}", place.frame);
   if (place.instance >= 0)
-    words += fmt::format(", mesh {} \"{}\"", place.instance, scene.instances[size_t(place.instance)].name);
+    words += ", " + numbered("mesh", place.instance, scene.instances[size_t(place.instance)].name);
   if (place.cell.x >= 0) words += fmt::format(", cell {},{},{}", place.cell.x, place.cell.y, place.cell.z);
   return words;
 }
 
 std::string name_of_light(int light, const Scene& scene) {
-  return fmt::format("light {} \"{}\"", light, scene.lights[size_t(light)].name);
+  return numbered("light", light, scene.lights[size_t(light)].name);
 }
 
 std::string words_of(const DroppedLight& dropped, const EngineLimit& limit, const Scene& scene) {
