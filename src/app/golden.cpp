@@ -119,7 +119,7 @@ int record(const GoldenOptions& o) {
                                {"scenes", scenes}};
     const std::filesystem::path path = std::filesystem::path(o.folder) / golden_file;
     write_file(path, file.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
-    fmt::print("{}: {} views\n", path.string(), count);
+    fmt::print("{}: {} {}\n", path.string(), count, count == 1 ? "view" : "views");
     return 0;
   });
 }
@@ -172,18 +172,26 @@ std::vector<RecordedScene> read_golden(const std::filesystem::path& path) {
   }
 }
 
-std::string junit_text(const std::vector<CheckedView>& checked) {
+// An error ends a check before its last view.
+struct GoldenError {
+  std::string scene, message;
+};
+
+std::string junit_text(const std::vector<CheckedView>& checked, const std::optional<GoldenError>& error) {
   const auto differ = std::ranges::count_if(checked, [](const CheckedView& c) { return !c.stage.empty(); });
   std::string text = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"lightgrid golden\" tests=\"{}\" "
-      "failures=\"{}\">\n",
-      checked.size(), differ);
-  for (const CheckedView& c : checked) {
-    text += fmt::format("  <testcase classname=\"golden\" name=\"{}\"", xml_escaped(c.name));
-    text += c.stage.empty() ? "/>\n"
-                            : fmt::format("><failure type=\"{}\" message=\"{}\"/></testcase>\n", c.stage,
-                                          xml_escaped(c.message));
-  }
+      "failures=\"{}\" errors=\"{}\">\n",
+      checked.size() + error.has_value(), differ, int(error.has_value()));
+  const auto add_case = [&](const std::string& name, const std::string& fault) {
+    text += fmt::format("  <testcase classname=\"golden\" name=\"{}\"{}\n", xml_escaped(name),
+                        fault.empty() ? "/>" : ">" + fault + "</testcase>");
+  };
+  for (const CheckedView& c : checked)
+    add_case(c.name, c.stage.empty() ? ""
+                                     : fmt::format("<failure type=\"{}\" message=\"{}\"/>", c.stage,
+                                                   xml_escaped(c.message)));
+  if (error) add_case(error->scene, fmt::format("<error message=\"{}\"/>", xml_escaped(error->message)));
   return text + "</testsuite>\n";
 }
 
@@ -242,21 +250,29 @@ int check(const GoldenOptions& o) {
   const std::string path = (std::filesystem::path(o.folder) / golden_file).string();
   const std::vector<RecordedScene> scenes = read_golden(path);
   if (!o.output.empty()) make_folder(o.output);
+  const bool lines_on_stdout = o.json != "-" && o.junit != "-" && o.sarif != "-";
   std::vector<CheckedView> checked;
   for (size_t s = 0; s < scenes.size(); ++s) {
     const RecordedScene& scene = scenes[s];
     size_t drawn = 0;
-    draw_views(scene.golden, o.devices, [&](size_t i, TechniqueRun& run) {
-      ++drawn;
-      if (i >= scene.views.size()) return;
-      const CheckedView& c = checked.emplace_back(checked_view(o, scene, picture_name(s, i), i, run));
-      if (o.json != "-") fmt::print("{}: {}\n", c.name, c.difference ? c.message : "same");
-    });
-    if (drawn != scene.views.size())
-      throw input_error("{}: scenes[{}].views: {} are recorded, and {} were drawn", path, s,
-                        scene.views.size(), drawn);
+    try {
+      draw_views(scene.golden, o.devices, [&](size_t i, TechniqueRun& run) {
+        ++drawn;
+        if (i >= scene.views.size()) return;
+        const CheckedView& c = checked.emplace_back(checked_view(o, scene, picture_name(s, i), i, run));
+        if (lines_on_stdout) fmt::print("{}: {}\n", c.name, c.difference ? c.message : "same");
+      });
+      if (drawn != scene.views.size())
+        throw input_error("{}: scenes[{}].views: {} are recorded, and {} were drawn", path, s,
+                          scene.views.size(), drawn);
+    } catch (const Error& error) {
+      // A report of an earlier run must not stand for this one.
+      if (!o.junit.empty())
+        write_json(o.junit, junit_text(checked, GoldenError{scene.golden.choice.scene, error.what()}));
+      throw;
+    }
   }
-  if (!o.junit.empty()) write_json(o.junit, junit_text(checked));
+  if (!o.junit.empty()) write_json(o.junit, junit_text(checked, {}));
   if (!o.sarif.empty()) write_json(o.sarif, sarif(checked, path).dump(1));
   if (!o.json.empty()) {
     ordered_json views;
@@ -266,12 +282,34 @@ int check(const GoldenOptions& o) {
   return std::ranges::any_of(checked, [](const CheckedView& c) { return c.difference.has_value(); });
 }
 
+// An option of the other action would change nothing, and a script would take its result for another's.
+void refuse_options_of_record(const GoldenOptions& o) {
+  if (o.pictures) throw input_error("golden check: --pictures: is an option of record; see -o");
+  std::string given;
+  const ordered_json choice = choice_json(o.scene);
+  if (!choice.empty()) given = "--" + choice.begin().key();
+  if (!o.scene.set.empty()) given = "--set";
+  if (o.technique != GoldenOptions().technique) given = "--technique";
+  if (!given.empty())
+    throw input_error("golden check: {}: is an option of record; views are drawn as {} says", given,
+                      golden_file);
+}
+
+void refuse_options_of_check(const GoldenOptions& o) {
+  for (const auto& [option, value] :
+       {std::pair{"--output", o.output}, {"--json", o.json}, {"--junit", o.junit}, {"--sarif", o.sarif}})
+    if (!value.empty()) throw input_error("golden record: {}: is an option of check", option);
+}
+
 int golden(const GoldenOptions& o) {
   if (o.folder.empty()) throw input_error("golden: DIR is missing: the folder of {}", golden_file);
   parse_gl_backend(o.devices.gl);
-  if (o.action == "record") return record(o);
+  if (o.action == "record") {
+    refuse_options_of_check(o);
+    return record(o);
+  }
   if (o.action != "check") throw input_error("golden {}: is neither record nor check", o.action);
-  if (o.pictures) throw input_error("golden check: --pictures: is an option of record; see -o");
+  refuse_options_of_record(o);
   if (!o.scenes.empty()) throw input_error("golden check: {}: takes no scene but DIR's", o.scenes.front());
   return check(o);
 }
@@ -296,8 +334,8 @@ void add_golden(CommandLine& line) {
   command.flag("--pictures", o->pictures, "of record: stores each view's pixels too, as DIR/SCENE_VIEW.exr");
   command.option("-o,--output", o->output, "of check: folder for the pictures of views that differ");
   command.option("--json", o->json, "of check: results as JSON into a file, - for stdout");
-  command.option("--junit", o->junit, "of check: results as JUnit XML into a file");
-  command.option("--sarif", o->sarif, "of check: differences as SARIF 2.1.0 into a file");
+  command.option("--junit", o->junit, "of check: results as JUnit XML into a file, - for stdout");
+  command.option("--sarif", o->sarif, "of check: differences as SARIF 2.1.0 into a file, - for stdout");
 }
 
 }  // namespace lightgrid

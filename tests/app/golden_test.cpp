@@ -308,6 +308,38 @@ TEST_F(Golden, BrokenFilesAreErrorsOfTheirField) {
   EXPECT_EQ(run_program({"golden", "check", folder->path, "--pictures"}).status, 2);
 }
 
+TEST_F(Golden, OptionsOfTheOtherActionAreRefused) {
+  const auto refuses = [](const std::vector<std::string>& arguments, const std::string& message) {
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.status, 2) << run.out;
+    EXPECT_THAT(run.err, HasSubstr(message));
+  };
+  const std::string path = folder->path;
+  refuses({"golden", "check", path, "--size", "64x36"}, "golden check: --size: is an option of record");
+  refuses({"golden", "check", path, "--set", "tile=8"}, "golden check: --set: is");
+  refuses({"golden", "check", path, "-t", "forward_plus"}, "golden check: --technique: is");
+  const TempFolder none;
+  refuses({"golden", "record", none.path, "spheres", "-o", path},
+          "golden record: --output: is an option of check");
+  EXPECT_FALSE(std::filesystem::exists(none.path / "golden.json"));
+}
+
+TEST_F(Golden, AnErrorIsInTheJUnitFile) {
+  json golden = recorded();
+  golden["scenes"].push_back(golden["scenes"][0]);
+  golden["scenes"][1]["scene"] = "gone.gltf";
+  const TempFolder out;
+  EXPECT_EQ(check(golden, {"--junit", out.path / "a.xml"}).status, 2);
+  const std::string text = file_bytes(out.path / "a.xml");
+  EXPECT_THAT(text, HasSubstr("tests=\"2\" failures=\"0\" errors=\"1\""));
+  EXPECT_THAT(text, HasSubstr("name=\"gone.gltf\"><error message=\"gone.gltf: no such file"));
+}
+
+TEST_F(Golden, AFileOnStdoutIsAlone) {
+  EXPECT_TRUE(check(recorded(), {"--junit", "-"}).out.starts_with("<?xml"));
+  EXPECT_TRUE(json::accept(check(recorded(), {"--sarif", "-"}).out));
+}
+
 // Recorded once with PoCL 3.1; the bytes are promised for every processor. After a change that means to draw
 // something else, record them again: docs/golden.md#our-own.
 TEST(GoldenHashes, OfTheBuiltinScenesHold) {
