@@ -1,10 +1,25 @@
 #include "app/findings.h"
 
+#include <fmt/format.h>
+
 #include "base/version.h"
 
 namespace lightgrid {
 
 using nlohmann::ordered_json;
+
+namespace {
+
+// A path as a URI: RFC 3986 percent-encodes all but these characters.
+std::string uri_of(const std::string& path) {
+  const std::string kept = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
+  std::string uri;
+  for (const char c : path)
+    uri += kept.find(c) != std::string::npos ? std::string(1, c) : fmt::format("%{:02X}", (unsigned char)c);
+  return uri;
+}
+
+}  // namespace
 
 ordered_json sarif_log(const std::string& tool, const std::vector<FindingRule>& rules,
                        const std::vector<Finding>& findings) {
@@ -15,7 +30,7 @@ ordered_json sarif_log(const std::string& tool, const std::vector<FindingRule>& 
     rule_list.push_back(entry);
   }
   for (const Finding& finding : findings) {
-    ordered_json location = {{"physicalLocation", {{"artifactLocation", {{"uri", finding.file}}}}}};
+    ordered_json location = {{"physicalLocation", {{"artifactLocation", {{"uri", uri_of(finding.file)}}}}}};
     if (!finding.object.empty())
       location["logicalLocations"] = ordered_json::array({{{"name", finding.object}, {"kind", "object"}}});
     results.push_back({{"ruleId", finding.rule},

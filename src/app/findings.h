@@ -15,7 +15,7 @@ struct FindingRule {
 
 struct Finding {
   std::string rule, message;
-  std::string file;    // that it is about
+  std::string file;    // that it is about: a path
   std::string object;  // within the file, such as a light; empty: the file
 };
 

@@ -274,6 +274,19 @@ TEST_F(Golden, ResultsAreFiles) {
     EXPECT_TRUE(std::filesystem::exists(out.path / "pictures" / name)) << name;
 }
 
+TEST_F(Golden, SarifNamesItsFileByAUri) {
+  json golden = recorded();
+  golden["scenes"][0]["set"] = {"window=none"};
+  const TempFolder parent;
+  const std::filesystem::path path = parent.path / "a b\xff";
+  std::filesystem::create_directory(path);
+  std::ofstream(path / "golden.json") << golden.dump();
+  const json sarif = json::parse(run_program({"golden", "check", path, "--sarif", "-"}, quick).out);
+  const json& location = sarif["runs"][0]["results"][0]["locations"][0]["physicalLocation"];
+  EXPECT_THAT(location["artifactLocation"]["uri"].get<std::string>(),
+              testing::EndsWith("/a%20b%FF/golden.json"));
+}
+
 TEST_F(Golden, BrokenFilesAreErrorsOfTheirField) {
   const auto fails = [](const json& golden, const std::string& message) {
     const ProgramRun run = check(golden);
