@@ -31,7 +31,7 @@ PICTURE = ROOT / "docs/images/frontier_planes.svg"
 CLOCKS = {"cpu": ("relative_time", "frame_ms", "fronts", "flip_front_bands", "controls", "cheapest_within_flip", "wall time"),
           "h100": ("relative_device_time", "device_ms", "device_fronts", "device_flip_front_bands", "device_controls",
                    "device_cheapest_within_flip", "device time")}
-NAMES = {"cpu": "two CPU cores", "h100": "H100"}
+NAMES = {"cpu": "16 CPU cores", "h100": "H100"}
 
 
 def answer_of(program, run):
@@ -261,14 +261,14 @@ class Plane:
 
 
 def picture_of(runs):
-    scenes = next(iter(runs.values())).answer["scenes"]
     out, rows = [], list(runs.values())
+    scenes = max((run.answer["scenes"] for run in rows), key=len)
     width, height = Plane.width * len(scenes), Plane.height * len(rows) + 52
     for r, run in enumerate(rows):
         times = [p[run.time]["estimate"] for s in run.answer["scenes"] for p in run.points(s)]
         ends = min(times) / 1.2, max(times) * 1.2
-        for s, scene in enumerate(run.answer["scenes"]):
-            Plane(run, scene, Plane.width * s, Plane.height * r, ends).draw(out)
+        for scene in run.answer["scenes"]:
+            Plane(run, scene, Plane.width * scenes.index(scene), Plane.height * r, ends).draw(out)
     y = Plane.height * len(rows) + 14
     out.append(f'<text x="{width / 2}" y="{y}" text-anchor="middle">time over forward_plus ({html.escape("; ".join(f"{NAMES[n]}: {r.clock}" for n, r in runs.items()))}); '
                "upwards: FLIP of the whole picture as displayed, against every light without a range</text>")
