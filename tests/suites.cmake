@@ -21,6 +21,9 @@ function(add_entry name filter)
      (folder IN_LIST optimised_folders OR suite MATCHES "PassCases$"))
     list(APPEND environment LIGHTGRID_CL_QUICK_BUILD=gpu)
   endif()
+  if(suite MATCHES "HardCasesOf$" AND (ARGN OR DEFINED ENV{LIGHTGRID_CL_QUICK_BUILD}))
+    list(APPEND environment LIGHTGRID_TEST_CPU_SHAPE=1)  # the CPU's shape of kernels alone
+  endif()
   set(labels ${folder})
   if(ARGN OR suite IN_LIST thorough_suites)
     list(APPEND labels thorough)  # left to ./lightgrid test --all

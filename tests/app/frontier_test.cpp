@@ -192,7 +192,7 @@ TEST(FrontierCommand, AnswersWhatAccuracyCostsResumesAndIsItsOwnGate) {
 }
 
 // Each of three runs of the program takes its share of the rounds of the same figures.
-TEST(FrontierCommand, SharesRoundsAmongProcesses) {
+TEST(FrontierProcesses, ShareRounds) {
   const TempFolder folder;
   const auto arguments = sweep(folder.path, "forward_plus,visibility", "6") +
                          std::vector<std::string>{"--no-growth", "--processes", "3"};
@@ -242,7 +242,7 @@ TEST(FrontierCommand, HoldsSamplesAgainstAreas) {
 // Exact shadows have no wrong pair and no error, without shadows light leaks, and what one estimate hides is
 // not counted. Where lights are spheres, more rays come nearer to the truth, and the shadows of points differ
 // from it.
-TEST(FrontierCommand, TellsWhatShadowsCost) {
+TEST(FrontierOfShadows, TellsWhatTheyCost) {
   const TempFolder folder;
   const auto answer_to = [&](const std::string& name, const std::vector<std::string>& more) {
     const fs::path out = folder.path / name;

@@ -23,8 +23,9 @@ struct HardCasesOf : testing::TestWithParam<const char*> {};
 std::vector<std::unique_ptr<CullEngine>>& engines() {
   static auto* const all = [] {
     auto* const made = new std::vector<std::unique_ptr<CullEngine>>;
-    // The shape for GPUs has one form, which the run without POCL_KERNELLIB_NAME holds.
-    made->push_back(device_engine("", {}, std::getenv("POCL_KERNELLIB_NAME") == nullptr));
+    // The shape for GPUs has one form, which the run without POCL_KERNELLIB_NAME holds; in the first tier the
+    // tests of culling do (tests/suites.cmake).
+    made->push_back(device_engine("", {}, std::getenv("LIGHTGRID_TEST_CPU_SHAPE") == nullptr));
     return made;
   }();
   return *all;

@@ -32,7 +32,9 @@ int difference_beside_notes(const PngPixels& a, const PngPixels& b) {
 const std::string coarse_maps =
     "0 technique visibility\n0 shadows all\n0 set right shadows=map\n0 set right shadow-size=16\n";
 
-TEST_F(ViewInDisplay, AClickTellsWhatHidesEachLightAsInspectDoes) {
+class ViewShadowsInDisplay : public ViewInDisplay {};
+
+TEST_F(ViewShadowsInDisplay, AClickTellsWhatHidesEachLightAsInspectDoes) {
   const std::string script = coarse_maps + "1 click 60 40\n2 pixel " + (folder_.path / "pixel.txt").string() +
                              "\n2 casting " + (folder_.path / "casting.txt").string() + "\n";
   const CommandOutcome run = run_in_display(view_words(folder_, script, 3, ""));
@@ -83,7 +85,7 @@ TEST_F(ViewInDisplay, AClickTellsWhatHidesEachLightAsInspectDoes) {
   }
 }
 
-TEST_F(ViewInDisplay, MapsOfLeakedAndAcnedPairsAreThoseOfInspect) {
+TEST_F(ViewShadowsInDisplay, MapsOfLeakedAndAcnedPairsAreThoseOfInspect) {
   const std::string script =
       coarse_maps + "0 set shadows=map\n0 set shadow-size=16\n0 map left leaked\n0 map right acned\n";
   const CommandOutcome run = run_in_display(view_words(folder_, script, 4, ""));
@@ -111,7 +113,7 @@ TEST_F(ViewInDisplay, MapsOfLeakedAndAcnedPairsAreThoseOfInspect) {
 }
 
 // Each step's picture, saved with F12, is that of `render`.
-TEST_F(ViewInDisplay, ShadowsAreChosenWhileItRuns) {
+TEST_F(ViewShadowsInDisplay, ShadowsAreChosenWhileItRuns) {
   struct Step {
     std::string actions;                // beside those of the steps before
     std::vector<std::string> rendered;  // with these words; empty: as the step `same_as`
