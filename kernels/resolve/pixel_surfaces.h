@@ -4,9 +4,7 @@
 
 #include "kernels/resolve/resolve.h"
 #include "kernels/resolve/samples.h"
-
-// edges: a bit a pixel, 16 in a value.
-static inline bool at_edge(global const ushort* edges, uint at) { return edges[at / 16] >> (at & 15u) & 1u; }
+#include "kernels/resolve/stored_samples.h"
 
 // The samples of a pixel that see no surface, a bit each.
 static inline uint missed_samples(global const uint* triangles, uint at) {

@@ -12,7 +12,7 @@
 #if LANES == 16
 typedef struct TexelPlaces {
   uint count;
-  uint lane[16 * SAMPLES], at[16 * SAMPLES];  // of texels in turn: whose they are, and their place
+  uint lane[16 * SAMPLES], at[16 * SAMPLES];  // of each texel: the lane of its surface, and its place
 } TexelPlaces;
 
 // samples: those of the pixel that see the lane's surface, a bit each.

@@ -41,8 +41,8 @@ class Resolver : public PassCache {
 
   size_t memory_bytes() const override { return scene_bytes_; }
 
-  // NVIDIA's compiler gives
-  // these kernels 80 registers and more. Then too few groups run side by side to hide the memory's latency.
+  // NVIDIA's compiler gives these kernels 80 registers and more. Then too few groups run side by side to hide
+  // the memory's latency.
   NamedKernel& kernel(Work& work, const char* stem, const std::string& more_defines = "") {
     const bool limit = work.renderer.cl->info().platform == "NVIDIA CUDA";
     return kernels_.of(stem, more_defines + (limit ? " -cl-nv-maxrregcount=64" : ""));
@@ -148,10 +148,11 @@ cl_float4 background(const Seen& seen) {
 
 }  // namespace
 
-// Over what another kernel left: the pixels whose samples see several surfaces. traced: before all arguments.
+// Runs the kernel `stem` over pixels whose samples see several surfaces; others keep what an earlier kernel
+// wrote. lights: null where it reads no lists. traced: arguments that come first.
 static void over_edges(Work& work, Resolver& r, const VisibilityBuffer& visible, const char* stem,
-                       const std::string& defines, const ClArguments& images, const ClLightLoop& loop = {},
-                       const ClArguments& traced = {}) {
+                       const std::string& defines, const ClArguments& images,
+                       const LightSource* lights = nullptr, const ClArguments& traced = {}) {
   NamedKernel& kernel = r.kernel(work, stem, defines);
   auto pass = work.timer.pass(stem, "cl");
   r.launch(work, kernel, stem,
@@ -159,8 +160,9 @@ static void over_edges(Work& work, Resolver& r, const VisibilityBuffer& visible,
                ClArguments{{"triangles", visible.image.triangle},
                            {"depths", visible.image.depth},
                            {"edges", visible.pixels->edges}} +
-               r.arguments(work, visible.raster, visible.surfaces, loop) + images);
-  pass.moves(work.grid().pixels() / 8 + r.scene(work).memory_bytes(), 0);
+               r.arguments(work, visible.raster, visible.surfaces, lights ? *lights->in_cl : ClLightLoop()) +
+               images);
+  pass.moves(work.grid().pixels() / 8 + (lights ? lights->bytes : 0) + r.scene(work).memory_bytes(), 0);
 }
 
 static std::string averages(const Settings& settings) {
@@ -185,7 +187,7 @@ ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer&
   over_edges(work, r, visible, "resolve_edges",
              lights.in_cl->defines + sample_defines(work.grid().samples) + averages(work.plan.settings) +
                  (traced.empty() ? "" : work.shadows.traced_defines),
-             {{"background", background(work)}, {"image", r.image.cl_buffer()}}, *lights.in_cl, traced);
+             {{"background", background(work)}, {"image", r.image.cl_buffer()}}, &lights, traced);
   return {0, &r.image};
 }
 

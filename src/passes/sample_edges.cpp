@@ -84,7 +84,7 @@ cl::Buffer sample_edges(Work& work, Cached<SampleEdges>& cache, const StoredSurf
   if (work.plan.settings.samples_shading == SamplesShading::edges)
     edges = surfaces.edges() ? surfaces.edges : cache.of(work).find(work, surfaces, depth);
   size_t bytes = work.grid().values() * bytes_a_sample;
-  // Of find_edges, which has triangle numbers, and a surface a pixel.
+  // find_edges adds a triangle a sample, and a triangle and a depth a pixel.
   if (surfaces.edges()) bytes += work.grid().values() * 4 + work.grid().pixels() * 8;
   frame.sample_figures = [&work, edges, depth, bytes] { return figures_of_edges(work, edges, depth, bytes); };
   return edges;

@@ -109,7 +109,7 @@ class LimitCount {
              std::unordered_map<int, size_t>& numbers)
       : frame_(frame), limit_(*result.limit), number_(number), result_(result), numbers_(numbers) {}
 
-  // `kept`: those of the engine's earlier limits; this one removes what it drops from the view.
+  // kept: the lights that the engine's earlier limits left. What this one drops from the view is removed.
   void run(Lights& kept) {
     const Lights lights = of_kinds(limit_.of == LimitOf::scene  ? frame_.all
                                    : limit_.of == LimitOf::seen ? frame_.seen
