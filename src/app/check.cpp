@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 
@@ -270,13 +271,24 @@ std::string text_of(const ordered_json& json) {
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
+// Counting reads where lights end; pictures read what their techniques do.
+void check_settings(const Settings& settings, bool pictures) {
+  if (pictures) return check_given_settings(settings, techniques());
+  const std::array read = {"range", "cutoff", "window", "alpha", "light-seed"};
+  for (const std::string& key : settings.given)
+    if (std::ranges::count(read, key) == 0)
+      throw input_error(
+          "set {}: check does not read it without --html, and it would change nothing; it reads {}", key,
+          fmt::join(read, ", "))
+          .about(key);
+}
+
 int check(CheckOptions o) {
-  for (const auto& [option, path] : {std::pair{"--json", o.json}, {"--sarif", o.sarif}, {"--html", o.html}})
-    if (!path.empty()) check_output_file(option, path);
+  check_output_files({{"--json", o.json}, {"--sarif", o.sarif}, {"--html", o.html}});
   parse_gl_backend(o.devices.gl);
   const std::vector<const EngineLimit*> limits = limits_of(o.engine);
   const Settings settings = chosen_settings(o.scene);
-  check_given_settings(settings, techniques());
+  check_settings(settings, !o.html.empty());
   o.scene.device = o.devices.device;
   CheckedScene checked(o.scene);
   const std::vector<LimitResult> results = counted(limits, settings.ranges, checked, o.shorten);

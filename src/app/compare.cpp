@@ -119,7 +119,7 @@ void add_compare(CommandLine& line) {
   add_device_options(command, c.devices);
   add_timing_options(command, c.timing);
   command.list("-t,--technique,--techniques", c.techniques,
-               "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas; names are " + technique_names() +
+               "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas; names are all, " + technique_names() +
                    fmt::format(" (default: {})", fmt::join(default_techniques(), ",")),
                ',');
   command.list("--compare", c.compare,

@@ -245,8 +245,7 @@ ordered_json to_json(const CheckedView& c) {
 }
 
 int check(const GoldenOptions& o) {
-  for (const auto& [option, path] : {std::pair{"--json", o.json}, {"--junit", o.junit}, {"--sarif", o.sarif}})
-    if (!path.empty()) check_output_file(option, path);
+  check_output_files({{"--json", o.json}, {"--junit", o.junit}, {"--sarif", o.sarif}});
   const std::string path = (std::filesystem::path(o.folder) / golden_file).string();
   const std::vector<RecordedScene> scenes = read_golden(path);
   if (!o.output.empty()) make_folder(o.output);
@@ -303,6 +302,8 @@ void refuse_options_of_check(const GoldenOptions& o) {
 
 int golden(const GoldenOptions& o) {
   if (o.folder.empty()) throw input_error("golden: DIR is missing: the folder of {}", golden_file);
+  if (std::filesystem::is_regular_file(o.folder))
+    throw input_error("golden {}: is a file; DIR is the folder of {}", o.folder, golden_file);
   parse_gl_backend(o.devices.gl);
   if (o.action == "record") {
     refuse_options_of_check(o);

@@ -80,6 +80,17 @@ void check_output_file(const std::string& option, const std::filesystem::path& p
   }
 }
 
+void check_output_files(std::initializer_list<std::pair<const char*, std::string>> files) {
+  const char* on_stdout = nullptr;
+  for (const auto& [option, path] : files) {
+    if (path.empty()) continue;
+    check_output_file(option, path);
+    if (path != "-") continue;
+    if (on_stdout) throw input_error("{} -: {} goes to stdout already", option, on_stdout);
+    on_stdout = option;
+  }
+}
+
 int with_output_folder(const std::filesystem::path& folder, const std::function<int()>& work) {
   std::error_code ignored;
   const bool is_new = !std::filesystem::exists(folder, ignored);

@@ -22,6 +22,8 @@ void add_technique_option(Subcommand& command, std::string& technique, const std
 // Throws Error(input) if the file `path`, given by `option`, could not be created: its folder is missing, not
 // a folder or not writable, or it is a folder itself. Call it before long work; "-" is always valid.
 void check_output_file(const std::string& option, const std::filesystem::path& path);
+// The same for several, each an option and its file, or none; at most one of them goes to stdout.
+void check_output_files(std::initializer_list<std::pair<const char*, std::string>> files);
 
 // Makes the folder, and does the work. If that throws, a folder that is new is removed with what was written
 // into it.

@@ -86,6 +86,9 @@ int render(RenderOptions o) {
     const double ms = spread_of(run.frame_ms()).median;
     log_info("a frame takes {} ms: {} frames a second (median of {})", short_number(ms),
              short_number(1000 / ms), o.timing.frames);
+    if (o.technique.empty() && renderer.gl && renderer.gl->software)
+      log_info("{} draws with OpenGL in software here; -t visibility draws in OpenCL alone, mostly faster",
+               technique.name);
   }
   if (!o.json.empty()) {
     run.run_profiled_frames();

@@ -17,7 +17,7 @@ namespace {
 struct ViewOptions {
   SceneChoice scene;
   std::string device, left, right, script, screenshot;
-  int frames = 60;
+  int frames = 0;  // 0: not given
 };
 
 #ifdef LIGHTGRID_VIEW
@@ -50,7 +50,9 @@ ViewJob make_job(const ViewOptions& o) {
   chosen_casters(o.scene.shadows);  // reports a fault before the scene is loaded
   job.controls.casters = o.scene.shadows;
   job.scripted = !o.script.empty() || !o.screenshot.empty();
-  job.frames = o.frames;
+  if (o.frames > 0 && !job.scripted)
+    throw input_error("view: --frames: ends a --script or --screenshot; a window ends when it is closed");
+  job.frames = o.frames > 0 ? o.frames : 60;
   job.screenshot = o.screenshot;
   if (job.scripted) job.controls.rate = 0;
   if (!o.script.empty()) job.script = Script::read(o.script);

@@ -96,6 +96,10 @@ std::vector<Contestant> named_contestants(const std::vector<std::string>& items,
       apply_own_setting(contestants.back(), item);
       continue;
     }
+    if (item == "all") {
+      for (const Technique* technique : techniques()) contestants.push_back({technique, common});
+      continue;
+    }
     contestants.push_back({&find_technique(item.substr(0, colon)), common});
     if (colon != std::string::npos) apply_own_setting(contestants.back(), item.substr(colon + 1));
   }

@@ -21,7 +21,7 @@ std::vector<BenchContestant> culling_contestants(const Settings& base,
 
 // Items of a list of techniques, split at its commas, each over `common`: "forward", "forward_plus:tile=32",
 // "cull-test=aabb"; an item with "=" and without a name before a colon is another setting of the name before
-// it. Throws Error(input) for a setting that a technique does not read.
+// it, and "all" is every technique. Throws Error(input) for a setting that a technique does not read.
 std::vector<Contestant> named_contestants(const std::vector<std::string>& items, const Settings& common);
 
 // Takes one technique as it stands in a list: leaves its name, and appends its settings to `set`. Nothing is

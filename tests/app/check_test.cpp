@@ -139,6 +139,12 @@ TEST_F(Check, WrongArgumentsAreStatusTwo) {
   const ProgramRun file = run(1, {"--json", folder.path / "absent" / "a.json"});
   EXPECT_EQ(file.status, 2);
   EXPECT_THAT(file.err, HasSubstr("--json"));
+  const ProgramRun both = run(1, {"--json", "-", "--sarif", "-"});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, HasSubstr("--sarif -: --json goes to stdout already"));
+  const ProgramRun unread = run(1, {"--set", "tile=8"});
+  EXPECT_EQ(unread.status, 2);
+  EXPECT_THAT(unread.err, HasSubstr("--set tile: check does not read it without --html"));
 }
 
 // docs/check.md's table.

@@ -327,10 +327,14 @@ TEST_F(Golden, OptionsOfTheOtherActionAreRefused) {
     EXPECT_EQ(run.status, 2) << run.out;
     EXPECT_THAT(run.err, HasSubstr(message));
   };
-  const std::string path = folder->path;
+  const std::filesystem::path path = folder->path;
   refuses({"golden", "check", path, "--size", "64x36"}, "golden check: --size: is an option of record");
   refuses({"golden", "check", path, "--set", "tile=8"}, "golden check: --set: is");
   refuses({"golden", "check", path, "-t", "forward_plus"}, "golden check: --technique: is");
+  refuses({"golden", "check", path, "--json", "-", "--sarif", "-"},
+          "--sarif -: --json goes to stdout already");
+  refuses({"golden", "check", path / "golden.json"},
+          "golden.json: is a file; DIR is the folder of golden.json");
   const TempFolder none;
   refuses({"golden", "record", none.path, "spheres", "-o", path},
           "golden record: --output: is an option of check");

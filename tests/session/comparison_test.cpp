@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/error.h"
+#include "session/contestants.h"
+#include "techniques/technique.h"
 
 namespace lightgrid {
 namespace {
@@ -43,6 +46,17 @@ TEST(Comparison, NamesAWrongFieldBeforeDevicesAreOpened) {
   choice.devices.device = "no such device";
   EXPECT_THAT([&] { load_comparison(choice); },
               ThrowsMessage<Error>(HasSubstr("reference some: not full, sampled or auto")));
+}
+
+TEST(Comparison, AllIsEveryTechniqueOnce) {
+  const std::vector<Contestant> found = named_contestants({"all", "forward_plus:tile=8"}, {});
+  ASSERT_THAT(found, SizeIs(techniques().size() + 1));
+  std::set<std::string> names;
+  for (size_t i = 0; i + 1 < found.size(); ++i) names.insert(found[i].technique->name);
+  EXPECT_THAT(names, SizeIs(techniques().size()));
+  std::string one = "all";
+  std::vector<std::string> set;
+  EXPECT_THAT([&] { take_own_settings(one, set); }, ThrowsMessage<Error>(HasSubstr("one is drawn here")));
 }
 
 }  // namespace
