@@ -13,7 +13,7 @@
 // -DGROUPS    light groups are asked for: shared/light_table.h
 // -DSHADOWS   some light casts a shadow: shared/shadow_bits.h
 // -DLIST_FACTORS  lists are samples: each light counts as often as its place in `list_factors` says
-//             (kernels/culling/sample_lists.cl)
+//             (kernels/culling/*/sample_lists.cl)
 #pragma once
 
 #include "kernels/common/index_type.h"

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "cl/launch.h"
+#include "renderer/pass_programs.h"
 #include "renderer/upload/culler_input.h"
 #include "renderer/upload/lights.h"
 #include "scene/light_tree.h"
@@ -14,7 +15,8 @@
 namespace lightgrid {
 namespace {
 
-constexpr uint cap_group = 64;
+constexpr size_t cap_group = 64;
+constexpr size_t sample_group = 32;  // GROUP in kernels/culling/gpu/sample_*.cl
 // So that products with squared distances stay in the range of float (kernels/culling/cap_lists.cl).
 constexpr double least_inverse = 1e-20, most_inverse = 1e20;
 
@@ -48,7 +50,7 @@ cl_uint planes_of(DepthBoundsMode mode) {
 
 class ListCaps : public PassCache {
  public:
-  explicit ListCaps(Work&) {}
+  explicit ListCaps(Work& work) : sampling_(work, "culling") {}
   size_t memory_bytes() const override {
     return lights_.bytes() + edges_.bytes() + params_.bytes() + nodes_.bytes() + leaves_.bytes() +
            eye_.bytes();
@@ -64,7 +66,7 @@ class ListCaps : public PassCache {
       for (const char* define : light_table_defines(work.plan)) defines += fmt::format(" -D{}", define);
     else
       defines += fmt::format(" -DORDER={}", int(s.list_cap_order));
-    use(work, samples ? "culling/sample_lists" : "culling/cap_lists", defines);
+    NamedKernel& kernel = samples ? sampled("sample_lists", defines) : capped(work, defines);
     if (grid.index_count == 0) return;  // after the kernel is built, which other views need
     if (stale_) upload(work, tiles);
     stale_ = false;
@@ -84,34 +86,43 @@ class ListCaps : public PassCache {
     if (s.list_cap_order == ListCapOrder::brightest)
       arguments =
           arguments + ClArguments{{"high", cl_uint(28)}, {"lights", lights_.buffer()}} + of_cells(bounds);
-    launch(device, "cap_lists", cells, arguments);
+    if (samples) return launch_sampling(device, "cap_lists", kernel, cells, arguments);
+    kernel.launch(device, "cap_lists", cl::NDRange((cells + cap_group - 1) / cap_group * cap_group),
+                  cl::NDRange(cap_group), arguments);
   }
 
   void draw(Work& work, const CullParams& tiles, const TileBounds& bounds, const ViewGrid& grid) {
     ClDevice& device = *work.renderer.cl;
     const Settings& s = work.plan.settings;
-    use(work, "culling/sample_tree",
-        fmt::format("-DCAP={}{}", s.list_cap, grid.index_bits == 32 ? " -DINDEX_32" : ""));
+    NamedKernel& kernel = sampled(
+        "sample_tree", fmt::format("-DCAP={}{}", s.list_cap, grid.index_bits == 32 ? " -DINDEX_32" : ""));
     if (stale_) upload(work, tiles);
     stale_ = false;
     const size_t cells = grid.cell_bytes / sizeof(cl_uint2);
-    launch(device, "lists_of_tree", cells,
-           ClArguments{{"cells", grid.storage->cells(grid.cell_bytes)},
-                       {"indices", grid.storage->indices(grid.index_bytes)},
-                       {"cell_count", cl_uint(cells)},
-                       {"seed", cl_uint(s.list_seed)},
-                       {"factors", grid.storage->factors(grid.factor_bytes)},
-                       {"nodes", nodes_.buffer()},
-                       {"lights", leaves_.buffer()},
-                       {"leaves", cl_uint(leaf_count_)},
-                       {"world_from_view", eye_.buffer()}} +
-               of_cells(bounds));
+    launch_sampling(device, "lists_of_tree", kernel, cells,
+                    ClArguments{{"cells", grid.storage->cells(grid.cell_bytes)},
+                                {"indices", grid.storage->indices(grid.index_bytes)},
+                                {"cell_count", cl_uint(cells)},
+                                {"seed", cl_uint(s.list_seed)},
+                                {"factors", grid.storage->factors(grid.factor_bytes)},
+                                {"nodes", nodes_.buffer()},
+                                {"lights", leaves_.buffer()},
+                                {"leaves", cl_uint(leaf_count_)},
+                                {"world_from_view", eye_.buffer()}} +
+                        of_cells(bounds));
   }
 
  private:
-  void use(Work& work, const char* kernel, const std::string& defines) {
-    if (!kernel_ || defines != defines_) kernel_ = NamedKernel(*work.renderer.kernels, kernel, defines);
+  NamedKernel& capped(Work& work, const std::string& defines) {
+    if (!kernel_ || defines != defines_)
+      kernel_ = NamedKernel(*work.renderer.kernels, "culling/cap_lists", defines);
     defines_ = defines;
+    return kernel_;
+  }
+
+  NamedKernel& sampled(const char* stem, const std::string& defines) {
+    sampling_.use(defines);
+    return sampling_.of(stem);
   }
 
   ClArguments of_cells(const TileBounds& bounds) {
@@ -121,9 +132,12 @@ class ListCaps : public PassCache {
             {"p", params_.buffer()}};
   }
 
-  void launch(ClDevice& device, const char* label, size_t cells, const ClArguments& arguments) {
-    kernel_.launch(device, label, cl::NDRange((cells + cap_group - 1) / cap_group * cap_group),
-                   cl::NDRange(cap_group), arguments);
+  // A cell for an item, or for a group of items.
+  void launch_sampling(ClDevice& device, const char* label, NamedKernel& kernel, size_t cells,
+                       const ClArguments& arguments) {
+    const size_t items = sampling_.lanes ? cap_group : sample_group;
+    const size_t all = sampling_.lanes ? (cells + items - 1) / items * items : cells * items;
+    kernel.launch(device, label, cl::NDRange(all), cl::NDRange(items), arguments);
   }
 
   // Kept while lights rest; the eye is not.
@@ -170,8 +184,9 @@ class ListCaps : public PassCache {
     params_.put(device, "uploading the view", std::vector<CullParams>{tiles});
   }
 
-  NamedKernel kernel_;
+  NamedKernel kernel_;  // without random numbers
   std::string defines_;
+  PassKernels sampling_;
   UploadedBuffer lights_, edges_, params_;
   UploadedBuffer nodes_, leaves_, eye_;  // of the light tree
   size_t leaf_count_ = 0;

@@ -234,7 +234,7 @@ TEST_P(FaultySamples, AreFound) {
 
 INSTANTIATE_TEST_SUITE_P(
     Planted, FaultySamples,
-    testing::Values(Fault{"ten_per_cent", "sampled", "factor = (float)rest", "factor = 1.1f * (float)rest"},
+    testing::Values(Fault{"ten_per_cent", "sampled", "return (float)rest", "return 1.1f * (float)rest"},
                     Fault{"one_slot_too_many", "sampled", "(float)slots *", "(float)(slots + 1) *"},
                     Fault{"from_the_beginning", "sampled",
                           "(rest >> 32) * random + ((rest & UINT_MAX) * random >> 32)", "rest >> 1"},
