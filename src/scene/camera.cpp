@@ -246,6 +246,26 @@ struct Fit {
     const glm::dvec2 distance = (greatest + greatest_mirrored) / (2.0 * slope);
     return {(greatest - greatest_mirrored) / 2.0, std::max(distance.x, distance.y)};
   }
+
+  // The eye at this distance, with as wide margins left as right and below as above of these corners, as far
+  // as all points stay in the pyramid.
+  glm::dvec3 centred(const std::vector<glm::dvec3>& corners, double distance) const {
+    glm::dvec3 eye(0, 0, distance);
+    for (int axis = 0; axis < 2; ++axis) {
+      double low = greatest[axis] - slope[axis] * distance,
+             high = slope[axis] * distance - greatest_mirrored[axis];
+      for (int step = 0; step < 40; ++step) {
+        eye[axis] = (low + high) / 2;
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+        for (const glm::dvec3& corner : corners) {
+          const double seen = (corner[axis] - eye[axis]) / std::max(distance - corner.z, 1e-6 * distance);
+          least = std::min(least, seen), most = std::max(most, seen);
+        }
+        (most > -least ? low : high) = eye[axis];
+      }
+    }
+    return eye;
+  }
 };
 
 }  // namespace
@@ -258,11 +278,13 @@ Camera overview_camera(const Scene& scene, double aspect) {
   const glm::dmat3 world_from_view(camera.world_from_view), view_from_world = glm::transpose(world_from_view);
   const double slope = std::tan(camera.fov_y_rad / 2);
   Fit fit{filled * glm::dvec2(slope * aspect, slope)};
+  std::vector<glm::dvec3> corners;  // of the instances' boxes
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
     const glm::dmat3 rotated = view_from_world * glm::dmat3(instance.world_from_object);
     const glm::dvec3 moved = view_from_world * (glm::dvec3(instance.world_from_object[3]) - center);
     for (const uint32_t index : mesh.indices) fit.add(rotated * glm::dvec3(mesh.positions[index]) + moved);
+    for (const glm::dvec3& corner : corners_of(mesh.bounds)) corners.push_back(rotated * corner + moved);
   }
   // Without triangles, or with numbers that overflow double, looks from the box's corner.
   const double size = box.empty() ? 1 : glm::length(box.max - box.min);
@@ -271,7 +293,7 @@ Camera overview_camera(const Scene& scene, double aspect) {
     eye = {0, 0, std::isfinite(size) ? size : 1};
   // The eye may touch the model, whose corner then fills the image and hides the rest: keep a distance.
   const double scale = size > 0 && std::isfinite(size) ? size : 1;
-  if (std::isfinite(fit.nearest)) eye.z = std::max(eye.z, fit.nearest + 0.05 * scale);
+  if (std::isfinite(fit.nearest)) eye = fit.centred(corners, std::max(eye.z, fit.nearest + 0.05 * scale));
   camera.near_m = 1e-3 * scale;
   camera.world_from_view[3] = glm::dvec4(center + world_from_view * eye, 1);
   return camera;

@@ -29,14 +29,18 @@ bool intensity_overflows(const Light& light) {
 constexpr WorldBox no_box{glm::dvec3(std::numeric_limits<double>::infinity()),
                           glm::dvec3(-std::numeric_limits<double>::infinity())};
 
+std::vector<glm::dvec3> corners_of(const Aabb& box) {
+  std::vector<glm::dvec3> corners;
+  for (int corner = 0; corner < 8 && !box.empty(); ++corner)
+    corners.emplace_back(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                         corner & 4 ? box.max.z : box.min.z);
+  return corners;
+}
+
 WorldBox world_box(const Mesh& mesh, const glm::dmat4& world_from_object) {
-  const Aabb& bounds = mesh.bounds;
   WorldBox box = no_box;
-  if (bounds.empty()) return box;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec4 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
-                       corner & 4 ? bounds.max.z : bounds.min.z, 1);
-    const glm::dvec3 world(world_from_object * p);
+  for (const glm::dvec3& corner : corners_of(mesh.bounds)) {
+    const glm::dvec3 world(world_from_object * glm::dvec4(corner, 1));
     box.min = glm::min(box.min, world), box.max = glm::max(box.max, world);
   }
   return box;

@@ -183,6 +183,7 @@ struct Scene {
 
 // The box around all instances, or around a mesh that is placed; empty without geometry.
 WorldBox world_box(const Scene& scene);
+std::vector<glm::dvec3> corners_of(const Aabb& box);  // eight; none of an empty box
 WorldBox world_box(const Mesh& mesh, const glm::dmat4& world_from_object);
 
 }  // namespace lightgrid
