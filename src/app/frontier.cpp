@@ -38,7 +38,7 @@ struct FrontierCommand {
   std::string output = "out/frontier", json, gate, shard = "0/1", process, truth, baseline;
   std::vector<std::string> techniques, vary;
   int views = 16, rounds = 120, budget = 14, page_mb = 12, processes = 1;
-  bool no_growth = false;
+  bool no_growth = false, sequences = false;
 };
 
 const std::vector<std::string> default_scenes = {"hall", "terrain", "spheres", "street"};
@@ -123,6 +123,7 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
   }
   // Lights of a path's file may cast in one sweep and not in the next.
   if (!o.truth.empty()) request["truth"] = o.truth;
+  if (o.sequences) request["sequences"] = true;
   for (size_t i = 0; i < of_scenes.size(); ++i) {
     if (!of_scenes[i].casts) continue;
     request["casting"].push_back(i);
@@ -214,6 +215,7 @@ FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Sha
   job.views = o.views;
   job.seed = o.scene.seed;
   job.growth = shard.index == 0 && !o.no_growth;
+  job.sequences = o.sequences;
   job.most_rounds = o.rounds;
   job.least_rounds = std::min(job.least_rounds, o.rounds);
   job.pictures = fs::path(o.output) / "pictures";
@@ -310,9 +312,10 @@ int frontier(FrontierCommand o) {
 
   const auto bar = progress_bar();
   const double budget_s = o.budget * 60.0 * share_of_budget(process);
+  double sequences_s = 0;
   size_t measured = 0;
   for (size_t i = 0; i < o.scenes.size(); ++i) {
-    const double left = budget_s - timer.elapsed_ms() / 1000;
+    const double left = budget_s + sequences_s - timer.elapsed_ms() / 1000;
     if (left <= 0) {
       log_warning("budget {}: no time left for {}", o.budget, o.scenes[i]);
       continue;
@@ -323,7 +326,7 @@ int frontier(FrontierCommand o) {
       bar(done + part_done * share, o.scenes[i] + ": " + step);
     };
     ask(job, of_scenes[i], shard);
-    measure_scene(renderer, choice_of(o, o.scenes[i]), job, file);
+    sequences_s += measure_scene(renderer, choice_of(o, o.scenes[i]), job, file);
     ++measured;
   }
   if (measured == 0) throw input_error("budget {}: too short for one point", o.budget);
@@ -368,6 +371,8 @@ void add_frontier(CommandLine& line) {
   command.option("--rounds", o->rounds,
                  "times of each point and view, at most: fewer if the intervals are narrow before", 1, 1000);
   command.flag("--no-growth", o->no_growth, "leaves out how times grow with lights, pixels and ranges");
+  command.flag("--sequences", o->sequences,
+               "flicker over 64 frames too: still camera, dolly, moving lights; comes on top of the budget");
   command.option("--budget", o->budget, "minutes that measuring may take", 1, 100000);
   command.option(
       "--gate", o->gate,

@@ -204,7 +204,7 @@ json failure_json(const Failure& f) {
   return out;
 }
 
-std::vector<CsvColumn> csv_columns(bool truths, bool shadows, bool authored, bool seeds) {
+std::vector<CsvColumn> csv_columns(bool truths, bool shadows, bool authored, bool seeds, bool sequences) {
   std::vector<CsvColumn> all;
   const auto add_measures = [&](const std::string& within, const std::string& prefix) {
     for (const ErrorMeasure& m : frontier_error_measures()) add_columns(all, {m.key}, within, prefix);
@@ -238,6 +238,16 @@ std::vector<CsvColumn> csv_columns(bool truths, bool shadows, bool authored, boo
                 "seeds_");
     add_measures("/errors/seeds/deviation", "seeds_deviation_");
     all.push_back({"seeds_deviation_displayed_flip_mean", "/errors/seeds/deviation/displayed_flip/mean"});
+  }
+  for (const auto& [key, ignored] : sequences_of_errors) {
+    for (const std::string kind : {"plain", "filtered"}) {
+      if (!sequences) break;
+      const std::string within = std::string("/errors/sequences/") + key + "/" + kind,
+                        prefix = std::string(key) + "_" + kind + "_";
+      add_columns(all, {"mean", "visible_share"}, within + "/flicker", prefix + "flicker_");
+      add_columns(all, {"largest_flicker"}, within, prefix);
+      add_columns(all, {"mean", "visible_share"}, within + "/displayed_flip", prefix + "displayed_flip_");
+    }
   }
   for (const auto& [name, index] : {std::pair{"flip_start", "0"}, {"flip_stop", "1"}, {"flip_count", "2"}})
     all.push_back({name, std::string("/flip_exposures/") + index});
@@ -387,7 +397,8 @@ std::string csv_text(const FrontierAnswer& answer) {
   const bool shadows = any([](const FrontierRecord& r) { return r.pairs.shadows.has_value(); });
   const bool authored = any([](const FrontierRecord& r) { return r.errors.authored.has_value(); });
   const bool seeds = any([](const FrontierRecord& r) { return r.errors.seeds.has_value(); });
-  return csv_table(csv_columns(truths, shadows, authored, seeds), rows);
+  const bool sequences = any([](const FrontierRecord& r) { return r.errors.sequences.has_value(); });
+  return csv_table(csv_columns(truths, shadows, authored, seeds, sequences), rows);
 }
 
 std::string cull_csv_text(const FrontierAnswer& answer) {

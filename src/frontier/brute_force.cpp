@@ -132,12 +132,21 @@ Image BruteForce::draw(const Settings& settings) {
 
 const Image& BruteForce::picture_of_points(const Settings& settings) { return kept(meaning(settings, 0)); }
 
-const Image& BruteForce::truth() {
+Settings BruteForce::meaning_of_truth() const {
   Settings settings = common_;
   if (!truth_.own_ranges) settings.ranges = {.range = LightRange::infinite};
-  if (!truth_.places) return kept(meaning(settings, truth_.source_m));
-  if (!of_areas_) of_areas_ = mean_over_areas(meaning(settings, truth_.source_m));
+  return meaning(settings, truth_.source_m);
+}
+
+const Image& BruteForce::truth() {
+  if (!truth_.places) return kept(meaning_of_truth());
+  if (!of_areas_) of_areas_ = mean_over_areas(meaning_of_truth());
   return *of_areas_;
+}
+
+std::unique_ptr<TechniqueRun> BruteForce::truth_run(const View& view) const {
+  return std::make_unique<TechniqueRun>(renderer_, gpu_, view, with_samples(meaning_of_truth(), 1),
+                                        technique_, pool_);
 }
 
 const Image& BruteForce::authored() { return kept(meaning(common_, truth_.source_m)); }

@@ -46,6 +46,8 @@ class BruteForce {
   // With exact shadows of points.
   const Image& picture_of_points(const Settings& settings);
   const Image& truth();
+  // Draws the truth of pixels' centres, frame after frame.
+  std::unique_ptr<TechniqueRun> truth_run(const View& view) const;
   // Of areas: the same for both kinds of surfaces.
   void take_truth(const Image& of_areas) { of_areas_ = of_areas; }
   double brightest();  // channel of the truth
@@ -53,6 +55,7 @@ class BruteForce {
 
  private:
   Settings meaning(const Settings& settings, double source_m) const;
+  Settings meaning_of_truth() const;
   const Image& kept(const Settings& meaning);
   Image drawn(const Settings& meaning);
   Image mean_over_areas(const Settings& meaning);

@@ -115,6 +115,30 @@ inline double flip_of(const PointErrors& errors, const std::string& front) {
   return error && error->displayed ? error->displayed->mean : unknown_error;
 }
 
+template <Is<SequenceFigures> T, typename Visit>
+void visit_fields(T& f, Visit&& visit) {
+  visit("flicker", f.flicker);
+  visit("largest_flicker", f.largest_flicker);
+  visit("displayed_flip", f.displayed);
+}
+
+template <Is<SequenceError> T, typename Visit>
+void visit_fields(T& s, Visit&& visit) {
+  visit("plain", s.plain);
+  visit("filtered", s.filtered);
+}
+
+inline constexpr std::pair<const char*, SequenceError SequenceErrors::*> sequences_of_errors[] = {
+    {"still", &SequenceErrors::still},
+    {"dolly", &SequenceErrors::dolly},
+    {"moving_lights", &SequenceErrors::moving_lights}};
+
+template <Is<SequenceErrors> T, typename Visit>
+void visit_fields(T& s, Visit&& visit) {
+  visit("frames", s.frames, FieldRule{.low = 1});
+  for (const auto& [key, sequence] : sequences_of_errors) visit(key, s.*sequence);
+}
+
 template <Is<PointErrors> T, typename Visit>
 void visit_fields(T& e, Visit&& visit) {
   for (const auto& [key, kind] : kinds_of_error) visit(key, e.*kind);
@@ -124,6 +148,7 @@ void visit_fields(T& e, Visit&& visit) {
   visit("bias_rmse_rel", e.bias_rmse_rel);
   visit("deviation_rmse_rel", e.deviation_rmse_rel);
   visit("temporal_rmse_rel", e.temporal_rmse_rel);
+  visit("sequences", e.sequences, FieldRule{.required = false});
 }
 
 // In the order of a round's line.

@@ -12,6 +12,7 @@
 #include "base/timer.h"
 #include "frontier/fields.h"
 #include "frontier/rounds.h"
+#include "frontier/sequences.h"
 #include "frontier/view_figures.h"
 
 namespace lightgrid {
@@ -70,6 +71,7 @@ class SceneSweep {
     make_runs();
     if (!measured_.empty()) {
       measure_figures();
+      measure_flicker();
       measure_cull_tests();
       measure_times();
       if (job_.process + 1 < job_.processes) {
@@ -81,12 +83,14 @@ class SceneSweep {
     }
     baseline_.reset();
     if (job_.growth) {
-      const double left = std::max(job_.seconds - seconds(), 0.05 * job_.seconds);
+      const double left = std::max(job_.seconds + sequences_s_ - seconds(), 0.05 * job_.seconds);
       measure_growth(renderer_, gpu_, scene_, choice_, job_, left, file_);
       end_step("growth");
     }
     notice(steps_);
   }
+
+  double seconds_of_sequences() const { return sequences_s_; }
 
  private:
   double seconds() const { return timer_.elapsed_ms() / 1000; }
@@ -135,7 +139,7 @@ class SceneSweep {
     end_step("programs");
   }
 
-  double until() const { return job_.seconds * (job_.growth ? 1 - share_of_growth : 1.0); }
+  double until() const { return job_.seconds * (job_.growth ? 1 - share_of_growth : 1.0) + sequences_s_; }
   // True if a warm-up and `rounds` rounds over `views` views still fit, after `more` seconds.
   bool fits(double more, int rounds, int views) const {
     double round_s = 0;
@@ -239,6 +243,14 @@ class SceneSweep {
           measured_.size(), beaten_factor, slow_rounds));
   }
 
+  void measure_flicker() {
+    if (!job_.sequences || job_.process > 0) return;
+    const double before = seconds();
+    measure_sequences(renderer_, gpu_, scene_, choice_, views_.front(), job_, measured_, file_);
+    sequences_s_ = seconds() - before;
+    end_step("sequences");
+  }
+
   void measure_cull_tests() {
     measure_cull_times(measured_, views_.front(), until() - seconds(), file_);
     end_step("cull tests");
@@ -285,7 +297,7 @@ class SceneSweep {
   const std::shared_ptr<TargetPool> pool_ = std::make_shared<TargetPool>();
   std::vector<MeasuredPoint> measured_;
   std::optional<PointRun> baseline_;
-  double baseline_s_ = 0, step_began_s_ = 0;
+  double baseline_s_ = 0, step_began_s_ = 0, sequences_s_ = 0;
   std::string steps_;  // what took how long
   int used_views_ = 0, whole_views_ = 0;
 };
@@ -313,9 +325,12 @@ FrontierMachine machine_of(const Renderer& renderer) {
   return m;
 }
 
-void measure_scene(Renderer& renderer, const SceneChoice& choice, const FrontierJob& job, RecordFile& file) {
+double measure_scene(Renderer& renderer, const SceneChoice& choice, const FrontierJob& job,
+                     RecordFile& file) {
   ChosenScene chosen = load_chosen_scene(choice);
-  SceneSweep(renderer, chosen.scene, choice, chosen.view, job, file).run();
+  SceneSweep sweep(renderer, chosen.scene, choice, chosen.view, job, file);
+  sweep.run();
+  return sweep.seconds_of_sequences();
 }
 
 }  // namespace lightgrid

@@ -29,6 +29,7 @@ struct FrontierJob {
   // Of pixel and light, on a view: those that the oracle shades, and those whose shadows it decides, which
   // takes longer (of more, an even sample of the pixels is taken).
   size_t shaded_pairs = 10'000'000, shadow_pairs = 1'000'000;
+  bool sequences = false;          // SequenceErrors too, in time of their own: `seconds` are without them
   bool growth = true;              // the series of lights, pixels and radius too
   std::filesystem::path pictures;  // folder; empty: no pictures
   // Called with the progress (0 to 1) and the next step.
@@ -39,7 +40,8 @@ struct FrontierJob {
 // Appends to `file` a record for each point and view, and for each point of a series. Points whose records
 // are there are left out. Throws Error for what concerns the whole scene; a point that cannot run becomes a
 // record with the reason.
-void measure_scene(Renderer& renderer, const SceneChoice& choice, const FrontierJob& job, RecordFile& file);
+// Returns the seconds that the sequences took.
+double measure_scene(Renderer& renderer, const SceneChoice& choice, const FrontierJob& job, RecordFile& file);
 
 // The machine that a part is measured on.
 FrontierMachine machine_of(const Renderer& renderer);

@@ -149,6 +149,7 @@ PointFigures over_views(const Group& views) {
   all.errors.in_double = in_double_over(views);
   all.errors.authored = authored_over(views);
   all.errors.seeds = seeds_over(views);
+  all.errors.sequences = views.front()->errors.sequences;
   add_intervals_over_views(views, all);
   for (const auto spread :
        {&PointErrors::bias_rmse_rel, &PointErrors::deviation_rmse_rel, &PointErrors::temporal_rmse_rel}) {

@@ -261,19 +261,21 @@ bool PointRun::is_random() const {
 // are independent.
 uint32_t PointRun::seed(int frame) const {
   const Settings& settings = point_.contestant.settings;
-  if (has_random_ranges()) return settings.ranges.seed + uint32_t(frame_ * point_.frames + frame);
+  const auto in_a_row = uint32_t(frame_ * point_.frames + frame);
+  if (has_random_ranges()) return settings.ranges.seed + in_a_row;
+  if (numbers_ == NumbersOfFrames::in_a_row) return settings.list_seed + in_a_row;
   const auto picture = uint32_t(frame_ == 0 ? 0 : Random::mix(uint64_t(frame_)));
   return settings.list_seed + picture + uint32_t(frame);
 }
 
-void PointRun::go_to_frame(int number) {
-  frame_ = number;
+void PointRun::go_to_frame(int number, NumbersOfFrames numbers) {
+  frame_ = number, numbers_ = numbers;
   if (!is_random()) return;
   attempt([&] { run_->draw_random(seed(0)); });
 }
 
-void PointRun::look(const View& view) {
-  attempt([&] { run_->look(view); });
+void PointRun::look(const View& view, const SceneChanges& changes) {
+  attempt([&] { run_->look(view, changes); });
 }
 
 void PointRun::draw_frames(const std::function<void(const Image& image)>& add) {

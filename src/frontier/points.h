@@ -39,6 +39,10 @@ std::string label_of(const Contestant& contestant, int frames);
 FrontierPoint described(const std::string& scene, const ChosenPoint& point);
 
 // A point that runs: a technique's frames, or the mean of several with other random numbers.
+// Whether random numbers of frames are independent, or go on from frame to frame as a renderer's do: those of
+// sampled lists then complement each other.
+enum class NumbersOfFrames { independent, in_a_row };
+
 class PointRun {
  public:
   // Refused at once if the technique cannot run.
@@ -49,7 +53,7 @@ class PointRun {
   const std::string& refused() const { return refused_; }  // empty: it runs
   TechniqueRun& run() { return *run_; }
 
-  void look(const View& view);
+  void look(const View& view, const SceneChanges& changes = {});  // as TechniqueRun::look
   // One picture: all of its frames, each with random numbers of its own where there are any, read back and
   // averaged. Milliseconds; 0 if refused. A refusal is kept. `clock`: measures the same picture
   // (device_times()).
@@ -64,7 +68,7 @@ class PointRun {
   // The first of its frames alone.
   void draw_first_frame();
   // For the frame of that number: random numbers, if there are any, are others in each.
-  void go_to_frame(int number);
+  void go_to_frame(int number, NumbersOfFrames numbers = NumbersOfFrames::independent);
   bool has_random_ranges() const { return point_.contestant.settings.ranges.range == LightRange::stochastic; }
   // Random ranges or lists: no two frames are alike.
   bool is_random() const;
@@ -81,6 +85,7 @@ class PointRun {
   double deviation_ = 0;
   std::optional<DeviceTimes> device_times_;
   int frame_ = 0;
+  NumbersOfFrames numbers_ = NumbersOfFrames::independent;
 };
 
 }  // namespace lightgrid

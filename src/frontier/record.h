@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "frontier/conditions.h"
+#include "results/flicker.h"
 #include "results/flip.h"
 #include "results/results.h"
 
@@ -48,6 +49,22 @@ struct SeedErrors {
   double bias_mse_rel = 0, bias_mse_rel_error = 0;  // over the brightest channel squared (BiasOfPictures)
 };
 
+// Frames of each sequence that count.
+inline constexpr int frames_of_sequence = 64;
+
+// One sequence: its frames as they are drawn, and their mean over frames (FlickerMeter).
+struct SequenceError {
+  SequenceFigures plain, filtered;
+};
+
+// From the scene's first view, against the truth's frames (docs/details/frontier.md#sequences).
+struct SequenceErrors {
+  int frames = frames_of_sequence;
+  SequenceError still;          // other random numbers in each frame
+  SequenceError dolly;          // the camera moves forward
+  SequenceError moving_lights;  // each light on an orbit
+};
+
 // Errors kept apart (docs/frontier.md#errors), in the measures of the frontier (frontier_error). Truth: every
 // light, no range window.
 struct PointErrors {
@@ -66,6 +83,7 @@ struct PointErrors {
   // Flicker: how much the picture's difference from the truth changes from frame to frame while the camera
   // turns by a quarter of a degree a frame; root mean square over pixels and frames.
   std::optional<double> temporal_rmse_rel;
+  std::optional<SequenceErrors> sequences;  // of the first view, where they were asked for
 };
 
 // The lights of a truth that is not the usual one of every light without a range (docs/frontier.md#shadows),

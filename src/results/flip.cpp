@@ -223,12 +223,16 @@ Planes ycxcz_of(const Image& image) {
   return planes;
 }
 
+}  // namespace
+
 // FLIP compares these parts of an image.
 struct SeenImage {
   Planes color;  // Hunt-adjusted CIELAB of what an eye sees
   Features features;
   std::vector<bool> nan;
 };
+
+namespace {
 
 SeenImage seen_image(const Image& image, double pixels_per_degree) {
   const Planes opponent = ycxcz_of(image);
@@ -299,6 +303,13 @@ SeenImage seen_on_display(const std::vector<uint8_t>& bytes, int width, int heig
 
 std::vector<float> flip_map(const Image& test, const Image& reference, double pixels_per_degree) {
   return difference_map(seen_image(test, pixels_per_degree), seen_image(reference, pixels_per_degree));
+}
+
+SeenByFlip::SeenByFlip(const Image& image, double pixels_per_degree)
+    : seen_(std::make_shared<const SeenImage>(seen_image(image, pixels_per_degree))) {}
+
+std::vector<float> SeenByFlip::map(const SeenByFlip& other) const {
+  return difference_map(*seen_, *other.seen_);
 }
 
 std::optional<FlipExposures> flip_exposures(const Image& reference) {

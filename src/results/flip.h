@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,17 @@ inline constexpr double default_pixels_per_degree = 67;
 // black in its neighbourhood.
 std::vector<float> flip_map(const Image& test, const Image& reference,
                             double pixels_per_degree = default_pixels_per_degree);
+
+// An image as FLIP compares it, for comparisons with several others. Linear RGB as in flip_map.
+struct SeenImage;
+class SeenByFlip {
+ public:
+  explicit SeenByFlip(const Image& image, double pixels_per_degree = default_pixels_per_degree);
+  std::vector<float> map(const SeenByFlip& other) const;  // flip_map of the two, which are of one size
+
+ private:
+  std::shared_ptr<const SeenImage> seen_;
+};
 
 // Exposures of HDR-FLIP, in stops: `count` of them, evenly spaced.
 struct FlipExposures {

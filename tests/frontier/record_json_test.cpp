@@ -83,6 +83,12 @@ TEST(FrontierRecords, KeepEveryFieldAsJson) {
   EXPECT_EQ(read.errors.bias_rmse_rel, r.errors.bias_rmse_rel);
   EXPECT_EQ(read.errors.deviation_rmse_rel, r.errors.deviation_rmse_rel);
   EXPECT_EQ(read.errors.temporal_rmse_rel, r.errors.temporal_rmse_rel);
+  ASSERT_TRUE(read.errors.sequences);
+  EXPECT_EQ(read.errors.sequences->frames, 64);
+  EXPECT_EQ(read.errors.sequences->still.plain.flicker.mean, 2.0 / 256);
+  EXPECT_EQ(read.errors.sequences->still.filtered.largest_flicker, 9.0 / 256);
+  EXPECT_EQ(read.errors.sequences->dolly.plain.displayed.mean, 15.0 / 256);
+  EXPECT_EQ(read.errors.sequences->moving_lights.filtered.displayed.visible, 31.0 / 256);
   ASSERT_TRUE(read.flip);
   EXPECT_EQ(read.flip->start, r.flip->start);
   EXPECT_EQ(read.flip->stop, r.flip->stop);

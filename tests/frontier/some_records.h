@@ -59,6 +59,17 @@ inline FrontierRecord some_record(int tile, int view) {
   r.errors.seeds = SeedErrors{32, 8, some_figures(10), 4e-10, 1e-10};
   r.errors.seeds->deviation.displayed = DisplayedFlip{0.5, 0.25};
   r.errors.temporal_rmse_rel = 3e-5;
+  double figure = 1.0 / 256;
+  for (SequenceError SequenceErrors::*sequence :
+       {&SequenceErrors::still, &SequenceErrors::dolly, &SequenceErrors::moving_lights}) {
+    if (!r.errors.sequences) r.errors.sequences.emplace();
+    for (SequenceFigures SequenceError::*of : {&SequenceError::plain, &SequenceError::filtered}) {
+      SequenceFigures& figures = (*r.errors.sequences).*sequence.*of;
+      for (double* value : {&figures.flicker.mean, &figures.flicker.visible, &figures.largest_flicker,
+                            &figures.displayed.mean, &figures.displayed.visible})
+        *value = figure += 1.0 / 256;
+    }
+  }
   r.flip = FlipExposures{-2.5, 7.25, 10};
   r.exposure_ev = -1.5;
   r.image = "sponza_17";
