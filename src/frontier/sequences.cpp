@@ -34,20 +34,16 @@ class SequenceTruth {
       : run_(std::move(run)), exposure_(exposure) {}
 
   void draw(const View& view, const SceneChanges& changes, bool first) {
-    frame_.same = !first && changes.empty() && view == view_;
-    if (frame_.same) {
-      frame_.before = frame_.shown;
-      frame_.carried.clear();
-      return;
-    }
+    const bool moved = !first && view != view_;
+    frame_.step.clear(), frame_.carried.clear();
+    if (!first && !moved && changes.empty()) return;
     run_->look(view, changes);
     run_->run_frame(true);
-    frame_.before = first ? Image() : std::move(frame_.shown);
-    frame_.shown = shown_image(run_->image(), exposure_);
+    const Image before = std::exchange(frame_.shown, shown_image(run_->image(), exposure_));
     frame_.seen = &seen_.emplace(frame_.shown);
     std::vector<float> depth = read_depth(*run_);
-    frame_.carried.clear();
-    if (!first && view != view_) frame_.carried = carried_pixels(view, depth, view_, depth_);
+    if (moved) frame_.carried = carried_pixels(view, depth, view_, depth_);
+    if (!first) frame_.step = step_map(frame_.shown, *seen_, before, frame_.carried);
     depth_ = std::move(depth), view_ = view;
   }
   const TruthFrame& frame() const { return frame_; }

@@ -19,25 +19,23 @@ void for_each_pixel(const Image& image, const auto& body) {
   });
 }
 
-// Values of the frame before at what pixel `i` shows; empty: it does not show it. In double: adding and
-// subtracting floats is then exact unless they are very different, so that an error that stays leaves
-// nothing.
-std::optional<glm::dvec3> carried(const TruthFrame& truth, size_t i, const auto& value_at) {
-  if (truth.carried.empty()) return value_at(i);
-  const CarriedPixel& from = truth.carried[i];
+// The values of `before` at what pixel `i` shows; empty: it does not show it.
+std::optional<glm::dvec3> carried_value(const Image& before, const std::vector<CarriedPixel>& carried,
+                                        size_t i) {
+  if (carried.empty()) return glm::dvec3(before.pixels[i]);
+  const CarriedPixel& from = carried[i];
   std::optional<glm::dvec3> sum;
   for (int k = 0; k < 4; ++k) {
     if (from.weights[k] == 0) continue;
-    const size_t x = size_t(from.x + k % 2), y = size_t(from.y + k / 2);
     if (!sum) sum = glm::dvec3(0);
-    *sum += double(from.weights[k]) * value_at(y * size_t(truth.shown.width) + x);
+    *sum += double(from.weights[k]) * glm::dvec3(before.at(from.x + k % 2, from.y + k / 2));
   }
   return sum;
 }
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x + v.y + v.z); }
 
-void add(DisplayedFlip& sum, const DisplayedFlip& flip) {
+void add_to(DisplayedFlip& sum, const DisplayedFlip& flip) {
   sum.mean += flip.mean, sum.visible += flip.visible;
 }
 
@@ -56,11 +54,21 @@ Image shown_image(const Image& image, const Exposure& exposure) {
   return shown;
 }
 
+std::vector<float> step_map(const Image& frame, const SeenByFlip& seen, const Image& before,
+                            const std::vector<CarriedPixel>& carried) {
+  Image there = frame;
+  for_each_pixel(frame, [&](size_t i) {
+    if (const auto value = carried_value(before, carried, i))
+      there.pixels[i] = glm::vec4(glm::vec3(*value), 1);
+  });
+  return seen.map(SeenByFlip(there));
+}
+
 Image FlickerMeter::filtered(const Image& shown, const TruthFrame& truth) const {
   Image mean = shown;
   const double newest = std::max(double(newest_frame_counts), 1.0 / (frames_ + 1));
   for_each_pixel(shown, [&](size_t i) {
-    const auto before = carried(truth, i, [&](size_t k) { return glm::dvec3(last_.pixels[k]); });
+    const auto before = carried_value(last_, truth.carried, i);
     if (!before || !is_finite(*before)) return;
     const glm::dvec3 mixed = *before + newest * (glm::dvec3(shown.pixels[i]) - *before);
     mean.pixels[i] = glm::vec4(glm::vec3(mixed), 1);
@@ -68,19 +76,14 @@ Image FlickerMeter::filtered(const Image& shown, const TruthFrame& truth) const 
   return mean;
 }
 
-// The frame as it would be with the error of the frame before.
-Image FlickerMeter::expected(const Image& picture, const TruthFrame& truth) const {
-  Image expected = picture;
-  for_each_pixel(picture, [&](size_t i) {
-    const auto error = carried(
-        truth, i, [&](size_t k) { return glm::dvec3(last_.pixels[k]) - glm::dvec3(truth.before.pixels[k]); });
-    if (!error) return;
-    const glm::dvec3 value = glm::dvec3(truth.shown.pixels[i]) + *error;
-    // NaN that stays is no flicker; FLIP counts it as an error.
-    if (has_nan(picture.pixels[i]) && !is_finite(value)) return;
-    expected.pixels[i] = glm::vec4(glm::clamp(glm::vec3(value), 0.0f, 1.0f), 1);
-  });
-  return expected;
+// A picture that is the truth, or rests, does not flicker.
+DisplayedFlip FlickerMeter::flicker(const Image& picture, const TruthFrame& truth,
+                                    const std::function<const SeenByFlip&()>& seen) const {
+  if (truth.carried.empty() && picture.pixels == last_.pixels) return {};
+  std::vector<float> excess = step_map(picture, seen(), last_, truth.carried);
+  for (size_t i = 0; i < excess.size() && !truth.step.empty(); ++i)
+    excess[i] = std::max(excess[i] - truth.step[i], 0.0f);
+  return displayed_flip_of(excess);
 }
 
 void FlickerMeter::add(const Image& shown, const TruthFrame& truth, bool counts) {
@@ -89,20 +92,16 @@ void FlickerMeter::add(const Image& shown, const TruthFrame& truth, bool counts)
   Image picture = filtered_ && !first ? filtered(shown, truth) : shown;
   if (counts) {
     std::optional<SeenByFlip> seen;
-    const auto flip_against = [&](const SeenByFlip& other) {
-      if (!seen) seen.emplace(picture);
-      return displayed_flip_of(seen->map(other));
-    };
-    const bool rests = !first && truth.same && picture.pixels == last_.pixels && counted_ > 0;
-    if (!rests) error_ = picture.pixels == truth.shown.pixels ? DisplayedFlip() : flip_against(*truth.seen);
-    lightgrid::add(sums_.displayed, error_);
+    const auto seen_picture = [&]() -> const SeenByFlip& { return seen ? *seen : seen.emplace(picture); };
+    const bool rests = !first && truth.step.empty() && picture.pixels == last_.pixels && counted_ > 0;
+    if (!rests)
+      error_ = picture.pixels == truth.shown.pixels ? DisplayedFlip()
+                                                    : displayed_flip_of(seen_picture().map(*truth.seen));
+    add_to(sums_.displayed, error_);
     ++counted_;
     if (!first) {
-      const Image without_flicker = expected(picture, truth);
-      const DisplayedFlip step = picture.pixels == without_flicker.pixels
-                                     ? DisplayedFlip()
-                                     : flip_against(SeenByFlip(without_flicker));
-      lightgrid::add(sums_.flicker, step);
+      const DisplayedFlip step = flicker(picture, truth, seen_picture);
+      add_to(sums_.flicker, step);
       sums_.largest_flicker = std::max(sums_.largest_flicker, step.mean);
       ++steps_;
     }

@@ -1,7 +1,8 @@
-// Flicker of a sequence of pictures in FLIP's terms: the difference seen when alternating between each frame
-// and the one before, without the change that the scene itself has (docs/details/frontier.md#sequences).
+// Flicker of a sequence of pictures in FLIP's terms: how much more visible the step from each frame to the
+// next is than the truth's (docs/details/frontier.md#sequences).
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "base/image.h"
@@ -24,16 +25,20 @@ struct CarriedPixel {
 
 // A frame of the truth. All images have one size.
 struct TruthFrame {
-  Image shown;                        // shown_image
-  Image before;                       // of the frame before; no pixels in the first
-  std::vector<CarriedPixel> carried;  // row 0 at the bottom; empty: each pixel is itself
-  const SeenByFlip* seen = nullptr;   // `shown`
-  bool same = false;                  // as in the frame before
+  Image shown;                             // shown_image
+  const SeenByFlip* seen = nullptr;        // `shown`
+  std::vector<CarriedPixel> carried = {};  // row 0 at the bottom; empty: each pixel is itself
+  std::vector<float> step = {};            // step_map from the frame before; empty: it is the same
 };
+
+// FLIP between a frame and the one before carried to it (TruthFrame::carried); where that does not show a
+// pixel, the frame itself is put. `seen`: the frame.
+std::vector<float> step_map(const Image& frame, const SeenByFlip& seen, const Image& before,
+                            const std::vector<CarriedPixel>& carried);
 
 // Means over frames; shares and values as in DisplayedFlip.
 struct SequenceFigures {
-  DisplayedFlip flicker;       // of each frame's step from the one before
+  DisplayedFlip flicker;       // by how much each step from the frame before exceeds the truth's, if it does
   double largest_flicker = 0;  // the mean over pixels of the frame where that is largest
   DisplayedFlip displayed;     // FLIP against the truth's frame
 };
@@ -57,7 +62,8 @@ class FlickerMeter {
 
  private:
   Image filtered(const Image& shown, const TruthFrame& truth) const;
-  Image expected(const Image& picture, const TruthFrame& truth) const;
+  DisplayedFlip flicker(const Image& picture, const TruthFrame& truth,
+                        const std::function<const SeenByFlip&()>& seen) const;
 
   bool filtered_;
   Image last_;

@@ -99,14 +99,17 @@ def seen(image, grid):
     return lab, *magnitudes
 
 
-def mean_flip(a, b, grid):
+def flip(a, b, grid):
     largest = hyab(hunt_lab([0, 1, 0]), hunt_lab([0, 0, 1])) ** 0.7
-    total = 0
+    values = []
     for color, edge, point, color2, edge2, point2 in zip(*seen(a, grid), *seen(b, grid)):
         error, knee = hyab(color, color2) ** 0.7, 0.4 * largest
         error = error * 0.95 / knee if error < knee else 0.95 + (error - knee) / (largest - knee) * 0.05
-        total += error ** (1 - math.sqrt(max(abs(edge - edge2), abs(point - point2)) / math.sqrt(2)))
-    return total / len(a)
+        values.append(error ** (1 - math.sqrt(max(abs(edge - edge2), abs(point - point2)) / math.sqrt(2))))
+    return values
+
+
+mean = lambda values: sum(values) / len(values)
 
 
 def carried(values, sequence, i):
@@ -120,18 +123,16 @@ def carried(values, sequence, i):
 def figures(sequence, newest):
     grid = Grid(sequence["width"], sequence["height"])
     steps, errors, last, truth_before = [], [], None, None
+    moved = lambda image, now: [c if c is not None else p for c, p in zip((carried(image, sequence, i) for i in range(len(image))), now)]
     for number, (picture, truth) in enumerate(zip(sequence["pictures"], sequence["truths"])):
         if last:
             share = max(newest, 1 / (number + 1))
-            before = [carried(last, sequence, i) for i in range(len(picture))]
-            picture = [p if b is None else [v + share * (c - v) for c, v in zip(p, b)] for p, b in zip(picture, before)]
-            error_before = [[a - b for a, b in zip(p, t)] for p, t in zip(last, truth_before)]
-            moved = [carried(error_before, sequence, i) for i in range(len(picture))]
-            expected = [p if e is None else [min(max(a + b, 0), 1) for a, b in zip(t, e)] for p, t, e in zip(picture, truth, moved)]
-            steps.append(mean_flip(picture, expected, grid))
-        errors.append(mean_flip(picture, truth, grid))
+            picture = [[v + share * (c - v) for c, v in zip(p, b)] for p, b in zip(picture, moved(last, picture))]
+            of_picture, of_truth = flip(picture, moved(last, picture), grid), flip(truth, moved(truth_before, truth), grid)
+            steps.append(mean([max(p - t, 0) for p, t in zip(of_picture, of_truth)]))
+        errors.append(mean(flip(picture, truth, grid)))
         last, truth_before = picture, truth
-    return {"flicker": sum(steps) / len(steps), "largest_flicker": max(steps), "displayed_flip": sum(errors) / len(errors)}
+    return {"flicker": mean(steps), "largest_flicker": max(steps), "displayed_flip": mean(errors)}
 
 
 sequence = json.load(open(sys.argv[1]))

@@ -26,36 +26,18 @@ const measureOf = (figures, measure) => (measure === "displayed_flip" ? figures?
 const size = (value) => (value === null ? null : Math.abs(value));
 
 // Sequences of frames, and what of them is measured: the frames, or their mean over frames.
-const SEQUENCES = [['still', 'still camera'], ['dolly', 'dolly'], ['moving_lights', 'moving lights']];
-const MEANS = [['plain', ''], ['filtered', ', mean over frames']];
+const SEQUENCES = [["still", "still camera"], ["dolly", "dolly"], ["moving_lights", "moving lights"]];
+const MEANS = [["plain", ""], ["filtered", ", mean over frames"]];
 
 // What an axis can show: value(point) is a number, or null where the point has none.
 const errorQuantity = ([kind, kindTitle], [measure, title]) => ({ key: `${kind}.${measure}`, title: `${title}, ${kindTitle}`, short: title,
   value: ({ error }) => size(measureOf(figuresOf(error, kind), measure)), text: errorNumber });
-const ERRORS = [
-  ...ERROR_KINDS.flatMap((kind) => ERROR_MEASURES.map((measure) => errorQuantity(kind, measure))), {
-    key: 'temporal',
-    title: 'Flicker, RMSE of the change',
-    short: 'Flicker',
-    value: ({error}) => error.temporal_rmse_rel,
-    text: errorNumber
-  },
-  ...SEQUENCES.flatMap(
-      ([key, title]) => MEANS.map(([mean, words]) => ({
-                                    key: `${key}.${mean}`,
-                                    title: `Flicker (FLIP), ${title}${words}`,
-                                    short: 'Flicker (FLIP)',
-                                    value: ({error}) => error.sequences?.[key][mean].flicker.mean ?? null,
-                                    text: errorNumber
-                                  }))),
-  ...['Leaked', 'Acned'].map((title) => ({
-                               key: title.toLowerCase(),
-                               title: `${title} pairs, %`,
-                               short: title,
-                               value: (point) => point[`${title.toLowerCase()}_percent`] ?? null,
-                               text: percentText
-                             }))
-];
+const ERRORS = [...ERROR_KINDS.flatMap((kind) => ERROR_MEASURES.map((measure) => errorQuantity(kind, measure))),
+  { key: "temporal", title: "Flicker, RMSE of the change", short: "Flicker", value: ({ error }) => error.temporal_rmse_rel, text: errorNumber },
+  ...SEQUENCES.flatMap(([key, title]) => MEANS.map(([mean, words]) => ({ key: `${key}.${mean}`, title: `Flicker (FLIP), ${title}${words}`, short: "Flicker (FLIP)",
+    value: ({ error }) => error.sequences?.[key][mean].flicker.mean ?? null, text: errorNumber }))),
+  ...["Leaked", "Acned"].map((title) => ({ key: title.toLowerCase(), title: `${title} pairs, %`, short: title,
+    value: (point) => point[`${title.toLowerCase()}_percent`] ?? null, text: percentText }))];
 // What wall time and the devices' time have each: the relative time, fronts and their bands, cheapest points, milliseconds.
 const WALL = { relative: (point) => point.relative_time, fronts: (point) => point.fronts, bands: page.flip_front_bands, within: page.cheapest_within_flip, ms: (point) => point.frame_ms, words: "" };
 const DEVICE = { relative: (point) => point.relative_device_time, fronts: (point) => point.device_fronts, bands: page.device_flip_front_bands, within: page.device_cheapest_within_flip, ms: (point) => point.device_ms,

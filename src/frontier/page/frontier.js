@@ -97,28 +97,14 @@ function errorTable(point) {
       ...ERROR_MEASURES.map(([measure]) => make("td", {}, text(measureOf(point.error.in_double, measure))))))] : [])));
 }
 
-function sequenceTable({frames, ...sequences}) {
-  const rows = SEQUENCES.flatMap(
-      ([key, title]) => MEANS.map(([mean, words]) => [title + words, sequences[key][mean]]));
-  const shares = ({flicker, largest_flicker: largest, displayed_flip: displayed}) =>
-      [errorNumber(flicker.mean), percentText(100 * flicker.visible_share), errorNumber(largest),
-       errorNumber(displayed.mean)];
-  return make(
-      'div', {class: 'scrolls'},
-      make(
-          'table', {class: 'sequences'},
-          make(
-              'thead', {},
-              make(
-                  'tr', {}, make('td', {}, `${wholeNumber(frames)} frames`),
-                  ...['Flicker (FLIP)', 'Pixels above 0.05', 'Largest step', 'FLIP against the truth'].map(
-                      (title) => make('th', {scope: 'col'}, title)))),
-          make(
-              'tbody', {},
-              ...rows.map(
-                  ([title, figures]) => make(
-                      'tr', {}, make('th', {scope: 'row'}, title),
-                      ...shares(figures).map((text) => make('td', {}, text)))))));
+function sequenceTable({ frames, ...sequences }) {
+  const rows = SEQUENCES.flatMap(([key, title]) => MEANS.map(([mean, words]) => [title + words, sequences[key][mean]]));
+  const texts = ({ flicker, largest_flicker: largest, displayed_flip: displayed }) =>
+    [errorNumber(flicker.mean), percentText(100 * flicker.visible_share), errorNumber(largest), errorNumber(displayed.mean)];
+  return make("div", { class: "scrolls" }, make("table", { class: "sequences" },
+    make("thead", {}, make("tr", {}, make("td", {}, `${wholeNumber(frames)} frames`),
+      ...["Flicker (FLIP)", "Pixels above 0.05", "Largest step", "FLIP against the truth"].map((title) => make("th", { scope: "col" }, title)))),
+    make("tbody", {}, ...rows.map(([title, figures]) => make("tr", {}, make("th", { scope: "row" }, title), ...texts(figures).map((text) => make("td", {}, text)))))));
 }
 
 // Of the chosen reference: what other views might have given.
@@ -152,88 +138,34 @@ function choosePoint(point) {
     quantity("leaked").value(point) !== null && `${percentText(point.leaked_percent)} of ${wholeNumber(point.pairs.shadow_pairs)} pairs leaked, ${percentText(point.acned_percent)} acned`,
     point.nan_pixels > 0 && `${wholeNumber(point.nan_pixels)} NaN pixels`,
     point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, state.clock.relative(point).runs > 0 && `on the front${state.clock.words} with a probability of ${probabilityText(frontOfChoice(point).probability)}`];
-  byId('chosen').replaceChildren(...(
-      point ?
-          [make(
-              'article', {class: 'technique'}, make('h3', {}, nameElement(point.label)),
-              make('p', {class: 'summary quiet'}, summary.filter(Boolean).join(' \u00b7 ')),
-              ...(images.length ? [make(
-                                      'div', {class: 'pictures'},
-                                      ...images.map(([number, caption]) => pictureFigure(number, caption)))] :
-                                  [make('p', {class: 'quiet'}, 'No pictures of this point were kept.')]),
-              ...(images.length && page.reduced > 1 ?
-                      [make(
-                          'p', {class: 'quiet'},
-                          `Shown at 1/${
-                              page.reduced} of their width and height so that this page stays small; those beside it are whole.`)] :
-                      []),
-              errorTable(point),
-              ...(sampled ? [make(
-                                'p', {},
-                                `Truth in double: at ${
-                                    wholeNumber(
-                                        sampled
-                                            .pixels)} random pixels of opaque surfaces. There the RMSE is ${
-                                    errorNumber(
-                                        sampled
-                                            .float_total_rmse_rel)} against the truth in float, which is within ${
-                                    errorNumber(sampled.float_truth_max_rel)} of the one in double (RMSE ${
-                                    errorNumber(sampled.float_truth_rmse_rel)}).`)] :
-                            []),
-              ...(error.flip_views > 0 && error.flip_views < point.views ?
-                      [
-                        make(
-                            'p', {},
-                            `HDR-FLIP on ${error.flip_views} of ${point.views} views, flicker on ${
-                                error.temporal_views}.`)
-                      ] :
-                      []),
-              ...(error.seeds ? [make('p', {}, randomInWords(error))] : []),
-              ...(error.temporal_rmse_rel !== null ?
-                      [
-                        make(
-                            'p', {},
-                            `Flicker: from frame to frame of a slow turn its difference from the truth changes by ${
-                                errorNumber(error.temporal_rmse_rel)} (RMSE over the brightest channel).`)
-                      ] :
-                      []),
-              ...(error.sequences ? [sequenceTable(error.sequences)] : []),
-              make(
-                  'details', {}, make('summary', {}, 'Settings'),
-                  ...Object.entries(point.settings)
-                      .map(([key, value]) => make('div', {}, make('code', {}, `${key} = ${value}`)))))] :
-          []));
+  byId("chosen").replaceChildren(...(point ? [make("article", { class: "technique" }, make("h3", {}, nameElement(point.label)),
+    make("p", { class: "summary quiet" }, summary.filter(Boolean).join(" \u00b7 ")),
+    ...(images.length ? [make("div", { class: "pictures" }, ...images.map(([number, caption]) => pictureFigure(number, caption)))] : [make("p", { class: "quiet" }, "No pictures of this point were kept.")]),
+    ...(images.length && page.reduced > 1 ? [make("p", { class: "quiet" }, `Shown at 1/${page.reduced} of their width and height so that this page stays small; those beside it are whole.`)] : []),
+    errorTable(point),
+    ...(sampled ? [make("p", {}, `Truth in double: at ${wholeNumber(sampled.pixels)} random pixels of opaque surfaces. There the RMSE is ${errorNumber(sampled.float_total_rmse_rel)} against the truth in float, which is within ${errorNumber(sampled.float_truth_max_rel)} of the one in double (RMSE ${errorNumber(sampled.float_truth_rmse_rel)}).`)] : []),
+    ...(error.flip_views > 0 && error.flip_views < point.views ? [make("p", {}, `HDR-FLIP on ${error.flip_views} of ${point.views} views, flicker on ${error.temporal_views}.`)] : []),
+    ...(error.seeds ? [make("p", {}, randomInWords(error))] : []),
+    ...(error.temporal_rmse_rel !== null ? [make("p", {}, `Flicker: from frame to frame of a slow turn its difference from the truth changes by ${errorNumber(error.temporal_rmse_rel)} (RMSE over the brightest channel).`)] : []),
+    ...(error.sequences ? [sequenceTable(error.sequences)] : []),
+    make("details", {}, make("summary", {}, "Settings"), ...Object.entries(point.settings).map(([key, value]) => make("div", {}, make("code", {}, `${key} = ${value}`)))))] : []));
   redraw();
 }
 
 const measured = (key) => page.points.some((point) => quantity(key).value(point) !== null);
 const column = (title, key) => ({ title, value: quantity(key).value, text: quantity(key).text });
 const FIGURE_COLUMNS = [
-  {
-    title: 'Point',
-    value: (point) => point.label,
-    text: (label) => pointButton(state.points.find((point) => point.label === label), nameElement(label))
-  },
-  column('Time, over the baseline\'s', 'relative'),
-  column('Frame, ms', 'ms'),
-  ...['relative_device', 'device', 'hand_over', 'copy', 'read_back'].filter(measured).map(
-      (key) => column(quantity(key).short ?? quantity(key).title, key)),
-  ...(HAS_AUTHORED ? [column('FLIP, authored ranges', 'authored.displayed_flip')] : []),
-  column('RMSE', 'total.rmse_rel'),
-  column('Largest error', 'total.max_rel'),
-  column('FLIP as displayed', 'total.displayed_flip'),
-  column('relMSE, 99.9 %', 'total.rel_mse_trimmed'),
-  column('HDR-FLIP', 'total.flip_mean'),
-  column('Model', 'model.rmse_rel'),
-  column('Precision', 'precision.rmse_rel'),
-  column('Technique', 'technique.rmse_rel'),
-  {title: 'Lost pairs', value: (point) => point.pairs.lost, text: wholeNumber, gate: true},
-  {title: 'NaN pixels', value: (point) => point.nan_pixels, text: wholeNumber, gate: true},
-  ...['leaked', 'acned', ...SEQUENCES.map(([key]) => `${key}.plain`)].filter(measured).map(
-      (key) => column(quantity(key).title, key)),
-  column('Listed pairs', 'listed'),
-  column('Bytes moved', 'moved'),
-  column('Memory', 'memory'),
+  { title: "Point", value: (point) => point.label, text: (label) => pointButton(state.points.find((point) => point.label === label), nameElement(label)) },
+  column("Time, over the baseline's", "relative"), column("Frame, ms", "ms"),
+  ...["relative_device", "device", "hand_over", "copy", "read_back"].filter(measured).map((key) => column(quantity(key).short ?? quantity(key).title, key)),
+  ...(HAS_AUTHORED ? [column("FLIP, authored ranges", "authored.displayed_flip")] : []), column("RMSE", "total.rmse_rel"), column("Largest error", "total.max_rel"),
+  column("FLIP as displayed", "total.displayed_flip"), column("relMSE, 99.9 %", "total.rel_mse_trimmed"),
+  column("HDR-FLIP", "total.flip_mean"), column("Model", "model.rmse_rel"), column("Precision", "precision.rmse_rel"),
+  column("Technique", "technique.rmse_rel"),
+  { title: "Lost pairs", value: (point) => point.pairs.lost, text: wholeNumber, gate: true },
+  { title: "NaN pixels", value: (point) => point.nan_pixels, text: wholeNumber, gate: true },
+  ...["leaked", "acned", ...SEQUENCES.map(([key]) => `${key}.plain`)].filter(measured).map((key) => column(quantity(key).title, key)),
+  column("Listed pairs", "listed"), column("Bytes moved", "moved"), column("Memory", "memory"),
 ];
 
 function showAmong(scene) {
