@@ -97,7 +97,7 @@ TEST(Sequences, TellRandomPointsFromTheOthers) {
   const View view = small_view(48, 30);
   FrontierJob job;
   const std::vector<std::string> names = {"visibility:range=infinite", "visibility",
-                                          "visibility:range=stochastic"};
+                                          "visibility:range=stochastic", "alpha=1"};
   job.points = chosen_points(names, {}, job.common, true);
   ASSERT_EQ(job.points.size(), 3u);
   const TempFolder folder;
@@ -141,7 +141,7 @@ TEST(Sequences, TellRandomPointsFromTheOthers) {
     points[i].run.look(view);
     points[i].run.go_to_frame(0);
     points[i].run.draw();
-    EXPECT_TRUE(compare_images(points[i].run.image(), before[i]).bit_identical) << names[i];
+    EXPECT_TRUE(compare_images(points[i].run.image(), before[i]).bit_identical) << job.points[i].label;
   }
 }
 
