@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/json_file.h"
+#include "frontier/fields.h"
 #include "results/error_measures.h"
 
 namespace lightgrid {
@@ -85,6 +86,8 @@ class PointComparison {
         compare_errors(std::string("authored ") + kind, now_errors.object("authored").object(kind),
                        earlier_errors.object("authored").object(kind));
     }
+    if (now_errors.has("sequences") && earlier_errors.has("sequences"))
+      compare_sequences(now_errors.object("sequences"), earlier_errors.object("sequences"));
     const JsonFields pairs = now_.object("pairs"), earlier_pairs = earlier_.object("pairs");
     compare_counts("lit pairs of a pixel and a light are lost", pairs.count("lost"),
                    earlier_pairs.count("lost"));
@@ -117,6 +120,18 @@ class PointComparison {
       result_.told.push_back(flip + " is not measured any more");
     } else {
       compare_error(flip, now, earlier, "flip_mean");
+    }
+  }
+
+  void compare_sequences(const JsonFields& now, const JsonFields& earlier) {
+    for (const auto& [key, ignored] : sequences_of_errors) {
+      for (const char* kind : {"plain", "filtered"}) {
+        const auto flicker = [&](const JsonFields& sequences) {
+          return sequences.object(key).object(kind).object("flicker");
+        };
+        compare_error(fmt::format("{}: flicker {} {}", name_, key, kind), flicker(now), flicker(earlier),
+                      "mean");
+      }
     }
   }
 

@@ -242,6 +242,36 @@ TEST_F(FrontierPage, HasAxesAndColumnsOfShadowsWhereTheyWereCounted) {
   EXPECT_THAT(with["summary"].get<std::string>(), HasSubstr("1.50 % of 400 pairs leaked, 0.500 % acned"));
 }
 
+// A point whose sequences were not drawn is not on their axes.
+TEST_F(FrontierPage, HasAxesColumnsAndATableOfSequencesWhereTheyWereDrawn) {
+  FrontierPart part = synthetic_sweep();
+  for (FrontierRecord& r : part.records) {
+    if (r.view > 0 || (r.point.label != "clustered" && r.point.label != "deferred")) continue;
+    SequenceErrors& sequences = r.errors.sequences.emplace();
+    if (r.point.label == "clustered") continue;
+    sequences.still.plain = {{0.25, 0.125}, 0.375, {0.5, 1}};
+    sequences.moving_lights.filtered.flicker.mean = 0.0625;
+  }
+  const char* control = "tests/frontier/frontier_page_sequences.js";
+  const json without = seen_in_browser(folder.path, control, "1280,900");
+  write_file(folder.path / "index.html", page_text(answer_of({part})));
+  const json with = seen_in_browser(folder.path, control, "1280,900");
+  ASSERT_TRUE(without.is_object() && with.is_object());
+  for (const json* seen : {&without, &with}) EXPECT_THAT(texts((*seen)["faults"]), IsEmpty());
+  EXPECT_THAT(texts(without["axes"]), testing::Not(Contains(HasSubstr("(FLIP)"))));
+  EXPECT_THAT(texts(without["columns"]), testing::Not(Contains(HasSubstr("(FLIP)"))));
+  EXPECT_THAT(texts(with["axes"]), testing::IsSupersetOf({"Flicker (FLIP), still camera",
+                                                          "Flicker (FLIP), dolly, mean over frames"}));
+  EXPECT_THAT(texts(with["columns"]),
+              testing::IsSupersetOf({"Flicker (FLIP), still camera", "Flicker (FLIP), moving lights"}));
+  EXPECT_THAT(texts(with["marks"]), UnorderedElementsAre("clustered: 0", "deferred: 0.250"));
+  EXPECT_EQ(with["table"].size(), 7u);
+  EXPECT_EQ(with["table"][0],
+            "64 frames|Flicker (FLIP)|Pixels above 0.05|Largest step|FLIP against the truth");
+  EXPECT_EQ(with["table"][1], "still camera|0.250|12.5 %|0.375|0.500");
+  EXPECT_EQ(with["table"][6], "moving lights, mean over frames|0.0625|0 %|0|0");
+}
+
 // Without errors against authored ranges there is no choice; with them axis, front and table follow it.
 TEST_F(FrontierPage, ShowsErrorsAgainstEitherReference) {
   FrontierPart part = synthetic_sweep();

@@ -65,6 +65,17 @@ TEST(Gate, IsClosedByAnErrorThatGrew) {
               ElementsAre(EndsWith("total rmse_rel grew from 0 to 1.1e-09")));
 }
 
+TEST(Gate, IsClosedByASequenceThatFlickersMore) {
+  json now = frontier(), earlier = frontier();
+  json& mean = now["points"][0]["error"]["sequences"]["dolly"]["filtered"]["flicker"]["mean"];
+  mean = 0.5;
+  EXPECT_THAT(held_against(now, earlier, "").worse,
+              ElementsAre(AllOf(StartsWith(std::string(name) + ": flicker dolly filtered grew from "),
+                                EndsWith(" to 0.5"))));
+  earlier["points"][0]["error"].erase("sequences");  // measured only where they are asked for
+  EXPECT_THAT(held_against(now, earlier, "").worse, IsEmpty());
+}
+
 TEST(Gate, KnowsErrorsThatAreNotFinite) {
   json now = frontier(), earlier = frontier();
   figure(now, "total", "max_rel") = nullptr;

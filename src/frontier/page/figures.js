@@ -35,7 +35,7 @@ const errorQuantity = ([kind, kindTitle], [measure, title]) => ({ key: `${kind}.
 const ERRORS = [...ERROR_KINDS.flatMap((kind) => ERROR_MEASURES.map((measure) => errorQuantity(kind, measure))),
   { key: "temporal", title: "Flicker, RMSE of the change", short: "Flicker", value: ({ error }) => error.temporal_rmse_rel, text: errorNumber },
   ...SEQUENCES.flatMap(([key, title]) => MEANS.map(([mean, words]) => ({ key: `${key}.${mean}`, title: `Flicker (FLIP), ${title}${words}`, short: "Flicker (FLIP)",
-    value: ({ error }) => error.sequences?.[key][mean].flicker.mean ?? null, text: errorNumber }))),
+    value: ({ error }) => error.sequences?.[key][mean].flicker.mean ?? null, text: threeDigits }))),
   ...["Leaked", "Acned"].map((title) => ({ key: title.toLowerCase(), title: `${title} pairs, %`, short: title,
     value: (point) => point[`${title.toLowerCase()}_percent`] ?? null, text: percentText }))];
 // What wall time and the devices' time have each: the relative time, fronts and their bands, cheapest points, milliseconds.

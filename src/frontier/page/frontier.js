@@ -100,7 +100,7 @@ function errorTable(point) {
 function sequenceTable({ frames, ...sequences }) {
   const rows = SEQUENCES.flatMap(([key, title]) => MEANS.map(([mean, words]) => [title + words, sequences[key][mean]]));
   const texts = ({ flicker, largest_flicker: largest, displayed_flip: displayed }) =>
-    [errorNumber(flicker.mean), percentText(100 * flicker.visible_share), errorNumber(largest), errorNumber(displayed.mean)];
+    [threeDigits(flicker.mean), percentText(100 * flicker.visible_share), threeDigits(largest), threeDigits(displayed.mean)];
   return make("div", { class: "scrolls" }, make("table", { class: "sequences" },
     make("thead", {}, make("tr", {}, make("td", {}, `${wholeNumber(frames)} frames`),
       ...["Flicker (FLIP)", "Pixels above 0.05", "Largest step", "FLIP against the truth"].map((title) => make("th", { scope: "col" }, title)))),
