@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "results/metrics.h"
+#include "session/oracle.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
 #include "support/temp_folder.h"
@@ -86,6 +87,38 @@ TEST(CarriedPixels, AreNotFromAnotherSurface) {
   EXPECT_LT(sum_of(carried[5 * width + 7]), 1e-5 + 1e-5) << "hidden before";
   EXPECT_NEAR(weight_of(carried[6 * width + 7], 7, 6), 1, 1e-5);
   EXPECT_NEAR(weight_of(carried[5 * width + 8], 8, 5), 1, 1e-5);
+}
+
+// Depths and pictures of the renderer. Where the camera moved, the frame before is nearer to the frame once
+// it is carried; where it rests, carrying changes nothing.
+TEST(CarriedPixels, BringTheFrameBeforeToTheFrame) {
+  const SmallScene s = small_scene();
+  GpuScene gpu(software_devices(), s.scene);
+  const auto at = [&](const glm::dvec3& eye) {
+    return make_view(look_at(eye, eye + glm::dvec3(0, 0, -1)), 96, 60);
+  };
+  for (const bool own_surfaces : {false, true}) {
+    const BruteForce brute(software_devices(), gpu, {}, {}, own_surfaces);
+    const View before = at({0, 0, 0}), view = at({0.1, 0.05, -0.2});
+    const auto run = brute.truth_run(before);
+    const auto drawn = [&](const View& of) {
+      run->look(of);
+      run->run_frame(true);
+      return std::pair(shown_image(run->image(), {}), read_depth(*run));
+    };
+    const auto [first, first_depth] = drawn(before);
+    const auto [frame, depth] = drawn(view);
+    const SeenByFlip seen(frame);
+    const double still = mean_of(step_map(frame, seen, first, {})),
+                 carried =
+                     mean_of(step_map(frame, seen, first, carried_pixels(view, depth, before, first_depth)));
+    EXPECT_GT(still, 0.02) << own_surfaces;
+    EXPECT_LT(4 * carried, still) << own_surfaces;
+    const auto resting = carried_pixels(view, depth, view, depth);
+    EXPECT_LT(mean_of(step_map(frame, seen, frame, resting)), 1e-3) << own_surfaces;
+    EXPECT_TRUE(
+        std::ranges::all_of(resting, [](const CarriedPixel& p) { return std::abs(sum_of(p) - 1) < 1e-5; }));
+  }
 }
 
 // Without ranges a point is the truth; with ranges its error rests with the camera; random ranges flicker.
