@@ -19,8 +19,7 @@
 namespace lightgrid {
 namespace {
 
-// Before those that count, so that a mean over frames has settled: its first frame then counts less than any
-// later one.
+// Before those that count: a mean over frames is then of as many as it will be of.
 constexpr int settling_frames = 16;
 constexpr int all_frames = settling_frames + frames_of_sequence;
 
@@ -103,8 +102,9 @@ class SequencesOfScene {
       point.plain = FlickerMeter(false), point.filtered = FlickerMeter(true);
     for (int frame = 0; frame < all_frames; ++frame) {
       if (job_.progress)
-        job_.progress(0.5, fmt::format("{} sequence, frame {} of {}", sequences_of_errors[sequence].first,
-                                       frame + 1, all_frames));
+        job_.progress(double(sequence * all_frames + frame) / (3 * all_frames),
+                      fmt::format("{} sequence, frame {} of {}", sequences_of_errors[sequence].first,
+                                  frame + 1, all_frames));
       const View& view = views[size_t(frame)];
       const SceneChanges changes = advance ? advance(size_t(frame)) : SceneChanges();
       gpu_.update(changes);
