@@ -134,6 +134,14 @@ class View:
         """A frame: height x width x 4, float32, linear. out: an array to write to, of any row order, which is returned."""
         return self._draw(lib.lightgrid_view_render, out, "RGBA_F32").view(Image)
 
+    def draw(self) -> Image:
+        """A frame as render() has it, where the library has it: without a copy on an OpenCL device that is a CPU. The array
+        shows the view's last frame: the next one may overwrite it. Its memory lives as long as the array does."""
+        image = ffi.new("lightgrid_image*")
+        frame = made("lightgrid_frame", lib.lightgrid_frame_free,
+                     lambda out: lib.lightgrid_view_draw(self._handle, image, out))
+        return _memory(frame, image.pixels, (image.height, image.width, 4), "<f4")[::-1].view(Image)
+
     def depth(self, out: Any = None) -> np.ndarray:
         """Of the last frame: 1 at the near plane, 0 where no opaque surface is."""
         return self._draw(lib.lightgrid_view_depth, out, "R_F32")

@@ -137,7 +137,15 @@ struct lightgrid_view {
   lightgrid::Settings settings;
   lightgrid::View view;
   std::shared_ptr<lightgrid::GpuScene> gpu;  // that the run reads
-  std::unique_ptr<lightgrid::TechniqueRun> run;
+  std::shared_ptr<lightgrid::TechniqueRun> run;
   uint64_t shape = 0, time = 0;  // of the scene when `run` last read it
   bool drawn = false;            // a frame of this camera and this scene
+};
+
+// Keeps the memory of a frame's image, and what that needs.
+struct lightgrid_frame {
+  std::shared_ptr<lightgrid::c::OpenDevice> device;
+  std::shared_ptr<lightgrid::c::DeviceScene> scene;
+  std::shared_ptr<lightgrid::GpuScene> gpu;
+  std::shared_ptr<lightgrid::TechniqueRun> run;
 };

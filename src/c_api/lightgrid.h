@@ -16,9 +16,9 @@
  * pointer to freed memory, or to fewer values than its size says, cannot be noticed.
  *
  * Ownership. What a function writes through a pointer to a pointer is the caller's: a device, scene, view,
- * lists or report until its own close or free function, a text until lightgrid_free. All of these take null.
- * They may go in any order: a view keeps its device and its scene alive. Memory that is handed in is read or
- * written during the call alone, never kept. A `const char*` that is returned belongs to the library.
+ * frame, lists or report until its own close or free function, a text until lightgrid_free. All of these take
+ * null. They may go in any order: a view keeps its device and its scene alive. Memory that is handed in is
+ * read or written during the call alone, never kept. A `const char*` that is returned belongs to the library.
  *
  * Threads. Any function may be called from any thread. Calls on one device, with its views, take turns; two
  * devices work at the same time, unless both draw with OpenGL, which takes turns within the process. A call
@@ -63,6 +63,7 @@ typedef enum lightgrid_status {
 typedef struct lightgrid_device lightgrid_device; /* an OpenCL device, with or without an OpenGL context */
 typedef struct lightgrid_scene lightgrid_scene;   /* meshes, materials, lights and cameras, in host memory */
 typedef struct lightgrid_view lightgrid_view;     /* a scene on a device, drawn by one technique */
+typedef struct lightgrid_frame lightgrid_frame;   /* keeps the memory of a view's image */
 typedef struct lightgrid_lists lightgrid_lists;   /* a light grid, in host memory */
 typedef struct lightgrid_report lightgrid_report; /* a comparison's results and images */
 
@@ -267,6 +268,15 @@ lightgrid_status lightgrid_view_look(lightgrid_view* view, const lightgrid_camer
 lightgrid_status lightgrid_view_size(const lightgrid_view* view, int32_t* width, int32_t* height);
 /* Draws a frame into an image of the view's size: RGBA_F32. */
 lightgrid_status lightgrid_view_render(lightgrid_view* view, const lightgrid_image* image);
+/* Draws a frame and writes to `image` where the library has it, in place of copying it: RGBA_F32, row 0 at
+ * the bottom, rows without gaps. It is the memory of an OpenCL device that is a CPU, if that shaded the
+ * frame, and otherwise the view's own copy. The caller may read and write it until the next call of
+ * lightgrid_view_draw, _render, _profile, _look or _close with this view.
+ * `frame`, unless null, gets a handle that keeps the memory: until it is freed, also after those calls, the
+ * memory can be read, but after another frame of the view it may show that one. A view draws into the same
+ * memory as long as its size and what its scene consists of stay. */
+lightgrid_status lightgrid_view_draw(lightgrid_view* view, lightgrid_image* image, lightgrid_frame** frame);
+void lightgrid_frame_free(lightgrid_frame* frame);
 /* Of the last frame: the depth of opaque surfaces (R_F32), and the lights in each pixel's list (R_U32). */
 lightgrid_status lightgrid_view_depth(lightgrid_view* view, const lightgrid_image* depth);
 lightgrid_status lightgrid_view_listed(lightgrid_view* view, const lightgrid_image* counts);

@@ -7,6 +7,10 @@
 namespace lightgrid::c {
 namespace {
 
+std::shared_ptr<TechniqueRun> make_run(const lightgrid_view& v, const View& view) {
+  return std::make_shared<TechniqueRun>(v.device->renderer(), *v.gpu, view, v.settings, *v.technique);
+}
+
 // The run, for the scene as it now is.
 TechniqueRun& follow(lightgrid_view& v) {
   const LoadedScene& scene = *v.scene->scene;
@@ -16,7 +20,7 @@ TechniqueRun& follow(lightgrid_view& v) {
   if (!v.run || v.shape != scene.shape()) {
     v.run.reset();
     v.gpu = v.scene->gpu;
-    v.run = std::make_unique<TechniqueRun>(v.device->renderer(), *v.gpu, v.view, v.settings, *v.technique);
+    v.run = make_run(v, v.view);
   } else {
     v.run->look(v.view, scene.changes_since(v.time));
   }
@@ -82,7 +86,12 @@ lightgrid_status lightgrid_view_look(lightgrid_view* view, const lightgrid_camer
     const View looked = make_view(
         camera ? camera_of(*camera) : v.scene->scene->camera(double(width) / height), width, height);
     const Turn turn(*v.device);
-    follow(v).look(looked);
+    TechniqueRun& run = follow(v);
+    const bool frames_hold_memory = v.run.use_count() > 1;
+    if (frames_hold_memory && looked.grid() != v.view.grid())
+      v.run = make_run(v, looked);
+    else
+      run.look(looked);
     v.view = looked, v.drawn = false;
   });
 }
@@ -105,6 +114,23 @@ lightgrid_status lightgrid_view_render(lightgrid_view* view, const lightgrid_ima
     v.drawn = true;
   });
 }
+
+lightgrid_status lightgrid_view_draw(lightgrid_view* view, lightgrid_image* image, lightgrid_frame** frame) {
+  return call([&] {
+    lightgrid_view& v = needed(view, "view");
+    lightgrid_image& out = needed(image, "image");
+    const Turn turn(*v.device);
+    TechniqueRun& run = follow(v);
+    v.drawn = false;
+    std::unique_ptr<lightgrid_frame> made;
+    if (frame) made.reset(new lightgrid_frame{v.device, v.scene, v.gpu, v.run});
+    out = {run.show_frame(), v.view.width, v.view.height, LIGHTGRID_RGBA_F32, ptrdiff_t(v.view.width) * 16};
+    v.drawn = true;
+    if (frame) *frame = made.release();
+  });
+}
+
+void lightgrid_frame_free(lightgrid_frame* frame) { close(frame); }
 
 lightgrid_status lightgrid_view_depth(lightgrid_view* view, const lightgrid_image* depth) {
   return call([&] {

@@ -34,10 +34,11 @@ void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, cons
   });
 }
 
-MappedBuffer::MappedBuffer(ClDevice& device, const char* what, const cl::Buffer& buffer, size_t bytes)
+MappedBuffer::MappedBuffer(ClDevice& device, const char* what, const cl::Buffer& buffer, size_t bytes,
+                           cl_map_flags use)
     : device_(device), buffer_(buffer) {
   if (bytes == 0) return;
-  checked(what, [&] { data_ = device.queue().enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, bytes); });
+  checked(what, [&] { data_ = device.queue().enqueueMapBuffer(buffer, CL_TRUE, use, 0, bytes); });
 }
 
 MappedBuffer::~MappedBuffer() {

@@ -14,17 +14,18 @@ void read_buffer(ClDevice& device, const char* what, const cl::Buffer& from, voi
 void write_buffer(ClDevice& device, const char* what, const cl::Buffer& to, const void* from, size_t bytes,
                   size_t offset = 0);
 
-// A buffer's first bytes for the host to read until this object goes; waits for the queue. On CPUs nothing is
-// copied.
+// A buffer's first bytes for the host to read, or to read and write, until this object goes; waits for the
+// queue. On CPUs nothing is copied.
 class MappedBuffer {
  public:
   // Throws Error(machine) where it cannot be mapped. `device` outlives this object.
-  MappedBuffer(ClDevice& device, const char* what, const cl::Buffer& buffer, size_t bytes);
+  MappedBuffer(ClDevice& device, const char* what, const cl::Buffer& buffer, size_t bytes,
+               cl_map_flags use = CL_MAP_READ);
   ~MappedBuffer();
   MappedBuffer(const MappedBuffer&) = delete;
   MappedBuffer& operator=(const MappedBuffer&) = delete;
   // `bytes` of them.
-  const void* data() const { return data_; }
+  void* data() const { return data_; }
 
  private:
   ClDevice& device_;

@@ -14,7 +14,8 @@ HostImage::HostImage(Work& work, const ShadedImage& shaded, Image& copy) : copy_
   }
   const size_t bytes = copy.pixels.size() * 16;
   if (shaded.in_cl && work.renderer.cl->info().cpu) {
-    mapped_.emplace(*work.renderer.cl, read_back_copy, shaded.in_cl->cl_buffer(), bytes);
+    mapped_.emplace(*work.renderer.cl, read_back_copy, shaded.in_cl->cl_buffer(), bytes,
+                    CL_MAP_READ | CL_MAP_WRITE);
     return;
   }
   if (shaded.in_cl) {
@@ -27,8 +28,8 @@ HostImage::HostImage(Work& work, const ShadedImage& shaded, Image& copy) : copy_
   pass.moves(bytes, bytes);
 }
 
-const glm::vec4* HostImage::pixels() const {
-  return mapped_ ? static_cast<const glm::vec4*>(mapped_->data()) : copy_.pixels.data();
+glm::vec4* HostImage::pixels() {
+  return mapped_ ? static_cast<glm::vec4*>(mapped_->data()) : copy_.pixels.data();
 }
 
 void HostImage::keep() {

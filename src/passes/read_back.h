@@ -14,8 +14,8 @@ namespace lightgrid {
 class HostImage {
  public:
   HostImage(Work& work, const ShadedImage& shaded, Image& copy);
-  // Row 0 at the bottom.
-  const glm::vec4* pixels() const;
+  // Row 0 at the bottom. May be written, which changes no later frame.
+  glm::vec4* pixels();
   // Into `copy`, if it is not there.
   void keep();
 

@@ -26,16 +26,19 @@ TechniqueRun::TechniqueRun(Renderer& renderer, const Scene& scene, const View& v
       view_(renderer, *own_scene_, view, settings, checked_needs(technique, settings)) {}
 
 void TechniqueRun::prepare() {
+  shown_.reset();
   view_.prepare([&] { draw_frame(); });
   frame_ = {};
 }
 
 void TechniqueRun::release() {
+  shown_.reset();
   view_.release();
   frame_ = {};
 }
 
 void TechniqueRun::draw_frame() {
+  shown_.reset();
   const bool opengl = view_.renderer.gl != nullptr;
   if (opengl) reset_gl_state();
   begin_shadow_bands(view_, view_.caches.shadow_bits);
@@ -46,25 +49,31 @@ void TechniqueRun::draw_frame() {
   if (opengl) check_gl(technique_.name);
 }
 
-double TechniqueRun::render(const std::function<void(HostImage& image)>& take) {
+double TechniqueRun::render() {
   const Timer timer;
   draw_frame();
-  HostImage image(view_, frame_.image, image_);
+  shown_.emplace(view_, frame_.image, image_);
   const double ms = timer.elapsed_ms();
-  take(image);
   if (view_.renderer.gl) check_gl(technique_.name);
   return ms;
 }
 
 double TechniqueRun::run_frame(bool warmup) {
-  const double ms = render([](HostImage& image) { image.keep(); });
+  const double ms = render();
+  shown_->keep();
   if (!warmup) frame_ms_.push_back(ms);
   return ms;
 }
 
 double TechniqueRun::run_frame(const std::function<void(const glm::vec4* pixels)>& take) {
-  frame_ms_.push_back(render([&](HostImage& image) { take(image.pixels()); }));
+  take(show_frame());
+  shown_.reset();
   return frame_ms_.back();
+}
+
+glm::vec4* TechniqueRun::show_frame() {
+  frame_ms_.push_back(render());
+  return shown_->pixels();
 }
 
 void TechniqueRun::run_profiled_frames(double most_ms) {
@@ -75,7 +84,7 @@ void TechniqueRun::run_profiled_frames(double most_ms) {
   } enabled(view_.timer);
   const Timer timer;
   for (int i = 0; i < 5 && (i == 0 || timer.elapsed_ms() < most_ms); ++i) {
-    render([](HostImage& image) { image.keep(); });
+    run_frame(true);
   }
 }
 

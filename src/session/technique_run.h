@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include "passes/read_back.h"
@@ -25,10 +26,10 @@ class TechniqueRun {
   // Builds what frames of other views of the scene need: before a camera moves (RenderView::prepare).
   void prepare();
   // Another camera or size, for the frames that follow.
-  void look(const View& view) { view_.look(view); }
+  void look(const View& view) { shown_.reset(), view_.look(view); }
   // The same after the scene changed; its GpuScene is already updated.
   void look(const View& view, const SceneChanges& changes) {
-    view_.look(view);
+    look(view);
     if (!changes.lights.empty()) view_.lights_changed();
   }
 
@@ -42,6 +43,9 @@ class TechniqueRun {
   // The same, for a caller that keeps the image itself: `take` reads its pixels, row 0 at the bottom, where
   // they are. image() is then an older frame's.
   double run_frame(const std::function<void(const glm::vec4* pixels)>& take);
+  // The same, where the pixels stay: until the next frame, look(), prepare() or release(). They may be
+  // overwritten. At a size that stays, the memory is the same in each frame.
+  glm::vec4* show_frame();
   // One frame whose image stays on its device, for a window: frame().image. image() is then an older frame's.
   void draw_frame();
   // More frames with a wait after each pass, for pass times: up to five, or as many as fit in the time.
@@ -66,13 +70,14 @@ class TechniqueRun {
   RunResult result() const;
 
  private:
-  double render(const std::function<void(HostImage& image)>& take);  // ms
+  double render();  // ms, until shown_ is there
 
   const Technique& technique_;
   std::unique_ptr<GpuScene> own_scene_;
   RenderView view_;
   Frame frame_;
   Image image_;
+  std::optional<HostImage> shown_;
   std::vector<double> frame_ms_;
 };
 

@@ -71,6 +71,12 @@ void small_view(lightgrid_device* device, lightgrid_scene* scene) {
   lightgrid_default_light(&light);
   must(lightgrid_view_open(device, scene, "visibility", nullptr, &view));
   must(lightgrid_view_render(view, &image));
+  lightgrid_image drawn;
+  lightgrid_frame* frame;
+  must(lightgrid_view_draw(view, &drawn, &frame));
+  must(lightgrid_view_look(view, nullptr, 32, 18));
+  must(lightgrid_view_draw(view, &drawn, nullptr));
+  lightgrid_frame_free(frame);
   must(lightgrid_scene_camera(scene, nullptr, 64.0 / 36, &camera));
   must(lightgrid_project(&camera, 64, 36, &projection));
   must(lightgrid_rasterize(device, scene, &projection, &numbers, nullptr));

@@ -21,6 +21,7 @@ struct Freed {
 using OwnedDevice = std::unique_ptr<lightgrid_device, Freed<lightgrid_device_close>>;
 using OwnedScene = std::unique_ptr<lightgrid_scene, Freed<lightgrid_scene_free>>;
 using OwnedView = std::unique_ptr<lightgrid_view, Freed<lightgrid_view_close>>;
+using OwnedFrame = std::unique_ptr<lightgrid_frame, Freed<lightgrid_frame_free>>;
 using OwnedLists = std::unique_ptr<lightgrid_lists, Freed<lightgrid_lists_free>>;
 using OwnedReport = std::unique_ptr<lightgrid_report, Freed<lightgrid_report_free>>;
 

@@ -67,6 +67,59 @@ TEST_P(CImages, HaveTheBytesOfTheCommandLines) {
   }
 }
 
+std::vector<float> values_of(const lightgrid_image& image) {
+  const auto* from = static_cast<const float*>(image.pixels);
+  return {from, from + size_t(image.width) * size_t(image.height) * 4};
+}
+
+void expect_frames_without_a_copy(const std::string& technique, const char* opengl) {
+  SCOPED_TRACE(opengl);
+  const OwnedDevice device = open_device(opengl);
+  const OwnedScene scene = hall();
+  OwnedView view = open_view(device, scene, technique.c_str());
+  const std::vector<float> expected = rendered(view).values;
+  lightgrid_image first{}, image{};
+  must(lightgrid_view_draw(view.get(), &first, nullptr));
+  EXPECT_EQ(first.width, 133);
+  EXPECT_EQ(first.height, 71);
+  EXPECT_EQ(first.format, LIGHTGRID_RGBA_F32);
+  EXPECT_EQ(first.row_bytes, 133 * 16);
+  EXPECT_TRUE(values_of(first) == expected);
+  Floats depth(133, 71);
+  must(lightgrid_view_depth(view.get(), &depth.image));  // leaves the image
+  EXPECT_TRUE(values_of(first) == expected);
+  std::fill_n(static_cast<float*>(first.pixels), 133 * 71 * 4, -1.f);  // shows in no later frame
+
+  lightgrid_frame* frame = nullptr;
+  must(lightgrid_view_draw(view.get(), &image, &frame));
+  OwnedFrame held(frame);
+  EXPECT_EQ(image.pixels, first.pixels);
+  EXPECT_TRUE(values_of(image) == expected);
+  EXPECT_TRUE(rendered(view).values == expected);
+  EXPECT_TRUE(values_of(image) == expected);
+
+  // A held frame outlives frames of other sizes, other scenes and the view.
+  must(lightgrid_view_look(view.get(), nullptr, 64, 36));
+  must(lightgrid_view_draw(view.get(), &first, &frame));
+  OwnedFrame small(frame);
+  const std::vector<float> of_small = values_of(first);
+  EXPECT_EQ(first.width, 64);
+  EXPECT_TRUE(of_small == rendered(view).values);
+  lightgrid_light lamp;
+  lightgrid_default_light(&lamp);
+  must(lightgrid_scene_set_lights(scene.get(), &lamp, 1));
+  EXPECT_FALSE(rendered(view).values == of_small);
+  view.reset();
+  EXPECT_TRUE(values_of(first) == of_small);
+  EXPECT_TRUE(values_of(image) == expected);
+}
+
+TEST_P(CImages, AreDrawnWithoutACopy) {
+  const std::string technique = GetParam();
+  expect_frames_without_a_copy(technique, "auto");
+  if (technique.starts_with("visibility")) expect_frames_without_a_copy(technique, "none");
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, CImages, testing::Values("visibility", "forward_plus:tile=32"));
 
 std::string bytes_of(const auto* values, size_t count) {

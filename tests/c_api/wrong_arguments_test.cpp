@@ -188,6 +188,9 @@ TEST(CErrors, AreWhatNullGives) {
   expect_wrong(lightgrid_view_open(device, scene.get(), nullptr, nullptr, nullptr), "view");
   expect_wrong(lightgrid_view_look(nullptr, nullptr, 1, 1), "view");
   expect_wrong(lightgrid_view_size(view.get(), nullptr, &side), "width");
+  expect_wrong(lightgrid_view_draw(nullptr, &image.image, nullptr), "view");
+  expect_wrong(lightgrid_view_draw(view.get(), nullptr, nullptr), "image");
+  lightgrid_frame_free(nullptr);
   expect_wrong(lightgrid_view_render(view.get(), nullptr), "image");
   expect_wrong(lightgrid_view_render(nullptr, &image.image), "view");
   expect_wrong(lightgrid_view_listed(view.get(), nullptr), "counts");

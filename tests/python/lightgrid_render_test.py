@@ -63,6 +63,28 @@ class Images(unittest.TestCase):
             np.testing.assert_array_equal(out, image)
             self.assertTrue((memory[[0, -1]] == -1).all())
 
+    def test_are_shown_where_the_library_has_them(self):
+        scene = hall()
+        view = device.view(scene, "visibility")
+        image = view.render()
+        shown = view.draw()
+        self.assertIsInstance(shown, lg.Image)
+        np.testing.assert_array_equal(shown, image)
+        self.assertEqual(view.draw().ctypes.data, shown.ctypes.data)  # the same memory in each frame: OpenCL's own
+        self.assertTrue(np.shares_memory(np.from_dlpack(shown), shown))
+        view.look(dict(eye=(0, 2, 5), target=(0, 1, 0)))
+        moved = view.render()
+        self.assertGreater(abs(moved - image).max(), 0.1)
+        np.testing.assert_array_equal(shown, moved)  # the view's next frame
+        view.look(size=(64, 36))
+        small = view.draw()
+        scene.lights = lg.lights(3, radius_m=2)
+        view.draw()
+        del view, scene
+        gc.collect()
+        self.assertEqual(small.shape, (36, 64, 4))
+        np.testing.assert_array_equal(shown, moved)  # memory lives as long as its array
+
     def test_are_exchanged_by_dlpack(self):
         class Tensor:
             """What another library has."""
