@@ -1,4 +1,6 @@
 // The picture of a window (src/view): the left image left of the line, the right image from there on.
+#include "shared/tone_map.h"
+
 uniform sampler2D left_image;   // linear RGB
 uniform sampler2D right_image;
 
@@ -17,20 +19,6 @@ vec3 image_at(sampler2D image, vec2 place) {
   return texture(image, place / size).rgb;
 }
 
-// Khronos PBR Neutral, as in src/base/tone_map.cpp.
-vec3 tone_map(vec3 linear) {
-  const float start = 0.76, desaturation = 0.15, brightest = 1e30;
-  vec3 mapped = clamp(linear, 0.0, brightest);
-  float darkest = min(mapped.r, min(mapped.g, mapped.b));
-  mapped -= darkest < 0.08 ? darkest - 6.25 * darkest * darkest : 0.04;
-  float peak = max(mapped.r, max(mapped.g, mapped.b));
-  if (peak < start) return mapped;
-  float room = 1.0 - start;
-  float new_peak = 1.0 - room * room / (peak + room - start);
-  mapped *= new_peak / peak;
-  return mix(mapped, vec3(new_peak), 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0));
-}
-
 vec3 srgb(vec3 linear) {
   return mix(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 12.92 * linear,
              lessThanEqual(linear, vec3(0.0031308)));
@@ -41,6 +29,6 @@ void main() {
   vec3 linear = left ? image_at(left_image, gl_FragCoord.xy) : image_at(right_image, gl_FragCoord.xy);
   bool mapped = (left ? mapped_left : mapped_right) != 0;
   bool is_nan = any(isnan(linear));
-  vec3 shown = srgb(clamp(mapped ? linear : tone_map(exposure * linear), 0.0, 1.0));
+  vec3 shown = srgb(clamp(mapped ? linear : tone_mapped(exposure * linear), 0.0, 1.0));
   color = vec4(is_nan && !mapped ? vec3(1, 0, 1) : shown, mapped ? map_opacity : 1.0);
 }

@@ -15,6 +15,7 @@ _formats = {
     "R_F32": (lib.LIGHTGRID_R_F32, np.dtype(np.float32), None),
     "R_U32": (lib.LIGHTGRID_R_U32, np.dtype(np.uint32), None),
     "RGB_U8": (lib.LIGHTGRID_RGB_U8, np.dtype(np.uint8), 3),
+    "RGBA_U8": (lib.LIGHTGRID_RGBA_U8, np.dtype(np.uint8), 4),
 }
 
 

@@ -130,17 +130,23 @@ class View:
         check(function(self._handle, c_image(array, "out", kind)))
         return array
 
-    def render(self, out: Any = None) -> Image:
-        """A frame: height x width x 4, float32, linear. out: an array to write to, of any row order, which is returned."""
+    def render(self, out: Any = None) -> np.ndarray:
+        """A frame: height x width x 4, float32, linear. out: an array to write to, of any row order, which is returned; of
+        bytes with the setting picture="bytes": sRGB, alpha 255."""
+        if getattr(out, "dtype", None) == np.uint8:
+            return self._draw(lib.lightgrid_view_render, out, "RGBA_U8")
         return self._draw(lib.lightgrid_view_render, out, "RGBA_F32").view(Image)
 
-    def draw(self) -> Image:
-        """A frame as render() has it, where the library has it: without a copy on an OpenCL device that is a CPU. The array
-        shows the view's last frame: the next one may overwrite it. Its memory lives as long as the array does."""
+    def draw(self) -> np.ndarray:
+        """A frame as render() has it, with picture="bytes" in bytes, where the library has it: without a copy on an OpenCL
+        device that is a CPU. The array shows the view's last frame: the next one may overwrite it. Its memory lives as long
+        as the array does."""
         image = ffi.new("lightgrid_image*")
         frame = made("lightgrid_frame", lib.lightgrid_frame_free,
                      lambda out: lib.lightgrid_view_draw(self._handle, image, out))
-        return _memory(frame, image.pixels, (image.height, image.width, 4), "<f4")[::-1].view(Image)
+        linear = image.format == lib.LIGHTGRID_RGBA_F32
+        array = _memory(frame, image.pixels, (image.height, image.width, 4), "<f4" if linear else "|u1")[::-1]
+        return array.view(Image) if linear else array
 
     def depth(self, out: Any = None) -> np.ndarray:
         """Of the last frame: 1 at the near plane, 0 where no opaque surface is."""

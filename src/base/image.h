@@ -2,6 +2,7 @@
 // writers turn them over.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -28,6 +29,9 @@ struct Image {
 glm::vec3 tone_map_neutral(glm::vec3 linear);
 float srgb_from_linear(float linear);
 float linear_from_srgb(float srgb);
+// Of each byte of sRGB the least linear value that becomes it, and one that is reached by none: how devices
+// find the same bytes (shared/tone_map.h).
+const std::array<float, 257>& srgb_thresholds();
 
 // Pictures alone have one: each linear value is multiplied by 2^ev before the tone map. Files of linear
 // values and errors are without it.

@@ -1,14 +1,14 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "base/image.h"
 #include "base/parallel.h"
+#include "shared/tone_map.h"
 
 namespace lightgrid {
 namespace {
-
-// Anything brighter, infinity included, becomes white; inf - inf and inf * 0 below would give NaN.
-constexpr float brightest = 1e30f;
 
 constexpr glm::u8vec3 nan_marker = {255, 0, 255};
 
@@ -34,23 +34,7 @@ std::vector<uint8_t> bytes_of(const Image& image, const Map& map) {
 
 }  // namespace
 
-glm::vec3 tone_map_neutral(glm::vec3 linear) {
-  constexpr float start_compression = 0.8f - 0.04f, desaturation = 0.15f;
-  auto colour = glm::clamp(linear, 0.f, brightest);
-
-  // Subtracts the reflection of a white surrounding by a dielectric, about 0.04.
-  const float darkest = std::min({colour.r, colour.g, colour.b});
-  colour -= darkest < 0.08f ? darkest - 6.25f * darkest * darkest : 0.04f;
-
-  const float peak = std::max({colour.r, colour.g, colour.b});
-  if (peak < start_compression) return colour;
-
-  constexpr float room = 1.f - start_compression;
-  const float new_peak = 1.f - room * room / (peak + room - start_compression);
-  colour *= new_peak / peak;
-  const float to_white = 1.f - 1.f / (desaturation * (peak - new_peak) + 1.f);
-  return glm::mix(colour, glm::vec3(new_peak), to_white);
-}
+glm::vec3 tone_map_neutral(glm::vec3 linear) { return tone::tone_mapped(linear); }
 
 float srgb_from_linear(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.f / 2.4f) - 0.055f;
@@ -58,6 +42,24 @@ float srgb_from_linear(float linear) {
 
 float linear_from_srgb(float srgb) {
   return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
+
+// By halving the floats between 0 and 2, which are in the order of their bits.
+const std::array<float, 257>& srgb_thresholds() {
+  static const std::array<float, 257> least = [] {
+    std::array<float, 257> all{};
+    for (int byte = 1; byte < 256; ++byte) {
+      uint32_t below = 0, at = std::bit_cast<uint32_t>(2.0f);
+      while (at - below > 1) {
+        const uint32_t middle = below + (at - below) / 2;
+        (byte_of(srgb_from_linear(std::bit_cast<float>(middle))) < byte ? below : at) = middle;
+      }
+      all[size_t(byte)] = std::bit_cast<float>(at);
+    }
+    all[256] = std::numeric_limits<float>::infinity();
+    return all;
+  }();
+  return least;
 }
 
 Exposure automatic_exposure(const Image& image) {

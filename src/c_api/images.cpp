@@ -10,7 +10,7 @@ namespace lightgrid::c {
 namespace {
 
 constexpr int most_side = 16384;
-constexpr const char* format_names[] = {"RGBA_F32", "R_F32", "R_U32", "RGB_U8"};
+constexpr const char* format_names[] = {"RGBA_F32", "R_F32", "R_U32", "RGB_U8", "RGBA_U8"};
 
 Image read(const lightgrid_image& image) {
   Image copy(image.width, image.height);
@@ -68,7 +68,7 @@ const lightgrid_image& checked(const lightgrid_image* image, const std::string& 
   if (std::abs(in.row_bytes) < row)
     throw wrong(name + ".row_bytes", "{} is less than the {} of a row of {} pixels", in.row_bytes, row,
                 in.width);
-  const size_t aligned = format == LIGHTGRID_RGB_U8 ? 1 : 4;
+  const size_t aligned = format == LIGHTGRID_RGB_U8 || format == LIGHTGRID_RGBA_U8 ? 1 : 4;
   if (reinterpret_cast<uintptr_t>(in.pixels) % aligned || size_t(std::abs(in.row_bytes)) % aligned)
     throw wrong(name + ".pixels", "pixels or row_bytes are no multiple of {}", aligned);
   return in;

@@ -97,7 +97,8 @@ typedef enum lightgrid_format {
   LIGHTGRID_RGBA_F32 = 0, /* four floats: linear light, alpha is coverage */
   LIGHTGRID_R_F32 = 1,    /* one float */
   LIGHTGRID_R_U32 = 2,    /* one uint32_t */
-  LIGHTGRID_RGB_U8 = 3    /* three bytes, sRGB */
+  LIGHTGRID_RGB_U8 = 3,   /* three bytes, sRGB */
+  LIGHTGRID_RGBA_U8 = 4   /* four bytes, sRGB, the last one 255 */
 } lightgrid_format;
 
 /* Row 0 is the bottom row. An image that begins with its top row in memory has `pixels` at its last row and
@@ -266,15 +267,16 @@ void lightgrid_view_close(lightgrid_view* view);
 lightgrid_status lightgrid_view_look(lightgrid_view* view, const lightgrid_camera* camera, int32_t width,
                                      int32_t height);
 lightgrid_status lightgrid_view_size(const lightgrid_view* view, int32_t* width, int32_t* height);
-/* Draws a frame into an image of the view's size: RGBA_F32. */
+/* Draws a frame into an image of the view's size: RGBA_F32, or with the setting picture=bytes also RGBA_U8:
+ * what lightgrid_srgb makes of it at the scene's exposure, made on the device. */
 lightgrid_status lightgrid_view_render(lightgrid_view* view, const lightgrid_image* image);
-/* Draws a frame and writes to `image` where the library has it, in place of copying it: RGBA_F32, row 0 at
- * the bottom, rows without gaps. It is the memory of an OpenCL device that is a CPU, if that shaded the
- * frame, and otherwise the view's own copy. The caller may read and write it until the next call of
- * lightgrid_view_draw, _render, _profile, _look or _close with this view.
- * `frame`, unless null, gets a handle that keeps the memory: until it is freed, also after those calls, the
- * memory can be read, but after another frame of the view it may show that one. A view draws into the same
- * memory as long as its size and what its scene consists of stay. */
+/* Draws a frame and writes to `image` where the library has it, in place of copying it: RGBA_F32, or with the
+ * setting picture=bytes RGBA_U8; row 0 at the bottom, rows without gaps. It is the memory of an OpenCL device
+ * that is a CPU, if that shaded the frame, and otherwise the view's own copy. The caller may read and write
+ * it until the next call of lightgrid_view_draw, _render, _profile, _look or _close with this view. `frame`,
+ * unless null, gets a handle that keeps the memory: until it is freed, also after those calls, the memory can
+ * be read, but after another frame of the view it may show that one. A view draws into the same memory as
+ * long as its size and what its scene consists of stay. */
 lightgrid_status lightgrid_view_draw(lightgrid_view* view, lightgrid_image* image, lightgrid_frame** frame);
 void lightgrid_frame_free(lightgrid_frame* frame);
 /* Of the last frame: the depth of opaque surfaces (R_F32), and the lights in each pixel's list (R_U32). */

@@ -11,6 +11,8 @@ std::shared_ptr<TechniqueRun> make_run(const lightgrid_view& v, const View& view
   return std::make_shared<TechniqueRun>(v.device->renderer(), *v.gpu, view, v.settings, *v.technique);
 }
 
+bool draws_bytes(const lightgrid_view& v) { return v.settings.picture == PictureFormat::bytes; }
+
 // The run, for the scene as it now is.
 TechniqueRun& follow(lightgrid_view& v) {
   const LoadedScene& scene = *v.scene->scene;
@@ -106,11 +108,16 @@ lightgrid_status lightgrid_view_size(const lightgrid_view* view, int32_t* width,
 lightgrid_status lightgrid_view_render(lightgrid_view* view, const lightgrid_image* image) {
   return call([&] {
     lightgrid_view& v = needed(view, "view");
-    const lightgrid_image& to = checked(image, "image", LIGHTGRID_RGBA_F32, v.view.width, v.view.height);
+    const bool bytes = draws_bytes(v) && image && image->format == LIGHTGRID_RGBA_U8;
+    const lightgrid_image& to =
+        checked(image, "image", bytes ? LIGHTGRID_RGBA_U8 : LIGHTGRID_RGBA_F32, v.view.width, v.view.height);
     const Turn turn(*v.device);
     TechniqueRun& run = follow(v);
     v.drawn = false;
-    run.run_frame([&](const glm::vec4* pixels) { write_pixels(to, pixels); });
+    if (bytes)
+      write_pixels(to, run.show_picture());
+    else
+      write_pixels(to, run.show_frame());
     v.drawn = true;
   });
 }
@@ -124,7 +131,12 @@ lightgrid_status lightgrid_view_draw(lightgrid_view* view, lightgrid_image* imag
     v.drawn = false;
     std::unique_ptr<lightgrid_frame> made;
     if (frame) made.reset(new lightgrid_frame{v.device, v.scene, v.gpu, v.run});
-    out = {run.show_frame(), v.view.width, v.view.height, LIGHTGRID_RGBA_F32, ptrdiff_t(v.view.width) * 16};
+    out = {nullptr, v.view.width, v.view.height, draws_bytes(v) ? LIGHTGRID_RGBA_U8 : LIGHTGRID_RGBA_F32};
+    out.row_bytes = ptrdiff_t(out.width) * ptrdiff_t(pixel_bytes(out.format));
+    if (draws_bytes(v))
+      out.pixels = run.show_picture();
+    else
+      out.pixels = run.show_frame();
     v.drawn = true;
     if (frame) *frame = made.release();
   });

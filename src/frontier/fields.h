@@ -202,6 +202,7 @@ void visit_fields(T& m, Visit&& visit) {
   visit("cl_driver", m.cl_driver);
   visit("gl_driver", m.gl_driver);
   visit("cl_kind", m.cl_kind, may_miss);
+  visit("picture", m.picture, may_miss);
   visit("cpu", m.cpu);
   visit("governor", m.governor);
   visit("clock_mhz", m.clock_mhz, may_miss);

@@ -316,6 +316,7 @@ FrontierMachine machine_of(const Renderer& renderer) {
   m.gl_device = renderer.gl ? renderer.gl->renderer : "none";
   m.gl_driver = renderer.gl ? renderer.gl->version : "none";
   m.cl_kind = device.cpu ? "CPU" : "GPU";
+  m.picture = times_bytes(renderer) ? "bytes" : "float";
   m.cpu = cpu_info("model name");
   const std::string governor = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
   m.governor = governor.empty() ? "unknown" : governor;

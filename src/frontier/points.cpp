@@ -244,11 +244,24 @@ void PointRun::attempt(const std::function<void()>& work) {
   if (const std::optional<Error> failure = failure_of(work)) refused_ = failure->what(), run_.reset();
 }
 
+bool times_bytes(const Renderer& renderer) { return !renderer.cl->info().cpu; }
+
+// The mean of several frames is made of floats. Time does not depend on the exposure, but shadow-threshold
+// does.
+static Settings timed_settings(const Renderer& renderer, const ChosenPoint& point) {
+  Settings settings = point.contestant.settings;
+  if (!times_bytes(renderer) || point.frames > 1) return settings;
+  if (!settings.display_ev && settings.shadow_threshold > 0) return settings;
+  settings.picture = PictureFormat::bytes;
+  settings.display_ev = settings.display_ev.value_or(0);
+  return settings;
+}
+
 PointRun::PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const ChosenPoint& point,
                    std::shared_ptr<TargetPool> pool)
     : point_(point) {
   attempt([&] {
-    run_ = std::make_unique<TechniqueRun>(renderer, gpu, view, point.contestant.settings,
+    run_ = std::make_unique<TechniqueRun>(renderer, gpu, view, timed_settings(renderer, point),
                                           *point.contestant.technique, std::move(pool));
   });
 }
@@ -278,10 +291,14 @@ void PointRun::look(const View& view, const SceneChanges& changes) {
   attempt([&] { run_->look(view, changes); });
 }
 
-void PointRun::draw_frames(const std::function<void(const Image& image)>& add) {
+void PointRun::draw_one(bool timed) {
+  timed && run_->draws_bytes() ? run_->run_picture(true) : run_->run_frame(true);
+}
+
+void PointRun::draw_frames(bool timed, const std::function<void(const Image& image)>& add) {
   for (int frame = 0; frame < point_.frames; ++frame) {
     if (is_random()) run_->draw_random(seed(frame));
-    run_->run_frame(true);
+    draw_one(timed);
     if (point_.frames > 1) add(run_->image());
   }
 }
@@ -299,7 +316,7 @@ double PointRun::draw(DeviceClock* clock) {
     if (clock) clock->start();
     const Timer timer;
     bool first = true;
-    draw_frames([&](const Image& image) {
+    draw_frames(clock != nullptr, [&](const Image& image) {
       if (std::exchange(first, false)) mean_ = Image(image.width, image.height);
       const float weight = 1.0f / float(point_.frames);
       for (size_t i = 0; i < mean_.pixels.size(); ++i) mean_.pixels[i] += image.pixels[i] * weight;
@@ -313,7 +330,7 @@ double PointRun::draw(DeviceClock* clock) {
 void PointRun::draw_for_errors() {
   attempt([&] {
     PictureMoments moments;
-    draw_frames([&](const Image& image) { moments.add(image); });
+    draw_frames(false, [&](const Image& image) { moments.add(image); });
     if (point_.frames == 1) return;
     mean_ = moments.mean();
     deviation_ = moments.deviation();
@@ -323,7 +340,7 @@ void PointRun::draw_for_errors() {
 void PointRun::draw_first_frame() {
   attempt([&] {
     if (is_random()) run_->draw_random(seed(0));
-    run_->run_frame(true);
+    draw_one(true);
   });
 }
 

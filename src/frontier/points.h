@@ -38,6 +38,10 @@ std::string label_of(const Contestant& contestant, int frames);
 
 FrontierPoint described(const std::string& scene, const ChosenPoint& point);
 
+// Whether timed frames end with the bytes of a display (picture=bytes): on GPUs, where reading back floats
+// can take half of a frame. On CPUs the host reads the floats where they are.
+bool times_bytes(const Renderer& renderer);
+
 // A point that runs: a technique's frames, or the mean of several with other random numbers.
 // Whether random numbers of frames are independent, or go on from frame to frame as a renderer's do: those of
 // sampled lists then complement each other.
@@ -57,6 +61,8 @@ class PointRun {
   // One picture: all of its frames, each with random numbers of its own where there are any, read back and
   // averaged. Milliseconds; 0 if refused. A refusal is kept. `clock`: measures the same picture
   // (device_times()).
+  // With a clock a picture of one frame ends with its bytes where times_bytes() says so, and image() is an
+  // older one.
   double draw(DeviceClock* clock = nullptr);
   // Of the last draw() with a clock; empty too if that clock does not know, or the point is refused.
   const std::optional<DeviceTimes>& device_times() const { return device_times_; }
@@ -65,7 +71,7 @@ class PointRun {
   double deviation() const { return deviation_; }
   // Draws as draw() does, and computes deviation(), which takes time.
   void draw_for_errors();
-  // The first of its frames alone.
+  // The first of its frames alone, as with a clock.
   void draw_first_frame();
   // For the frame of that number: random numbers, if there are any, are others in each.
   void go_to_frame(int number, NumbersOfFrames numbers = NumbersOfFrames::independent);
@@ -75,7 +81,9 @@ class PointRun {
 
  private:
   void attempt(const std::function<void()>& work);
-  void draw_frames(const std::function<void(const Image& image)>& add);  // `add`: of averaged ones
+  // `add`: of averaged ones. timed: image() need not be there.
+  void draw_frames(bool timed, const std::function<void(const Image& image)>& add);
+  void draw_one(bool timed);
   uint32_t seed(int frame) const;
 
   ChosenPoint point_;

@@ -134,6 +134,7 @@ struct FrontierMachine {
   std::string cl_device, gl_device, cl_driver, gl_driver;
   std::string cpu, governor;                  // governor: "unknown" where the system does not tell
   std::string cl_kind;                        // "CPU" or "GPU"; empty: unknown
+  std::string picture = "float";              // that timed frames end with, as the setting has it
   double clock_mhz = 0;                       // at the start; 0: unknown
   int threads = 0;                            // of the OpenCL device: compute units
   double load_at_start = 0, load_at_end = 0;  // the system's one-minute load average

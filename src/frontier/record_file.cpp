@@ -37,6 +37,7 @@ void check_machine(const fs::path& path, const FrontierMachine& there, const Fro
   same("OpenGL device", there.gl_device, here.gl_device);
   same("OpenGL driver", there.gl_driver, here.gl_driver);
   same("CPU", there.cpu, here.cpu);
+  same("picture", there.picture, here.picture);
   same("threads", std::to_string(there.threads), std::to_string(here.threads));
 }
 

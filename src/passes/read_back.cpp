@@ -6,37 +6,47 @@
 
 namespace lightgrid {
 
-HostImage::HostImage(Work& work, const ShadedImage& shaded, Image& copy) : copy_(copy) {
-  auto pass = work.timer.pass(read_back_pass, shaded.in_cl ? "cl" : "gl");
-  if (copy.width != work.view.width || copy.height != work.view.height ||
-      copy.pixels.size() != work.grid().pixels()) {
-    copy = Image(work.view.width, work.view.height);
-  }
-  const size_t bytes = copy.pixels.size() * 16;
-  if (shaded.in_cl && work.renderer.cl->info().cpu) {
-    mapped_.emplace(*work.renderer.cl, read_back_copy, shaded.in_cl->cl_buffer(), bytes,
-                    CL_MAP_READ | CL_MAP_WRITE);
+template <typename Pixel>
+HostPixels<Pixel>::HostPixels(Work& work, SharedBuffer* in_cl, GLuint framebuffer, GLenum type,
+                              std::vector<Pixel>& copy)
+    : copy_(copy) {
+  auto pass = work.timer.pass(read_back_pass, in_cl ? "cl" : "gl");
+  copy.resize(work.grid().pixels());
+  const size_t bytes = copy.size() * sizeof(Pixel);
+  if (in_cl && work.renderer.cl->info().cpu) {
+    mapped_.emplace(*work.renderer.cl, read_back_copy, in_cl->cl_buffer(), bytes, CL_MAP_READ | CL_MAP_WRITE);
     return;
   }
-  if (shaded.in_cl) {
-    read_buffer(*work.renderer.cl, read_back_copy, shaded.in_cl->cl_buffer(), copy.pixels.data(), bytes);
+  if (in_cl) {
+    read_buffer(*work.renderer.cl, read_back_copy, in_cl->cl_buffer(), copy.data(), bytes);
   } else {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, shaded.framebuffer);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
     glReadBuffer(GL_COLOR_ATTACHMENT0);
-    glReadPixels(0, 0, copy.width, copy.height, GL_RGBA, GL_FLOAT, copy.pixels.data());
+    glReadPixels(0, 0, work.view.width, work.view.height, GL_RGBA, type, copy.data());
   }
   pass.moves(bytes, bytes);
 }
 
-glm::vec4* HostImage::pixels() {
-  return mapped_ ? static_cast<glm::vec4*>(mapped_->data()) : copy_.pixels.data();
-}
-
-void HostImage::keep() {
+template <typename Pixel>
+void HostPixels<Pixel>::keep() {
   if (!mapped_) return;
-  std::memcpy(copy_.pixels.data(), pixels(), copy_.pixels.size() * 16);
+  std::memcpy(copy_.data(), pixels(), copy_.size() * sizeof(Pixel));
   mapped_.reset();
 }
+
+template class HostPixels<glm::vec4>;
+template class HostPixels<glm::u8vec4>;
+
+static std::vector<glm::vec4>& sized(Image& image, const View& view) {
+  image.width = view.width, image.height = view.height;
+  return image.pixels;
+}
+
+HostImage::HostImage(Work& work, const ShadedImage& shaded, Image& copy)
+    : HostPixels(work, shaded.in_cl, shaded.framebuffer, GL_FLOAT, sized(copy, work.view)) {}
+
+HostPicture::HostPicture(Work& work, const DisplayedImage& displayed, std::vector<glm::u8vec4>& copy)
+    : HostPixels(work, displayed.in_cl, displayed.framebuffer, GL_UNSIGNED_BYTE, copy) {}
 
 void read_back(Work& work, const ShadedImage& shaded, Image& image) { HostImage(work, shaded, image).keep(); }
 

@@ -341,6 +341,10 @@ std::vector<Setting>& all_settings() {
                                         {"16M", size_t(16) << 20},
                                         {"64M", size_t(64) << 20},
                                         {"1G", size_t(1) << 30}})},
+      {"picture",
+       "what goes to the host, where a frame's time ends: the image as floats, or the bytes of a display, "
+       "tone-mapped at its exposure",
+       named(&Settings::picture, {{"float", PictureFormat::floats}, {"bytes", PictureFormat::bytes}})},
       {"portable", "plain OpenCL C, without builtins that only some CPUs have",
        named(&Settings::portable, {{"off", false}, {"on", true}})},
       {"group-size", "work-items that cull a block of 4 x 4 tiles, in the group shape",

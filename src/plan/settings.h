@@ -49,6 +49,9 @@ enum class ShadedLights { grid, all };
 // not at all: light then goes through what hides it.
 enum class ShadowMethod { exact, map, none };
 
+// What of a frame goes to the host: linear light, or the bytes that a display shows (passes/tone_map.h).
+enum class PictureFormat { floats, bytes };
+
 // Light pre-pass (docs/techniques/light_prepass.md): the specular term that the light buffer keeps, and the
 // format of the image of normals.
 enum class PrepassSpecular { plain, fifth_term, luminance, bent };
@@ -134,8 +137,10 @@ struct Settings {
   bool group_tiles = true;   // tiles list lights only of groups that their surfaces have
   int group_stencil = 0;     // bits of the stencil that have light groups instead: 4, 6 or 8; 0: none has
   int shadow_threshold = 0;  // steps of the display below which lights have no shadow: 1 to 16; 0: off
-  // Exposure of pictures, in stops, by which these steps are counted; none: it is chosen from the picture.
+  // Exposure of pictures, in stops, by which these steps are counted and pictures become bytes; none: it is
+  // chosen from the picture.
   std::optional<double> display_ev = 0.0;
+  PictureFormat picture = PictureFormat::floats;
   // Most bytes of a frame's shadow bits with their table, and as many again of its shadow maps.
   size_t shadow_memory = size_t(256) << 20;
   bool portable = false;  // kernels without the builtins of one kind of CPU

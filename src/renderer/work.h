@@ -130,6 +130,7 @@ struct PassCaches {
   Cached<class FarLightVolume> far_light;                           // passes/fill_far_light.cpp
   Cached<class ShadowBits> shadow_bits;                             // passes/find_shadows.cpp
   Cached<class FragmentLayers> fragment_layers;                     // passes/blended_layers.cpp
+  Cached<class ToneMap> tone_map;                                   // passes/tone_map.cpp
 
   void follow(Work& work);
   void upload(Work& work);  // of those that upload while the device draws triangles
@@ -137,7 +138,7 @@ struct PassCaches {
   size_t memory_bytes() const;
 
  private:
-  std::array<std::unique_ptr<PassCache>*, 19> all();
+  std::array<std::unique_ptr<PassCache>*, 20> all();
 };
 
 }  // namespace lightgrid

@@ -5,12 +5,14 @@
 #include "gl/bindings.h"
 #include "gl/gl.h"
 #include "passes/find_shadows.h"
+#include "passes/tone_map.h"
 #include "results/metrics.h"
 
 namespace lightgrid {
 
 static const TechniqueNeeds& checked_needs(const Technique& technique, const Settings& settings) {
   check_samples(technique, settings);
+  check_picture(settings);
   return technique.needs;
 }
 
@@ -26,19 +28,19 @@ TechniqueRun::TechniqueRun(Renderer& renderer, const Scene& scene, const View& v
       view_(renderer, *own_scene_, view, settings, checked_needs(technique, settings)) {}
 
 void TechniqueRun::prepare() {
-  shown_.reset();
+  hide();
   view_.prepare([&] { draw_frame(); });
   frame_ = {};
 }
 
 void TechniqueRun::release() {
-  shown_.reset();
+  hide();
   view_.release();
   frame_ = {};
 }
 
 void TechniqueRun::draw_frame() {
-  shown_.reset();
+  hide();
   const bool opengl = view_.renderer.gl != nullptr;
   if (opengl) reset_gl_state();
   begin_shadow_bands(view_, view_.caches.shadow_bits);
@@ -46,34 +48,54 @@ void TechniqueRun::draw_frame() {
     frame_ = lightgrid::draw_frame(technique_, view_);
   } while (next_shadow_band(view_, view_.caches.shadow_bits, frame_.image));
   tell_shadows(view_, view_.caches.shadow_bits, frame_);
+  if (draws_bytes()) frame_.displayed = tone_map(view_, view_.caches.tone_map, frame_.image);
   if (opengl) check_gl(technique_.name);
 }
 
-double TechniqueRun::render() {
+double TechniqueRun::time_frame(const std::function<void()>& read) {
   const Timer timer;
   draw_frame();
-  shown_.emplace(view_, frame_.image, image_);
+  read();
   const double ms = timer.elapsed_ms();
   if (view_.renderer.gl) check_gl(technique_.name);
   return ms;
 }
 
+double TechniqueRun::time_image() {
+  return time_frame([&] { shown_.emplace(view_, frame_.image, image_); });
+}
+
+double TechniqueRun::time_picture() {
+  return time_frame([&] { shown_picture_.emplace(view_, *frame_.displayed, picture_); });
+}
+
 double TechniqueRun::run_frame(bool warmup) {
-  const double ms = render();
+  if (draws_bytes()) {
+    const double ms = run_picture(warmup);
+    read_back(view_, frame_.image, image_);
+    return ms;
+  }
+  const double ms = time_image();
   shown_->keep();
   if (!warmup) frame_ms_.push_back(ms);
   return ms;
 }
 
-double TechniqueRun::run_frame(const std::function<void(const glm::vec4* pixels)>& take) {
-  take(show_frame());
-  shown_.reset();
-  return frame_ms_.back();
+double TechniqueRun::run_picture(bool warmup) {
+  const double ms = time_picture();
+  shown_picture_->keep();
+  if (!warmup) frame_ms_.push_back(ms);
+  return ms;
 }
 
 glm::vec4* TechniqueRun::show_frame() {
-  frame_ms_.push_back(render());
+  frame_ms_.push_back(time_image());
   return shown_->pixels();
+}
+
+glm::u8vec4* TechniqueRun::show_picture() {
+  frame_ms_.push_back(time_picture());
+  return shown_picture_->pixels();
 }
 
 void TechniqueRun::run_profiled_frames(double most_ms) {
@@ -84,7 +106,7 @@ void TechniqueRun::run_profiled_frames(double most_ms) {
   } enabled(view_.timer);
   const Timer timer;
   for (int i = 0; i < 5 && (i == 0 || timer.elapsed_ms() < most_ms); ++i) {
-    run_frame(true);
+    draws_bytes() ? run_picture(true) : run_frame(true);
   }
 }
 

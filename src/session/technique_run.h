@@ -26,7 +26,7 @@ class TechniqueRun {
   // Builds what frames of other views of the scene need: before a camera moves (RenderView::prepare).
   void prepare();
   // Another camera or size, for the frames that follow.
-  void look(const View& view) { shown_.reset(), view_.look(view); }
+  void look(const View& view) { hide(), view_.look(view); }
   // The same after the scene changed; its GpuScene is already updated.
   void look(const View& view, const SceneChanges& changes) {
     look(view);
@@ -36,16 +36,19 @@ class TechniqueRun {
   // Other random numbers (RenderView::draw_random), for the frames that follow.
   void draw_random(uint32_t seed) { view_.draw_random(seed); }
 
-  // One frame. Returns its time in ms, from the first draw until the host can read the image, which is
-  // recorded unless `warmup`. image() is a copy, which that time does not count on an OpenCL device that is a
-  // CPU: there the host can read the original.
+  // One frame. Returns its time in ms, from the first draw until the host can read the image, or with
+  // picture=bytes the picture, which is recorded unless `warmup`. image() and picture() are copies, which
+  // that time does not count on an OpenCL device that is a CPU: there the host can read the original. With
+  // picture=bytes it counts no copy of the image.
   double run_frame(bool warmup = false);
-  // The same, for a caller that keeps the image itself: `take` reads its pixels, row 0 at the bottom, where
-  // they are. image() is then an older frame's.
-  double run_frame(const std::function<void(const glm::vec4* pixels)>& take);
-  // The same, where the pixels stay: until the next frame, look(), prepare() or release(). They may be
-  // overwritten. At a size that stays, the memory is the same in each frame.
+  // The same with picture=bytes for picture() alone: image() is then an older frame's.
+  double run_picture(bool warmup = false);
+  // The same for a caller that reads the pixels where they are, row 0 at the bottom: they stay until the next
+  // frame, look(), prepare() or release(), and may be overwritten. At a size that stays, the memory is the
+  // same in each frame. image() is then an older frame's.
   glm::vec4* show_frame();
+  // The same with picture=bytes: RGBA.
+  glm::u8vec4* show_picture();
   // One frame whose image stays on its device, for a window: frame().image. image() is then an older frame's.
   void draw_frame();
   // More frames with a wait after each pass, for pass times: up to five, or as many as fit in the time.
@@ -56,6 +59,9 @@ class TechniqueRun {
   void release();
 
   const Image& image() const { return image_; }
+  // With picture=bytes: what srgb_bytes makes of the image, RGBA, row 0 at the bottom; else empty.
+  const std::vector<glm::u8vec4>& picture() const { return picture_; }
+  bool draws_bytes() const { return view_.plan.settings.picture == PictureFormat::bytes; }
   Image take_image() { return std::exchange(image_, {}); }    // image() is empty until the next run_frame()
   void reuse(Image&& memory) { image_ = std::move(memory); }  // for the next frame's image
   RenderView& view() { return view_; }
@@ -70,14 +76,20 @@ class TechniqueRun {
   RunResult result() const;
 
  private:
-  double render();  // ms, until shown_ is there
+  void hide() { shown_.reset(), shown_picture_.reset(); }
+  // ms, until it has been read: into shown_, into shown_picture_.
+  double time_frame(const std::function<void()>& read);
+  double time_image();
+  double time_picture();
 
   const Technique& technique_;
   std::unique_ptr<GpuScene> own_scene_;
   RenderView view_;
   Frame frame_;
   Image image_;
+  std::vector<glm::u8vec4> picture_;
   std::optional<HostImage> shown_;
+  std::optional<HostPicture> shown_picture_;
   std::vector<double> frame_ms_;
 };
 

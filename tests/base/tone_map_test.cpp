@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "base/image.h"
+#include "shared/tone_map.h"
 
 namespace lightgrid {
 namespace {
@@ -51,6 +53,28 @@ TEST(ToneMap, SrgbMatchesTheStandardAndItsInverse) {
   for (float v : {0.f, 0.002f, 0.0031308f, 0.01f, 0.2f, 1.f}) {
     EXPECT_NEAR(linear_from_srgb(srgb_from_linear(v)), v, 1e-6f);
   }
+}
+
+uint8_t byte_by_power(float linear) {
+  return uint8_t(std::clamp(srgb_from_linear(linear), 0.f, 1.f) * 255.f + 0.5f);
+}
+
+// Where the byte changes, and only there; and found without a power, as devices do.
+TEST(SrgbThresholds, SayTheByteOfEveryFloat) {
+  const auto& least = srgb_thresholds();
+  const auto check = [&](uint32_t bits) {
+    const auto linear = std::bit_cast<float>(bits);
+    const int byte = byte_by_power(linear);
+    EXPECT_TRUE(least[size_t(byte)] <= linear && linear < least[size_t(byte) + 1]) << linear;
+    EXPECT_EQ(tone::srgb_byte(linear, least.data()), byte) << linear;
+  };
+  for (const float at : least) {
+    const auto bits = std::bit_cast<uint32_t>(at);
+    for (uint32_t i = 0; i < 1000 && at <= 1; ++i)
+      for (const uint32_t near : {bits - i, bits + i})
+        if (near <= std::bit_cast<uint32_t>(1.f)) check(near);
+  }
+  for (uint32_t bits = 0; bits <= std::bit_cast<uint32_t>(1.f); bits += 997) check(bits);
 }
 
 TEST(SrgbBytes, EveryFloatGivesABytePattern) {

@@ -120,6 +120,32 @@ TEST_P(CImages, AreDrawnWithoutACopy) {
   if (technique.starts_with("visibility")) expect_frames_without_a_copy(technique, "none");
 }
 
+// With picture=bytes: the bytes of lightgrid_srgb.
+TEST_P(CImages, AreDrawnInBytes) {
+  const std::string technique = GetParam();
+  const OwnedDevice device = open_device("auto");
+  const OwnedScene scene = load_scene("hall", {"size=133x71", "lights=40", "seed=3", "exposure=-1"});
+  const OwnedView view = open_view(device, scene, technique.c_str(), {"picture=bytes"});
+  const Radiance radiance = rendered(view);  // floats are still to be had
+  std::vector<uint8_t> rgb(133 * 71 * 3), rgba(133 * 71 * 4);
+  const lightgrid_image to_rgb = {rgb.data(), 133, 71, LIGHTGRID_RGB_U8, 133 * 3};
+  must(lightgrid_srgb(&radiance.image, -1, &to_rgb));
+  const lightgrid_image to_rgba = {rgba.data(), 133, 71, LIGHTGRID_RGBA_U8, 133 * 4};
+  must(lightgrid_view_render(view.get(), &to_rgba));
+  lightgrid_image drawn{};
+  must(lightgrid_view_draw(view.get(), &drawn, nullptr));
+  ASSERT_EQ(drawn.format, LIGHTGRID_RGBA_U8);
+  ASSERT_EQ(drawn.row_bytes, 133 * 4);
+  const auto* of_draw = static_cast<const uint8_t*>(drawn.pixels);
+  for (size_t i = 0; i < 133 * 71; ++i) {
+    for (size_t c = 0; c < 4; ++c) {
+      ASSERT_EQ(rgba[4 * i + c], of_draw[4 * i + c]) << i;
+      const int expected = c < 3 ? rgb[3 * i + c] : 255;  // a GPU's OpenGL may be a step off
+      ASSERT_LE(std::abs(int(of_draw[4 * i + c]) - expected), technique == "visibility" ? 0 : 1) << i;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, CImages, testing::Values("visibility", "forward_plus:tile=32"));
 
 std::string bytes_of(const auto* values, size_t count) {

@@ -51,6 +51,10 @@ TEST(CErrors, TellTheSetting) {
   expect_wrong(open("visibility:tile=9", {}), "tile");
   expect_wrong(open("visibility", {"lidr-sort=view"}), "lidr-sort", "visibility does not read it");
   expect_wrong(open("visibilty", {}), "technique", "did you mean visibility?");
+  const OwnedScene automatic = load_scene("spheres", {"size=64x36", "exposure=auto"});
+  expect_wrong(lightgrid_view_open(opencl_device().get(), automatic.get(), "visibility",
+                                   Words{"picture=bytes"}, &view),
+               "picture", "give --exposure a number");
   EXPECT_EQ(open("forward_plus", {}), LIGHTGRID_MACHINE);  // a device without OpenGL
   EXPECT_EQ(view, nullptr);
   lightgrid_device* device = nullptr;
@@ -101,6 +105,7 @@ TEST(CErrors, TellTheFieldOfAnImage) {
   expect_wrong(render([](lightgrid_image& i) { i.row_bytes = 4 - i.row_bytes; }), "image.row_bytes");
   expect_wrong(render([](lightgrid_image& i) { i.row_bytes += 2; }), "image.pixels");
   expect_wrong(render([](lightgrid_image& i) { i.format = LIGHTGRID_R_F32; }), "image.format");
+  expect_wrong(render([](lightgrid_image& i) { i.format = LIGHTGRID_RGBA_U8; }), "image.format");
   expect_wrong(lightgrid_view_depth(view.get(), &image.image), "depth.format");
   Floats depth(64, 36);
   expect_wrong(lightgrid_view_depth(view.get(), &depth.image), "view", "no frame");

@@ -85,6 +85,17 @@ class Images(unittest.TestCase):
         self.assertEqual(small.shape, (36, 64, 4))
         np.testing.assert_array_equal(shown, moved)  # memory lives as long as its array
 
+    def test_are_bytes_where_wished(self):
+        view = device.view(hall(exposure=1), "visibility", picture="bytes")
+        expected = lg.srgb(view.render(), 1)
+        shown = view.draw()
+        self.assertEqual((shown.shape, shown.dtype), ((71, 133, 4), np.uint8))
+        np.testing.assert_array_equal(shown[..., :3], expected)
+        out = np.zeros((71, 133, 4), np.uint8)
+        self.assertIs(view.render(out), out)
+        np.testing.assert_array_equal(out, shown)
+        self.assertTrue((out[..., 3] == 255).all())
+
     def test_are_exchanged_by_dlpack(self):
         class Tensor:
             """What another library has."""

@@ -71,7 +71,8 @@ function showMachines() {
     make("dt", {}, page.machines.length > 1 ? `Part ${machine.shard}` : "This machine"),
     make("dd", {}, [machine.cpu, machine.clock_mhz > 0 && `${wholeNumber(Math.round(machine.clock_mhz))} MHz`, `governor ${machine.governor}`,
       `${machine.threads} threads`, `load ${machine.load_at_start} at the start, ${machine.load_at_end} at the end`,
-      `OpenCL: ${machine.cl_device}, ${machine.cl_driver}`, `OpenGL: ${machine.gl_device}, ${machine.gl_driver}`].filter(Boolean).join(" \u00b7 "))]), ...processes);
+      `OpenCL: ${machine.cl_device}, ${machine.cl_driver}`, `OpenGL: ${machine.gl_device}, ${machine.gl_driver}`,
+      machine.picture === "bytes" && "timed frames end with a picture in bytes"].filter(Boolean).join(" \u00b7 "))]), ...processes);
 }
 
 function pictureFigure(number, caption) {

@@ -51,6 +51,12 @@ struct ShadedImage {
                                   // framebuffer is then stale
 };
 
+// The same as a display shows it: sRGB, 8 bits a channel, alpha 255.
+struct DisplayedImage {
+  GLuint framebuffer = 0;         // RGBA8
+  SharedBuffer* in_cl = nullptr;  // set if it is in this buffer alone, row 0 at the bottom
+};
+
 // What the shadows of a frame took, for results.json.
 struct ShadowFigures {
   size_t lights = 0;       // whose shadows were found
@@ -85,6 +91,7 @@ struct SampleFigures {
 // A technique's result, for readers of the frame: the image, input of the oracle, memory figures.
 struct Frame {
   ShadedImage image;
+  std::optional<DisplayedImage> displayed;  // with picture=bytes
   std::optional<ViewGrid> grid;          // of opaque surfaces
   std::optional<ViewGrid> blend_grid;    // of blended ones
   HostLists listed;                      // of opaque surfaces
