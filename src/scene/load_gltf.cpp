@@ -37,6 +37,7 @@ Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits&
   Scene scene;
   scene.name = path.stem().string();
   scene.samples = gltf::samples_of_scene(doc, scene_index);
+  gltf::set_radiances(doc, scene_index, scene);
   scene.materials = gltf::read_materials(doc, nodes);
   if (has_channels(rig)) rig.nodes = gltf::rig_nodes(doc, nodes);
   const std::vector<int> node_of_instance = gltf::add_meshes(doc, nodes, scene, rig);

@@ -185,6 +185,7 @@ Document read_document(const fs::path& path, const GltfLimits& limits) {
   doc.models = std::move(prepared.models);
   doc.shadows = std::move(prepared.shadows), doc.groups = std::move(prepared.groups);
   doc.samples = std::move(prepared.samples);
+  doc.radiances = std::move(prepared.radiances);
   check_indices(doc, prepared.buffers.size());
   read_buffers(doc, prepared.buffers, container);
   if (container.is_glb) doc.owned.push_back(std::move(file));  // the first buffer points into it

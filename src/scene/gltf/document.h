@@ -24,6 +24,7 @@ struct Document : Reporter {
   ShadowEntries shadows;
   GroupEntries groups;
   SampleEntries samples;
+  RadianceEntries radiances;
   std::vector<std::span<const uint8_t>> buffers;  // empty if the file gives no bytes
   std::vector<std::vector<uint8_t>> owned;        // memory that `buffers` points into
   std::map<int, std::vector<uint8_t>> decoded_views;

@@ -204,6 +204,24 @@ SampleEntries read_samples(const json& root) {
   return out;
 }
 
+std::map<int, std::optional<glm::vec3>> radiance_of(const json& scenes, const char* field) {
+  std::map<int, std::optional<glm::vec3>> out;
+  const json::json_pointer at(fmt::format("/extras/{}", field));
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    if (!scenes[i].contains(at)) continue;
+    const json& value = scenes[i][at];
+    std::optional<glm::vec3>& entry = out[int(i)];
+    const auto is_radiance = [](const json& channel) {
+      if (!channel.is_number()) return false;
+      const auto number = channel.get<float>();
+      return std::isfinite(number) && number >= 0;
+    };
+    if (value.is_array() && value.size() == 3 && std::ranges::all_of(value, is_radiance))
+      entry = glm::vec3(value[0].get<float>(), value[1].get<float>(), value[2].get<float>());
+  }
+  return out;
+}
+
 constexpr int max_nesting = 64;  // the format itself needs about 10
 
 constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
@@ -372,6 +390,8 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text) {
   out.models = take_models(report, root);
   out.shadows = read_shadows(root), out.groups = read_groups(report, root);
   out.samples = read_samples(root);
+  if (root.contains("scenes"))
+    out.radiances = {radiance_of(root["scenes"], "ambient"), radiance_of(root["scenes"], "background")};
   out.animations = take_animations(report, root);  // before the indices of all the rest are checked
   Tidier(report).tidy_object(root, true);
   out.buffers = take_buffers(report, root);

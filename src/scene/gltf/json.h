@@ -63,6 +63,12 @@ struct GroupEntries {
 // extras.samples of scenes, by their index; 0: not 1, 2, 4 or 8.
 using SampleEntries = std::map<int, int>;
 
+// extras.ambient and extras.background of scenes, by their index. Empty: not three finite numbers of 0 or
+// more.
+struct RadianceEntries {
+  std::map<int, std::optional<glm::vec3>> ambient, background;
+};
+
 struct PreparedJson {
   std::string text;  // for tinygltf: no buffers, images, animations, extras or unsupported extensions
   std::vector<BufferEntry> buffers;
@@ -72,6 +78,7 @@ struct PreparedJson {
   ShadowEntries shadows;
   GroupEntries groups;
   SampleEntries samples;
+  RadianceEntries radiances;
   // tinygltf rejects indices without a buffer view, which Draco and sparse accessors may have: those
   // accessors get this index, one past the end of the file's own views.
   int absent_view = 0;

@@ -87,6 +87,19 @@ int samples_of_scene(const Document& doc, int scene) {
   return found->second;
 }
 
+void set_radiances(const Document& doc, int scene_index, Scene& scene) {
+  const int index = chosen_scene(doc, scene_index);
+  const auto set = [&](const auto& entries, const char* field, glm::vec3& radiance) {
+    const auto found = entries.find(index);
+    if (found == entries.end()) return;
+    if (!found->second)
+      throw doc.error("scenes[{}].extras.{} is not three finite numbers of 0 or more", index, field);
+    radiance = *found->second;
+  };
+  set(doc.radiances.ambient, "ambient", scene.ambient);
+  set(doc.radiances.background, "background", scene.background);
+}
+
 std::optional<bool> node_casts_shadow(const Document& doc, int node) {
   const auto found = doc.shadows.of_node.find(node);
   if (found == doc.shadows.of_node.end()) return {};

@@ -28,6 +28,10 @@ std::vector<PlacedNode> place_nodes(Document& doc, int scene);
 // extras.samples of that scene; 1 without it. An error if it is not 1, 2, 4 or 8.
 int samples_of_scene(const Document& doc, int scene);
 
+// Sets the scene's ambient and background to extras.ambient and extras.background, as far as that scene has
+// them. An error if one is not three finite numbers of 0 or more.
+void set_radiances(const Document& doc, int scene_index, Scene& scene);
+
 // The same nodes as rig nodes.
 std::vector<RigNode> rig_nodes(const Document& doc, const std::vector<PlacedNode>& nodes);
 
