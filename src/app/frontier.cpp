@@ -1,4 +1,5 @@
-// lightgrid frontier SCENE… -o DIR: what accuracy costs in time; frontier merge DIR… -o DIR.
+// lightgrid frontier SCENE… -o DIR: what accuracy costs in time; frontier merge DIR… -o DIR; frontier export
+// SCENE… -o DIR.
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -20,8 +21,10 @@
 #include "base/version.h"
 #include "base/write_file.h"
 #include "frontier/answer.h"
+#include "frontier/answer_steps.h"
 #include "frontier/brute_force.h"
 #include "frontier/measure.h"
+#include "frontier/view_figures.h"
 #include "results/words.h"
 
 extern char** environ;
@@ -33,15 +36,17 @@ namespace fs = std::filesystem;
 
 struct FrontierCommand {
   SceneChoice scene;                // shared by all scenes
-  std::vector<std::string> scenes;  // or "merge" and folders
+  std::vector<std::string> scenes;  // or "merge" and folders, or "export" and scenes
   DeviceOptions devices;
   std::string output = "out/frontier", json, gate, shard = "0/1", process, truth, baseline;
-  std::vector<std::string> techniques, vary;
+  std::vector<std::string> techniques, vary, external;
   int views = 16, rounds = 120, budget = 14, page_mb = 12, processes = 1;
   bool no_growth = false, sequences = false;
 };
 
 const std::vector<std::string> default_scenes = {"hall", "terrain", "spheres", "street"};
+
+using Externals = std::vector<std::shared_ptr<const ExternalRenderer>>;
 
 struct Shard {
   int index = 0, count = 1;
@@ -98,9 +103,23 @@ SceneRequest request_of_scene(const FrontierCommand& o, bool casts, const Settin
   return request;
 }
 
+void add_external_points(const Externals& externals, const std::string& scene, SceneRequest& request) {
+  for (const auto& renderer : externals) {
+    if (renderer->takes_part(scene)) request.points.push_back(external_point(renderer));
+  }
+}
+
+// "hall" of scenes/hall.glb, and another name for a second one.
+fs::path folder_of_scene(const FrontierCommand& o, size_t scene) {
+  const auto name = [&](size_t i) { return scene_in_words(o.scenes[i]); };
+  size_t same = 0;
+  for (size_t i = 0; i < scene; ++i) same += name(i) == name(scene);
+  return same ? fmt::format("{}-{}", name(scene), same + 1) : name(scene);
+}
+
 // Parts of one sweep agree in this.
 std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>& points,
-                       const std::vector<SceneRequest>& of_scenes) {
+                       const std::vector<SceneRequest>& of_scenes, const Externals& externals) {
   const SceneChoice& s = o.scene;
   nlohmann::json request = {{"scenes", o.scenes},
                             {"size", s.size},
@@ -121,6 +140,8 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
                                  settings_of(*point.contestant.technique, point.contestant.settings),
                                  point.frames});
   }
+  for (const auto& renderer : externals)
+    request["external"].push_back({renderer->label(), renderer->content});
   // Lights of a path's file may cast in one sweep and not in the next.
   if (!o.truth.empty()) request["truth"] = o.truth;
   if (o.sequences) request["sequences"] = true;
@@ -146,6 +167,13 @@ bool failed_gate(const FrontierCommand& o, const FrontierAnswer& answer) {
 bool tell_losses(const FrontierAnswer& answer) {
   bool failed = false;
   for (const PointFigures& p : answer.points) {
+    if (p.external) {
+      if (p.nan_pixels == 0) continue;
+      failed = true;
+      fmt::print(stderr, "lightgrid: {} in {}: {} NaN pixels; all must be 0\n", p.point.label, p.point.scene,
+                 p.nan_pixels);
+      continue;
+    }
     const auto is_capped = [&](const char* key) { return !setting_in_force(p.point.settings, key).empty(); };
     const bool limited =
         find_technique(p.point.technique).limited_lists || is_capped("list_cap") || is_capped("view_cap");
@@ -195,7 +223,7 @@ int merge(const FrontierCommand& o) {
 
 // Checks what the command is asked for, before a device opens and before the first scene is measured. Returns
 // whether a light casts, scene by scene.
-std::vector<bool> check_request(const FrontierCommand& o) {
+std::vector<bool> check_request(const FrontierCommand& o, const Externals& externals) {
   parse_truth(o.truth);
   if (!o.gate.empty()) read_frontier_json(o.gate);
   if (!o.json.empty()) check_output_file("--json", o.json);
@@ -203,6 +231,10 @@ std::vector<bool> check_request(const FrontierCommand& o) {
   for (const std::string& scene : o.scenes) {
     const ChosenScene chosen = load_chosen_scene(choice_of(o, scene));
     casts.push_back(std::ranges::any_of(chosen.scene.lights, &Light::casts_shadow));
+    for (const auto& renderer : externals) {
+      check_external_frames(*renderer, scene, chosen.scene,
+                            frontier_views(chosen.scene, chosen.view, choice_of(o, scene), o.views));
+    }
   }
   return casts;
 }
@@ -276,8 +308,34 @@ double share_of_budget(const Shard& process) {
   return process.index == 0 ? 0.5 : 0.5 / double(process.count - 1);
 }
 
+// Scenes, views and truths for other renderers.
+int export_scenes(FrontierCommand o) {
+  o.scenes.erase(o.scenes.begin());
+  if (o.scenes.empty()) throw input_error("export: no scene; frontier export SCENE… -o DIR");
+  const GlBackend backend = parse_gl_backend(o.devices.gl);
+  const std::vector<bool> casts = check_request(o, {});
+  make_folder(o.output);
+  Renderer renderer(o.devices.device, backend);
+  FrontierJob job = job_of(o, renderer, Shard());
+  const auto bar = progress_bar();
+  for (size_t i = 0; i < o.scenes.size(); ++i) {
+    const std::string& scene = o.scenes[i];
+    job.progress = [&](double done, const std::string& step) {
+      bar((double(i) + done) / double(o.scenes.size()), scene + ": " + step);
+    };
+    ask(job, request_of_scene(o, casts[i], job.common, renderer.gl != nullptr), Shard());
+    const fs::path folder = fs::path(o.output) / folder_of_scene(o, i);
+    make_folder(folder);
+    export_with_truths(renderer, choice_of(o, scene), job, folder);
+    fmt::print("{}\n", (folder / "views.json").string());
+  }
+  bar(1, "");
+  return 0;
+}
+
 int frontier(FrontierCommand o) {
   if (!o.scenes.empty() && o.scenes.front() == "merge") return merge(o);
+  if (!o.scenes.empty() && o.scenes.front() == "export") return export_scenes(std::move(o));
   if (o.scenes.empty()) o.scenes = default_scenes;
   const Timer timer;
   const Shard shard = parse_shard(o.shard);
@@ -289,17 +347,20 @@ int frontier(FrontierCommand o) {
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   chosen_points(o.techniques, o.vary, chosen_settings(o.scene), true);
   baseline_point(chosen_settings(o.scene), true, o.baseline);
-  const std::vector<bool> casts = check_request(o);
+  const Externals externals = read_external_renderers(o.external, o.scenes);
+  const std::vector<bool> casts = check_request(o, externals);
   make_folder(o.output);
   if (o.processes > 1 && o.process.empty()) return frontier_in_processes(o, shard);
   Renderer renderer(o.devices.device, backend);
   FrontierJob job = job_of(o, renderer, shard);
   std::vector<SceneRequest> of_scenes;
-  for (const bool scene_casts : casts)
-    of_scenes.push_back(request_of_scene(o, scene_casts, job.common, renderer.gl != nullptr));
+  for (size_t i = 0; i < casts.size(); ++i) {
+    of_scenes.push_back(request_of_scene(o, casts[i], job.common, renderer.gl != nullptr));
+    add_external_points(externals, o.scenes[i], of_scenes.back());
+  }
   FrontierPart part;
-  part.request =
-      request_of(o, chosen_points(o.techniques, o.vary, job.common, renderer.gl != nullptr), of_scenes);
+  part.request = request_of(o, chosen_points(o.techniques, o.vary, job.common, renderer.gl != nullptr),
+                            of_scenes, externals);
   part.commit = commit_of_build(), part.seed = o.scene.seed, part.shard = shard.index,
   part.shards = shard.count;
   part.baseline = job.baseline.label;
@@ -326,6 +387,7 @@ int frontier(FrontierCommand o) {
       bar(done + part_done * share, o.scenes[i] + ": " + step);
     };
     ask(job, of_scenes[i], shard);
+    job.exports = fs::path(o.output) / "external" / folder_of_scene(o, i);
     sequences_s += measure_scene(renderer, choice_of(o, o.scenes[i]), job, file);
     ++measured;
   }
@@ -344,9 +406,10 @@ void add_frontier(CommandLine& line) {
   o->scene.size = "640x360";
   Subcommand command = line.add("frontier", "what accuracy costs in time, over settings and scenes",
                                 [o] { return frontier(*o); });
-  command.list("scene", o->scenes,
-               "scenes as for compare; or: merge DIR…, the parts of one sweep (default: hall, terrain, "
-               "spheres, street)");
+  command.list(
+      "scene", o->scenes,
+      "scenes as for compare; or: merge DIR…, the parts of one sweep; or: export SCENE…, what another "
+      "renderer needs to draw them (default: hall, terrain, spheres, street)");
   command.option("--size", o->scene.size, "image size, WxH");
   command.option("--lights", o->scene.lights, "scatter N lights; with --lights-file, its first N", 0,
                  most_lights);
@@ -362,6 +425,9 @@ void add_frontier(CommandLine& line) {
   command.list(
       "--vary", o->vary,
       "KEY=VALUE,VALUE,…: each technique that reads KEY with each value, one key at a time; may be repeated");
+  command.list(
+      "--external", o->external,
+      "FILE: another renderer that takes part, as a command or as pictures and times; may be repeated");
   command.option("--baseline", o->baseline,
                  "NAME[:KEY=VALUE…]: what times are over (default: forward_plus, without OpenGL visibility)");
   command.option(

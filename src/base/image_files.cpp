@@ -1,6 +1,8 @@
+#include <fmt/format.h>
 #include <png.h>
 #include <tinyexr.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cassert>
@@ -10,6 +12,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
+#include "base/exr_picture.h"
 #include "base/image.h"
 #include "base/json_file.h"
 #include "base/write_file.h"
@@ -149,12 +152,14 @@ void save_exr(const std::filesystem::path& path, int width, int height,
   write_file(path, bytes);
 }
 
-std::vector<ExrChannel> load_exr(const std::filesystem::path& path, int width, int height) {
+// As load_exr; `halves`: channels of 16 bits become floats.
+static std::vector<ExrChannel> read_exr(const std::filesystem::path& path, int width, int height,
+                                        bool halves) {
   constexpr int most_channels = 16;
   const size_t pixels = size_t(width) * size_t(height);
   const std::string text = read_small_file(path, (pixels * most_channels + (1 << 20)) * 4, "an EXR file");
   const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
-  const auto require = [&](bool good, const char* what) {
+  const auto require = [&](bool good, const std::string& what) {
     if (!good) throw input_error("{}: {}", path.string(), what);
   };
   const char* why = nullptr;  // lost: a sentence of tinyexr's
@@ -175,10 +180,14 @@ std::vector<ExrChannel> load_exr(const std::filesystem::path& path, int width, i
           "its header is broken");
   const EXRBox2i box = read.header.data_window;
   require(box.min_x == 0 && box.min_y == 0 && box.max_x == width - 1 && box.max_y == height - 1,
-          "has another size");
+          fmt::format("has another size: pixels {},{} to {},{}, not 0,0 to {},{}", box.min_x, box.min_y,
+                      box.max_x, box.max_y, width - 1, height - 1));
   require(read.header.num_channels <= most_channels, "has more than 16 channels");
-  for (int c = 0; c < read.header.num_channels; ++c)
-    require(read.header.pixel_types[c] != TINYEXR_PIXELTYPE_HALF, "has a channel of 16 bits");
+  for (int c = 0; c < read.header.num_channels; ++c) {
+    if (read.header.pixel_types[c] != TINYEXR_PIXELTYPE_HALF) continue;
+    require(halves, "has a channel of 16 bits");
+    read.header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
+  }
   read.has_image =
       LoadEXRImageFromMemory(&read.image, &read.header, bytes, text.size(), &why) == TINYEXR_SUCCESS;
   require(read.has_image && read.image.images && read.image.width == width && read.image.height == height,
@@ -190,6 +199,28 @@ std::vector<ExrChannel> load_exr(const std::filesystem::path& path, int width, i
                         turned_over({words, words + pixels}, width, height)});
   }
   return channels;
+}
+
+std::vector<ExrChannel> load_exr(const std::filesystem::path& path, int width, int height) {
+  return read_exr(path, width, height, false);
+}
+
+Image load_exr_picture(const std::filesystem::path& path, int width, int height) {
+  const std::vector<ExrChannel> channels = read_exr(path, width, height, true);
+  Image image(width, height);
+  std::string names;
+  for (const ExrChannel& channel : channels) names += (names.empty() ? "" : ", ") + channel.name;
+  for (const auto& [name, index] : {std::pair{"R", 0}, {"G", 1}, {"B", 2}}) {
+    const auto found = std::ranges::find(channels, name, &ExrChannel::name);
+    if (found == channels.end())
+      throw input_error("{}: has no channel {}; its channels are {}", path.string(), name, names);
+    if (found->whole)
+      throw input_error("{}: channel {} holds whole numbers, not floats", path.string(), name);
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+      image.pixels[i][index] = std::bit_cast<float>(found->words[i]);
+  }
+  for (glm::vec4& pixel : image.pixels) pixel.a = 1;
+  return image;
 }
 
 void check_image_path(const std::filesystem::path& path) {

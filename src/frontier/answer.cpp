@@ -57,9 +57,11 @@ double times_longer(const BaselineTimes& first, const BaselineTimes& other) {
   return of_other > 0 ? of_first / of_other : 0;
 }
 
-bool errors_are_finite(const PointErrors& errors) {
-  return std::isfinite(errors.total.max_rel) && std::isfinite(errors.total.rmse_rel) &&
-         std::isfinite(errors.technique.max_rel) && std::isfinite(errors.technique.rmse_rel);
+bool errors_are_finite(const FrontierRecord& record) {
+  const PointErrors& errors = record.errors;
+  if (!std::isfinite(errors.total.max_rel) || !std::isfinite(errors.total.rmse_rel)) return false;
+  return record.external ||
+         (std::isfinite(errors.technique.max_rel) && std::isfinite(errors.technique.rmse_rel));
 }
 
 }  // namespace
@@ -74,10 +76,12 @@ std::vector<FrontierRecord> on_one_machine(std::vector<FrontierRecord> records,
   std::map<std::string, std::map<int, BaselineTimes>> baselines;  // by scene and kind
   for (const FrontierRecord& r : records) {
     if (!r.series.empty()) continue;  // of other sizes and lights
+    if (is_unpaired(r)) continue;     // of another session
     std::vector<double>& times = baselines[r.point.scene][kind_of_record(r)][r.view];
     times.insert(times.end(), r.baseline_ms.begin(), r.baseline_ms.end());
   }
   for (FrontierRecord& r : records) {
+    if (is_unpaired(r)) continue;
     const auto& of_scene = baselines[r.point.scene];
     const int kind = kind_of_record(r);
     if (of_scene.empty() || of_scene.begin()->first == kind) continue;
@@ -123,7 +127,7 @@ std::vector<Failure> failures_of(Records records) {
       lost += r->pairs.lost, wrong += r->pairs.wrong;
       if (r->pairs.shadows) shadows += r->pairs.shadows->faults();
       nan_pixels += r->nan_pixels, overflow += r->overflow;
-      finite &= errors_are_finite(r->errors);
+      finite &= errors_are_finite(*r);
     }
     if (!refused.empty()) add("refused", "refused: " + refused);
     if (lost) add("lost", with_commas(lost) + " lit pairs are not listed");

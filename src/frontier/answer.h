@@ -50,6 +50,7 @@ struct PointFigures {
   std::map<std::pair<std::string, std::string>, std::pair<double, double>> over_views;
   PairCounts pairs;                    // sums over views
   std::optional<FrontierTruth> truth;  // empty: every light without a range
+  std::optional<ExternalPoint> external;
   std::optional<double> exposure_ev;   // of the scene's pictures
   uint64_t memory_bytes = 0;           // the largest of the views
   uint64_t bytes_moved = 0;            // a frame of the views that were profiled: the first

@@ -146,15 +146,16 @@ json point_json(const PointFigures& p) {
     error["over_views_ci95"][of.first][of.second] = pair_json(interval.first, interval.second);
   error["flip_views"] = p.flip_views;
   error["temporal_views"] = p.temporal_views;
-  out["pairs"] = pairs_json(p.pairs);
+  if (p.external) out["external"] = finite_json(*p.external);
+  out["pairs"] = p.external ? json() : pairs_json(p.pairs);
   if (p.pairs.shadows) {
     out["leaked_percent"] = finite_json(leaked_percent(p.pairs));
     out["acned_percent"] = finite_json(acned_percent(p.pairs));
   }
   if (p.truth) out["truth"] = finite_json(*p.truth);
   out["listed_per_lit"] = p.pairs.lit > 0 ? json(double(p.pairs.listed) / double(p.pairs.lit)) : json();
-  out["memory_bytes"] = p.memory_bytes;
-  out["bytes_moved"] = p.bytes_moved;
+  out["memory_bytes"] = p.external ? json() : json(p.memory_bytes);
+  out["bytes_moved"] = p.external ? json() : json(p.bytes_moved);
   out["nan_pixels"] = p.nan_pixels;
   for (const auto& [of, front] : p.fronts) out["fronts"][of] = on_front_json(front);
   add_device_json(p.device, out);
@@ -204,7 +205,8 @@ json failure_json(const Failure& f) {
   return out;
 }
 
-std::vector<CsvColumn> csv_columns(bool truths, bool shadows, bool authored, bool seeds, bool sequences) {
+std::vector<CsvColumn> csv_columns(bool truths, bool external, bool shadows, bool authored, bool seeds,
+                                   bool sequences) {
   std::vector<CsvColumn> all;
   const auto add_measures = [&](const std::string& within, const std::string& prefix) {
     for (const ErrorMeasure& m : frontier_error_measures()) add_columns(all, {m.key}, within, prefix);
@@ -258,6 +260,7 @@ std::vector<CsvColumn> csv_columns(bool truths, bool shadows, bool authored, boo
   add_columns(all, {"max_rel", "rmse_rel"}, sampled + "/picture_in_float", "in_double_float_total_");
   add_columns(all, {"max_rel", "rmse_rel"}, sampled + "/truth", "in_double_float_truth_");
   if (truths) add_columns(all, {"own_ranges", "shadow_source", "shadow_rays", "places"}, "/truth", "truth_");
+  if (external) add_columns(all, {"note", "paired"}, "/external", "external_");
   if (!shadows) return all;
   add_columns(all, {"leaked", "acned", "either"}, "/pairs/shadows");
   add_columns(all, {"pixels", "pairs"}, "/pairs/shadows", "shadow_");
@@ -279,10 +282,12 @@ json csv_row(const FrontierAnswer& answer, size_t row) {
     fields["leaked_percent"] = finite_json(leaked_percent(r.pairs));
     fields["acned_percent"] = finite_json(acned_percent(r.pairs));
   }
-  if (!r.refused.empty()) {  // what it would have drawn
-    for (const char* key :
-         {"bytes_moved", "memory_bytes", "covered_pixels", "pairs", "nan_pixels", "overflow"})
+  if (!r.refused.empty() || r.external) {
+    for (const char* key : {"bytes_moved", "memory_bytes", "covered_pixels", "pairs", "overflow"})
       fields.erase(key);
+  }
+  if (!r.refused.empty()) {  // what it would have drawn
+    fields.erase("nan_pixels");
     for (const auto& [kind, ignored] : kinds_of_error) fields["errors"].erase(kind);
   }
   std::vector<double> ratios;
@@ -394,11 +399,12 @@ std::string csv_text(const FrontierAnswer& answer) {
   for (size_t row = 0; row < answer.part.records.size(); ++row) rows.push_back(csv_row(answer, row));
   const auto any = [&](const auto& has) { return std::ranges::any_of(answer.part.records, has); };
   const bool truths = any([](const FrontierRecord& r) { return r.truth.has_value(); });
+  const bool external = any([](const FrontierRecord& r) { return r.external.has_value(); });
   const bool shadows = any([](const FrontierRecord& r) { return r.pairs.shadows.has_value(); });
   const bool authored = any([](const FrontierRecord& r) { return r.errors.authored.has_value(); });
   const bool seeds = any([](const FrontierRecord& r) { return r.errors.seeds.has_value(); });
   const bool sequences = any([](const FrontierRecord& r) { return r.errors.sequences.has_value(); });
-  return csv_table(csv_columns(truths, shadows, authored, seeds, sequences), rows);
+  return csv_table(csv_columns(truths, external, shadows, authored, seeds, sequences), rows);
 }
 
 std::string cull_csv_text(const FrontierAnswer& answer) {

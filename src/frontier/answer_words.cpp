@@ -226,6 +226,20 @@ void add_truth(const FrontierAnswer& answer, const std::string& scene, std::vect
       truth.places ? fmt::format(", and the mean over each pixel's area, of {} places", *truth.places) : ""));
 }
 
+// Points of other renderers, and who timed them.
+void add_external(const FrontierAnswer& answer, const std::string& scene,
+                  std::vector<std::string>& sentences) {
+  for (const PointFigures& p : answer.points) {
+    if (p.point.scene != scene || !p.external) continue;
+    sentences.push_back(fmt::format(
+        "In {} {} is another renderer{}: {}.", scene_in_words(scene), p.point.label,
+        p.external->note.empty() ? "" : fmt::format(" ({})", p.external->note),
+        p.external->paired ? "it states its own times, taken in the rounds beside the baseline's"
+                           : "its times and the baseline's beside them were taken elsewhere and not in these "
+                             "rounds, so that its interval holds no difference between sessions"));
+  }
+}
+
 // What a baseline that draws with OpenGL is on this machine, where it is not what readers have in mind.
 void add_baseline(const FrontierAnswer& answer, std::vector<std::string>& sentences) {
   if (answer.points.empty() || answer.machines.empty() || draws_in_opencl(answer.part.baseline)) return;
@@ -317,6 +331,7 @@ std::string three_digits(double value) {
 static std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer, const std::string& scene) {
   std::vector<std::string> sentences;
   add_truth(answer, scene, sentences);
+  add_external(answer, scene, sentences);
   add_doubts(answer, scene, sentences);
   add_fastest(answer, scene, sentences);
   add_cheapest_within(answer, scene, sentences);
@@ -333,6 +348,7 @@ SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene
   if (words.opening.size() > 1) words.notes.push_back(words.opening.back()), words.opening.pop_back();
   add_baseline(answer, words.opening);
   add_truth(answer, scene, words.opening);
+  add_external(answer, scene, words.opening);
   add_doubts(answer, scene, words.opening);
   add_shadows(answer, scene, words.notes);
   add_failures(answer, scene, words.opening);

@@ -59,6 +59,12 @@ void visit_fields(T& t, Visit&& visit) {
   visit("places", t.places, FieldRule{.low = 1, .required = false});
 }
 
+template <Is<ExternalPoint> T, typename Visit>
+void visit_fields(T& e, Visit&& visit) {
+  visit("note", e.note);
+  visit("paired", e.paired);
+}
+
 template <Is<DisplayedFlip> T, typename Visit>
 void visit_fields(T& f, Visit&& visit) {
   visit("mean", f.mean);
@@ -175,6 +181,7 @@ template <Is<FrontierRecord> T, typename Visit>
 void visit_fields(T& r, Visit&& visit) {
   visit_identity(r, visit);
   visit("truth", r.truth, FieldRule{.required = false});
+  visit("external", r.external, FieldRule{.required = false});
   visit("refused", r.refused);
   visit("frame_ms", r.frame_ms);
   visit("baseline_ms", r.baseline_ms);

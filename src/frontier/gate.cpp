@@ -88,11 +88,7 @@ class PointComparison {
     }
     if (now_errors.has("sequences") && earlier_errors.has("sequences"))
       compare_sequences(now_errors.object("sequences"), earlier_errors.object("sequences"));
-    const JsonFields pairs = now_.object("pairs"), earlier_pairs = earlier_.object("pairs");
-    compare_counts("lit pairs of a pixel and a light are lost", pairs.count("lost"),
-                   earlier_pairs.count("lost"));
-    compare_counts("pairs of a pixel and a light are wrong", pairs.count("wrong"),
-                   earlier_pairs.count("wrong"));
+    if (!now_.has("external")) compare_pairs();
     const auto nan_pixels = [](const JsonFields& p) {
       return p.has("nan_pixels") ? p.count("nan_pixels") : 0;
     };
@@ -105,6 +101,14 @@ class PointComparison {
   }
 
  private:
+  void compare_pairs() {
+    const JsonFields pairs = now_.object("pairs"), earlier_pairs = earlier_.object("pairs");
+    compare_counts("lit pairs of a pixel and a light are lost", pairs.count("lost"),
+                   earlier_pairs.count("lost"));
+    compare_counts("pairs of a pixel and a light are wrong", pairs.count("wrong"),
+                   earlier_pairs.count("wrong"));
+  }
+
   void compare_errors(const std::string& kind, const JsonFields& now, const JsonFields& earlier) {
     for (const ErrorMeasure& measure : frontier_error_measures()) {
       if (measure.gated)

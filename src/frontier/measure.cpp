@@ -69,7 +69,7 @@ class SceneSweep {
 
   void run() {
     make_runs();
-    if (!measured_.empty()) {
+    if (!measured_.empty() || !apart_.empty()) {
       measure_figures();
       measure_flicker();
       measure_cull_tests();
@@ -112,15 +112,19 @@ class SceneSweep {
     record.width = start_.width, record.height = start_.height;
     record.lights = int(scene_.lights.size());
     if (job_.truth != FrontierTruth()) record.truth = job_.truth;
+    if (point.external) record.external = {point.external->note, point.runs()};
     return record;
   }
 
   // Points whose records are complete are left out; of others the records of an earlier process go on.
   void make_runs() {
     for (const ChosenPoint& point : job_.points) {
-      if (file_.has(record_key(record_of(point, 0)))) continue;
+      if (!point.runs() && job_.process == 0) apart_.push_back(&point);
+      if (!point.runs() || file_.has(record_key(record_of(point, 0)))) continue;
       tell(0, point.label);
-      measured_.push_back({PointRun(renderer_, gpu_, start_, point, pool_), {}});
+      if (point.external && exported_.name.empty())
+        exported_ = export_scene(job_.exports, choice_.scene, scene_, views_);
+      measured_.push_back({PointRun(renderer_, gpu_, start_, point, pool_, &exported_), {}});
       std::vector<FrontierRecord>& records = measured_.back().records;
       for (int view = 0; view < int(views_.size()); ++view) {
         const auto begun = file_.open_records().find(record_key(record_of(point, view)));
@@ -128,7 +132,9 @@ class SceneSweep {
         records.push_back(begun->second);
       }
     }
-    if (measured_.empty()) return;
+    std::erase_if(apart_,
+                  [&](const ChosenPoint* point) { return file_.has(record_key(record_of(*point, 0))); });
+    if (measured_.empty() && apart_.empty()) return;
     baseline_.emplace(renderer_, gpu_, start_, job_.baseline, pool_);
     baseline_->draw();
     baseline_s_ = baseline_->draw() / 1000;
@@ -148,7 +154,7 @@ class SceneSweep {
       const int runs = 1 + (m.slow ? std::min(rounds, slow_rounds) : rounds);
       // Each timed picture follows one frame that is not.
       const double frame_s = m.picture_s / m.run.point().frames;
-      round_s += (baseline_s_ + m.picture_s + frame_s) * runs;
+      round_s += (baseline_s_ + m.picture_s + frame_s + m.around_s) * runs;
     }
     return seconds() + more + round_s * views <= until();
   }
@@ -156,8 +162,10 @@ class SceneSweep {
   // As many points as the time allows on one view, then as many views: first with FLIP and flicker, then
   // without.
   void measure_figures() {
-    const bool own = std::ranges::any_of(
-        measured_, [](const MeasuredPoint& m) { return has_own_surfaces(m.run.point()); });
+    const bool own =
+        std::ranges::any_of(measured_,
+                            [](const MeasuredPoint& m) { return has_own_surfaces(m.run.point()); }) ||
+        std::ranges::any_of(apart_, [](const ChosenPoint* point) { return has_own_surfaces(*point); });
     double view_s = 0;  // of the last one
     bool whole = has_time_for_flip();
     for (int view = 0; view < int(views_.size()); ++view) {
@@ -176,6 +184,7 @@ class SceneSweep {
       view_s = seconds() - before;
       if (whole) whole_views_ = view + 1;
     }
+    file_.append(apart_records_);  // in one line: all views or none
     if (used_views_ < int(views_.size()))
       notice(fmt::format("{} of {} views, for the time there is", used_views_, views_.size()));
     if (whole_views_ < used_views_)
@@ -196,19 +205,34 @@ class SceneSweep {
 
   void measure_view(int view, bool own, bool whole) {
     bool looked = false;
+    const auto look = [&] {
+      if (!looked) figures_.look(views_[size_t(view)], view, own, whole);
+      looked = true;
+    };
     for (MeasuredPoint& m : measured_) {
       if (!has_view(m, view)) {
         if ((view == 0 && !fits(0, 1, 1)) || job_.process > 0) break;
         tell(seconds() / job_.seconds,
              fmt::format("view {} of {}, {}", view + 1, views_.size(), m.run.point().label));
-        if (!looked) figures_.look(views_[size_t(view)], view, own, whole);
-        looked = true;
+        look();
         FrontierRecord record = record_of(m.run.point(), view);
         figures_.measure(m.run, record);
+        if (record.external)
+          m.around_s = std::max(m.run.asked_ms() / 1000 - seconds_of_passes(record), m.around_s);
         file_.begin(record);
         m.records.push_back(std::move(record));
       }
       if (view == 0) m.picture_s = seconds_of_passes(m.records.front());
+    }
+    if (job_.process > 0 || apart_.empty()) return;
+    look();
+    for (const ChosenPoint* point : apart_) {
+      FrontierRecord record = record_of(*point, view);
+      const ExternalFrame& frame = point->external->scenes.at(choice_.scene).frames[size_t(view)];
+      figures_.measure_picture(*point, picture_of(frame, record.width, record.height), record);
+      record.frame_ms = frame.frame_ms, record.baseline_ms = frame.baseline_ms;
+      record.processes.resize(record.frame_ms.size(), 0);
+      apart_records_.push_back(std::move(record));
     }
   }
 
@@ -296,6 +320,9 @@ class SceneSweep {
   ViewFigures figures_;
   const std::shared_ptr<TargetPool> pool_ = std::make_shared<TargetPool>();
   std::vector<MeasuredPoint> measured_;
+  std::vector<const ChosenPoint*> apart_;  // other renderers' points that were timed elsewhere
+  std::vector<FrontierRecord> apart_records_;
+  ExportedScene exported_;  // without a name: not yet
   std::optional<PointRun> baseline_;
   double baseline_s_ = 0, step_began_s_ = 0, sequences_s_ = 0;
   std::string steps_;  // what took how long

@@ -32,16 +32,28 @@ struct FrontierJob {
   bool sequences = false;          // SequenceErrors too, in time of their own: `seconds` are without them
   bool growth = true;              // the series of lights, pixels and radius too
   std::filesystem::path pictures;  // folder; empty: no pictures
+  std::filesystem::path exports;   // folder of what other renderers draw; used if one of the points runs
   // Called with the progress (0 to 1) and the next step.
   std::function<void(double done, const std::string& step)> progress;
   std::function<void(const std::string& what)> notice;
 };
+
+// The truth's lights have no ranges, and those of the settings have: pictures are compared with both.
+inline bool has_authored(const FrontierJob& job) {
+  return !job.truth.own_ranges && job.common.ranges.range != LightRange::infinite;
+}
 
 // Appends to `file` a record for each point and view, and for each point of a series. Points whose records
 // are there are left out. Throws Error for what concerns the whole scene; a point that cannot run becomes a
 // record with the reason.
 // Returns the seconds that the sequences took.
 double measure_scene(Renderer& renderer, const SceneChoice& choice, const FrontierJob& job, RecordFile& file);
+
+// Writes scene.glb and views.json of the sweep's views into the folder (frontier/export.h), with the truths
+// that pictures of other renderers are compared with: truth_N.exr and, where lights have ranges and the
+// truth's have none, authored_N.exr. Throws as export_scene does.
+void export_with_truths(Renderer& renderer, const SceneChoice& choice, const FrontierJob& job,
+                        const std::filesystem::path& folder);
 
 // The machine that a part is measured on.
 FrontierMachine machine_of(const Renderer& renderer);

@@ -137,6 +137,7 @@ PointFigures over_views(const Group& views) {
   all.views = int(views.size());
   all.width = views.front()->width, all.height = views.front()->height;
   all.truth = views.front()->truth;
+  all.external = views.front()->external;
   all.exposure_ev = views.front()->exposure_ev;
   DeviceFigures& d = all.device;
   d.hand_over_ms = median_interval(means_of_runs(views, &FrontierRecord::hand_over_ms));

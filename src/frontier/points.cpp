@@ -234,7 +234,13 @@ std::string label_of(const Contestant& contestant, int frames) {
   return contestant.technique->name + (differing.empty() ? "" : ":" + differing);
 }
 
+ChosenPoint external_point(std::shared_ptr<const ExternalRenderer> renderer) {
+  const std::string label = renderer->label();
+  return {{}, 1, label, std::move(renderer)};
+}
+
 FrontierPoint described(const std::string& scene, const ChosenPoint& point) {
+  if (point.external) return {scene, point.external->name, point.external->settings, point.label, 1};
   const Contestant& c = point.contestant;
   return {scene, c.technique->name, settings_of(*c.technique, c.settings), point.label, point.frames};
 }
@@ -258,8 +264,14 @@ static Settings timed_settings(const Renderer& renderer, const ChosenPoint& poin
 }
 
 PointRun::PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const ChosenPoint& point,
-                   std::shared_ptr<TargetPool> pool)
-    : point_(point) {
+                   std::shared_ptr<TargetPool> pool, const ExportedScene* exported)
+    : point_(point), view_(view) {
+  if (point.external) {
+    exported_ = *exported;
+    external_ = std::make_unique<ExternalProcess>(point.external->command, point.external->folder,
+                                                  point.external->timeout_s);
+    return;
+  }
   attempt([&] {
     run_ = std::make_unique<TechniqueRun>(renderer, gpu, view, timed_settings(renderer, point),
                                           *point.contestant.technique, std::move(pool));
@@ -267,7 +279,7 @@ PointRun::PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const Ch
 }
 
 bool PointRun::is_random() const {
-  return lightgrid::is_random(*point_.contestant.technique, point_.contestant.settings);
+  return !point_.external && lightgrid::is_random(*point_.contestant.technique, point_.contestant.settings);
 }
 
 // Seeds of lists that follow one another complement each other: those of a picture's frames do, but pictures
@@ -288,6 +300,8 @@ void PointRun::go_to_frame(int number, NumbersOfFrames numbers) {
 }
 
 void PointRun::look(const View& view, const SceneChanges& changes) {
+  view_ = view;
+  if (external_) return;
   attempt([&] { run_->look(view, changes); });
 }
 
@@ -311,6 +325,7 @@ double PointRun::draw(DeviceClock* clock) {
   };
   double ms = 0;
   device_times_.reset();
+  if (external_) return ask(false);
   attempt([&] {
     const Watched watched(run_->view().timer, clock);
     if (clock) clock->start();
@@ -327,7 +342,8 @@ double PointRun::draw(DeviceClock* clock) {
   return ms;
 }
 
-void PointRun::draw_for_errors() {
+double PointRun::draw_for_errors() {
+  if (external_) return ask(true);
   attempt([&] {
     PictureMoments moments;
     draw_frames(false, [&](const Image& image) { moments.add(image); });
@@ -335,9 +351,11 @@ void PointRun::draw_for_errors() {
     mean_ = moments.mean();
     deviation_ = moments.deviation();
   });
+  return 0;
 }
 
 void PointRun::draw_first_frame() {
+  if (external_) return;
   attempt([&] {
     if (is_random()) run_->draw_random(seed(0));
     draw_one(true);

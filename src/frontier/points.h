@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "frontier/export.h"
+#include "frontier/external.h"
+#include "frontier/external_process.h"
 #include "frontier/record.h"
 #include "renderer/device_clock.h"
 #include "session/compare.h"
@@ -18,7 +21,12 @@ struct ChosenPoint {
   Contestant contestant;
   int frames = 1;  // averaged, each with other random numbers
   std::string label;
+  std::shared_ptr<const ExternalRenderer> external = nullptr;  // another renderer; no contestant then
+
+  bool runs() const { return !external || external->runs(); }
 };
+
+ChosenPoint external_point(std::shared_ptr<const ExternalRenderer> renderer);
 
 // `techniques` as compare's -t, or empty: the default points, of which those that need OpenGL are left out
 // without it. `truth`: where lights of the scene cast, what points are held to; the default points then vary
@@ -42,20 +50,22 @@ FrontierPoint described(const std::string& scene, const ChosenPoint& point);
 // can take half of a frame. On CPUs the host reads the floats where they are.
 bool times_bytes(const Renderer& renderer);
 
-// A point that runs: a technique's frames, or the mean of several with other random numbers.
 // Whether random numbers of frames are independent, or go on from frame to frame as a renderer's do: those of
 // sampled lists then complement each other.
 enum class NumbersOfFrames { independent, in_a_row };
 
+// A point that runs: a technique's frames, or the mean of several with other random numbers; or another
+// renderer's process.
 class PointRun {
  public:
-  // Refused at once if the technique cannot run.
+  // Refused at once if the technique cannot run. `exported`: the scene, for another renderer.
   PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const ChosenPoint& point,
-           std::shared_ptr<TargetPool> pool);
+           std::shared_ptr<TargetPool> pool, const ExportedScene* exported = nullptr);
 
   const ChosenPoint& point() const { return point_; }
   const std::string& refused() const { return refused_; }  // empty: it runs
-  TechniqueRun& run() { return *run_; }
+  TechniqueRun& run() { return *run_; }                    // not of another renderer
+  double asked_ms() const { return asked_ms_; }            // another renderer's last answer took as long
 
   void look(const View& view, const SceneChanges& changes = {});  // as TechniqueRun::look
   // One picture: all of its frames, each with random numbers of its own where there are any, read back and
@@ -67,11 +77,12 @@ class PointRun {
   // Of the last draw() with a clock; empty too if that clock does not know, or the point is refused.
   const std::optional<DeviceTimes>& device_times() const { return device_times_; }
   // The picture drawn last; and of an averaged one how far its frames scatter.
-  const Image& image() const { return point_.frames > 1 ? mean_ : run_->image(); }
+  const Image& image() const { return point_.frames > 1 || point_.external ? mean_ : run_->image(); }
   double deviation() const { return deviation_; }
-  // Draws as draw() does, and computes deviation(), which takes time.
-  void draw_for_errors();
-  // The first of its frames alone, as with a clock.
+  // Draws as draw() does, and computes deviation(), which takes time; of another renderer, image().
+  // Milliseconds of another renderer's frame, otherwise 0.
+  double draw_for_errors();
+  // The first of its frames alone; nothing of another renderer, which draws one before each that it times.
   void draw_first_frame();
   // For the frame of that number: random numbers, if there are any, are others in each.
   void go_to_frame(int number, NumbersOfFrames numbers = NumbersOfFrames::independent);
@@ -85,6 +96,7 @@ class PointRun {
   void draw_frames(bool timed, const std::function<void(const Image& image)>& add);
   void draw_one(bool timed);
   uint32_t seed(int frame) const;
+  double ask(bool for_picture);
 
   ChosenPoint point_;
   std::unique_ptr<TechniqueRun> run_;
@@ -94,6 +106,11 @@ class PointRun {
   std::optional<DeviceTimes> device_times_;
   int frame_ = 0;
   NumbersOfFrames numbers_ = NumbersOfFrames::independent;
+
+  std::unique_ptr<ExternalProcess> external_;
+  ExportedScene exported_;
+  View view_;  // of another renderer
+  double asked_ms_ = 0;
 };
 
 }  // namespace lightgrid

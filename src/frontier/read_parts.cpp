@@ -80,10 +80,17 @@ void tell_different_views(const std::vector<FrontierPart>& parts, const Notice& 
   }
 }
 
+// One for all views of a point, so that its runs are rounds of their own.
+int unpaired_shard_of(const FrontierPoint& point) {
+  const std::string hash = content_hash(point.scene + "\n" + point.label);
+  return unpaired_shard + int(std::stoul(hash.substr(0, 7), nullptr, 16));
+}
+
 }  // namespace
 
 void PartLines::add_record(FrontierRecord record, const std::string& place, const Notice& notice) {
   record.shard = part.shard;
+  if (is_unpaired(record)) record.shard = unpaired_shard_of(record.point);
   if (keys.insert(record_key(record)).second) {
     part.records.push_back(std::move(record));
   } else if (notice) {

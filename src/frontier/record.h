@@ -97,6 +97,14 @@ struct FrontierTruth {
   bool operator==(const FrontierTruth&) const = default;
 };
 
+// Of a point of another renderer (frontier/external.h).
+struct ExternalPoint {
+  std::string note;    // what its author says of it
+  bool paired = true;  // timed in the rounds, beside the baseline; otherwise by its author, elsewhere
+
+  bool operator==(const ExternalPoint&) const = default;
+};
+
 struct FrontierRecord {
   FrontierPoint point;
   int view = 0;               // index on the scene's path
@@ -107,6 +115,9 @@ struct FrontierRecord {
   // …: the baseline, timed as a point.
   std::string series;
   std::optional<FrontierTruth> truth;  // empty: every light without a range
+  // Of a point of another renderer. Its technique is the renderer's name; pairs, bytes and the errors of
+  // model, precision and technique are unknown (NaN).
+  std::optional<ExternalPoint> external;
 
   std::string refused;                        // why it did not run; the fields below are then empty
   std::vector<double> frame_ms, baseline_ms;  // of equal length; entry i of both ran one after the other
@@ -126,7 +137,9 @@ struct FrontierRecord {
   std::optional<FlipExposures> flip;  // with which errors.total.flip_mean was measured
   std::optional<double> exposure_ev;  // of the scene's pictures, with which displayed FLIP was measured
   std::string image;  // name of its picture among the part's pictures, without extension; empty: none
-  int shard = 0;  // of the part that holds it, set by RecordFile and read_part: its times are of that machine
+  // Of the part that holds it, set by RecordFile and read_part: its times are of that machine. Times that are
+  // not paired are of no round: they have a number of their own, unpaired_shard or more.
+  int shard = 0;
 };
 
 // The circumstances of all records of one process.
@@ -141,8 +154,12 @@ struct FrontierMachine {
   int shard = 0;                              // of the part that it measured, set by RecordFile and read_part
 };
 
+inline constexpr int unpaired_shard = 1'000'000;
+
 // A part: one process's records. Deterministic: shard i of n of the same request holds the same points.
 inline bool is_control(const FrontierRecord& r) { return r.series.starts_with("control"); }
+
+inline bool is_unpaired(const FrontierRecord& r) { return r.external && !r.external->paired; }
 
 struct FrontierPart {
   std::string request;  // hash of scenes, points, views, size and seed: parts of one sweep agree in it

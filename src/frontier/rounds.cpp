@@ -96,7 +96,8 @@ std::string scaled_size(const std::string& size, double side) {
 std::vector<ChosenPoint> grown_points(const FrontierJob& job) {
   std::vector<ChosenPoint> grown;
   for (const ChosenPoint& point : job.points) {
-    if (point.label == point.contestant.technique->name && point.contestant.technique->needs.light_grid)
+    if (!point.external && point.label == point.contestant.technique->name &&
+        point.contestant.technique->needs.light_grid)
       grown.push_back(point);
   }
   return grown;

@@ -15,6 +15,7 @@ struct MeasuredPoint {
   PointRun run;
   std::vector<FrontierRecord> records;  // one a view, open in the file
   double picture_s = 0;
+  double around_s = 0;  // that another renderer's answer takes beyond its frame
   bool slow = false;   // far from the front: few rounds tell how far
   int slow_until = 0;  // rounds that it then has, when this process ends
   int rounds() const { return int(records.front().frame_ms.size()); }

@@ -182,7 +182,8 @@ void measure_sequences(Renderer& renderer, GpuScene& gpu, Scene& scene, const Sc
   std::vector<MeasuredPoint*> chosen;
   for (MeasuredPoint& point : points) {
     const FrontierRecord& record = point.records.front();
-    if (record.refused.empty() && !record.errors.sequences) chosen.push_back(&point);
+    if (record.refused.empty() && !record.errors.sequences && !point.run.point().external)
+      chosen.push_back(&point);
   }
   if (chosen.empty()) return;
   if (job.truth.places) {

@@ -68,6 +68,7 @@ std::vector<View> slow_turn(const Scene& scene, const View& start, int frames) {
 }
 
 bool has_own_surfaces(const ChosenPoint& point) {
+  if (point.external) return point.external->own_surfaces;
   return own_surfaces(*point.contestant.technique, point.contestant.settings);
 }
 
@@ -84,7 +85,7 @@ ViewFigures::ViewFigures(Renderer& renderer, GpuScene& gpu, const Scene& scene, 
       pictures_(job.pictures),
       nowhere_({}),
       first_(first),
-      has_authored_(!job.truth.own_ranges && job.common.ranges.range != LightRange::infinite),
+      has_authored_(has_authored(job)),
       seed_(job.seed) {}
 
 ViewFigures::Truths::Truths(Renderer& renderer, GpuScene& gpu, const FrontierJob& job, bool own_surfaces)
@@ -165,12 +166,44 @@ ViewFigures::Truths& ViewFigures::truths_of(const ChosenPoint& point) {
 }
 
 void ViewFigures::measure(PointRun& run, FrontierRecord& record) {
+  if (record.external) return fill_external(run, record);
   run.look(view_);
   run.draw_for_errors();
   record.refused = run.refused();
   if (!record.refused.empty()) return;
   const auto failure = failure_of([&] { fill(run, record); });  // its lists may not fit into memory
   if (failure) record.refused = failure->what();
+}
+
+void ViewFigures::fill_external(PointRun& run, FrontierRecord& record) {
+  run.look(view_);
+  const double ms = run.draw_for_errors();
+  record.refused = run.refused();
+  if (!record.refused.empty()) return;
+  record.pass_ms["frame"] = ms;
+  const Image image = run.image();
+  measure_picture(run.point(), image, record);
+  if (turn_.empty() || !(brightest_ > 0)) return;
+  const auto failure = failure_of(
+      [&] { record.errors.temporal_rmse_rel = flicker_of(run, truths_of(run.point()), image) / brightest_; });
+  if (failure) record.refused = failure->what();
+}
+
+void ViewFigures::measure_picture(const ChosenPoint& point, const Image& image, FrontierRecord& record) {
+  Truths& truths = truths_of(point);
+  PointErrors& errors = record.errors;
+  for (ImageError* unknown : {&errors.model, &errors.precision, &errors.technique}) {
+    for (const ErrorMeasure& measure : frontier_error_measures()) unknown->*measure.value = unknown_error;
+  }
+  errors.total = truths.reference->error_of(image);
+  if (has_authored_) {
+    errors.authored.emplace().model = errors.model;
+    errors.authored->total = truths.authored->error_of(image);
+  }
+  errors.in_double = precision_.in_double(image, has_own_surfaces(point));
+  record.nan_pixels = count_nan_pixels(image);
+  record.exposure_ev = exposure_->ev;
+  fill_flip(image, truths, record);
 }
 
 void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
@@ -330,7 +363,10 @@ double ViewFigures::flicker_of(PointRun& run, Truths& truths, const Image& first
   for (size_t frame = 1; frame < turn_.size(); ++frame) {
     run.look(turn_[frame]);
     run.go_to_frame(int(frame));
-    run.draw();
+    if (run.point().external)
+      run.draw_for_errors();
+    else
+      run.draw();
     if (!run.refused().empty()) throw machine_error("{}", run.refused());
     change.add(run.image(), truths.turned[frame - 1].truth());
   }

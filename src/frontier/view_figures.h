@@ -29,6 +29,9 @@ class ViewFigures {
   // share its picture, its FLIPs and its flicker.
   void measure(PointRun& run, FrontierRecord& record);
 
+  // Another renderer's picture of the view: its errors against the truth.
+  void measure_picture(const ChosenPoint& point, const Image& image, FrontierRecord& record);
+
  private:
   // What pictures are compared with.
   struct Reference {
@@ -54,6 +57,7 @@ class ViewFigures {
   Truths& truths_of(const ChosenPoint& point);
   void refer(Truths& truths);
   void fill(PointRun& run, FrontierRecord& record);
+  void fill_external(PointRun& run, FrontierRecord& record);
   PairCounts pairs_of(TechniqueRun& run, const Settings& settings, const std::vector<float>& depth);
   void choose_exposure();
   void fill_flip(const Image& image, Truths& truths, FrontierRecord& record);
@@ -88,7 +92,7 @@ std::vector<View> frontier_views(const Scene& scene, const View& start, const Sc
 // Frames of a camera that turns from `start` by a quarter of a degree a frame.
 std::vector<View> slow_turn(const Scene& scene, const View& start, int frames);
 
-// True if a point's surfaces are those of the rasteriser in OpenCL.
+// True if a point's surfaces are those of the rasteriser in OpenCL; of another renderer, if it says so.
 bool has_own_surfaces(const ChosenPoint& point);
 
 }  // namespace lightgrid

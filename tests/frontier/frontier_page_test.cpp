@@ -272,6 +272,34 @@ TEST_F(FrontierPage, HasAxesColumnsAndATableOfSequencesWhereTheyWereDrawn) {
   EXPECT_EQ(with["table"][6], "moving lights, mean over frames|0.0625|0 %|0|0");
 }
 
+// Its marker is a star, what is unknown of it is left out, and the page says whose times they are.
+TEST_F(FrontierPage, MarksPointsOfOtherRenderers) {
+  for (const bool paired : {true, false}) {
+    FrontierPart part = synthetic_sweep();
+    for (FrontierRecord& r : part.records) {
+      if (r.point.label != "deferred") continue;
+      r.external = {"version 2", paired};
+      if (!paired) r.shard = unpaired_shard + 5;
+      r.errors.model.rmse_rel = r.errors.precision.rmse_rel = r.errors.technique.rmse_rel = NAN;
+      r.errors.technique.max_rel = NAN;
+    }
+    const FrontierAnswer with_external = answer_of({part});
+    write_file(folder.path / "index.html", page_text(with_external));
+    const json seen = seen_in_browser(folder.path, "tests/frontier/frontier_page_external.js", "1280,900");
+    ASSERT_TRUE(seen.is_object());
+    EXPECT_THAT(texts(seen["faults"]), IsEmpty());
+    for (const auto& [label, shape] : seen["shapes"].items())
+      EXPECT_EQ(shape == seen["shapes"]["deferred"], label == "deferred") << label;
+    for (const char* unknown : {"Lost pairs", "Listed pairs", "Bytes moved", "Memory", "Model", "Technique"})
+      EXPECT_EQ(seen["cells"][unknown], "\u2013") << unknown;
+    EXPECT_NE(seen["cells"]["RMSE"], "\u2013");
+    EXPECT_THAT(seen["summary"].get<std::string>(), HasSubstr("another renderer (version 2), timed"));
+    EXPECT_THAT(seen["paragraph"].get<std::string>(),
+                HasSubstr(paired ? "it states its own times" : "not in these rounds"));
+    for (const Failure& failure : with_external.failures) EXPECT_NE(failure.point.label, "deferred");
+  }
+}
+
 // Without errors against authored ranges there is no choice; with them axis, front and table follow it.
 TEST_F(FrontierPage, ShowsErrorsAgainstEitherReference) {
   FrontierPart part = synthetic_sweep();

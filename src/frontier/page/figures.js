@@ -51,7 +51,7 @@ const COSTS = [
   ...[["device", "On the devices"], ["hand_over", "Hand-over"], ["copy", "Copies"], ["read_back", "Read-back"]].map(([key, title]) => (
     { key, title: `${title}, ms a frame`, short: `${title}, ms`, value: (point) => point[`${key}_ms`].median, text: threeDigits, time: true })),
   { key: "moved", title: "Bytes moved a frame", value: (point) => point.bytes_moved, text: byteNumber },
-  { key: "listed", title: "Listed pairs a view", value: ({ pairs, views }) => pairs.listed / views, text: shortCount },
+  { key: "listed", title: "Listed pairs a view", value: ({ pairs, views }) => (pairs ? pairs.listed / views : null), text: shortCount },
   { key: "memory", title: "Memory", value: (point) => point.memory_bytes, text: byteNumber },
 ];
 const QUANTITIES = [...COSTS, ...ERRORS];
@@ -83,14 +83,19 @@ const MARKERS = {
   voxel: "M-5,-3L0,-6L5,-3V3L0,6L-5,3z",
   visibility: "M-2,-5.5h4v3.5h3.5v4h-3.5v3.5h-4v-3.5h-3.5v-4h3.5z",
 };
+const STAR = "M0,-6.5L1.7,-2.2L6.2,-2L2.7,0.9L3.9,5.3L0,2.8L-3.9,5.3L-2.7,0.9L-6.2,-2L-1.7,-2.2z";
+const EXTERNAL = new Set(page.points.filter((point) => point.external).map((point) => point.technique));  // other renderers
 const CIRCLE = "M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z";
 const techniqueOf = (label) => label.split(":")[0];
 const techniqueColor = (technique) => colorNumber(page.techniques.indexOf(technique));
 
 function markerElement(technique, attributes) {
   const color = techniqueColor(technique);
-  return make("path", { d: MARKERS[technique.split("_")[0]] ?? CIRCLE, fill: color, stroke: color, ...attributes });
+  return make("path", { d: EXTERNAL.has(technique) ? STAR : MARKERS[technique.split("_")[0]] ?? CIRCLE, fill: color, stroke: color, ...attributes });
 }
+
+// Of a point of another renderer.
+const externalInWords = ({ external }) => external && `another renderer${external.note ? ` (${external.note})` : ""}, ${external.paired ? "timed by itself in the rounds" : "timed elsewhere, not in these rounds"}`;
 
 const moveTo = (x, y) => ({ transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
 

@@ -7,6 +7,7 @@ const REACH = 30;       // pixels from which the pointer takes a point
 function tipOf(point, { x, y, reference }) {
   const lines = [make("p", {}, make("strong", {}, nameElement(point.label)))];
   const add = (text) => lines.push(make("p", {}, text));
+  if (point.external) add(externalInWords(point));
   if (point.relative_time.runs > 0) add(`${intervalInWords(point.relative_time, "")} times ${page.baseline}, ${intervalInWords(point.frame_ms, " ms")}`);
   for (const q of new Set([frontQuantity(reference), y, x])) if (!q.time) add(`${q.title}: ${q.value(point) === null ? "unknown" : q.text(q.value(point))}`);
   const settings = Object.entries(point.settings).map(([key, value]) => `${key} ${value}`).join(", ");

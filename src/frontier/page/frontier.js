@@ -131,11 +131,11 @@ function choosePoint(point) {
   const images = (point?.pictures ?? []).map((number, i) => [number, PICTURE_CAPTIONS[i]]).filter(([number]) => number >= 0);
   const error = point?.error, sampled = error?.in_double;
   const timed = point?.relative_time.runs > 0;
-  const summary = point && [timed && `${intervalInWords(point.relative_time, "")} times ${page.baseline}`, timed && `${intervalInWords(point.frame_ms, " ms")} a frame`,
+  const summary = point && [externalInWords(point), timed && `${intervalInWords(point.relative_time, "")} times ${page.baseline}`, timed && `${intervalInWords(point.frame_ms, " ms")} a frame`,
     point?.device_ms.runs > 0 && `on the devices ${intervalInWords(point.device_ms, " ms")}, hand-over ${threeDigits(point.hand_over_ms.median)} ms, copies ${threeDigits(point.copy_ms.median)} ms, read-back ${threeDigits(point.read_back_ms.median)} ms`,
     timed && `95 % of frames within ${threeDigits(point.frame_ms_within.p95)} ms, 99 % within ${threeDigits(point.frame_ms_within.p99)} ms`,
     timed && modesInWords(point.relative_time), timed && point.relative_time.between_processes !== null && `${percentText(100 * point.relative_time.between_processes)} between ${point.relative_time.processes} processes`,
-    `${point.views} view${point.views === 1 ? "" : "s"}`, flipOverViews(point), point.pairs.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
+    `${point.views} view${point.views === 1 ? "" : "s"}`, flipOverViews(point), point.pairs?.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
     quantity("leaked").value(point) !== null && `${percentText(point.leaked_percent)} of ${wholeNumber(point.pairs.shadow_pairs)} pairs leaked, ${percentText(point.acned_percent)} acned`,
     point.nan_pixels > 0 && `${wholeNumber(point.nan_pixels)} NaN pixels`,
     point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, state.clock.relative(point).runs > 0 && `on the front${state.clock.words} with a probability of ${probabilityText(frontOfChoice(point).probability)}`];
@@ -163,7 +163,7 @@ const FIGURE_COLUMNS = [
   column("FLIP as displayed", "total.displayed_flip"), column("relMSE, 99.9 %", "total.rel_mse_trimmed"),
   column("HDR-FLIP", "total.flip_mean"), column("Model", "model.rmse_rel"), column("Precision", "precision.rmse_rel"),
   column("Technique", "technique.rmse_rel"),
-  { title: "Lost pairs", value: (point) => point.pairs.lost, text: wholeNumber, gate: true },
+  { title: "Lost pairs", value: (point) => point.pairs?.lost ?? null, text: wholeNumber, gate: true },
   { title: "NaN pixels", value: (point) => point.nan_pixels, text: wholeNumber, gate: true },
   ...["leaked", "acned", ...SEQUENCES.map(([key]) => `${key}.plain`)].filter(measured).map((key) => column(quantity(key).title, key)),
   column("Listed pairs", "listed"), column("Bytes moved", "moved"), column("Memory", "memory"),
