@@ -41,7 +41,7 @@ struct FrontierCommand {
   std::string output = "out/frontier", json, gate, shard = "0/1", process, truth, baseline;
   std::vector<std::string> techniques, vary, external;
   int views = 16, rounds = 120, budget = 14, page_mb = 12, processes = 1;
-  bool no_growth = false, sequences = false;
+  bool no_growth = false, sequences = false, families = false;
 };
 
 const std::vector<std::string> default_scenes = {"hall", "terrain", "spheres", "street"};
@@ -89,13 +89,19 @@ TruthChoice parse_truth(const std::string& text) {
   throw input_error("truth {}: neither infinite, own nor area", text);
 }
 
+std::vector<ChosenPoint> points_of(const FrontierCommand& o, const Settings& common, bool opengl,
+                                   const std::optional<FrontierTruth>& shadows = {}) {
+  if (o.families && o.techniques.empty() && o.vary.empty()) return family_points(common, opengl);
+  return chosen_points(o.techniques, o.vary, common, opengl, shadows);
+}
+
 SceneRequest request_of_scene(const FrontierCommand& o, bool casts, const Settings& common, bool opengl) {
   const TruthChoice choice = parse_truth(o.truth);
   const auto own =
       choice == TruthChoice::called_for ? std::optional<bool>() : choice != TruthChoice::infinite;
   SceneRequest request{{}, chosen_truth(common, casts, own), casts};
   const auto shadows = casts ? std::optional(request.truth) : std::nullopt;
-  request.points = chosen_points(o.techniques, o.vary, common, opengl, shadows);
+  request.points = points_of(o, common, opengl, shadows);
   const auto has_samples = [](const ChosenPoint& p) { return p.contestant.settings.samples > 1; };
   const bool areas = choice == TruthChoice::area ||
                      (choice == TruthChoice::called_for && std::ranges::any_of(request.points, has_samples));
@@ -145,6 +151,7 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
   // Lights of a path's file may cast in one sweep and not in the next.
   if (!o.truth.empty()) request["truth"] = o.truth;
   if (o.sequences) request["sequences"] = true;
+  if (o.families) request["families"] = true;
   for (size_t i = 0; i < of_scenes.size(); ++i) {
     if (!of_scenes[i].casts) continue;
     request["casting"].push_back(i);
@@ -166,23 +173,27 @@ bool failed_gate(const FrontierCommand& o, const FrontierAnswer& answer) {
 // Points that lose lights, draw NaN or have wrong shadows that they say are exact fail; refused ones do not.
 bool tell_losses(const FrontierAnswer& answer) {
   bool failed = false;
-  for (const PointFigures& p : answer.points) {
+  const auto check = [&](const auto& p, const std::string& label) {
     if (p.external) {
-      if (p.nan_pixels == 0) continue;
+      if (p.nan_pixels == 0) return;
       failed = true;
-      fmt::print(stderr, "lightgrid: {} in {}: {} NaN pixels; all must be 0\n", p.point.label, p.point.scene,
+      fmt::print(stderr, "lightgrid: {} in {}: {} NaN pixels; all must be 0\n", label, p.point.scene,
                  p.nan_pixels);
-      continue;
+      return;
     }
     const auto is_capped = [&](const char* key) { return !setting_in_force(p.point.settings, key).empty(); };
     const bool limited =
         find_technique(p.point.technique).limited_lists || is_capped("list_cap") || is_capped("view_cap");
     const uint64_t shadows = p.pairs.shadows ? p.pairs.shadows->faults() : 0;
-    if ((p.pairs.lost == 0 || limited) && p.pairs.wrong == 0 && p.nan_pixels == 0 && shadows == 0) continue;
+    if ((p.pairs.lost == 0 || limited) && p.pairs.wrong == 0 && p.nan_pixels == 0 && shadows == 0) return;
     failed = true;
     fmt::print(stderr, "lightgrid: {} in {}: {} lost and {} wrong pairs, {} NaN pixels{}; all must be 0\n",
-               p.point.label, p.point.scene, p.pairs.lost, p.pairs.wrong, p.nan_pixels,
+               label, p.point.scene, p.pairs.lost, p.pairs.wrong, p.nan_pixels,
                shadows > 0 ? fmt::format(", {} wrong shadows", shadows) : "");
+  };
+  for (const PointFigures& p : answer.points) check(p, p.point.label);
+  for (const FrontierRecord& r : answer.part.records) {
+    if (is_of_family(r)) check(r, label_in_series(r));
   }
   return failed;
 }
@@ -193,7 +204,7 @@ int finish(const FrontierCommand& o, const std::vector<FrontierPart>& parts,
   if (answer.points.empty() && answer.failures.empty())
     throw input_error("{}: no point was measured", o.output);
   write_answer(o.output, answer, pictures, size_t(o.page_mb) << 20);
-  if (answer.points.empty()) {
+  if (answer.points.empty() && answer.growth.empty()) {
     const Failure& first = answer.failures.front();
     throw machine_error("{}: no point ran; {} in {}: {}", o.output, first.point.label, first.point.scene,
                         first.why);
@@ -221,10 +232,29 @@ int merge(const FrontierCommand& o) {
   return finish(o, read_parts(folders, [](const std::string& what) { log_info("{}", what); }), pictures);
 }
 
+// Families scatter lights of their own, in one process.
+void check_families(const FrontierCommand& o) {
+  if (!o.families) return;
+  const SceneChoice& s = o.scene;
+  for (const auto& [name, given] : {std::pair{"lights-file", !s.lights_file.empty()},
+                                    {"light-radius", !s.light_radius.empty()},
+                                    {"shadows", !s.shadows.empty()},
+                                    {"virtual-lights", s.virtual_lights > 0},
+                                    {"camera-path", !s.camera_path.empty()},
+                                    {"truth", !o.truth.empty()},
+                                    {"shard", parse_shard(o.shard).count > 1},
+                                    {"processes", o.processes > 1},
+                                    {"sequences", o.sequences},
+                                    {"external", !o.external.empty()}}) {
+    if (given) throw input_error("families: {} does not apply to families of lights", name);
+  }
+}
+
 // Checks what the command is asked for, before a device opens and before the first scene is measured. Returns
 // whether a light casts, scene by scene.
 std::vector<bool> check_request(const FrontierCommand& o, const Externals& externals) {
   parse_truth(o.truth);
+  check_families(o);
   if (!o.gate.empty()) read_frontier_json(o.gate);
   if (!o.json.empty()) check_output_file("--json", o.json);
   std::vector<bool> casts;
@@ -248,6 +278,8 @@ FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Sha
   job.seed = o.scene.seed;
   job.growth = shard.index == 0 && !o.no_growth;
   job.sequences = o.sequences;
+  if (o.families) job.families.emplace();
+  if (o.families && o.scene.lights >= 0) job.families->number = o.scene.lights;
   job.most_rounds = o.rounds;
   job.least_rounds = std::min(job.least_rounds, o.rounds);
   job.pictures = fs::path(o.output) / "pictures";
@@ -336,7 +368,7 @@ int export_scenes(FrontierCommand o) {
 int frontier(FrontierCommand o) {
   if (!o.scenes.empty() && o.scenes.front() == "merge") return merge(o);
   if (!o.scenes.empty() && o.scenes.front() == "export") return export_scenes(std::move(o));
-  if (o.scenes.empty()) o.scenes = default_scenes;
+  if (o.scenes.empty()) o.scenes = o.families ? std::vector<std::string>{"terrain"} : default_scenes;
   const Timer timer;
   const Shard shard = parse_shard(o.shard);
   if (shard.count > 1 && !(o.gate.empty() && o.json.empty())) {
@@ -359,8 +391,7 @@ int frontier(FrontierCommand o) {
     add_external_points(externals, o.scenes[i], of_scenes.back());
   }
   FrontierPart part;
-  part.request = request_of(o, chosen_points(o.techniques, o.vary, job.common, renderer.gl != nullptr),
-                            of_scenes, externals);
+  part.request = request_of(o, points_of(o, job.common, renderer.gl != nullptr), of_scenes, externals);
   part.commit = commit_of_build(), part.seed = o.scene.seed, part.shard = shard.index,
   part.shards = shard.count;
   part.baseline = job.baseline.label;
@@ -439,6 +470,10 @@ void add_frontier(CommandLine& line) {
   command.flag("--no-growth", o->no_growth, "leaves out how times grow with lights, pixels and ranges");
   command.flag("--sequences", o->sequences,
                "flicker over 64 frames too: still camera, dolly, moving lights; comes on top of the budget");
+  command.flag(
+      "--families", o->families,
+      "instead: scattered lights of 10^2 to 10^6 at an equal overlap, and overlaps of 1 to 1,000 lights a "
+      "pixel at an equal number (--lights, default 10,000)");
   command.option("--budget", o->budget, "minutes that measuring may take", 1, 100000);
   command.option(
       "--gate", o->gate,

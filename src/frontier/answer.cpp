@@ -105,6 +105,10 @@ std::string label_in_series(const FrontierRecord& r) {
     return fmt::format("{}, {} lights", r.point.label, with_commas(uint64_t(r.lights)));
   if (r.series == "pixels") return fmt::format("{}, {} × {}", r.point.label, r.width, r.height);
   if (r.series == "radius") return fmt::format("{}, radius × {:g}", r.point.label, r.radius_scale);
+  if (is_of_family(r)) {
+    return fmt::format("{}, {} lights, {} at a pixel", r.point.label, with_commas(uint64_t(r.lights)),
+                       three_digits(r.overlap.value_or(0)));
+  }
   return r.point.label;
 }
 
@@ -127,7 +131,8 @@ std::vector<Failure> failures_of(Records records) {
       lost += r->pairs.lost, wrong += r->pairs.wrong;
       if (r->pairs.shadows) shadows += r->pairs.shadows->faults();
       nan_pixels += r->nan_pixels, overflow += r->overflow;
-      finite &= errors_are_finite(*r);
+      finite &= is_of_family(*r) ? r->errors.authored && std::isfinite(r->errors.authored->total.rmse_rel)
+                                 : errors_are_finite(*r);
     }
     if (!refused.empty()) add("refused", "refused: " + refused);
     if (lost) add("lost", with_commas(lost) + " lit pairs are not listed");
@@ -194,6 +199,7 @@ FrontierAnswer answer_of(const std::vector<FrontierPart>& parts) {
   answer.break_even = break_evens_of(records);
   answer.shading_costs = shading_costs_of(records);
   answer.growth = growth_of(records);
+  answer.equal_flip = equal_flip_of(records);
   answer.failures = failures_of(records);
   answer.sentences = sentences_of(answer);
   return answer;

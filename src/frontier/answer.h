@@ -54,6 +54,8 @@ struct PointFigures {
   std::optional<double> exposure_ev;   // of the scene's pictures
   uint64_t memory_bytes = 0;           // the largest of the views
   uint64_t bytes_moved = 0;            // a frame of the views that were profiled: the first
+  std::map<std::string, double> pass_ms;       // of the same: medians of profiled frames
+  std::map<std::string, uint64_t> pass_bytes;  // read and written; parts of earlier versions have none
   uint64_t nan_pixels = 0;
   std::map<std::string, OnFront> fronts;  // by the error that it is of (front_errors)
   DeviceFigures device;
@@ -88,6 +90,9 @@ struct Control {
   // control is off by.
   double widening() const;
 };
+
+// "forward", or of a series "forward, 10,000 lights".
+std::string label_in_series(const FrontierRecord& record);
 
 // What the machine did during the rounds of a process, of those in which it could be read.
 struct ProcessConditions {
@@ -132,9 +137,23 @@ struct ShadingCost {  // of this machine, a slope over points of one technique a
 
 // time = c x^exponent, least squares in logarithms, with a 95 % interval (power_law).
 struct Growth {
-  std::string scene, technique, of;  // technique: the point's label; of: "lights", "pixels" or "radius"
+  std::string scene, technique, of;  // technique: the point's label; of: the series
   double exponent = 0, low = 0, high = 0;
   std::vector<std::pair<double, double>> samples;  // x, median ms
+};
+
+// Of a family of lights: the cheapest point of each technique whose picture is within a FLIP as displayed,
+// along the family. Picked on every second of its rounds; its time is the median of the others.
+struct EqualFlip {
+  struct Sample {
+    double x = 0;  // lights, or the overlap
+    std::string label;
+    double ms = 0;
+  };
+  std::string scene, technique, series, of;  // of: the error (front_errors)
+  double error = 0;
+  std::vector<Sample> samples;             // where a point is within it
+  double exponent = 0, low = 0, high = 0;  // as in Growth
 };
 
 struct Failure {
@@ -161,6 +180,7 @@ struct FrontierAnswer {
   std::vector<BreakEven> break_even;
   std::vector<ShadingCost> shading_costs;
   std::vector<Growth> growth;
+  std::vector<EqualFlip> equal_flip;
   std::vector<Failure> failures;
   std::vector<std::string> sentences;  // one paragraph, sentence by sentence
 };

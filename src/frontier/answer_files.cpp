@@ -156,6 +156,12 @@ json point_json(const PointFigures& p) {
   out["listed_per_lit"] = p.pairs.lit > 0 ? json(double(p.pairs.listed) / double(p.pairs.lit)) : json();
   out["memory_bytes"] = p.external ? json() : json(p.memory_bytes);
   out["bytes_moved"] = p.external ? json() : json(p.bytes_moved);
+  out["passes"] = json::object();
+  for (const auto& [pass, ms] : p.pass_ms) {
+    const auto bytes = p.pass_bytes.find(pass);
+    out["passes"][pass] = {{"ms", finite_number(ms)},
+                           {"bytes", bytes == p.pass_bytes.end() ? json() : json(bytes->second)}};
+  }
   out["nan_pixels"] = p.nan_pixels;
   for (const auto& [of, front] : p.fronts) out["fronts"][of] = on_front_json(front);
   add_device_json(p.device, out);
@@ -198,6 +204,19 @@ json growth_json(const Growth& g) {
           {"samples", array_of(g.samples, [](const auto& s) { return pair_json(s.first, s.second); })}};
 }
 
+json equal_flip_json(const EqualFlip& e) {
+  return {{"scene", e.scene},
+          {"technique", e.technique},
+          {"series", e.series},
+          {"of", e.of},
+          {"flip", e.error},
+          {"exponent", finite_number(e.exponent)},
+          {"ci95", pair_json(e.low, e.high)},
+          {"samples", array_of(e.samples, [](const EqualFlip::Sample& s) -> json {
+             return {{"x", s.x}, {"ms", finite_number(s.ms)}, {"label", s.label}};
+           })}};
+}
+
 json failure_json(const Failure& f) {
   json out = finite_json(f.point);
   out["cause"] = f.cause;
@@ -206,7 +225,7 @@ json failure_json(const Failure& f) {
 }
 
 std::vector<CsvColumn> csv_columns(bool truths, bool external, bool shadows, bool authored, bool seeds,
-                                   bool sequences) {
+                                   bool sequences, bool families) {
   std::vector<CsvColumn> all;
   const auto add_measures = [&](const std::string& within, const std::string& prefix) {
     for (const ErrorMeasure& m : frontier_error_measures()) add_columns(all, {m.key}, within, prefix);
@@ -259,6 +278,7 @@ std::vector<CsvColumn> csv_columns(bool truths, bool external, bool shadows, boo
   add_measures(sampled + "/picture", "in_double_");
   add_columns(all, {"max_rel", "rmse_rel"}, sampled + "/picture_in_float", "in_double_float_total_");
   add_columns(all, {"max_rel", "rmse_rel"}, sampled + "/truth", "in_double_float_truth_");
+  if (families) add_columns(all, {"overlap", "pair_pixels"});
   if (truths) add_columns(all, {"own_ranges", "shadow_source", "shadow_rays", "places"}, "/truth", "truth_");
   if (external) add_columns(all, {"note", "paired"}, "/external", "external_");
   if (!shadows) return all;
@@ -391,6 +411,7 @@ json to_json(const FrontierAnswer& answer) {
           {"break_even", array_of(answer.break_even, break_even_json)},
           {"shading_costs", array_of(answer.shading_costs, cost_json)},
           {"growth", array_of(answer.growth, growth_json)},
+          {"equal_flip", array_of(answer.equal_flip, equal_flip_json)},
           {"failures", array_of(answer.failures, failure_json)}};
 }
 
@@ -404,7 +425,8 @@ std::string csv_text(const FrontierAnswer& answer) {
   const bool authored = any([](const FrontierRecord& r) { return r.errors.authored.has_value(); });
   const bool seeds = any([](const FrontierRecord& r) { return r.errors.seeds.has_value(); });
   const bool sequences = any([](const FrontierRecord& r) { return r.errors.sequences.has_value(); });
-  return csv_table(csv_columns(truths, external, shadows, authored, seeds, sequences), rows);
+  return csv_table(csv_columns(truths, external, shadows, authored, seeds, sequences, any(is_of_family)),
+                   rows);
 }
 
 std::string cull_csv_text(const FrontierAnswer& answer) {
@@ -440,9 +462,9 @@ std::string page_text(const FrontierAnswer& answer, const std::filesystem::path&
   }
   std::string style = embedded_file("report/page/style.css"), script;
   style += embedded_file("frontier/page/frontier.css");
-  for (const char* name :
-       {"report/page/elements.js", "report/page/table.js", "report/page/plot.js", "frontier/page/figures.js",
-        "frontier/page/front.js", "frontier/page/costs.js", "frontier/page/frontier.js"}) {
+  for (const char* name : {"report/page/elements.js", "report/page/table.js", "report/page/plot.js",
+                           "report/page/bars.js", "frontier/page/figures.js", "frontier/page/front.js",
+                           "frontier/page/costs.js", "frontier/page/frontier.js"}) {
     script += embedded_file(name);
   }
   const json data = page_data_of(answer, page_pictures(pictures, names, most_picture_bytes));

@@ -77,6 +77,7 @@ std::vector<CheapestWithin> cheapest_within_of(const std::vector<PointFigures>& 
 std::vector<BreakEven> break_evens_of(Records records);
 std::vector<ShadingCost> shading_costs_of(Records records);
 std::vector<Growth> growth_of(Records records);
+std::vector<EqualFlip> equal_flip_of(Records records);
 std::vector<Failure> failures_of(Records records);
 
 // One paragraph a scene. A sentence whose figures are missing is left out.
@@ -87,9 +88,6 @@ struct SceneWords {
   std::vector<std::string> opening, notes;
 };
 SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene);
-
-// "forward", or of a series "forward, 10,000 lights".
-std::string label_in_series(const FrontierRecord& record);
 
 // "hall" for "scenes/hall.glb".
 std::string scene_in_words(const std::string& scene);

@@ -7,6 +7,7 @@
 
 #include "base/timer.h"
 #include "frontier/answer_steps.h"
+#include "frontier/fields.h"
 
 namespace lightgrid {
 namespace {
@@ -100,6 +101,8 @@ struct Deviations {
 double place_in_series(const FrontierRecord& r) {
   if (r.series == "lights") return r.lights;
   if (r.series == "pixels") return double(r.width) * r.height;
+  if (r.series == equal_overlap_series) return r.lights;
+  if (r.series == overlap_series) return r.overlap.value_or(0);
   return r.radius_scale;
 }
 
@@ -171,6 +174,64 @@ std::vector<Growth> growth_of(Records records) {
     }
     const PowerLaw law = power_law(curve.samples);
     curve.exponent = law.exponent, curve.low = law.low, curve.high = law.high;
+  }
+  return curves;
+}
+
+namespace {
+
+// The smallest difference of an even color that an eye notices is about 0.06.
+constexpr double equal_flips[] = {0.001, 0.01, 0.06, 0.2};
+
+// The median of every second round from `first` on; of a single round, of that.
+double half_ms(const FrontierRecord& r, size_t first) {
+  std::vector<double> half;
+  for (size_t round = first; round < r.frame_ms.size(); round += 2) half.push_back(r.frame_ms[round]);
+  return half.empty() ? r.frame_ms.front() : median_interval(half).median;
+}
+
+// Of one technique at one place of a family.
+std::optional<EqualFlip::Sample> cheapest_of(const Group& points, const std::string& error, double flip) {
+  const FrontierRecord* best = nullptr;
+  for (const FrontierRecord* r : points) {
+    if (r->nan_pixels > 0 || !(flip_of(r->errors, error) <= flip)) continue;
+    if (!best || half_ms(*r, 0) < half_ms(*best, 0)) best = r;
+  }
+  if (!best) return {};
+  return EqualFlip::Sample{place_in_series(*best), best->point.label, half_ms(*best, 1)};
+}
+
+EqualFlip equal_flip_along(const Group& family, const std::string& error, double flip) {
+  const FrontierRecord& first = *family.front();
+  EqualFlip curve{first.point.scene, first.point.technique, first.series, error, flip, {}};
+  for (const Group& place :
+       grouped(family, [](const FrontierRecord& r) { return fmt::format("{}", place_in_series(r)); })) {
+    if (const auto sample = cheapest_of(place, error, flip)) curve.samples.push_back(*sample);
+  }
+  std::ranges::sort(curve.samples, {}, &EqualFlip::Sample::x);
+  std::vector<std::pair<double, double>> places;
+  for (const EqualFlip::Sample& s : curve.samples) places.emplace_back(s.x, s.ms);
+  const PowerLaw law = power_law(places);
+  curve.exponent = law.exponent, curve.low = law.low, curve.high = law.high;
+  return curve;
+}
+
+}  // namespace
+
+std::vector<EqualFlip> equal_flip_of(Records records) {
+  const Group timed = accepted(records, [](const FrontierRecord& r) {
+    return is_of_family(r) && r.refused.empty() && !r.frame_ms.empty();
+  });
+  std::vector<EqualFlip> curves;
+  for (const Group& family : grouped(timed, [](const FrontierRecord& r) {
+         return r.point.scene + "\n" + r.series + "\n" + r.point.technique;
+       })) {
+    for (const char* error : front_errors) {
+      for (const double flip : equal_flips) {
+        EqualFlip curve = equal_flip_along(family, error, flip);
+        if (!curve.samples.empty()) curves.push_back(std::move(curve));
+      }
+    }
   }
   return curves;
 }

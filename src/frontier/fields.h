@@ -182,12 +182,15 @@ void visit_fields(T& r, Visit&& visit) {
   visit_identity(r, visit);
   visit("truth", r.truth, FieldRule{.required = false});
   visit("external", r.external, FieldRule{.required = false});
+  visit("overlap", r.overlap, FieldRule{.required = false});
+  visit("pair_pixels", r.pair_pixels, FieldRule{.required = false});
   visit("refused", r.refused);
   visit("frame_ms", r.frame_ms);
   visit("baseline_ms", r.baseline_ms);
   for (const auto& [key, times] : times_by_device) visit(key, r.*times, FieldRule{.required = false});
   visit("processes", r.processes, FieldRule{.required = false});
   visit("pass_ms", r.pass_ms);
+  visit("pass_bytes", r.pass_bytes, FieldRule{.required = false});
   visit("cull_ms", r.cull_ms);
   visit("bytes_moved", r.bytes_moved);
   visit("memory_bytes", r.memory_bytes);

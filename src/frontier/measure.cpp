@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/timer.h"
+#include "frontier/families.h"
 #include "frontier/fields.h"
 #include "frontier/rounds.h"
 #include "frontier/sequences.h"
@@ -356,6 +357,10 @@ FrontierMachine machine_of(const Renderer& renderer) {
 double measure_scene(Renderer& renderer, const SceneChoice& choice, const FrontierJob& job,
                      RecordFile& file) {
   ChosenScene chosen = load_chosen_scene(choice);
+  if (job.families) {
+    measure_families(renderer, chosen.scene, choice, job, file);
+    return 0;
+  }
   SceneSweep sweep(renderer, chosen.scene, choice, chosen.view, job, file);
   sweep.run();
   return sweep.seconds_of_sequences();

@@ -11,6 +11,15 @@
 
 namespace lightgrid {
 
+// Two families of lights, instead of points and growth (families.h).
+struct FamilyPlan {
+  std::vector<int> lights = {100, 1000, 10'000, 100'000, 1'000'000};  // at an equal overlap, ascending
+  double overlap = 10;
+  std::vector<double> overlaps = {1, 3, 10, 30, 100, 300, 1000};  // at an equal number, ascending
+  int number = 10'000;
+  double most_frame_s = 2;  // points that take longer are refused, and not tried on more lights
+};
+
 struct FrontierJob {
   std::vector<ChosenPoint> points;
   ChosenPoint baseline;
@@ -31,6 +40,7 @@ struct FrontierJob {
   size_t shaded_pairs = 10'000'000, shadow_pairs = 1'000'000;
   bool sequences = false;          // SequenceErrors too, in time of their own: `seconds` are without them
   bool growth = true;              // the series of lights, pixels and radius too
+  std::optional<FamilyPlan> families;
   std::filesystem::path pictures;  // folder; empty: no pictures
   std::filesystem::path exports;   // folder of what other renderers draw; used if one of the points runs
   // Called with the progress (0 to 1) and the next step.

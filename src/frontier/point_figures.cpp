@@ -164,6 +164,7 @@ PointFigures over_views(const Group& views) {
     all.memory_bytes = std::max(all.memory_bytes, view->memory_bytes);
     bytes_moved += view->bytes_moved;
     counted += view->bytes_moved > 0;
+    if (all.pass_ms.empty()) all.pass_ms = view->pass_ms, all.pass_bytes = view->pass_bytes;
     all.nan_pixels += view->nan_pixels;
     all.flip_views += view->errors.total.flip_mean.has_value();
     all.temporal_views += view->errors.temporal_rmse_rel.has_value();

@@ -114,6 +114,22 @@ constexpr Star soft_variations[] = {
     {"visibility", "shadow-rays=4 shadow-pick=16"},
 };
 
+// Of each of these techniques in families of lights, the ranges of each; cutoffs of 0.005 and 0.0005 are 5
+// and 16 times the ranges of scattered lights.
+constexpr Star family_techniques[] = {{"forward_plus", ""},
+                                      {"clustered", ""},
+                                      {"deferred_tiled", ""},
+                                      {"world_grid", "raster=opencl"},
+                                      {"visibility", ""}};
+constexpr const char* family_ranges[] = {"", "range=cutoff cutoff=0.005", "range=infinite", "far-light=4096"};
+constexpr Star family_variations[] = {
+    {"visibility", "range=cutoff cutoff=0.05 far-light=4096"},
+    {"visibility", "range=stochastic alpha=0.1"},
+    {"visibility", "list-cap=8 list-cap-order=sampled"},
+    {"visibility", "range=cutoff cutoff=0.0005"},
+    {"visibility", "range=infinite list-cap=64 list-cap-order=tree"},
+};
+
 std::vector<std::string> words(const std::string& text, char separator) {
   std::vector<std::string> parts;
   for (size_t begin = 0; begin < text.size();) {
@@ -130,22 +146,35 @@ ChosenPoint point(const Technique& technique, const Settings& settings, int fram
   return chosen;
 }
 
+// Those of a star that run, with OpenGL or without it.
+class StarPoints {
+ public:
+  StarPoints(const Settings& common, bool opengl) : common_(common), opengl_(opengl) {}
+
+  void add(const Technique& technique, const std::string& assignments, int frames) {
+    Settings settings = common_;
+    for (const std::string& assignment : words(assignments, ' ')) apply_setting(settings, assignment);
+    if (draws_with_opengl(technique.needs, settings) && !opengl_) return;
+    points.push_back(point(technique, settings, frames));
+  }
+
+  std::vector<ChosenPoint> points;
+
+ private:
+  const Settings& common_;
+  const bool opengl_;
+};
+
 std::vector<ChosenPoint> star(const Settings& common, bool opengl,
                               const std::optional<FrontierTruth>& shadows) {
-  std::vector<ChosenPoint> points;
-  const auto add = [&](const Technique& technique, const char* assignments, int frames) {
-    Settings settings = common;
-    for (const std::string& assignment : words(assignments, ' ')) apply_setting(settings, assignment);
-    if (draws_with_opengl(technique.needs, settings) && !opengl) return;
-    points.push_back(point(technique, settings, frames));
-  };
-  for (const Technique* technique : techniques()) add(*technique, "", 1);
+  StarPoints star(common, opengl);
+  for (const Technique* technique : techniques()) star.add(*technique, "", 1);
   const auto add_all = [&](std::span<const Star> variations) {
-    for (const Star& s : variations) add(find_technique(s.technique), s.settings, s.frames);
+    for (const Star& s : variations) star.add(find_technique(s.technique), s.settings, s.frames);
   };
   add_all(shadows ? std::span<const Star>(shadow_variations) : default_variations);
   if (shadows && shadows->source_m > 0) add_all(soft_variations);
-  return points;
+  return std::move(star.points);
 }
 
 int frames_of(const std::string& text) {
@@ -220,6 +249,16 @@ ChosenPoint baseline_point(const Settings& common, bool opengl, const std::strin
   return point(find_technique(opengl ? "forward_plus" : "visibility"), common, 1);
 }
 
+std::vector<ChosenPoint> family_points(const Settings& common, bool opengl) {
+  StarPoints star(common, opengl);
+  for (const Star& s : family_techniques) {
+    for (const std::string ranges : family_ranges)
+      star.add(find_technique(s.technique), s.settings + (" " + ranges), 1);
+  }
+  for (const Star& s : family_variations) star.add(find_technique(s.technique), s.settings, s.frames);
+  return std::move(star.points);
+}
+
 std::string label_of(const Contestant& contestant, int frames) {
   const auto own = settings_of(*contestant.technique, contestant.settings), plain = to_strings(Settings{});
   std::string differing;
@@ -276,6 +315,11 @@ PointRun::PointRun(Renderer& renderer, GpuScene& gpu, const View& view, const Ch
     run_ = std::make_unique<TechniqueRun>(renderer, gpu, view, timed_settings(renderer, point),
                                           *point.contestant.technique, std::move(pool));
   });
+}
+
+void PointRun::refuse(const std::string& why) {
+  refused_ = why;
+  run_.reset();
 }
 
 bool PointRun::is_random() const {

@@ -37,6 +37,11 @@ std::vector<ChosenPoint> chosen_points(const std::vector<std::string>& technique
                                        const std::vector<std::string>& vary, const Settings& common,
                                        bool opengl, const std::optional<FrontierTruth>& truth = {});
 
+// The default points of families of lights (families.h): techniques of each kind of lists, each as it is,
+// with farther ranges, without any and with far light; and what only visibility has. Those that need OpenGL
+// are left out without it.
+std::vector<ChosenPoint> family_points(const Settings& common, bool opengl);
+
 // The point with which each other is measured in turn: forward_plus as it is or, without OpenGL, visibility.
 // `text`: another one, NAME[:KEY=VALUE,…]; empty: these. Throws Error(input) if it is not one point.
 ChosenPoint baseline_point(const Settings& common, bool opengl, const std::string& text = "");
@@ -84,6 +89,8 @@ class PointRun {
   double draw_for_errors();
   // The first of its frames alone; nothing of another renderer, which draws one before each that it times.
   void draw_first_frame();
+  // Gives up what it holds, as if it could not run.
+  void refuse(const std::string& why);
   // For the frame of that number: random numbers, if there are any, are others in each.
   void go_to_frame(int number, NumbersOfFrames numbers = NumbersOfFrames::independent);
   bool has_random_ranges() const { return point_.contestant.settings.ranges.range == LightRange::stochastic; }

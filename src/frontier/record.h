@@ -111,9 +111,12 @@ struct FrontierRecord {
   int width = 0, height = 0;  // pixels
   int lights = 0;             // of the scene
   double radius_scale = 1;    // of the lights' ranges, in the series "radius"
-  // Empty: a point of the front; "lights", "pixels", "radius": of a growth curve; "control 0", "control 1",
-  // …: the baseline, timed as a point.
+  // Empty: a point of the front; "lights", "pixels", "radius": of a growth curve; "equal overlap", "overlap":
+  // of a family of lights (families.h); "control 0", "control 1", …: the baseline, timed as a point.
   std::string series;
+  // Of a family: lights that reach a covered pixel in the mean, with their own ranges, by the oracle.
+  std::optional<double> overlap;
+  std::optional<uint64_t> pair_pixels;  // at which `pairs` were counted; empty: at all covered ones
   std::optional<FrontierTruth> truth;  // empty: every light without a range
   // Of a point of another renderer. Its technique is the renderer's name; pairs, bytes and the errors of
   // model, precision and technique are unknown (NaN).
@@ -125,6 +128,7 @@ struct FrontierRecord {
   std::vector<double> device_ms, hand_over_ms, copy_ms, read_back_ms, baseline_device_ms;
   std::vector<int> processes;                 // of each run: the number of the process that took it, from 0
   std::map<std::string, double> pass_ms;      // medians of profiled frames
+  std::map<std::string, uint64_t> pass_bytes;  // read and written, where counted; of the same passes
   // Times of culling, one a round: entry i of points that differ in the cull test alone was taken in one
   // round. Empty: no such point, or another view than the first.
   std::vector<double> cull_ms;
@@ -160,6 +164,11 @@ inline constexpr int unpaired_shard = 1'000'000;
 inline bool is_control(const FrontierRecord& r) { return r.series.starts_with("control"); }
 
 inline bool is_unpaired(const FrontierRecord& r) { return r.external && !r.external->paired; }
+inline constexpr const char* equal_overlap_series = "equal overlap";  // over the number of lights
+inline constexpr const char* overlap_series = "overlap";              // at an equal number
+inline bool is_of_family(const FrontierRecord& r) {
+  return r.series == equal_overlap_series || r.series == overlap_series;
+}
 
 struct FrontierPart {
   std::string request;  // hash of scenes, points, views, size and seed: parts of one sweep agree in it

@@ -115,23 +115,7 @@ void time_variant(const std::vector<ChosenPoint>& points, Renderer& renderer, Gp
     measured.back().records.front().refused = measured.back().run.refused();
     file.begin(measured.back().records.front());
   }
-  if (measured.empty()) return;
-  PointRun baseline(renderer, gpu, view, job.baseline, pool);
-  FrontierJob rounds = job;
-  rounds.progress = nullptr;  // its steps are variants
-  rounds.least_rounds = rounds.most_rounds = growth_rounds;
-  rounds.process = 0, rounds.processes = 1;
-  const Timer timer;
-  TimeRounds{rounds,
-             timer,
-             std::numeric_limits<double>::infinity(),
-             std::span(&view, 1),
-             measured,
-             baseline,
-             file,
-             DeviceClock(renderer)}
-      .run();
-  complete(measured, file);
+  time_series(measured, renderer, gpu, view, job, growth_rounds, file);
 }
 
 }  // namespace
@@ -236,6 +220,27 @@ void complete(const std::vector<MeasuredPoint>& points, RecordFile& file) {
     for (const FrontierRecord& record : m.records) keys.push_back(record_key(record));
   }
   file.complete(keys);
+}
+
+void time_series(std::vector<MeasuredPoint>& measured, Renderer& renderer, GpuScene& gpu, const View& view,
+                 const FrontierJob& job, int rounds, RecordFile& file) {
+  if (measured.empty()) return;
+  PointRun baseline(renderer, gpu, view, job.baseline, std::make_shared<TargetPool>());
+  FrontierJob of_series = job;
+  of_series.progress = nullptr;  // its steps are variants
+  of_series.least_rounds = of_series.most_rounds = rounds;
+  of_series.process = 0, of_series.processes = 1;
+  const Timer timer;
+  TimeRounds{of_series,
+             timer,
+             std::numeric_limits<double>::infinity(),
+             std::span(&view, 1),
+             measured,
+             baseline,
+             file,
+             DeviceClock(renderer)}
+      .run();
+  complete(measured, file);
 }
 
 void measure_cull_times(std::vector<MeasuredPoint>& points, const View& view, double seconds,

@@ -67,6 +67,11 @@ void complete(const std::vector<MeasuredPoint>& points, RecordFile& file);
 void measure_cull_times(std::vector<MeasuredPoint>& points, const View& view, double seconds,
                         RecordFile& file);
 
+// Times points on one view, beside the job's baseline, in `rounds` rounds, and completes their records, which
+// are open.
+void time_series(std::vector<MeasuredPoint>& measured, Renderer& renderer, GpuScene& gpu, const View& view,
+                 const FrontierJob& job, int rounds, RecordFile& file);
+
 // How times grow with lights, pixels and the lights' ranges: the techniques among the job's points, each as
 // it is, beside the baseline, on scattered lights (128 to 2048), on sizes (half to twice a side) and on
 // ranges (half to twice). Ends when `seconds` have passed. The scene is left as it was.

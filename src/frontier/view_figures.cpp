@@ -161,6 +161,15 @@ void ViewFigures::look(const View& view, int index, bool own, bool whole) {
                      Random::mix(seed_) + uint64_t(index), shadows_);
 }
 
+void take_passes(const RunResult& result, FrontierRecord& record) {
+  for (const PassResult& pass : result.passes) {
+    const uint64_t bytes = pass.bytes_read + pass.bytes_written;
+    record.pass_ms[pass.name] += pass.median_ms;
+    record.pass_bytes[pass.name] += bytes;
+    record.bytes_moved += bytes;
+  }
+}
+
 ViewFigures::Truths& ViewFigures::truths_of(const ChosenPoint& point) {
   return truths_[has_own_surfaces(point) && renderer_.gl ? 1 : 0];
 }
@@ -250,11 +259,7 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
   if (record.view == 0) run.run_profiled_frames(100);
   const RunResult result = run.result();
   record.memory_bytes = result.memory_total;
-  for (const PassResult& pass : result.passes) {
-    if (record.view > 0) break;  // passes are counted where they are profiled
-    record.pass_ms[pass.name] += pass.median_ms;
-    record.bytes_moved += pass.bytes_read + pass.bytes_written;
-  }
+  if (record.view == 0) take_passes(result, record);  // passes are counted where they are profiled
   if (point_run.is_random()) measure_seeds(point_run, truths, record);
   if (turn_.empty() || !(brightest_ > 0)) return;
   const double change =

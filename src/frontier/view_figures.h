@@ -92,6 +92,9 @@ std::vector<View> frontier_views(const Scene& scene, const View& start, const Sc
 // Frames of a camera that turns from `start` by a quarter of a degree a frame.
 std::vector<View> slow_turn(const Scene& scene, const View& start, int frames);
 
+// The passes of a profiled run: their times and bytes.
+void take_passes(const RunResult& result, FrontierRecord& record);
+
 // True if a point's surfaces are those of the rasteriser in OpenCL; of another renderer, if it says so.
 bool has_own_surfaces(const ChosenPoint& point);
 

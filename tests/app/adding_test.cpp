@@ -84,6 +84,7 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       {"src/session/scene_choice.cpp", {"forward_plus", "visibility"}},
       // The reference.
       {"src/frontier/brute_force.cpp", {"forward", "forward_plus", "visibility"}},
+      {"src/frontier/families.cpp", {"deferred_tiled", "visibility"}},
       {"src/results/results.cpp", {"forward", "visibility"}},
       {"src/session/runs.cpp", {"forward", "visibility"}},
       // Messages of its own passes.

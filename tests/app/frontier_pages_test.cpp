@@ -1,4 +1,5 @@
-// docs/results/frontier.md, its picture and its tables are what their samples make.
+// docs/results/frontier.md, docs/results/families.md, their pictures and their tables are what their samples
+// make.
 #include <gmock/gmock.h>
 
 #include "support/read_files.h"
@@ -28,19 +29,22 @@ TEST(FrontierPages, OfOtherFiguresAreFound) {
   for (const char* path : {"tests/benchmarks", "docs/results/frontier", "docs/images"})
     fs::create_directories(folder.path / path);
   const fs::path from = source_folder, page = "docs/results/frontier.md",
-                 table = "docs/results/frontier/h100.csv", picture = "docs/images/frontier_planes.svg";
-  for (const fs::path& file : {fs::path("tests/benchmarks/frontier_pages.py"),
-                               fs::path("tests/benchmarks/frontier_table.py"), page, picture})
+                 table = "docs/results/frontier/h100.csv", picture = "docs/images/frontier_planes.svg",
+                 families = "docs/results/families.md", curves = "docs/images/families.svg",
+                 passes = "docs/images/families_passes.svg", scripts = "tests/benchmarks";
+  for (const fs::path& file : {scripts / "frontier_pages.py", scripts / "frontier_table.py",
+                               scripts / "family_pages.py", page, picture, families, curves, passes})
     fs::copy(from / file, folder.path / file);
   fs::copy(from / table.parent_path(), folder.path / table.parent_path(), fs::copy_options::recursive);
   const ProgramRun copy = checked_pages(folder.path);
   ASSERT_EQ(copy.status, 0) << copy.err;
-  for (const fs::path& file : {page, table, picture}) {
+  for (const fs::path& file : {page, table, picture, families, curves, passes}) {
     const std::string right = file_bytes(folder.path / file);
     std::string wrong = right;
     // The first one that is made in the page, the last one of the others.
-    const size_t figure =
-        file == page ? wrong.find("0.", wrong.find("<!-- made: h100 front")) : wrong.rfind("0.");
+    const size_t figure = file == page       ? wrong.find("0.", wrong.find("<!-- made: h100 front"))
+                          : file == families ? wrong.find("0.", wrong.find("<!-- made: families steps"))
+                                             : wrong.rfind("0.");
     ASSERT_NE(figure, std::string::npos) << file;
     wrong[figure] = '7';
     std::ofstream(folder.path / file) << wrong;

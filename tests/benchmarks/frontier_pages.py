@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the figures of docs/results/frontier.md and its picture from the samples in docs/results/frontier.
+"""Makes the figures of docs/results/frontier.md and docs/results/families.md and their pictures from the samples in docs/results/frontier.
 
     tests/benchmarks/frontier_pages.py [--check] [--program FILE]
 
@@ -21,12 +21,16 @@ import subprocess
 import sys
 import tempfile
 
+import family_pages
 import frontier_table
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SAMPLES = ROOT / "docs/results/frontier"
 PAGE = ROOT / "docs/results/frontier.md"
 PICTURE = ROOT / "docs/images/frontier_planes.svg"
+FAMILIES_PAGE = ROOT / "docs/results/families.md"  # of FAMILIES.jsonl.xz
+FAMILIES = "families"
+FAMILIES_PICTURES = {ROOT / "docs/images/families.svg": "picture", ROOT / "docs/images/families_passes.svg": "passes_picture"}
 # The time of a run that its tables and picture show, and its name there.
 CLOCKS = {"cpu": ("relative_time", "frame_ms", "fronts", "flip_front_bands", "controls", "cheapest_within_flip", "wall time"),
           "h100": ("relative_device_time", "device_ms", "device_fronts", "device_flip_front_bands", "device_controls",
@@ -303,6 +307,10 @@ def files_of(program):
         out = io.StringIO()
         frontier_table.write(run.answer, out)
         files[SAMPLES / f"{name}.csv"] = out.getvalue()
+    text = lzma.decompress((SAMPLES / f"{FAMILIES}.jsonl.xz").read_bytes()).decode()
+    families = family_pages.Families(answer_of(program, FAMILIES), text, three, table)
+    files[FAMILIES_PAGE] = made_page(FAMILIES_PAGE.read_text(), {FAMILIES: families})
+    files |= {path: getattr(families, name)() for path, name in FAMILIES_PICTURES.items()}
     return files
 
 

@@ -300,6 +300,55 @@ TEST_F(FrontierPage, MarksPointsOfOtherRenderers) {
   }
 }
 
+// A family alone: its plots for the chosen reference, one curve a technique, and no plane without points.
+TEST_F(FrontierPage, DrawsFamiliesOfLights) {
+  std::vector<FrontierRecord> records;
+  for (const int lights : {100, 1000, 10000}) {
+    for (const std::string technique : {"visibility", "forward_plus"}) {
+      FrontierRecord& r = records.emplace_back(
+          synthetic_record(synthetic_point("terrain", technique), technique == "visibility" ? 0.3 : 1, 0.1));
+      r.series = equal_overlap_series, r.overlap = 10, r.lights = lights;
+      r.errors.authored.emplace().total.displayed = DisplayedFlip{0, 0};
+      records.push_back(r);
+      records.back().point = synthetic_point("terrain", technique, {{"range", "infinite"}});
+      records.back().errors.total.displayed = DisplayedFlip{0, 0};
+      records.back().errors.authored->total.displayed = DisplayedFlip{0.3, 0};
+    }
+  }
+  write_file(folder.path / "index.html", page_text(answer_of({synthetic_part(records)})));
+  const json seen = seen_in_browser(folder.path, "tests/frontier/frontier_page_families.js", "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_THAT(texts(seen["faults"]), IsEmpty());
+  EXPECT_THAT(texts(seen["hidden"]),
+              UnorderedElementsAre("within-part", "front-part", "table-part", "passes-part"));
+  const std::string over = " over lights at an equal overlap: terrain";
+  EXPECT_THAT(texts(seen["total"]["titles"]),
+              ElementsAre("Time at a FLIP of 0.001" + over, "Time at a FLIP of 0.01" + over,
+                          "Time at a FLIP of 0.06" + over, "Time at a FLIP of 0.2" + over));
+  EXPECT_EQ(seen["total"]["marks"], 4 * 2 * 3);
+  EXPECT_THAT(seen["total"]["first"].get<std::string>(),
+              testing::StartsWith("visibility:range=infinite, 100 lights: 30."));
+  EXPECT_EQ(seen["authored"]["first"].get<std::string>().find("visibility, 100 lights"), 0u);
+  EXPECT_THAT(texts(seen["growth"]), ElementsAre("Time over lights at an equal overlap: terrain"));
+  EXPECT_EQ(seen["curves"], 2) << "techniques as they are";
+}
+
+TEST_F(FrontierPage, StacksThePassesOfTechniquesAsTheyAre) {
+  FrontierPart part = synthetic_sweep();
+  for (FrontierRecord& r : part.records) {
+    if (r.point.label == "clustered" && r.view == 0)
+      r.pass_ms = {{"cull_lights", 2}, {"shade_forward", 6}},
+      r.pass_bytes = {{"cull_lights", 1000}, {"shade_forward", 0}};
+  }
+  write_file(folder.path / "index.html", page_text(answer_of({part})));
+  const json seen = seen_in_browser(folder.path, "tests/frontier/frontier_page_families.js", "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_THAT(texts(seen["faults"]), IsEmpty());
+  EXPECT_THAT(texts(seen["times"]), ElementsAre("clustered: cull_lights 2.00 ms, shade_forward 6.00 ms",
+                                                testing::StartsWith("forward_plus: cull_lights 2.00 ms")));
+  EXPECT_THAT(texts(seen["bytes"]), ElementsAre(testing::StartsWith("clustered: cull_lights ")));
+}
+
 // Without errors against authored ranges there is no choice; with them axis, front and table follow it.
 TEST_F(FrontierPage, ShowsErrorsAgainstEitherReference) {
   FrontierPart part = synthetic_sweep();

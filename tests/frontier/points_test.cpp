@@ -44,6 +44,18 @@ TEST(FrontierPoints, NeedNoOpenGlWithoutIt) {
   EXPECT_EQ(baseline_point({}, true).label, "forward_plus");
 }
 
+TEST(FrontierPoints, OfFamiliesAreEachTechniqueWithTheSameRanges) {
+  const std::vector<std::string> names = labels(family_points({}, true));
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+  for (const std::string technique : {"forward_plus", "clustered", "deferred_tiled", "visibility"}) {
+    for (const char* ranges : {"", ":range=cutoff,cutoff=0.005", ":range=infinite", ":far-light=4096"})
+      EXPECT_THAT(names, testing::Contains(technique + ranges));
+  }
+  EXPECT_THAT(names, testing::Contains("world_grid:raster=opencl"));
+  for (const ChosenPoint& p : family_points({}, false))
+    EXPECT_FALSE(draws_with_opengl(p.contestant.technique->needs, p.contestant.settings)) << p.label;
+}
+
 TEST(FrontierPoints, AreTimedOverABaselineOfChoice) {
   EXPECT_EQ(baseline_point({}, true, "visibility").label, "visibility");
   EXPECT_EQ(baseline_point({}, true, "forward_plus:tile=8,z-bins=16").label, "forward_plus:tile=8,z-bins=16");
@@ -101,8 +113,8 @@ TEST(FrontierViews, OfAnyPrefixAreSpreadOverThePath) {
 }
 
 // The same views for everybody, whatever their number: the first of them from several places.
-TEST(FrontierViews, OfADefaultSceneAreThoseOfItsFile) {
-  for (const char* name : {"hall", "terrain", "spheres", "street"}) {
+TEST(FrontierViews, OfASceneWithAFileAreThoseOfIt) {
+  for (const char* name : {"hall", "terrain", "spheres", "street", "gallery", "particles"}) {
     const Scene scene = find_builtin_scene(name)->make();
     const View start = make_view(choose_camera(scene, ""), 32, 18);
     SceneChoice choice;

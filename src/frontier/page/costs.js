@@ -43,6 +43,16 @@ function breakEvenPlot(scene, technique) {
   return { title, name: `break-even-${sceneTitle(scene)}-${technique}`, svg };
 }
 
+// How series are named: on titles, and along the axis.
+const SERIES = {
+  lights: ['lights', 'lights'],
+  pixels: ['pixels', 'pixels'],
+  radius: ['radius', 'radius, over the scene\'s'],
+  'equal overlap': ['lights at an equal overlap', 'lights'],
+  overlap: ['overlap at an equal number of lights', 'lights that reach a pixel'],
+};
+const isPlain = (label) => /^[^:]*(:raster=opencl)?$/.test(label);  // a technique as it is
+
 // Times and the line a x^exponent through their mean in logarithms, as it was fitted.
 function growthCurve({ technique: label, of, exponent, samples }, x, y) {
   const technique = techniqueOf(label), log = samples.filter((at) => at[0] > 0 && at[1] > 0).map((at) => at.map(Math.log));
@@ -57,16 +67,22 @@ function growthCurve({ technique: label, of, exponent, samples }, x, y) {
 }
 
 function growthPlot(scene, of) {
-  const curves = page.growth.filter((growth) => growth.scene === scene && growth.of === of);
+  const curves =
+      page.growth.filter((growth) => growth.scene === scene && growth.of === of && isPlain(growth.technique));
   if (curves.length === 0) return null;
   const area = { left: 60, right: PLOT_WIDTH - 20, top: 36, bottom: 320 }, samples = curves.flatMap((curve) => curve.samples);
   const x = logAxis(samples.map((at) => at[0]), area.left, area.right), y = logAxis(samples.map((at) => at[1]), area.bottom, area.top);
   const names = curves.map(({ technique, exponent, ci95: [low, high] }) => ({ technique: techniqueOf(technique),
     text: `${technique}: exponent ${exponent.toFixed(2)}${low === null || high === null ? "" : ` (${low.toFixed(2)} to ${high.toFixed(2)})`}` }));
-  const title = `Time over ${of}: ${sceneTitle(scene)}`;
-  return { title, name: `growth-${of}-${sceneTitle(scene)}`, svg: drawing(PLOT_WIDTH, 390 + 20 * curves.length, title,
-    ...acrossAxis(x, of === "radius" ? "radius, over the scene's" : of, area), ...alongAxis(y, "ms a frame", area),
-    ...curves.flatMap((curve) => growthCurve(curve, x, y)), ...markedNames(names, area.left, area.bottom + 64, 1, 0)) };
+  const title = `Time over ${SERIES[of][0]}: ${sceneTitle(scene)}`;
+  return {
+    title,
+    name: `growth-${of.replace(' ', '-')}-${sceneTitle(scene)}`,
+    svg: drawing(
+        PLOT_WIDTH, 390 + 20 * curves.length, title, ...acrossAxis(x, SERIES[of][1], area),
+        ...alongAxis(y, 'ms a frame', area), ...curves.flatMap((curve) => growthCurve(curve, x, y)),
+        ...markedNames(names, area.left, area.bottom + 64, 1, 0))
+  };
 }
 
 // Puts the plots that have anything to show into the element of that id.
@@ -79,7 +95,72 @@ function showPlots(id, plots) {
   }));
 }
 
+function equalFlipPlot(scene, series, flip) {
+  const curves = page.equal_flip.filter(
+      (curve) => curve.scene === scene && curve.series === series && curve.flip === flip &&
+          curve.of === state.reference);
+  if (curves.length === 0) return null;
+  const area = {left: 60, right: PLOT_WIDTH - 20, top: 36, bottom: 320};
+  // All plots of a series have the same axes.
+  const all =
+      page.equal_flip
+          .filter((curve) => curve.scene === scene && curve.series === series && curve.of === state.reference)
+          .flatMap((curve) => curve.samples);
+  const x = logAxis(all.map((at) => at.x), area.left, area.right),
+        y = logAxis(all.map((at) => at.ms), area.bottom, area.top);
+  const title = `Time at a FLIP of ${flip} over ${SERIES[series][0]}: ${sceneTitle(scene)}`;
+  const marks = curves.flatMap(
+      ({technique, samples}) =>
+          [polyline(
+               samples.map((at) => [x.at(at.x), y.at(at.ms)]),
+               {stroke: techniqueColor(technique), 'stroke-width': 2}),
+           ...samples.map(({x: value, ms, label}) => {
+             const mark = markerElement(technique, moveTo(x.at(value), y.at(ms)));
+             mark.append(make(
+                 'title', {}, `${label}, ${threeDigits(value)} ${SERIES[series][1]}: ${threeDigits(ms)} ms`));
+             return mark;
+           })]);
+  return {
+    title,
+    name: `flip-${flip}-${series.replace(' ', '-')}-${sceneTitle(scene)}`,
+    svg: drawing(
+        PLOT_WIDTH, 390 + 20 * Math.ceil(curves.length / 3), title, ...acrossAxis(x, SERIES[series][1], area),
+        ...alongAxis(y, 'ms a frame', area), ...marks,
+        ...markedNames(
+            curves.map(({technique}) => ({technique, text: technique})), area.left, area.bottom + 64, 3,
+            area.right - area.left))
+  };
+}
+
+// Times and bytes of passes as stacked bars, the shortest first.
+function showPasses(scene) {
+  const points = page.points.filter(
+      (point) => point.scene === scene && isPlain(point.label) && Object.keys(point.passes).length > 0);
+  byId('passes-part').hidden = points.length === 0;
+  const stage = (name) => STAGES.findIndex(({passes}) => passes.test(name));
+  for (const [id, key, text] of [['pass-times', 'ms', milliseconds], ['pass-bytes', 'bytes', byteNumber]]) {
+    const bars = points
+                     .map(({label, passes}) => {
+                       const parts = Object.entries(passes)
+                                         .filter(([, pass]) => pass[key] > 0)
+                                         .map(([name, pass]) => ({name, value: pass[key]}))
+                                         .sort((a, b) => stage(b.name) - stage(a.name));
+                       const total = parts.reduce((sum, part) => sum + part.value, 0);
+                       return {name: label, note: ` ${text(total)}`, total, parts};
+                     })
+                     .filter((bar) => bar.total > 0)
+                     .sort((a, b) => a.total - b.total);
+    byId(id).hidden = byId(`${id}-legend`).hidden = bars.length === 0;
+    if (bars.length > 0) showBars(byId(id), byId(`${id}-legend`), bars, '', stageOf, text, null);
+  }
+}
+
 function showCosts(scene) {
+  showPasses(scene);
+  const flips = [...new Set(page.equal_flip.map((curve) => curve.flip))].sort((a, b) => a - b);
+  showPlots('equal-flip', [
+    'equal overlap', 'overlap'
+  ].flatMap((series) => flips.map((flip) => equalFlipPlot(scene, series, flip))));
   showPlots("break-even", page.techniques.map((technique) => breakEvenPlot(scene, technique)));
-  showPlots("growth", ["lights", "pixels", "radius"].map((of) => growthPlot(scene, of)));
+  showPlots('growth', Object.keys(SERIES).map((of) => growthPlot(scene, of)));
 }

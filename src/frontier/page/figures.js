@@ -1,7 +1,8 @@
 // The figures of a point, and how they are written.
 
 const page = JSON.parse(byId("page").textContent);
-const HAS_AUTHORED = page.points.some((point) => point.error.authored);
+const HAS_AUTHORED = page.points.some((point) => point.error.authored) ||
+    page.equal_flip.some((curve) => curve.of === 'authored');
 const ERROR_KINDS = [["total", "whole picture"], ["model", "model"],
   ...(HAS_AUTHORED ? [["authored", "whole picture, authored ranges"], ["authored_model", "model, authored ranges"]] : []),
   ["precision", "precision"], ["technique", "technique"]];

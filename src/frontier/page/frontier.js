@@ -265,6 +265,7 @@ function startChoices() {
   }
 }
 
+for (const part of ['front-part', 'table-part']) byId(part).hidden = page.points.length === 0;
 showHeader();
 showBestWithin();
 showFailures();
