@@ -146,11 +146,19 @@ class FamilySweep {
       truths.without_ranges.reset();
       if (!own_surfaces && !renderer_.gl) continue;
       if (own_surfaces || !renderer_.cl->info().cpu || pairs <= most_pairs_of_slow_truth) {
-        Image image = truth_of(view, {.range = LightRange::infinite}, own_surfaces);
-        if (!exposure) exposure = chosen_exposure(choice_, image);
-        truths.without_ranges.emplace(std::move(image), *exposure);
+        // Lists of very many lights that end nowhere may be longer than OpenGL takes.
+        const auto failure = failure_of([&] {
+          Image image = truth_of(view, {.range = LightRange::infinite}, own_surfaces);
+          if (!exposure) exposure = chosen_exposure(choice_, image);
+          truths.without_ranges.emplace(std::move(image), *exposure);
+        });
+        if (failure)
+          notice(fmt::format("no picture of {} lights without ranges: {}", scene_.lights.size(),
+                             failure->what()));
       }
-      truths.authored.emplace(truth_of(view, job_.common.ranges, own_surfaces), *exposure);
+      Image authored = truth_of(view, job_.common.ranges, own_surfaces);
+      if (!exposure) exposure = chosen_exposure(choice_, authored);
+      truths.authored.emplace(std::move(authored), *exposure);
     }
     exposure_ev_ = exposure->ev;
   }
