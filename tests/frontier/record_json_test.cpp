@@ -121,6 +121,8 @@ TEST(FrontierRecords, NameAWrongField) {
       EXPECT_THAT(record_of(line).processes, testing::Each(0));
     } else if (name == "exposure_ev") {  // they have none either
       EXPECT_EQ(record_of(line).exposure_ev, std::nullopt);
+    } else if (name == "pass_bytes") {
+      EXPECT_TRUE(record_of(line).pass_bytes.empty());
     } else if (std::ranges::find(times_by_device, name, [](const auto& t) { return std::string(t.first); }) !=
                std::end(times_by_device)) {  // nor any of these
       EXPECT_THAT(fault_of([&] { record_of(line); }), HasSubstr(" times beside "));
