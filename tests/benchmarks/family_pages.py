@@ -27,8 +27,10 @@ def plain(label):
 
 
 class Families:
-    def __init__(self, answer, text, three, table):
-        self.answer, self.three, self.table = answer, three, table
+    """answer, text: of a part, as JSON and its lines; on_gpu: the rows of another one's frontier.csv."""
+
+    def __init__(self, answer, text, on_gpu, three, table):
+        self.answer, self.on_gpu, self.three, self.table = answer, on_gpu, three, table
         self.records = [json.loads(line)["open"] for line in text.splitlines() if line.startswith('{"open"')]
         self.techniques = list(dict.fromkeys(r["technique"] for r in self.records))
 
@@ -96,6 +98,20 @@ class Families:
             rows.append(row + [f"{curve['exponent']:.2f}" if curve and len(curve["samples"]) > 1 else "-"])
         return self.table(["technique", *(self.step_name(series, s) for s in steps), "exponent"], rows)
 
+    def made_device(self, series):
+        """Milliseconds on the devices of each technique as it is, and of the light tree."""
+        series = series.replace("-", " ")
+        rows = [r for r in self.on_gpu if r["series"] == series]
+        steps = sorted({(int(r["lights"]), float(r["overlap"])) for r in rows})
+        out = []
+        for label in dict.fromkeys(r["label"] for r in rows):
+            if not plain(label) and "tree" not in label:
+                continue
+            times = {(int(r["lights"]), float(r["overlap"])): r["device_ms"] for r in rows if r["label"] == label}
+            name = plain(label) or label
+            out.append([f"`{name}`", *(self.three(float(times[s])) if times.get(s) else "-" for s in steps)])
+        return self.table(["technique", *(self.step_name(series, s) for s in steps)], out)
+
     def made_refused(self):
         rows = {}
         for f in self.answer["failures"]:
@@ -106,7 +122,7 @@ class Families:
 
     def made(self, what):
         return {"machine": self.made_machine, "steps": self.made_steps, "growth": self.made_growth, "equal": self.made_equal,
-                "refused": self.made_refused}[what[0]](*what[1:])
+                "device": self.made_device, "refused": self.made_refused}[what[0]](*what[1:])
 
     # --- Pictures
 

@@ -10,6 +10,7 @@ too; what is outside is written by hand and holds no figure. --check writes noth
 it would be made.
 """
 import argparse
+import csv
 import html
 import io
 import json
@@ -30,6 +31,7 @@ PAGE = ROOT / "docs/results/frontier.md"
 PICTURE = ROOT / "docs/images/frontier_planes.svg"
 FAMILIES_PAGE = ROOT / "docs/results/families.md"  # of FAMILIES.jsonl.xz
 FAMILIES = "families"
+FAMILIES_ON_GPU = "h100_families"
 FAMILIES_PICTURES = {ROOT / "docs/images/families.svg": "picture", ROOT / "docs/images/families_passes.svg": "passes_picture"}
 # The time of a run that its tables and picture show, and its name there.
 CLOCKS = {"cpu": ("relative_time", "frame_ms", "fronts", "flip_front_bands", "controls", "cheapest_within_flip", "wall time"),
@@ -38,19 +40,24 @@ CLOCKS = {"cpu": ("relative_time", "frame_ms", "fronts", "flip_front_bands", "co
 NAMES = {"cpu": "16 CPU cores", "h100": "H100"}
 
 
+def merged(program, file, name):
+    """The text of a file of the answer that a part's samples make."""
+    with tempfile.TemporaryDirectory() as folder:
+        part = pathlib.Path(folder) / "part"
+        part.mkdir()
+        (part / "records-0-of-1.jsonl").write_bytes(lzma.decompress(file.read_bytes()))
+        command = [program, "frontier", "merge", str(part), "-o", folder + "/answer", "--page-mb", "1", "--quiet"]
+        status = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        if status.returncode not in (0, 1):  # 1: lights lost by design
+            sys.exit(f"{file.name}: {status.stderr}")
+        return (pathlib.Path(folder) / "answer" / name).read_text()
+
+
 def answer_of(program, run):
     """The joined answers of a run's parts."""
     joined = None
     for file in sorted([*SAMPLES.glob(f"{run}.jsonl.xz"), *SAMPLES.glob(f"{run}-*.jsonl.xz")]):
-        with tempfile.TemporaryDirectory() as folder:
-            part = pathlib.Path(folder) / "part"
-            part.mkdir()
-            (part / "records-0-of-1.jsonl").write_bytes(lzma.decompress(file.read_bytes()))
-            command = [program, "frontier", "merge", str(part), "-o", folder + "/answer", "--page-mb", "1", "--quiet"]
-            status = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-            if status.returncode not in (0, 1):  # 1: lights lost by design
-                sys.exit(f"{file.name}: {status.stderr}")
-            answer = json.loads((pathlib.Path(folder) / "answer/frontier.json").read_text())
+        answer = json.loads(merged(program, file, "frontier.json"))
         if joined is None:
             joined = answer
             continue
@@ -308,7 +315,8 @@ def files_of(program):
         frontier_table.write(run.answer, out)
         files[SAMPLES / f"{name}.csv"] = out.getvalue()
     text = lzma.decompress((SAMPLES / f"{FAMILIES}.jsonl.xz").read_bytes()).decode()
-    families = family_pages.Families(answer_of(program, FAMILIES), text, three, table)
+    on_gpu = list(csv.DictReader(io.StringIO(merged(program, SAMPLES / f"{FAMILIES_ON_GPU}.jsonl.xz", "frontier.csv"))))
+    families = family_pages.Families(answer_of(program, FAMILIES), text, on_gpu, three, table)
     files[FAMILIES_PAGE] = made_page(FAMILIES_PAGE.read_text(), {FAMILIES: families})
     files |= {path: getattr(families, name)() for path, name in FAMILIES_PICTURES.items()}
     return files
