@@ -91,18 +91,20 @@ std::vector<Control> controls_of(Records records) {
   std::vector<Control> controls;
   for (const Group& of_scene : grouped(timed, [](const FrontierRecord& r) { return r.point.scene; })) {
     Control control{of_scene.front()->point.scene};
-    std::map<std::string, Group> places;
-    for (const FrontierRecord* r : of_scene) places[r->series].push_back(r);
+    std::map<std::pair<int, std::string>, Group> places;  // each shard has its own
+    for (const FrontierRecord* r : of_scene) places[{r->shard, r->series}].push_back(r);
+    std::map<int, size_t> timed_places;  // by shard
     LogTimes all;  // series of each place: a mean over places would be less skewed than a run of the baseline
-    for (const auto& [series, views] : places) {
+    for (const auto& [place, views] : places) {
       const LogTimes times = baselines.log_times(views);
       if (times.empty()) continue;
       control.places.push_back(relative_time(times).estimate);
+      ++timed_places[place.first];
       for (const auto& [block, ratios] : times)
         all[block].insert(all[block].end(), ratios.begin(), ratios.end());
     }
     std::erase_if(all, [&](const auto& entry) {
-      return entry.second.size() != control.places.size() * baseline_runs;  // not in each place
+      return entry.second.size() != timed_places[entry.first.shard] * baseline_runs;  // not in each place
     });
     control.relative_time = relative_time(all);
     if (!all.empty()) controls.push_back(control);

@@ -362,6 +362,29 @@ TEST(Answer, ControlsWidenTheIntervalsOfTheirScene) {
   EXPECT_THAT(answer.sentences, testing::Not(testing::Contains(HasSubstr("Times in terrain are in doubt"))));
 }
 
+// Parts of one sweep have controls of their own; none is in the rounds of another part.
+TEST(Answer, ControlsOfEachPartCount) {
+  const auto part_of = [](int shard, double ratio) {
+    std::vector<FrontierRecord> records = {
+        synthetic_record(synthetic_point("hall", shard == 0 ? "a" : "b"), 0.5, 0.1)};
+    for (const int place : {2 * shard, 2 * shard + 1}) {
+      records.push_back(synthetic_record(synthetic_point("hall", "forward_plus"), ratio, 0));
+      records.back().series = fmt::format("control {}", place);
+    }
+    FrontierPart part = synthetic_part(records);
+    part.shard = shard, part.shards = 2;
+    for (FrontierRecord& r : part.records) r.shard = shard;
+    return part;
+  };
+  const FrontierAnswer answer = answer_of({part_of(0, 1.08), part_of(1, 1.08)});
+  ASSERT_THAT(answer.controls, SizeIs(1));
+  EXPECT_THAT(answer.controls[0].places, SizeIs(4));
+  EXPECT_FALSE(answer.controls[0].passed());
+  EXPECT_NEAR(answer.controls[0].relative_time.estimate, 1.08, 0.002);
+  const FrontierAnswer alone = answer_of({part_of(0, 1.08)});
+  EXPECT_GT(answer.controls[0].relative_time.runs, alone.controls[0].relative_time.runs);
+}
+
 TEST(Answer, FindsTheCheapestPointWithinEachError) {
   const auto of = [](const std::string& name, double ratio, double error) {
     return synthetic_record(synthetic_point("hall", name), ratio, error);

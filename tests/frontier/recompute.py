@@ -6,6 +6,7 @@ Compares them with frontier.json of the same folder, prints what differs, and en
 Written without the program's code: medians by statistics, the front by its definition, Student's t by integration,
 probabilities by draws of its own, and the ranks of intervals in whole numbers.
 """
+import collections
 import csv
 import functools
 import itertools
@@ -196,18 +197,18 @@ def is_beaten(place, places):
 
 def widenings(folder, samples, base):
     """By scene, the logarithm by which a control that did not pass widens intervals."""
-    places = {}
+    places = {}  # each shard has its own
     for row in csv.DictReader(open(folder / "frontier.csv", newline="")):
         if row["series"].startswith("control"):
-            places.setdefault((row["scene"], row["series"]), []).append(row)
+            places.setdefault((row["scene"], row["shard"], row["series"]), []).append(row)
     rounds = {}
-    for (scene, _), rows in places.items():
+    for (scene, _, _), rows in places.items():
         for block, value in log_times_of(rows, samples, base).items():
             rounds.setdefault(scene, {}).setdefault(block, []).append(value)
     answer = {}
     for scene, of_scene in rounds.items():
-        count = len({series for name, series in places if name == scene})
-        series = {block: sum(of_places, []) for block, of_places in of_scene.items() if len(of_places) == count}
+        count = collections.Counter(shard for name, shard, _ in places if name == scene)
+        series = {block: sum(of_places, []) for block, of_places in of_scene.items() if len(of_places) == count[block[0]]}
         estimate, low, high = relative_time(series)
         passed = low <= 1 <= high and abs(estimate - 1) <= 0.01
         answer[scene] = 0 if passed else abs(math.log(estimate))
