@@ -59,9 +59,7 @@ static void draw(Work& work, GLuint image, float scale, GLuint framebuffer) {
 void check_picture(const Settings& settings) {
   if (settings.picture == PictureFormat::bytes && !settings.display_ev)
     throw input_error(
-        "set picture=bytes: pictures are exposed by what is chosen from the finished picture; give "
-        "--exposure "
-        "a number");
+        "set picture=bytes: an automatic exposure needs the finished picture; give --exposure a number");
 }
 
 DisplayedImage tone_map(Work& work, Cached<ToneMap>& cache, const ShadedImage& image) {
