@@ -160,29 +160,30 @@ class SceneSweep {
     return seconds() + more + round_s * views <= until();
   }
 
-  // As many points as the time allows on one view, then as many views: first with FLIP and flicker, then
-  // without.
+  // As many points as the time allows on one view, then as many views: with HDR-FLIP and flicker as long as
+  // the time bears all of the others without.
   void measure_figures() {
     const bool own =
         std::ranges::any_of(measured_,
                             [](const MeasuredPoint& m) { return has_own_surfaces(m.run.point()); }) ||
         std::ranges::any_of(apart_, [](const ChosenPoint* point) { return has_own_surfaces(*point); });
-    double view_s = 0;  // of the last one
+    ViewSeconds view_s;
     bool whole = has_time_for_flip();
     for (int view = 0; view < int(views_.size()); ++view) {
       if (std::ranges::any_of(measured_, [&](const MeasuredPoint& m) { return has_view(m, view); })) {
         whole = is_whole(view);
       } else if (job_.process > 0) {
         break;  // views whose times no earlier process has
-      } else if (view > 0 && !fits(view_s, job_.least_rounds, view + 1)) {
-        if (!whole || !fits(share_without_flip * view_s, job_.least_rounds, view + 1)) break;
-        whole = false;
+      } else if (view > 0) {
+        whole = whole && fits(view_s.whole + view_s.plain * double(int(views_.size()) - view - 1),
+                              job_.least_rounds, int(views_.size()));
+        if (!whole && !fits(view_s.plain, job_.least_rounds, view + 1)) break;
       }
       const double before = seconds();
       measure_view(view, own, whole);
       used_views_ = view + 1;
       if (view == 0) leave_out_unmeasured(), classify();
-      view_s = seconds() - before;
+      view_s.measured(seconds() - before, view, whole);
       if (whole) whole_views_ = view + 1;
     }
     file_.append(apart_records_);  // in one line: all views or none
@@ -193,6 +194,20 @@ class SceneSweep {
                          used_views_));
     end_step("figures");
   }
+
+  // What a view after this one takes, with HDR-FLIP and flicker and without: low estimates as long as none
+  // was measured so.
+  struct ViewSeconds {
+    double whole = 0, plain = 0;
+    void measured(double s, int view, bool with_flip) {
+      // The first view also writes pictures, profiles passes and draws random points four times as often.
+      if (view == 0) s *= 0.5;
+      if (with_flip)
+        whole = s, plain = 0.4 * s;
+      else
+        plain = s;
+    }
+  };
 
   bool has_time_for_flip() const {
     return job_.seconds >= seconds_a_point_with_flip * double(measured_.size());
@@ -305,9 +320,6 @@ class SceneSweep {
     notice(fmt::format("{} points, {} views, {} rounds", points, used_views_, done));
     end_step("rounds");
   }
-
-  // The share of a view's time that is left without FLIP and flicker: a low estimate.
-  static constexpr double share_without_flip = 0.4;
 
   Renderer& renderer_;
   Scene& scene_;

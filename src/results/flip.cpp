@@ -18,10 +18,19 @@ namespace {
 
 using std::numbers::pi;
 
-// Three channels a pixel.
+// Three channels of so many pixels each.
 struct Planes {
+  Planes(int width, int height) : width(width), height(height) {
+    for (std::vector<double>& channel : channels) channel.resize(size_t(width) * size_t(height));
+  }
+  size_t pixels() const { return channels[0].size(); }
+  glm::dvec3 at(size_t i) const { return {channels[0][i], channels[1][i], channels[2][i]}; }
+  void set(size_t i, const glm::dvec3& color) {
+    for (int c = 0; c < 3; ++c) channels[c][i] = color[c];
+  }
+
   int width, height;
-  std::vector<glm::dvec3> pixels;
+  std::vector<double> channels[3];
 };
 
 // --- Colour spaces
@@ -82,8 +91,7 @@ void normalize(Kernel& kernel) {
   for (double& w : kernel) w /= w > 0 ? positive : -negative;
 }
 
-// to[x] is the sum of kernel[i] * from[x + i * stride]; to is 0 before. Sixteen sums at once stay in
-// registers.
+// to[x] is the sum of kernel[i] * from[x + i * stride]. Sixteen sums at once stay in registers.
 void filter_row(const double* from, size_t stride, const Kernel& kernel, int width, double* to) {
   constexpr int block = 16;
   int x = 0;
@@ -95,43 +103,36 @@ void filter_row(const double* from, size_t stride, const Kernel& kernel, int wid
     for (int k = 0; k < block; ++k) to[x + k] = sums[k];
   }
   for (; x < width; ++x) {
+    to[x] = 0;
     for (size_t i = 0; i < kernel.size(); ++i) to[x] += kernel[i] * from[size_t(x) + i * stride];
   }
 }
 
-// Values of one channel, filtered by `across` along rows and `up` along columns. Beyond the image its edge
+// Values of one channel, filtered along rows, with `radius` rows more at each end. Beyond the image its edge
 // goes on.
-std::vector<double> filtered(const std::vector<double>& in, int width, int height, const Kernel& across,
-                             const Kernel& up) {
-  const int radius_x = int(across.size() / 2), radius_y = int(up.size() / 2);
-  const int padded = height + 2 * radius_y;  // rows, of which the first and the last are repeated
-  std::vector<double> rows(size_t(padded) * width), out(in.size());
-  parallel_runs(size_t(height), rows_at_once, [&](size_t first, size_t end) {
+struct FilteredRows {
+  int width, radius;
+  std::vector<double> values;
+};
+
+FilteredRows filtered_rows(const std::vector<double>& in, int width, int height, const Kernel& across,
+                           int radius) {
+  const int padded = height + 2 * radius, reach = int(across.size() / 2);
+  FilteredRows rows{width, radius, std::vector<double>(size_t(padded) * size_t(width))};
+  parallel_runs(size_t(padded), rows_at_once, [&](size_t first, size_t end) {
     std::vector<double> row(size_t(width) + across.size() - 1);
     for (size_t y = first; y < end; ++y) {
-      const double* from = in.data() + y * width;
-      for (size_t x = 0; x < row.size(); ++x) row[x] = from[std::clamp(int(x) - radius_x, 0, width - 1)];
-      filter_row(row.data(), 1, across, width, rows.data() + (y + size_t(radius_y)) * width);
+      const double* from = in.data() + std::clamp(int(y) - radius, 0, height - 1) * std::ptrdiff_t(width);
+      for (size_t x = 0; x < row.size(); ++x) row[x] = from[std::clamp(int(x) - reach, 0, width - 1)];
+      filter_row(row.data(), 1, across, width, rows.values.data() + y * size_t(width));
     }
   });
-  for (int y = 0; y < padded; ++y) {
-    const int from = std::clamp(y, radius_y, radius_y + height - 1);
-    if (y != from)
-      std::copy_n(rows.begin() + std::ptrdiff_t(from) * width, width,
-                  rows.begin() + std::ptrdiff_t(y) * width);
-  }
-  parallel_runs(size_t(height), rows_at_once, [&](size_t first, size_t end) {
-    for (size_t y = first; y < end; ++y)
-      filter_row(rows.data() + y * width, size_t(width), up, width, out.data() + y * width);
-  });
-  return out;
+  return rows;
 }
 
-std::vector<double> channel_of(const Planes& image, int channel) {
-  std::vector<double> values;
-  values.reserve(image.pixels.size());
-  for (const glm::dvec3& pixel : image.pixels) values.push_back(pixel[channel]);
-  return values;
+// The row of that number, filtered along columns by a kernel of the rows' radius.
+void filter_column(const FilteredRows& rows, const Kernel& up, size_t y, double* to) {
+  filter_row(rows.values.data() + y * size_t(rows.width), size_t(rows.width), up, rows.width, to);
 }
 
 // One Gaussian of a contrast sensitivity function: a sqrt(pi / b) exp(-pi^2 d^2 / b), d in degrees.
@@ -153,18 +154,29 @@ Planes seen(const Planes& ycxcz, double pixels_per_degree) {
       {{1, 0.0047}}, {{1, 0.0053}}, {{34.1, 0.04}, {13.5, 0.025}}};
   constexpr double widest = 0.04;
   const int radius = int(std::ceil(3 * std::sqrt(widest / (2 * pi * pi)) * pixels_per_degree));
-  Planes out{ycxcz.width, ycxcz.height, std::vector<glm::dvec3>(ycxcz.pixels.size(), glm::dvec3(0))};
+  Planes out(ycxcz.width, ycxcz.height);
   for (int channel = 0; channel < 3; ++channel) {
-    const std::vector<double> in = channel_of(ycxcz, channel);
     double weights = 0;
+    std::vector<Kernel> kernels;
+    std::vector<FilteredRows> rows;
     for (const Sensitivity& s : sensitivities[channel]) {
-      const Kernel kernel = root_of_gaussian(s, radius, pixels_per_degree);
-      const double sum = std::accumulate(kernel.begin(), kernel.end(), 0.0);
+      kernels.push_back(root_of_gaussian(s, radius, pixels_per_degree));
+      const double sum = std::accumulate(kernels.back().begin(), kernels.back().end(), 0.0);
       weights += sum * sum;
-      const std::vector<double> blurred = filtered(in, ycxcz.width, ycxcz.height, kernel, kernel);
-      for (size_t i = 0; i < blurred.size(); ++i) out.pixels[i][channel] += blurred[i];
+      rows.push_back(
+          filtered_rows(ycxcz.channels[channel], ycxcz.width, ycxcz.height, kernels.back(), radius));
     }
-    for (glm::dvec3& pixel : out.pixels) pixel[channel] /= weights;
+    parallel_runs(size_t(ycxcz.height), rows_at_once, [&](size_t first, size_t end) {
+      std::vector<double> blurred(size_t(ycxcz.width));
+      for (size_t y = first; y < end; ++y) {
+        double* to = out.channels[channel].data() + y * size_t(ycxcz.width);
+        for (size_t i = 0; i < kernels.size(); ++i) {
+          filter_column(rows[i], kernels[i], y, blurred.data());
+          for (size_t x = 0; x < blurred.size(); ++x) to[x] += blurred[x];
+        }
+        for (size_t x = 0; x < blurred.size(); ++x) to[x] /= weights;
+      }
+    });
   }
   return out;
 }
@@ -183,13 +195,27 @@ Features features_of(const Planes& ycxcz, double pixels_per_degree) {
   Kernel edge = sampled(radius, [&](double x) { return -x * gaussian(x); });
   Kernel point = sampled(radius, [&](double x) { return (x * x / (sigma * sigma) - 1) * gaussian(x); });
   for (Kernel* kernel : {&smooth, &edge, &point}) normalize(*kernel);
-  std::vector<double> lightness = channel_of(ycxcz, 0);
-  for (double& value : lightness) value = (value + 16) / 116;
+  std::vector<double> lightness(ycxcz.pixels());
+  parallel_runs(lightness.size(), pixels_at_once, [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) lightness[i] = (ycxcz.channels[0][i] + 16) / 116;
+  });
+  const auto rows_of = [&](const Kernel& across) {
+    return filtered_rows(lightness, ycxcz.width, ycxcz.height, across, radius);
+  };
+  const FilteredRows smoothed = rows_of(smooth);
   const auto magnitude = [&](const Kernel& derivative) {
-    std::vector<double> across = filtered(lightness, ycxcz.width, ycxcz.height, derivative, smooth);
-    const std::vector<double> up = filtered(lightness, ycxcz.width, ycxcz.height, smooth, derivative);
-    for (size_t i = 0; i < across.size(); ++i) across[i] = std::sqrt(across[i] * across[i] + up[i] * up[i]);
-    return across;
+    const FilteredRows derived = rows_of(derivative);
+    std::vector<double> out(lightness.size());
+    parallel_runs(size_t(ycxcz.height), rows_at_once, [&](size_t first, size_t end) {
+      std::vector<double> up(size_t(ycxcz.width));
+      for (size_t y = first; y < end; ++y) {
+        double* across = out.data() + y * size_t(ycxcz.width);
+        filter_column(derived, smooth, y, across);
+        filter_column(smoothed, derivative, y, up.data());
+        for (size_t x = 0; x < up.size(); ++x) across[x] = std::sqrt(across[x] * across[x] + up[x] * up[x]);
+      }
+    });
+    return out;
   };
   return {magnitude(edge), magnitude(point)};
 }
@@ -212,12 +238,12 @@ double color_difference(const glm::dvec3& test, const glm::dvec3& reference) {
 }
 
 Planes ycxcz_of(const Image& image) {
-  Planes planes{image.width, image.height, std::vector<glm::dvec3>(image.pixels.size())};
+  Planes planes(image.width, image.height);
   parallel_runs(image.pixels.size(), pixels_at_once, [&](size_t first, size_t end) {
     for (size_t i = first; i < end; ++i) {
       const glm::vec4& pixel = image.pixels[i];
       const glm::dvec3 rgb = has_nan(pixel) ? glm::dvec3(0) : glm::clamp(glm::dvec3(pixel), 0.0, 1.0);
-      planes.pixels[i] = ycxcz_from_rgb(rgb);
+      planes.set(i, ycxcz_from_rgb(rgb));
     }
   });
   return planes;
@@ -229,31 +255,31 @@ Planes ycxcz_of(const Image& image) {
 struct SeenImage {
   Planes color;  // Hunt-adjusted CIELAB of what an eye sees
   Features features;
-  std::vector<bool> nan;
+  std::vector<uint8_t> nan;  // 1: the pixel is
 };
 
 namespace {
 
 SeenImage seen_image(const Image& image, double pixels_per_degree) {
   const Planes opponent = ycxcz_of(image);
-  SeenImage s{seen(opponent, pixels_per_degree), features_of(opponent, pixels_per_degree), {}};
-  parallel_runs(s.color.pixels.size(), pixels_at_once, [&](size_t first, size_t end) {
+  SeenImage s{seen(opponent, pixels_per_degree), features_of(opponent, pixels_per_degree),
+              std::vector<uint8_t>(image.pixels.size())};
+  parallel_runs(image.pixels.size(), pixels_at_once, [&](size_t first, size_t end) {
     for (size_t i = first; i < end; ++i) {
-      glm::dvec3& pixel = s.color.pixels[i];
-      pixel = hunt_lab_from_rgb(glm::clamp(rgb_from_ycxcz(pixel), 0.0, 1.0));
+      s.color.set(i, hunt_lab_from_rgb(glm::clamp(rgb_from_ycxcz(s.color.at(i)), 0.0, 1.0)));
+      s.nan[i] = has_nan(image.pixels[i]);
     }
   });
-  for (const glm::vec4& pixel : image.pixels) s.nan.push_back(has_nan(pixel));
   return s;
 }
 
 std::vector<float> difference_map(const SeenImage& test, const SeenImage& reference) {
   assert(test.color.width == reference.color.width && test.color.height == reference.color.height);
   const Features &f = test.features, &g = reference.features;
-  std::vector<float> map(test.color.pixels.size());
+  std::vector<float> map(test.color.pixels());
   parallel_runs(map.size(), pixels_at_once, [&](size_t first, size_t end) {
     for (size_t i = first; i < end; ++i) {
-      const double color = color_difference(test.color.pixels[i], reference.color.pixels[i]);
+      const double color = color_difference(test.color.at(i), reference.color.at(i));
       const double difference =
           std::max(std::abs(f.edges[i] - g.edges[i]), std::abs(f.points[i] - g.points[i]));
       const double feature = std::sqrt(difference / std::numbers::sqrt2);
@@ -281,21 +307,29 @@ double inverse_aces(double out) {
 Image exposed(const Image& image, double stops) {
   const double factor = std::exp2(stops);
   Image out = image;
-  for (glm::vec4& pixel : out.pixels) {
-    for (int c = 0; c < 3; ++c) {
-      const double x = std::max(double(pixel[c]), 0.0) * factor;
-      if (!std::isnan(pixel[c])) pixel[c] = std::isinf(x) ? 1.0f : float(aces(x));
+  parallel_runs(out.pixels.size(), pixels_at_once, [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) {
+      glm::vec4& pixel = out.pixels[i];
+      for (int c = 0; c < 3; ++c) {
+        const double x = std::max(double(pixel[c]), 0.0) * factor;
+        if (!std::isnan(pixel[c])) pixel[c] = std::isinf(x) ? 1.0f : float(aces(x));
+      }
     }
-  }
+  });
   return out;
 }
 
 // Of a PNG file's bytes, row 0 at the top as there.
 SeenImage seen_on_display(const std::vector<uint8_t>& bytes, int width, int height) {
+  std::array<float, 256> linear_of;
+  for (size_t byte = 0; byte < linear_of.size(); ++byte)
+    linear_of[byte] = linear_from_srgb(float(byte) / 255);
   Image linear(width, height);
-  for (size_t i = 0; i < linear.pixels.size(); ++i) {
-    for (int c = 0; c < 3; ++c) linear.pixels[i][c] = linear_from_srgb(float(bytes[3 * i + size_t(c)]) / 255);
-  }
+  parallel_runs(linear.pixels.size(), pixels_at_once, [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) {
+      for (int c = 0; c < 3; ++c) linear.pixels[i][c] = linear_of[bytes[3 * i + size_t(c)]];
+    }
+  });
   return seen_image(linear, default_pixels_per_degree);
 }
 
@@ -327,21 +361,20 @@ std::optional<FlipExposures> flip_exposures(const Image& reference) {
 }
 
 HdrFlip::HdrFlip(const Image& reference, const FlipExposures& exposures, double pixels_per_degree) {
-  const auto images = std::make_shared<std::vector<SeenImage>>(size_t(exposures.count));  // one an exposure
+  const auto images = std::make_shared<std::vector<SeenImage>>();  // one an exposure
   const auto seen_at = [=](const Image& image, int i) {
     const double step = exposures.count > 1 ? (exposures.stop - exposures.start) / (exposures.count - 1) : 0;
     return seen_image(exposed(image, exposures.start + i * step), pixels_per_degree);
   };
-  parallel_for(exposures.count, [&](int i) { images->at(size_t(i)) = seen_at(reference, i); });
+  for (int i = 0; i < exposures.count; ++i) images->push_back(seen_at(reference, i));
   map_at_ = [=](const Image& test, int i) { return difference_map(seen_at(test, i), images->at(size_t(i))); };
   count_ = exposures.count;
 }
 
 std::vector<float> HdrFlip::map(const Image& test) const {
-  std::vector<std::vector<float>> maps(static_cast<size_t>(count_));
-  parallel_for(count_, [&](int i) { maps[size_t(i)] = map_at_(test, i); });
   std::vector<float> worst(test.pixels.size(), 0.0f);
-  for (const std::vector<float>& map : maps) {
+  for (int i = 0; i < count_; ++i) {
+    const std::vector<float> map = map_at_(test, i);
     for (size_t k = 0; k < map.size(); ++k) worst[k] = std::max(worst[k], map[k]);
   }
   return worst;

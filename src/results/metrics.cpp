@@ -27,66 +27,89 @@ double channel_error(double a, double b) {
   return std::isnan(error) ? infinite : error;
 }
 
+// The sums of some pixels.
+struct Sums {
+  double luminance = 0, light = 0, reference_light = 0;  // of the reference, of all channels of either
+  double squares = 0, relative_squares = 0, largest = 0;
+  Sums& operator+=(const Sums& other) {
+    luminance += other.luminance, light += other.light, reference_light += other.reference_light;
+    squares += other.squares, relative_squares += other.relative_squares;
+    largest = std::max(largest, other.largest);
+    return *this;
+  }
+};
+
+// Over all pixels, each by add(pixel, sums), on all cores. Added up in one order, whatever their number.
+template <typename Add>
+Sums sums_of(size_t pixels, const Add& add) {
+  std::vector<Sums> runs((pixels + pixels_at_once - 1) / pixels_at_once);
+  parallel_runs(pixels, pixels_at_once, [&](size_t first, size_t end) {
+    Sums sums;
+    for (size_t i = first; i < end; ++i) add(i, sums);
+    runs[first / pixels_at_once] = sums;
+  });
+  return std::accumulate(runs.begin(), runs.end(), Sums(),
+                         [](Sums all, const Sums& run) { return all += run; });
+}
+
 // `reference_at`: the pixel of that number.
 template <typename ReferenceAt>
 ImageDifference difference_of(const Image& image, const ReferenceAt& reference_at, double brightest) {
-  ImageDifference difference{.pixels = image.pixels.size(), .brightest = brightest};
-  std::vector<double> largest(image.pixels.size()), squares(image.pixels.size()),
-      relative_squares(image.pixels.size());
-  parallel_runs(image.pixels.size(), pixels_at_once, [&](size_t first, size_t end) {
-    for (size_t i = first; i < end; ++i) {
-      const glm::dvec3 reference = reference_at(i);
-      for (int c = 0; c < 3; ++c) {
-        const double error = channel_error(image.pixels[i][c], reference[c]);
-        if (error == 0) continue;
-        largest[i] = std::max(largest[i], error);
-        squares[i] += error * error;
-        const double over = std::max(reference[c], least_channel * brightest);
-        const double relative = over > 0 ? error / over : infinite;
-        relative_squares[i] += relative * relative;
-      }
+  std::vector<double> largest(image.pixels.size());
+  const Sums sums = sums_of(image.pixels.size(), [&](size_t i, Sums& of_run) {
+    const glm::dvec3 reference = reference_at(i);
+    for (int c = 0; c < 3; ++c) {
+      const double error = channel_error(image.pixels[i][c], reference[c]);
+      if (error == 0) continue;
+      largest[i] = std::max(largest[i], error);
+      of_run.squares += error * error;
+      const double over = std::max(reference[c], least_channel * brightest);
+      const double relative = over > 0 ? error / over : infinite;
+      of_run.relative_squares += relative * relative;
     }
+    of_run.largest = std::max(of_run.largest, largest[i]);
   });
-  for (size_t i = 0; i < largest.size(); ++i) {
-    difference.sum_of_squares += squares[i];
-    difference.sum_of_relative_squares += relative_squares[i];
-    difference.largest = std::max(difference.largest, largest[i]);
-  }
-  difference.percentile_99 = percentile_99(std::move(largest));
-  return difference;
+  return {.pixels = image.pixels.size(),
+          .largest = sums.largest,
+          .percentile_99 = percentile_99(std::move(largest)),
+          .sum_of_squares = sums.squares,
+          .sum_of_relative_squares = sums.relative_squares,
+          .brightest = brightest};
 }
 
 constexpr double dim = 0.01;  // of the mean luminance: what relative errors of dark pixels are over
 constexpr size_t trimmed_one_of = 1000;
 constexpr int low_pass_px = 16;
 
-// The sum of each `window` values beside each other, `stride` apart from the first of `count`.
-void add_up(const double* values, size_t stride, int count, int window, double* sums, size_t sum_stride) {
-  double sum = 0;
-  for (int i = 0; i < count; ++i) {
-    sum += values[size_t(i) * stride];
-    if (i >= window) sum -= values[size_t(i - window) * stride];
-    if (i >= window - 1) sums[size_t(i - window + 1) * sum_stride] = sum;
+// The sum over each square of low_pass_px within one channel of the image, squared, of all of them.
+double low_pass_squares(const std::vector<double>& errors, int width, int height) {
+  const int across = std::min(low_pass_px, width), up = std::min(low_pass_px, height);
+  const size_t columns = size_t(width - across + 1);
+  std::vector<double> in_rows(columns * size_t(height)), in_squares(columns, 0.0);
+  double squares = 0;
+  for (int y = 0; y < height; ++y) {
+    const double* row = &errors[size_t(y) * size_t(width)];
+    double sum = 0;
+    for (int x = 0; x < width; ++x) {
+      sum += row[x];
+      if (x >= across) sum -= row[x - across];
+      if (x >= across - 1) in_rows[size_t(y) * columns + size_t(x - across + 1)] = sum;
+    }
+    for (size_t x = 0; x < columns; ++x) {
+      in_squares[x] += in_rows[size_t(y) * columns + x];
+      if (y >= up) in_squares[x] -= in_rows[size_t(y - up) * columns + x];
+      if (y >= up - 1) squares += in_squares[x] * in_squares[x];
+    }
   }
+  return squares;
 }
 
-// The mean square of the means over each square of low_pass_px within the image.
-double low_pass_mean_square(const std::vector<glm::dvec3>& errors, int width, int height) {
+// Of the sum of these over all channels, the mean square of the means over squares.
+double low_pass_mean_square(double squares, int width, int height) {
   const int across = std::min(low_pass_px, width), up = std::min(low_pass_px, height);
-  const int columns = width - across + 1, rows = height - up + 1;
-  std::vector<double> channel(errors.size()), in_rows(size_t(columns) * size_t(height)),
-      in_squares(size_t(columns) * size_t(rows));
-  double squares = 0;
-  for (int c = 0; c < 3; ++c) {
-    for (size_t i = 0; i < errors.size(); ++i) channel[i] = errors[i][c];
-    for (int y = 0; y < height; ++y)
-      add_up(&channel[size_t(y) * size_t(width)], 1, width, across, &in_rows[size_t(y) * size_t(columns)], 1);
-    for (int x = 0; x < columns; ++x)
-      add_up(&in_rows[size_t(x)], size_t(columns), height, up, &in_squares[size_t(x)], size_t(columns));
-    for (const double sum : in_squares) squares += sum * sum;
-  }
-  const double pixels = double(across) * double(up);
-  return squares / (3 * double(in_squares.size()) * pixels * pixels);
+  const double pixels = double(across) * double(up),
+               places = double(width - across + 1) * double(height - up + 1);
+  return squares / (3 * places * pixels * pixels);
 }
 
 // Their mean, and that without the largest thousandth.
@@ -103,43 +126,49 @@ template <typename ReferenceAt>
 LightDifference light_difference_of(const Image& image, const ReferenceAt& reference_at, int width,
                                     int height) {
   const size_t pixels = image.pixels.size();
-  double luminance = 0, sum = 0, reference_sum = 0, squares = 0;
-  for (size_t i = 0; i < pixels; ++i) {
+  const Sums light_sums = sums_of(pixels, [&](size_t i, Sums& of_run) {
     const glm::dvec3 t = reference_at(i);
-    luminance += (0.2126 * t.r + 0.7152 * t.g + 0.0722 * t.b) / double(pixels);
-    reference_sum += t.r + t.g + t.b;
-    sum += double(image.pixels[i].r) + double(image.pixels[i].g) + double(image.pixels[i].b);
-  }
-  const double e = dim * luminance;
-  std::vector<double> rel_mse(pixels), smape(pixels);
-  std::vector<glm::dvec3> errors(pixels);
-  parallel_runs(pixels, pixels_at_once, [&](size_t first, size_t end) {
-    for (size_t i = first; i < end; ++i) {
-      const glm::dvec3 t = reference_at(i), x(image.pixels[i]);
-      for (int c = 0; c < 3; ++c) {
-        const double error = channel_error(x[c], t[c]);
-        if (error == 0) continue;
-        errors[i][c] = error < infinite ? x[c] - t[c] : infinite;
-        rel_mse[i] += error < infinite ? error * error / (t[c] * t[c] + e * e) / 3 : infinite;
-        smape[i] += error < infinite ? error / (std::abs(x[c]) + std::abs(t[c]) + e) / 3 : infinite;
-      }
-    }
+    of_run.luminance += (0.2126 * t.r + 0.7152 * t.g + 0.0722 * t.b) / double(pixels);
+    of_run.reference_light += t.r + t.g + t.b;
+    of_run.light += double(image.pixels[i].r) + double(image.pixels[i].g) + double(image.pixels[i].b);
   });
-  for (const glm::dvec3& error : errors) squares += glm::dot(error, error);
+  const double luminance = light_sums.luminance, e = dim * luminance;
+  std::vector<double> rel_mse(pixels), smape(pixels), errors[3];
+  for (std::vector<double>& channel : errors) channel.resize(pixels);
+  const double squares = sums_of(pixels, [&](size_t i, Sums& of_run) {
+                           const glm::dvec3 t = reference_at(i), x(image.pixels[i]);
+                           for (int c = 0; c < 3; ++c) {
+                             const double error = channel_error(x[c], t[c]);
+                             if (error == 0) continue;
+                             const bool finite = error < infinite;
+                             errors[c][i] = finite ? x[c] - t[c] : infinite;
+                             of_run.squares += errors[c][i] * errors[c][i];
+                             rel_mse[i] += finite ? error * error / (t[c] * t[c] + e * e) / 3 : infinite;
+                             smape[i] +=
+                                 finite ? error / (std::abs(x[c]) + std::abs(t[c]) + e) / 3 : infinite;
+                           }
+                         }).squares;
   LightDifference light;
   const auto over = [&](double error, double of) { return error == 0 ? 0 : of > 0 ? error / of : infinite; };
-  parallel_for(3, [&](int measure) {
-    if (measure == 0) {
+  const bool has_low_pass = width > 0 && squares < infinite;
+  double low_pass[3] = {};
+  parallel_for(5, [&](int task) {
+    if (task == 0)
       std::tie(light.rel_mse, light.rel_mse_trimmed) = means_of(std::move(rel_mse));
-    } else if (measure == 1) {
+    else if (task == 1)
       std::tie(light.smape, light.smape_trimmed) = means_of(std::move(smape));
-    } else if (width > 0) {
-      light.low_pass_rmse_of_mean =
-          squares < infinite ? over(std::sqrt(low_pass_mean_square(errors, width, height)), luminance)
-                             : infinite;
-    }
+    else if (has_low_pass)
+      low_pass[task - 2] = low_pass_squares(errors[task - 2], width, height);
   });
-  light.energy_rel = squares < infinite ? over(sum - reference_sum, reference_sum) : infinite;
+  if (has_low_pass) {
+    const double mean = low_pass_mean_square(low_pass[0] + low_pass[1] + low_pass[2], width, height);
+    light.low_pass_rmse_of_mean = over(std::sqrt(mean), luminance);
+  } else if (width > 0) {
+    light.low_pass_rmse_of_mean = infinite;
+  }
+  light.energy_rel = squares < infinite
+                         ? over(light_sums.light - light_sums.reference_light, light_sums.reference_light)
+                         : infinite;
   light.rmse_of_mean = over(std::sqrt(squares / (3.0 * double(pixels))), luminance);
   return light;
 }
@@ -282,18 +311,24 @@ double ChangeOfError::rmse() const { return channels_ > 0 ? std::sqrt(squares_ /
 void BiasOfPictures::add(const Image& image, const Image& truth) {
   std::vector<glm::vec3>& errors = errors_[count_++ % groups];
   errors.resize(image.pixels.size(), glm::vec3(0));
-  for (size_t i = 0; i < errors.size(); ++i) errors[i] += glm::vec3(image.pixels[i] - truth.pixels[i]);
+  parallel_runs(errors.size(), pixels_at_once, [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) errors[i] += glm::vec3(image.pixels[i] - truth.pixels[i]);
+  });
 }
 
 // A U-statistic of the groups' means, and what it is without each of them in turn.
 BiasOfPictures::Estimate BiasOfPictures::estimate() const {
   assert(count_ >= groups && count_ % groups == 0);
+  double products[groups * groups] = {};  // of a and each b < a
+  parallel_for(groups * groups, [&](int pair) {
+    const std::vector<glm::vec3>&a = errors_[pair / groups], &b = errors_[pair % groups];
+    if (pair % groups >= pair / groups) return;
+    for (size_t i = 0; i < a.size(); ++i) products[pair] += glm::dot(glm::dvec3(a[i]), glm::dvec3(b[i]));
+  });
   double with_others[groups] = {}, all = 0;  // sums of products with other groups, each pair twice
   for (int a = 0; a < groups; ++a) {
     for (int b = 0; b < a; ++b) {
-      double product = 0;
-      for (size_t i = 0; i < errors_[a].size(); ++i)
-        product += glm::dot(glm::dvec3(errors_[a][i]), glm::dvec3(errors_[b][i]));
+      const double product = products[a * groups + b];
       with_others[a] += product, with_others[b] += product, all += 2 * product;
     }
   }
