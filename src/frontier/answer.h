@@ -180,7 +180,7 @@ struct FrontierAnswer {
   std::vector<BreakEven> break_even;
   std::vector<ShadingCost> shading_costs;
   std::vector<Growth> growth;
-  std::vector<EqualFlip> equal_flip;
+  std::vector<EqualFlip> equal_flip, device_equal_flip;  // by the wall, by the devices' clocks
   std::vector<Failure> failures;
   std::vector<std::string> sentences;  // one paragraph, sentence by sentence
 };

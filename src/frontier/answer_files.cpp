@@ -412,6 +412,7 @@ json to_json(const FrontierAnswer& answer) {
           {"shading_costs", array_of(answer.shading_costs, cost_json)},
           {"growth", array_of(answer.growth, growth_json)},
           {"equal_flip", array_of(answer.equal_flip, equal_flip_json)},
+          {"device_equal_flip", array_of(answer.device_equal_flip, equal_flip_json)},
           {"failures", array_of(answer.failures, failure_json)}};
 }
 

@@ -174,8 +174,9 @@ void set_device_figures(FrontierAnswer& answer) {
   answer.device_cheapest_within = cheapest_within_of(points, answer.device_controls);
   std::erase_if(answer.device_cheapest_within,
                 [](const CheapestWithin& best) { return best.relative_time.runs == 0; });
+  answer.device_equal_flip = equal_flip_of(records);
   answer.by_device = !answer.machines.empty() && answer.machines.front().cl_kind == "GPU" &&
-                     !answer.device_front_bands.empty();
+                     (!answer.device_front_bands.empty() || !answer.device_equal_flip.empty());
 }
 
 bool draws_in_opencl(const std::string& label) {

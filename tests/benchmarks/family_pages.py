@@ -27,18 +27,19 @@ def plain(label):
 
 
 class Families:
-    """answer, text: of a part, as JSON and its lines; on_gpu: the rows of another one's frontier.csv."""
+    """answer, text: of a part, as JSON and its lines; on_gpu: the rows of another one's frontier.csv; gpu_answer: and its JSON."""
 
-    def __init__(self, answer, text, on_gpu, three, table):
-        self.answer, self.on_gpu, self.three, self.table = answer, on_gpu, three, table
+    def __init__(self, answer, text, on_gpu, gpu_answer, three, table):
+        self.answer, self.on_gpu, self.gpu_answer, self.three, self.table = answer, on_gpu, gpu_answer, three, table
         self.records = [json.loads(line)["open"] for line in text.splitlines() if line.startswith('{"open"')]
         self.techniques = list(dict.fromkeys(r["technique"] for r in self.records))
 
     def growth(self, technique, series):
         return next((g for g in self.answer["growth"] if g["of"] == series and plain(g["technique"]) == technique), None)
 
-    def curves(self, series, of, flip):
-        return {e["technique"]: e for e in self.answer["equal_flip"] if (e["series"], e["of"], e["flip"]) == (series, of, flip)}
+    def curves(self, series, of, flip, on_gpu=False):
+        all_curves = self.gpu_answer["device_equal_flip"] if on_gpu else self.answer["equal_flip"]
+        return {e["technique"]: e for e in all_curves if (e["series"], e["of"], e["flip"]) == (series, of, flip)}
 
     def steps(self, series):
         return sorted({(r["lights"], r["overlap"]) for r in self.records if r["series"] == series})
@@ -82,21 +83,26 @@ class Families:
             rows.append(row)
         return self.table(["technique as it is", "exponent over lights", "ms", "exponent over the overlap", "ms"], rows)
 
-    def made_equal(self, series, of, flip):
+    def made_equal(self, series, of, flip, on_gpu=False):
         series = series.replace("-", " ")
-        curves = self.curves(series, of, float(flip))
+        curves = self.curves(series, of, float(flip), on_gpu)
         steps = self.steps(series)
+        if on_gpu:
+            steps = sorted({(int(r["lights"]), float(r["overlap"])) for r in self.on_gpu if r["series"] == series})
         x_of = (lambda s: s[0]) if series == "equal overlap" else (lambda s: s[1])
         rows = []
         for technique in self.techniques:
             curve = curves.get(technique)
             row = [f"`{technique}`"]
             for step in steps:
-                sample = next((s for s in curve["samples"] if s["x"] == x_of(step)), None) if curve else None
+                sample = next((s for s in curve["samples"] if math.isclose(s["x"], x_of(step), rel_tol=1e-6)), None) if curve else None
                 settings = sample["label"].partition(":")[2].replace("raster=opencl", "").strip(",") if sample else ""
                 row.append(f"{self.three(sample['ms'])}{f' `{settings}`' if settings else ''}" if sample else "-")
             rows.append(row + [f"{curve['exponent']:.2f}" if curve and len(curve["samples"]) > 1 else "-"])
         return self.table(["technique", *(self.step_name(series, s) for s in steps), "exponent"], rows)
+
+    def made_device_equal(self, *what):
+        return self.made_equal(*what, on_gpu=True)
 
     def made_device(self, series):
         """Milliseconds on the devices of each technique as it is, and of the light tree."""
@@ -122,7 +128,7 @@ class Families:
 
     def made(self, what):
         return {"machine": self.made_machine, "steps": self.made_steps, "growth": self.made_growth, "equal": self.made_equal,
-                "device": self.made_device, "refused": self.made_refused}[what[0]](*what[1:])
+                "device": self.made_device, "device-equal": self.made_device_equal, "refused": self.made_refused}[what[0]](*what[1:])
 
     # --- Pictures
 

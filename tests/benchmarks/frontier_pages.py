@@ -316,7 +316,7 @@ def files_of(program):
         files[SAMPLES / f"{name}.csv"] = out.getvalue()
     text = lzma.decompress((SAMPLES / f"{FAMILIES}.jsonl.xz").read_bytes()).decode()
     on_gpu = list(csv.DictReader(io.StringIO(merged(program, SAMPLES / f"{FAMILIES_ON_GPU}.jsonl.xz", "frontier.csv"))))
-    families = family_pages.Families(answer_of(program, FAMILIES), text, on_gpu, three, table)
+    families = family_pages.Families(answer_of(program, FAMILIES), text, on_gpu, answer_of(program, FAMILIES_ON_GPU), three, table)
     files[FAMILIES_PAGE] = made_page(FAMILIES_PAGE.read_text(), {FAMILIES: families})
     files |= {path: getattr(families, name)() for path, name in FAMILIES_PICTURES.items()}
     return files

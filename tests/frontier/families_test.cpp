@@ -177,5 +177,23 @@ TEST(EqualFlips, AreTheCheapestPointsWithinTheErrorOnTheOtherRounds) {
   EXPECT_NEAR(answer.equal_flip[3].exponent, std::log10(2), 1e-9);
 }
 
+// By the devices' clocks another point is the cheapest; times are theirs.
+TEST(EqualFlips, AreAlsoOfTheDevicesClocks) {
+  std::vector<FrontierRecord> records = {of_family("exact", 100, 5, 0), of_family("rough", 100, 1, 0.05)};
+  EXPECT_TRUE(answer_from(records).device_equal_flip.empty()) << "no device had a clock";
+  for (FrontierRecord& r : records) {
+    const double ms = r.point.label == "exact" ? 0.25 : 0.5;
+    r.device_ms = {ms, 2 * ms, ms, 2 * ms}, r.baseline_device_ms = {1, 1, 1, 1};
+    r.hand_over_ms = r.copy_ms = r.read_back_ms = {0, 0, 0, 0};
+  }
+  const FrontierAnswer answer = answer_from(records);
+  ASSERT_THAT(answer.device_equal_flip, SizeIs(4));  // one an error
+  for (const EqualFlip& e : answer.device_equal_flip) {
+    EXPECT_EQ(e.samples.front().label, "exact") << e.error;
+    EXPECT_EQ(e.samples.front().ms, 0.5) << e.error;
+  }
+  EXPECT_EQ(answer.equal_flip.back().samples.front().label, "rough");
+}
+
 }  // namespace
 }  // namespace lightgrid

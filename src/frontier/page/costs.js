@@ -96,19 +96,19 @@ function showPlots(id, plots) {
 }
 
 function equalFlipPlot(scene, series, flip) {
-  const curves = page.equal_flip.filter(
+  const curves = state.clock.equalFlip.filter(
       (curve) => curve.scene === scene && curve.series === series && curve.flip === flip &&
           curve.of === state.reference);
   if (curves.length === 0) return null;
   const area = {left: 60, right: PLOT_WIDTH - 20, top: 36, bottom: 320};
   // All plots of a series have the same axes.
   const all =
-      page.equal_flip
+      state.clock.equalFlip
           .filter((curve) => curve.scene === scene && curve.series === series && curve.of === state.reference)
           .flatMap((curve) => curve.samples);
   const x = logAxis(all.map((at) => at.x), area.left, area.right),
         y = logAxis(all.map((at) => at.ms), area.bottom, area.top);
-  const title = `Time at a FLIP of ${flip} over ${SERIES[series][0]}: ${sceneTitle(scene)}`;
+  const title = `Time${state.clock.words} at a FLIP of ${flip} over ${SERIES[series][0]}: ${sceneTitle(scene)}`;
   const marks = curves.flatMap(
       ({technique, samples}) =>
           [polyline(
@@ -125,7 +125,7 @@ function equalFlipPlot(scene, series, flip) {
     name: `flip-${flip}-${series.replace(' ', '-')}-${sceneTitle(scene)}`,
     svg: drawing(
         PLOT_WIDTH, 390 + 20 * Math.ceil(curves.length / 3), title, ...acrossAxis(x, SERIES[series][1], area),
-        ...alongAxis(y, 'ms a frame', area), ...marks,
+        ...alongAxis(y, `ms a frame${state.clock.words}`, area), ...marks,
         ...markedNames(
             curves.map(({technique}) => ({technique, text: technique})), area.left, area.bottom + 64, 3,
             area.right - area.left))
@@ -157,7 +157,7 @@ function showPasses(scene) {
 
 function showCosts(scene) {
   showPasses(scene);
-  const flips = [...new Set(page.equal_flip.map((curve) => curve.flip))].sort((a, b) => a - b);
+  const flips = [...new Set(state.clock.equalFlip.map((curve) => curve.flip))].sort((a, b) => a - b);
   showPlots('equal-flip', [
     'equal overlap', 'overlap'
   ].flatMap((series) => flips.map((flip) => equalFlipPlot(scene, series, flip))));

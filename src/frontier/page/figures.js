@@ -40,8 +40,8 @@ const ERRORS = [...ERROR_KINDS.flatMap((kind) => ERROR_MEASURES.map((measure) =>
   ...["Leaked", "Acned"].map((title) => ({ key: title.toLowerCase(), title: `${title} pairs, %`, short: title,
     value: (point) => point[`${title.toLowerCase()}_percent`] ?? null, text: percentText }))];
 // What wall time and the devices' time have each: the relative time, fronts and their bands, cheapest points, milliseconds.
-const WALL = { relative: (point) => point.relative_time, fronts: (point) => point.fronts, bands: page.flip_front_bands, within: page.cheapest_within_flip, ms: (point) => point.frame_ms, words: "" };
-const DEVICE = { relative: (point) => point.relative_device_time, fronts: (point) => point.device_fronts, bands: page.device_flip_front_bands, within: page.device_cheapest_within_flip, ms: (point) => point.device_ms,
+const WALL = { relative: (point) => point.relative_time, fronts: (point) => point.fronts, bands: page.flip_front_bands, within: page.cheapest_within_flip, equalFlip: page.equal_flip, ms: (point) => point.frame_ms, words: "" };
+const DEVICE = { relative: (point) => point.relative_device_time, fronts: (point) => point.device_fronts, bands: page.device_flip_front_bands, within: page.device_cheapest_within_flip, equalFlip: page.device_equal_flip, ms: (point) => point.device_ms,
   words: " by the devices' clocks" };
 const COSTS = [
   { key: "relative", clock: WALL, title: "Time, over the baseline's", value: (point) => point.relative_time.estimate, text: threeDigits, time: true },

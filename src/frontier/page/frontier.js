@@ -260,6 +260,7 @@ function startChoices() {
       if (!state.x.clock || state.x.clock === state.clock) return redraw();
       state.clock = state.x.clock;  // that fronts are of, also while the axis shows no clock's time
       showFigures();
+      showCosts(state.scene);
       choosePoint(state.selected);
     });
   }
