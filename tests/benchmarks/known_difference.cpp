@@ -1,8 +1,10 @@
 // Whether `lightgrid frontier` finds what is there: sweeps of two points, with all of the command's code. One
 // is the baseline, forward_plus, as the controls. The other draws the same and first does nothing for 2 % of
-// the time of a frame. Prints each sweep, and in how many of them the intervals hold 1 and 1.02, the
-// estimates are within 1 % of these, and the 2 % are found.
-//   known_difference [--device NAME] [SCENE [SIZE [SWEEPS [SECONDS]]]]    of a sweep; by default 20 of 22 s
+// the time of a frame; where times are of the devices' clocks, a kernel does, of which one work item counts.
+// Prints each sweep, and in how many of them the intervals hold 1 and 1.02, the estimates are within 1 % of
+// these, and the 2 % are found.
+//   known_difference [--device NAME] [--clock wall|device] [SCENE [SIZE [SWEEPS [SECONDS]]]]
+// of a sweep; by default 20 of 22 s by the wall's clock.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -10,6 +12,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "cl/launch.h"
 #include "frontier/answer.h"
 #include "frontier/measure.h"
 
@@ -17,19 +20,59 @@ namespace lightgrid {
 namespace {
 
 constexpr double planted = 0.02;
-double wait_ms = 0;  // before each frame of the second point
+// Before each frame of the second point:
+double wait_ms = 0;
+cl_uint steps = 0;  // of the kernel; 0: none
+cl::Kernel count_up;
+cl::Buffer counted;
+
+constexpr char kernel_text[] = R"(
+kernel void count_up(global uint* out, uint steps) {
+  uint x = steps;
+  for (uint i = 0; i < steps; ++i) x = x * 1664525u + 1013904223u;
+  *out = x;
+})";
+
+void make_kernel(ClDevice& device) {
+  cl::Program program(device.context(), kernel_text);
+  program.build();
+  count_up = cl::Kernel(program, "count_up");
+  counted = cl::Buffer(device.context(), CL_MEM_READ_WRITE, sizeof(cl_uint));
+}
 
 Frame render_late(RenderView& v) {
   const Timer timer;
   while (timer.elapsed_ms() < wait_ms) {
   }
+  if (steps > 0) launch(*v.renderer.cl, "count_up", count_up, cl::NDRange(1), cl::NDRange(1), counted, steps);
   return find_technique("forward_plus").render(v);
 }
 
-double frame_ms(Renderer& renderer, const ChosenScene& chosen) {
-  TechniqueRun run(renderer, chosen.scene, chosen.view, Settings{}, find_technique("forward_plus"));
-  for (int frame = 0; frame < 35; ++frame) run.run_frame(frame < 5);
-  return spread_of(run.frame_ms()).median;
+// By the wall or, with a clock, by the devices'.
+double frame_ms(Renderer& renderer, const ChosenScene& chosen, DeviceClock* clock,
+                const Technique& technique) {
+  TechniqueRun run(renderer, chosen.scene, chosen.view, Settings{}, technique);
+  std::vector<double> of_devices;
+  for (int frame = 0; frame < 35; ++frame) {
+    if (clock) clock->start();
+    run.run_frame(frame < 5);
+    if (!clock) continue;
+    const std::optional<DeviceTimes> times = clock->stop();
+    if (!times) throw machine_error("known_difference: no clock of the devices here");
+    if (frame >= 5) of_devices.push_back(times->device_ms);
+  }
+  return spread_of(clock ? of_devices : run.frame_ms()).median;
+}
+
+// So many steps that the kernel adds the planted share to a frame: of two measured numbers of them.
+cl_uint planted_steps(Renderer& renderer, const ChosenScene& chosen, DeviceClock& clock,
+                      const Technique& late) {
+  constexpr cl_uint many = 2'000'000;
+  steps = 0;
+  const double without = frame_ms(renderer, chosen, &clock, late);
+  steps = many;
+  const double with = frame_ms(renderer, chosen, &clock, late);
+  return cl_uint(planted * without / (with - without) * many);
 }
 
 struct Count {
@@ -47,11 +90,14 @@ std::string in_words(const RelativeTime& t) {
 }
 
 int run(std::vector<std::string> arguments) {
-  std::string device;
-  if (arguments.size() > 1 && arguments[0] == "--device") {
-    device = arguments[1];
+  std::string device, clock_name = "wall";
+  while (arguments.size() > 1 && (arguments[0] == "--device" || arguments[0] == "--clock")) {
+    (arguments[0] == "--device" ? device : clock_name) = arguments[1];
     arguments.erase(arguments.begin(), arguments.begin() + 2);
   }
+  if (clock_name != "wall" && clock_name != "device")
+    throw input_error("--clock {}: wall or device", clock_name);
+  const bool by_device = clock_name == "device";
   const auto argument = [&](size_t i, const char* other) {
     return arguments.size() > i ? arguments[i] : other;
   };
@@ -72,19 +118,26 @@ int run(std::vector<std::string> arguments) {
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("known_difference.{}", getpid());
   std::filesystem::create_directories(folder);
 
+  if (by_device) make_kernel(*renderer.cl);
   Count itself{1}, two_per_cent{1 + planted};
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     const Timer timer;
     job.seed = uint64_t(sweep) + 1;
-    wait_ms = planted * frame_ms(renderer, chosen);
+    if (by_device) {
+      DeviceClock clock(renderer);
+      steps = planted_steps(renderer, chosen, clock, late);
+    } else {
+      wait_ms = planted * frame_ms(renderer, chosen, nullptr, find_technique("forward_plus"));
+    }
     FrontierPart part;
     part.seed = job.seed, part.baseline = job.baseline.label, part.machine = machine_of(renderer);
     std::filesystem::remove(part_path(folder, 0, 1));
     RecordFile file(part_path(folder, 0, 1), part, nullptr);
     measure_scene(renderer, choice, job, file);
     const FrontierAnswer answer = answer_of({file.part()});
-    const RelativeTime control = answer.controls.at(0).relative_time,
-                       point = answer.points.at(0).relative_time;
+    const RelativeTime control = (by_device ? answer.device_controls : answer.controls).at(0).relative_time,
+                       point = by_device ? answer.points.at(0).device.relative_time
+                                         : answer.points.at(0).relative_time;
     itself.add(control), two_per_cent.add(point);
     fmt::print("{:2}: itself {}, 2 % longer {}, {} rounds, {:.0f} s\n", sweep + 1, in_words(control),
                in_words(point), control.runs, timer.elapsed_ms() / 1000);
