@@ -43,13 +43,23 @@ function showBestWithin() {
   byId("within").closest("section").hidden = errors.length === 0;
 }
 
+// The point of a step of a family of lights: "visibility, 1,000 lights, 9.98 at a pixel".
+const withoutStep = (label) => label.replace(/, [\d,]+ lights, \S+ at a pixel$/, "");
+
+function causesInWords(failures) {
+  return [...new Set(failures.map(({ cause }) => cause))].map((cause) => {
+    const steps = failures.filter((failure) => failure.cause === cause).length;
+    return steps > 1 ? `${cause} in ${steps} steps` : cause;
+  }).join(", ");
+}
+
 function showFailures() {
   byId("failures-part").hidden = page.failures.length === 0;
-  const labels = [...new Set(page.failures.map((failure) => failure.label))];
+  const labels = [...new Set(page.failures.map((failure) => withoutStep(failure.label)))];
   const cell = (label, scene) => {
-    const of = page.failures.filter((failure) => failure.label === label && failure.scene === scene);
+    const of = page.failures.filter((failure) => withoutStep(failure.label) === label && failure.scene === scene);
     if (of.length === 0) return make("td", { class: "fine" }, page.points.some((p) => p.label === label && p.scene === scene) ? "\u2713" : "\u2013");
-    return make("td", { title: of.map((failure) => failure.why).join("; ") }, of.map((failure) => failure.cause).join(", "));
+    return make("td", { title: of.map((failure) => failure.why).join("; ") }, causesInWords(of));
   };
   byId("failures").replaceChildren(
     make("thead", {}, make("tr", {}, make("td", {}), ...page.scenes.map((scene) => make("th", { scope: "col" }, scene.title)))),
