@@ -225,7 +225,7 @@ json failure_json(const Failure& f) {
 }
 
 std::vector<CsvColumn> csv_columns(bool truths, bool external, bool shadows, bool authored, bool seeds,
-                                   bool sequences, bool families) {
+                                   bool sequences, bool surfaces, bool families) {
   std::vector<CsvColumn> all;
   const auto add_measures = [&](const std::string& within, const std::string& prefix) {
     for (const ErrorMeasure& m : frontier_error_measures()) add_columns(all, {m.key}, within, prefix);
@@ -269,6 +269,11 @@ std::vector<CsvColumn> csv_columns(bool truths, bool external, bool shadows, boo
       add_columns(all, {"largest_flicker"}, within, prefix);
       add_columns(all, {"mean", "visible_share"}, within + "/displayed_flip", prefix + "displayed_flip_");
     }
+  }
+  if (surfaces) {
+    add_measures("/errors/surfaces", "surfaces_");
+    add_columns(all, {"mean", "visible_share"}, "/errors/surfaces/displayed_flip",
+                "surfaces_displayed_flip_");
   }
   for (const auto& [name, index] : {std::pair{"flip_start", "0"}, {"flip_stop", "1"}, {"flip_count", "2"}})
     all.push_back({name, std::string("/flip_exposures/") + index});
@@ -426,8 +431,9 @@ std::string csv_text(const FrontierAnswer& answer) {
   const bool authored = any([](const FrontierRecord& r) { return r.errors.authored.has_value(); });
   const bool seeds = any([](const FrontierRecord& r) { return r.errors.seeds.has_value(); });
   const bool sequences = any([](const FrontierRecord& r) { return r.errors.sequences.has_value(); });
-  return csv_table(csv_columns(truths, external, shadows, authored, seeds, sequences, any(is_of_family)),
-                   rows);
+  const bool surfaces = any([](const FrontierRecord& r) { return r.errors.surfaces.has_value(); });
+  return csv_table(
+      csv_columns(truths, external, shadows, authored, seeds, sequences, surfaces, any(is_of_family)), rows);
 }
 
 std::string cull_csv_text(const FrontierAnswer& answer) {

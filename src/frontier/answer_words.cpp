@@ -7,6 +7,7 @@
 #include <set>
 
 #include "frontier/answer_steps.h"
+#include "frontier/fields.h"
 #include "plan/settings.h"
 #include "results/words.h"
 
@@ -226,6 +227,24 @@ void add_truth(const FrontierAnswer& answer, const std::string& scene, std::vect
       truth.places ? fmt::format(", and the mean over each pixel's area, of {} places", *truth.places) : ""));
 }
 
+// What the two families' truths differ by, where a point of the front has a smaller error.
+void add_surfaces(const FrontierAnswer& answer, const std::string& scene,
+                  std::vector<std::string>& sentences) {
+  double floor = 0, least = INFINITY;
+  for (const PointFigures& p : answer.points) {
+    if (p.point.scene != scene) continue;
+    if (p.errors.surfaces && p.errors.surfaces->displayed) floor = p.errors.surfaces->displayed->mean;
+    const auto& fronts = answer.by_device ? p.device.fronts : p.fronts;
+    const auto front = fronts.find("total");
+    if (front != fronts.end() && front->second.on) least = std::min(least, flip_of(p.errors, "total"));
+  }
+  if (!(least < floor)) return;
+  sentences.push_back(fmt::format(
+      "In {} the surfaces of OpenGL and of the rasterizer in OpenCL differ by a FLIP of {}: where "
+      "errors are smaller, they do not tell points of the two apart.",
+      scene_in_words(scene), three_digits(floor)));
+}
+
 // Points of other renderers, and who timed them.
 void add_external(const FrontierAnswer& answer, const std::string& scene,
                   std::vector<std::string>& sentences) {
@@ -335,6 +354,7 @@ static std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer,
   add_doubts(answer, scene, sentences);
   add_fastest(answer, scene, sentences);
   add_cheapest_within(answer, scene, sentences);
+  add_surfaces(answer, scene, sentences);
   add_shadows(answer, scene, sentences);
   add_break_even(answer, scene, sentences);
   add_growth(answer, scene, sentences);
@@ -350,6 +370,7 @@ SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene
   add_truth(answer, scene, words.opening);
   add_external(answer, scene, words.opening);
   add_doubts(answer, scene, words.opening);
+  add_surfaces(answer, scene, words.notes);
   add_shadows(answer, scene, words.notes);
   add_failures(answer, scene, words.opening);
   add_break_even(answer, scene, words.notes);

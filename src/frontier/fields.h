@@ -155,6 +155,7 @@ void visit_fields(T& e, Visit&& visit) {
   visit("deviation_rmse_rel", e.deviation_rmse_rel);
   visit("temporal_rmse_rel", e.temporal_rmse_rel);
   visit("sequences", e.sequences, FieldRule{.required = false});
+  visit("surfaces", e.surfaces, FieldRule{.required = false});
 }
 
 // In the order of a round's line.

@@ -75,6 +75,13 @@ std::optional<AuthoredErrors> authored_over(const Group& views) {
   return all;
 }
 
+// Where all views have it.
+std::optional<ImageError> surfaces_over(const Group& views) {
+  if (!std::ranges::all_of(views, [](const FrontierRecord* v) { return v->errors.surfaces.has_value(); }))
+    return {};
+  return errors_over(views, [](const FrontierRecord& v) { return *v.errors.surfaces; });
+}
+
 // Where all views have them. Their ranges are independent, and so are the views' estimates of the bias.
 std::optional<SeedErrors> seeds_over(const Group& views) {
   if (!std::ranges::all_of(views, [](const FrontierRecord* v) { return v->errors.seeds.has_value(); }))
@@ -150,6 +157,7 @@ PointFigures over_views(const Group& views) {
   all.errors.in_double = in_double_over(views);
   all.errors.authored = authored_over(views);
   all.errors.seeds = seeds_over(views);
+  all.errors.surfaces = surfaces_over(views);
   all.errors.sequences = views.front()->errors.sequences;
   add_intervals_over_views(views, all);
   for (const auto spread :

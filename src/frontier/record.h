@@ -84,6 +84,10 @@ struct PointErrors {
   // turns by a quarter of a degree a frame; root mean square over pixels and frames.
   std::optional<double> temporal_rmse_rel;
   std::optional<SequenceErrors> sequences;  // of the first view, where they were asked for
+  // Of points with surfaces of their own: the truth on these against the truth on OpenGL's, of the same view.
+  // Smaller errors do not tell such points from those that draw with OpenGL. Empty: there is one truth for
+  // both, of areas, or no OpenGL.
+  std::optional<ImageError> surfaces;
 };
 
 // The lights of a truth that is not the usual one of every light without a range (docs/frontier.md#shadows),

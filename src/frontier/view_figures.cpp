@@ -155,6 +155,8 @@ void ViewFigures::look(const View& view, int index, bool own, bool whole) {
     if (exposures_) truths->flip.emplace(truths->brute.truth(), *exposures_);
     refer(*truths);
   }
+  if (used.size() > 1 && !truth_.places)
+    truths_[1].surfaces = truths_[0].reference->error_of(truths_[1].brute.truth());
   brightest_ = first.brightest();
   shadows_.moved(false);
   precision_.measure(view, first, used.size() > 1 ? &truths_[1].brute : nullptr,
@@ -210,6 +212,7 @@ void ViewFigures::measure_picture(const ChosenPoint& point, const Image& image, 
     errors.authored->total = truths.authored->error_of(image);
   }
   errors.in_double = precision_.in_double(image, has_own_surfaces(point));
+  errors.surfaces = truths.surfaces;
   record.nan_pixels = count_nan_pixels(image);
   record.exposure_ev = exposure_->ev;
   fill_flip(image, truths, record);
@@ -223,6 +226,7 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
   const bool own = has_own_surfaces(point);
   record.errors.precision = precision_.of(own);
   record.errors.in_double = precision_.in_double(image, own);
+  record.errors.surfaces = truths.surfaces;
   record.nan_pixels = count_nan_pixels(image);
   if (point.frames > 1) {
     const double relative = brightest_ > 0 ? point_run.deviation() / brightest_ : 0;

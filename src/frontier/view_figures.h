@@ -51,6 +51,7 @@ class ViewFigures {
     std::optional<HdrFlip> flip;
     std::optional<Reference> reference, authored;
     std::map<const Image*, double> flicker;  // of pictures of brute force
+    std::optional<ImageError> surfaces;      // as in PointErrors; of OpenGL's none
     void look(const View& view, const std::vector<View>& turn);
     void take_truths(Truths& of_areas, size_t frames);  // of a turn
   };

@@ -73,6 +73,8 @@ TEST(FrontierJson, HoldsTheAnswer) {
   EXPECT_EQ(error["model"]["displayed_flip"], nullptr);
   EXPECT_EQ(error["authored"]["total"]["displayed_flip"]["mean"], 0.015625);
   EXPECT_EQ(error["authored"]["model"]["smape"], 1);
+  EXPECT_EQ(error["surfaces"]["energy_rel"], -8.25);
+  EXPECT_EQ(error["surfaces"]["displayed_flip"]["mean"], 0.0625);
   EXPECT_EQ(error["seeds"]["pictures"], 32);
   EXPECT_EQ(error["seeds"]["deviation"]["rel_mse"], 5);
   // 4e-10 and 2.1448 errors (14 degrees of freedom, of published tables) to either side.

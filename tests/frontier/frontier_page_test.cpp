@@ -375,6 +375,44 @@ TEST_F(FrontierPage, ShowsErrorsAgainstEitherReference) {
   EXPECT_EQ(with["again"], with["plain"]);
 }
 
+// What the surfaces of the two rasterizers differ by is a line where a point has a smaller error, and a
+// sentence in any case; only measures of the total have it, and only scenes where it was measured.
+TEST_F(FrontierPage, DrawsWhatSurfacesDifferBy) {
+  FrontierPart part = synthetic_sweep();
+  for (FrontierRecord& r : part.records) {
+    if (r.point.technique != "visibility" || r.point.scene == "terrain") continue;
+    ImageError& surfaces = r.errors.surfaces.emplace(synthetic_error(1e-9, 3e-3, 0, 0));
+    surfaces.displayed = DisplayedFlip{1e-3, 0};
+  }
+  write_file(folder.path / "index.html", page_text(answer_of({part})));
+  const json seen = seen_in_browser(folder.path, "tests/frontier/frontier_page_surfaces.js", "1280,900");
+  ASSERT_TRUE(seen.is_object());
+  EXPECT_THAT(texts(seen["faults"]), IsEmpty());
+  const json& flip = seen["total.displayed_flip"];
+  EXPECT_THAT(texts(flip["texts"]), ElementsAre("surfaces of the two rasterizers differ by 1.0e-3"));
+  EXPECT_THAT(
+      flip["notes"].get<std::string>(),
+      HasSubstr("In this measure the surfaces of OpenGL and of the rasterizer in OpenCL differ by 1.0e-3 "
+                "(dashed line): errors below it do not tell points of the two apart."));
+  // Half of the way between the marks of 1e-4 and 1e-2, and from side to side.
+  const auto y_of = [&](const char* label) {
+    return mark_named(flip["marks"], label)["at"][1].get<double>();
+  };
+  ASSERT_THAT(flip["lines"], SizeIs(1));
+  EXPECT_NEAR(flip["lines"][0][0].get<double>(),
+              (y_of("visibility:range=scene") + y_of("visibility:cutoff=0.01,range=cutoff")) / 2, 0.2);
+  EXPECT_GT(flip["lines"][0][1].get<double>(), 500);
+  EXPECT_THAT(seen["total.rmse_rel"]["lines"], SizeIs(1));
+  EXPECT_THAT(seen["model.rmse_rel"]["lines"], IsEmpty());
+  EXPECT_THAT(seen["model.rmse_rel"]["notes"].get<std::string>(), testing::Not(HasSubstr("surfaces")));
+  EXPECT_THAT(seen["terrain"]["lines"], IsEmpty());
+  EXPECT_THAT(seen["terrain"]["notes"].get<std::string>(), testing::Not(HasSubstr("surfaces")));
+  // With deferred hidden, whose error is 0, no point lies below the largest error's.
+  EXPECT_THAT(seen["above"]["lines"], IsEmpty());
+  EXPECT_THAT(seen["above"]["notes"].get<std::string>(),
+              HasSubstr("differ by 1.0e-9, less than any error here."));
+}
+
 // On a GPU the plot begins with the devices' time, elsewhere with the wall's. Fronts, bands and probabilities
 // are of the chosen clock and the chosen reference; here no two of the four are the same. By wall visibility
 // takes twice, clustered three times as long as forward_plus; on the devices visibility half as long,

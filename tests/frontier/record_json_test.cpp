@@ -89,6 +89,9 @@ TEST(FrontierRecords, KeepEveryFieldAsJson) {
   EXPECT_EQ(read.errors.sequences->still.filtered.largest_flicker, 9.0 / 256);
   EXPECT_EQ(read.errors.sequences->dolly.plain.displayed.mean, 15.0 / 256);
   EXPECT_EQ(read.errors.sequences->moving_lights.filtered.displayed.visible, 31.0 / 256);
+  ASSERT_TRUE(read.errors.surfaces);
+  EXPECT_EQ(read.errors.surfaces->energy_rel, r.errors.surfaces->energy_rel);
+  EXPECT_EQ(read.errors.surfaces->displayed->visible, 0.375);
   ASSERT_TRUE(read.flip);
   EXPECT_EQ(read.flip->start, r.flip->start);
   EXPECT_EQ(read.flip->stop, r.flip->stop);
@@ -153,6 +156,9 @@ TEST(FrontierRecords, OfEarlierVersionsLackMeasuresAndDoNotSayZero) {
   for (const char* later : {"rel_mse", "rel_mse_trimmed", "smape", "smape_trimmed", "energy_rel",
                             "rmse_of_mean", "low_pass_rmse_of_mean", "displayed_flip"})
     ASSERT_EQ(line["errors"]["total"].erase(later), 1u);
+  ASSERT_EQ(line["errors"].erase("surfaces"), 1u);
+  EXPECT_FALSE(record_of(line).errors.surfaces);
+  EXPECT_FALSE(to_json(record_of(line))["errors"].contains("surfaces"));
   const ImageError total = record_of(line).errors.total;
   EXPECT_EQ(total.rmse_rel, some_record(8, 0).errors.total.rmse_rel);
   for (const double ImageError::*later :

@@ -70,6 +70,8 @@ inline FrontierRecord some_record(int tile, int view) {
         *value = figure += 1.0 / 256;
     }
   }
+  r.errors.surfaces = some_figures(11);
+  r.errors.surfaces->displayed = DisplayedFlip{0.0625, 0.375};
   r.flip = FlipExposures{-2.5, 7.25, 10};
   r.exposure_ev = -1.5;
   r.image = "sponza_17";

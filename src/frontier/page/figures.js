@@ -61,6 +61,12 @@ const quantity = (key) => QUANTITIES.find((q) => q.key === key);
 const frontQuantity = (reference) => quantity(`${reference}.displayed_flip`);
 const frontOfPoint = (point, reference, clock) => clock.fronts(point)?.[reference] ?? { on: false, probability: 0 };
 
+// By how much the truths on the surfaces of the two rasterizers differ, if `y` is a measure of the total; null: not measured, or nothing.
+function surfacesFloor(points, { key }) {
+  const [kind, measure] = key.split(".");
+  return kind === "total" ? points.map(({ error }) => size(measureOf(error.surfaces, measure))).find((floor) => floor > 0) ?? null : null;
+}
+
 const probabilityText = (p) => (p > 0.995 ? "more than 99 %" : p < 0.005 ? "less than 1 %" : `${Math.round(100 * p)} %`);
 
 // Runs that fall into two groups: "two modes: 0.9 and 1.8 (30 % of runs)".

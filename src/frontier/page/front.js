@@ -31,6 +31,9 @@ function bandElement({ scene, reference, x }, xAxis, yAxis, area) {
   return polyline(outline, { class: "band" });
 }
 
+const floorElements = (at, text, { left, right }) => [make("line", { class: "floor", x1: left, x2: right, y1: at, y2: at }),
+  make("text", { x: right - 4, y: at - 5, "text-anchor": "end" }, `surfaces of the two rasterizers differ by ${text}`)];
+
 // state: { points, x, y, reference, hidden: set of techniques, selected: point }; choose(point) is called at a click. Returns a function that
 // draws the state.
 function startFront(container, state, choose) {
@@ -87,7 +90,9 @@ function startFront(container, state, choose) {
     const width = Math.max(280, container.clientWidth), height = Math.round(Math.min(540, Math.max(340, width * 0.6)));
     const area = { left, right: width - right, top, bottom: height - bottom };
     const placed = state.points.filter((point) => !state.hidden.has(point.technique) && x.value(point) !== null && y.value(point) !== null);
-    const xAxis = logAxis(placed.map(x.value), area.left, area.right), yAxis = logAxis(placed.map(y.value), area.bottom, area.top);
+    const floor = surfacesFloor(state.points, y), parted = floor !== null && placed.some((point) => y.value(point) < floor);  // where it matters
+    const xAxis = logAxis(placed.map(x.value), area.left, area.right);
+    const yAxis = logAxis([...placed.map(y.value), ...(parted ? [floor] : [])], area.bottom, area.top);
     const onFront = frontOf(placed, x, y);
     shown = placed.map((point, i) => ({ point, onFront: onFront[i], at: [xAxis.at(x.value(point)), yAxis.at(y.value(point))] }));
     const front = shown.filter((entry) => entry.onFront).sort((a, b) => a.at[0] - b.at[0]);
@@ -101,7 +106,8 @@ function startFront(container, state, choose) {
     const inFront = [...shown].sort((a, b) => a.onFront - b.onFront);
     const names = page.techniques.filter((technique) => placed.some((point) => point.technique === technique));
     const svg = drawing(width, height, `${y.title} against ${x.title}`, ...acrossAxis(xAxis, x.title, area), ...alongAxis(yAxis, y.title, area),
-      ...(banded ? [bandElement(state, xAxis, yAxis, area)] : []), polyline(steps, { class: "step" }), ...inFront.map(({ element }) => element),
+      ...(banded ? [bandElement(state, xAxis, yAxis, area)] : []), polyline(steps, { class: "step" }),
+      ...(parted ? floorElements(yAxis.at(floor), y.text(floor), area) : []), ...inFront.map(({ element }) => element),
       ...shown.filter(({ point }) => x.time && (x.clock ?? WALL).relative(point).modes.length).map(({ at }) => make("text", { class: "modes", x: at[0] + 7, y: at[1] - 5 }, "2")),
       make("g", { class: "only-file" }, ...markedNames(names.map((technique) => ({ technique, text: technique })), left, height + 12, 3, width - left)));
     svg.dataset.fileHeight = height + 20 * Math.ceil(names.length / 3) + 10;
@@ -109,6 +115,6 @@ function startFront(container, state, choose) {
     const before = hovered?.point;
     hovered = undefined;
     hover(shown.find(({ point }) => point === before) ?? null);
-    return { shown: shown.length, missing: state.points.length - placed.length };
+    return { shown: shown.length, missing: state.points.length - placed.length, floor, parted };
   };
 }
