@@ -239,10 +239,11 @@ void add_surfaces(const FrontierAnswer& answer, const std::string& scene,
     if (front != fronts.end() && front->second.on) least = std::min(least, flip_of(p.errors, "total"));
   }
   if (!(least < floor)) return;
-  sentences.push_back(fmt::format(
-      "In {} the surfaces of OpenGL and of the rasterizer in OpenCL differ by a FLIP of {}: where "
-      "errors are smaller, they do not tell points of the two apart.",
-      scene_in_words(scene), three_digits(floor)));
+  sentences.push_back(
+      fmt::format("In {} the surfaces of OpenGL and of the rasterizer in OpenCL differ by a FLIP of {}: "
+                  "smaller errors do "
+                  "not compare points of one kind with points of the other.",
+                  scene_in_words(scene), three_digits(floor)));
 }
 
 // Points of other renderers, and who timed them.

@@ -85,7 +85,7 @@ struct PointErrors {
   std::optional<double> temporal_rmse_rel;
   std::optional<SequenceErrors> sequences;  // of the first view, where they were asked for
   // Of points with surfaces of their own: the truth on these against the truth on OpenGL's, of the same view.
-  // Smaller errors do not tell such points from those that draw with OpenGL. Empty: there is one truth for
+  // Smaller errors do not compare such points with those that draw with OpenGL. Empty: there is one truth for
   // both, of areas, or no OpenGL.
   std::optional<ImageError> surfaces;
 };

@@ -393,7 +393,8 @@ TEST_F(FrontierPage, DrawsWhatSurfacesDifferBy) {
   EXPECT_THAT(
       flip["notes"].get<std::string>(),
       HasSubstr("In this measure the surfaces of OpenGL and of the rasterizer in OpenCL differ by 1.0e-3 "
-                "(dashed line): errors below it do not tell points of the two apart."));
+                "(dashed line): errors below it do not compare points of one kind with points of the "
+                "other."));
   // Half of the way between the marks of 1e-4 and 1e-2, and from side to side.
   const auto y_of = [&](const char* label) {
     return mark_named(flip["marks"], label)["at"][1].get<double>();

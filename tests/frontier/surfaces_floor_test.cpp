@@ -159,9 +159,9 @@ TEST(SurfacesFloor, IsJoinedOverViewsAndAKeyOfItsOwn) {
 
 TEST(SurfacesFloor, IsToldWhereAPointOfTheFrontLiesBelow) {
   const auto told = HasSubstr(
-      "In hall the surfaces of OpenGL and of the rasterizer in OpenCL differ by a FLIP of 0.0350: where "
+      "In hall the surfaces of OpenGL and of the rasterizer in OpenCL differ by a FLIP of 0.0350: smaller "
       "errors "
-      "are smaller, they do not tell points of the two apart.");
+      "do not compare points of one kind with points of the other.");
   EXPECT_THAT(answer_from(views_of(0.034)).sentences, Contains(told));
   EXPECT_THAT(answer_from(views_of(0.036)).sentences, Not(Contains(told)));
 }

@@ -215,7 +215,7 @@ function redraw() {
   const { shown, missing, floor, parted } = drawFront();
   byId("front-notes").textContent = [`${wholeNumber(shown)} points.`,
     missing > 0 && `${wholeNumber(missing)} are not shown: hidden, or without such a figure.`,
-    floor !== null && `In this measure the surfaces of OpenGL and of the rasterizer in OpenCL differ by ${state.y.text(floor)}${parted ? " (dashed line): errors below it do not tell points of the two apart" : ", less than any error here"}.`].filter(Boolean).join(" ");
+    floor !== null && `In this measure the surfaces of OpenGL and of the rasterizer in OpenCL differ by ${state.y.text(floor)}${parted ? " (dashed line): errors below it do not compare points of one kind with points of the other" : ", less than any error here"}.`].filter(Boolean).join(" ");
 }
 
 // Errors on the axes, the front and the table of what can be borne follow.
