@@ -64,15 +64,24 @@ double frame_ms(Renderer& renderer, const ChosenScene& chosen, DeviceClock* cloc
   return spread_of(clock ? of_devices : run.frame_ms()).median;
 }
 
-// So many steps that the kernel adds the planted share to a frame: of two measured numbers of them.
-cl_uint planted_steps(Renderer& renderer, const ChosenScene& chosen, DeviceClock& clock,
-                      const Technique& late) {
-  constexpr cl_uint many = 2'000'000;
+// So many steps that the kernel takes so long: of two measured numbers of them.
+cl_uint steps_of(double ms, Renderer& renderer, const ChosenScene& chosen, const Technique& late) {
+  constexpr cl_uint many = 200'000;
+  DeviceClock clock(renderer);
   steps = 0;
   const double without = frame_ms(renderer, chosen, &clock, late);
   steps = many;
   const double with = frame_ms(renderer, chosen, &clock, late);
-  return cl_uint(planted * without / (with - without) * many);
+  return cl_uint(ms / (with - without) * many);
+}
+
+// Of the baseline by the devices' clocks, as it is in the rounds of a sweep: between frames of others.
+double baseline_device_ms(const FrontierPart& part) {
+  std::vector<double> all;
+  for (const FrontierRecord& r : part.records)
+    all.insert(all.end(), r.baseline_device_ms.begin(), r.baseline_device_ms.end());
+  if (all.empty()) throw machine_error("known_difference: no clock of the devices here");
+  return spread_of(all).median;
 }
 
 struct Count {
@@ -120,21 +129,21 @@ int run(std::vector<std::string> arguments) {
 
   if (by_device) make_kernel(*renderer.cl);
   Count itself{1}, two_per_cent{1 + planted};
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    const Timer timer;
-    job.seed = uint64_t(sweep) + 1;
-    if (by_device) {
-      DeviceClock clock(renderer);
-      steps = planted_steps(renderer, chosen, clock, late);
-    } else {
-      wait_ms = planted * frame_ms(renderer, chosen, nullptr, find_technique("forward_plus"));
-    }
+  const auto sweep_of = [&](int seed) {
+    job.seed = uint64_t(seed);
     FrontierPart part;
     part.seed = job.seed, part.baseline = job.baseline.label, part.machine = machine_of(renderer);
     std::filesystem::remove(part_path(folder, 0, 1));
     RecordFile file(part_path(folder, 0, 1), part, nullptr);
     measure_scene(renderer, choice, job, file);
-    const FrontierAnswer answer = answer_of({file.part()});
+    return answer_of({file.part()});
+  };
+  if (by_device)  // of a first sweep, which does not count
+    steps = steps_of(planted * baseline_device_ms(sweep_of(0).part), renderer, chosen, late);
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const Timer timer;
+    if (!by_device) wait_ms = planted * frame_ms(renderer, chosen, nullptr, find_technique("forward_plus"));
+    const FrontierAnswer answer = sweep_of(sweep + 1);
     const RelativeTime control = (by_device ? answer.device_controls : answer.controls).at(0).relative_time,
                        point = by_device ? answer.points.at(0).device.relative_time
                                          : answer.points.at(0).relative_time;
