@@ -37,7 +37,7 @@ FAMILIES_PICTURES = {ROOT / "docs/images/families.svg": "picture", ROOT / "docs/
 CLOCKS = {"cpu": ("relative_time", "frame_ms", "fronts", "flip_front_bands", "controls", "cheapest_within_flip", "wall time"),
           "h100": ("relative_device_time", "device_ms", "device_fronts", "device_flip_front_bands", "device_controls",
                    "device_cheapest_within_flip", "device time")}
-NAMES = {"cpu": "16 CPU cores", "h100": "H100"}
+NAMES = {"cpu": "Two CPU cores", "h100": "H100"}
 
 
 def merged(program, file, name):
@@ -59,8 +59,9 @@ def answer_of(program, run):
     for file in sorted([*SAMPLES.glob(f"{run}.jsonl.xz"), *SAMPLES.glob(f"{run}-*.jsonl.xz")]):
         answer = json.loads(merged(program, file, "frontier.json"))
         if joined is None:
-            joined = answer
+            joined = answer | {"commits": [answer["commit"]]}
             continue
+        joined["commits"] = list(dict.fromkeys([*joined["commits"], answer["commit"]]))
         for name in ("cheapest_within_flip", "device_cheapest_within_flip"):  # name points by their index
             for entry in answer[name]:
                 entry["point"] += len(joined["points"])
@@ -122,7 +123,7 @@ class Run:
         shared = sum(p["shared_rounds"] for p in a["processes"])
         rounds = sum(p["rounds"] for p in a["processes"])
         return (f"{m['cl_device']}, {m['cl_driver']}; OpenGL: {m['gl_device']}, {m['gl_driver']}; {m['cpu']}; {size[0]} × {size[1]}; commit "
-                f"{a['commit']}. {len(a['points'])} points: {'; '.join(scenes)}. Others used the processors in {shared} of {rounds} "
+                f"{', '.join(a['commits'])}. {len(a['points'])} points: {'; '.join(scenes)}. Others used the processors in {shared} of {rounds} "
                 f"rounds. Times: {self.clock}.\n")
 
     def made_controls(self):
