@@ -35,12 +35,12 @@ struct DeviceFigures {
 // A point over all its views. Errors: the largest max_rel, otherwise root mean squares or means over views.
 struct PointFigures {
   FrontierPoint point;
-  int views = 0;
+  int views = 0, timed_views = 0;  // with errors; the first of them, with times
   int width = 0, height = 0;      // pixels
-  MedianInterval frame_ms;        // of the sum over views, over their number
+  MedianInterval frame_ms;        // of the sum over timed views, over their number
   double p95_ms = 0, p99_ms = 0;  // of the frames of all runs and views: the least that this share is within
-  // By round: the sum of its times over the views over the same sum of the baseline's, of three of its runs
-  // in that round and view.
+  // By round: the sum of its times over the timed views over the same sum of the baseline's, of three of its
+  // runs in that round and view.
   LogTimes log_times;
   RelativeTime relative_time;
   PointErrors errors;

@@ -130,6 +130,7 @@ void add_device_json(const DeviceFigures& d, json& out) {
 json point_json(const PointFigures& p) {
   json out = finite_json(p.point);
   out["views"] = p.views;
+  out["timed_views"] = p.timed_views;
   out["exposure_ev"] = finite_json(p.exposure_ev);
   out["size"] = p.width > 0 ? json{p.width, p.height} : json();
   out["frame_ms"] = interval_json(p.frame_ms);

@@ -42,7 +42,7 @@ std::vector<FrontierRecord> on_one_machine(std::vector<FrontierRecord> records,
                                            const std::vector<FrontierMachine>& machines);
 
 // The same records, timed by the devices' clocks: frame_ms and baseline_ms are device_ms and
-// baseline_device_ms. Without times where a run lacks them.
+// baseline_device_ms. Without times where a run of one of the point's views lacks them.
 std::vector<FrontierRecord> by_device_clock(std::vector<FrontierRecord> records);
 
 // Sets what is known by the devices' clocks, of points of the same records; their wall's figures are set.

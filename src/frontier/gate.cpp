@@ -96,6 +96,14 @@ class PointComparison {
     for (const char* percent : {"leaked_percent", "acned_percent"}) {
       if (now_.has(percent)) compare_error(fmt::format("{}: {}", name_, percent), now_, earlier_, percent);
     }
+    const auto timed_views = [](const JsonFields& p) {
+      return p.whole(p.has("timed_views") ? "timed_views" : "views", 0);
+    };
+    if (timed_views(now_) != timed_views(earlier_)) {
+      result_.told.push_back(fmt::format("{}: times of {} views, earlier of {}: not compared", name_,
+                                         timed_views(now_), timed_views(earlier_)));
+      return;
+    }
     compare_ratios("relative_time", "");
     compare_ratios("relative_device_time", " by the devices' clocks");
   }

@@ -26,6 +26,10 @@ constexpr double share_of_growth = 0.12;
 // point with no larger error, are far from the front: few rounds tell how far.
 constexpr double slow_factor = 1.25, beaten_factor = 3;
 
+// Errors of further views are worth more than their times. With less time than these take in the fewest
+// rounds, errors are measured on fewer views.
+constexpr int least_timed_views = 2;
+
 // With less time a point, as many points as possible are worth more than FLIP and flicker.
 constexpr double seconds_a_point_with_flip = 2;
 
@@ -160,8 +164,8 @@ class SceneSweep {
     return seconds() + more + round_s * views <= until();
   }
 
-  // As many points as the time allows on one view, then as many views: with HDR-FLIP and flicker as long as
-  // the time bears all of the others without.
+  // As many points as the time allows on one view, then as many views, of which two can still be timed: with
+  // HDR-FLIP and flicker as long as the time bears all of the others without.
   void measure_figures() {
     const bool own =
         std::ranges::any_of(measured_,
@@ -176,8 +180,8 @@ class SceneSweep {
         break;  // views whose times no earlier process has
       } else if (view > 0) {
         whole = whole && fits(view_s.whole + view_s.plain * double(int(views_.size()) - view - 1),
-                              job_.least_rounds, int(views_.size()));
-        if (!whole && !fits(view_s.plain, job_.least_rounds, view + 1)) break;
+                              job_.least_rounds, std::min(int(views_.size()), least_timed_views));
+        if (!whole && !fits(view_s.plain, job_.least_rounds, std::min(view + 1, least_timed_views))) break;
       }
       const double before = seconds();
       measure_view(view, own, whole);
@@ -296,11 +300,24 @@ class SceneSweep {
     end_step("cull tests");
   }
 
+  // As many views as the time allows; those that were timed before, by an earlier process or until a sweep
+  // was interrupted.
+  int timed_views() const {
+    const auto is_timed = [](const FrontierRecord& r) { return !r.frame_ms.empty(); };
+    int begun = 0;
+    for (const MeasuredPoint& m : measured_)
+      begun = std::max(begun, int(std::ranges::count_if(m.records, is_timed)));
+    if (begun > 0) return begun;
+    int views = used_views_;
+    while (views > 1 && !fits(0, job_.least_rounds, views)) --views;
+    return views;
+  }
+
   // The baseline as points of its own.
-  void add_controls() {
+  void add_controls(int views) {
     for (int i = 0; i < job_.controls; ++i) {
       MeasuredPoint control{PointRun(renderer_, gpu_, start_, job_.baseline, pool_), {}};
-      for (int view = 0; view < used_views_; ++view) {
+      for (int view = 0; view < views; ++view) {
         FrontierRecord record = record_of(job_.baseline, view);
         record.series = fmt::format("control {}", file_.part().shard * job_.controls + i);
         const auto begun = file_.open_records().find(record_key(record));
@@ -313,11 +330,13 @@ class SceneSweep {
 
   void measure_times() {
     const size_t points = measured_.size();
-    add_controls();
-    TimeRounds rounds{job_,      timer_,     until(), std::span(views_).first(size_t(used_views_)),
+    const int timed = timed_views();
+    add_controls(timed);
+    TimeRounds rounds{job_,      timer_,     until(), std::span(views_).first(size_t(timed)),
                       measured_, *baseline_, file_,   DeviceClock(renderer_)};
     const int done = rounds.run();
-    notice(fmt::format("{} points, {} views, {} rounds", points, used_views_, done));
+    notice(fmt::format("{} points, {} views{}, {} rounds", points, used_views_,
+                       timed < used_views_ ? fmt::format(", {} of them timed", timed) : "", done));
     end_step("rounds");
   }
 

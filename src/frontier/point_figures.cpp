@@ -117,8 +117,18 @@ void add_intervals_over_views(const Group& views, PointFigures& point) {
   if (point.errors.authored) add("authored", [](const PointErrors& e) { return e.authored->total; });
 }
 
-// For each run, the mean over views of a time of it; as many runs as every view has.
+// Views that have times. Where these would take too long others have errors alone.
+Group timed(const Group& views) {
+  Group timed;
+  for (const FrontierRecord* view : views) {
+    if (!view->frame_ms.empty()) timed.push_back(view);
+  }
+  return timed;
+}
+
+// For each run, the mean over timed views of a time of it; as many runs as every one of them has.
 std::vector<double> means_of_runs(const Group& views, std::vector<double> FrontierRecord::*times) {
+  if (views.empty()) return {};
   size_t runs = std::numeric_limits<size_t>::max();
   for (const FrontierRecord* view : views) runs = std::min(runs, (view->*times).size());
   std::vector<double> means(runs);
@@ -146,10 +156,12 @@ PointFigures over_views(const Group& views) {
   all.truth = views.front()->truth;
   all.external = views.front()->external;
   all.exposure_ev = views.front()->exposure_ev;
+  const Group with_times = timed(views);
+  all.timed_views = int(with_times.size());
   DeviceFigures& d = all.device;
-  d.hand_over_ms = median_interval(means_of_runs(views, &FrontierRecord::hand_over_ms));
-  d.copy_ms = median_interval(means_of_runs(views, &FrontierRecord::copy_ms));
-  d.read_back_ms = median_interval(means_of_runs(views, &FrontierRecord::read_back_ms));
+  d.hand_over_ms = median_interval(means_of_runs(with_times, &FrontierRecord::hand_over_ms));
+  d.copy_ms = median_interval(means_of_runs(with_times, &FrontierRecord::copy_ms));
+  d.read_back_ms = median_interval(means_of_runs(with_times, &FrontierRecord::read_back_ms));
   all.p95_ms = percentile_of(views, 0.95), all.p99_ms = percentile_of(views, 0.99);
   for (const auto& [key, kind] : kinds_of_error) {
     all.errors.*kind = errors_over(views, [kind = kind](const FrontierRecord& v) { return v.errors.*kind; });
@@ -252,8 +264,9 @@ void set_times(std::vector<PointFigures>& points, Records records) {
   const RoundBaselines baselines(records);
   const std::vector<Group> views = views_of_points(records);
   for (size_t i = 0; i < points.size(); ++i) {
-    points[i].frame_ms = median_interval(means_of_runs(views[i], &FrontierRecord::frame_ms));
-    points[i].log_times = baselines.log_times(views[i]);
+    const Group with_times = timed(views[i]);
+    points[i].frame_ms = median_interval(means_of_runs(with_times, &FrontierRecord::frame_ms));
+    points[i].log_times = baselines.log_times(with_times);
   }
 }
 

@@ -1,7 +1,10 @@
 // Controls, relative times, the front of each scene with its probabilities, and the cheapest within an error.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "frontier/answer_steps.h"
 #include "frontier/fields.h"
@@ -147,8 +150,15 @@ std::vector<FrontBand> front_bands_of(const std::vector<PointFigures>& points,
 }
 
 std::vector<FrontierRecord> by_device_clock(std::vector<FrontierRecord> records) {
+  const auto key_of = [](const FrontierRecord& r) {  // of all views
+    return fmt::format("{}\n{}\n{}", r.shard, r.series, point_key(r.point));
+  };
+  std::set<std::string> unknown;
+  for (const FrontierRecord& r : records) {
+    if (r.device_ms.size() != r.frame_ms.size()) unknown.insert(key_of(r));
+  }
   for (FrontierRecord& r : records) {
-    const bool known = r.device_ms.size() == r.frame_ms.size();
+    const bool known = !unknown.contains(key_of(r));
     r.frame_ms = known ? r.device_ms : std::vector<double>();
     r.baseline_ms = known ? r.baseline_device_ms : std::vector<double>();
   }

@@ -24,13 +24,14 @@ void add_time(const MeasuredPoint& point, size_t view, const FrameTimes& own, co
 
 bool is_refused(const FrontierRecord& record) { return !record.refused.empty(); }
 
-// The ratio of each round, over all views.
+// The ratio of each round, over all timed views.
 std::vector<double> ratios_of(const MeasuredPoint& point) {
   std::vector<double> ratios;
   for (size_t round = 0; round < size_t(point.rounds()); ++round) {
     double ms = 0, beside = 0;
-    for (const FrontierRecord& record : point.records)
-      ms += record.frame_ms[round], beside += record.baseline_ms[round];
+    for (const FrontierRecord& record : point.records) {
+      if (!record.frame_ms.empty()) ms += record.frame_ms[round], beside += record.baseline_ms[round];
+    }
     ratios.push_back(ms / beside);
   }
   return ratios;

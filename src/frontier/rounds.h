@@ -41,7 +41,7 @@ struct TimeRounds {
   const Timer& timer;  // of the scene
   double until_s;      // of `timer`: a round that would end later is not begun
   std::span<const View> views;
-  std::vector<MeasuredPoint>& points;  // with a record for each of `views`
+  std::vector<MeasuredPoint>& points;  // whose first records are of `views`
   PointRun& baseline;
   RecordFile& file;
   DeviceClock clock;

@@ -119,7 +119,8 @@ class Run:
         for scene in a["scenes"]:
             of = self.points(scene)
             flips = max(p["error"]["flip_views"] for p in of)
-            scenes.append(f"`{scene}` {of[0]['views']} views ({flips} with HDR-FLIP and flicker), {max(p[self.time]['runs'] for p in of)} rounds")
+            timed = f"{of[0]['timed_views']} timed, " if of[0]["timed_views"] < of[0]["views"] else ""
+            scenes.append(f"`{scene}` {of[0]['views']} views ({timed}{flips} with HDR-FLIP and flicker), {max(p[self.time]['runs'] for p in of)} rounds")
         shared = sum(p["shared_rounds"] for p in a["processes"])
         rounds = sum(p["rounds"] for p in a["processes"])
         return (f"{m['cl_device']}, {m['cl_driver']}; OpenGL: {m['gl_device']}, {m['gl_driver']}; {m['cpu']}; {size[0]} × {size[1]}; commit "

@@ -120,6 +120,18 @@ TEST(Gate, IsClosedByARatioThatIsWorseWithSignificance) {
   EXPECT_THAT(held_against(earlier, now, "").worse, IsEmpty());
 }
 
+TEST(Gate, ComparesTimesOfEqualViewsAlone) {
+  json now = frontier(), earlier = frontier();
+  now["points"][0]["relative_time"] = {{"estimate", 1.0}, {"ci95", {0.76, 1.25}}};
+  now["points"][0]["timed_views"] = 1, earlier["points"][0]["timed_views"] = 2;
+  const GateResult result = held_against(now, earlier, "");
+  EXPECT_THAT(result.worse, IsEmpty());
+  EXPECT_THAT(result.told, Contains(HasSubstr(": times of 1 views, earlier of 2: not compared")));
+  earlier["points"][0].erase("timed_views");  // of a program that timed all views
+  now["points"][0]["timed_views"] = now["points"][0]["views"];
+  EXPECT_THAT(held_against(now, earlier, "").worse, SizeIs(1));
+}
+
 TEST(Gate, IsClosedByATimeOfTheDevicesThatIsWorse) {
   json now = frontier(), earlier = frontier();
   const json time = {{"estimate", 0.5}, {"ci95", {0.49, 0.51}}},

@@ -56,8 +56,11 @@ def baselines(folder, samples):
 
 def log_times_of(rows, samples, base):
     """{(shard, process, round): logs of the sum of times over views over sums of the baseline's, one a series}."""
+    rows = [row for row in rows if int(row["runs"])]  # others have errors alone
     views = [samples.get(row["row"], {}) for row in rows]
     times = {}
+    if not rows:
+        return times
     for block in sorted(set(views[0]).intersection(*views)):
         place = [base[row["scene"], row["view"], row["shard"], *block] for row in rows]
         total = sum(v[block][0] for v in views)

@@ -145,7 +145,7 @@ function choosePoint(point) {
     point?.device_ms.runs > 0 && `on the devices ${intervalInWords(point.device_ms, " ms")}, hand-over ${threeDigits(point.hand_over_ms.median)} ms, copies ${threeDigits(point.copy_ms.median)} ms, read-back ${threeDigits(point.read_back_ms.median)} ms`,
     timed && `95 % of frames within ${threeDigits(point.frame_ms_within.p95)} ms, 99 % within ${threeDigits(point.frame_ms_within.p99)} ms`,
     timed && modesInWords(point.relative_time), timed && point.relative_time.between_processes !== null && `${percentText(100 * point.relative_time.between_processes)} between ${point.relative_time.processes} processes`,
-    `${point.views} view${point.views === 1 ? "" : "s"}`, flipOverViews(point), point.pairs?.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
+    `${point.views} view${point.views === 1 ? "" : "s"}`, timed && point.timed_views < point.views && `timed on ${point.timed_views} of them`, flipOverViews(point), point.pairs?.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
     quantity("leaked").value(point) !== null && `${percentText(point.leaked_percent)} of ${wholeNumber(point.pairs.shadow_pairs)} pairs leaked, ${percentText(point.acned_percent)} acned`,
     point.nan_pixels > 0 && `${wholeNumber(point.nan_pixels)} NaN pixels`,
     point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, state.clock.relative(point).runs > 0 && `on the front${state.clock.words} with a probability of ${probabilityText(frontOfChoice(point).probability)}`];
