@@ -180,7 +180,7 @@ class SceneSweep {
         break;  // views whose times no earlier process has
       } else if (view > 0) {
         whole = whole && fits(view_s.whole + view_s.plain * double(int(views_.size()) - view - 1),
-                              job_.least_rounds, std::min(int(views_.size()), least_timed_views));
+                              job_.least_rounds, std::min(int(views_.size()), 2 * least_timed_views));
         if (!whole && !fits(view_s.plain, job_.least_rounds, std::min(view + 1, least_timed_views))) break;
       }
       const double before = seconds();
@@ -194,20 +194,20 @@ class SceneSweep {
     if (used_views_ < int(views_.size()))
       notice(fmt::format("{} of {} views, for the time there is", used_views_, views_.size()));
     if (whole_views_ < used_views_)
-      notice(fmt::format("FLIP and flicker on {} of {} views, for the time there is", whole_views_,
+      notice(fmt::format("HDR-FLIP and flicker on {} of {} views, for the time there is", whole_views_,
                          used_views_));
     end_step("figures");
   }
 
-  // What a view after this one takes, with HDR-FLIP and flicker and without: low estimates as long as none
-  // was measured so.
+  // What a view after this one takes, with HDR-FLIP and flicker and without: estimates as long as none was
+  // measured so.
   struct ViewSeconds {
     double whole = 0, plain = 0;
     void measured(double s, int view, bool with_flip) {
       // The first view also writes pictures, profiles passes and draws random points four times as often.
       if (view == 0) s *= 0.5;
       if (with_flip)
-        whole = s, plain = 0.4 * s;
+        whole = s, plain = 0.6 * s;
       else
         plain = s;
     }
