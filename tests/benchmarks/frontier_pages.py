@@ -37,7 +37,7 @@ FAMILIES_PICTURES = {ROOT / "docs/images/families.svg": "picture", ROOT / "docs/
 CLOCKS = {"cpu": ("relative_time", "frame_ms", "fronts", "flip_front_bands", "controls", "cheapest_within_flip", "wall time"),
           "h100": ("relative_device_time", "device_ms", "device_fronts", "device_flip_front_bands", "device_controls",
                    "device_cheapest_within_flip", "device time")}
-NAMES = {"cpu": "Two CPU cores", "h100": "H100"}
+NAMES = {"cpu": "two CPU cores", "h100": "H100"}
 
 
 def merged(program, file, name):
