@@ -36,9 +36,9 @@ struct DeviceFigures {
 struct PointFigures {
   FrontierPoint point;
   int views = 0, timed_views = 0;  // with errors; the first of them, with times
-  int width = 0, height = 0;      // pixels
-  MedianInterval frame_ms;        // of the sum over timed views, over their number
-  double p95_ms = 0, p99_ms = 0;  // of the frames of all runs and views: the least that this share is within
+  int width = 0, height = 0;       // pixels
+  MedianInterval frame_ms;         // of the sum over timed views, over their number
+  double p95_ms = 0, p99_ms = 0;   // of all timed frames: the least that this share of them is within
   // By round: the sum of its times over the timed views over the same sum of the baseline's, of three of its
   // runs in that round and view.
   LogTimes log_times;

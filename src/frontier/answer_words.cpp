@@ -241,8 +241,7 @@ void add_surfaces(const FrontierAnswer& answer, const std::string& scene,
   if (!(least < floor)) return;
   sentences.push_back(
       fmt::format("In {} the surfaces of OpenGL and of the rasterizer in OpenCL differ by a FLIP of {}: "
-                  "smaller errors do "
-                  "not compare points of one kind with points of the other.",
+                  "smaller errors do not compare points of one kind with points of the other.",
                   scene_in_words(scene), three_digits(floor)));
 }
 

@@ -164,8 +164,8 @@ class SceneSweep {
     return seconds() + more + round_s * views <= until();
   }
 
-  // As many points as the time allows on one view, then as many views, of which two can still be timed: with
-  // HDR-FLIP and flicker as long as the time bears all of the others without.
+  // As many points as the time allows on one view, then as many views, of which two can still be timed. Views
+  // have HDR-FLIP and flicker as long as there is time for all of the others without, and for timing four.
   void measure_figures() {
     const bool own =
         std::ranges::any_of(measured_,

@@ -117,7 +117,7 @@ void add_intervals_over_views(const Group& views, PointFigures& point) {
   if (point.errors.authored) add("authored", [](const PointErrors& e) { return e.authored->total; });
 }
 
-// Views that have times. Where these would take too long others have errors alone.
+// Views that have times. The others have errors alone: their times would have taken too long.
 Group timed(const Group& views) {
   Group timed;
   for (const FrontierRecord* view : views) {
