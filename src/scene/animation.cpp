@@ -62,25 +62,27 @@ bool move_camera(Camera& camera, const glm::dmat4& world, RestFallback& rest) {
   return rigid && assign(camera.world_from_view, *rigid);
 }
 
-// The morph weights and joint matrices that determine a mesh's shape.
+// The values that determine a mesh's shape.
 struct ShapeInputs {
   std::vector<double> weights;
   std::vector<glm::dmat4> joints;
+  bool mirrored = false;
   bool operator==(const ShapeInputs&) const = default;
 };
 
 ShapeInputs inputs_of(const Rig& rig, const DeformingMesh& shape, const Pose& pose) {
-  ShapeInputs inputs{shape.rest_weights, {}};
+  ShapeInputs inputs{shape.rest_weights, {}, shape.mirrored};
   if (const auto animated = pose.weights.find(shape.weights_node); animated != pose.weights.end()) {
     inputs.weights = animated->second;
   }
   if (shape.skin >= 0) inputs.joints = joint_matrices(rig.skins[shape.skin], pose.world_from_node);
+  if (shape.winding_node >= 0) inputs.mirrored = is_mirrored(pose.world_from_node[shape.winding_node]);
   return inputs;
 }
 
 void update_mesh(const Rig& rig, const DeformingMesh& shape, const ShapeInputs& inputs,
                  std::optional<double> seconds, Mesh& mesh) {
-  deform(shape, inputs.weights, inputs.joints, mesh);
+  deform(shape, inputs.weights, inputs.joints, inputs.mirrored, mesh);
   if (const auto vertex = first_not_finite(mesh)) {
     const std::string when = seconds ? fmt::format("{} s", *seconds) : "rest";
     throw input_error("{}: {}: vertex {} is moved to infinity at {}", rig.file, shape.label, *vertex, when);
@@ -88,11 +90,15 @@ void update_mesh(const Rig& rig, const DeformingMesh& shape, const ShapeInputs& 
 }
 
 std::vector<int> move_instances(Scene& scene, const Pose& pose) {
+  std::vector<char> skinned(scene.meshes.size(), 0);
+  for (const DeformingMesh& shape : scene.rig->meshes) skinned[size_t(shape.mesh)] = shape.skin >= 0;
   std::vector<int> changed;
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     Instance& instance = scene.instances[i];
     if (instance.node < 0) continue;
-    const glm::dmat4 world = world_of_instance(pose.world_from_node[instance.node]);
+    const glm::dmat4& node = pose.world_from_node[instance.node];
+    const glm::dmat4 world = skinned[size_t(instance.mesh)] ? winding_matrix(is_mirrored(node))
+                                                            : world_of_instance(node);
     if (assign(instance.world_from_object, world)) changed.push_back(int(i));
   }
   return changed;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "scene/pose.h"
+
 namespace lightgrid {
 namespace {
 
@@ -143,7 +145,8 @@ void apply_morph_targets(std::span<const MorphTarget> targets, std::span<const d
   });
 }
 
-void apply_skin(std::span<const glm::dmat4> joints, const SkinWeights& skin, Mesh& mesh) {
+void apply_skin(std::span<const glm::dmat4> joints, const SkinWeights& skin, bool mirrored, Mesh& mesh) {
+  const glm::dmat4 object_from_world = winding_matrix(mirrored);
   for (size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
     glm::dmat4 blend(0);
     double sum = 0;
@@ -158,17 +161,18 @@ void apply_skin(std::span<const glm::dmat4> joints, const SkinWeights& skin, Mes
       blend = glm::dmat4(1);
       sum = 1;
     }
-    blend /= sum;
+    blend = object_from_world * (blend / sum);
     mesh.positions[vertex] = glm::vec3(blend * glm::dvec4(mesh.positions[vertex], 1));
     const glm::dmat3 turn(blend);
+    const double side = is_mirrored(blend) ? -1 : 1;
     if (!mesh.normals.empty()) {
       mesh.normals[vertex] =
-          unit_or_same(cofactors(turn) * glm::dvec3(mesh.normals[vertex]), mesh.normals[vertex]);
+          unit_or_same(cofactors(turn) * (side * glm::dvec3(mesh.normals[vertex])), mesh.normals[vertex]);
     }
     if (mesh.tangents.empty()) continue;
     const glm::vec3 tangent(mesh.tangents[vertex]);
     mesh.tangents[vertex] =
-        glm::vec4(unit_or_same(turn * glm::dvec3(tangent), tangent), mesh.tangents[vertex].w);
+        glm::vec4(unit_or_same(turn * glm::dvec3(tangent), tangent), float(side) * mesh.tangents[vertex].w);
   }
 }
 
@@ -196,12 +200,12 @@ void complete_mesh(TangentNeed tangents, Mesh& mesh) {
 }
 
 void deform(const DeformingMesh& shape, std::span<const double> weights, std::span<const glm::dmat4> joints,
-            Mesh& mesh) {
+            bool mirrored, Mesh& mesh) {
   Mesh made = shape.base;
   made.name = mesh.name;
   made.material = mesh.material;
   apply_morph_targets(shape.targets, weights, made);
-  if (shape.skin >= 0) apply_skin(joints, shape.skin_weights, made);
+  if (shape.skin >= 0) apply_skin(joints, shape.skin_weights, mirrored, made);
   complete_mesh(shape.tangents, made);
   mesh = std::move(made);
 }

@@ -15,10 +15,11 @@ namespace lightgrid {
 // colours clamped to 0 to 1. Targets of weight 0 are ignored. `weights`: one a target, or none.
 void apply_morph_targets(std::span<const MorphTarget> targets, std::span<const double> weights, Mesh& mesh);
 
-// Moves positions, normals and tangents by the joints, into world space: a skinned mesh's own node is
-// ignored. Weights are divided by their sum; a vertex without weights keeps its position in the file.
+// Moves positions, normals and tangents by the joints, into world space or, `mirrored`, into that of
+// winding_matrix. Weights are divided by their sum; a vertex without weights is in world space as in the
+// file. Joints that mirror keep normals on their side of the surface, and turn the tangents' handedness.
 // `joints` contains all joints of `skin`.
-void apply_skin(std::span<const glm::dmat4> joints, const SkinWeights& skin, Mesh& mesh);
+void apply_skin(std::span<const glm::dmat4> joints, const SkinWeights& skin, bool mirrored, Mesh& mesh);
 
 // The tangents that a mesh of this material needs.
 TangentNeed tangent_need(const Material& material);
@@ -28,7 +29,7 @@ void complete_mesh(TangentNeed tangents, Mesh& mesh);
 
 // Runs all three, from shape.base into `mesh`, whose name and material stay.
 void deform(const DeformingMesh& shape, std::span<const double> weights, std::span<const glm::dmat4> joints,
-            Mesh& mesh);
+            bool mirrored, Mesh& mesh);
 
 // The first vertex whose position is not finite.
 std::optional<size_t> first_not_finite(const Mesh& mesh);

@@ -186,6 +186,14 @@ glm::dmat4 world_of_instance(const glm::dmat4& world_from_node) {
   return point;
 }
 
+bool is_mirrored(const glm::dmat4& world_from_node) {
+  return glm::determinant(glm::dmat3(world_from_node)) < 0;
+}
+
+glm::dmat4 winding_matrix(bool mirrored) {
+  return glm::scale(glm::dmat4(1), glm::dvec3(mirrored ? -1 : 1, 1, 1));
+}
+
 std::optional<glm::vec3> light_direction(const glm::dmat4& world_from_node) {
   const glm::dvec3 along = -glm::dvec3(world_from_node[2]);
   const double length = glm::length(along);

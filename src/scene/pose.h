@@ -37,6 +37,12 @@ std::optional<glm::vec3> light_direction(const glm::dmat4& world_from_node);
 // The node's matrix without scale and shear, direction first, then up; empty if the node scales an axis to 0.
 std::optional<glm::dmat4> rigid_part(const glm::dmat4& world_from_node);
 
+// Front faces are clockwise: the determinant is negative.
+bool is_mirrored(const glm::dmat4& world_from_node);
+
+// world_from_object of a skinned mesh: the identity, or x negated. It is its own inverse.
+glm::dmat4 winding_matrix(bool mirrored);
+
 // The world matrix of each joint times its inverse bind matrix.
 std::vector<glm::dmat4> joint_matrices(const RigSkin& skin, const std::vector<glm::dmat4>& world_from_node);
 

@@ -79,6 +79,10 @@ struct DeformingMesh {
   std::vector<MorphTarget> targets;
   int skin = -1;  // of Rig::skins; -1: not skinned
   SkinWeights skin_weights;
+  // A skinned mesh ignores the node that draws it, except that a negative determinant makes front faces
+  // clockwise (glTF 2.0, section 3.7.4). Such a mesh is stored mirrored, in the space of winding_matrix.
+  bool mirrored = false;  // at rest
+  int winding_node = -1;  // the node that draws it, if it moves; only this node draws the mesh
 };
 
 struct Rig {

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/gtc/matrix_inverse.hpp>
+
 #include "scene/rig.h"
 #include "support/animated_gltf.h"
 
@@ -49,6 +51,17 @@ GltfBuilder two_joints() {
   const int binds = made.accessor(made.view(bytes_of(undo)), "MAT4", f32, 2);
   made.root["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", binds}}};
   return made;
+}
+
+void add_normal_map(GltfBuilder& made) {
+  made.attribute("TEXCOORD_0", Floats{0, 0, 1, 0, 0, 1}, "VEC2", f32, 3);
+  made.root["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+  made.root["textures"] = {{{"source", 0}}};
+  made.root["images"] = {
+      {{"uri",
+        "data:image/png;base64,"
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNgYGAAAAAEAAH2FzhVAAAAAElFTkSuQmCC"}}};
+  made.primitive()["material"] = 0;
 }
 
 TEST(AnimationSkins, joints_move_vertices_and_normals) {
@@ -100,6 +113,119 @@ TEST(AnimationSkins, the_drawing_nodes_own_motion_has_no_effect) {
   EXPECT_TRUE(scene.rig->meshes.empty()) << "its joints never move";
 }
 
+using Corners = std::vector<glm::dvec3>;
+
+// The corners of an instance's triangles in world space, counter-clockwise in front.
+Corners front_corners(const Scene& scene, const Instance& instance) {
+  const Mesh& mesh = scene.meshes.at(size_t(instance.mesh));
+  Corners corners;
+  for (const uint32_t index : mesh.indices)
+    corners.emplace_back(instance.world_from_object * glm::dvec4(mesh.positions[index], 1));
+  if (glm::determinant(glm::dmat3(instance.world_from_object)) < 0)
+    for (size_t i = 0; i + 2 < corners.size(); i += 3) std::swap(corners[i + 1], corners[i + 2]);
+  return corners;
+}
+
+void expect_corners(const Scene& scene, size_t instance, const Corners& expected) {
+  const Corners actual = front_corners(scene, scene.instances.at(instance));
+  ASSERT_EQ(actual.size(), expected.size());
+  for (size_t i = 0; i < actual.size(); ++i) expect_near(actual[i], expected[i], 2e-7);
+}
+
+glm::dvec3 world_normal(const Scene& scene, size_t instance, size_t vertex) {
+  const Instance& drawn = scene.instances.at(instance);
+  return glm::normalize(glm::inverseTranspose(glm::dmat3(drawn.world_from_object)) *
+                        glm::dvec3(scene.meshes[size_t(drawn.mesh)].normals[vertex]));
+}
+
+// two_joints() under node 3, the root.
+GltfBuilder under_a_root(const nlohmann::json& root) {
+  GltfBuilder made = two_joints();
+  made.root["nodes"].push_back(root);
+  made.root["nodes"][3]["children"] = {0, 1};
+  made.root["scenes"][0]["nodes"] = {3};
+  return made;
+}
+
+// glTF 2.0, section 3.7.4: with a negative determinant of the node, front faces are clockwise.
+TEST(AnimationSkins, under_a_mirrored_root_front_faces_are_mirrored_too) {
+  const Scene scene = under_a_root({{"scale", {-1, 1, 1}}}).load();
+  expect_corners(scene, 0, {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}});
+  for (size_t i = 0; i < 3; ++i) expect_near(world_normal(scene, 0, i), {0, 0, 1}, 1e-7);
+}
+
+TEST(AnimationSkins, only_the_drawing_nodes_determinant_gives_the_winding) {
+  GltfBuilder made = two_joints();
+  made.root["nodes"][1]["scale"] = {-1, 1, 1};
+  const Scene joints = made.load();
+  expect_corners(joints, 0, {{0, 0, 0}, {-1, 0, 0}, {0, 1, 0}});
+  // The normals stay those of the file's front, which this file turns away.
+  for (size_t i = 0; i < 3; ++i) expect_near(world_normal(joints, 0, i), {0, 0, 1}, 1e-7);
+
+  made = two_joints();
+  made.root["nodes"][0]["scale"] = {-1, 1, 1};
+  made.root["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
+  made.root["scenes"][0]["nodes"] = {0, 1, 3};
+  const Scene node = made.load();
+  expect_corners(node, 0, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}});
+  expect_corners(node, 1, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+}
+
+TEST(AnimationSkins, a_vertex_without_weights_stays_in_place_when_mirrored) {
+  GltfBuilder made = two_joints();
+  made.attribute("WEIGHTS_0", Floats(12, 0), "VEC4", f32, 3);
+  made.root["nodes"][0]["scale"] = {-1, 1, 1};
+  expect_corners(made.load(), 0, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}});
+}
+
+TEST(AnimationSkins, an_animated_scale_turns_the_winding_and_back) {
+  GltfBuilder made = under_a_root({{"name", "root"}});
+  animate(made, 3, "scale", {0, 2}, "VEC3", {1, 1, 1, -1, 1, 1});
+  Scene scene = made.load();
+  const Corners rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  expect_corners(scene, 0, rest);
+  SceneChanges changes = set_time(scene, 2);
+  EXPECT_EQ(changes.instances, Ints{0});
+  EXPECT_EQ(changes.meshes, Ints{0});
+  expect_corners(scene, 0, {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}});
+  expect_near(world_normal(scene, 0, 0), {0, 0, 1}, 1e-7);
+  changes = set_time(scene, 0);
+  EXPECT_EQ(changes.instances, Ints{0});
+  expect_corners(scene, 0, rest);
+}
+
+TEST(AnimationSkins, a_scaled_node_with_resting_joints_turns_only_its_own_winding) {
+  GltfBuilder made = two_joints();
+  made.root["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
+  made.root["scenes"][0]["nodes"] = {0, 1, 3};
+  animate(made, 0, "scale", {0, 2}, "VEC3", {1, 1, 1, 1, -1, 1});
+  Scene scene = made.load();
+  set_time(scene, 2);
+  expect_corners(scene, 0, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}});
+  expect_corners(scene, 1, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+}
+
+TEST(AnimationSkins, morph_targets_of_a_mirrored_mesh_move_in_its_file_space) {
+  GltfBuilder made = under_a_root({{"scale", {-1, 1, 1}}});
+  made.primitive()["targets"] = {{{"POSITION", float_accessor(made, "VEC3", 3, {1, 0, 0, 0, 0, 0, 0, 0, 0})}}};
+  made.root["meshes"][0]["weights"] = {0};
+  animate(made, 0, "weights", {0, 1}, "SCALAR", {0, 1});
+  Scene scene = made.load();
+  set_time(scene, 1);
+  expect_corners(scene, 0, {{-1, 0, 0}, {0, 1, 0}, {-1, 0, 0}});
+}
+
+TEST(AnimationSkins, joints_that_mirror_turn_the_handedness_of_tangents) {
+  GltfBuilder made = two_joints();
+  made.attribute("TANGENT", Floats{1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4", f32, 3);
+  add_normal_map(made);
+  made.root["nodes"][1]["scale"] = {-1, 1, 1};
+  const Scene joints = made.load();
+  EXPECT_EQ(joints.meshes[0].tangents[0], glm::vec4(-1, 0, 0, -1));
+  made.root["nodes"][0]["scale"] = {1, 1, -1};  // the instance's own matrix mirrors: the file's handedness
+  EXPECT_EQ(made.load().meshes[0].tangents[0], glm::vec4(1, 0, 0, 1));
+}
+
 TEST(AnimationSkins, instances_of_one_skin_share_a_mesh_and_other_skins_have_their_own) {
   GltfBuilder made = two_joints();
   made.root["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
@@ -124,14 +250,7 @@ TEST(AnimationSkins, instances_of_one_skin_share_a_mesh_and_other_skins_have_the
 TEST(AnimationSkins, tangents_turn_and_keep_their_handedness) {
   GltfBuilder made = two_joints();
   made.attribute("TANGENT", Floats{1, 0, 0, -1, 0, 1, 0, -1, 1, 0, 0, 1}, "VEC4", f32, 3);
-  made.attribute("TEXCOORD_0", Floats{0, 0, 1, 0, 0, 1}, "VEC2", f32, 3);
-  made.root["materials"] = {{{"normalTexture", {{"index", 0}}}}};
-  made.root["textures"] = {{{"source", 0}}};
-  made.root["images"] = {
-      {{"uri",
-        "data:image/png;base64,"
-        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNgYGAAAAAEAAH2FzhVAAAAAElFTkSuQmCC"}}};
-  made.primitive()["material"] = 0;
+  add_normal_map(made);
   animate(made, 2, "rotation", {0, 1}, "VEC4", {0, 0, 0, 1, float(root_half), 0, 0, float(root_half)});
   Scene scene = made.load();
   const Mesh at_rest = scene.meshes[0];

@@ -179,9 +179,13 @@ std::vector<Animation> read_animations(Document& doc, std::vector<PlacedNode>& n
     for (const AnimationChannel& channel : animation.channels) {
       PlacedNode& node = nodes[channel.node];
       (channel.path == AnimatedPath::weights ? node.morphs : node.moves) = true;
+      node.scales |= channel.path == AnimatedPath::scale;
     }
-  for (PlacedNode& node : nodes)
-    if (node.parent >= 0 && nodes[node.parent].moves) node.moves = true;
+  for (PlacedNode& node : nodes) {
+    if (node.parent < 0) continue;
+    node.moves |= nodes[node.parent].moves;
+    node.scales |= nodes[node.parent].scales;
+  }
   return out;
 }
 

@@ -62,7 +62,8 @@ class MeshReader {
     const std::string place = node_label(doc_, placed.node);
     const tinygltf::Mesh& mesh = checked(doc_, doc_.model.meshes, node.mesh, place, "mesh");
     if (node.skin >= 0) checked(doc_, doc_.model.skins, node.skin, place, "skin");
-    const Use use{node.mesh, node.skin, default_weights(doc_, node, mesh, place), placed.morphs ? index : -1};
+    const Use use{node.mesh, node.skin, default_weights(doc_, node, mesh, place), placed.morphs ? index : -1,
+                  node.skin >= 0 && is_mirrored(placed.world_from_node), node.skin >= 0 && placed.scales ? index : -1};
     const std::vector<Drawn>& meshes = meshes_of(use);
     casts_shadow_ = node_casts_shadow(doc_, placed.node).value_or(true), file_node_ = placed.node;
     if (const auto copies = read_instances(doc_, placed.node)) return add_copies(index, meshes, *copies);
@@ -75,7 +76,8 @@ class MeshReader {
  private:
   struct Drawn {
     int mesh;       // of the scene
-    bool in_world;  // skinned: its vertices are in world space
+    bool skinned;  // its joints place it
+    int winding_node;
   };
 
   // The inputs that determine the shape of a file's mesh.
@@ -83,6 +85,8 @@ class MeshReader {
     int mesh, skin;               // of the file
     std::vector<double> weights;  // at rest
     int weights_node;             // a place in nodes_, where the weights are animated; else -1
+    bool mirrored;                // DeformingMesh has both
+    int winding_node;
     auto operator<=>(const Use&) const = default;
   };
 
@@ -90,18 +94,19 @@ class MeshReader {
   void add_instance(const Drawn& drawn, const std::string& name, const std::string& place,
                     const glm::dmat4& world_from_node, int node) {
     // A mesh flattened to a plane, line or point has no usable normals.
-    if (!drawn.in_world && node < 0 && is_flat(world_from_node)) {
+    if (!drawn.skinned && node < 0 && is_flat(world_from_node)) {
       doc_.warn("flattened", "{}: is scaled to no volume and left out", place);
       return;
     }
     if (scene_.instances.size() >= doc_.limits.max_instances)
       throw doc_.error("{}: more than {} instances", place, doc_.limits.max_instances);
-    scene_.instances.push_back(
-        {.name = name,
-         .mesh = drawn.mesh,
-         .world_from_object = drawn.in_world ? glm::dmat4(1) : world_of_instance(world_from_node),
-         .node = drawn.in_world ? -1 : node,
-         .casts_shadow = casts_shadow_});
+    scene_.instances.push_back({.name = name,
+                                .mesh = drawn.mesh,
+                                .world_from_object = drawn.skinned
+                                                         ? winding_matrix(is_mirrored(world_from_node))
+                                                         : world_of_instance(world_from_node),
+                                .node = drawn.skinned ? drawn.winding_node : node,
+                                .casts_shadow = casts_shadow_});
     node_of_instance_.push_back(file_node_);
   }
 
@@ -137,11 +142,14 @@ class MeshReader {
       if (!primitive) continue;
       primitive->mesh.name = in.name;
       const bool skinned = use.skin >= 0 && primitive->skin.sets > 0;
-      out.push_back({static_cast<int>(scene_.meshes.size()), skinned});
+      out.push_back({static_cast<int>(scene_.meshes.size()), skinned, use.winding_node});
       DeformingMesh shape{.mesh = out.back().mesh,
                           .label = place,
                           .tangents = tangent_need(scene_.materials[primitive->mesh.material])};
-      if (skinned) shape.skin = use.skin, shape.skin_weights = std::move(primitive->skin);
+      if (skinned) {
+        shape.skin = use.skin, shape.skin_weights = std::move(primitive->skin);
+        shape.mirrored = use.mirrored, shape.winding_node = use.winding_node;
+      }
       add_at_rest(in.primitives[i], use, std::move(primitive->mesh), std::move(shape));
     }
     return out;
@@ -154,7 +162,8 @@ class MeshReader {
         read_morph_targets(doc_, in, use.weights, morphs, mesh, budget_, shape.label);
     if (!morphs) apply_checked_morph(targets, use.weights, shape.label, mesh);
     if (shape.tangents == TangentNeed::none) mesh.tangents = {};
-    const bool deforms = morphs || (shape.skin >= 0 && moves(skin_of(shape.skin)));
+    const bool deforms =
+        morphs || shape.winding_node >= 0 || (shape.skin >= 0 && moves(skin_of(shape.skin)));
     if (deforms) shape.base = mesh;
     if (morphs) apply_checked_morph(targets, use.weights, shape.label, mesh);
     if (shape.skin >= 0) apply_checked_skin(shape, mesh);
@@ -180,7 +189,7 @@ class MeshReader {
   void apply_checked_skin(const DeformingMesh& shape, Mesh& mesh) {
     const RigSkin& skin = skin_of(shape.skin);
     check_joints(doc_, skin, shape.skin_weights, shape.label);
-    apply_skin(joint_matrices(skin, world_from_node_), shape.skin_weights, mesh);
+    apply_skin(joint_matrices(skin, world_from_node_), shape.skin_weights, shape.mirrored, mesh);
     if (const auto vertex = first_not_finite(mesh))
       throw doc_.error("{}: vertex {} is moved to infinity by its joints", shape.label, *vertex);
   }

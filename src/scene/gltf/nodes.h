@@ -17,6 +17,7 @@ struct PlacedNode {
   std::optional<glm::dmat4> matrix;  // replaces `transform`
   glm::dmat4 world_from_node{1};     // at rest
   bool moves = false;                // an animation moves this node or an ancestor; set by read_animations
+  bool scales = false;               // an animation scales this node or an ancestor; set by read_animations
   bool morphs = false;               // an animation sets its morph weights; set by read_animations
 };
 
@@ -46,7 +47,7 @@ std::optional<bool> node_casts_shadow(const Document& doc, int node);
 std::optional<std::vector<NodeTransform>> read_instances(Document& doc, int node);
 
 // All animations of the file, each with the channels that move a node of `nodes`. AnimationChannel::node is
-// an index into `nodes`; the function sets their `moves` and `morphs`. Channels without a node, and of nodes
+// an index into `nodes`; the function sets their `moves`, `scales` and `morphs`. Channels without a node, and of nodes
 // outside the scene, are omitted; so are (with a warning) paths not in glTF 2.0 and weights of a node without
 // morph targets. An animation with a fault has no channels: one warning names the first, its fault and the
 // number of others. Faults: broken JSON or indices; two channels of one animation with the same target;
