@@ -52,8 +52,9 @@ Camera choose_camera(const Scene& scene, const std::string& wish, double aspect 
 Camera overview_camera(const Scene& scene, double aspect);
 
 // A person's eye in a room, along its greatest length, 60 degrees high; named "room". Walls are front faces
-// on nearly all sides, at least 1.5 m away, over a floor. None in a scene below 3 x 2 x 3 m, without such a
-// place, or of more than two million triangles. The caller sets near and far.
+// on nearly all sides, at least 1.5 m away, over a level floor. None in a scene below 3 x 2 x 3 m, without
+// such a place, of more than two million triangles, or if the room is the empty cavity of an object whose
+// outer faces face out. The caller sets near and far.
 std::optional<Camera> room_camera(const Scene& scene);
 
 }  // namespace lightgrid

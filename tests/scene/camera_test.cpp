@@ -339,6 +339,105 @@ TEST(ChooseCamera, DefaultStaysOutsideOfWhatIsNoRoom) {
   EXPECT_EQ(choose_camera(open, "").name, "overview");
 }
 
+// A box of 10 x 6 x 10 m with walls of 0.2 m: its outer faces face out, its inner ones in.
+Scene shell() {
+  Scene scene = box_of({10, 6, 10}, false);
+  const Scene inside = box_of({9.6, 5.6, 9.6}, true);
+  scene.meshes.push_back(inside.meshes[0]);
+  scene.instances.push_back({"cavity", 1, glm::translate(glm::dmat4(1), glm::dvec3(0, 0.2, 0)) *
+                                              inside.instances[0].world_from_object});
+  return scene;
+}
+
+TEST(ChooseCamera, DefaultStaysOutsideOfAHollowObject) {
+  EXPECT_EQ(choose_camera(shell(), "").name, "overview");
+  Scene two_sided = box_of({10, 6, 10}, true);  // each triangle twice, with both windings
+  two_sided.instances.push_back(two_sided.instances[0]);
+  two_sided.meshes.push_back(box_of({1, 1, 1}, false).meshes[0]);
+  two_sided.instances[1].mesh = 1;
+  EXPECT_EQ(choose_camera(two_sided, "").name, "overview");
+}
+
+TEST(ChooseCamera, DefaultEntersAHouseWithSomethingInIt) {
+  Scene lit = shell();
+  lit.lights.push_back({.position = {1, 5, 1}});
+  EXPECT_EQ(choose_camera(lit, "").name, "room") << "a lamp";
+  lit.lights[0].position.y = 6.5;
+  EXPECT_EQ(choose_camera(lit, "").name, "overview") << "a lamp above the roof";
+  Scene furnished = shell();
+  furnished.meshes.push_back(box_of({1, 1, 1}, false).meshes[0]);
+  for (const double x : {-3.5, -1.5, 1.5, 3.5})
+    for (const double z : {-2, 2})
+      furnished.instances.push_back({"pillar", 2, glm::translate(glm::dmat4(1), glm::dvec3(x, 0.2, z)) *
+                                                      glm::scale(glm::dmat4(1), {1, 5.6, 1})});
+  EXPECT_EQ(choose_camera(furnished, "").name, "room") << "pillars";
+}
+
+// A sphere of this radius around its centre, wound inwards.
+Scene inward_sphere(float radius) {
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  constexpr uint32_t rings = 16, sides = 32;
+  for (uint32_t ring = 0; ring <= rings; ++ring)
+    for (uint32_t side = 0; side < sides; ++side) {
+      const float down = float(ring) * 3.1415927f / rings, turn = float(side) * 6.2831853f / sides;
+      mesh.positions.push_back(radius * glm::vec3(std::sin(down) * std::cos(turn), std::cos(down),
+                                                  std::sin(down) * std::sin(turn)));
+      mesh.bounds.add(mesh.positions.back());
+      if (ring == rings) continue;
+      const uint32_t a = ring * sides + side, b = ring * sides + (side + 1) % sides;
+      for (const uint32_t index : {a, a + sides, b, b, a + sides, b + sides}) mesh.indices.push_back(index);
+    }
+  scene.instances.push_back({"sphere", 0, glm::dmat4(1)});
+  return scene;
+}
+
+// Animals whose files have their triangles inside out.
+TEST(ChooseCamera, DefaultStaysOutsideOfABodyWithARoundBottom) {
+  for (const float radius : {4.0f, 20.0f, 300.0f})
+    EXPECT_EQ(choose_camera(inward_sphere(radius), "").name, "overview") << radius;
+}
+
+// Margins of the image left, right, below and above of all vertices, as a part of half its size.
+glm::dvec4 margins(const Scene& scene, const View& view) {
+  glm::dvec2 least(1e9), most(-1e9);
+  for (const Instance& instance : scene.instances)
+    for (const glm::vec3& p : scene.meshes[size_t(instance.mesh)].positions) {
+      const glm::dvec4 clip = view.clip_from_view * view.view_from_world * instance.world_from_object *
+                              glm::dvec4(p, 1);
+      least = glm::min(least, glm::dvec2(clip) / clip.w), most = glm::max(most, glm::dvec2(clip) / clip.w);
+    }
+  return {1 + least.x, 1 - most.x, 1 + least.y, 1 - most.y};
+}
+
+// Shapes far smaller than their boxes: one triangle, a fan, and both with others near and far.
+TEST(ChooseCamera, OverviewCentresVerticesNotBoxes) {
+  Scene scene;
+  Mesh triangle;
+  triangle.positions = {{0, 0, 0}, {4, 0, 1}, {0.5f, 3, -6}};
+  triangle.indices = {0, 1, 2};
+  Mesh fan = triangle;
+  fan.positions = {{0, 0, 0}, {7, 1, 0}, {6, 2, 5}, {1, 1, 9}};
+  fan.indices = {0, 1, 2, 0, 2, 3};
+  for (Mesh* mesh : {&triangle, &fan}) {
+    for (const glm::vec3& p : mesh->positions) mesh->bounds.add(p);
+    scene.meshes.push_back(*mesh);
+  }
+  const auto expect_centred = [&](double aspect) {
+    const View view = make_view(choose_camera(scene, "", aspect), int(aspect * 1000), 1000);
+    const glm::dvec4 m = margins(scene, view);
+    EXPECT_NEAR(m[0], m[1], 1e-6);
+    EXPECT_NEAR(m[2], m[3], 1e-6);
+    EXPECT_NEAR(std::min(m[0], m[2]), 0.1, 1e-6) << "nine tenths are filled on one axis";
+  };
+  scene.instances = {{"triangle", 0, glm::dmat4(1)}};
+  expect_centred(1);
+  scene.instances = {{"fan", 1, glm::scale(glm::dmat4(1), {-1, 2, 1})}};
+  expect_centred(16.0 / 9);
+  scene.instances.push_back({"triangle", 0, glm::translate(glm::dmat4(1), glm::dvec3(-9, 1, 4))});
+  expect_centred(0.5);
+}
+
 TEST(ChooseCamera, EmptySceneStillHasAView) {
   const View view = make_view(choose_camera(Scene(), ""), 1, 1);
   EXPECT_TRUE(std::isfinite(view.view_from_world[3].z));
