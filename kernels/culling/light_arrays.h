@@ -15,7 +15,7 @@
 #define VIEW_R 3
 #define VIEW_TILES 4  // of one bin: bits 0-7 its columns, 8-15 its rows
 #define VIEW_ID 5
-#define VIEW_CONE 6   // four arrays
+#define VIEW_CONE 6  // four arrays
 #ifdef SPOTS
 #define VIEW_GROUPS (VIEW_CONE + 4)
 #else
@@ -45,11 +45,14 @@ static inline ViewCone load_cone(global const float* cones, size_t stride) {
   return k;
 }
 
+// The axis is made a unit vector again: view_from_world may stretch it by MAX_STRETCH.
 static inline ViewCone view_cone(global const float* lights, size_t stride, constant CullParams* p) {
   const ViewCone w = load_cone(lights + 4 * stride, stride);
-  const ViewCone k = {p->x_axis_x * w.x + p->x_axis_y * w.y + p->x_axis_z * w.d,
-                      p->y_axis_x * w.x + p->y_axis_y * w.y + p->y_axis_z * w.d,
-                      p->d_axis_x * w.x + p->d_axis_y * w.y + p->d_axis_z * w.d, w.cosine};
+  const real x = p->x_axis_x * w.x + p->x_axis_y * w.y + p->x_axis_z * w.d,
+             y = p->y_axis_x * w.x + p->y_axis_y * w.y + p->y_axis_z * w.d,
+             d = p->d_axis_x * w.x + p->d_axis_y * w.y + p->d_axis_z * w.d;
+  const real length = sqrt(x * x + y * y + d * d);
+  const ViewCone k = {x / length, y / length, d / length, w.cosine};
   return k;
 }
 #endif

@@ -194,6 +194,7 @@ void check_range(const CullView& view) {
   }
 }
 
+// MAX_STRETCH follows from this bound.
 void check_rigid(const CullView& view) {
   const glm::dmat3 rotation(view.view_from_world);
   const glm::dmat3 error = rotation * glm::transpose(rotation) - glm::dmat3(1);
@@ -272,9 +273,9 @@ CullParams cull_params(const CullView& view, int tile) {
   // Blended surfaces may lie past the farthest surface, where lights are scaled towards the eye; 1e12 m is
   // nearer than any scaled light.
   p.near_distance = v.orthographic ? v.near_distance : std::min(v.near_distance, 1e12f);
-  // A tile's side p * scale + offset rounds by 3u (|side| + |offset|), in the kernels and again in shading;
-  // SLACK covers the first term. docs/hard_cases.md#slack
-  const float side_slack = 8 * 0x1p-24f * (std::abs(p.slope_x_offset) + std::abs(p.slope_y_offset));
+  // A tile's side p * scale + offset rounds by 3u |side| + 5u |offset|, in the kernels and again in shading,
+  // which may fuse the product and the sum. SLACK covers the first term. docs/details/hard_cases.md#slack
+  const float side_slack = 12 * 0x1p-24f * (std::abs(p.slope_x_offset) + std::abs(p.slope_y_offset));
   (v.orthographic ? p.side_slack_m : p.side_slack) = side_slack;
   p.orthographic = v.orthographic, p.standard_depth = has_standard_depth(view);
   p.width = v.width, p.height = v.height;

@@ -21,6 +21,11 @@ double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v
 
 double sum_of(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
+// The largest rounding of an uploaded position, metres in view space.
+double upload_rounding(const glm::dvec3& offset) {
+  return half_ulp * sum_of(offset) * (1 + double(MAX_STRETCH));
+}
+
 // 0 if there are no values.
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -82,7 +87,7 @@ UploadedSphere uploaded_sphere(const CullLight& light, const glm::dvec3& origin,
     return {glm::vec3(is_far(light, origin) ? glm::dvec3(0) : light.position - origin), endless};
   if (is_far(light, origin)) return far_sphere(light, origin, eye_reach);
   const glm::dvec3 offset = light.position - origin;
-  return {glm::vec3(offset), radius_rounded_up(light.radius_m + half_ulp * sum_of(offset))};
+  return {glm::vec3(offset), radius_rounded_up(light.radius_m + upload_rounding(offset))};
 }
 
 // The uploaded cosine of the cone: the cone is widened by the cosine's rounding. 2 means that the sphere
@@ -101,7 +106,7 @@ LightOrigin choose_origin(std::span<const CullLight> lights) {
   for (const CullLight& light : lights) {
     // A light of radius 0 lights nothing.
     if (!is_light(light) || light.radius_m == 0 || is_far(light, origin)) continue;
-    const double rounding = half_ulp * sum_of(light.position - origin);
+    const double rounding = upload_rounding(light.position - origin);
     ++count;
     if (rounding > small_part * light.radius_m) ++coarse;
     if (!has_cone(light)) continue;

@@ -26,8 +26,8 @@ struct LightOrigin {
   // World, metres. Empty: no fixed origin is accurate enough for all lights; positions must be uploaded
   // relative to the eye, again whenever it moves.
   std::optional<glm::dvec3> fixed;
-  // The largest rounding of a spot's position with the fixed origin, metres: added to the slack of cone
-  // tests. Radii are grown on upload instead.
+  // The largest rounding of a spot's position with the fixed origin, metres in view space: added to the slack
+  // of cone tests. Radii are grown on upload instead.
   double cone_slack_m = 0;
 };
 

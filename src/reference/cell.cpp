@@ -143,16 +143,16 @@ bool possibly_touches(const View& view, int tile, const Cell& cell, const Oracle
   const double r = light.radius + light.position_error;
   if (r > far_away) return true;
   // 24 u of slack and 8 u of rounding; plus 32 u for the sides' slopes, and for the tangents and tile
-  // coordinates.
+  // coordinates. Both slopes of the image's corner, at most the steepest, have 12 u of slack.
   const double sum = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + r, steep = steepest_slope(view);
   const double reach_of_slopes = cell.orthographic ? 1 : std::abs(p.z) + r;
   const double margin =
-      least_radius + 64 * u * sum + 40 * u * (2 * steep + tile_slope(view, tile)) * reach_of_slopes;
+      least_radius + 64 * u * sum + 44 * u * (2 * steep + tile_slope(view, tile)) * reach_of_slopes;
   const double near = cell.near == endless_near ? 0 : std::abs(cell.near);
   const bool endless = cell.far > far_away || cell.near == endless_near;
   const double ends =
       cell.far > far_away ? (cell.orthographic ? near : far_away) : std::max(near, std::abs(cell.far));
-  const double box_margin = least_radius + 32 * u * sum + 16 * u * (1 + steep) * (ends + reach_of_slopes);
+  const double box_margin = least_radius + 32 * u * sum + u * (16 + 24 * steep) * (ends + reach_of_slopes);
   const CellBox box = box_around(cell);
   if (outside(-p.z, cell.near, cell.far) > r + box_margin) return false;
   const CullTestRow& parts = row_of(test);

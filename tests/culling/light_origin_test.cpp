@@ -136,6 +136,43 @@ CullLight lamp(const glm::dvec3& position, double radius, double cos_outer = -1)
   return {position, radius, {0, 0, -1}, cos_outer};
 }
 
+// A light 2^20 m from the others, so that its position rounds to 2^-32 m or coarser, reaches one pixel by
+// less than that. view_from_world is (1 + stretch) times a rotation, which check_view accepts.
+void expect_listed(double stretch, CullTest test) {
+  constexpr double rounding_m = 0x1p-32, radius_m = 0x1p-10, focal = 100, distance = 0.01, near_m = 0.001;
+  const float depth = float(near_m / distance);
+  const double side = (2 * 31.5 / 64 - 1) / focal * distance;
+  const glm::dvec3 surface(side, side, -near_m / double(depth));
+  CullView view{64, 64, glm::dmat4(0), glm::scale(glm::dmat4(1), glm::dvec3(1 + stretch))};
+  view.clip_from_view[0][0] = view.clip_from_view[1][1] = focal;
+  view.clip_from_view[2][3] = -1, view.clip_from_view[3][2] = near_m;
+  glm::dvec3 at = surface / (1 + stretch);
+  at.z = -(std::floor((radius_m - surface.z) / (1 + stretch) / rounding_m) - 1) * rounding_m;
+  const double inside_m = radius_m - glm::length(at * (1 + stretch) - surface);
+  ASSERT_TRUE(inside_m > 0 && inside_m < 3 * rounding_m) << inside_m;
+  std::vector<CullLight> lights(128, lamp(at + glm::dvec3(0, 0, 0x1p20 + 0.1875), 1));
+  lights[0] = lamp(at, radius_m);
+
+  LightCuller culler(test_device(), test_programs(), {.cull_test = test});
+  culler.set_lights(lights);
+  culler.set_view(view);
+  ClGridStorage storage(test_device());
+  const DepthBounds bounds = culler.depth_bounds({buffer_of(std::vector<float>(64 * 64, depth))});
+  const LightGrid grid = culler.cull(bounds.opaque, storage);
+  const HostGrid host = read_grid(test_device(), grid, storage);
+  const glm::uvec2 cell = host.cells[31 / 16 * size_t(grid.cells_x) + 31 / 16];
+  EXPECT_EQ(std::count(host.indices.begin() + cell.x, host.indices.begin() + cell.x + cell.y, 0u), 1);
+}
+
+TEST(StretchedViews, LoseNoLight) {
+  for (const CullTestRow& row : cull_tests) {
+    for (const double stretch : {0.0, 2.4e-6, 3.5e-6, 4.9e-6}) {
+      SCOPED_TRACE(testing::Message() << row.name << ", " << stretch);
+      expect_listed(stretch, row.test);
+    }
+  }
+}
+
 TEST(ChooseOrigin, IsTheMedianLightAsLongAsRoundingIsSmallBesideRadii) {
   EXPECT_EQ(choose_origin(std::vector{lamp({1, 5, 0}, 1), lamp({2, 4, 0}, 1), lamp({9, 6, 1000}, 1)}).fixed,
             glm::dvec3(2, 5, 0));
@@ -150,7 +187,7 @@ TEST(ChooseOrigin, GivesConesTheLargestRoundingOfASpot) {
   const LightOrigin origin =
       choose_origin(std::vector{lamp({0, 0, 0}, 1, 0.5), lamp({0, 0, 0}, 1), lamp({100, 20, 8}, 1, 0.5)});
   ASSERT_TRUE(origin.fixed);
-  EXPECT_EQ(origin.cone_slack_m, 128 * 0x1p-24);
+  EXPECT_EQ(origin.cone_slack_m, 128 * 0x1p-24 * (1 + double(MAX_STRETCH)));
 }
 
 TEST(ChooseOrigin, LeavesOutParkedLights) {
