@@ -33,6 +33,7 @@ VARYING out vec4 fragment_color;
 uniform mat3 normal_from_object;
 #ifdef TANGENTS
 uniform mat3 view_from_object;
+uniform float bitangent_sign;  // -1 for mirroring matrices, which invert the cross product that gives it
 #endif
 
 void main() {
@@ -42,9 +43,8 @@ void main() {
 #endif
   normal_view = normal_from_object * normal;
 #ifdef TANGENTS
-  // A tangent transforms as a direction, not as a normal. A mirroring matrix inverts the cross product that
-  // gives the bitangent.
-  tangent_view = vec4(view_from_object * tangent.xyz, tangent.w * sign(determinant(view_from_object)));
+  // A tangent transforms as a direction, not as a normal.
+  tangent_view = vec4(view_from_object * tangent.xyz, tangent.w * bitangent_sign);
 #endif
 #ifdef TEXTURED
   fragment_uv0 = uv0;

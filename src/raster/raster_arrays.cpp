@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/facing.h"
 
 namespace lightgrid {
 namespace {
@@ -259,7 +260,7 @@ RasterInstances raster_instances(std::span<const RasterInstance> instances,
     record.first_vertex = mesh.first_vertex, record.vertex_count = mesh.vertices;
     record.first_position = mesh.first_position;
     record.first_clip_vertex = uint32_t(all.clip_vertices);
-    const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
+    const bool mirrored = is_mirroring(glm::dmat3(instance.world_from_object));
     record.flags = (instance.two_sided ? RASTER_TWO_SIDED : 0) | (mirrored ? RASTER_MIRRORED : 0);
     record.alpha_material = instance.alpha_material;
     all.records.push_back(record);

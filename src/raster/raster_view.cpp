@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/facing.h"
 #include "cl/buffers.h"
 #include "cl/launch.h"
 #include "cl/transfer.h"
@@ -18,7 +19,7 @@ constexpr const char* uploading = "rasterizer: scene";
 constexpr uint32_t first_entries_a_tile = 64;
 constexpr uint64_t most_numbers = 0xffffffffu;  // of records or entries
 
-bool mirrors(const glm::dmat4& m) { return glm::determinant(glm::dmat3(m)) < 0; }
+bool mirrors(const glm::dmat4& m) { return is_mirroring(glm::dmat3(m)); }
 
 // Triangle numbers stay if these stay the same.
 bool same_layout(const RasterInstance& a, const RasterInstance& b) {
@@ -107,7 +108,8 @@ RasterFrameInstance raster_frame_instance(const RasterCamera& camera, const glm:
   const glm::dvec3 forward = -glm::dvec3(turn[0][2], turn[1][2], turn[2][2]);
   const glm::vec3 eye(perspective ? -(object_from_eye * glm::dvec3(eye_from_object[3]))
                                   : glm::normalize(object_from_eye * forward));
-  const bool usable = std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z);
+  const bool usable =
+      !is_singular(linear) && std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z);
   instance.eye_x = eye.x, instance.eye_y = eye.y, instance.eye_z = eye.z;
   instance.eye_is_point = two_sided || !usable ? RASTER_NONE : perspective ? 1 : 0;
   return instance;

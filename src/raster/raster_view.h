@@ -59,10 +59,10 @@ namespace lightgrid {
 // A mesh at a place.
 struct RasterInstance {
   int mesh = 0;                     // by its number in set_meshes
-  glm::dmat4 world_from_object{1};  // affine, finite; a negative determinant turns front faces around
+  glm::dmat4 world_from_object{1};  // affine, finite; front faces turn around if it mirrors (base/facing.h)
   bool two_sided = false;           // true: its back faces are drawn too
-  int alpha_material = -1;  // 0 or more: the material whose alpha decides which pixels it covers
-  bool drawn = true;        // false: its triangles keep their numbers and are left out
+  int alpha_material = -1;          // 0 or more: the material whose alpha decides which pixels it covers
+  bool drawn = true;                // false: its triangles keep their numbers and are left out
 };
 
 // What a view sees.
@@ -159,7 +159,7 @@ class RasterView {
 
   const RasterBuffers& buffers() const;  // null before set_instances
   const RasterCounts& counts() const;    // of the last draw() or list()
-  size_t memory_bytes() const;  // on the device, without the scene's
+  size_t memory_bytes() const;           // on the device, without the scene's
 
  private:
   void run(bool image, const std::function<void()>& meanwhile);

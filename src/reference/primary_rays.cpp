@@ -1,5 +1,6 @@
 #include "reference/primary_rays.h"
 
+#include "base/facing.h"
 #include "reference/position.h"
 
 namespace lightgrid {
@@ -61,7 +62,7 @@ std::optional<PrimaryRays::Hit> PrimaryRays::hit(SceneSurfaces& surfaces, const 
   const dvec2 of_surfaces = place * dvec2(surfaces.size()) / dvec2(view_.width, view_.height);
   const auto depth = surfaces.depth_at(triangle, of_surfaces);
   if (!depth || !(*depth > 0 && *depth <= 1)) return {};
-  const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
+  const bool mirrored = is_mirroring(glm::dmat3(instance.world_from_object));
   if (!material.double_sided && (triangle.turn() < 0) != mirrored) return {};
   if (material.alpha_mode == AlphaMode::mask &&
       surfaces.base_color_at(triangle, of_surfaces).a < double(material.alpha_cutoff))

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/facing.h"
+
 namespace lightgrid {
 namespace {
 
@@ -216,9 +218,10 @@ Surface SceneSurfaces::surface_at(const TriangleInView& triangle, const dvec2& p
   if (m.emissive_map.texture >= 0) s.emissive *= dvec3(sampled(m.emissive_map, triangle, w));
 
   const dmat3 directions(view_from_object(view_, instance.world_from_object));
-  const bool mirrored = glm::determinant(directions) < 0, back = (triangle.turn() < 0) != mirrored;
+  const bool mirrored = is_mirroring(dmat3(instance.world_from_object)),
+             back = (triangle.turn() < 0) != mirrored;
   const dvec3 geometric =
-      glm::normalize(glm::transpose(glm::inverse(directions)) * mean(triangle, w.here, mesh.normals));
+      glm::normalize(normal_matrix(directions, mirrored) * mean(triangle, w.here, mesh.normals));
   const auto bent = [&](const TextureSlot& map, double scale) {
     dvec3 n = geometric;
     if (map.texture < 0) return back ? -n : n;

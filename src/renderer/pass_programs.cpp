@@ -9,6 +9,7 @@ SceneProgram::SceneProgram(const GlProgram& program)
     : name(program.name()),
       clip_from_object(program.uniform("clip_from_object")),
       view_from_object(program.uniform("view_from_object")),
+      bitangent_sign(program.uniform("bitangent_sign")),
       normal_from_object(program.uniform("normal_from_object")),
       lights_of_draw(program.uniform("lights_of_draw")),
       alpha(program.uniform("alpha")),

@@ -21,9 +21,9 @@ struct Work;
 struct SceneProgram {
   explicit SceneProgram(const GlProgram& program);
   GLuint name;
-  GLint clip_from_object, view_from_object, normal_from_object;
-  GLint lights_of_draw, alpha, object;  // shaders/lights/object.glsl, forward.frag, object.frag
-  GLint layers_of_draw;                 // shared/shadow_bits.h
+  GLint clip_from_object, view_from_object, bitangent_sign, normal_from_object;
+  GLint lights_of_draw, alpha, object;         // shaders/lights/object.glsl, forward.frag, object.frag
+  GLint layers_of_draw;                        // shared/shadow_bits.h
   GLint groups_of_draw, group_number_of_draw;  // shaders/common/point_of_surface.glsl, gbuffer.frag
 };
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/facing.h"
 #include "scene/random.h"
 
 namespace lightgrid {
@@ -26,7 +27,7 @@ Triangle world_triangle(const Scene& scene, const Instance& instance, size_t fir
   };
   Triangle triangle{corner(0), corner(1), corner(2)};
   // Mirrored instances have reversed triangles.
-  if (glm::determinant(glm::dmat3(instance.world_from_object)) < 0) std::swap(triangle.b, triangle.c);
+  if (is_mirroring(glm::dmat3(instance.world_from_object))) std::swap(triangle.b, triangle.c);
   return triangle;
 }
 

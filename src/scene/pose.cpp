@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/error.h"
+#include "base/facing.h"
 
 namespace lightgrid {
 namespace {
@@ -186,9 +187,7 @@ glm::dmat4 world_of_instance(const glm::dmat4& world_from_node) {
   return point;
 }
 
-bool is_mirrored(const glm::dmat4& world_from_node) {
-  return glm::determinant(glm::dmat3(world_from_node)) < 0;
-}
+bool is_mirrored(const glm::dmat4& world_from_node) { return is_mirroring(glm::dmat3(world_from_node)); }
 
 glm::dmat4 winding_matrix(bool mirrored) {
   return glm::scale(glm::dmat4(1), glm::dvec3(mirrored ? -1 : 1, 1, 1));

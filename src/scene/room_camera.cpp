@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/facing.h"
 #include "scene/camera.h"
 
 namespace lightgrid {
@@ -18,7 +19,7 @@ std::vector<Corners> triangles_of(const Scene& scene, size_t most) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
     if (triangles.size() + mesh.indices.size() / 3 > most) return {};
-    const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
+    const bool mirrored = is_mirroring(glm::dmat3(instance.world_from_object));
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       Corners& corners = triangles.emplace_back();
       for (size_t c = 0; c < 3; ++c) {
@@ -104,8 +105,9 @@ Walls walls_along(const std::vector<Corners>& triangles, const glm::dvec3& eye, 
   // Surfaces in the same place are two sides of one wall, or neighbours that share the edge.
   const double same = 1e-6 * hits.back().distance;
   const auto first_front = std::ranges::find(hits, true, &Hit::front);
-  return {true, std::any_of(hits.begin(), hits.end(),
-                            [&](const Hit& h) { return !h.front && h.distance >= hits.back().distance - same; }),
+  return {true,
+          std::any_of(hits.begin(), hits.end(),
+                      [&](const Hit& h) { return !h.front && h.distance >= hits.back().distance - same; }),
           std::any_of(first_front, hits.end(),
                       [&](const Hit& h) { return h.front && h.distance > first_front->distance + same; })};
 }
@@ -119,8 +121,7 @@ bool in_hollow_object(const Scene& scene, const std::vector<Corners>& triangles,
   int any = 0, outward = 0, several = 0;
   for (int i = 0; i < rays; ++i) {  // evenly over the sphere
     const double up = 1 - (2 * i + 1.0) / rays, across = std::sqrt(1 - up * up), turn = golden_angle * i;
-    const Walls walls =
-        walls_along(triangles, eye, {across * std::cos(turn), up, across * std::sin(turn)});
+    const Walls walls = walls_along(triangles, eye, {across * std::cos(turn), up, across * std::sin(turn)});
     any += walls.any, outward += walls.outward, several += walls.several;
   }
   if (outward < nearly_all * any || several > few * any) return false;
@@ -137,7 +138,8 @@ struct RoomPlace {
 };
 
 // A camera in the room around a place, if there is one.
-std::optional<RoomPlace> camera_at(const std::vector<Corners>& triangles, const glm::dvec3& place, double top) {
+std::optional<RoomPlace> camera_at(const std::vector<Corners>& triangles, const glm::dvec3& place,
+                                   double top) {
   constexpr int walls = 14;
   constexpr double eye_height_m = 1.7, least_height_m = 1, free_m = 1.5, back = 0.8;
   const Hit floor = nearest_hit(triangles, place, {0, -1, 0});

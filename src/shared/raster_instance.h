@@ -9,7 +9,7 @@ namespace lightgrid {
 
 #define RASTER_TWO_SIDED 1u  // back faces are drawn
 #define RASTER_MIRRORED \
-  2u  // world_from_object has a negative determinant: front faces are clockwise in the image
+  2u  // world_from_object mirrors (base/facing.h): front faces are clockwise in the image
 
 // Triangle number n of this instance has the corners indices[3 * (first_index / 3 + n - first_triangle) + 0,
 // 1, 2], each an index into the mesh's own vertices: first_vertex + index in attribute arrays of all meshes
@@ -20,8 +20,8 @@ typedef struct RasterInstanceRecord {
   uint first_vertex, vertex_count;      // of the mesh, in arrays of all meshes' vertices
   uint first_position;                  // of the mesh, in the rasteriser's own blocks of 16
   uint first_clip_vertex;               // of the instance, in this frame's positions
-  uint flags;          // RASTER_TWO_SIDED, RASTER_MIRRORED
-  int alpha_material;  // below 0: opaque
+  uint flags;                           // RASTER_TWO_SIDED, RASTER_MIRRORED
+  int alpha_material;                   // below 0: opaque
 } RasterInstanceRecord;
 
 #if !defined(__OPENCL_VERSION__)

@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 
+#include "base/facing.h"
 #include "reference/coverage.h"
 
 namespace lightgrid::verify {
@@ -25,7 +26,7 @@ CoverageOracle raster_oracle(const RasterInput& input, const RasterImage& image,
     const RasterInstance& instance = input.instances[i];
     const std::vector<uint32_t>& indices = input.meshes[instance.mesh].indices;
     const std::vector<glm::vec4>& clip = image.clip[i];
-    const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
+    const bool mirrored = is_mirroring(glm::dmat3(instance.world_from_object));
     for (size_t k = 0; k < indices.size(); k += 3) {
       oracle.add(
           {{clip[indices[k]], clip[indices[k + 1]], clip[indices[k + 2]]}, instance.two_sided, mirrored});

@@ -28,6 +28,7 @@ void InstanceDrawer::bind(int index, const SceneProgram& program) {
   glUniformMatrix4fv(program.clip_from_object, 1, GL_FALSE, glm::value_ptr(t.clip_from_object));
   if (program.view_from_object >= 0)
     glUniformMatrix3fv(program.view_from_object, 1, GL_FALSE, glm::value_ptr(t.directions));
+  if (program.bitangent_sign >= 0) glUniform1f(program.bitangent_sign, t.mirrored ? -1.0f : 1.0f);
   if (program.normal_from_object >= 0)
     glUniformMatrix3fv(program.normal_from_object, 1, GL_FALSE, glm::value_ptr(t.normals));
   if (program.layers_of_draw >= 0) {

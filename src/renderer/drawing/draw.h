@@ -16,8 +16,8 @@ class InstanceDrawer {
  public:
   InstanceDrawer(Work& work, DrawStreams streams) : work_(work), streams_(streams) {}
 
-  // Binds the program with the instance's material and matrices; sets winding by the sign of the determinant,
-  // and face culling unless double-sided. The caller may set its own uniforms afterwards.
+  // Binds the program with the instance's material and matrices; sets winding by whether the instance
+  // mirrors, and face culling unless double-sided. The caller may set its own uniforms afterwards.
   void bind(int instance, const SceneProgram& program);
   void draw(const IndexRanges& ranges);
 
@@ -32,8 +32,8 @@ class InstanceDrawer {
 // Draws a list with a program for each instance's features.
 void draw_list(Work& work, const DrawList& list, DrawStreams streams, ScenePrograms& programs);
 
-// Draws a list with shaders/triangles.frag. first: of an instance, the number that the shader adds to those of
-// its triangles with -DRAY_NUMBERS, else the instance's own.
+// Draws a list with shaders/triangles.frag. first: of an instance, the number that the shader adds to those
+// of its triangles with -DRAY_NUMBERS, else the instance's own.
 void draw_triangles(Work& work, const DrawList& list, const std::vector<std::string>& defines,
                     const std::function<uint32_t(int instance)>& first);
 

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/gtc/matrix_inverse.hpp>
 #include <iterator>
 #include <limits>
+
+#include "base/facing.h"
 
 namespace lightgrid {
 namespace {
@@ -71,8 +72,8 @@ Layers visible_clusters(const GlScene& gpu, const View& view, const Frustum& fru
   const Scene& scene = gpu.scene();
   const int mesh_index = scene.instances[instance].mesh;
   const GlMesh& mesh = gpu.mesh(mesh_index);
-  const bool one_sided =
-      !scene.materials[scene.meshes[mesh_index].material].double_sided && !view.orthographic;
+  const bool one_sided = !scene.materials[scene.meshes[mesh_index].material].double_sided &&
+                         !view.orthographic && !is_singular(glm::dmat3(view_from_object));
   const glm::dvec3 eye = one_sided ? glm::dvec3(glm::inverse(view_from_object)[3]) : glm::dvec3(0);
   Layers layers;
   for (uint32_t i = 0; i < mesh.clusters.size(); ++i) {
@@ -91,8 +92,8 @@ InstanceTransform instance_transform(const View& view, const Instance& instance)
   t.view_from_object = view_from_object(view, instance.world_from_object);
   t.clip_from_object = glm::mat4(view.clip_from_view * t.view_from_object);
   t.directions = glm::mat3(t.view_from_object);
-  t.normals = glm::mat3(glm::inverseTranspose(glm::dmat3(t.view_from_object)));
-  t.mirrored = glm::determinant(glm::dmat3(t.view_from_object)) < 0;
+  t.mirrored = is_mirroring(glm::dmat3(instance.world_from_object));
+  t.normals = glm::mat3(normal_matrix(glm::dmat3(t.view_from_object), t.mirrored));
   return t;
 }
 

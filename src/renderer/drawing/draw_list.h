@@ -16,8 +16,8 @@ namespace lightgrid {
 struct InstanceTransform {
   glm::dmat4 view_from_object;
   glm::mat4 clip_from_object;
-  glm::mat3 directions, normals;  // view from object, for directions and for normals (inverse transpose)
-  bool mirrored = false;          // negative determinant: front faces are clockwise
+  glm::mat3 directions, normals;  // view from object, for directions and for normals (base/facing.h)
+  bool mirrored = false;          // front faces are clockwise
 };
 
 InstanceTransform instance_transform(const View& view, const Instance& instance);
