@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/error.h"
+#include "base/message_line.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "gl/context.h"
@@ -156,16 +157,14 @@ Command CommandLine::parse(int argc, const char* const* argv) {
     };
   } catch (const CLI::ExtrasError& error) {
     const std::string told = unexpected(*app_, commands, words);
-    std::fprintf(stderr, "lightgrid: %s (see --help)\n", told.empty() ? error.what() : told.c_str());
+    std::fprintf(stderr, "lightgrid: %s (see --help)\n", message_line(told.empty() ? error.what() : told).c_str());
     return [] { return int(ErrorKind::input); };
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {  // help is reported as an error
       app_->exit(error);
       return [] { return 0; };
     }
-    std::string line = error.what();
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    std::fprintf(stderr, "lightgrid: %s (see --help)\n", line.c_str());
+    std::fprintf(stderr, "lightgrid: %s (see --help)\n", message_line(error.what()).c_str());
     return [] { return int(ErrorKind::input); };
   }
 }

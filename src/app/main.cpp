@@ -14,6 +14,7 @@
 #include "app/sudden_ends.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/message_line.h"
 #include "cl/cache_folder.h"
 #include "cl/error.h"
 
@@ -69,14 +70,14 @@ int main(int argc, char** argv) {
   try {
     return run(command);
   } catch (const Error& error) {
-    std::fprintf(stderr, "lightgrid: %s\n", line.with_option(error.what()).c_str());
+    std::fprintf(stderr, "lightgrid: %s\n", message_line(line.with_option(error.what())).c_str());
     return error.exit_code();
   } catch (const cl::Error& error) {
-    std::fprintf(stderr, "lightgrid: %s\n", cl_machine_error(error).what());
+    std::fprintf(stderr, "lightgrid: %s\n", message_line(cl_machine_error(error).what()).c_str());
   } catch (const std::bad_alloc&) {
     std::fputs(out_of_memory_line.data(), stderr);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "lightgrid: %s\n", error.what());
+    std::fprintf(stderr, "lightgrid: %s\n", message_line(error.what()).c_str());
   }
   return int(ErrorKind::machine);
 }

@@ -4,6 +4,9 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <mutex>
+#include <system_error>
 
 namespace lightgrid {
 namespace {
@@ -40,6 +43,40 @@ std::string told(const json& value) {
   return text.substr(0, end) + "…";
 }
 
+const char* why_no_file(std::filesystem::file_type type, const std::error_code& failure) {
+  using enum std::filesystem::file_type;
+  switch (type) {
+    case directory:
+      return "is a folder, not a file";
+    case character:
+    case block:
+      return "is a device, not a file";
+    case socket:
+      return "is a socket, not a file";
+    default:
+      return failure && failure != std::errc::no_such_file_or_directory &&
+                     failure != std::errc::filename_too_long
+                 ? "cannot be read: permission denied, or links in a circle"
+                 : "no such file";
+  }
+}
+
+// A pipe gives its bytes once, but each view reads its files again.
+std::string read_pipe(const std::string& name, uintmax_t most, const char* kind) {
+  static std::mutex lock;
+  static std::map<std::string, std::string> texts;
+  const std::lock_guard guard(lock);
+  const auto [known, is_new] = texts.try_emplace(name);
+  if (!is_new) return known->second;
+  std::ifstream pipe(name, std::ios::binary);
+  std::string& text = known->second;
+  for (char part[65536]; text.size() <= most && (pipe.read(part, sizeof part), pipe.gcount() > 0);)
+    text.append(part, size_t(pipe.gcount()));
+  if (text.size() <= most) return text;
+  texts.erase(known);
+  throw input_error("{}: more than the {} bytes that {} may have", name, most, kind);
+}
+
 std::string shown(const json& value) {
   if (value.is_structured()) return value.type_name();
   std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
@@ -52,7 +89,10 @@ std::string shown(const json& value) {
 std::string read_small_file(const std::filesystem::path& path, uintmax_t most, const char* kind) {
   const std::string name = path.string();
   std::error_code failure;
-  if (!std::filesystem::is_regular_file(path, failure)) throw input_error("{}: no such file", name);
+  const auto kind_of_file = std::filesystem::status(path, failure).type();
+  if (kind_of_file == std::filesystem::file_type::fifo) return read_pipe(name, most, kind);
+  if (kind_of_file != std::filesystem::file_type::regular)
+    throw input_error("{}: {}", name, why_no_file(kind_of_file, failure));
   const uintmax_t bytes = std::filesystem::file_size(path, failure);
   if (failure) throw input_error("{}: cannot be read: {}", name, failure.message());
   if (bytes > most)

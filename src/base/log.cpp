@@ -1,5 +1,7 @@
 #include "base/log.h"
 
+#include "base/message_line.h"
+
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -28,7 +30,8 @@ Sink& sink() {
   return *shared;
 }
 
-void log_line(bool warning, const std::string& line) {
+void log_line(bool warning, const std::string& text) {
+  const std::string line = message_line(text);
   const std::lock_guard lock(sink().mutex);
   if (sink().write) return sink().write(warning, line);
   warning ? logger().warn(line) : logger().info(line);

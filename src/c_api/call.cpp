@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/message_line.h"
 #include "cl/error.h"
 #include "session/scene_choice.h"
 
@@ -41,7 +42,7 @@ lightgrid_status record(lightgrid_status status, const std::string& message, con
 }
 
 lightgrid_status record(const Error& error) {
-  const std::string message = error.what();
+  const std::string message = message_line(error.what());
   return record(error.kind() == ErrorKind::input ? LIGHTGRID_INPUT : LIGHTGRID_MACHINE, message,
                 error.field().empty() ? named_first(message) : error.field());
 }

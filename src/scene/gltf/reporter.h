@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/message_line.h"
 
 namespace lightgrid::gltf {
 
@@ -16,17 +17,17 @@ class Reporter {
 
   template <typename... Args>
   Error error(fmt::format_string<Args...> format, Args&&... args) const {
-    return {ErrorKind::input, one_line(file_ + ": " + fmt::format(format, std::forward<Args>(args)...))};
+    return {ErrorKind::input, message_line(file_ + ": " + fmt::format(format, std::forward<Args>(args)...))};
   }
 
   // For messages of others.
-  std::string place(const std::string& within) const { return one_line(file_ + ": " + within); }
+  std::string place(const std::string& within) const { return message_line(file_ + ": " + within); }
 
   // Only the first of each kind: a thousand skinned meshes give one line.
   template <typename... Args>
   void warn(const std::string& kind, fmt::format_string<Args...> format, Args&&... args) {
     if (!warned_.insert(kind).second) return;
-    log_warning_line(one_line(file_ + ": " + fmt::format(format, std::forward<Args>(args)...)));
+    log_warning_line(message_line(file_ + ": " + fmt::format(format, std::forward<Args>(args)...)));
   }
 
   // The faults of optional parts of one kind, each of which is left out. Only the first is named.
@@ -38,17 +39,6 @@ class Reporter {
   }
 
  private:
-  // Names in a file may contain line ends, terminal escapes, or a megabyte of text.
-  static std::string one_line(std::string text) {
-    for (char& c : text)
-      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    while (!text.empty() && text.back() == ' ') text.pop_back();
-    constexpr size_t longest = 600;
-    if (text.size() > longest)
-      text = text.substr(0, longest / 2) + " … " + text.substr(text.size() - longest / 2);
-    return text;
-  }
-
   std::string file_;
   std::set<std::string> warned_;
 };
