@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/resident.h"
 #include "gl/bindings.h"
 #include "gl/gl.h"
 #include "passes/find_shadows.h"
@@ -16,16 +17,25 @@ static const TechniqueNeeds& checked_needs(const Technique& technique, const Set
   return technique.needs;
 }
 
+// The least that every technique takes: the shaded image in float, and surfaces where OpenCL draws on a CPU.
+// A driver may not check its own allocations: PoCL ends the program.
+static const View& fitting(const Renderer& renderer, const View& view) {
+  const bool shared = renderer.cl && renderer.cl->info().cpu;
+  const uint64_t bytes = uint64_t(view.width) * uint64_t(view.height) * (shared ? 24 : 16);
+  require_memory(bytes, fmt::format("size {}x{}", view.width, view.height), "a smaller --size needs less");
+  return view;
+}
+
 TechniqueRun::TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
                            const Technique& technique, std::shared_ptr<TargetPool> pool)
     : technique_(technique),
-      view_(renderer, gpu, view, settings, checked_needs(technique, settings), std::move(pool)) {}
+      view_(renderer, gpu, fitting(renderer, view), settings, checked_needs(technique, settings), std::move(pool)) {}
 
 TechniqueRun::TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
                            const Technique& technique)
     : technique_(technique),
       own_scene_(std::make_unique<GpuScene>(renderer, scene)),
-      view_(renderer, *own_scene_, view, settings, checked_needs(technique, settings)) {}
+      view_(renderer, *own_scene_, fitting(renderer, view), settings, checked_needs(technique, settings)) {}
 
 void TechniqueRun::prepare() {
   hide();

@@ -24,6 +24,53 @@ std::string replace_folder(std::string text, const std::string& folder) {
 
 class WrongArguments : public testing::TestWithParam<Wrong> {};
 
+// What a shell's <(...) gives is a pipe, which several views read.
+TEST(LightsFile, MayBeAPipe) {
+  const ProgramRun run = run_words(
+      {"bash", "-c",
+       std::string(lightgrid_program) +
+           R"( check spheres --engine godot-mobile --lights-file <(echo '{"lights": [{"position": [0, 1, 0], "radius": 2}]}'))"});
+  EXPECT_THAT(run.err, testing::Not(HasSubstr("no such file")));
+  EXPECT_EQ(run.status, 0) << run.err;
+}
+
+TEST(LightsFile, FoldersAndDevicesAreNamedAsSuch) {
+  const auto said = [](const std::string& path) {
+    const ProgramRun run = run_program({"plan", "spheres", "--lights-file", path});
+    EXPECT_EQ(run.status, 2);
+    return run.err;
+  };
+  EXPECT_THAT(said("/"), HasSubstr("/: is a folder, not a file"));
+  EXPECT_THAT(said("/dev/null"), HasSubstr("/dev/null: is a device, not a file"));
+  EXPECT_THAT(said("/none"), HasSubstr("/none: no such file"));
+}
+
+TEST(Messages, DoNotRepeatLongValues) {
+  const std::string value(100'000, 'x');
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"plan", value},
+                                                {"plan", "spheres", "--camera", value},
+                                                {"plan", "spheres", "--size", value},
+                                                {"plan", "spheres", "--set", value},
+                                                {value},
+                                                {"render", "spheres", "--frames", value},
+                                                {"golden", value}}) {
+    const ProgramRun run = run_program(words);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_LT(run.err.size(), 2500u) << words.front().substr(0, 10);
+    EXPECT_GT(run.err.size(), 20u);
+  }
+}
+
+// PoCL would end the program with an assertion.
+TEST(TooLarge, AnImageForTheMemoryIsTheMachinesError) {
+  const TempFolder folder;
+  const ProgramRun run =
+      run_words({"prlimit", "--as=6000000000", std::string(lightgrid_program), "render", "rooms", "--size",
+                 "16384x16384", "--gl", "none", "-t", "visibility", "-o", folder.path / "x.png"});
+  EXPECT_EQ(run.status, 3) << run.signal << run.err;
+  EXPECT_THAT(run.err, HasSubstr("a smaller --size needs less"));
+}
+
 TEST_P(WrongArguments, ExitWithTwoAndOneLineThatNamesThem) {
   const TempFolder folder;
   std::ofstream(folder.path / "one.json")
