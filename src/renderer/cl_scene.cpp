@@ -1,5 +1,8 @@
 #include "renderer/cl_scene.h"
 
+#include <memory>
+#include <utility>
+
 #include "cl/error.h"
 #include "cl/transfer.h"
 #include "plan/frame_plan.h"
@@ -35,6 +38,24 @@ cl::Buffer filled_buffer(ClDevice& device, const char* what, const std::vector<T
   }
 }
 
+// The same, on a CPU without a copy: the buffer keeps the values, whose texels may take gigabytes.
+template <typename T>
+cl::Buffer keeping_buffer(ClDevice& device, const char* what, std::vector<T> values) {
+  if (!device.info().cpu || values.size() * sizeof(T) < 4096) return filled_buffer(device, what, values);
+  auto kept = std::make_unique<std::vector<T>>(std::move(values));
+  const auto free_values = [](cl_mem, void* owned) { delete static_cast<std::vector<T>*>(owned); };
+  try {
+    cl::Buffer buffer(device.context(), CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, kept->size() * sizeof(T),
+                      kept->data());
+    if (clSetMemObjectDestructorCallback(buffer(), free_values, kept.get()) != CL_SUCCESS)
+      return filled_buffer(device, what, *kept);
+    (void)kept.release();
+    return buffer;
+  } catch (const cl::Error& error) {
+    throw cl_machine_error(error, fmt::format("{}: a buffer of {} bytes", what, kept->size() * sizeof(T)));
+  }
+}
+
 }  // namespace
 
 ClScene::ClScene(ClDevice& device, const Scene& scene, TexelLayout layout)
@@ -55,16 +76,16 @@ ClScene::ClScene(ClDevice& device, const Scene& scene, TexelLayout layout)
   vertices_ = filled_buffer(device, "uploading vertices", attributes);
   vertex_bytes_ = vertices * sizeof(SurfaceVertex);
 
-  const SurfaceTexels texels = surface_texels(scene, used_materials, layout);
+  SurfaceTexels texels = surface_texels(scene, used_materials, layout);
   materials_ = filled_buffer(device, "uploading materials", texels.materials);
-  texels_4_ = filled_buffer(device, "uploading textures", texels.texels_4);
-  texels_8_ = layout == TexelLayout::packed_8
-                  ? filled_buffer(device, "uploading packed textures", texels.small_texels_8)
-                  : filled_buffer(device, "uploading packed textures", texels.texels_8);
-  alphas_ = filled_buffer(device, "uploading alphas", texels.alphas);
   material_bytes_ = texels.materials.size() * sizeof(SurfaceMaterial);
   texture_bytes_ = (texels.texels_4.size() + texels.texels_8.size()) * 2 + texels.small_texels_8.size() +
                    texels.alphas.size() * 4;
+  texels_4_ = keeping_buffer(device, "uploading textures", std::move(texels.texels_4));
+  texels_8_ = layout == TexelLayout::packed_8
+                  ? keeping_buffer(device, "uploading packed textures", std::move(texels.small_texels_8))
+                  : keeping_buffer(device, "uploading packed textures", std::move(texels.texels_8));
+  alphas_ = keeping_buffer(device, "uploading alphas", std::move(texels.alphas));
 }
 
 void ClScene::write_attributes(int mesh, SurfaceVertex* to) const {

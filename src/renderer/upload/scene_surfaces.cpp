@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <set>
 
 #include "base/error.h"
 #include "renderer/upload/texel_chain.h"
@@ -58,9 +59,7 @@ class TexelWriter {
 
   void add_textures(const Material& m, SurfaceMaterial& record) {
     const auto maps = maps_of(m);
-    // A packed texel has no alpha, which blending takes from the base colour.
-    const bool packed =
-        !m.unlit && m.alpha_mode != AlphaMode::blend && layout_ != TexelLayout::separate && can_pack(m);
+    const bool packed = packs(m);
     for (int i = 0; i < SURFACE_MAPS; ++i) {
       if (maps[i]->texture < 0 || !reads_map(m, i)) continue;
       record.flags |= 1u << i;
@@ -75,7 +74,49 @@ class TexelWriter {
     if (alphas && m.base_color_map.texture >= 0) record.alpha_base = alphas_of(m.base_color_map.texture);
   }
 
+  // Makes room for the chains of these materials: a vector that grows by doubling would hold up to three
+  // times as much while it is copied.
+  void reserve(const std::vector<Material>& materials, const std::vector<bool>& used) {
+    std::set<int> separate;
+    std::set<std::array<int, packable>> packed;
+    size_t texels_4 = 0, texels_8 = 0;
+    for (size_t k = 0; k < materials.size(); ++k) {
+      if (!used[k]) continue;
+      const Material& m = materials[k];
+      const auto maps = maps_of(m);
+      const bool packs_first = packs(m);
+      if (packs_first && packed.insert(key_of(m)).second)
+        texels_8 += texels_of(packed_maps(m).front()->texture);
+      for (int i = packs_first ? packable : 0; i < SURFACE_MAPS; ++i)
+        if (maps[i]->texture >= 0 && reads_map(m, i) && separate.insert(maps[i]->texture).second)
+          texels_4 += texels_of(maps[i]->texture);
+    }
+    out_.texels_4.reserve(4 * texels_4);
+    layout_ == TexelLayout::packed_8 ? out_.small_texels_8.reserve(8 * texels_8)
+                                     : out_.texels_8.reserve(8 * texels_8);
+  }
+
  private:
+  // A packed texel has no alpha, which blending takes from the base colour.
+  bool packs(const Material& m) const {
+    return !m.unlit && m.alpha_mode != AlphaMode::blend && layout_ != TexelLayout::separate && can_pack(m);
+  }
+
+  static std::array<int, packable> key_of(const Material& m) {
+    return {m.base_color_map.texture, m.metallic_roughness_map.texture, m.normal_map.texture};
+  }
+
+  // Of a texture's chain.
+  size_t texels_of(int texture) const {
+    const Bitmap& bitmap = scene_.bitmaps[scene_.textures[texture].bitmap];
+    size_t texels = 0;
+    for (int width = bitmap.width, height = bitmap.height;;
+         width = std::max(width / 2, 1), height = std::max(height / 2, 1)) {
+      texels += size_t(width + 1) * size_t(height + 1);
+      if (!has_mips(scene_.textures[texture]) || std::max(width, height) == 1) return texels;
+    }
+  }
+
   const Texture& texture_of(const TextureSlot& slot) const { return scene_.textures[slot.texture]; }
   const Bitmap& bitmap_of(const TextureSlot& slot) const { return scene_.bitmaps[texture_of(slot).bitmap]; }
 
@@ -156,8 +197,7 @@ class TexelWriter {
   }
 
   const PlacedChain& packed_chain(const Material& m) {
-    const std::array<int, packable> key = {m.base_color_map.texture, m.metallic_roughness_map.texture,
-                                           m.normal_map.texture};
+    const std::array<int, packable> key = key_of(m);
     const auto found = packed_.find(key);
     if (found != packed_.end()) return found->second;
     const TextureSlot& first = *packed_maps(m).front();
@@ -226,6 +266,7 @@ SurfaceTexels surface_texels(const Scene& scene, const std::vector<bool>& used_m
                              bool blended_alphas) {
   SurfaceTexels texels;
   TexelWriter writer(scene, layout, blended_alphas, texels);
+  writer.reserve(scene.materials, used_materials);
   const std::vector<MaterialModel> models = material_models(scene);
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& m = scene.materials[i];
