@@ -26,6 +26,14 @@ def as_array(value: Any) -> np.ndarray:
     return np.from_dlpack(value)
 
 
+def real_array(value: Any, kind: Any, name: str) -> np.ndarray:
+    """An array of that type. Refuses complex numbers, whose imaginary part NumPy would drop."""
+    array = as_array(value)
+    if np.iscomplexobj(array):
+        raise InputError(f"{name}: has complex numbers", name)
+    return np.asarray(array, kind)
+
+
 class Image(np.ndarray):
     """Linear light, float32, height x width x 4 (RGBA), the top row first. A NumPy array that notebooks show as a picture."""
 
@@ -189,6 +197,8 @@ def lights(count: int | None = None, **columns: Any) -> np.ndarray:
                 if unknown:
                     raise InputError(f"type: {unknown[0]} is not {', '.join(light_types)}", "type")
                 value = np.vectorize(light_types.__getitem__, otypes=[np.int32])(kinds)
+        if np.iscomplexobj(value):
+            raise InputError(f"{name}: has complex numbers", name)
         try:
             made[name] = value
         except ValueError as error:
@@ -216,7 +226,7 @@ def c_lights(array: np.ndarray) -> Any:
 
 def c_matrix(matrix: Any, name: str) -> Any:
     """Rows and columns as written on paper, to the library's columns."""
-    values = np.asarray(matrix, np.float64)
+    values = real_array(matrix, np.float64, name)
     if values.shape != (4, 4):
         raise InputError(f"{name}: shape {values.shape} is not (4, 4)", name)
     return ffi.new("double[16]", values.T.ravel().tolist())
@@ -230,9 +240,9 @@ class Projection:
     """A view as light lists and the rasteriser see it. Matrices as written on paper: rows and columns."""
 
     def __init__(self, clip_from_view: Any, view_from_world: Any, eye: Sequence[float], size: Sequence[int]) -> None:
-        self.clip_from_view = np.asarray(clip_from_view, np.float64)
-        self.view_from_world = np.asarray(view_from_world, np.float64)
-        self.eye = np.asarray(eye, np.float64)
+        self.clip_from_view = real_array(clip_from_view, np.float64, "clip_from_view")
+        self.view_from_world = real_array(view_from_world, np.float64, "view_from_world")
+        self.eye = real_array(eye, np.float64, "eye")
         self.size = (int(size[0]), int(size[1]))
 
     @staticmethod
@@ -254,7 +264,7 @@ class Camera:
 
     def __init__(self, world_from_view: Any, fov_y_rad: float = math.pi / 3, near_m: float = 0.1,
                  far_m: float = math.inf, orthographic: bool = False, half_height_m: float = 1) -> None:
-        self.world_from_view = np.asarray(world_from_view, np.float64)
+        self.world_from_view = real_array(world_from_view, np.float64, "world_from_view")
         self.fov_y_rad, self.near_m, self.far_m = float(fov_y_rad), float(near_m), float(far_m)
         self.orthographic, self.half_height_m = bool(orthographic), float(half_height_m)
 

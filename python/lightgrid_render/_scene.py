@@ -51,7 +51,7 @@ class Scene:
         scene = cls.empty(name, **fields)
         for number, mesh in enumerate(meshes):
             mesh = dict(mesh)
-            at = np.asarray(mesh.pop("at", np.eye(4)), np.float64)
+            at = arrays.real_array(mesh.pop("at", np.eye(4)), np.float64, "at")
             casts = mesh.pop("casts_shadow", True)
             material = mesh.pop("material", {})
             if isinstance(material, Mapping):
@@ -111,7 +111,7 @@ class Scene:
         def values(name: str, given: Any, columns: int) -> Any:
             if given is None:
                 return ffi.NULL
-            array = np.ascontiguousarray(arrays.as_array(given), np.float32)
+            array = np.ascontiguousarray(arrays.real_array(given, np.float32, name))
             if array.ndim != 2 or array.shape[1] != columns or len(array) != count:
                 raise InputError(f"{name}: shape {array.shape} is not ({count}, {columns})", name)
             kept.append(array)
@@ -163,7 +163,7 @@ class Scene:
         def color(value: Any, name: str) -> Any:
             if value is None:
                 return ffi.NULL
-            values = np.broadcast_to(np.asarray(value, np.float32), (3,))
+            values = np.broadcast_to(arrays.real_array(value, np.float32, name), (3,))
             return ffi.new("float[3]", values.tolist())
 
         check(lib.lightgrid_scene_set_ambient(self._handle, color(ambient, "ambient"), color(background, "background")))

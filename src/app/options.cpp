@@ -36,7 +36,10 @@ void add_scene_options(Subcommand& command, SceneChoice& o) {
   add_view_options(command, o);
 }
 
+void add_file_options(Subcommand& command, SceneChoice& o) { add_fields(command, o, ChoiceField::Of::file); }
+
 void add_view_options(Subcommand& command, SceneChoice& o) {
+  add_file_options(command, o);
   add_fields(command, o, ChoiceField::Of::view);
   command.list("--set", o.set, "a setting, KEY=VALUE; may be repeated");
 }

@@ -59,8 +59,8 @@ int list_scenes(const std::string& json) {
   return 0;
 }
 
-struct InfoOptions {
-  std::string scene = "hall", json;
+struct InfoOptions : SceneChoice {
+  std::string json;
 };
 
 nlohmann::ordered_json info_json(const Scene& scene, const InfoOptions& o,
@@ -128,7 +128,7 @@ int info(const InfoOptions& o) {
   std::vector<GltfExtension> extensions;
   std::error_code unreadable;
   const bool is_file = !find_builtin_scene(o.scene) && std::filesystem::exists(o.scene, unreadable);
-  const Scene scene = is_file ? load_gltf(o.scene, -1, {}, &extensions) : load_scene(o.scene);
+  const Scene scene = is_file ? load_gltf(o.scene, -1, chosen_limits(o), &extensions) : load_scene(o);
   if (o.json.empty()) {
     print_info(scene, o, extensions);
   } else {
@@ -152,6 +152,7 @@ void add_info(CommandLine& line) {
       line.add("info", "what a scene or file holds: cameras, lights, extent, animations, extensions",
                [o] { return info(*o); });
   command.option("scene", o->scene, "a .gltf or .glb file, or a built-in scene");
+  add_file_options(command, *o);
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 

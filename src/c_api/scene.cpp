@@ -29,9 +29,9 @@ int checked_number(const std::string& name, int number, int least, size_t count,
 }
 
 template <int n>
-glm::vec<n, float> checked_color(const std::string& name, const float* values) {
+glm::vec<n, float> checked_color(const std::string& name, const float* values, double most = largest_float) {
   glm::vec<n, float> color;
-  for (int i = 0; i < n; ++i) color[i] = float(in_range(fmt::format("{}[{}]", name, i), values[i], 0));
+  for (int i = 0; i < n; ++i) color[i] = float(in_range(fmt::format("{}[{}]", name, i), values[i], 0, most));
   return color;
 }
 
@@ -69,8 +69,7 @@ Light light_of(const lightgrid_light& in, const std::string& name) {
   if (intensity_overflows(out))
     throw wrong(name + ".intensity", "{} times color passes the largest float", in.intensity);
   out.radius_m = float(in_range(name + ".radius_m", in.radius_m, 0, infinite));
-  if (in.source_radius_m >= 0)
-    out.source_m = float(in_range(name + ".source_radius_m", in.source_radius_m, 0));
+  if (in_range(name + ".source_radius_m", in.source_radius_m) >= 0) out.source_m = in.source_radius_m;
   if (out.is_virtual) {
     out.nearest_m = float(in_range(name + ".nearest_m", in.nearest_m, 0));
   } else if (out.type == LightType::spot) {
@@ -122,11 +121,11 @@ Material material_of(const lightgrid_material& in, size_t textures) {
   const auto map = [&](const char* name, int number, TextureSlot& slot) {
     slot.texture = checked_number(name, number, -1, textures, "textures");
   };
-  m.base_color = checked_color<4>("material.base_color", in.base_color);
+  m.base_color = checked_color<4>("material.base_color", in.base_color, 1);
   m.metallic = share("material.metallic", in.metallic),
   m.roughness = share("material.roughness", in.roughness);
   m.emissive = checked_color<3>("material.emissive", in.emissive);
-  m.ior = float(in_range("material.ior", in.ior, 1, 100));
+  m.ior = in.ior == 0 ? 0 : float(in_range("material.ior", in.ior, 1, 100));
   m.clearcoat = share("material.clearcoat", in.clearcoat);
   m.clearcoat_roughness = share("material.clearcoat_roughness", in.clearcoat_roughness);
   if (in.alpha != LIGHTGRID_OPAQUE && in.alpha != LIGHTGRID_MASK && in.alpha != LIGHTGRID_BLEND)
@@ -248,6 +247,7 @@ lightgrid_status lightgrid_scene_load(const char* name, const char* const* field
     lightgrid_scene*& out = needed(scene, "scene");
     SceneChoice choice = choice_of(&needed(name, "name"), fields);
     ChosenScene chosen = load_chosen_scene(choice);
+    if (!choice.camera_path.empty()) chosen_path(chosen.scene, chosen.view, choice);  // reports its faults
     out = new lightgrid_scene{
         std::make_shared<LoadedScene>(std::move(chosen.scene), std::move(choice), chosen.view)};
   });
@@ -258,7 +258,7 @@ lightgrid_status lightgrid_scene_create(const char* name, const char* const* fie
   return call([&] {
     lightgrid_scene*& out = needed(scene, "scene");
     SceneChoice choice = choice_of(name ? name : "scene", fields);
-    parse_size(choice.size);
+    check_choice(choice);
     Scene empty;
     empty.name = choice.scene;
     out = new lightgrid_scene{std::make_shared<LoadedScene>(std::move(empty), std::move(choice))};

@@ -127,6 +127,12 @@ const std::vector<ChoiceField>& choice_fields() {
       {"size", "image size, WxH", scene, &SceneChoice::size},
       {"lights", "scatter N lights; with --lights-file, its first N", scene, &SceneChoice::lights,
        most_lights},
+      {"files", "files that a glTF file may name: below (its folder; default) or anywhere", file,
+       &SceneChoice::files},
+      {"image-memory", "memory for decoded images, as 4G (default: by the memory that is free)", file,
+       &SceneChoice::image_memory},
+      {"texture-size", "largest side of an image: larger ones are averaged down", file,
+       &SceneChoice::texture_size, GltfLimits().texture_side},
       {"camera", "name, index or eye:x,y,z,target:x,y,z,fov:degrees,near:metres", view, &SceneChoice::camera},
       {"lights-file", "lights as JSON, instead of the scene's own", view, &SceneChoice::lights_file},
       {"light-radius", "range of scattered lights in metres, MIN,MAX", view, &SceneChoice::light_radius},
@@ -167,6 +173,8 @@ void set_choice_field(SceneChoice& choice, const std::string& assignment) {
         .about(name);
   }
   const std::string value = assignment.substr(equals + 1);
+  if (value.empty() && name != "camera")
+    throw input_error("{} is empty: leave it out for its default", name).about(name);
   if (const auto* text = std::get_if<std::string SceneChoice::*>(&field->value)) {
     choice.*(*text) = value;
   } else if (const auto* whole = std::get_if<int SceneChoice::*>(&field->value)) {
@@ -218,7 +226,35 @@ std::optional<double> chosen_time(const SceneChoice& choice) {
   return seconds;
 }
 
-Scene load_scene(const std::string& name) {
+namespace {
+
+// Empty: none given.
+size_t parse_image_memory(const std::string& text) {
+  if (text.empty()) return 0;
+  constexpr std::string_view units = "KMG";
+  const size_t unit = units.find(text.back());
+  const bool has_unit = unit != std::string_view::npos;
+  const auto number = parse_number<uint64_t>(std::string_view(text).substr(0, text.size() - has_unit));
+  const int shift = has_unit ? 10 * int(unit + 1) : 0;
+  if (!number || *number == 0 || *number > uint64_t(1) << 50 >> shift)
+    throw input_error("image-memory {}: not a number of bytes, or of K, M or G of them", text);
+  return size_t(*number) << shift;
+}
+
+}  // namespace
+
+GltfLimits chosen_limits(const SceneChoice& choice) {
+  if (!choice.files.empty() && choice.files != "below" && choice.files != "anywhere")
+    throw input_error("files {}: neither below (the glTF file's folder) nor anywhere", choice.files);
+  GltfLimits limits{.max_image_bytes = parse_image_memory(choice.image_memory),
+                    .files_anywhere = choice.files == "anywhere"};
+  if (choice.texture_size > 0) limits.texture_side = choice.texture_size;
+  return limits;
+}
+
+Scene load_scene(const SceneChoice& choice) {
+  const std::string& name = choice.scene;
+  const GltfLimits limits = chosen_limits(choice);
   if (const BuiltinScene* builtin = find_builtin_scene(name)) return builtin->make();
   std::error_code unreadable;  // a name too long, or an unreadable folder, is no file either
   if (!std::filesystem::exists(name, unreadable)) {
@@ -228,7 +264,7 @@ Scene load_scene(const std::string& name) {
                       did_you_mean(name, names), fmt::join(names, ", "))
         .about("scene");
   }
-  return load_gltf(name);
+  return load_gltf(name, -1, limits);
 }
 
 ImageSize parse_size(const std::string& text) {
@@ -304,14 +340,21 @@ std::vector<View> chosen_path(const Scene& scene, const View& start, const Scene
   return {};
 }
 
-ChosenScene load_chosen_scene(const SceneChoice& choice) {
-  parse_size(choice.size);  // reports faults in these before the scene is loaded
+void check_choice(const SceneChoice& choice) {
+  parse_size(choice.size);
   check_light_radius(choice);
   parse_exposure(choice);
   if (!choice.ambient.empty()) parse_ambient(choice.ambient);
   chosen_casters(choice.shadows);
   virtual_settings(choice);
-  ChosenScene chosen{load_scene(choice.scene), {}};
+  chosen_settings(choice);
+  chosen_limits(choice);
+  light_motion(choice.light_motion);
+}
+
+ChosenScene load_chosen_scene(const SceneChoice& choice) {
+  check_choice(choice);
+  ChosenScene chosen{load_scene(choice), {}};
   chosen.view = choose_view(chosen.scene, choice);
   return chosen;
 }
@@ -339,15 +382,20 @@ const Technique& technique_or_default(const std::string& technique, const Render
   return find_technique("visibility");
 }
 
+static bool same_file(const SceneChoice& a, const SceneChoice& b) {
+  return a.scene == b.scene && a.files == b.files && a.image_memory == b.image_memory &&
+         a.texture_size == b.texture_size;
+}
+
 std::vector<LoadedView> load_views(const std::vector<SceneChoice>& choices) {
   std::vector<LoadedView> views;
-  std::string loaded;
+  const SceneChoice* loaded = nullptr;
   Scene own;  // the scene's own lights
   std::shared_ptr<Scene> scene;
   for (const SceneChoice& choice : choices) {
-    if (!scene || choice.scene != loaded) {
-      scene = std::make_shared<Scene>(load_scene(choice.scene));
-      loaded = choice.scene;
+    if (!loaded || !same_file(choice, *loaded)) {
+      scene = std::make_shared<Scene>(load_scene(choice));
+      loaded = &choice;
       own.lights = scene->lights, own.ambient = scene->ambient;
     }
     scene->lights = own.lights, scene->ambient = own.ambient;

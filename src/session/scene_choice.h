@@ -17,6 +17,8 @@
 
 namespace lightgrid {
 
+struct GltfLimits;  // scene/load_gltf.h
+
 inline constexpr int most_lights = 10'000'000, most_virtual_lights = 1'000'000;
 
 // Fields as in docs/command_line.md.
@@ -39,12 +41,15 @@ struct SceneChoice {
   uint64_t seed = 1;
   std::string brdf;  // empty: ggx, or from --set
   std::vector<std::string> set;
+  std::string files;         // that a glTF file may name: below its folder, or anywhere; empty: below
+  std::string image_memory;  // that its decoded images may take: bytes, or with K, M or G; empty: by the machine
+  int texture_size = 0;      // larger images are averaged down to this side; 0: to the largest that is drawn
   std::string exposure;  // of pictures: stops, or auto; empty: auto for files, 0 for built-in scenes
 };
 
 // The fields by their names, which command lines have as options and messages as their first word.
 struct ChoiceField {
-  enum class Of { scene, view, picture, path };  // which commands have it as an option
+  enum class Of { scene, file, view, picture, path };  // which commands have it as an option
   const char* name;
   const char* help;
   Of of;
@@ -71,7 +76,10 @@ struct ImageSize {
   int width = 0, height = 0;
 };
 ImageSize parse_size(const std::string& text);
-Scene load_scene(const std::string& name);
+Scene load_scene(const SceneChoice& choice);
+// Throws for a fault in a field that can be found without the scene.
+void check_choice(const SceneChoice& choice);
+GltfLimits chosen_limits(const SceneChoice& choice);
 // Seconds into the animations of the file; empty: at rest.
 std::optional<double> chosen_time(const SceneChoice& choice);
 // The view of a loaded scene; replaces its lights and ambient light by those of the choice.

@@ -117,7 +117,7 @@ std::vector<std::string> measure_lights(Renderer& renderer, const SceneChoice& c
 void measure(const std::string& device, double seconds, const std::vector<std::string>& files) {
   std::vector<SceneChoice> choices;
   for (const char* scene : {"hall", "street", "gallery", "terrain"}) {
-    const double radius = median_radius(load_scene(scene).lights);
+    const double radius = median_radius(load_scene({.scene = scene}).lights);
     choices.emplace_back();
     choices.back().scene = scene, choices.back().light_radius = fmt::format("{0:g},{0:g}", radius);
   }

@@ -37,6 +37,13 @@ TEST(CErrors, TellTheFieldOfAScene) {
   expect_wrong(load("hall", {"shadows"}), "shadows");
   expect_wrong(load("hall", {"ambient=-1"}), "ambient");
   expect_wrong(load("hall", {"exposure=100"}), "exposure");
+  expect_wrong(load("hall", {"brdf="}), "brdf", "brdf is empty");
+  expect_wrong(load("hall", {"brdf=phong"}), "brdf");
+  expect_wrong(load("hall", {"camera-path=turn:0"}), "camera-path");
+  expect_wrong(load("hall", {"light-motion=jump"}), "light-motion");
+  expect_wrong(load("hall", {"files=all"}), "files", "files all: neither below");
+  expect_wrong(load("hall", {"image-memory=4T"}), "image-memory");
+  expect_wrong(load("hall", {"texture-size=9000"}), "texture-size");
   EXPECT_EQ(scene, nullptr);
 }
 
@@ -76,6 +83,8 @@ TEST(CErrors, TellTheFieldOfALight) {
   must(set([](lightgrid_light&) {}));
   expect_wrong(set([&](lightgrid_light& l) { l.radius_m = nan; }), "lights[1].radius_m");
   expect_wrong(set([&](lightgrid_light& l) { l.radius_m = -1; }), "lights[1].radius_m");
+  expect_wrong(set([&](lightgrid_light& l) { l.source_radius_m = nan; }), "lights[1].source_radius_m");
+  expect_wrong(set([&](lightgrid_light& l) { l.source_radius_m = -INFINITY; }), "lights[1].source_radius_m");
   expect_wrong(set([&](lightgrid_light& l) { l.position[2] = INFINITY; }), "lights[1].position[2]");
   expect_wrong(set([&](lightgrid_light& l) { l.color[0] = -1; }), "lights[1].color[0]");
   expect_wrong(set([&](lightgrid_light& l) { l.type = lightgrid_light_type(9); }), "lights[1].type");
@@ -124,6 +133,13 @@ TEST(CErrors, TellTheFieldOfAMesh) {
   lightgrid_default_material(&material);
   material.roughness = 2;
   expect_wrong(lightgrid_scene_add_material(made, &material, nullptr), "material.roughness");
+  lightgrid_default_material(&material);
+  material.base_color[3] = 2;
+  expect_wrong(lightgrid_scene_add_material(made, &material, nullptr), "material.base_color[3]");
+  material.base_color[3] = 1, material.ior = 0.5f;
+  expect_wrong(lightgrid_scene_add_material(made, &material, nullptr), "material.ior");
+  material.ior = 0;  // all is reflected
+  EXPECT_EQ(lightgrid_scene_add_material(made, &material, nullptr), LIGHTGRID_OK);
   material.roughness = 1, material.normal_map = 0;
   expect_wrong(lightgrid_scene_add_material(made, &material, nullptr), "material.normal_map");
   material.normal_map = -1;

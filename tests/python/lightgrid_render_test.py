@@ -238,6 +238,14 @@ class Errors(unittest.TestCase):
         with self.assertRaises(lg.MachineError):
             device.view(scene, "forward_plus")
 
+    def test_refuse_complex_numbers(self):
+        scene = hall()
+        positions, indices = np.zeros((3, 3), complex), [[0, 1, 2]]
+        self.check("positions", "complex", lambda: lg.Scene.from_arrays([{"positions": positions, "indices": indices}]))
+        self.check("position", "complex", lambda: lg.lights(1, position=[[1j, 0, 0]]))
+        self.check("world_from_object", "complex", lambda: scene.move_instance(0, np.eye(4) * 1j))
+        self.check("ambient", "complex", lambda: scene.set_ambient([1j, 0, 0]))
+
     def test_name_the_argument(self):
         scene = hall()
         view = device.view(scene, "visibility")

@@ -117,12 +117,54 @@ TEST(GltfFile, nothing_outside_the_folder_is_read) {
   for (const std::string& uri : {secret.string(), up, std::string("%2E%2E/") + up.substr(3),
                                  std::string("link.bin"), std::string("linked/secret.bin")})
     EXPECT_THAT(refusal_of(folder.write("a.gltf", with_buffer_uri(uri).text())),
-                HasSubstr("leaves the folder"))
+                HasSubstr("leaves the folder of the glTF file; --files anywhere reads it"))
         << uri;
   for (const char* uri : {"http://example.com/a.bin", "file:///etc/passwd"})
     EXPECT_THAT(with_buffer_uri(uri).refusal(), HasSubstr("only relative paths and data URIs are read"));
   EXPECT_THAT(with_buffer_uri("a%00b").refusal(), HasSubstr("is not a valid path"));
   EXPECT_THAT(with_buffer_uri("a%2").refusal(), HasSubstr("is not a valid path"));
+}
+
+TEST(GltfFile, files_anywhere_are_read_when_allowed) {
+  const ModelFolder folder;
+  const auto bin = folder.write("shared.bin", GltfBuilder::triangle().bin);
+  folder.write("models/beside.bin", GltfBuilder::triangle().bin);
+  std::filesystem::create_symlink(bin, folder.path / "models/link.bin");
+  for (const std::string& uri : {std::string("../shared.bin"), bin.string(), std::string("link.bin"),
+                                 std::string("beside.bin"), std::string("..\\shared.bin")}) {
+    const auto path = folder.write("models/a.gltf", with_buffer_uri(uri).text());
+    EXPECT_EQ(load_gltf(path, -1, {.files_anywhere = true}).meshes.at(0).positions, corners) << uri;
+  }
+}
+
+TEST(GltfFile, a_links_folder_is_that_of_its_target_and_its_own) {
+  const ModelFolder store, links;
+  store.write("a.bin", GltfBuilder::triangle().bin);
+  const auto target = store.write("a.gltf", with_buffer_uri("a.bin").text());
+  std::filesystem::create_symlink(target, links.path / "linked.gltf");
+  EXPECT_EQ(load_gltf(links.path / "linked.gltf").meshes.at(0).positions, corners);
+  const auto other = store.write("b.gltf", with_buffer_uri("beside_link.bin").text());
+  links.write("beside_link.bin", GltfBuilder::triangle().bin);
+  std::filesystem::create_symlink(other, links.path / "b.gltf");
+  EXPECT_EQ(load_gltf(links.path / "b.gltf").meshes.at(0).positions, corners);
+  const auto missing = store.write("c.gltf", with_buffer_uri("none.bin").text());
+  std::filesystem::create_symlink(missing, links.path / "c.gltf");
+  EXPECT_THAT(refusal_of(links.path / "c.gltf"), HasSubstr("file \"none.bin\" cannot be read: No such file"));
+}
+
+TEST(GltfFile, backslashes_are_tried_as_slashes_with_a_warning) {
+  const ModelFolder folder;
+  folder.write("sub/b.bin", GltfBuilder::triangle().bin);
+  for (const char* uri : {"sub\\b.bin", ".\\sub%5Cb.bin"}) {
+    const auto path = folder.write("a.gltf", with_buffer_uri(uri).text());
+    EXPECT_THAT(warnings_of([&] { EXPECT_EQ(load_gltf(path).meshes.at(0).positions, corners) << uri; }),
+                HasSubstr("has backslashes; read as"));
+  }
+  folder.write("odd\\name.bin", GltfBuilder::triangle().bin);  // Linux allows it
+  const auto odd = folder.write("a.gltf", with_buffer_uri("odd\\name.bin").text());
+  EXPECT_EQ(warnings_of([&] { EXPECT_EQ(load_gltf(odd).meshes.at(0).positions, corners); }), "");
+  EXPECT_THAT(refusal_of(folder.write("a.gltf", with_buffer_uri("..\\secret.bin").text())),
+              HasSubstr("leaves the folder"));
 }
 
 TEST(GltfFile, the_folder_of_a_bare_file_name_is_the_working_directory) {

@@ -46,16 +46,91 @@ TEST(GltfImage, images_lie_in_files_and_views_of_a_glb_alike) {
   made.root["images"][0] = {{"uri", "pictures/a%20b.png"}};
   EXPECT_EQ(load_gltf(folder.write("a.gltf", made.text())).bitmaps.at(0).rgba[0], 9);
   made.root["images"][0] = {{"uri", "pictures/none.png"}};
-  EXPECT_THAT(refusal_of(folder.write("a.gltf", made.text())),
+  EXPECT_THAT(warnings_of([&] { load_gltf(folder.write("a.gltf", made.text())); }),
               HasSubstr("image 0 \"pictures/none.png\": file \"pictures/none.png\" cannot be read"));
 }
 
-TEST(GltfImage, what_is_no_png_or_jpeg_is_refused) {
-  EXPECT_THAT(with_image(Bytes{'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0, 0, 0, 0}).refusal(),
+bool is_checkerboard(const Bitmap& bitmap) {
+  const auto pixel = [&](int x, int y) {
+    return Bytes(bitmap.rgba.begin() + 4 * (y * bitmap.width + x),
+                 bitmap.rgba.begin() + 4 * (y * bitmap.width + x) + 4);
+  };
+  return bitmap.width == 64 && pixel(0, 0) == Bytes{255, 0, 255, 255} &&
+         pixel(8, 0) == Bytes{64, 64, 64, 255} && pixel(8, 8) == pixel(0, 0) && pixel(0, 8) == pixel(8, 0);
+}
+
+TEST(GltfImage, a_missing_image_is_a_checkerboard_and_its_other_maps_are_left_out) {
+  GltfBuilder made =
+      with_maps({{"pbrMetallicRoughness",
+                  {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 0}}}}},
+                 {"emissiveTexture", {{"index", 0}}},
+                 {"emissiveFactor", {1, 1, 1}},
+                 {"normalTexture", {{"index", 0}}},
+                 {"occlusionTexture", {{"index", 1}}}});
+  made.root["images"][0] = {{"uri", "gone.png"}};
+  Scene scene;
+  const std::string warnings = warnings_of([&] { scene = made.load(); });
+  EXPECT_THAT(
+      warnings,
+      HasSubstr("image 0 \"gone.png\": file \"gone.png\" cannot be read: No such file or directory; a "
+                "checkerboard is drawn in its place"));
+  const Material& material = scene.materials.at(0);
+  const auto bitmap_of = [&](const TextureSlot& slot) {
+    return scene.bitmaps.at(size_t(scene.textures.at(size_t(slot.texture)).bitmap));
+  };
+  EXPECT_TRUE(is_checkerboard(bitmap_of(material.base_color_map)));
+  EXPECT_EQ(bitmap_of(material.occlusion_map).height, 3) << "the other image";
+  for (const TextureSlot* slot :
+       {&material.metallic_roughness_map, &material.normal_map, &material.emissive_map})
+    EXPECT_EQ(slot->texture, -1);
+  EXPECT_EQ(material.metallic, 0);
+  EXPECT_EQ(material.emissive, glm::vec3(0));
+}
+
+TEST(GltfImage, each_missing_image_is_named_up_to_eight) {
+  GltfBuilder made = with_maps(nlohmann::json::object());
+  made.root["materials"] = nlohmann::json::array();
+  const nlohmann::json primitive = made.primitive();
+  made.root["meshes"][0]["primitives"] = nlohmann::json::array();
+  for (int i = 0; i < 10; ++i) {
+    made.root["images"][i] = {{"uri", fmt::format("gone{}.png", i)}};
+    made.root["textures"][i] = {{"source", i}};
+    made.root["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}}});
+    made.root["meshes"][0]["primitives"].push_back(primitive);
+    made.root["meshes"][0]["primitives"][i]["material"] = i;
+  }
+  const std::string warnings = warnings_of([&] { made.load(); });
+  for (int i = 0; i < 8; ++i) EXPECT_THAT(warnings, HasSubstr(fmt::format("\"gone{}.png\"", i)));
+  EXPECT_THAT(warnings, Not(HasSubstr("gone8")));
+  EXPECT_THAT(warnings, HasSubstr("2 more images are missing or broken"));
+}
+
+TEST(GltfImage, an_image_outside_the_folder_is_not_read_and_the_option_is_named) {
+  const ModelFolder folder;
+  folder.write("outside.png", encode_png(1, 1, 3, {9, 8, 7}));
+  GltfBuilder made = with_maps({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+  made.root["images"][0] = {{"uri", "../outside.png"}};
+  const auto path = folder.write("models/a.gltf", made.text());
+  Scene scene;
+  EXPECT_THAT(warnings_of([&] { scene = load_gltf(path); }), HasSubstr("--files anywhere reads it"));
+  EXPECT_TRUE(is_checkerboard(scene.bitmaps.at(0)));
+  EXPECT_EQ(load_gltf(path, -1, {.files_anywhere = true}).bitmaps.at(0).rgba[0], 9);
+}
+
+TEST(GltfImage, an_empty_uri_is_named_as_such) {
+  GltfBuilder made = with_maps({{"normalTexture", {{"index", 0}}}});
+  made.root["images"][0] = {{"uri", ""}};
+  EXPECT_THAT(made.broken_images(), HasSubstr("images[0].uri is empty"));
+  made.root["images"][0] = {{"uri", 3}};
+  EXPECT_THAT(made.broken_images(), HasSubstr("images[0].uri is not a string"));
+}
+
+TEST(GltfImage, what_is_no_png_or_jpeg_is_named) {
+  EXPECT_THAT(with_image(Bytes{'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0, 0, 0, 0}).broken_images(),
               HasSubstr("image 0 \"im\": is neither PNG nor JPEG"));
   Bytes cut = encode_png(16, 16, 3, Bytes(768, 5));
   cut.resize(cut.size() / 2);
-  EXPECT_THAT(with_image(cut).refusal(), HasSubstr("image 0 \"im\": cannot be decoded"));
+  EXPECT_THAT(with_image(cut).broken_images(), HasSubstr("image 0 \"im\": cannot be decoded"));
 }
 
 // A header without data: if it were decoded first, the message would differ.
@@ -69,17 +144,16 @@ Bytes png_header(uint32_t width, uint32_t height) {
 }
 
 TEST(GltfImage, sizes_are_checked_before_anything_is_decoded) {
-  EXPECT_THAT(with_image(png_header(8193, 1)).refusal(),
-              HasSubstr("is 8193 x 1; a side of at most 8192 is read"));
-  EXPECT_THAT(with_image(png_header(8, 8)).refusal({.max_image_side = 7}),
+  EXPECT_THAT(with_image(png_header(32769, 1)).broken_images(),
+              HasSubstr("is 32769 x 1; a side of at most 32768 is read"));
+  EXPECT_THAT(with_image(png_header(8, 8)).broken_images({.max_image_side = 7}),
               HasSubstr("is 8 x 8; a side of at most 7"));
   EXPECT_THAT(with_image(png_header(64, 64)).refusal({.max_image_bytes = 16000}),
-              HasSubstr("images take more than 16000"));
+              HasSubstr("1 images take 16384 bytes decoded, but may take 16000 bytes"));
   const GltfBuilder two =
       with_maps({{"normalTexture", {{"index", 0}}}, {"occlusionTexture", {{"index", 1}}}});
   EXPECT_EQ(two.load({.max_image_bytes = 1000}).bitmaps.size(), 2u);
-  EXPECT_THAT(two.refusal({.max_image_bytes = 150}),
-              HasSubstr("image 1: with it, images take more than 150 bytes"));
+  EXPECT_THAT(two.refusal({.max_image_bytes = 15}), HasSubstr("2 images take"));
 }
 
 // A PNG of side x side pixels, nearly all black, whose header says 1 x 1.
@@ -96,7 +170,51 @@ Bytes png_that_inflates(int side) {
 TEST(GltfImage, data_that_inflates_to_far_more_than_the_header_says_is_refused) {
   const Bytes bomb = png_that_inflates(6000);  // 108 MB
   ASSERT_LT(bomb.size(), size_t(2) << 20);
-  EXPECT_THAT(with_image(bomb).refusal(), HasSubstr("more than 1 x 1 pixels need"));
+  EXPECT_THAT(with_image(bomb).broken_images(), HasSubstr("more than 1 x 1 pixels need"));
+}
+
+// Two materials whose base colours are these two files.
+GltfBuilder with_two_files(const Bytes& a, const Bytes& b) {
+  GltfBuilder made = with_maps({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                                {"occlusionTexture", {{"index", 1}}}});
+  made.root["images"][0] = {{"bufferView", made.view(a)}, {"mimeType", "image/png"}, {"name", "a"}};
+  made.root["images"][1] = {{"bufferView", made.view(b)}, {"mimeType", "image/png"}, {"name", "b"}};
+  return made;
+}
+
+TEST(GltfImage, images_of_the_same_bytes_are_decoded_once) {
+  const Bytes file = encode_png(2, 1, 3, {1, 2, 3, 4, 5, 6});
+  const Scene same = with_two_files(file, file).load();
+  EXPECT_EQ(same.bitmaps.size(), 1u);
+  EXPECT_EQ(same.textures.size(), 2u) << "colours and data";
+  EXPECT_EQ(with_two_files(file, encode_png(2, 1, 3, {1, 2, 3, 4, 5, 7})).load().bitmaps.size(), 2u);
+}
+
+// Colours are averaged in linear light: black and white become sRGB 188; data become 128 (127.5).
+TEST(GltfImage, larger_images_than_the_texture_size_are_averaged_down) {
+  const Bytes stripes = encode_png(4, 2, 3, {0,   0,   0,   255, 255, 255, 0,   0,   0,   255, 255, 255,
+                                             255, 255, 255, 0,   0,   0,   255, 255, 255, 0,   0,   0});
+  const Scene scene = with_two_files(stripes, stripes).load({.texture_side = 2});
+  ASSERT_EQ(scene.bitmaps.size(), 2u) << "as colours and as data";
+  for (const Bitmap& bitmap : scene.bitmaps)
+    EXPECT_EQ(std::pair(bitmap.width, bitmap.height), std::pair(2, 1));
+  EXPECT_THAT(scene.bitmaps[0].rgba, ElementsAre(188, 188, 188, 255, 188, 188, 188, 255));
+  EXPECT_THAT(scene.bitmaps[1].rgba, ElementsAre(128, 128, 128, 255, 128, 128, 128, 255));
+}
+
+// 3 x 1 to 2 x 1: each pixel covers one and a half.
+TEST(GltfImage, averages_are_by_area) {
+  const Bytes file = encode_png(3, 1, 3, {30, 0, 0, 90, 3, 0, 240, 9, 0});
+  const Scene scene = with_image(file).load({.texture_side = 2});
+  EXPECT_THAT(scene.bitmaps.at(0).rgba, ElementsAre(50, 1, 0, 255, 190, 7, 0, 255));
+}
+
+TEST(GltfImage, too_much_memory_is_refused_before_decoding_with_the_size_that_fits) {
+  const GltfBuilder made = with_two_files(png_header(4096, 4096), png_header(4096, 2048));
+  const std::string refusal = made.refusal({.max_image_bytes = size_t(40) << 20});
+  EXPECT_THAT(refusal, HasSubstr("made.gltf: 2 images take 96.0 MiB decoded, but may take 40.0 MiB"));
+  EXPECT_THAT(refusal, HasSubstr("--texture-size 2048 fits (24.0 MiB)"));
+  EXPECT_THAT(refusal, HasSubstr("--image-memory 97M allows them"));
 }
 
 TEST(GltfImage, sixteen_bits_become_eight_with_a_warning) {

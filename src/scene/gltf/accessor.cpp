@@ -194,7 +194,9 @@ void apply_sparse(Document& doc, const tinygltf::Accessor& accessor, const Layou
                   std::vector<To>& values, const std::string& place) {
   const auto& sparse = accessor.sparse;
   if (sparse.count < 1 || static_cast<size_t>(sparse.count) > base.count)
-    throw doc.error("{}: sparse.count is {} of {}", place, sparse.count, base.count);
+    throw doc.error("{}: sparse.count is {}", place,
+                    sparse.count < 1 ? "not a number from 1 to the accessor's count"
+                                     : fmt::format("{} of {}", sparse.count, base.count));
   if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
     throw doc.error("{}: sparse byteOffset is negative", place);
   const auto count = static_cast<size_t>(sparse.count);

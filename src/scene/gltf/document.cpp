@@ -135,6 +135,15 @@ int major_version(const std::string& version) {
   return version.size() >= 3 && version[1] == '.' && std::isdigit(version[0]) ? version[0] - '0' : 0;
 }
 
+constexpr const char* basisu = "KHR_texture_basisu";
+
+// Whether each texture names an image other than one of KTX2 too, which is used.
+bool has_other_sources(const Document& doc) {
+  for (size_t i = 0; i < doc.model.textures.size(); ++i)
+    if (image_of_texture(doc, static_cast<int>(i)) < 0) return false;
+  return true;
+}
+
 void check_asset(Document& doc) {
   const tinygltf::Asset& asset = doc.model.asset;
   if (major_version(asset.version) != 2)
@@ -142,8 +151,10 @@ void check_asset(Document& doc) {
   if (!asset.minVersion.empty() && asset.minVersion != "2.0")
     throw doc.error("asset.minVersion is \"{}\"; glTF 2.0 is read", asset.minVersion);
   for (const std::string& name : doc.model.extensionsRequired)
-    if (!is_supported_extension(name))
-      throw doc.error("requires the extension {}, which is not supported", name);
+    if (!is_supported_extension(name) && !(name == basisu && has_other_sources(doc)))
+      throw doc.error(
+          "requires the extension {}, which is not supported{}", name,
+          name == basisu ? ": convert its KTX2 images to PNG (gltf-transform ktxdecompress IN OUT)" : "");
   for (const std::string& name : doc.model.extensionsUsed)
     if (!is_supported_extension(name)) doc.warn(name, "extension {} is not supported and left out", name);
 }
@@ -155,7 +166,7 @@ void read_buffers(Document& doc, const std::vector<BufferEntry>& entries, const 
     const std::string place = fmt::format("buffer {}: ", i);
     std::span<const uint8_t> bytes;
     if (!entry.uri.empty() && !entry.fallback) {
-      doc.owned.push_back(read_uri(doc, place, doc.folder, entry.uri, bytes_left));
+      doc.owned.push_back(read_uri(doc, place, doc.reach, entry.uri, bytes_left));
       bytes = doc.owned.back();
       bytes_left -= bytes.size();
     } else if (i == 0 && container.binary.data() && !entry.fallback) {
@@ -173,8 +184,7 @@ void read_buffers(Document& doc, const std::vector<BufferEntry>& entries, const 
 }  // namespace
 
 Document read_document(const fs::path& path, const GltfLimits& limits) {
-  Document doc(path);
-  doc.limits = limits;
+  Document doc(path, limits);
   std::vector<uint8_t> file = read_regular_file(doc, "", path, limits.max_file_bytes);
   const Container container = open_container(doc, file);
   PreparedJson prepared = prepare_json(doc, container.json);

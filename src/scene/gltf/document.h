@@ -12,11 +12,11 @@
 namespace lightgrid::gltf {
 
 struct Document : Reporter {
-  explicit Document(const std::filesystem::path& path)
-      : Reporter(path.string()), folder(path.parent_path()) {}
+  Document(const std::filesystem::path& path, const GltfLimits& bounds)
+      : Reporter(path.string()), limits(bounds), reach(reach_of(path, bounds.files_anywhere)) {}
 
-  std::filesystem::path folder;
   GltfLimits limits;
+  FileReach reach;
   tinygltf::Model model;  // without buffers, images and animations
   std::vector<ImageEntry> images;
   std::vector<AnimationEntry> animations;

@@ -224,12 +224,19 @@ std::map<int, std::optional<glm::vec3>> radiance_of(const json& scenes, const ch
 
 constexpr int max_nesting = 64;  // the format itself needs about 10
 
-constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
-                                                "EXT_texture_webp",        "KHR_draco_mesh_compression",
-                                                "KHR_lights_punctual",     "KHR_materials_clearcoat",
-                                                "KHR_materials_ior",       "KHR_materials_specular",
-                                                "KHR_materials_unlit",     "KHR_materials_emissive_strength",
-                                                "KHR_mesh_quantization",   "KHR_texture_transform"};
+constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing",
+                                                "EXT_meshopt_compression",
+                                                "EXT_texture_webp",
+                                                "KHR_draco_mesh_compression",
+                                                "KHR_lights_punctual",
+                                                "KHR_materials_clearcoat",
+                                                "KHR_materials_ior",
+                                                "KHR_materials_specular",
+                                                "KHR_materials_transmission",
+                                                "KHR_materials_unlit",
+                                                "KHR_materials_emissive_strength",
+                                                "KHR_mesh_quantization",
+                                                "KHR_texture_transform"};
 
 constexpr const char* collections[] = {"accessors", "animations", "bufferViews", "buffers", "cameras",
                                        "images",    "materials",  "meshes",      "nodes",   "samplers",
@@ -364,7 +371,8 @@ std::vector<ImageEntry> take_images(const Reporter& report, json& root) {
     if (image.contains("bufferView") == image.contains("uri"))
       entry.fault = report.error("images[{}] must have either a bufferView or a uri", out.size());
     else if (image.contains("uri") && entry.uri.empty())
-      entry.fault = report.error("images[{}].uri is not a string", out.size());
+      entry.fault = report.error("images[{}].uri is {}", out.size(),
+                                 image["uri"].is_string() ? "empty" : "not a string");
     else if (entry.view < 0 && entry.uri.empty())
       entry.fault = report.error("images[{}].bufferView is not an index", out.size());
     out.push_back(std::move(entry));

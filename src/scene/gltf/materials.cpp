@@ -136,6 +136,28 @@ void read_specular(Document& doc, const tinygltf::Value& in, const std::string& 
   if (out.specular == 0) out.specular_map = out.specular_color_map = {};  // not decoded
 }
 
+// KHR_materials_transmission, as blending: what passes both faces of a thin pane is what is not reflected at
+// normal incidence, and of that the mean of the base colour, since blending cannot tint what lies behind.
+void read_transmission(Document& doc, const tinygltf::Value& in, const std::string& place, Material& out) {
+  const float factor =
+      in_unit(doc, number_or(doc, in, "transmissionFactor", 0, place), place, "transmissionFactor");
+  if (factor == 0 || out.unlit) return;
+  doc.warn(
+      "transmission",
+      "{}: KHR_materials_transmission is drawn as blending: without refraction, without blur behind rough "
+      "surfaces, and with highlights as weak as the rest of the surface",
+      place);
+  if (in.Has("transmissionTexture"))
+    doc.warn("transmissionTexture", "{}: transmissionTexture is left out; the factor is used everywhere",
+             place);
+  const float reflected = out.ior > 0 ? std::pow((out.ior - 1) / (out.ior + 1), 2.0f) : 1.0f;
+  const float tint = (out.base_color.r + out.base_color.g + out.base_color.b) / 3;
+  const float through = factor * (1 - out.metallic) * tint * (1 - reflected) * (1 - reflected);
+  if (out.alpha_mode == AlphaMode::opaque) out.base_color.a = 1;
+  out.base_color.a *= 1 - through;
+  out.alpha_mode = AlphaMode::blend;
+}
+
 // NVIDIA's lambSkin has these; they stand in where the file names none.
 constexpr glm::vec3 default_subsurface_color(1, 0.2f, 0.2f);
 constexpr double default_roll_off = 0.2;
@@ -202,6 +224,8 @@ Material read_material(Document& doc, const tinygltf::Material& in, const std::s
     out.ior = read_ior(doc, *ior, place);
   if (const auto* specular = find_extension(in.extensions, "KHR_materials_specular"))
     read_specular(doc, *specular, place, out);
+  if (const auto* transmission = find_extension(in.extensions, "KHR_materials_transmission"))
+    read_transmission(doc, *transmission, place, out);
   return out;
 }
 

@@ -106,7 +106,56 @@ std::vector<uint8_t> read_regular_file(const Reporter& report, const std::string
   return bytes;
 }
 
-std::vector<uint8_t> read_uri(const Reporter& report, const std::string& place, const fs::path& folder,
+FileReach reach_of(const fs::path& gltf, bool anywhere) {
+  // The folder of a bare file name is an empty path, which would contain everything.
+  const fs::path beside = gltf.has_parent_path() ? gltf.parent_path() : fs::path(".");
+  FileReach reach{.folders = {}, .anywhere = anywhere};
+  for (const fs::path& folder : {fs::weakly_canonical(gltf).parent_path(), fs::weakly_canonical(beside)})
+    if (std::ranges::find(reach.folders, folder) == reach.folders.end()) reach.folders.push_back(folder);
+  return reach;
+}
+
+namespace {
+
+struct FoundFile {
+  fs::path path;
+  bool leaves = false;  // and must not be read
+};
+
+// The first file of this name that exists and may be read; empty if none exists. A file that leaves the
+// folder is found whether it exists or not.
+std::optional<FoundFile> find_file(const FileReach& reach, const std::string& name) {
+  std::optional<FoundFile> outside;
+  for (const fs::path& folder : reach.folders) {
+    const fs::path file = fs::weakly_canonical(folder / name);
+    if (!is_below(file, folder) && !reach.anywhere)
+      outside = {file, true};
+    else if (fs::exists(file))
+      return FoundFile{file};
+  }
+  return outside;
+}
+
+fs::path found_path(Reporter& report, const std::string& place, const FileReach& reach,
+                    const std::string& uri, const std::string& name) {
+  std::optional<FoundFile> found = find_file(reach, name);
+  if (!found && name.find('\\') != std::string::npos) {
+    std::string slashed = name;
+    std::ranges::replace(slashed, '\\', '/');
+    found = find_file(reach, slashed);
+    if (found && !found->leaves)
+      report.warn("backslash", "{}uri \"{}\" has backslashes; read as \"{}\"", place, uri, slashed);
+  }
+  if (!found) throw report.error("{}file \"{}\" cannot be read: {}", place, name, std::strerror(ENOENT));
+  if (found->leaves)
+    throw report.error("{}uri \"{}\" leaves the folder of the glTF file; --files anywhere reads it", place,
+                       uri);
+  return found->path;
+}
+
+}  // namespace
+
+std::vector<uint8_t> read_uri(Reporter& report, const std::string& place, const FileReach& reach,
                               const std::string& uri, size_t max_bytes) {
   if (uri.starts_with("data:")) {
     auto bytes = read_data_uri(report, place, uri);
@@ -119,14 +168,12 @@ std::vector<uint8_t> read_uri(const Reporter& report, const std::string& place, 
   const auto decoded = percent_decoded(uri);
   if (!decoded || decoded->empty() || decoded->find('\0') != std::string::npos)
     throw report.error("{}uri \"{}\" is not a valid path", place, uri);
-  std::error_code failed;
-  // The folder of a bare file name is an empty path, which would contain everything.
-  const fs::path root = fs::weakly_canonical(folder.empty() ? "." : folder, failed);
-  const fs::path file = failed ? fs::path() : fs::weakly_canonical(root / *decoded, failed);
-  if (failed) throw report.error("{}uri \"{}\": {}", place, uri, failed.message());
-  if (!is_below(file, root))
-    throw report.error("{}uri \"{}\" leaves the folder of the glTF file", place, uri);
-  return read_regular_file(report, fmt::format("{}file \"{}\" ", place, *decoded), file, max_bytes);
+  try {
+    const fs::path file = found_path(report, place, reach, uri, *decoded);
+    return read_regular_file(report, fmt::format("{}file \"{}\" ", place, *decoded), file, max_bytes);
+  } catch (const fs::filesystem_error& failure) {  // a name too long, links in a circle
+    throw report.error("{}uri \"{}\": {}", place, uri, failure.code().message());
+  }
 }
 
 namespace {

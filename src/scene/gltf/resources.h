@@ -18,10 +18,18 @@ namespace lightgrid::gltf {
 std::vector<uint8_t> read_regular_file(const Reporter& report, const std::string& place,
                                        const std::filesystem::path& path, size_t max_bytes);
 
+// The files that a glTF file may name.
+struct FileReach {
+  std::vector<std::filesystem::path> folders;  // of the file itself and, if that is a link, of the link
+  bool anywhere = false;                       // others too
+};
+FileReach reach_of(const std::filesystem::path& gltf, bool anywhere);
+
 // Reads a buffer's or image's URI (RFC 3986, RFC 2397): a data URI is decoded; a relative path is
-// percent-decoded and read, unless it leaves `folder`, whether by "..", from the root or by a link.
-std::vector<uint8_t> read_uri(const Reporter& report, const std::string& place,
-                              const std::filesystem::path& folder, const std::string& uri, size_t max_bytes);
+// percent-decoded, looked for in the folders in turn and read, unless it leaves the folder, whether by "..",
+// from the root or by a link. Backslashes, which some exporters write, are tried as slashes with a warning.
+std::vector<uint8_t> read_uri(Reporter& report, const std::string& place, const FileReach& reach,
+                              const std::string& uri, size_t max_bytes);
 
 struct Container {
   std::string_view json;
