@@ -47,7 +47,7 @@ LightMotion light_motion(const std::string& name) {
   if (name == "none") return LightMotion::none;
   if (name == "orbit") return LightMotion::orbit;
   if (name == "drift") return LightMotion::drift;
-  throw input_error("light motion \"{}\" is not none, orbit or drift", name);
+  throw input_error("light-motion {}: not none, orbit or drift", name);
 }
 
 LightRig make_light_rig(const Scene& scene, LightMotion motion) {

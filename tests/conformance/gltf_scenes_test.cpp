@@ -36,7 +36,7 @@ TEST(GltfScenes, sponza_is_complete) {
   EXPECT_EQ(triangles, 262267u);
   EXPECT_EQ(scene.instances.size(), 103u);
   EXPECT_EQ(scene.materials.size(), 25u);
-  EXPECT_EQ(scene.bitmaps.size(), 69u);
+  EXPECT_EQ(scene.bitmaps.size(), 65u) << "of 69 files four have the same bytes as another";
   EXPECT_TRUE(scene.lights.empty());
   const auto masked = std::count_if(scene.materials.begin(), scene.materials.end(),
                                     [](const Material& m) { return m.alpha_mode == AlphaMode::mask; });

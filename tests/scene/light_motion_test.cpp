@@ -122,7 +122,7 @@ TEST(LightMotions, names_and_times_that_do_not_exist_are_refused) {
   EXPECT_EQ(light_motion("drift"), LightMotion::drift);
   EXPECT_EQ(light_motion("none"), LightMotion::none);
   EXPECT_THAT([] { light_motion("jump"); },
-              testing::ThrowsMessage<Error>("light motion \"jump\" is not none, orbit or drift"));
+              testing::ThrowsMessage<Error>("light-motion jump: not none, orbit or drift"));
   Scene scene = twenty_lights();
   EXPECT_THROW(move_lights(scene, make_light_rig(scene, LightMotion::orbit), INFINITY), Error);
 }

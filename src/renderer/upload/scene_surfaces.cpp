@@ -161,7 +161,7 @@ class TexelWriter {
     const size_t first = to.size() / channels, end = first + chain.values.size() / channels;
     if (end > 0x7fffffffu) throw machine_error("textures: more than 2^31 texels for the resolve pass");
     to.insert(to.end(), chain.values.begin(), chain.values.end());
-    chain.values.clear();
+    chain.values = {};  // with its memory
     return {uint(first), std::move(chain)};
   }
 
@@ -181,7 +181,7 @@ class TexelWriter {
       const uint16_t value = chain.values[i];
       to.push_back(i % 8 < 3 ? roots[value] : uint8_t((value + 128) / 257));
     }
-    chain.values.clear();
+    chain.values = {};  // with its memory
     return {uint(first), std::move(chain)};
   }
 
