@@ -7,7 +7,7 @@
 
 typedef struct TileRecord {
   Edge edges[3];
-  int dx, dy;  // of the tile's first pixel's centre from corner 0, 1/256 pixel
+  int dx, dy;  // of the tile's first pixel from the anchor
   float z0, zx, zy, z_min, z_max;
   uint triangle, instance;
   int alpha_material;
@@ -19,7 +19,8 @@ static inline TileRecord in_tile(global const RasterRecord* r, int pixel_x, int 
     const int next = k == 2 ? 0 : k + 1;
     t.edges[k] = edge_at(r->x[k], r->y[k], r->x[next], r->y[next], pixel_x, pixel_y);
   }
-  t.dx = pixel_x * 256 + 128 - r->x[0], t.dy = pixel_y * 256 + 128 - r->y[0];
+  const int2 anchor = anchor_pixel(r->zx, r->zy, r->box_low, r->box_high);
+  t.dx = pixel_x - anchor.x, t.dy = pixel_y - anchor.y;
   t.z0 = r->z0, t.zx = r->zx, t.zy = r->zy, t.z_min = r->z_min, t.z_max = r->z_max;
   t.triangle = r->triangle, t.instance = r->instance, t.alpha_material = r->alpha_material;
   return t;
@@ -36,10 +37,10 @@ static inline mask_t covered_pixels(const TileRecord* r, int x, int y, whole acr
   return sides >= (whole)(0);
 }
 
-// Not held to z_min. dx and dy are exact: multiples of 1/256 below 2^16.
+// Not held to z_min.
 static inline real plane_depth(const TileRecord* r, int x, int y, real across, real up) {
-  const real dx = (float)(r->dx + x * 256) * (1.0f / 256) + across,
-             dy = (float)(r->dy + y * 256) * (1.0f / 256) + up;
+  const real dx = (float)(r->dx + x) + across,
+             dy = (float)(r->dy + y) + up;
   return lane_min(fma((real)(r->zx), dx, fma((real)(r->zy), dy, (real)(r->z0))), (real)(r->z_max));
 }
 

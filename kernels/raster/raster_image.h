@@ -61,7 +61,7 @@ typedef struct PlacedTriangle {
   Edge edges[3];
   int x0, y0;
   int width, height;  // of what lies in its box from there on, pixels
-  float dx, dy;       // of the pixel's centre from corner 0, pixels; exact: multiples of 1/256 below 2^16
+  float dx, dy;       // of the pixel from the anchor
   float z0, zx, zy, z_min, z_max;
   uint triangle, instance;
   int alpha_material;
@@ -74,8 +74,8 @@ static inline PlacedTriangle placed_triangle(const RasterRecord* r, int x0, int 
     t.edges[k] = edge_at(r->x[k], r->y[k], r->x[next], r->y[next], x0, y0);
   }
   t.x0 = x0, t.y0 = y0, t.width = width, t.height = height;
-  t.dx = (float)(x0 * 256 + 128 - r->x[0]) * (1.0f / 256),
-  t.dy = (float)(y0 * 256 + 128 - r->y[0]) * (1.0f / 256);
+  const int2 anchor = anchor_pixel(r->zx, r->zy, r->box_low, r->box_high);
+  t.dx = (float)(x0 - anchor.x), t.dy = (float)(y0 - anchor.y);
   t.z0 = r->z0, t.zx = r->zx, t.zy = r->zy, t.z_min = r->z_min, t.z_max = r->z_max;
   t.triangle = r->triangle, t.instance = r->instance, t.alpha_material = r->alpha_material;
   return t;

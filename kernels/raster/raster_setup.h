@@ -4,13 +4,10 @@
 #pragma once
 
 #include "kernels/common/sample_places.h"
+#include "kernels/raster/depth_plane.h"
 #include "shared/lanes.h"
 #include "shared/raster_instance.h"
 #include "shared/raster_params.h"
-
-typedef struct Corners {
-  real x, y, z, w;
-} Corners;
 
 // As RasterRecord, a value a lane.
 typedef struct RecordLanes {
@@ -18,13 +15,6 @@ typedef struct RecordLanes {
   real z0, zx, zy, z_min, z_max;
   whole triangle, box_low, box_high, instance, alpha_material;
 } RecordLanes;
-
-// a b - c d, within 2^-23 of itself, and 0 only where it is 0 (Jeannerod, Louvet, Muller, "Further Analysis
-// of Kahan's Algorithm for the Accurate Computation of 2 x 2 Determinants", 2013).
-static inline real difference_of_products(real a, real b, real c, real d) {
-  const real product = c * d, rest = fma(-c, d, product);
-  return fma(a, b, -product) + rest;
-}
 
 // Half-spaces that a triangle is cut to, in this order: 0 or more is inside.
 #define CUT_PLANES 5
@@ -67,49 +57,70 @@ static inline whole whole_max(whole a, whole b) { return a > b ? a : b; }
 static inline real least_of(const real* v) { return lane_min(v[0], lane_min(v[1], v[2])); }
 static inline real most_of(const real* v) { return lane_max(v[0], lane_max(v[1], v[2])); }
 
-// Deeper corners count as this deep, so that gradients stay finite. In real numbers no pixel changes: a
-// corner has 2^-47 or more of a sample's weight, or none, so a sample off the edge between the other two is
-// behind the far plane anyway.
-#define DEEPEST (-1.8446744073709552e19f)  // -2^64
-
-// Triangles whose corners need no cut, where `live`. Fills all of the record but its numbers, and returns
-// which triangles face the eye and may cover a pixel's sample.
-static inline mask_t set_up(const Corners* v, mask_t live, uint flags, RecordLanes* out,
-                            constant RasterParams* p) {
-  const real half_x = p->half_x, half_y = p->half_y, zero = 0.0f, one = 1.0f, deepest = DEEPEST;
-  real z[3];
+// Where a triangle's corners, or those of a part of it, are snapped to; the pixels that it may cover.
+typedef struct SnappedLanes {
   whole x[3], y[3];
+  whole low_x, low_y, high_x, high_y;
+  real ax, ay, bx, by;  // from corner 0 to the others
+  real area;            // twice the triangle's; its sign is exact
+} SnappedLanes;
+
+static inline SnappedLanes snapped_corners(const Corners* v, mask_t live, constant RasterParams* p) {
+  const real half_x = p->half_x, half_y = p->half_y, zero = 0.0f, one = 1.0f;
+  SnappedLanes s;
   for (int k = 0; k < 3; ++k) {
     const real per_w = one / v[k].w, sx = fma(v[k].x * per_w, half_x, half_x),
                sy = fma(v[k].y * per_w, half_y, half_y);
-    x[k] = TO_WHOLE(lane_rint(live ? sx : zero)), y[k] = TO_WHOLE(lane_rint(live ? sy : zero));
-    z[k] = lane_max(lane_min(v[k].z * per_w, one), deepest);
+    s.x[k] = TO_WHOLE(lane_rint(live ? sx : zero)), s.y[k] = TO_WHOLE(lane_rint(live ? sy : zero));
   }
   // Pixels of which the sample that lies farthest to a side may be covered.
   const int right = most_gain(1, 0), left = most_gain(-1, 0), up = most_gain(0, 1), down = most_gain(0, -1);
-  const whole low_x = whole_max((whole_min(x[0], whole_min(x[1], x[2])) + (127 - right)) >> 8, (whole)(0));
-  const whole low_y = whole_max((whole_min(y[0], whole_min(y[1], y[2])) + (127 - up)) >> 8, (whole)(0));
-  const whole high_x =
-      whole_min((whole_max(x[0], whole_max(x[1], x[2])) + (left - 128)) >> 8, (whole)((int)p->width - 1));
-  const whole high_y =
-      whole_min((whole_max(y[0], whole_max(y[1], y[2])) + (down - 128)) >> 8, (whole)((int)p->height - 1));
-
+  s.low_x = whole_max((whole_min(s.x[0], whole_min(s.x[1], s.x[2])) + (127 - right)) >> 8, (whole)(0));
+  s.low_y = whole_max((whole_min(s.y[0], whole_min(s.y[1], s.y[2])) + (127 - up)) >> 8, (whole)(0));
+  s.high_x = whole_min((whole_max(s.x[0], whole_max(s.x[1], s.x[2])) + (left - 128)) >> 8,
+                       (whole)((int)p->width - 1));
+  s.high_y = whole_min((whole_max(s.y[0], whole_max(s.y[1], s.y[2])) + (down - 128)) >> 8,
+                       (whole)((int)p->height - 1));
   // Below 2^24, so exact as floats.
-  const real ax = TO_REAL(x[1] - x[0]), ay = TO_REAL(y[1] - y[0]), bx = TO_REAL(x[2] - x[0]),
-             by = TO_REAL(y[2] - y[0]);
-  const real area = difference_of_products(ax, by, bx, ay);  // twice the triangle's; its sign is exact
-  const mask_t clockwise = area < zero;
-  mask_t faces = area != zero;
-  if (!(flags & RASTER_TWO_SIDED)) faces = flags & RASTER_MIRRORED ? clockwise : area > zero;
+  s.ax = TO_REAL(s.x[1] - s.x[0]), s.ay = TO_REAL(s.y[1] - s.y[0]);
+  s.bx = TO_REAL(s.x[2] - s.x[0]), s.by = TO_REAL(s.y[2] - s.y[0]);
+  s.area = difference_of_products(s.ax, s.by, s.bx, s.ay);
+  return s;
+}
 
-  out->x[0] = x[0], out->x[1] = clockwise ? x[2] : x[1], out->x[2] = clockwise ? x[1] : x[2];
-  out->y[0] = y[0], out->y[1] = clockwise ? y[2] : y[1], out->y[2] = clockwise ? y[1] : y[2];
-  // Depths from corner 0's; the signs of numerators and area cancel where corners 1 and 2 change places.
-  const real za = z[1] - z[0], zb = z[2] - z[0], per_area = (real)(256.0f) / area;
-  out->z0 = z[0];
-  out->zx = difference_of_products(za, by, zb, ay) * per_area;
-  out->zy = difference_of_products(zb, ax, za, bx) * per_area;
-  out->z_min = least_of(z), out->z_max = most_of(z);
-  out->box_low = low_x | low_y << 16, out->box_high = high_x | high_y << 16;
-  return live & faces & (low_x <= high_x) & (low_y <= high_y);
+// Into the record the depths of the triangle `of`, of which corners v, snapped to s, may be a part.
+static inline void set_depths(const Corners* v, const Corners* of, const SnappedLanes* s, RecordLanes* out,
+                              constant RasterParams* p) {
+  real z[3], depths[3];
+  for (int k = 0; k < 3; ++k) z[k] = depth_of_corner(v[k]), depths[k] = depth_of_corner(of[k]);
+  out->z_min = least_of(depths), out->z_max = most_of(depths);
+  real zx, zy;
+  plane_gradients(of, &zx, &zy, p);
+  // Else the triangle is thinner along its gradient than snapping moves corners, and most of what it covers
+  // lies outside of it, where its plane is too steep. The plane through the snapped corners holds there.
+  const mask_t thick = fabs(zx) + fabs(zy) <= 512.0f * (out->z_max - out->z_min);
+  const real za = z[1] - z[0], zb = z[2] - z[0], per_area = (real)(256.0f) / s->area;
+  zx = thick ? zx : difference_of_products(za, s->by, zb, s->ay) * per_area;
+  zy = thick ? zy : difference_of_products(zb, s->ax, za, s->bx) * per_area;
+  const whole x = (zx > (real)(0.0f) ? s->low_x : s->high_x) * 256 + 128,
+              y = (zy > (real)(0.0f) ? s->low_y : s->high_y) * 256 + 128;  // anchor_pixel()
+  const real from_snapped = fma(zx, TO_REAL(x - s->x[0]) * (1.0f / 256),
+                                fma(zy, TO_REAL(y - s->y[0]) * (1.0f / 256), z[0]));
+  out->z0 = thick ? plane_depth_at(of, depths, zx, zy, x, y, p) : from_snapped;
+  out->zx = zx, out->zy = zy;
+}
+
+// Triangles whose corners need no cut, or parts of triangles `of` that cutting left, where `live`. Fills all
+// of the record but its numbers, and returns which triangles face the eye and may cover a pixel's sample.
+static inline mask_t set_up(const Corners* v, const Corners* of, mask_t live, uint flags, RecordLanes* out,
+                            constant RasterParams* p) {
+  const SnappedLanes s = snapped_corners(v, live, p);
+  const mask_t clockwise = s.area < (real)(0.0f);
+  mask_t faces = s.area != (real)(0.0f);
+  if (!(flags & RASTER_TWO_SIDED)) faces = flags & RASTER_MIRRORED ? clockwise : s.area > (real)(0.0f);
+  out->x[0] = s.x[0], out->x[1] = clockwise ? s.x[2] : s.x[1], out->x[2] = clockwise ? s.x[1] : s.x[2];
+  out->y[0] = s.y[0], out->y[1] = clockwise ? s.y[2] : s.y[1], out->y[2] = clockwise ? s.y[1] : s.y[2];
+  set_depths(v, of, &s, out, p);
+  out->box_low = s.low_x | s.low_y << 16, out->box_high = s.high_x | s.high_y << 16;
+  return live & faces & (s.low_x <= s.high_x) & (s.low_y <= s.high_y);
 }

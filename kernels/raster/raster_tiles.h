@@ -69,3 +69,8 @@ static inline bool meets_tile(const RasterRecord* r, int tile_x, int tile_y) {
          edge_meets_tile(r->x[1], r->y[1], r->x[2], r->y[2], tile_x, tile_y) &&
          edge_meets_tile(r->x[2], r->y[2], r->x[0], r->y[0], tile_x, tile_y);
 }
+
+// The pixel at whose centre a record's z0 is: where its plane is the deepest in its box.
+static inline int2 anchor_pixel(float zx, float zy, uint box_low, uint box_high) {
+  return (int2)((int)((zx > 0 ? box_low : box_high) & 0xffffu), (int)((zy > 0 ? box_low : box_high) >> 16));
+}

@@ -23,10 +23,9 @@
 // - A triangle that crosses the near plane or leaves a guard band, 16,368 pixels on either side of the view's
 //   centre, is cut. Where an edge is cut depends on its two end points alone, so that neighbours meet without
 //   a gap.
-// - Depth is a plane through the snapped vertices, clamped to their depths. It is within
-//   2^-21 (|zx dx| + |zy dy| + z) of the exact one: dx, dy are the pixel's distance from the first vertex, zx
-//   and zy the gradients, z the greatest depth of the vertices. A depth below 2^-126, as at or past the far
-//   plane, is not drawn.
+// - Depth is that of the triangle itself, neither snapped nor cut, clamped to its corners' depths; of one
+//   thinner than snapping moves corners, that of the snapped one. A depth below 2^-126, as at or past the far
+//   plane, is not drawn. docs/raster.md has its error.
 // - The greatest depth wins (depth is reversed). Of equal ones the highest triangle number wins, which is the
 //   one drawn last, as with OpenGL's GL_GEQUAL.
 // - A triangle with a corner that is not finite in clip space is left out and counted.

@@ -9,7 +9,6 @@
 namespace lightgrid {
 namespace {
 
-constexpr double half_ulp_at_one = 0x1p-24;
 constexpr double least_depth = 0x1p-126;  // less is not drawn
 constexpr double guard_units = 16368 * 256;
 constexpr int units_a_pixel = 256;  // a pixel
@@ -50,8 +49,6 @@ std::vector<glm::vec4> cut_polygon(const std::vector<glm::vec4>& polygon, CutPla
   }
   return kept;
 }
-
-long double depth_of(const glm::vec4& v) { return std::min((long double)(v.z) / v.w, 1.0L); }
 
 // Twice the signed area, in units squared: below 2^49.
 int64_t twice_area_of(const SnappedPoint& a, const SnappedPoint& b, const SnappedPoint& c) {
@@ -118,35 +115,19 @@ void CoverageOracle::add_part(const std::array<glm::vec4, 3>& clip, const Covera
   const auto corners = std::bit_cast<std::array<uint32_t, 12>>(triangle.clip);
   const uint32_t alike = first_of_corners_.try_emplace(corners, count_).first->second;
 
-  const long double z[3] = {depth_of(clip[0]), depth_of(clip[1]), depth_of(clip[2])};
-  const auto [least, most] = std::minmax({z[0], z[1], z[2]});
-  const long double size = std::max(std::abs(least), std::abs(most));
-  const long double gradient_x =
-      ((z[1] - z[0]) * (p[2].y - p[0].y) - (z[2] - z[0]) * (p[1].y - p[0].y)) / twice_area;
-  const long double gradient_y =
-      ((z[2] - z[0]) * (p[1].x - p[0].x) - (z[1] - z[0]) * (p[2].x - p[0].x)) / twice_area;
-
   const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
   const auto [bottom, top] = std::minmax({p[0].y, p[1].y, p[2].y});
   const auto pixel = [](int64_t units, int most) {
     return int(std::clamp<int64_t>(units / units_a_pixel, 0, most));
   };
+  const TriangleDepth depth(triangle.clip, clip, p, grid_);
   for (int y = pixel(bottom, grid_.height - 1); y <= pixel(top, grid_.height - 1); ++y) {
     for (int x = pixel(left, grid_.width - 1); x <= pixel(right, grid_.width - 1); ++x) {
       const SnappedPoint sample{int64_t(x) * units_a_pixel + sample_.x,
                                 int64_t(y) * units_a_pixel + sample_.y};
       if (winding_at(p, sample) == 0) continue;
-      const long double weighted = z[0] * twice_area_of(sample, p[1], p[2]) +
-                                   z[1] * twice_area_of(p[0], sample, p[2]) +
-                                   z[2] * twice_area_of(p[0], p[1], sample);
-      const long double slope =
-          std::abs(gradient_x * (sample.x - p[0].x)) + std::abs(gradient_y * (sample.y - p[0].y));
-      CoveredPixel covered;
-      covered.triangle = count_;
-      covered.alike = alike;
-      covered.depth = double(weighted / twice_area);
-      covered.bound =
-          double(std::min(8 * half_ulp_at_one * (slope + size), (most - least) + 4 * half_ulp_at_one * size));
+      const DepthAt at = depth.at(sample);
+      const CoveredPixel covered{count_, at.depth, at.bound, alike};
       std::vector<CoveredPixel>& here = pixels_[grid_.index(x, y)];
       if (here.empty() || here.back().triangle != count_) {
         here.push_back(covered);

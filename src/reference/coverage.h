@@ -5,7 +5,7 @@
 // Given are positions in clip space as the transform left them. Snapping to 1/256 pixel and cutting at the
 // near plane and the guard band are done again here. Coverage counts the crossings of a half-line with the
 // outline, where kernels take signs of edge functions: the top-left rule is the limit of a sample moved right
-// and, far less, down. Depth is a weighted mean, where kernels evaluate a plane.
+// and, far less, down. Depth is triangle_depth.h's.
 #pragma once
 
 #include <array>
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/pixel_grid.h"
+#include "reference/triangle_depth.h"
 
 namespace lightgrid {
 
@@ -34,12 +35,6 @@ struct CoveredPixel {
   // The first triangle whose corners have the same bits in the same order, so that both have the same float
   // depth. 0xffffffff: unknown.
   uint32_t alike = 0xffffffffu;
-};
-
-// 1/256 pixel from the image's lower left corner.
-struct SnappedPoint {
-  int64_t x = 0, y = 0;
-  bool operator==(const SnappedPoint&) const = default;
 };
 
 // Whether the outline of the triangle winds around a point: 1 counter-clockwise, -1 clockwise, 0 not at all.

@@ -65,8 +65,8 @@ typedef struct RasterCluster {
 // A triangle on the screen, or a part of one that clipping left, counter-clockwise.
 typedef struct RasterRecord {
   int x[3], y[3];      // 1/256 pixel
-  float z0, zx, zy;    // depth at corner 0, and what it gains a pixel
-  float z_min, z_max;  // of the corners
+  float z0, zx, zy;    // depth at the anchor (kernels/raster/raster_tiles.h), and what it gains per pixel
+  float z_min, z_max;  // of the triangle in view
   uint triangle;       // its number
   uint box_low;        // first and last pixel of which a sample may be covered, x | y << 16
   uint box_high;

@@ -84,10 +84,12 @@ static inline Corners gather_corners(global const float4* clip, uint16 i) {
 static void set_up_cut(const Corners* v, uint lane, RecordLanes* record, uint flags, Output* out,
                        constant RasterParams* p) {
   float4 corners[MOST_CORNERS];
+  Corners of[3];
   for (int k = 0; k < 3; ++k) {
     const float *x = (const float*)&v[k].x, *y = (const float*)&v[k].y;
     const float *z = (const float*)&v[k].z, *w = (const float*)&v[k].w;
     corners[k] = (float4)(x[lane], y[lane], z[lane], w[lane]);
+    of[k].x = x[lane], of[k].y = y[lane], of[k].z = z[lane], of[k].w = w[lane];
   }
   const int count = cut_triangle(corners, p);
   if (count < 0) atomic_inc(out->counters + RASTER_INVALID);
@@ -103,7 +105,7 @@ static void set_up_cut(const Corners* v, uint lane, RecordLanes* record, uint fl
       fan[k].z = vload16(0, parts[2]), fan[k].w = vload16(0, parts[3]);
     }
     const int16 live = first + LANE_INDEX + 2 < (int16)(count);
-    write_records(record, mask_bits(set_up(fan, live, flags, record, p)), out, p);
+    write_records(record, mask_bits(set_up(fan, of, live, flags, record, p)), out, p);
   }
 }
 
@@ -139,7 +141,7 @@ kernel void raster_setup(global const uint* visible, global const uint2* pairs,
       record.triangle = as_int16(triangles);
       record.instance = (int)pair.x;
       record.alpha_material = instance.alpha_material;
-      write_records(&record, mask_bits(set_up(v, whole_inside, instance.flags, &record, p)), &out, p);
+      write_records(&record, mask_bits(set_up(v, v, whole_inside, instance.flags, &record, p)), &out, p);
       for (uint cut = mask_bits(seen & ~whole_inside); cut != 0; cut &= cut - 1) {
         const uint lane = lowest_bit(cut);
         record.triangle = (int)((const uint*)&triangles)[lane];

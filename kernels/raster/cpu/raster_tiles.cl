@@ -30,7 +30,7 @@ typedef struct TileRecord {
   Edge edges[3];
   int sample_c[3][SAMPLES], most_c[3];  // c of each sample, and of the one that lies farthest inside
   int16 in_block[3];  // what each edge gains from a block's first pixel to each
-  int dx, dy;         // of the tile's first pixel's centre from corner 0, 1/256 pixel
+  int dx, dy;         // of the tile's first pixel's centre from the anchor, 1/256 pixel
   float z0, zx, zy, z_min, z_max;
   uint triangle, instance;
   int alpha_material;
@@ -79,7 +79,8 @@ static inline TileRecord in_tile(global const RasterRecord* r, int pixel_x, int 
     t.most_c[k] = edge_of_samples(t.edges[k]);
     for (int s = 0; s < SAMPLES; ++s) t.sample_c[k][s] = edge_of_sample(t.edges[k], s);
   }
-  t.dx = pixel_x * 256 + 128 - r->x[0], t.dy = pixel_y * 256 + 128 - r->y[0];
+  const int2 anchor = anchor_pixel(r->zx, r->zy, r->box_low, r->box_high);
+  t.dx = (pixel_x - anchor.x) * 256, t.dy = (pixel_y - anchor.y) * 256;
   t.z0 = r->z0, t.zx = r->zx, t.zy = r->zy, t.z_min = r->z_min, t.z_max = r->z_max;
   t.triangle = r->triangle, t.instance = r->instance, t.alpha_material = r->alpha_material;
   return t;

@@ -90,7 +90,7 @@ static inline uint keep_triangle(const float4* clip, RecordLanes* lanes, uint fl
   Corners v[3] = {corners_of(clip[0]), corners_of(clip[1]), corners_of(clip[2])};
   if (out_of_view(v)) return 0;
   if (is_inside(v[0], p) & is_inside(v[1], p) & is_inside(v[2], p)) {
-    if (!set_up(v, 1, flags, lanes, p)) return 0;
+    if (!set_up(v, v, 1, flags, lanes, p)) return 0;
     const int x0 = (int)(record->box_low & 0xffffu), y0 = (int)(record->box_low >> 16);
     const int width = (int)(record->box_high & 0xffffu) - x0 + 1,
               height = (int)(record->box_high >> 16) - y0 + 1;
@@ -105,10 +105,11 @@ static inline uint keep_triangle(const float4* clip, RecordLanes* lanes, uint fl
   const int count = cut_triangle(corners, p);
   if (count < 0 && first_pass) atomic_inc(large->counters + RASTER_INVALID);
   uint records = 0;
+  const Corners of[3] = {v[0], v[1], v[2]};
   v[0] = corners_of(corners[0]);
   for (int i = 2; i < count; ++i) {
     v[1] = corners_of(corners[i - 1]), v[2] = corners_of(corners[i]);
-    if (!set_up(v, 1, flags, lanes, p)) continue;
+    if (!set_up(v, of, 1, flags, lanes, p)) continue;
     ++records;
     if (first_pass) keep_large(record, large, p);
   }
