@@ -222,7 +222,7 @@ typedef struct lightgrid_light {
   float color[3];     /* linear, times intensity */
   float intensity; /* candela, or lux of a directional light */
   float radius_m;  /* where its light ends; infinite: nowhere */
-  float inner_cone_rad, outer_cone_rad; /* of a spot: full light inside, none outside; inner < outer */
+  float inner_cone_rad, outer_cone_rad; /* of a spot: full light inside, none outside; equal: a hard edge */
   float source_radius_m; /* of its sphere, for soft shadows; below 0: the setting's */
   float nearest_m;       /* of a virtual light */
   lightgrid_light_type type; /* the default: LIGHTGRID_POINT */

@@ -76,8 +76,6 @@ Light light_of(const lightgrid_light& in, const std::string& name) {
     out.outer_cone_rad =
         float(in_range(name + ".outer_cone_rad", in.outer_cone_rad, 0, float(std::numbers::pi)));
     out.inner_cone_rad = float(in_range(name + ".inner_cone_rad", in.inner_cone_rad, 0, in.outer_cone_rad));
-    if (!(out.inner_cone_rad < out.outer_cone_rad))
-      throw wrong(name + ".inner_cone_rad", "{} is not below outer_cone_rad", in.inner_cone_rad);
   }
   out.casts_shadow = in.casts_shadow != 0;
   out.groups = in.groups;

@@ -26,6 +26,19 @@ inline double cos_from_axis(const ViewLight& light, const glm::dvec3& offset, do
 // if `window` is set. Finite: at the light itself d^2 is the smallest normal double.
 double attenuation(const ViewLight& light, const glm::dvec3& position, bool window);
 
+inline bool has_hard_edge(const ViewLight& light) {
+  return has_cone(light) && light.cos_inner - light.cos_outer < softest_edge / 2;
+}
+
+// Whether rounding in shading may put a point on the other side of a hard edge: cosines round by less than
+// 10^-6, positions of points and lights by up to 8u of their distances from the eye.
+inline bool is_near_hard_edge(const ViewLight& light, const glm::dvec3& position) {
+  const glm::dvec3 offset = position - light.position;
+  const double distance = length_of(offset.x, offset.y, offset.z);
+  const double off = 1e-6 * distance + 0x1p-21 * (glm::length(position) + glm::length(light.position));
+  return std::abs(cos_from_axis(light, offset, distance) - light.cos_outer) * distance <= off;
+}
+
 // The share of a light that reaches a point of a surface in these groups besides that, 0 to 1: the oracle of
 // light_reaches in shared/light_table.h. Shadows are not part of it, since they depend on the triangle that a
 // pixel shows: count_pairs and shade_pixels take them from the oracle of shadows (seen_pairs.h).

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_file.h"
+#include "base/log.h"
 #include "scene/light_groups.h"
 #include "scene/virtual_lights.h"
 
@@ -198,8 +199,10 @@ Light plain_light(const Fields& fields) {
   const double inner = fields.number("inner_cone", 0, 0, float(std::numbers::pi));
   const double outer = fields.number("outer_cone", light.outer_cone_rad, 0, float(std::numbers::pi));
   light.inner_cone_rad = float(inner), light.outer_cone_rad = float(outer);
-  if (!(light.inner_cone_rad < light.outer_cone_rad)) {
-    throw fields.error("inner_cone", fmt::format("is not below outer_cone {}", outer), inner);
+  if (light.inner_cone_rad > light.outer_cone_rad) {
+    const Error fault = fields.error("inner_cone", fmt::format("is above outer_cone {}", outer), inner);
+    log_warning_line(fmt::format("{}; the cone has a hard edge", fault.what()));
+    light.inner_cone_rad = light.outer_cone_rad;
   }
   return light;
 }

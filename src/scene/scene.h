@@ -124,8 +124,8 @@ struct Light {
   glm::vec3 color{1};
   float intensity = 1;                                      // candela for point and spot, lux for directional
   float radius_m = std::numeric_limits<float>::infinity();  // infinite: no window, reaches everything
-  float inner_cone_rad = 0;                                 // half-angles, 0 <= inner < outer; only spots
-  float outer_cone_rad = 0.78539816f;
+  float inner_cone_rad = 0;                                 // half-angles, 0 <= inner <= outer; only spots
+  float outer_cone_rad = 0.78539816f;                       // equal: a hard edge
   bool casts_shadow = false;  // opaque and masked surfaces hide it from what lies behind them
   int node = -1;              // of the rig, which moves it; -1: static
   // A virtual point light (scene/virtual_lights.h): a spot that emits with the cosine from its direction, and

@@ -5,13 +5,14 @@
 #include <numbers>
 
 #include "scene/light_ranges.h"
+#include "scene/view_lights.h"
 
 namespace lightgrid {
 
 double light_importance(const Light& light, double scene_diameter_m) {
   const double intensity = brightest_intensity(light);
   if (is_directional(light)) return intensity * std::numbers::pi / 6 * std::pow(scene_diameter_m, 3);
-  const double cos_outer = has_cone(light) ? std::cos(double(light.outer_cone_rad)) : -1;
+  const double cos_outer = has_cone(light) ? cone_cosine(light.outer_cone_rad) : -1;
   const double solid_angle = 2 * std::numbers::pi * (1 - cos_outer);
   return intensity * solid_angle * std::min(double(light.radius_m), scene_diameter_m);
 }

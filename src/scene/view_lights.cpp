@@ -2,8 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lightgrid {
+
+double cone_cosine(float half_angle_rad) {
+  if (half_angle_rad == std::numbers::pi_v<float> / 2) return 0;
+  if (half_angle_rad >= std::numbers::pi_v<float>) return -1;
+  return std::cos(double(half_angle_rad));
+}
 
 std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, const LightRanges& ranges) {
   const glm::dmat3 rotation(view.view_from_world);
@@ -24,13 +31,16 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
     out.groups = light.groups;
     if (light.is_virtual) out.most_falloff = most_falloff(light);
     if (light.outer_cone_rad != outer_rad)
-      outer_rad = light.outer_cone_rad, cos_outer = std::cos(double(outer_rad));
+      outer_rad = light.outer_cone_rad, cos_outer = cone_cosine(outer_rad);
     if (light.inner_cone_rad != inner_rad)
-      inner_rad = light.inner_cone_rad, cos_inner = std::cos(double(inner_rad));
+      inner_rad = light.inner_cone_rad, cos_inner = cone_cosine(inner_rad);
+    const bool hard = light.inner_cone_rad >= light.outer_cone_rad;
     out.cos_outer = cos_outer;
-    // KHR_lights_punctual divides by max(0.001, cos(inner) - cos(outer)): a hard edge is softened, the
-    // quotient finite.
-    out.cos_inner = std::max(cos_inner, cos_outer + 0.001);
+    out.cos_inner = hard ? cos_outer + hard_edge : std::max(cos_inner, cos_outer + softest_edge);
+    // Of a cone of no width rounding would leave its axis.
+    if (has_cone(light) && cos_outer == 1) out.radius_m = 0;
+    // A hard edge at 180 degrees is none, and would be a point that rounding makes visible.
+    if (has_cone(light) && hard && cos_outer == -1) out.type = LightType::point;
   }
   return lights;
 }
@@ -48,7 +58,7 @@ double LightBounds::widened_angle_rad() const { return std::acos(std::clamp(cos_
 
 LightBounds bounds_of(const Light& light, double range_m) {
   return {light.position, range_m, glm::normalize(glm::dvec3(light.direction)),
-          has_cone(light) ? std::cos(double(light.outer_cone_rad)) : -1.0};
+          has_cone(light) ? cone_cosine(light.outer_cone_rad) : -1.0};
 }
 
 LightBounds bounds_of(const ViewLight& light) {

@@ -9,13 +9,23 @@
 
 namespace lightgrid {
 
+// KHR_lights_punctual divides by max(0.001, cos(inner) - cos(outer)). Equal angles are a hard edge: its
+// quotient is below any rounding of a cosine, so that the same formula is a step, and the square of its
+// inverse is a float.
+constexpr double softest_edge = 0.001, hard_edge = 0x1p-40;
+
+// Of a cone's half-angle. Of the float next to pi/2, which is above it: 0, as of 90 degrees. Of that next to
+// pi: -1.
+double cone_cosine(float half_angle_rad);
+
 struct ViewLight {
   LightType type = LightType::point;
   glm::dvec3 position{0};           // view space, metres
   glm::dvec3 direction{0, 0, -1};   // view space, unit
   glm::dvec3 radiant_intensity{1};  // colour times intensity: candela, or lux for directional
   double radius_m = std::numeric_limits<double>::infinity();
-  double cos_inner = 1, cos_outer = 0;  // half-angles of the cone; cos_inner - cos_outer is at least 0.001
+  double cos_inner = 1, cos_outer = 0;  // half-angles of the cone; cos_inner - cos_outer is at least
+                                        // softest_edge or, of a hard edge, hard_edge
   RangeWindow window = RangeWindow::khr;
   double least_falloff = 0;  // 1 / m^2: scene/light_ranges.h
   uint32_t groups = all_groups;

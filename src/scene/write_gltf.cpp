@@ -226,8 +226,9 @@ class Writer {
     if (!is_directional(light) && std::isfinite(light.radius_m)) out["range"] = light.radius_m;
     if (has_cone(light)) {
       // A right angle in float is more than glTF's largest.
-      out["spot"] = {{"innerConeAngle", light.inner_cone_rad},
-                     {"outerConeAngle", std::min(double(light.outer_cone_rad), std::numbers::pi / 2)}};
+      const auto angle = [](float rad) { return std::min(double(rad), std::numbers::pi / 2); };
+      out["spot"] = {{"innerConeAngle", angle(light.inner_cone_rad)},
+                     {"outerConeAngle", angle(light.outer_cone_rad)}};
     }
     if (light.casts_shadow) out["extras"]["casts_shadow"] = true;
     if (light.source_m >= 0) out["extras"]["source_radius"] = light.source_m;

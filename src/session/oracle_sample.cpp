@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/attenuation.h"
 #include "reference/position.h"
 #include "results/metrics.h"
 
@@ -50,6 +51,14 @@ SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth, Sha
 std::vector<uint32_t> SurfaceOracle::decided(std::vector<uint32_t> pixels, bool window) const {
   const std::unique_ptr<SeenPairs> seen = shadows_->at_pixels(v_, depth_, triangles_, pixels, window);
   if (seen) std::erase_if(pixels, [&](uint32_t pixel) { return seen->has_either(pixel); });
+  std::vector<ViewLight> hard;
+  std::ranges::copy_if(lights_, std::back_inserter(hard), has_hard_edge);
+  if (hard.empty()) return pixels;
+  const View& view = v_.view;
+  std::erase_if(pixels, [&](uint32_t p) {
+    const auto at = position_from_depth(view, int(p) % view.width, int(p) / view.width, depth_[p]);
+    return std::ranges::any_of(hard, [&](const ViewLight& l) { return is_near_hard_edge(l, at); });
+  });
   return pixels;
 }
 

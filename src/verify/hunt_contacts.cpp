@@ -238,7 +238,7 @@ bool is_lit_there(const HuntView& h, const Light& light, const glm::dvec3& posit
   seen.radius_m = light.radius_m;
   if (has_cone(light)) {
     seen.direction = glm::normalize(turn * glm::dvec3(light.direction));
-    seen.cos_outer = std::cos(double(light.outer_cone_rad));
+    seen.cos_outer = cone_cosine(light.outer_cone_rad);
   }
   return is_lit(seen, position);
 }

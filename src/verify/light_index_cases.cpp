@@ -239,6 +239,18 @@ void cones_and_ranges(Check& c) {
                  {"lidr-packing=maxblend-sort"}});
 }
 
+// Spots with equal angles, whose edge is a step, and of 90 degrees as floats have them.
+void hard_edges(Check& c) {
+  constexpr double right_angle = std::numbers::pi_v<float> / 2;
+  Scene scene = floor_scene();
+  for (const double outer : {0.01, 0.3, 1.0, right_angle, right_angle, 3.0}) {
+    Light& light = add_spot_lamp(scene, {2 - 1.5 * outer, 1.2, 0.4}, {2 - 1.6 * outer, 0, 0.3}, outer, 1.6f);
+    if (scene.lights.size() % 2 == 0 || outer < 1) light.inner_cone_rad = light.outer_cone_rad;
+  }
+  light_indices(c, scene, {of_floor(), from_above()},
+                {{""}, {"volume-mesh=box"}, {"lidr-packing=sort"}, {"lidr-packing=maxblend-sort"}});
+}
+
 // A packing with its room, and as few lights as it certainly holds.
 struct RandomPacking {
   std::string settings;
@@ -360,7 +372,7 @@ std::vector<RandomCase> random_light_index_cases() {
 
 std::vector<CaseRun> light_index_cases() {
   return CASES(first_and_last_index, full_pixels, past_the_limit, eye_in_volumes, groups_that_touch,
-               groups_of_still_lights, cut_images, cones_and_ranges);
+               groups_of_still_lights, cut_images, cones_and_ranges, hard_edges);
 }
 
 }  // namespace lightgrid::verify

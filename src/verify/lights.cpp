@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/error.h"
+#include "scene/view_lights.h"
 #include "verify/check.h"
 
 namespace lightgrid::verify {
@@ -173,6 +175,34 @@ void cone_of_100(Check& c) { cones_of(c, {95, 100}); }
 void cone_of_120(Check& c) { cones_of(c, {120}); }
 void cone_of_180(Check& c) { cones_of(c, {179, 180}); }
 
+glm::dvec3 any_unit(Random& random) {
+  return glm::normalize(
+      glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1) + 1e-3));
+}
+
+// Half-angles that floats hold, the one next to 90 degrees among them, whose edge passes a pixel's position.
+void edges_at_pixels(Check& c) {
+  Random random(36);
+  DepthImage depth;
+  std::vector<CullLight> lights;
+  const double slope = std::tan(std::numbers::pi / 6) * 2 / 73;
+  for (int y = 0; y < 73; ++y) {
+    for (int x = 0; x < 127; ++x) {
+      depth.values.push_back(float(depth_at(sixty(), 2 + (x * 7 + y * 3) % 40)));
+      if ((x + 127 * y) % 23) continue;
+      const double d = distance_at(sixty(), depth.values.back());
+      const glm::dvec3 to_pixel = any_unit(random),
+                       beside = glm::normalize(glm::cross(to_pixel, any_unit(random)));
+      const float angle = lights.size() % 2 ? std::numbers::pi_v<float> / 2 : random.uniform(0.01f, 1.5f);
+      const double reach = random.uniform(0.1f, 3), inside = std::acos(cone_cosine(angle)) - 1e-7;
+      lights.push_back(
+          {glm::dvec3((x + 0.5 - 63.5) * slope, (y + 0.5 - 36.5) * slope, -1) * d - reach * to_pixel,
+           1.01 * reach, std::cos(inside) * to_pixel + std::sin(inside) * beside, cone_cosine(angle)});
+    }
+  }
+  c.pixels(sixty(), lights, depth, every_test());
+}
+
 void tangent_cones(Check& c) {
   for (const NamedView& named : hard_views(127, 73)) {
     Random random(34);
@@ -339,9 +369,9 @@ std::vector<CaseRun> light_cases() {
                radius_negative, radius_denormal, radius_1e20, radius_infinite, radius_nan, position_nan,
                position_infinite, position_out_of_range, thousand_coincident, at_the_eye, at_the_surface,
                cone_of_zero, cone_of_a_tenth, cone_just_below_90, cone_of_90, cone_of_100, cone_of_120,
-               cone_of_180, tangent_cones, endless_cones, apex_behind_the_cell, axis_through_the_centre,
-               direction_almost_unit, direction_zero, cosine_out_of_range, spread_out, parked,
-               worlds_of_any_scale, outside_of_the_domain);
+               cone_of_180, edges_at_pixels, tangent_cones, endless_cones, apex_behind_the_cell,
+               axis_through_the_centre, direction_almost_unit, direction_zero, cosine_out_of_range,
+               spread_out, parked, worlds_of_any_scale, outside_of_the_domain);
 }
 
 }  // namespace lightgrid::verify

@@ -80,7 +80,8 @@ inline Illumination illumination(const Light& light, const dvec3& at) {
                  inner = std::cos(double(light.inner_cone_rad));
     const double scale = 1 / std::max(0.001, inner - outer), offset_of_angle = -outer * scale;
     const double angular = std::clamp(glm::dot(along, -to_light) * scale + offset_of_angle, 0.0, 1.0);
-    attenuation *= angular * angular;
+    const bool step = light.inner_cone_rad == light.outer_cone_rad;
+    attenuation *= step ? glm::dot(along, -to_light) > outer : angular * angular;
   }
   return {to_light, color * attenuation};
 }

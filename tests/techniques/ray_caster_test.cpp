@@ -4,6 +4,7 @@
 #include "reference/ray_caster.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "scene/builtin/compose.h"
 #include "scene/builtin/shapes.h"
@@ -129,6 +130,21 @@ TEST(RayCaster, ForwardHasItsRadianceUnderSpots) {
     spot.inner_cone_rad = 0.2f * float(i), spot.outer_cone_rad = 0.3f + 0.2f * float(i);
     if (i == 1) spot.radius_m = 7;
     lights.push_back(spot);
+  }
+  expect_the_casters_radiance(room, lights, 0.3);
+}
+
+// Equal angles of 0.02 rad to 90 degrees, whose cosines differ from 1 by 2e-4 to 1.
+TEST(RayCaster, ForwardHasItsRadianceUnderSpotsWithHardEdges) {
+  Room room = make_room();
+  std::vector<Light> lights;
+  for (const float angle : {0.02f, 0.1f, 0.4f, std::numbers::pi_v<float> / 2}) {
+    Light spot = point_light({2.0 * double(lights.size()) - 3, 1.5, 2}, {1, 0.7f, 0.4f}, 9);
+    spot.type = LightType::spot;
+    spot.direction = glm::normalize(glm::vec3(1.5f - float(lights.size()), -0.5f, -1));
+    spot.inner_cone_rad = spot.outer_cone_rad = angle;
+    lights.push_back(spot);
+    expect_the_casters_radiance(room, {spot}, angle * angle / 20);
   }
   expect_the_casters_radiance(room, lights, 0.3);
 }

@@ -15,21 +15,28 @@ float checked_amount(const Document& doc, double value, const std::string& place
   return out;
 }
 
-// The extension's rule is strict: pi/2 rounded to float is above pi/2, and rejected.
-void read_cone(const Document& doc, const tinygltf::SpotLight& spot, const std::string& place, Light& light) {
-  const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
-  if (!(outer > 0) || !(outer <= glm::half_pi<double>()))
-    throw doc.error("{}: spot.outerConeAngle is {}, outside 0 to {} (90 degrees)", place, outer,
-                    glm::half_pi<double>());
-  if (!(inner >= 0) || !(inner < outer))
-    throw doc.error("{}: spot.innerConeAngle is {}, not below outerConeAngle {}", place, inner, outer);
-  light.outer_cone_rad = static_cast<float>(outer);
-  // Two doubles may round to one float.
-  light.inner_cone_rad = std::min(static_cast<float>(inner), std::nextafter(light.outer_cone_rad, 0.0f));
+// Angles that the extension does not allow are replaced by the nearest ones that it does. Exporters that keep
+// floats write 90 degrees a little above pi/2.
+void read_cone(Document& doc, const tinygltf::SpotLight& spot, const std::string& place, Light& light) {
+  constexpr double rounding = 1e-6;
+  const auto nearest = [&](const char* name, double angle, double most) {
+    const double allowed = angle >= 0 ? std::min(angle, most) : 0;
+    if (!(std::abs(angle - allowed) <= rounding))
+      doc.warn(name, "{}: spot.{} is {}, outside 0 to {}; it counts as {}", place, name, angle, most,
+               allowed);
+    return allowed;
+  };
+  const double outer = nearest("outerConeAngle", spot.outerConeAngle, glm::half_pi<double>());
+  if (outer == 0) doc.warn("no cone", "{}: spot.outerConeAngle is 0; it lights nothing", place);
+  const double inner = nearest("innerConeAngle", spot.innerConeAngle, outer);
+  light.outer_cone_rad = static_cast<float>(outer), light.inner_cone_rad = static_cast<float>(inner);
+  // Two doubles may round to one float, which would be a hard edge.
+  if (inner < outer)
+    light.inner_cone_rad = std::min(light.inner_cone_rad, std::nextafter(light.outer_cone_rad, 0.0f));
 }
 
 // The part that does not depend on the node.
-Light read_light(const Document& doc, const tinygltf::Light& in, bool has_range, const std::string& place) {
+Light read_light(Document& doc, const tinygltf::Light& in, bool has_range, const std::string& place) {
   Light out;
   if (in.type == "point") {
     out.type = LightType::point;
