@@ -55,6 +55,7 @@ void print(const verify::VerifyReport& report) {
                o.why.empty() ? "" : "  ", o.why);
   }
   fmt::print("{} of {} failed\n", report.failed, report.cases.size());
+  if (report.unbuilt) fmt::print("{} not run: the driver cannot build their kernels\n", report.unbuilt);
 }
 
 int hunt(const VerifyCommand& o) {
@@ -92,7 +93,7 @@ int run(const VerifyCommand& o) {
       o.replay.empty() ? verify::run_cases(engines, options) : replay(o, engines, frame);
   if (!o.json.empty()) write_json(o.json, verify::to_json(report).dump(1) + "\n");
   if (o.json != "-") print(report);
-  return report.failed ? 1 : 0;
+  return report.failed ? 1 : report.unbuilt ? int(ErrorKind::machine) : 0;
 }
 
 }  // namespace

@@ -71,6 +71,21 @@ bool holds(const std::string& text, const std::string& part) {
   return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
+// A tool that interprets kernels to find faults in them: thousands of times slower than a driver.
+bool is_simulator(const ClDeviceInfo& device) {
+  const std::string name = device.platform + " " + device.name;
+  return holds(name, "oclgrind") || holds(name, "gpgpu-sim");
+}
+
+// In the order in which they are chosen if none is named.
+enum class DeviceClass { accelerator, pocl, other_cpu, simulator };
+
+DeviceClass class_of(const ClDeviceInfo& device) {
+  if (is_simulator(device)) return DeviceClass::simulator;
+  if (!device.cpu) return DeviceClass::accelerator;
+  return device.platform == "Portable Computing Language" ? DeviceClass::pocl : DeviceClass::other_cpu;
+}
+
 // Without it the ICD loader finds no driver, and says nothing: PoCL and LLVM take this much address space.
 constexpr size_t driver_bytes = size_t(1) << 30;
 
@@ -123,11 +138,10 @@ size_t choose_cl_device(const std::vector<ClDeviceInfo>& devices, const std::str
   }
   if (const std::optional<size_t> index = index_of(substring); index && *index < devices.size())
     return *index;
-  const auto chosen = std::find_if(devices.begin(), devices.end(), [&](const ClDeviceInfo& info) {
-    return substring.empty() ? !info.cpu : holds(info.platform + " " + info.name, substring);
-  });
-  if (chosen != devices.end()) return chosen - devices.begin();
-  if (substring.empty()) return 0;
+  if (substring.empty()) return size_t(std::ranges::min_element(devices, {}, class_of) - devices.begin());
+  const auto chosen = std::ranges::find_if(
+      devices, [&](const ClDeviceInfo& info) { return holds(info.platform + " " + info.name, substring); });
+  if (chosen != devices.end()) return size_t(chosen - devices.begin());
   std::string names;
   for (size_t i = 0; i < devices.size(); ++i) {
     names += fmt::format("\n  #{} {} {}", i, devices[i].platform, devices[i].name);

@@ -28,8 +28,8 @@ std::string why_not_the_same_bytes(const ClDeviceInfo& device);
 // For one thread at a time, with all objects that were made with it.
 class ClDevice {
  public:
-  // The first device whose "platform name" contains `substring` (any case), or with "#2" the one at that
-  // index of list_cl_devices(), for devices of the same name; empty: a GPU if there is one, else the first.
+  // The first device whose "platform name" contains `substring` (any case), or with "#2" the one at that index of
+  // list_cl_devices(), for devices of the same name; empty: a GPU, else PoCL's CPU, else another, else a simulator.
   // Throws Error(machine) that lists the available devices or, with none, the package that installs one.
   explicit ClDevice(const std::string& substring = "");
 

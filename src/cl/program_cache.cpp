@@ -5,15 +5,17 @@
 
 #include "base/compiling.h"
 #include "base/embedded.h"
+#include "cl/build_error.h"
 #include "cl/error.h"
 #include "cl/program_file.h"
 
 namespace lightgrid {
 namespace {
 
-// Never -cl-mad-enable or fast-math: culling is byte-equal on every device (docs/devices.md#same-bits).
+// Never -cl-mad-enable or fast-math: culling is byte-equal on every device (docs/devices.md#same-bits). -w:
+// clang, in PoCL, prints the number of warnings to stderr.
 std::string common_options(const ClDeviceInfo& device) {
-  std::string options = "-cl-std=CL1.2";
+  std::string options = "-cl-std=CL1.2 -w";
   if (device.exact_division) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   return options;
 }
@@ -30,13 +32,7 @@ bool may_declare_builtins(const ClDeviceInfo& device) {
   return device.platform == "Portable Computing Language" && device.driver.starts_with("3.");
 }
 
-// Without AVX-512, clang warns of every function that takes or returns a vector of 16 numbers: other code would pass
-// them in other registers. PoCL prints the number of warnings to stderr, and nothing else calls these functions.
-constexpr const char* prelude =
-    "#pragma OPENCL FP_CONTRACT OFF\n"
-    "#ifdef __clang__\n"
-    "#pragma clang diagnostic ignored \"-Wpsabi\"\n"
-    "#endif\n";
+constexpr const char* prelude = "#pragma OPENCL FP_CONTRACT OFF\n";
 
 // "cull_lights" for "culling/cpu/cull_lights".
 std::string entry_point(const std::string& file) { return file.substr(file.rfind('/') + 1); }
@@ -67,8 +63,11 @@ cl::Program build_source(ClDevice& device, const std::string& file, const std::s
   } catch (const cl::Error& error) {
     std::string log;
     if (program()) program.getBuildInfo(device.device(), CL_PROGRAM_BUILD_LOG, &log);
-    throw machine_error("kernels/{}.cl ({}) on {}: {} failed with {}\n{}", file, options, device.info().name,
-                        error.what(), cl_error_name(error.err()), log);
+    throw KernelBuildError(
+        fmt::format("kernels/{}.cl ({}) on {}: {} failed with {}; update its driver ({} {}), or choose "
+                    "another device with --device (lightgrid devices lists them)\n{}",
+                    file, options, device.info().name, error.what(), cl_error_name(error.err()),
+                    device.info().platform, device.info().driver, log));
   }
   return program;
 }

@@ -65,7 +65,8 @@ struct Outcome {
   uint64_t lost = 0;                   // certainly in but not listed, over all settings
   std::optional<double> excess_ratio;  // listed / certainly touching, default settings
   Verdict verdict = Verdict::pass;
-  std::string why;  // the first fault, or why it was skipped
+  std::string why;       // the first fault, or why it was skipped
+  bool unbuilt = false;  // skipped since the driver cannot build a kernel
 };
 
 // The default first: every cull test, or every kind of depth bounds, at one tile size; every tile size.

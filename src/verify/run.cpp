@@ -12,6 +12,7 @@
 #include "base/timer.h"
 #include "capture/frame_culler.h"
 #include "capture/frame_lists.h"
+#include "cl/build_error.h"
 #include "cl/error.h"
 #include "reference/lit_set.h"
 #include "renderer/render_view.h"
@@ -95,6 +96,11 @@ Outcome outcome_of(const std::function<void(Check&)>& run, Check check) {
   try {
     try {
       run(check);
+    } catch (const KernelBuildError& error) {
+      Outcome outcome = check.outcome();
+      if (outcome.verdict == Verdict::fail) return outcome;
+      outcome.verdict = Verdict::skip, outcome.why = error.what(), outcome.unbuilt = true;
+      return outcome;
     } catch (const Error& error) {
       check.fail(error.what());
     } catch (const cl::Error& error) {
@@ -131,7 +137,7 @@ VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines,
       const Timer timer;
       const Outcome outcome = run_case(*hard_case, *engine, options.adversarial_lights);
       report.cases.push_back({hard_case, engine->name(), outcome, timer.elapsed_ms()});
-      report.failed += outcome.verdict == Verdict::fail;
+      report.failed += outcome.verdict == Verdict::fail, report.unbuilt += outcome.unbuilt;
     }
   }
   if (options.progress) options.progress(1, "done");
@@ -139,8 +145,10 @@ VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines,
 }
 
 nlohmann::ordered_json to_json(const VerifyReport& report) {
-  nlohmann::ordered_json json = {
-      {"devices", report.devices}, {"cases", nlohmann::ordered_json::array()}, {"failed", report.failed}};
+  nlohmann::ordered_json json = {{"devices", report.devices},
+                                 {"cases", nlohmann::ordered_json::array()},
+                                 {"failed", report.failed},
+                                 {"unbuilt", report.unbuilt}};
   for (const CaseResult& result : report.cases) {
     const Outcome& o = result.outcome;
     nlohmann::ordered_json row = {{"group", result.hard_case->group},
@@ -237,7 +245,7 @@ VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engine
         },
         *engine, 0);
     report.cases.push_back({&replayed, engine->name(), outcome, timer.elapsed_ms()});
-    report.failed += outcome.verdict == Verdict::fail;
+    report.failed += outcome.verdict == Verdict::fail, report.unbuilt += outcome.unbuilt;
   }
   if (options.progress) options.progress(1, "done");
   return report;

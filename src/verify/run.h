@@ -22,6 +22,7 @@ struct VerifyReport {
   std::vector<std::string> devices;
   std::vector<CaseResult> cases;
   int failed = 0;
+  int unbuilt = 0;  // skipped since the driver cannot build a kernel
 };
 
 struct VerifyOptions {
@@ -40,7 +41,8 @@ bool fails(const HardCase& hard_case, CullEngine& engine, uint64_t adversarial_l
 
 VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines, const VerifyOptions& options);
 
-// The outcome of `run` on the engine. An exception of the engine fails the case.
+// The outcome of `run` on the engine. An exception of the engine fails the case, except
+// that a kernel that its driver cannot build skips it.
 Outcome outcome_of(const std::function<void(Check&)>& run, CullEngine& engine, uint64_t adversarial_lights);
 
 nlohmann::ordered_json to_json(const VerifyReport& report);

@@ -25,8 +25,20 @@ const std::vector<ClDeviceInfo> three = {device("Portable Computing Language", "
 
 TEST(ClDeviceChoice, IsTheFirstGpuWhenNothingIsNamed) { EXPECT_EQ(choose_cl_device(three, ""), 1u); }
 
-TEST(ClDeviceChoice, IsTheFirstDeviceWhenThereIsNoGpu) {
-  EXPECT_EQ(choose_cl_device({three[0], three[0]}, ""), 0u);
+// Whatever the order in which the drivers are listed.
+TEST(ClDeviceChoice, PrefersPoclToOtherCpusAndTheseToSimulators) {
+  const ClDeviceInfo oclgrind = device("Oclgrind", "Oclgrind Simulator", true),
+                     other = device("rusticl", "llvmpipe (LLVM 19)", true), pocl = three[0], gpu = three[1];
+  EXPECT_EQ(choose_cl_device({oclgrind, pocl}, ""), 1u);
+  EXPECT_EQ(choose_cl_device({oclgrind, other, pocl}, ""), 2u);
+  EXPECT_EQ(choose_cl_device({oclgrind, other}, ""), 1u);
+  EXPECT_EQ(choose_cl_device({other, oclgrind, pocl, gpu}, ""), 3u);
+  EXPECT_EQ(choose_cl_device({oclgrind}, ""), 0u);
+  EXPECT_EQ(choose_cl_device({oclgrind, pocl}, "oclgrind"), 0u);
+  // A simulator that calls itself a GPU is none.
+  ClDeviceInfo simulated = oclgrind;
+  simulated.cpu = false;
+  EXPECT_EQ(choose_cl_device({simulated, pocl}, ""), 1u);
 }
 
 TEST(ClDeviceChoice, TakesTheFirstWhosePlatformAndNameHoldTheSubstringInAnyCase) {

@@ -160,9 +160,19 @@ TEST_F(ProgramCacheTest, ShowsTheBuildLogOfAnErrorWithFileDefinesAndDevice) {
     EXPECT_THAT(error.what(), HasSubstr("-DLANES=16"));
     EXPECT_THAT(error.what(), HasSubstr("CL_BUILD_PROGRAM_FAILURE"));
     EXPECT_THAT(error.what(), HasSubstr("undeclared_thing"));
+    EXPECT_THAT(error.what(), HasSubstr("choose another device with --device"));
     EXPECT_THAT(error.what(), HasSubstr(device.info().name));
   }
   EXPECT_TRUE(files().empty());
+}
+
+// PoCL's clang prints "1 warning generated." to the process's own stderr.
+TEST_F(ProgramCacheTest, PrintsNothingAboutWarnings) {
+  ProgramCache programs(device, folder);
+  testing::internal::CaptureStderr();
+  programs.kernel_of_source("warned",
+                            "int nothing(void) {} kernel void warned(global int* a) { *a = nothing(); }", "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST_F(ProgramCacheTest, SaysWhenTheEntryIsNotInTheSource) {

@@ -46,6 +46,19 @@ INSTANTIATE_TEST_SUITE_P(Verify, HardCasesOf,
                                          "shadows", "lidr", "groups", "samples", "caps"),
                          [](const auto& info) { return std::string(info.param); });
 
+// Not a fault of the library, and no claim about it.
+TEST(Verify, SkipsACaseWhoseKernelTheDriverCannotBuild) {
+  std::vector<std::unique_ptr<CullEngine>> cannot_build;
+  cannot_build.push_back(
+      device_engine("", [](std::string text) { return "#error no such builtin\n" + text; }));
+  const VerifyReport report = run_cases(cannot_build, {.filter = "^shadows/edges_of_cones$"});
+  ASSERT_EQ(report.cases.size(), 1u);
+  EXPECT_EQ(report.failed, 0);
+  EXPECT_EQ(report.unbuilt, 1);
+  EXPECT_EQ(report.cases[0].outcome.verdict, Verdict::skip);
+  EXPECT_THAT(report.cases[0].outcome.why, testing::HasSubstr("choose another device with --device"));
+}
+
 // Each has a unique name and is in one of the groups that HardCasesOf.Hold runs.
 TEST(HardCases, HaveNamesOfTheirOwnAndAGroupThatIsRun) {
   const std::set<std::string> groups = {"depth",   "camera", "lights", "lists",   "agreement", "raster",
