@@ -4,11 +4,14 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "results/error_measures.h"
+#include "scene/light_readers.h"
 #include "shared/cull_tests.h"
 #include "support/paths.h"
 #include "support/read_files.h"
@@ -257,14 +260,11 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
   EXPECT_THAT(differences(files_that_name({"src", "kernels", "shaders"}, texts), expected), IsEmpty());
 }
 
-// Its text for all three languages, the same in double, and the effect of the plan that asks for it. No light
-// loop: each asks already, and a new one that computes what arrives without asking fails here.
+// Its text for all three languages, the same in double, and the effect of the plan that asks for it.
 TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
   const std::map<std::string, std::vector<std::string>> texts = {
       {"answers",
        {"real light_reaches(", "double light_reaches(", "plan.light_reaches = ", "plan.groups = "}},
-      {"asks", {"* light_reaches(", "*= light_reaches(", "return light_reaches("}},
-      {"arrives", {" arrival_at(", " voxel_arrival(", " attenuation(light", " arrival_at_sample("}},
   };
   const Naming expected = {
       {"src/shared/light_table.h", {"answers"}},
@@ -272,22 +272,73 @@ TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
       // Shadows, and groups.
       {"src/plan/frame_plan.cpp", {"answers"}},
       {"src/plan/light_plan.cpp", {"answers"}},
-      // radiance_from, with which shaders/lights and voxel-lights-exact end.
-      {"src/shared/punctual_light.h", {"arrives", "asks"}},
-      // The volume of voxel_lights has no shadows, nor has what is taken out of it.
-      {"src/shared/voxel_exact.h", {"arrives"}},
-      {"shaders/deferred_light.frag", {"arrives", "asks"}},
-      {"shaders/light_buffer.frag", {"arrives", "asks"}},
-      {"kernels/resolve/shade_pixels.h", {"arrives", "asks"}},
-      {"kernels/resolve/light_buffer.h", {"arrives", "asks"}},
-      {"kernels/resolve/reflected_light.h", {"arrives", "asks"}},
-      {"kernels/voxels/voxel_light.h", {"arrives"}},
-      {"kernels/voxels/gpu/build_voxels.cl", {"arrives"}},
-      {"src/reference/shading.cpp", {"arrives", "asks"}},
-      {"src/reference/light_sums.cpp", {"arrives", "asks"}},
-      {"src/reference/lit_set.cpp", {"asks"}},
   };
   EXPECT_THAT(differences(files_that_name({"src", "kernels", "shaders"}, texts), expected), IsEmpty());
+}
+
+std::set<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+bool names_one(const std::string& code, const std::vector<std::string>& texts) {
+  return std::ranges::any_of(texts, [&](const std::string& text) { return code.find(text) != code.npos; });
+}
+
+// Computing what arrives, or how bright a light is.
+const std::vector<std::string> reading = {
+    " arrival_at(",     "(arrival_at(",      " voxel_arrival(", " attenuation(light",   " arrival_at_sample(",
+    "arrival_beyond(",  "radiant_intensity", "influence_of(",   "brightest_intensity(", "light_importance(",
+    "most_irradiance(", "->luminance",       "record.luminance"};
+
+// A new reader of lights is listed with what it reads, or fails here.
+TEST(Adding, EveryReaderOfLightsIsListedInLightReaders) {
+  std::set<std::string> listed, found;
+  for (const LightReader& reader : light_readers) listed.merge(words_of(reader.files));
+  // Declarations, the table's values, and checks of others' orders.
+  const std::set<std::string> no_readers = {
+      "src/plan/dim_lights.h",     "src/renderer/upload/lights.cpp", "src/scene/light_ranges.h",
+      "src/scene/light_readers.h", "src/scene/shadow_casters.h",     "src/scene/view_lights.cpp",
+      "src/scene/view_lights.h",   "src/verify/cap_cases.cpp",       "src/verify/light_index_cases.cpp"};
+  for (const auto& [file, items] : files_that_name({"src", "kernels", "shaders"}, {{"reads", reading}})) {
+    if (!no_readers.contains(file)) found.insert(file);
+  }
+  EXPECT_EQ(found, listed);
+}
+
+// Texts by which a factor is read. Of a new one its own name.
+std::vector<std::string> marks_of(const std::string& factor) {
+  const std::vector<std::string> arrivals = {"arrival_at(", "arrival_beyond(", "attenuation(light",
+                                             "voxel_arrival("};
+  std::map<std::string, std::vector<std::string>> marks = {
+      {"position", {"position", "radius_m", "range_of(", "bounds_of(", "influence_of("}},
+      {"color", reading},
+      {"cone", {"has_cone(", "cos_outer", "bounds_of("}},
+      {"most_falloff", {"most_falloff"}},
+      {"groups", {"light_reaches(", "groups"}},
+      {"shadows", {"light_reaches("}}};
+  for (const char* of_distance : {"position", "color", "cone", "most_falloff"})
+    marks[of_distance].insert(marks[of_distance].end(), arrivals.begin(), arrivals.end());
+  const auto own = marks.find(factor);
+  return own == marks.end() ? std::vector<std::string>{factor} : own->second;
+}
+
+TEST(Adding, AReaderOfLightsReadsTheFactorsThatItClaims) {
+  for (const LightReader& reader : light_readers) {
+    SCOPED_TRACE(reader.name);
+    std::string code;
+    for (const std::string& file : words_of(reader.files)) {
+      code += code_of(text_at(file));
+      // Each light loop ends with the hook.
+      if (reader.groups == reads && reader.shadows == reads)
+        EXPECT_TRUE(names_one(code_of(text_at(file)), {"light_reaches("})) << file;
+    }
+#define LIGHT_FACTOR(condition, type, member, array, texels) \
+  if (reader.member == reads) EXPECT_TRUE(names_one(code, marks_of(#member))) << #member;
+    LIGHT_TABLE(LIGHT_FACTOR)
+#undef LIGHT_FACTOR
+    if (reader.shadows == reads) EXPECT_TRUE(names_one(code, marks_of("shadows")));
+  }
 }
 
 }  // namespace

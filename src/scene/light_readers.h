@@ -1,0 +1,164 @@
+// Every place that computes with a light's brightness, and the factors of a light that it takes into account.
+// A factor is a column of LIGHT_TABLE, or what light_reaches answers besides (shadows; cookies will). A new
+// column is a new member here, without which this does not compile; Adding.EveryReaderOfLights… finds a
+// reader that is not listed, and one that does not name a factor that it claims to read.
+#pragma once
+
+#include <algorithm>
+
+#include "shared/light_table.h"
+
+namespace lightgrid {
+
+// Of a factor: read, or why it is not in one line.
+inline constexpr const char* reads = "";
+
+struct LightReader {
+  const char* name;
+  const char* files;  // split at spaces
+#define LIGHT_FACTOR(condition, type, member, array, texels) const char* member = nullptr;
+  LIGHT_TABLE(LIGHT_FACTOR)
+#undef LIGHT_FACTOR
+  const char* shadows = nullptr;
+};
+
+inline constexpr const char* only_order =
+    "it changes which lights come first or are drawn, not what they add";
+inline constexpr const char* upper_bound = "without it the bound is larger, and still a bound";
+
+inline constexpr LightReader light_readers[] = {
+    {.name = "light loops",
+     .files =
+         "src/shared/punctual_light.h shaders/deferred_light.frag shaders/light_buffer.frag "
+         "kernels/resolve/shade_pixels.h kernels/resolve/reflected_light.h kernels/resolve/light_buffer.h",
+     .position = reads,
+     .color = reads,
+     .cone = reads,
+     .most_falloff = reads,
+     .groups = reads,
+     .shadows = reads},
+    {.name = "oracle",
+     .files = "src/reference/shading.cpp src/reference/light_sums.cpp",
+     .position = reads,
+     .color = reads,
+     .cone = reads,
+     .most_falloff = reads,
+     .groups = reads,
+     .shadows = "SeenPairs decides them for each pair, and ShadeSettings::hidden leaves lights out"},
+    {.name = "far light",
+     .files = "src/passes/fill_far_light.cpp kernels/far_light/far_sums.h",
+     .position = reads,
+     .color = reads,
+     .cone = reads,
+     .most_falloff = reads,
+     .groups = reads,  // a light that lacks a group has no far light
+     .shadows = "far light is not hidden: docs/far_light.md#limits"},
+    {.name = "voxel volumes",
+     .files =
+         "src/passes/voxels/voxel_inputs.cpp kernels/voxels/voxel_light.h kernels/voxels/gpu/build_voxels.cl "
+         "src/shared/voxel_exact.h",
+     .position = reads,
+     .color = reads,
+     .cone = reads,
+     .most_falloff = reads,
+     .groups = "a sample belongs to no surface; the technique's groups_of says so",
+     .shadows = "a sample belongs to no surface; exact lights have them"},
+    {.name = "choice of voxel_lights' exact lights",
+     .files = "kernels/resolve/resolve_light.h shaders/lights/voxels.glsl",
+     .position = reads,
+     .color = reads,
+     .cone = reads,
+     .most_falloff = reads,
+     .groups = only_order,
+     .shadows = only_order},
+    {.name = "list orders",
+     .files = "src/passes/cap_lists.cpp",
+     .position = reads,
+     .color = reads,
+     .cone = only_order,
+     .most_falloff = only_order,
+     .groups = only_order,
+     .shadows = only_order},
+    {.name = "sampled lists",
+     .files = "kernels/culling/sampled_list.h",
+     .position = reads,
+     .color = reads,
+     .cone = reads,
+     .most_falloff = reads,
+     .groups = "weights may be any that are above 0: the sum's mean is right",
+     .shadows = "weights may be any that are above 0: the sum's mean is right"},
+    {.name = "light tree",
+     .files = "src/scene/light_tree.cpp",
+     .position = reads,
+     .color = reads,
+     .cone = "weights may be any that are above 0: the sum's mean is right",
+     .most_falloff = "weights may be any that are above 0: the sum's mean is right",
+     .groups = "weights may be any that are above 0: the sum's mean is right",
+     .shadows = "weights may be any that are above 0: the sum's mean is right"},
+    {.name = "shadow-pick",
+     .files = "src/passes/shadows/shadow_lights.cpp kernels/shadows/picked_shadows.h",
+     .position = reads,
+     .color = reads,
+     .cone = reads,
+     .most_falloff = "an estimate of shares: virtual lights weigh as spots",
+     .groups = "an estimate of shares: lights of other groups take part in a pixel's",
+     .shadows = "it finds them"},
+    {.name = "orders of lidr",
+     .files = "src/passes/light_index/draw_order.cpp src/plan/frame_plan.cpp",
+     .position = reads,
+     .color = reads,
+     .cone = only_order,
+     .most_falloff = only_order,
+     .groups = only_order,
+     .shadows = only_order},
+    {.name = "plan of shadows",
+     .files = "src/plan/dim_lights.cpp",
+     .position = reads,
+     .color = reads,
+     .cone = reads,
+     .most_falloff = upper_bound,
+     .groups = upper_bound,
+     .shadows = "it plans them"},
+    {.name = "scale of light_prepass",
+     .files = "src/passes/common/light_buffer.cpp",
+     .position = reads,
+     .color = reads,
+     .cone = upper_bound,
+     .most_falloff = upper_bound,
+     .groups = upper_bound,
+     .shadows = upper_bound},
+    {.name = "importance (--shadows N, virtual lights)",
+     .files = "src/scene/shadow_casters.cpp src/scene/virtual_lights.cpp",
+     .position = reads,
+     .color = reads,
+     .cone = reads,
+     .most_falloff = only_order,
+     .groups = only_order,
+     .shadows = only_order},
+    {.name = "ranges from intensities",
+     .files = "src/scene/light_ranges.cpp",
+     .position = reads,
+     .color = reads,
+     .cone = upper_bound,
+     .most_falloff = reads,
+     .groups = upper_bound,
+     .shadows = upper_bound},
+    {.name = "check",
+     .files = "src/session/light_limits.cpp",
+     .position = reads,
+     .color = reads,
+     .cone = reads,
+     .most_falloff = "glTF and engines have no virtual lights",
+     .groups = reads,
+     .shadows = "engines limit lights before they find shadows"},
+};
+
+static_assert(std::ranges::all_of(light_readers, [](const LightReader& reader) {
+  bool all = reader.shadows != nullptr;
+#define LIGHT_FACTOR(condition, type, member, array, texels) all = all && reader.member;
+  LIGHT_TABLE(LIGHT_FACTOR)
+#undef LIGHT_FACTOR
+  return all;
+}));
+
+}  // namespace lightgrid
