@@ -19,7 +19,7 @@ static inline real estimated_light(const Receivers* r, global const ShadowLight*
       lane_max(facing, REAL(0.0f)) * lane_max(fma(-part, part, REAL(1.0f)), REAL(0.0f)) * inverse * inverse;
   if (l->cos_outer > -1.0f) {
     const real along = fma(d.z, REAL(l->axis_z), fma(d.y, REAL(l->axis_y), d.x * l->axis_x)) * inverse;
-    const real inside = lane_max((along - l->cos_outer) / (1.0f - l->cos_outer), REAL(0.0f));
+    const real inside = lane_max((along - l->cos_outer) / fmax(1.0f - l->cos_outer, 1e-7f), REAL(0.0f));
     light *= inside * inside;
   }
   return r->own >= (whole)(0) ? light * l->luminance : REAL(0.0f);

@@ -75,6 +75,7 @@ Light light_of(const lightgrid_light& in, const std::string& name) {
   } else if (out.type == LightType::spot) {
     out.outer_cone_rad =
         float(in_range(name + ".outer_cone_rad", in.outer_cone_rad, 0, float(std::numbers::pi)));
+    if (!(out.outer_cone_rad > 0)) throw wrong(name + ".outer_cone_rad", "is not above 0");
     out.inner_cone_rad = float(in_range(name + ".inner_cone_rad", in.inner_cone_rad, 0, in.outer_cone_rad));
   }
   out.casts_shadow = in.casts_shadow != 0;

@@ -199,6 +199,7 @@ Light plain_light(const Fields& fields) {
   const double inner = fields.number("inner_cone", 0, 0, float(std::numbers::pi));
   const double outer = fields.number("outer_cone", light.outer_cone_rad, 0, float(std::numbers::pi));
   light.inner_cone_rad = float(inner), light.outer_cone_rad = float(outer);
+  if (!(light.outer_cone_rad > 0)) throw fields.error("outer_cone", "is not above 0", outer);
   if (light.inner_cone_rad > light.outer_cone_rad) {
     const Error fault = fields.error("inner_cone", fmt::format("is above outer_cone {}", outer), inner);
     log_warning_line(fmt::format("{}; the cone has a hard edge", fault.what()));

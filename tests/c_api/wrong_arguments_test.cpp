@@ -90,8 +90,11 @@ TEST(CErrors, TellTheFieldOfALight) {
   expect_wrong(set([&](lightgrid_light& l) { l.type = lightgrid_light_type(9); }), "lights[1].type");
   expect_wrong(set([&](lightgrid_light& l) { l.type = LIGHTGRID_SPOT, l.direction[2] = 0; }),
                "lights[1].direction");
-  expect_wrong(set([&](lightgrid_light& l) { l.type = LIGHTGRID_SPOT, l.inner_cone_rad = 2 * l.outer_cone_rad; }),
-               "lights[1].inner_cone_rad");
+  expect_wrong(set([&](lightgrid_light& l) { l.type = LIGHTGRID_SPOT, l.outer_cone_rad = 0; }),
+               "lights[1].outer_cone_rad");
+  expect_wrong(
+      set([&](lightgrid_light& l) { l.type = LIGHTGRID_SPOT, l.inner_cone_rad = 2 * l.outer_cone_rad; }),
+      "lights[1].inner_cone_rad");
   expect_wrong(set([&](lightgrid_light& l) { l.intensity = 3e38f, l.color[0] = 9; }), "lights[1].intensity");
   size_t count = 0;
   must(lightgrid_scene_get_lights(scene.get(), nullptr, 0, &count));

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "reference/infinity.h"
 
 namespace lightgrid {
@@ -79,6 +82,44 @@ TEST(Attenuation, CountsARandomRangeByTheInverseOfItsProbability) {
   EXPECT_DOUBLE_EQ(attenuation(light, {0, 1, 0}, true), 1);  // p = 1
   EXPECT_EQ(attenuation(light, {0, 5, 0}, true), 0);
   EXPECT_DOUBLE_EQ(attenuation(light, {0, 4, 0}, false), 1.0 / 16);
+}
+
+Light spot_of(float inner, float outer) {
+  return {.type = LightType::spot, .radius_m = 5, .inner_cone_rad = inner, .outer_cone_rad = outer};
+}
+ViewLight seen(const Light& light) {
+  Scene scene;
+  scene.lights = {light};
+  return lights_in_view(scene, View())[0];
+}
+
+// Full light inside and none outside, however narrow the cone is.
+TEST(Attenuation, OfEqualAnglesIsAStep) {
+  for (const float angle : {1e-3f, 0.02f, 0.6f, 1.5f, std::numbers::pi_v<float> / 2, 3.0f}) {
+    const ViewLight light = seen(spot_of(angle, angle));
+    const auto at = [&](double off) {
+      return attenuation(light, {std::sin(angle + off), 0, -std::cos(angle + off)}, false);
+    };
+    EXPECT_DOUBLE_EQ(at(-1e-6), 1) << angle;
+    EXPECT_NEAR(at(-0.5 * angle), 1, 1e-15) << angle;
+    EXPECT_EQ(at(1e-6), 0) << angle;
+  }
+}
+
+TEST(Attenuation, OfAConeOfNoWidthIsNoneAndOf180DegreesIsAPoints) {
+  EXPECT_EQ(attenuation(seen(spot_of(0, 0)), {0, 0, -1}, true), 0);
+  const ViewLight all = seen(spot_of(4, 4));
+  EXPECT_GT(attenuation(all, {0, 0, 1}, true), 0);
+  EXPECT_FALSE(has_cone(all));
+}
+
+// As before: KHR_lights_punctual's quotient.
+TEST(Attenuation, OfAlmostEqualAnglesKeepsTheExtensionsFormula) {
+  const float outer = 0.02f;
+  const double cosine = std::cos(double(outer));
+  const double t = (1 - cosine) / 0.001;
+  EXPECT_NEAR(attenuation(seen(spot_of(std::nextafter(outer, 0.0f), outer)), {0, 0, -1}, false), t * t,
+              1e-12);
 }
 
 }  // namespace

@@ -222,7 +222,7 @@ TEST(GltfLights, what_is_wrong_with_a_light_matters_only_if_a_node_has_it) {
 }
 
 struct Cone {
-  float inner, outer;
+  float inner, outer, intensity;
   std::string warning;
 };
 Cone cone_of(double inner, double outer) {
@@ -231,7 +231,7 @@ Cone cone_of(double inner, double outer) {
   const std::string warning = warnings_of([&] {
     light = with_light({{"type", "spot"}, {"name", "s"}, {"spot", cone}}).load().lights.at(0);
   });
-  return {light.inner_cone_rad, light.outer_cone_rad, warning};
+  return {light.inner_cone_rad, light.outer_cone_rad, light.intensity, warning};
 }
 
 // Of Blender, whose angles are floats: every spot with a blend of 0, and every spot of 180 degrees.
@@ -240,9 +240,12 @@ TEST(GltfLights, cones_with_hard_edges_and_of_90_degrees_in_float_are_read) {
   const Cone hard = cone_of(0.6, 0.6), wide = cone_of(0.1, 1.5707963705062866),
              both = cone_of(1.5707963705062866, 1.5707963705062866),
              exact = cone_of(0.1, glm::half_pi<double>());
-  EXPECT_EQ(hard.inner, 0.6f), EXPECT_EQ(hard.outer, 0.6f);
-  EXPECT_EQ(wide.inner, 0.1f), EXPECT_EQ(wide.outer, right_angle);
-  EXPECT_EQ(both.inner, right_angle), EXPECT_EQ(both.outer, right_angle);
+  EXPECT_EQ(hard.inner, 0.6f);
+  EXPECT_EQ(hard.outer, 0.6f);
+  EXPECT_EQ(wide.inner, 0.1f);
+  EXPECT_EQ(wide.outer, right_angle);
+  EXPECT_EQ(both.inner, right_angle);
+  EXPECT_EQ(both.outer, right_angle);
   EXPECT_EQ(exact.outer, right_angle);
   for (const Cone& cone : {hard, wide, both, exact}) EXPECT_EQ(cone.warning, "");
 }
@@ -250,13 +253,16 @@ TEST(GltfLights, cones_with_hard_edges_and_of_90_degrees_in_float_are_read) {
 TEST(GltfLights, cones_that_the_extension_forbids_become_the_nearest_with_a_warning) {
   const Cone inverted = cone_of(0.6, 0.5), wide = cone_of(0.1, 2), negative = cone_of(-0.1, 0.5),
              none = cone_of(0, 0);
-  EXPECT_EQ(inverted.inner, 0.5f), EXPECT_EQ(inverted.outer, 0.5f);
+  EXPECT_EQ(inverted.inner, 0.5f);
+  EXPECT_EQ(inverted.outer, 0.5f);
   EXPECT_THAT(inverted.warning, HasSubstr("light 0 \"s\": spot.innerConeAngle is 0.6, outside 0 to 0.5"));
   EXPECT_EQ(wide.outer, glm::half_pi<float>());
   EXPECT_THAT(wide.warning, HasSubstr("spot.outerConeAngle is 2, outside 0 to 1.5707963"));
   EXPECT_EQ(negative.inner, 0);
   EXPECT_THAT(negative.warning, HasSubstr("spot.innerConeAngle is -0.1"));
   EXPECT_THAT(none.warning, HasSubstr("spot.outerConeAngle is 0; it lights nothing"));
+  EXPECT_EQ(none.intensity, 0);
+  EXPECT_EQ(inverted.intensity, 1);
 }
 
 TEST(GltfLights, cones_that_differ_by_less_than_a_float_still_differ) {

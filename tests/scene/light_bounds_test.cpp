@@ -1,8 +1,6 @@
 // The bounds of lights: scene/view_lights.h.
 #include "scene/view_lights.h"
 
-#include "reference/attenuation.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,35 +60,6 @@ TEST(ConeCosine, OfTheFloatsNextTo90And180DegreesIsExact) {
   EXPECT_EQ(cone_cosine(std::nextafter(pi / 2, 0.0f)), std::cos(double(std::nextafter(pi / 2, 0.0f))));
   EXPECT_EQ(seen(spot_of(0, pi / 2)).cos_outer, 0);
   EXPECT_EQ(bounds_of(spot_of(0, pi / 2), 5).cos_outer, 0);
-}
-
-// Full light inside and none outside, however narrow the cone is.
-TEST(Attenuation, OfEqualAnglesIsAStep) {
-  for (const float angle : {1e-3f, 0.02f, 0.6f, 1.5f, std::numbers::pi_v<float> / 2, 3.0f}) {
-    const ViewLight light = seen(spot_of(angle, angle));
-    const auto at = [&](double off) {
-      return attenuation(light, {std::sin(angle + off), 0, -std::cos(angle + off)}, false);
-    };
-    EXPECT_EQ(at(-1e-6), 1) << angle;
-    EXPECT_NEAR(at(-0.5 * angle), 1, 1e-15) << angle;
-    EXPECT_EQ(at(1e-6), 0) << angle;
-  }
-}
-
-TEST(Attenuation, OfAConeOfNoWidthIsNoneAndOf180DegreesIsAPoints) {
-  EXPECT_EQ(attenuation(seen(spot_of(0, 0)), {0, 0, -1}, true), 0);
-  const ViewLight all = seen(spot_of(4, 4));
-  EXPECT_GT(attenuation(all, {0, 0, 1}, true), 0);
-  EXPECT_FALSE(has_cone(all));
-}
-
-// As before: KHR_lights_punctual's quotient.
-TEST(Attenuation, OfAlmostEqualAnglesKeepsTheExtensionsFormula) {
-  const float outer = 0.02f;
-  const double cosine = std::cos(double(outer));
-  const double t = (1 - cosine) / 0.001;
-  EXPECT_NEAR(attenuation(seen(spot_of(std::nextafter(outer, 0.0f), outer)), {0, 0, -1}, false), t * t,
-              1e-12);
 }
 
 }  // namespace

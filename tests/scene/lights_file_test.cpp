@@ -10,6 +10,7 @@
 #include "base/write_file.h"
 #include "scene/camera.h"
 #include "scene/virtual_lights.h"
+#include "support/gltf_builder.h"
 #include "support/shared_files.h"
 
 namespace lightgrid {
@@ -167,6 +168,8 @@ TEST_F(LightsFile, NamesTheLightAndTheField) {
   EXPECT_EQ(refused_light(R"("type": "directional", "direction": [0, 0, 0])"),
             "light 1: direction [0, 0, 0] is zero");
   EXPECT_EQ(refused_light(R"("type": "spot", "position": [0, 0, 0])"), "light 1: direction is missing");
+  EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "outer_cone": 0)"),
+            "light 1: outer_cone 0 is not above 0");
   EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "outer_cone": 3.15)"),
             "light 1: outer_cone 3.15 is above 3.14159");
   EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "inner_cone": -0.1)"),

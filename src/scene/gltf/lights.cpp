@@ -16,8 +16,8 @@ float checked_amount(const Document& doc, double value, const std::string& place
 }
 
 // Angles that the extension does not allow are replaced by the nearest ones that it does. Exporters that keep
-// floats write 90 degrees a little above pi/2.
-void read_cone(Document& doc, const tinygltf::SpotLight& spot, const std::string& place, Light& light) {
+// floats write 90 degrees a little above pi/2. False: the cone has no width.
+bool read_cone(Document& doc, const tinygltf::SpotLight& spot, const std::string& place, Light& light) {
   constexpr double rounding = 1e-6;
   const auto nearest = [&](const char* name, double angle, double most) {
     const double allowed = angle >= 0 ? std::min(angle, most) : 0;
@@ -27,22 +27,27 @@ void read_cone(Document& doc, const tinygltf::SpotLight& spot, const std::string
     return allowed;
   };
   const double outer = nearest("outerConeAngle", spot.outerConeAngle, glm::half_pi<double>());
-  if (outer == 0) doc.warn("no cone", "{}: spot.outerConeAngle is 0; it lights nothing", place);
+  if (static_cast<float>(outer) == 0) {
+    doc.warn("no cone", "{}: spot.outerConeAngle is 0; it lights nothing", place);
+    return false;
+  }
   const double inner = nearest("innerConeAngle", spot.innerConeAngle, outer);
   light.outer_cone_rad = static_cast<float>(outer), light.inner_cone_rad = static_cast<float>(inner);
   // Two doubles may round to one float, which would be a hard edge.
   if (inner < outer)
     light.inner_cone_rad = std::min(light.inner_cone_rad, std::nextafter(light.outer_cone_rad, 0.0f));
+  return true;
 }
 
 // The part that does not depend on the node.
 Light read_light(Document& doc, const tinygltf::Light& in, bool has_range, const std::string& place) {
   Light out;
+  bool shines = true;
   if (in.type == "point") {
     out.type = LightType::point;
   } else if (in.type == "spot") {
     out.type = LightType::spot;
-    read_cone(doc, in.spot, place, out);
+    shines = read_cone(doc, in.spot, place, out);
   } else if (in.type == "directional") {
     out.type = LightType::directional;
   } else {
@@ -53,6 +58,7 @@ Light read_light(Document& doc, const tinygltf::Light& in, bool has_range, const
   for (size_t i = 0; i < in.color.size(); ++i)
     out.color[i] = checked_amount(doc, in.color[i], place, "color");
   out.intensity = checked_amount(doc, in.intensity, place, "intensity");
+  if (!shines) out.intensity = 0;
   if (intensity_overflows(out))
     throw doc.error("{}: intensity {} times color passes the largest float, {:g}", place, in.intensity,
                     std::numeric_limits<float>::max());
