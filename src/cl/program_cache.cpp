@@ -54,6 +54,15 @@ cl::Program load_binary(ClDevice& device, const std::string& options,
   }
 }
 
+KernelBuildError cannot_build(const ClDeviceInfo& device, const std::string& what, const cl::Error& error,
+                              const std::string& log = "") {
+  return KernelBuildError(
+      fmt::format("kernels/{} on {}: {} failed with {}; update its driver ({} {}), or choose another device "
+                  "with --device (lightgrid devices lists them){}{}",
+                  what, device.name, error.what(), cl_error_name(error.err()), device.platform, device.driver,
+                  log.empty() ? "" : "\n", log));
+}
+
 cl::Program build_source(ClDevice& device, const std::string& file, const std::string& options,
                          const std::string& source) {
   cl::Program program;
@@ -63,13 +72,14 @@ cl::Program build_source(ClDevice& device, const std::string& file, const std::s
   } catch (const cl::Error& error) {
     std::string log;
     if (program()) program.getBuildInfo(device.device(), CL_PROGRAM_BUILD_LOG, &log);
-    throw KernelBuildError(
-        fmt::format("kernels/{}.cl ({}) on {}: {} failed with {}; update its driver ({} {}), or choose "
-                    "another device with --device (lightgrid devices lists them)\n{}",
-                    file, options, device.info().name, error.what(), cl_error_name(error.err()),
-                    device.info().platform, device.info().driver, log));
+    throw cannot_build(device.info(), fmt::format("{}.cl ({})", file, options), error, log);
   }
   return program;
+}
+
+// Oclgrind builds a program and then lacks one of its kernels.
+bool lacks_kernel(const cl::Error& error) {
+  return error.err() == CL_INVALID_KERNEL_NAME || error.err() == CL_INVALID_PROGRAM_EXECUTABLE;
 }
 
 }  // namespace
@@ -113,6 +123,7 @@ cl::Kernel ProgramCache::kernel_of(const std::string& key, const std::string& fi
     }
     return cl::Kernel(program, entry_point(file).c_str());
   } catch (const cl::Error& error) {
+    if (lacks_kernel(error)) throw cannot_build(device_.info(), file + ".cl", error);
     throw cl_machine_error(error, "kernels/" + file + ".cl");
   }
 }

@@ -97,9 +97,9 @@ Outcome outcome_of(const std::function<void(Check&)>& run, Check check) {
     try {
       run(check);
     } catch (const KernelBuildError& error) {
+      check.skip(error.what());
       Outcome outcome = check.outcome();
-      if (outcome.verdict == Verdict::fail) return outcome;
-      outcome.verdict = Verdict::skip, outcome.why = error.what(), outcome.unbuilt = true;
+      outcome.unbuilt = outcome.verdict == Verdict::skip;
       return outcome;
     } catch (const Error& error) {
       check.fail(error.what());
