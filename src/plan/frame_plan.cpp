@@ -53,9 +53,15 @@ bool shows_base_lighting(const Scene& scene, int instance) {
   return material.unlit || material.emissive != glm::vec3(0) || material.occlusion_map.texture >= 0;
 }
 
-bool is_plain(const Scene& scene, int instance) {
-  const Material& material = scene.materials[scene.meshes[scene.instances[instance].mesh].material];
-  return material.alpha_mode == AlphaMode::opaque && !shows_base_lighting(scene, instance);
+bool is_planned(const Scene& scene, int instance, PlannedInstances instances) {
+  const Mesh& mesh = scene.meshes[scene.instances[instance].mesh];
+  const AlphaMode alpha = scene.materials[mesh.material].alpha_mode;
+  const bool coats = instances == PlannedInstances::every || instances == PlannedInstances::plain_or_coated;
+  if (!coats && (material_features(scene, mesh) & feature_clearcoat)) return false;
+  if (instances == PlannedInstances::every || instances == PlannedInstances::uncoated) return true;
+  const bool masks = instances != PlannedInstances::plain;
+  return (alpha == AlphaMode::opaque || (masks && alpha == AlphaMode::mask)) &&
+         !shows_base_lighting(scene, instance);
 }
 
 // After surfaces and lights.
@@ -88,13 +94,9 @@ void plan_models(const Scene& scene, FramePlan& plan) {
 double plan_surfaces(const Scene& scene, const View& view, PlannedInstances instances, FramePlan& plan) {
   const Frustum frustum = frustum_of(view);
   const auto planned = [&](int i, const glm::dmat4& to_view) {
-    if (instances == PlannedInstances::in_view)
-      return may_see_box(frustum, to_view, scene.meshes[scene.instances[i].mesh].bounds);
-    const bool coated = material_features(scene, scene.meshes[scene.instances[i].mesh]) & feature_clearcoat;
-    if (coated && (instances == PlannedInstances::plain || instances == PlannedInstances::uncoated))
-      return false;
-    return instances == PlannedInstances::every || instances == PlannedInstances::uncoated ||
-           is_plain(scene, i);
+    return instances == PlannedInstances::in_view
+               ? may_see_box(frustum, to_view, scene.meshes[scene.instances[i].mesh].bounds)
+               : is_planned(scene, i, instances);
   };
   plan.features_of_instance.assign(scene.instances.size(), 0);
   int first_with[std::size(feature_names)];
@@ -372,9 +374,10 @@ bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings) {
 }
 
 FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, TechniqueNeeds needs,
-                     PlannedInstances instances) {
+                     PlannedInstances instances, PlannedLights lights) {
   FramePlan plan;
   plan.settings = settings;
+  plan.planned_lights = lights;
   if (needs.adapt) needs.adapt(needs, plan.settings);
   plan.opengl = draws_with_opengl(needs, settings);
   plan.decisions.reserve(std::size(feature_names) + 16);

@@ -92,6 +92,10 @@ struct TechniqueNeeds {
 // Whether a technique with these settings draws with OpenGL.
 bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings);
 
+// The point and spot lights that a plan counts as in view. All but the first serve to build in advance, as
+// PlannedInstances do: what passes draw depends on the kinds of lights that they see.
+enum class PlannedLights { in_view, every, points, spots, none };
+
 struct FramePlan {
   Settings settings;
   bool opengl = true;  // OpenGL draws the surfaces; else OpenCL does
@@ -152,6 +156,7 @@ struct FramePlan {
 
   std::vector<int> local, directional_lights;  // light indices by kind, in scene order
   int virtual_count = 0;                       // of the scene's lights: virtual point lights
+  PlannedLights planned_lights = PlannedLights::in_view;
   int lights_in_view = 0;                      // lights whose range touches the view's frustum
   // By index into `local`, 1: left out, since the view has more than view-cap. Empty: none is.
   std::vector<uint8_t> left_out;
@@ -159,13 +164,23 @@ struct FramePlan {
   std::vector<Decision> decisions;
 };
 
-// The instances that a plan is for. The last two serve to build in advance what other views of the scene need
-// (RenderView::prepare): all instances; those alone that are opaque, unmasked and show no base lighting
-// (plain), with and without those under a coat; and all without those under a coat.
-enum class PlannedInstances { in_view, every, plain, plain_or_coated, uncoated };
+// The instances that a plan is for. All but the first serve to build in advance what other views of the scene
+// need (RenderView::prepare).
+enum class PlannedInstances {
+  in_view,
+  every,
+  plain,            // opaque, unmasked, without base lighting and without a coat
+  plain_or_masked,  // and masked ones
+  plain_or_coated,  // and those under a coat
+  uncoated          // all but those under a coat
+};
 
 FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, TechniqueNeeds needs,
-                     PlannedInstances instances = PlannedInstances::in_view);
+                     PlannedInstances instances = PlannedInstances::in_view,
+                     PlannedLights lights = PlannedLights::in_view);
+
+// Whether the plan counts a point or spot light as in view; in_view: whether it is.
+bool counts_as_seen(PlannedLights planned, const ViewLight& light, bool in_view);
 
 // The plan as `lightgrid plan` prints it.
 std::string describe(const FramePlan& plan, const Scene& scene);

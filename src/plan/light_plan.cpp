@@ -65,6 +65,12 @@ std::string light_witness(const Scene& scene, int light) {
   return fmt::format("light {} \"{}\"", light, scene.lights[light].name);
 }
 
+bool counts_as_seen(PlannedLights planned, const ViewLight& light, bool in_view) {
+  if (planned == PlannedLights::points) return !has_cone(light);
+  if (planned == PlannedLights::spots) return has_cone(light);
+  return planned == PlannedLights::in_view ? in_view : planned == PlannedLights::every;
+}
+
 void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   const Frustum frustum = frustum_of(view);
   const std::vector<ViewLight> lights = lights_in_view(scene, view, plan.settings.ranges);
@@ -73,7 +79,8 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   for (int i = 0; i < int(lights.size()); ++i) {
     const bool directional = is_directional(lights[i]);
     (directional ? plan.directional_lights : plan.local).push_back(i);
-    const bool seen = directional || may_see_sphere(frustum, lights[i].position, lights[i].radius_m);
+    const bool in_view = may_see_sphere(frustum, lights[i].position, lights[i].radius_m);
+    const bool seen = directional || counts_as_seen(plan.planned_lights, lights[i], in_view);
     plan.lights_in_view += seen;
     if (seen && !directional) seen_local.push_back(plan.local.size() - 1);
     // A spot out of view still needs its cone: the cone makes its contribution zero in view.

@@ -1,5 +1,7 @@
 #include "renderer/render_view.h"
 
+#include <algorithm>
+
 #include "gl/objects.h"
 #include "plan/settings.h"
 
@@ -46,14 +48,14 @@ RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, cons
   follow_view();
 }
 
-void RenderView::look(const View& next) { look(next, PlannedInstances::in_view); }
+void RenderView::look(const View& next) { look(next, PlannedInstances::in_view, PlannedLights::in_view); }
 
-void RenderView::look(const View& next, PlannedInstances instances) {
+void RenderView::look(const View& next, PlannedInstances instances, PlannedLights lights) {
   const bool resized = next.grid() != view.grid();
   const FramePlan before = std::move(plan);
   if (next.orthographic != view.orthographic) programs_.clear();
   view = next;
-  plan = plan_frame(scene, view, settings_, needs_, instances);
+  plan = plan_frame(scene, view, settings_, needs_, instances, lights);
   params = params_of(view, plan, scene.ambient);
   if (resized || plan.stencil != before.stencil) {
     const auto pool = shared_pool_ ? shared_pool_ : std::make_shared<TargetPool>();
@@ -64,17 +66,29 @@ void RenderView::look(const View& next, PlannedInstances instances) {
   follow_plan(before);
 }
 
+// Those of which a scene has lights.
+static std::vector<PlannedLights> kinds_of_lights(const FramePlan& plan, const Scene& scene) {
+  if (!plan.local_lights) return {PlannedLights::every};
+  const bool points = std::ranges::any_of(
+      scene.lights, [](const Light& light) { return !is_directional(light) && !has_cone(light); });
+  if (!points || !plan.spots) return {PlannedLights::every, PlannedLights::none};
+  return {PlannedLights::every, PlannedLights::points, PlannedLights::spots, PlannedLights::none};
+}
+
 void RenderView::prepare(const std::function<void()>& draw) {
   const View here = view;
   preparing_ = true;
   try {
     const auto draw_planned = [&](PlannedInstances instances) {
-      look(here, instances);
-      draw();
+      for (const PlannedLights lights : kinds_of_lights(plan, scene)) {
+        look(here, instances, lights);
+        draw();
+      }
     };
     draw_planned(PlannedInstances::every);
-    const bool coats = plan.clearcoat;
+    const bool coats = plan.clearcoat, masks = plan.mask;
     draw_planned(PlannedInstances::plain);
+    if (masks) draw_planned(PlannedInstances::plain_or_masked);
     for (const PlannedInstances instances : {PlannedInstances::plain_or_coated, PlannedInstances::uncoated}) {
       if (coats) draw_planned(instances);
     }

@@ -29,7 +29,8 @@ struct RenderView : Work {
   void look(const View& view);
   // Builds the programs and kernels that frames of any other view of this scene need, so that a camera that
   // moves builds none. `draw` draws the technique's frame: it is called with plans for all of the scene's
-  // instances and for the plain ones, and without surfaces to draw. Buffers and caches are then created anew.
+  // instances and for the plain ones, each with all lights in view, those of one kind and none, and without
+  // surfaces to draw. Buffers and caches are then created anew.
   // After an exception of `draw` the view draws nothing until the next look().
   void prepare(const std::function<void()>& draw);
   // Frees the passes' caches, grids, the culler, and the pool's images (Targets::clear), until the next
@@ -51,7 +52,7 @@ struct RenderView : Work {
 
  private:
   SharedGridStorage& grid_storage(bool blended);
-  void look(const View& view, PlannedInstances instances);
+  void look(const View& view, PlannedInstances instances, PlannedLights lights);
   void follow_view();
   void drop_caches();
   void follow_plan(const FramePlan& before);

@@ -76,6 +76,10 @@ TEST(FramePlan, OfEveryInstanceAndOfPlainOnes) {
   EXPECT_EQ(some.opaque, std::vector<int>{1});
   EXPECT_TRUE(every.blend && every.blend_grid && every.mask && every.base_lighting);
   EXPECT_FALSE(some.blend || some.blend_grid || some.mask || some.base_lighting);
+  s.scene.materials[s.scene.meshes[s.scene.instances[1].mesh].material].alpha_mode = AlphaMode::mask;
+  EXPECT_EQ(plan(PlannedInstances::plain).opaque, std::vector<int>{});
+  EXPECT_EQ(plan(PlannedInstances::plain_or_masked).opaque, std::vector<int>{1});
+  EXPECT_EQ(plan(PlannedInstances::plain_or_coated).opaque, std::vector<int>{1});
 }
 
 // All effects added one after the other: none removes what another requires.

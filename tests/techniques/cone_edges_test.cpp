@@ -2,7 +2,9 @@
 // picture. RayCaster.ForwardHasItsRadianceUnderSpotsWithHardEdges says that forward's is right.
 #include <numbers>
 
+#include "reference/position.h"
 #include "session/oracle_sample.h"
+#include "shared/cull_tests.h"
 #include "support/small_scene.h"
 #include "techniques/lidr_scenes.h"
 #include "techniques/rendering.h"

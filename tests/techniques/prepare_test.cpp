@@ -104,7 +104,7 @@ TEST_P(PreparedSettings, CompileNothingForOtherLightsInView) {
   std::istringstream words(given.substr(space + 1));
   for (std::string word; words >> word;) apply_setting(settings, word);
   for (const size_t first : starts)
-    EXPECT_THAT(compiled_late(scene_of_sides(), *find_technique(given.substr(0, space)), settings, first),
+    EXPECT_THAT(compiled_late(scene_of_sides(), find_technique(given.substr(0, space)), settings, first),
                 testing::IsEmpty());
 }
 

@@ -197,6 +197,19 @@ std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLig
   return volumes;
 }
 
+// Of a plan that builds in advance.
+static std::vector<LightVolume> whole_screens(const View& view, std::span<const ViewLight> lights,
+                                              PlannedLights planned) {
+  std::vector<LightVolume> volumes;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    if (!counts_as_seen(planned, lights[i], true)) continue;
+    LightVolume volume{.light = uint32_t(i), .bounds = bounds_of(lights[i]), .mesh = LightVolume::everything};
+    cover_screen(view, volume);
+    volumes.push_back(volume);
+  }
+  return volumes;
+}
+
 LightVolumes::LightVolumes(Work& work) : array_(make_vertex_array()) {
   glGetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits_);
   std::vector<glm::vec3> positions;
@@ -236,9 +249,13 @@ bool LightVolumes::follow(Work& work) {
 }
 
 const std::vector<LightVolume>& LightVolumes::update(const Seen& seen) {
-  std::vector<LightVolume> volumes = light_volumes(
-      seen.view, lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local),
-      seen.plan.settings.volume_mesh, subpixel_bits_);
+  const std::vector<ViewLight> lights =
+      lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local);
+  const PlannedLights planned = seen.plan.planned_lights;
+  std::vector<LightVolume> volumes =
+      planned == PlannedLights::in_view
+          ? light_volumes(seen.view, lights, seen.plan.settings.volume_mesh, subpixel_bits_)
+          : whole_screens(seen.view, lights, planned);
   if (seen.plan.group_stencil > 0) {
     const std::vector<uint8_t> groups = stencil_groups(seen).of_light;
     std::ranges::stable_sort(volumes, {}, [&](const LightVolume& v) { return groups[v.light]; });
