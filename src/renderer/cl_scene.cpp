@@ -25,9 +25,9 @@ SurfaceVertex surface_vertex(const Mesh& mesh, size_t i) {
   return v;
 }
 
-template <typename T>
-cl::Buffer filled_buffer(ClDevice& device, const char* what, const std::vector<T>& values) {
-  const size_t bytes = values.size() * sizeof(T),
+template <typename Values>
+cl::Buffer filled_buffer(ClDevice& device, const char* what, const Values& values) {
+  const size_t bytes = values.size() * sizeof values[0],
                size = std::max<size_t>(bytes, 16);  // OpenCL makes no empty buffer
   try {
     cl::Buffer buffer(device.context(), CL_MEM_READ_ONLY, size);
@@ -40,10 +40,10 @@ cl::Buffer filled_buffer(ClDevice& device, const char* what, const std::vector<T
 
 // The same, on a CPU without a copy: the buffer keeps the values, whose texels may take gigabytes.
 template <typename T>
-cl::Buffer keeping_buffer(ClDevice& device, const char* what, std::vector<T> values) {
+cl::Buffer keeping_buffer(ClDevice& device, const char* what, BufferVector<T> values) {
   if (!device.info().cpu || values.size() * sizeof(T) < 4096) return filled_buffer(device, what, values);
-  auto kept = std::make_unique<std::vector<T>>(std::move(values));
-  const auto free_values = [](cl_mem, void* owned) { delete static_cast<std::vector<T>*>(owned); };
+  auto kept = std::make_unique<BufferVector<T>>(std::move(values));
+  const auto free_values = [](cl_mem, void* owned) { delete static_cast<BufferVector<T>*>(owned); };
   try {
     cl::Buffer buffer(device.context(), CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, kept->size() * sizeof(T),
                       kept->data());

@@ -157,16 +157,16 @@ class TexelWriter {
     return record;
   }
 
-  static PlacedChain append(TexelChain chain, size_t channels, std::vector<uint16_t>& to) {
+  static PlacedChain append(TexelChain chain, size_t channels, BufferVector<uint16_t>& to) {
     const size_t first = to.size() / channels, end = first + chain.values.size() / channels;
     if (end > 0x7fffffffu) throw machine_error("textures: more than 2^31 texels for the resolve pass");
     to.insert(to.end(), chain.values.begin(), chain.values.end());
-    chain.values = {};  // with its memory
+    std::vector<uint16_t>().swap(chain.values);  // frees its memory
     return {uint(first), std::move(chain)};
   }
 
   // Packed chains as bytes.
-  static PlacedChain append_small(TexelChain chain, std::vector<uint8_t>& to) {
+  static PlacedChain append_small(TexelChain chain, BufferVector<uint8_t>& to) {
     static const std::vector<uint8_t> roots = [] {
       std::vector<uint8_t> bytes(65536);
       for (size_t i = 0; i < bytes.size(); ++i)
@@ -181,7 +181,7 @@ class TexelWriter {
       const uint16_t value = chain.values[i];
       to.push_back(i % 8 < 3 ? roots[value] : uint8_t((value + 128) / 257));
     }
-    chain.values = {};  // with its memory
+    std::vector<uint16_t>().swap(chain.values);  // frees its memory
     return {uint(first), std::move(chain)};
   }
 

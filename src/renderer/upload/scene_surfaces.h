@@ -2,6 +2,7 @@
 // kernels read them (shared/surface_records.h), its models.
 #pragma once
 
+#include <new>
 #include <vector>
 
 #include "plan/settings.h"
@@ -11,16 +12,31 @@
 
 namespace lightgrid {
 
+// Memory that a CPU's OpenCL can use as a buffer without a copy: aligned as its widest vectors are.
+template <typename T>
+struct BufferMemory {
+  using value_type = T;
+  static constexpr std::align_val_t alignment{128};
+  BufferMemory() = default;
+  template <typename U>
+  BufferMemory(const BufferMemory<U>&) {}
+  T* allocate(size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), alignment)); }
+  void deallocate(T* values, size_t) { ::operator delete(values, alignment); }
+  bool operator==(const BufferMemory&) const = default;
+};
+template <typename T>
+using BufferVector = std::vector<T, BufferMemory<T>>;
+
 struct SurfaceTexels {
   std::vector<SurfaceMaterial> materials;  // in the scene's order; unused ones have only factors
-  std::vector<uint16_t> texels_4;          // chains of 4 channels: RGBA of one texture
+  BufferVector<uint16_t> texels_4;         // chains of 4 channels: RGBA of one texture
   // Chains of 8 channels, all maps of a material in one texel: base colour (3), normal (3), roughness,
   // metalness. A map that the material lacks is 1 everywhere, and its factor alone counts.
-  std::vector<uint16_t> texels_8;
+  BufferVector<uint16_t> texels_8;
   // The same chains with TexelLayout::packed_8, in bytes: base colours as their square roots, whose steps the
   // eye sees alike.
-  std::vector<uint8_t> small_texels_8;
-  std::vector<uint32_t>
+  BufferVector<uint8_t> small_texels_8;
+  BufferVector<uint32_t>
       alphas;  // chains of alpha_quads, for masked materials, and for blended ones if asked for
 };
 
