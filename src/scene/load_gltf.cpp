@@ -36,13 +36,13 @@ Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits&
           .meshes = {}};
   Scene scene;
   scene.name = path.stem().string();
-  scene.samples = gltf::samples_of_scene(doc, scene_index);
-  gltf::set_radiances(doc, scene_index, scene);
+  gltf::apply_extras(doc, scene_index, scene);
   scene.materials = gltf::read_materials(doc, nodes);
   if (has_channels(rig)) rig.nodes = gltf::rig_nodes(doc, nodes);
   const std::vector<int> node_of_instance = gltf::add_meshes(doc, nodes, scene, rig);
-  scene.lights = gltf::read_lights(doc, nodes);
-  compile_groups(scene, gltf::groups_of_lights(doc, nodes), gltf::groups_of_instances(doc, node_of_instance));
+  std::vector<GroupLists> groups;
+  scene.lights = gltf::read_lights(doc, nodes, groups);
+  compile_groups(scene, groups, gltf::groups_of_instances(doc, node_of_instance));
   scene.cameras = gltf::read_cameras(doc, nodes);
   gltf::keep_used_materials(scene);
   gltf::add_textures(doc, scene);

@@ -15,7 +15,6 @@ struct GltfLimits {
   size_t max_vertices = 50'000'000;          // all meshes, and vertices displaced by morph targets
   size_t max_instances = 1'000'000;
   size_t max_animation_values = 50'000'000;  // key times and values of all animations
-  int max_node_depth = 1000;
   size_t max_file_bytes = size_t(2) << 30;
   bool files_anywhere = false;  // else only files in the folder of the glTF file and below
 };

@@ -54,7 +54,7 @@ class Writer {
   json scene_json() const {
     json extras = {{"ambient", numbers(scene_.ambient)}, {"background", numbers(scene_.background)}};
     if (scene_.samples > 1) extras["samples"] = scene_.samples;
-    return {{"name", scene_.name}, {"nodes", json::array()}, {"extras", extras}};
+    return {{"name", scene_.name}, {"nodes", json::array()}, {"extras", {{"lightgrid", extras}}}};
   }
 
   void use(const char* extension) {
@@ -200,7 +200,7 @@ class Writer {
 
   static void add_groups(uint32_t groups, json& node) {
     if (groups == all_groups) return;
-    json& list = node["extras"]["light_groups"] = json::array();
+    json& list = node["extras"]["lightgrid"]["light_groups"] = json::array();
     for (int group = 0; group < 32; ++group) {
       if (groups >> group & 1) list.push_back(group);
     }
@@ -209,7 +209,7 @@ class Writer {
   void add_instance(const Instance& instance) {
     json node = {{"name", instance.name}, {"mesh", instance.mesh}};
     node["matrix"] = matrix_json(instance.world_from_object);
-    if (!instance.casts_shadow) node["extras"]["casts_shadow"] = false;
+    if (!instance.casts_shadow) node["extras"]["lightgrid"]["casts_shadow"] = false;
     add_groups(instance.groups, node);
     root_["nodes"].push_back(node);
   }
@@ -230,8 +230,8 @@ class Writer {
       out["spot"] = {{"innerConeAngle", angle(light.inner_cone_rad)},
                      {"outerConeAngle", angle(light.outer_cone_rad)}};
     }
-    if (light.casts_shadow) out["extras"]["casts_shadow"] = true;
-    if (light.source_m >= 0) out["extras"]["source_radius"] = light.source_m;
+    if (light.casts_shadow) out["extras"]["lightgrid"]["casts_shadow"] = true;
+    if (light.source_m >= 0) out["extras"]["lightgrid"]["source_radius"] = light.source_m;
     json& lights = root_["extensions"]["KHR_lights_punctual"]["lights"];
     lights.push_back(out);
     json node = {{"name", light.name}};

@@ -236,7 +236,7 @@ TEST(PlanCommand, TellsWithoutAnyDeviceWhatIsNeededAndWhy) {
 
 TEST(PlanCommand, TellsOfTheSamplesThatASceneAsksForAndOfItsEdges) {
   GltfBuilder made = GltfBuilder::triangle();
-  made.root["scenes"] = {{{"nodes", {0}}, {"extras", {{"samples", 4}}}}};
+  made.root["scenes"] = {{{"nodes", {0}}, {"extras", {{"lightgrid", {{"samples", 4}}}}}}};
   const ModelFolder folder;
   const std::string file = folder.write("made.gltf", made.text());
   const std::vector<std::string> no_device = {"OCL_ICD_VENDORS=/nonexistent"};

@@ -197,6 +197,28 @@ TEST(GltfMeshopt, compressed_views_over_a_fallback_buffer_equal_the_plain_ones) 
   expect_quad(meshopt_quad(true).finish().load().meshes.at(0));
 }
 
+// Replaces the extension's name wherever it is.
+GltfBuilder under_khr_name(GltfBuilder made) {
+  std::string text = made.root.dump();
+  for (size_t at = 0; (at = text.find("EXT_meshopt", at)) != std::string::npos;) text.replace(at, 3, "KHR");
+  made.root = json::parse(text);
+  return made;
+}
+
+TEST(GltfMeshopt, streams_of_version_0_have_the_khr_name_too) {
+  const GltfBuilder made = under_khr_name(meshopt_quad().finish());
+  Scene scene;
+  EXPECT_THAT(warnings_of([&] { scene = made.load(); }), testing::IsEmpty());
+  expect_quad(scene.meshes.at(0));
+}
+
+TEST(GltfMeshopt, a_stream_of_a_later_version_is_refused_by_its_version) {
+  Meshopt quad = meshopt_quad();
+  ASSERT_EQ(quad.packed[0], 0xa0);
+  quad.packed[0] = 0xa1;
+  EXPECT_THAT(under_khr_name(quad.finish()).refusal(), HasSubstr("the stream has version 1, but the installed"));
+}
+
 TEST(GltfMeshopt, a_fallback_buffer_is_not_fetched) {
   Meshopt quad = meshopt_quad();
   quad.finish().root["buffers"][0]["uri"] = "absent.bin";

@@ -149,74 +149,50 @@ TEST(GltfLights, one_light_on_many_nodes_is_many_lights) {
 }
 
 TEST(GltfLights, what_the_extension_forbids_is_refused_by_name) {
-  EXPECT_THAT(with_light({{"type", "point"}, {"range", 0}}).refusal(), HasSubstr("light 0: range is 0"));
-  EXPECT_THAT(with_light({{"type", "point"}, {"range", -3}}).refusal(), HasSubstr("light 0: range is -3"));
-  EXPECT_THAT(with_light({{"type", "point"}, {"intensity", -1}}).refusal(),
-              HasSubstr("light 0: intensity is -1"));
   EXPECT_THAT(with_light({{"type", "point"}, {"intensity", 1e39}}).refusal(),
               HasSubstr("light 0: intensity is 1e+39"));
   EXPECT_THAT(with_light({{"type", "directional"}, {"color", {1, 1e9, 0}}, {"intensity", 1e30}}).refusal(),
               HasSubstr("light 0: intensity 1e+30 times color passes the largest float, 3.40282e+38"));
   EXPECT_THAT(with_light({{"type", "point"}, {"color", {1, 1}}}).refusal(), HasSubstr("color has 2 numbers"));
-  EXPECT_THAT(with_light({{"type", "lamp"}}).refusal(), HasSubstr("light 0: type is \"lamp\""));
 }
 
-TEST(GltfLights, extras_of_the_light_or_its_node_say_whether_it_casts_a_shadow) {
-  const auto casts = [](const json& of_light, const json& of_node) {
-    GltfBuilder made = with_light({{"type", "point"}, {"extras", of_light}});
-    made.node()["extras"] = of_node;
-    return made.load().lights.at(0).casts_shadow;
+TEST(GltfLights, what_exporters_write_against_the_extension_is_read_with_a_warning) {
+  const auto expect_light = [](const json& in, const Light& expected, const char* warning) {
+    Light light;
+    EXPECT_THAT(warnings_of([&] { light = with_light(in).load().lights.at(0); }), HasSubstr(warning)) << in;
+    EXPECT_EQ(light.radius_m, expected.radius_m) << in;
+    EXPECT_EQ(light.intensity, expected.intensity) << in;
+    EXPECT_EQ(light.color, expected.color) << in;
   };
-  const json none = json::object(), yes = {{"casts_shadow", true}}, no = {{"casts_shadow", false}};
-  EXPECT_FALSE(casts(none, none));
-  EXPECT_TRUE(casts(yes, none));
-  EXPECT_TRUE(casts(none, yes));
-  EXPECT_TRUE(casts(no, yes)) << "a node overrides its light";
-  EXPECT_FALSE(casts(yes, no)) << "a node overrides its light";
-  EXPECT_TRUE(casts(none, {{"casts_shadow", 1}})) << "as Blender writes custom properties";
-  EXPECT_FALSE(casts(none, {{"casts_shadow", 0.0}}));
-  GltfBuilder wrong = with_light({{"type", "point"}, {"extras", {{"casts_shadow", "yes"}}}});
-  EXPECT_THAT(wrong.refusal(), HasSubstr("light 0: extras.casts_shadow is neither true, false nor a number"));
-  wrong.node()["extras"] = {{"casts_shadow", nullptr}};
-  EXPECT_THAT(wrong.refusal(), HasSubstr("node 0: extras.casts_shadow is neither true, false nor a number"));
+  const char* no_range = "it counts as no range";
+  expect_light({{"type", "point"}, {"range", 0}}, {}, no_range);
+  expect_light({{"type", "spot"}, {"spot", json::object()}, {"range", -3.5}}, {}, no_range);
+  expect_light({{"type", "point"}, {"intensity", -1}}, {.intensity = 0}, "intensity is -1; it counts as 0");
+  expect_light({{"type", "directional"}, {"color", {0.5, -0.25, 1}}}, {.color = {0.5f, 0, 1}},
+               "color is -0.25; it counts as 0");
 }
 
-TEST(GltfLights, extras_of_the_light_or_its_node_have_the_radius_of_its_sphere) {
-  const auto radius = [](const json& of_light, const json& of_node) {
-    GltfBuilder made = with_light({{"type", "point"}, {"extras", of_light}});
-    made.node()["extras"] = of_node;
-    return made.load().lights.at(0).source_m;
-  };
-  const json none = json::object(), small = {{"source_radius", 0.25}}, point = {{"source_radius", 0}};
-  EXPECT_LT(radius(none, none), 0) << "that of the setting shadow-source";
-  EXPECT_EQ(radius(small, none), 0.25f);
-  EXPECT_EQ(radius(none, small), 0.25f);
-  EXPECT_EQ(radius(small, point), 0) << "a node overrides its light";
-  GltfBuilder wrong = with_light({{"type", "point"}, {"extras", {{"source_radius", "wide"}}}});
-  EXPECT_THAT(wrong.refusal(), HasSubstr("light 0: extras.source_radius is not a number"));
-  wrong.node()["extras"] = {{"source_radius", -1}};
-  EXPECT_THAT(wrong.refusal(), HasSubstr("extras.source_radius is -1"));
-}
-
-TEST(GltfLights, extras_of_a_node_say_whether_its_mesh_hides_lights) {
-  GltfBuilder made = GltfBuilder::triangle();
-  EXPECT_TRUE(made.load().instances.at(0).casts_shadow);
-  made.node()["extras"] = {{"casts_shadow", false}};
-  EXPECT_FALSE(made.load().instances.at(0).casts_shadow);
-  made.node()["extras"] = {{"casts_shadow", "an application's own"}};
-  EXPECT_THAT(made.refusal(), HasSubstr("node 0: extras.casts_shadow is neither true, false nor a number"));
-  made.node().erase("mesh");
-  made.root["nodes"].push_back({{"mesh", 0}});
+TEST(GltfLights, a_light_of_an_unknown_type_is_left_out_with_a_warning) {
+  GltfBuilder made = with_light({{"type", "area"}, {"extras", {{"lightgrid", {{"light_groups", {3}}}}}}});
+  json& lights = made.root["extensions"]["KHR_lights_punctual"]["lights"];
+  lights.push_back({{"type", "point"}, {"extras", {{"lightgrid", {{"light_groups", {2}}}}}}});
+  json second = made.node();
+  second["extensions"]["KHR_lights_punctual"]["light"] = 1;
+  made.root["nodes"].push_back(second);
   made.root["scenes"][0]["nodes"] = {0, 1};
-  EXPECT_EQ(made.load().instances.size(), 1u) << "a node that has neither may say what it likes";
+  Scene scene;
+  EXPECT_THAT(warnings_of([&] { scene = made.load(); }), HasSubstr("light 0: type is \"area\""));
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.lights[0].groups, 1u << 2) << "the groups stay with their light";
 }
 
 TEST(GltfLights, what_is_wrong_with_a_light_matters_only_if_a_node_has_it) {
   GltfBuilder made = with_light({{"type", "point"}});
-  made.root["extensions"]["KHR_lights_punctual"]["lights"].push_back({{"type", "point"}, {"intensity", -1}});
+  made.root["extensions"]["KHR_lights_punctual"]["lights"].push_back(
+      {{"type", "point"}, {"intensity", 1e39}});
   EXPECT_EQ(made.load().lights.size(), 1u);
   made.node()["extensions"]["KHR_lights_punctual"]["light"] = 1;
-  EXPECT_THAT(made.refusal(), HasSubstr("light 1: intensity is -1"));
+  EXPECT_THAT(made.refusal(), HasSubstr("light 1: intensity is 1e+39"));
   made.node()["extensions"]["KHR_lights_punctual"]["light"] = 2;
   EXPECT_THAT(made.refusal(), HasSubstr("node 0: KHR_lights_punctual.light is 2, but there are 2"));
 }

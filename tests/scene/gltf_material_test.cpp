@@ -188,13 +188,13 @@ TEST(GltfMaterial, a_model_is_read_from_the_extras) {
 
 TEST(GltfMaterial, impossible_models_are_refused_by_name) {
   const std::pair<json, const char*> cases[] = {
-      {"skin", "materials[0].extras.lightgrid is not an object"},
-      {{{"model", 3}}, "materials[0].extras.lightgrid.model is not a string"},
+      {"skin", "material 0: extras.lightgrid is not an object"},
+      {{{"model", 3}}, "material 0: extras.lightgrid.model is 3; it must be a string"},
       {{{"model", "wax"}}, "material 0: extras.lightgrid: model is \"wax\"; models are skin and minnaert"},
-      {{{"model", "skin"}, {"rolloff", 0.1}}, "extras.lightgrid.rolloff: unknown key"},
+      {{{"model", "skin"}, {"rolloff", 0.1}}, "extras.lightgrid.rolloff: unknown key; did you mean rollOff?"},
       {{{"model", "skin"}, {"rollOff", 1.5}}, "extras.lightgrid: rollOff is 1.5, outside 0 to 1"},
-      {{{"model", "skin"}, {"rollOff", "much"}}, "rollOff is not a number"},
-      {{{"model", "skin"}, {"subsurfaceColor", {1, 2}}}, "subsurfaceColor is not three numbers"},
+      {{{"model", "skin"}, {"rollOff", "much"}}, "rollOff is \"much\"; it must be a number"},
+      {{{"model", "skin"}, {"subsurfaceColor", {1, 2}}}, "subsurfaceColor is [1,2]; it must be three numbers"},
       {{{"model", "skin"}, {"subsurfaceColor", {1, 2, 1}}}, "subsurfaceColor is 2, outside 0 to 1"},
       {{{"model", "skin"}, {"k", 1}}, "k is given, but the model is skin"},
       {{{"model", "minnaert"}}, "k is missing"},

@@ -206,9 +206,9 @@ TEST_F(LightGroupFiles, FaultsNameFileAndOwner) {
 TEST(GltfLightGroups, ExtrasOfNodesAndLightsAreRead) {
   GltfBuilder made = GltfBuilder::triangle();
   made.root["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "point"}, {"extras", {{"light_groups", {"a", 4}}}}}};
+      {{"type", "point"}, {"extras", {{"lightgrid", {{"light_groups", {"a", 4}}}}}}}};
   made.root["extensionsUsed"] = {"KHR_lights_punctual"};
-  made.node()["extras"]["light_groups"] = "a";
+  made.node()["extras"]["lightgrid"]["light_groups"] = "a";
   made.node()["extensions"]["KHR_lights_punctual"]["light"] = 0;
   const Scene own = made.load();
   EXPECT_EQ(own.lights.at(0).groups, 1u) << "a node's win over its light's";
@@ -216,7 +216,7 @@ TEST(GltfLightGroups, ExtrasOfNodesAndLightsAreRead) {
   made.node()["extras"] = json::object();
   EXPECT_EQ(made.load().lights.at(0).groups, 1u | 1u << 4);
   EXPECT_EQ(made.load().instances.at(0).groups, all_groups);
-  made.node()["extras"]["light_groups"] = {{"not", "a list"}};
+  made.node()["extras"]["lightgrid"]["light_groups"] = {{"not", "a list"}};
   EXPECT_THROW(made.load(), Error);
 }
 

@@ -161,18 +161,5 @@ TEST(WriteGltf, VirtualLightsAreRefused) {
   }
 }
 
-TEST(WriteGltf, RadiancesInExtrasAreThreeNumbersOfZeroOrMore) {
-  GltfBuilder made = GltfBuilder::triangle();
-  made.root["scenes"][0]["extras"] = {{"ambient", {0.25, 0.5, 1}}, {"background", {0, 2, 0}}};
-  const Scene scene = made.load();
-  EXPECT_EQ(scene.ambient, glm::vec3(0.25f, 0.5f, 1));
-  EXPECT_EQ(scene.background, glm::vec3(0, 2, 0));
-  for (const nlohmann::json& wrong :
-       std::initializer_list<nlohmann::json>{{1, 2}, {1, 2, -1}, {1, 2, "3"}, 0.5, {1, 2, 1e300}}) {
-    made.root["scenes"][0]["extras"] = {{"ambient", wrong}};
-    EXPECT_THAT(made.refusal(), HasSubstr("scenes[0].extras.ambient")) << wrong;
-  }
-}
-
 }  // namespace
 }  // namespace lightgrid

@@ -9,7 +9,8 @@
 namespace lightgrid::gltf {
 namespace {
 
-// Buffer views, plain and of EXT_meshopt_compression (Kapoulkine, glTF extension, 2021).
+// Buffer views, plain and of EXT_meshopt_compression (Kapoulkine, glTF extension, 2021), under whose name
+// prepare_json puts KHR_meshopt_compression too: streams of version 0 are the same.
 std::span<const uint8_t> plain_range(Document& doc, int buffer, size_t offset, size_t length,
                                      const std::string& place) {
   const auto& bytes = checked(doc, doc.buffers, buffer, place, "buffer");
@@ -74,6 +75,12 @@ std::vector<uint8_t> unpack(Document& doc, const Packed& packed, const std::stri
     failed = meshopt_decodeIndexBuffer(out.data(), packed.count, packed.stride, from, size);
   else
     failed = meshopt_decodeIndexSequence(out.data(), packed.count, packed.stride, from, size);
+  // The upper half of a stream's first byte is its kind, the lower half its version.
+  if (failed != 0 && packed.mode == "ATTRIBUTES" && size > 0 && (*from >> 4) == 0xa && (*from & 0xf) > 0)
+    throw doc.error(
+        "{}: the stream has version {}, but the installed meshoptimizer library {}.{} reads "
+        "version 0: write the file with EXT_meshopt_compression or uncompressed",
+        place, *from & 0xf, MESHOPTIMIZER_VERSION / 1000, MESHOPTIMIZER_VERSION / 10 % 100);
   if (failed != 0) throw doc.error("{}: compressed data is broken (meshoptimizer {})", place, failed);
   if (packed.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), packed.count, packed.stride);
   if (packed.filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), packed.count, packed.stride);
@@ -88,7 +95,7 @@ std::span<const uint8_t> view_bytes(Document& doc, int index, const std::string&
   const tinygltf::Value* extension = find_extension(view.extensions, "EXT_meshopt_compression");
   if (!extension) return plain_range(doc, view.buffer, view.byteOffset, view.byteLength, place);
   if (auto it = doc.decoded_views.find(index); it != doc.decoded_views.end()) return it->second;
-  const std::string inner = fmt::format("{}: bufferView {}: EXT_meshopt_compression", place, index);
+  const std::string inner = fmt::format("{}: bufferView {}: meshopt compression", place, index);
   const Packed packed = packed_view(doc, *extension, view.byteLength, inner);
   return doc.decoded_views[index] = unpack(doc, packed, inner);
 }
@@ -237,6 +244,12 @@ std::vector<To> read_all(Document& doc, const tinygltf::Accessor& accessor, cons
 }
 
 }  // namespace
+
+bool is_empty_accessor(Document& doc, int accessor, const std::string& place) {
+  if (checked(doc, doc.model.accessors, accessor, place, "accessor").count != 0) return false;
+  doc.warn("count 0", "{}: accessor {}: count is 0; left out", place, accessor);
+  return true;
+}
 
 FloatArray read_floats(Document& doc, int index, size_t max_count, Normalize normalize,
                        const std::string& place) {

@@ -7,7 +7,7 @@
 
 namespace lightgrid::gltf {
 
-// A buffer view's bytes, decoded if EXT_meshopt_compression is used (each view once).
+// A buffer view's bytes, decoded if it is compressed by meshoptimizer (each view once).
 std::span<const uint8_t> view_bytes(Document& doc, int view, const std::string& place);
 
 struct FloatArray {
@@ -18,6 +18,10 @@ struct FloatArray {
 
 // always: for colours, normals, tangents and weights, whose integers have no other meaning.
 enum class Normalize { as_accessor_says, always };
+
+// Whether an accessor has no elements, which glTF forbids but exporters write for empty parts: one warning for
+// all of them.
+bool is_empty_accessor(Document& doc, int accessor, const std::string& place);
 
 // All elements of an accessor of type SCALAR … VEC4 or MAT4; at most max_count, all finite.
 FloatArray read_floats(Document& doc, int accessor, size_t max_count, Normalize normalize,

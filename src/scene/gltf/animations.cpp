@@ -69,8 +69,9 @@ class AnimationReader {
         throw doc_.error("{}: an earlier channel animates the {} of node {} too", inner,
                          entry.channels[i].path, entry.channels[i].node);
       if (entry.channels[i].sampler < 0) throw doc_.error("{}: has no sampler", inner);
-      read_keys(checked(doc_, entry.samplers, entry.channels[i].sampler, inner, "sampler"),
-                fmt::format("{} sampler {}", place, entry.channels[i].sampler), *channel);
+      if (!read_keys(checked(doc_, entry.samplers, entry.channels[i].sampler, inner, "sampler"),
+                     fmt::format("{} sampler {}", place, entry.channels[i].sampler), *channel))
+        continue;
       out.channels.push_back(*std::move(channel));
     }
     return out;
@@ -98,9 +99,13 @@ class AnimationReader {
     return out;
   }
 
-  void read_keys(const AnimationEntry::Sampler& in, const std::string& place, AnimationChannel& out) {
+  // False if the sampler has no keys.
+  bool read_keys(const AnimationEntry::Sampler& in, const std::string& place, AnimationChannel& out) {
     if (in.input < 0 || in.output < 0)
       throw doc_.error("{}: has no {}", place, in.input < 0 ? "input" : "output");
+    if (is_empty_accessor(doc_, in.input, place + ": input") ||
+        is_empty_accessor(doc_, in.output, place + ": output"))
+      return false;
     out.interpolation = read_interpolation(doc_, in.interpolation, place);
     out.times = read_values(in.input, Normalize::as_accessor_says, "SCALAR", true, place + ": input");
     check_times(out.times, place);
@@ -117,6 +122,7 @@ class AnimationReader {
       throw doc_.error("{}: output has {} numbers for {} keys of {}", place, out.values.size(),
                        out.times.size(), a_key);
     if (out.path == AnimatedPath::rotation) check_rotations(out, is_cubic, place);
+    return true;
   }
 
   std::vector<float> read_values(int accessor, Normalize normalize, const char* type, bool only_float,

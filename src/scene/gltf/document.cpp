@@ -151,7 +151,8 @@ void check_asset(Document& doc) {
   if (!asset.minVersion.empty() && asset.minVersion != "2.0")
     throw doc.error("asset.minVersion is \"{}\"; glTF 2.0 is read", asset.minVersion);
   for (const std::string& name : doc.model.extensionsRequired)
-    if (!is_supported_extension(name) && !(name == basisu && has_other_sources(doc)))
+    if (!is_supported_extension(name) && !keeps_the_picture(name) &&
+        !(name == basisu && has_other_sources(doc)))
       throw doc.error(
           "requires the extension {}, which is not supported{}", name,
           name == basisu ? ": convert its KTX2 images to PNG (gltf-transform ktxdecompress IN OUT)" : "");
@@ -192,10 +193,7 @@ Document read_document(const fs::path& path, const GltfLimits& limits) {
   check_asset(doc);
   doc.images = std::move(prepared.images);
   doc.animations = std::move(prepared.animations);
-  doc.models = std::move(prepared.models);
-  doc.shadows = std::move(prepared.shadows), doc.groups = std::move(prepared.groups);
-  doc.samples = std::move(prepared.samples);
-  doc.radiances = std::move(prepared.radiances);
+  doc.extras = std::move(prepared.extras);
   check_indices(doc, prepared.buffers.size());
   read_buffers(doc, prepared.buffers, container);
   if (container.is_glb) doc.owned.push_back(std::move(file));  // the first buffer points into it

@@ -20,11 +20,7 @@ struct Document : Reporter {
   tinygltf::Model model;  // without buffers, images and animations
   std::vector<ImageEntry> images;
   std::vector<AnimationEntry> animations;
-  std::vector<ModelEntry> models;
-  ShadowEntries shadows;
-  GroupEntries groups;
-  SampleEntries samples;
-  RadianceEntries radiances;
+  Extras extras;
   std::vector<std::span<const uint8_t>> buffers;  // empty if the file gives no bytes
   std::vector<std::vector<uint8_t>> owned;        // memory that `buffers` points into
   std::map<int, std::vector<uint8_t>> decoded_views;

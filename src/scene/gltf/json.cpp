@@ -82,146 +82,6 @@ std::vector<AnimationEntry> take_animations(const Reporter& report, json& root) 
   return out;
 }
 
-double model_number_of(const Reporter& report, const json& value, const std::string& place) {
-  if (!value.is_number()) throw report.error("{} is not a number", place);
-  return value.get<double>();
-}
-
-ModelEntry read_model_entry(const Reporter& report, const json& in, const std::string& place) {
-  if (!in.is_object()) throw report.error("{} is not an object", place);
-  ModelEntry out;
-  for (const auto& [key, value] : in.items()) {
-    const std::string at = place + "." + key;
-    if (key == "model") {
-      if (!value.is_string()) throw report.error("{} is not a string", at);
-      out.model = value.get<std::string>();
-    } else if (key == "subsurfaceColor") {
-      if (!value.is_array() || value.size() != 3) throw report.error("{} is not three numbers", at);
-      for (const json& channel : value) out.subsurface_color.push_back(model_number_of(report, channel, at));
-    } else if (key == "rollOff") {
-      out.roll_off = model_number_of(report, value, at);
-    } else if (key == "k") {
-      out.k = model_number_of(report, value, at);
-    } else {
-      throw report.error("{}: unknown key; keys are model, subsurfaceColor, rollOff and k", at);
-    }
-  }
-  return out;
-}
-
-// Moves extras.lightgrid out of the materials, all of which are objects. Errors: unknown keys, and values of
-// a wrong type.
-std::vector<ModelEntry> take_models(const Reporter& report, json& root) {
-  std::vector<ModelEntry> out;
-  if (!root.contains("materials")) return out;
-  int number = 0;
-  for (json& material : root["materials"]) {
-    const json::json_pointer model("/extras/lightgrid");
-    if (material.contains(model)) {
-      out.push_back(
-          read_model_entry(report, material[model], fmt::format("materials[{}].extras.lightgrid", number)));
-      out.back().material = number;
-      material["extras"].erase("lightgrid");
-    }
-    ++number;
-  }
-  return out;
-}
-
-std::map<int, std::optional<bool>> casts_shadow_of(const json& owners) {
-  std::map<int, std::optional<bool>> out;
-  const json::json_pointer casts("/extras/casts_shadow");
-  for (size_t i = 0; i < owners.size(); ++i) {
-    if (!owners[i].contains(casts)) continue;
-    const json& value = owners[i][casts];
-    std::optional<bool>& entry = out[int(i)];
-    if (value.is_boolean()) entry = value.get<bool>();
-    if (value.is_number()) entry = value.get<double>() != 0;
-  }
-  return out;
-}
-
-std::map<int, std::optional<double>> source_radius_of(const json& owners) {
-  std::map<int, std::optional<double>> out;
-  const json::json_pointer radius("/extras/source_radius");
-  for (size_t i = 0; i < owners.size(); ++i) {
-    if (!owners[i].contains(radius)) continue;
-    const json& value = owners[i][radius];
-    out[int(i)] = value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
-  }
-  return out;
-}
-
-ShadowEntries read_shadows(const json& root) {
-  ShadowEntries out;
-  if (root.contains("nodes"))
-    out.of_node = casts_shadow_of(root["nodes"]), out.source_of_node = source_radius_of(root["nodes"]);
-  const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-  if (root.contains(lights) && root[lights].is_array())
-    out.of_light = casts_shadow_of(root[lights]), out.source_of_light = source_radius_of(root[lights]);
-  return out;
-}
-
-std::map<int, GroupLists> groups_of(const Reporter& report, const json& owners, const char* kind) {
-  std::map<int, GroupLists> out;
-  for (size_t i = 0; i < owners.size(); ++i) {
-    const auto names = [&](const char* field) -> GroupLists::Names {
-      const json::json_pointer at(fmt::format("/extras/{}", field));
-      if (!owners[i].contains(at)) return {};
-      const GroupLists::Names found = names_of_groups(owners[i][at]);
-      if (!found)
-        throw report.error("{} {}: extras.{} is not a list of names and whole numbers", kind, i, field);
-      return found;
-    };
-    GroupLists lists{.groups = names("light_groups"),
-                     .include = names("light_include"),
-                     .exclude = names("light_exclude")};
-    if (lists.groups || lists.include || lists.exclude) out.emplace(int(i), std::move(lists));
-  }
-  return out;
-}
-
-GroupEntries read_groups(const Reporter& report, const json& root) {
-  GroupEntries out;
-  if (root.contains("nodes")) out.of_node = groups_of(report, root["nodes"], "node");
-  const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-  if (root.contains(lights) && root[lights].is_array())
-    out.of_light = groups_of(report, root[lights], "light");
-  return out;
-}
-
-SampleEntries read_samples(const json& root) {
-  SampleEntries out;
-  if (!root.contains("scenes")) return out;
-  const json::json_pointer samples("/extras/samples");
-  for (size_t i = 0; i < root["scenes"].size(); ++i) {
-    if (!root["scenes"][i].contains(samples)) continue;
-    const json& value = root["scenes"][i][samples];
-    int& entry = out[int(i)];
-    for (const int possible : {1, 2, 4, 8})
-      if (value.is_number() && value.get<double>() == possible) entry = possible;
-  }
-  return out;
-}
-
-std::map<int, std::optional<glm::vec3>> radiance_of(const json& scenes, const char* field) {
-  std::map<int, std::optional<glm::vec3>> out;
-  const json::json_pointer at(fmt::format("/extras/{}", field));
-  for (size_t i = 0; i < scenes.size(); ++i) {
-    if (!scenes[i].contains(at)) continue;
-    const json& value = scenes[i][at];
-    std::optional<glm::vec3>& entry = out[int(i)];
-    const auto is_radiance = [](const json& channel) {
-      if (!channel.is_number()) return false;
-      const auto number = channel.get<float>();
-      return std::isfinite(number) && number >= 0;
-    };
-    if (value.is_array() && value.size() == 3 && std::ranges::all_of(value, is_radiance))
-      entry = glm::vec3(value[0].get<float>(), value[1].get<float>(), value[2].get<float>());
-  }
-  return out;
-}
-
 constexpr int max_nesting = 64;  // the format itself needs about 10
 
 constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing",
@@ -236,6 +96,7 @@ constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing",
                                                 "KHR_materials_unlit",
                                                 "KHR_materials_emissive_strength",
                                                 "KHR_mesh_quantization",
+                                                "KHR_meshopt_compression",
                                                 "KHR_texture_transform"};
 
 constexpr const char* collections[] = {"accessors", "animations", "bufferViews", "buffers", "cameras",
@@ -262,16 +123,15 @@ class Tidier {
  public:
   explicit Tidier(const Reporter& report) : report_(report) {}
 
-  void tidy_object(json& object, bool is_root = false) {
+  void tidy_object(json& object) {
     object.erase("extras");
     if (auto it = object.find("extensions"); it != object.end() && it->is_object()) keep_supported(*it);
     for (auto& [key, value] : object.items()) {
       const size_t length = path_.size();
       path_ += (path_.empty() ? "" : ".") + key;
-      if (is_index(key)) require_index(value);
-      if (key == "attributes" && value.is_object())
-        for (json& index : value) require_index(tidy_number(index, key));
-      if ((key == "children" || key == "joints" || (key == "nodes" && !is_root)) && value.is_array())
+      const Place place = place_of(pattern_of(path_));
+      if (place == Place::index) require_index(value);
+      if (place == Place::indices && value.is_structured())
         for (json& index : value) require_index(tidy_number(index, key));
       tidy(value, key);
       path_.resize(length);
@@ -279,11 +139,52 @@ class Tidier {
   }
 
  private:
-  static bool is_index(std::string_view key) {
-    static constexpr const char* keys[] = {
-        "buffer", "bufferView",          "camera",  "index", "indices",  "light", "material", "mesh",
-        "node",   "inverseBindMatrices", "sampler", "scene", "skeleton", "skin",  "source",   "texCoord"};
-    return contains(keys, key);
+  enum class Place { other, index, indices };
+
+  // Properties of the same names elsewhere are other programs' (asset.source).
+  static Place place_of(std::string_view pattern) {
+    static constexpr std::string_view single[] = {
+        "scene",
+        "nodes[].camera",
+        "nodes[].mesh",
+        "nodes[].skin",
+        "skins[].skeleton",
+        "skins[].inverseBindMatrices",
+        "meshes[].primitives[].indices",
+        "meshes[].primitives[].material",
+        "accessors[].bufferView",
+        "accessors[].sparse.indices.bufferView",
+        "accessors[].sparse.values.bufferView",
+        "bufferViews[].buffer",
+        "images[].bufferView",
+        "textures[].source",
+        "textures[].sampler",
+        "textures[].extensions.EXT_texture_webp.source",
+        "nodes[].extensions.KHR_lights_punctual.light",
+        "bufferViews[].extensions.EXT_meshopt_compression.buffer",
+        "meshes[].primitives[].extensions.KHR_draco_mesh_compression.bufferView"};
+    static constexpr std::string_view many[] = {
+        "scenes[].nodes",
+        "nodes[].children",
+        "skins[].joints",
+        "meshes[].primitives[].attributes",
+        "nodes[].extensions.EXT_mesh_gpu_instancing.attributes",
+        "meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes"};
+    if (std::ranges::count(single, pattern)) return Place::index;
+    if (std::ranges::count(many, pattern)) return Place::indices;
+    const bool of_texture = pattern.ends_with("Texture.index") || pattern.ends_with(".texCoord");
+    return pattern.starts_with("materials[].") && of_texture ? Place::index : Place::other;
+  }
+
+  // The path without the numbers between brackets.
+  static std::string pattern_of(std::string_view path) {
+    std::string out;
+    bool in_brackets = false;
+    for (const char c : path) {
+      in_brackets = c != ']' && (in_brackets || c == '[');
+      if (!in_brackets || c == '[') out += c;
+    }
+    return out;
   }
 
   static bool is_size(std::string_view key) {
@@ -291,6 +192,8 @@ class Tidier {
   }
 
   void keep_supported(json& extensions) {
+    if (const auto khr = extensions.find("KHR_meshopt_compression"); khr != extensions.end())
+      extensions.emplace("EXT_meshopt_compression", *khr);
     for (auto it = extensions.begin(); it != extensions.end();)
       it = is_supported_extension(it.key()) ? std::next(it) : extensions.erase(it);
   }
@@ -324,9 +227,7 @@ class Tidier {
   }
 
   void require_index(const json& value) {
-    if (value.is_structured())
-      return;  // "indices" of a sparse accessor, and values that tinygltf rejects
-               // itself
+    if (value.is_structured()) return;  // tinygltf rejects it
     const bool integral = value.is_number_integer() ||
                           (value.is_number_float() && std::trunc(value.get<double>()) == value.get<double>());
     if (integral && value.get<double>() >= 0 && value.get<double>() <= std::numeric_limits<int>::max())
@@ -385,7 +286,42 @@ std::vector<ImageEntry> take_images(const Reporter& report, json& root) {
 
 bool is_supported_extension(std::string_view name) { return contains(supported_extensions, name); }
 
-PreparedJson prepare_json(const Reporter& report, std::string_view text) {
+bool keeps_the_picture(std::string_view extension) {
+  static constexpr std::string_view starts[] = {"AGI_",
+                                                "CESIUM_",
+                                                "EXT_feature_metadata",
+                                                "EXT_instance_features",
+                                                "EXT_mesh_features",
+                                                "EXT_mesh_manifold",
+                                                "EXT_structural_metadata",
+                                                "FB_geometry_metadata",
+                                                "GODOT_single_root",
+                                                "KHR_audio",
+                                                "KHR_implicit_shapes",
+                                                "KHR_interactivity",
+                                                "KHR_materials_variants",
+                                                "KHR_node_hoverability",
+                                                "KHR_node_selectability",
+                                                "KHR_physics",
+                                                "KHR_xmp",
+                                                "MSFT_audio",
+                                                "MSFT_collision",
+                                                "MSFT_lod",
+                                                "MSFT_physics",
+                                                "OMI_audio",
+                                                "OMI_link",
+                                                "OMI_personality",
+                                                "OMI_physics",
+                                                "OMI_seat",
+                                                "OMI_spawn_point",
+                                                "OMI_vehicle",
+                                                "VRMC_node_constraint",
+                                                "VRMC_springBone",
+                                                "VRMC_vrm"};
+  return std::ranges::any_of(starts, [&](std::string_view start) { return extension.starts_with(start); });
+}
+
+PreparedJson prepare_json(Reporter& report, std::string_view text) {
   json root = parse(report, text);
   if (!root.is_object()) throw report.error("JSON is not an object");
   for (const char* name : collections) {
@@ -395,13 +331,9 @@ PreparedJson prepare_json(const Reporter& report, std::string_view text) {
       if (!root[name][i].is_object()) throw report.error("{}[{}] is not an object", name, i);
   }
   PreparedJson out;
-  out.models = take_models(report, root);
-  out.shadows = read_shadows(root), out.groups = read_groups(report, root);
-  out.samples = read_samples(root);
-  if (root.contains("scenes"))
-    out.radiances = {radiance_of(root["scenes"], "ambient"), radiance_of(root["scenes"], "background")};
+  out.extras = read_extras(report, root);
   out.animations = take_animations(report, root);  // before the indices of all the rest are checked
-  Tidier(report).tidy_object(root, true);
+  Tidier(report).tidy_object(root);
   out.buffers = take_buffers(report, root);
   out.images = take_images(report, root);
   if (!root.contains("bufferViews")) root["bufferViews"] = json::array();

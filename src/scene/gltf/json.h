@@ -1,14 +1,12 @@
 // Prepares the JSON of a glTF file for tinygltf, which does not check everything.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "scene/gltf/reporter.h"
-#include "scene/light_groups.h"
+#include "scene/gltf/extras.h"
 
 namespace lightgrid::gltf {
 
@@ -39,46 +37,12 @@ struct AnimationEntry {
   std::optional<Error> fault;  // of its JSON, which then is not read to its end
 };
 
-// extras.lightgrid of a material.
-struct ModelEntry {
-  int material = 0;
-  std::string model;
-  std::vector<double> subsurface_color;  // empty: absent
-  std::optional<double> roll_off, k;
-};
-
-// extras.casts_shadow of nodes and of lights, by their index, and extras.source_radius, in metres. Empty
-// values are neither booleans nor numbers (as Blender's custom properties may be), or no numbers.
-struct ShadowEntries {
-  std::map<int, std::optional<bool>> of_node, of_light;
-  std::map<int, std::optional<double>> source_of_node, source_of_light;
-};
-
-// extras.light_groups of nodes and of lights, light_include and light_exclude, by their index
-// (scene/light_groups.h).
-struct GroupEntries {
-  std::map<int, GroupLists> of_node, of_light;
-};
-
-// extras.samples of scenes, by their index; 0: not 1, 2, 4 or 8.
-using SampleEntries = std::map<int, int>;
-
-// extras.ambient and extras.background of scenes, by their index. Empty: not three finite numbers of 0 or
-// more.
-struct RadianceEntries {
-  std::map<int, std::optional<glm::vec3>> ambient, background;
-};
-
 struct PreparedJson {
   std::string text;  // for tinygltf: no buffers, images, animations, extras or unsupported extensions
   std::vector<BufferEntry> buffers;
   std::vector<ImageEntry> images;
   std::vector<AnimationEntry> animations;
-  std::vector<ModelEntry> models;
-  ShadowEntries shadows;
-  GroupEntries groups;
-  SampleEntries samples;
-  RadianceEntries radiances;
+  Extras extras;
   // tinygltf rejects indices without a buffer view, which Draco and sparse accessors may have: those
   // accessors get this index, one past the end of the file's own views.
   int absent_view = 0;
@@ -89,8 +53,12 @@ struct PreparedJson {
 // Removes animations, buffers and images: tinygltf checks animations less than the rest, reads buffers and
 // images all at once, keeps copies, requires exact file sizes, does not support fallback buffers and reads a
 // view's bytes unchecked.
-PreparedJson prepare_json(const Reporter& report, std::string_view text);
+PreparedJson prepare_json(Reporter& report, std::string_view text);
 
 bool is_supported_extension(std::string_view name);
+
+// Whether a file that requires this extension looks the same without it: metadata, sound, physics, and
+// extensions whose default is the file without them.
+bool keeps_the_picture(std::string_view extension);
 
 }  // namespace lightgrid::gltf

@@ -9,10 +9,12 @@
 namespace lightgrid::gltf {
 namespace {
 
-float checked_amount(const Document& doc, double value, const std::string& place, const char* what) {
+// A negative value counts as 0, with a warning.
+float read_amount(Document& doc, double value, const std::string& place, const char* what) {
   const auto out = static_cast<float>(value);
-  if (!(value >= 0) || !std::isfinite(out)) throw doc.error("{}: {} is {}", place, what, value);
-  return out;
+  if (!std::isfinite(out)) throw doc.error("{}: {} is {}", place, what, value);
+  if (out < 0) doc.warn("negative light", "{}: {} is {}; it counts as 0", place, what, value);
+  return std::max(out, 0.0f);
 }
 
 // Angles that the extension does not allow are replaced by the nearest ones that it does. Exporters that keep
@@ -39,8 +41,9 @@ bool read_cone(Document& doc, const tinygltf::SpotLight& spot, const std::string
   return true;
 }
 
-// The part that does not depend on the node.
-Light read_light(Document& doc, const tinygltf::Light& in, bool has_range, const std::string& place) {
+// The part that does not depend on the node; empty, with a warning, for an unknown type.
+std::optional<Light> read_light(Document& doc, const tinygltf::Light& in, bool has_range,
+                                const std::string& place) {
   Light out;
   bool shines = true;
   if (in.type == "point") {
@@ -51,25 +54,29 @@ Light read_light(Document& doc, const tinygltf::Light& in, bool has_range, const
   } else if (in.type == "directional") {
     out.type = LightType::directional;
   } else {
-    throw doc.error("{}: type is \"{}\"", place, in.type);
+    doc.warn("light type", "{}: type is \"{}\", not point, spot or directional; left out", place, in.type);
+    return {};
   }
   if (!in.color.empty() && in.color.size() != 3)
     throw doc.error("{}: color has {} numbers instead of 3", place, in.color.size());
-  for (size_t i = 0; i < in.color.size(); ++i)
-    out.color[i] = checked_amount(doc, in.color[i], place, "color");
-  out.intensity = checked_amount(doc, in.intensity, place, "intensity");
+  for (size_t i = 0; i < in.color.size(); ++i) out.color[i] = read_amount(doc, in.color[i], place, "color");
+  out.intensity = read_amount(doc, in.intensity, place, "intensity");
   if (!shines) out.intensity = 0;
   if (intensity_overflows(out))
     throw doc.error("{}: intensity {} times color passes the largest float, {:g}", place, in.intensity,
                     std::numeric_limits<float>::max());
   if (has_range && out.type != LightType::directional) {
-    out.radius_m = checked_amount(doc, in.range, place, "range");
-    if (out.radius_m == 0) throw doc.error("{}: range is {}; it must be more than 0", place, in.range);
+    const auto range = static_cast<float>(in.range);
+    if (std::isnan(range)) throw doc.error("{}: range is {}", place, in.range);
+    if (range > 0)
+      out.radius_m = range;
+    else  // exporters have written 0 for no range
+      doc.warn("light range", "{}: range is {}; it counts as no range", place, in.range);
   }
   return out;
 }
 
-// tinygltf makes an absent range 0; a range of 0 in the file is an error.
+// tinygltf makes an absent range 0.
 bool has_range(const Document& doc, int light) {
   const tinygltf::Value* extension = find_extension(doc.model.extensions, "KHR_lights_punctual");
   if (!extension || !extension->Get("lights").IsArray()) return false;
@@ -77,32 +84,10 @@ bool has_range(const Document& doc, int light) {
   return value.IsObject() && value.Has("range");
 }
 
-// A node's extras override its light's.
-bool casts_shadow(const Document& doc, int node, int light) {
-  if (const auto of_node = node_casts_shadow(doc, node)) return *of_node;
-  const auto found = doc.shadows.of_light.find(light);
-  if (found == doc.shadows.of_light.end()) return false;
-  if (!found->second)
-    throw doc.error("light {}: extras.casts_shadow is neither true, false nor a number", light);
-  return *found->second;
-}
-
-// Below 0: neither has one.
-float source_radius(const Document& doc, int node, int light) {
-  const auto &of_node = doc.shadows.source_of_node, &of_light = doc.shadows.source_of_light;
-  const auto read = [&](const auto& entries, int index, const std::string& place) {
-    const auto found = entries.find(index);
-    if (found == entries.end()) return -1.0f;
-    if (!found->second) throw doc.error("{}: extras.source_radius is not a number", place);
-    return checked_amount(doc, *found->second, place, "extras.source_radius");
-  };
-  const float own = read(of_node, node, node_label(doc, node));
-  return own >= 0 ? own : read(of_light, light, label("light", light, ""));
-}
-
 }  // namespace
 
-std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes) {
+std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes,
+                               std::vector<GroupLists>& groups) {
   std::vector<Light> out;
   for (size_t i = 0; i < nodes.size(); ++i) {
     const PlacedNode& placed = nodes[i];
@@ -113,40 +98,26 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
     if (!extension->Has("light")) throw doc.error("{}: KHR_lights_punctual has no light", place);
     const int index = static_cast<int>(size_or(doc, *extension, "light", 0, place));
     const tinygltf::Light& in = checked(doc, doc.model.lights, index, place, "KHR_lights_punctual.light");
-    Light light = read_light(doc, in, has_range(doc, index), label("light", index, in.name));
+    std::optional<Light> known = read_light(doc, in, has_range(doc, index), label("light", index, in.name));
+    if (!known) continue;
+    Light& light = *known;
     light.name = node.name.empty() ? in.name : node.name;
     light.position = glm::dvec3(placed.world_from_node[3]);
-    light.casts_shadow = casts_shadow(doc, placed.node, index);
-    light.source_m = source_radius(doc, placed.node, index);
+    const PlacedExtras &own = extras_of(doc.extras.nodes, placed.node),
+                       &common = extras_of(doc.extras.lights, index);
+    light.casts_shadow = own.casts_shadow.value_or(common.casts_shadow.value_or(light.casts_shadow));
+    light.source_m = own.source_radius_m.value_or(common.source_radius_m.value_or(light.source_m));
     if (placed.moves) light.node = static_cast<int>(i);
     if (const auto direction = light_direction(placed.world_from_node))
       light.direction = *direction;
     else if (light.type != LightType::point)
       throw doc.error("{}: light {} has no direction: its node is scaled to {}", place, index,
                       glm::length(glm::dvec3(placed.world_from_node[2])));
-    out.push_back(std::move(light));
-  }
-  return out;
-}
-
-std::vector<GroupLists> groups_of_lights(Document& doc, const std::vector<PlacedNode>& nodes) {
-  std::vector<GroupLists> out;
-  int light = -1;
-  for (const PlacedNode& placed : nodes) {
-    const tinygltf::Value* extension =
-        find_extension(doc.model.nodes[placed.node].extensions, "KHR_lights_punctual");
-    if (!extension) continue;
-    ++light;
-    const std::string place = node_label(doc, placed.node);
-    const auto index = static_cast<int>(size_or(doc, *extension, "light", 0, place));
-    for (const auto& [entries, number] :
-         {std::pair(&doc.groups.of_node, placed.node), std::pair(&doc.groups.of_light, index)}) {
-      const auto found = entries->find(number);
-      if (found == entries->end()) continue;
-      out.push_back(found->second);
-      out.back().owner = light, out.back().where = doc.place(place);
-      break;
+    if (const PlacedExtras& extras = own.has_lists() ? own : common; extras.has_lists()) {
+      groups.push_back(extras.lists);
+      groups.back().owner = static_cast<int>(out.size()), groups.back().where = doc.place(place);
     }
+    out.push_back(std::move(light));
   }
   return out;
 }
@@ -154,11 +125,11 @@ std::vector<GroupLists> groups_of_lights(Document& doc, const std::vector<Placed
 std::vector<GroupLists> groups_of_instances(const Document& doc, const std::vector<int>& node_of_instance) {
   std::vector<GroupLists> out;
   for (size_t i = 0; i < node_of_instance.size(); ++i) {
-    const auto found = doc.groups.of_node.find(node_of_instance[i]);
-    if (found == doc.groups.of_node.end() || !found->second.groups) continue;
+    const GroupLists& lists = extras_of(doc.extras.nodes, node_of_instance[i]).lists;
+    if (!lists.groups) continue;
     out.push_back({.owner = static_cast<int>(i),
                    .where = doc.place(node_label(doc, node_of_instance[i])),
-                   .groups = found->second.groups,
+                   .groups = lists.groups,
                    .include = {},
                    .exclude = {}});
   }

@@ -162,19 +162,19 @@ void read_transmission(Document& doc, const tinygltf::Value& in, const std::stri
 constexpr glm::vec3 default_subsurface_color(1, 0.2f, 0.2f);
 constexpr double default_roll_off = 0.2;
 
-MaterialModel read_model(const Document& doc, const ModelEntry& in, const std::string& place) {
+MaterialModel read_model(const Document& doc, const MaterialExtras& in, const std::string& place) {
   MaterialModel out;
   if (in.model == "skin") {
     if (in.k) throw doc.error("{}: k is given, but the model is skin", place);
     out.subsurface_color = default_subsurface_color;
-    for (size_t i = 0; i < in.subsurface_color.size(); ++i)
-      out.subsurface_color[int(i)] = in_unit(doc, in.subsurface_color[i], place, "subsurfaceColor");
+    for (int i = 0; in.subsurface_color && i < 3; ++i)
+      out.subsurface_color[i] = in_unit(doc, (*in.subsurface_color)[i], place, "subsurfaceColor");
     out.roll_off = in_unit(doc, in.roll_off.value_or(default_roll_off), place, "rollOff");
     return out;
   }
   if (in.model != "minnaert")
     throw doc.error("{}: model is \"{}\"; models are skin and minnaert", place, in.model);
-  if (!in.subsurface_color.empty() || in.roll_off)
+  if (in.subsurface_color || in.roll_off)
     throw doc.error("{}: subsurfaceColor or rollOff is given, but the model is minnaert", place);
   if (!in.k) throw doc.error("{}: k is missing", place);
   out.minnaert_k = finite(doc, *in.k, place, "k");
@@ -251,11 +251,10 @@ std::vector<Material> read_materials(Document& doc, const std::vector<PlacedNode
     const std::string place = label("material", static_cast<int>(i), material.name);
     out.push_back(used[i] ? read_material(doc, material, place) : Material());
   }
-  for (const ModelEntry& model : doc.models) {
-    if (!used[size_t(model.material)]) continue;
-    const std::string place =
-        label("material", model.material, out[size_t(model.material)].name) + ": extras.lightgrid";
-    out[size_t(model.material)].model = read_model(doc, model, place);
+  for (const auto& [index, extras] : doc.extras.materials) {
+    Material& material = out[size_t(index)];
+    if (used[size_t(index)])
+      material.model = read_model(doc, extras, label("material", index, material.name) + ": extras.lightgrid");
   }
   out.push_back({.name = "default"});
   return out;

@@ -18,7 +18,8 @@ RigSkin read_skin(Document& doc, int index, const std::vector<PlacedNode>& nodes
   std::vector<int> place_of_node(doc.model.nodes.size(), -1);
   for (size_t i = 0; i < nodes.size(); ++i) place_of_node[nodes[i].node] = static_cast<int>(i);
   FloatArray inverse_bind;
-  if (skin.inverseBindMatrices >= 0) {
+  if (skin.inverseBindMatrices >= 0 &&
+      !is_empty_accessor(doc, skin.inverseBindMatrices, place + ": inverseBindMatrices")) {
     inverse_bind = read_floats(doc, skin.inverseBindMatrices, skin.joints.size() + 65536,
                                Normalize::as_accessor_says, place + ": inverseBindMatrices");
     if (inverse_bind.components != 16 || inverse_bind.count() < skin.joints.size())
@@ -62,10 +63,15 @@ class MeshReader {
     const std::string place = node_label(doc_, placed.node);
     const tinygltf::Mesh& mesh = checked(doc_, doc_.model.meshes, node.mesh, place, "mesh");
     if (node.skin >= 0) checked(doc_, doc_.model.skins, node.skin, place, "skin");
-    const Use use{node.mesh, node.skin, default_weights(doc_, node, mesh, place), placed.morphs ? index : -1,
-                  node.skin >= 0 && is_mirrored(placed.world_from_node), node.skin >= 0 && placed.scales ? index : -1};
+    const Use use{node.mesh,
+                  node.skin,
+                  default_weights(doc_, node, mesh, place),
+                  placed.morphs ? index : -1,
+                  node.skin >= 0 && is_mirrored(placed.world_from_node),
+                  node.skin >= 0 && placed.scales ? index : -1};
     const std::vector<Drawn>& meshes = meshes_of(use);
-    casts_shadow_ = node_casts_shadow(doc_, placed.node).value_or(true), file_node_ = placed.node;
+    casts_shadow_ = extras_of(doc_.extras.nodes, placed.node).casts_shadow.value_or(true),
+    file_node_ = placed.node;
     if (const auto copies = read_instances(doc_, placed.node)) return add_copies(index, meshes, *copies);
     for (const Drawn& drawn : meshes)
       add_instance(drawn, node.name, place, placed.world_from_node, placed.moves ? index : -1);
@@ -75,7 +81,7 @@ class MeshReader {
 
  private:
   struct Drawn {
-    int mesh;       // of the scene
+    int mesh;      // of the scene
     bool skinned;  // its joints place it
     int winding_node;
   };
@@ -162,8 +168,7 @@ class MeshReader {
         read_morph_targets(doc_, in, use.weights, morphs, mesh, budget_, shape.label);
     if (!morphs) apply_checked_morph(targets, use.weights, shape.label, mesh);
     if (shape.tangents == TangentNeed::none) mesh.tangents = {};
-    const bool deforms =
-        morphs || shape.winding_node >= 0 || (shape.skin >= 0 && moves(skin_of(shape.skin)));
+    const bool deforms = morphs || shape.winding_node >= 0 || (shape.skin >= 0 && moves(skin_of(shape.skin)));
     if (deforms) shape.base = mesh;
     if (morphs) apply_checked_morph(targets, use.weights, shape.label, mesh);
     if (shape.skin >= 0) apply_checked_skin(shape, mesh);

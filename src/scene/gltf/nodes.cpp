@@ -79,33 +79,19 @@ std::string node_label(const Document& doc, int node) {
   return label("node", node, doc.model.nodes[node].name);
 }
 
-int samples_of_scene(const Document& doc, int scene) {
-  scene = chosen_scene(doc, scene);
-  const auto found = doc.samples.find(scene);
-  if (found == doc.samples.end()) return 1;
-  if (found->second == 0) throw doc.error("scenes[{}].extras.samples is not 1, 2, 4 or 8", scene);
-  return found->second;
+void apply_extras(const Document& doc, int scene_index, Scene& scene) {
+  const auto found = doc.extras.scenes.find(chosen_scene(doc, scene_index));
+  if (found == doc.extras.scenes.end()) return;
+  const SceneExtras& extras = found->second;
+  scene.samples = extras.samples.value_or(scene.samples);
+  scene.ambient = extras.ambient.value_or(scene.ambient);
+  scene.background = extras.background.value_or(scene.background);
 }
 
-void set_radiances(const Document& doc, int scene_index, Scene& scene) {
-  const int index = chosen_scene(doc, scene_index);
-  const auto set = [&](const auto& entries, const char* field, glm::vec3& radiance) {
-    const auto found = entries.find(index);
-    if (found == entries.end()) return;
-    if (!found->second)
-      throw doc.error("scenes[{}].extras.{} is not three finite numbers of 0 or more", index, field);
-    radiance = *found->second;
-  };
-  set(doc.radiances.ambient, "ambient", scene.ambient);
-  set(doc.radiances.background, "background", scene.background);
-}
-
-std::optional<bool> node_casts_shadow(const Document& doc, int node) {
-  const auto found = doc.shadows.of_node.find(node);
-  if (found == doc.shadows.of_node.end()) return {};
-  if (!found->second)
-    throw doc.error("{}: extras.casts_shadow is neither true, false nor a number", node_label(doc, node));
-  return found->second;
+const PlacedExtras& extras_of(const std::map<int, PlacedExtras>& owners, int index) {
+  static const PlacedExtras none;
+  const auto found = owners.find(index);
+  return found == owners.end() ? none : found->second;
 }
 
 std::vector<RigNode> rig_nodes(const Document& doc, const std::vector<PlacedNode>& nodes) {
@@ -120,11 +106,11 @@ std::vector<RigNode> rig_nodes(const Document& doc, const std::vector<PlacedNode
 
 std::vector<PlacedNode> place_nodes(Document& doc, int scene) {
   struct Pending {
-    int node, parent, depth;
+    int node, parent;
   };
   std::vector<Pending> pending;
   const std::vector<int> roots = roots_of(doc, scene);
-  for (auto it = roots.rbegin(); it != roots.rend(); ++it) pending.push_back({*it, -1, 1});
+  for (auto it = roots.rbegin(); it != roots.rend(); ++it) pending.push_back({*it, -1});
   std::vector<char> reached(doc.model.nodes.size(), 0);
   std::vector<PlacedNode> placed;
   while (!pending.empty()) {
@@ -135,8 +121,6 @@ std::vector<PlacedNode> place_nodes(Document& doc, int scene) {
     const std::string place = node_label(doc, next.node);
     if (std::exchange(reached[next.node], 1))
       throw doc.error("{}: is reached twice; nodes must form trees", place);
-    if (next.depth > doc.limits.max_node_depth)
-      throw doc.error("{}: is more than {} nodes deep", place, doc.limits.max_node_depth);
     PlacedNode& out = placed.emplace_back(PlacedNode{.node = next.node, .parent = next.parent});
     read_node_transform(doc, node, place, out);
     const glm::dmat4 world_from_parent =
@@ -145,7 +129,7 @@ std::vector<PlacedNode> place_nodes(Document& doc, int scene) {
     if (!is_finite(out.world_from_node)) throw doc.error("{}: its world matrix is not finite", place);
     const int index = static_cast<int>(placed.size()) - 1;
     for (auto it = node.children.rbegin(); it != node.children.rend(); ++it)
-      pending.push_back({*it, index, next.depth + 1});
+      pending.push_back({*it, index});
   }
   return placed;
 }
@@ -159,6 +143,10 @@ class InstanceReader {
 
   std::vector<NodeTransform> read() {
     const size_t count = checked_count();
+    if (count == 0) {
+      doc_.warn("count 0", "{}: has 0 instances; draws nothing", place_);
+      return {};
+    }
     const auto moved = read_attribute("TRANSLATION", TINYGLTF_TYPE_VEC3);
     const auto turned = read_attribute("ROTATION", TINYGLTF_TYPE_VEC4);
     const auto scaled = read_attribute("SCALE", TINYGLTF_TYPE_VEC3);
@@ -184,7 +172,6 @@ class InstanceReader {
       if (accessor(name).count != count)
         throw doc_.error("{}: {} has {} elements, but {} has {}", place_, names.front(), count, name,
                          accessor(name).count);
-    if (count == 0) throw doc_.error("{}: {}: count is 0", place_, names.front());
     if (count > doc_.limits.max_instances)
       throw doc_.error("{}: has {} instances, more than {}", place_, count, doc_.limits.max_instances);
     return count;

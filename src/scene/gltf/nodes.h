@@ -23,23 +23,19 @@ struct PlacedNode {
 
 // Depth first, in the file's order. `scene` -1: the file's default, else its first scene, else (a file
 // without scenes) all root nodes. Errors: an index out of range, a node reached twice (which covers cycles),
-// deeper than limits.max_node_depth, a matrix that is not finite or not affine.
+// a matrix that is not finite or not affine.
 std::vector<PlacedNode> place_nodes(Document& doc, int scene);
 
-// extras.samples of that scene; 1 without it. An error if it is not 1, 2, 4 or 8.
-int samples_of_scene(const Document& doc, int scene);
+// Sets the scene's samples, ambient and background, as far as that scene of the file has them.
+void apply_extras(const Document& doc, int scene_index, Scene& scene);
 
-// Sets the scene's ambient and background to extras.ambient and extras.background, as far as that scene has
-// them. An error if one is not three finite numbers of 0 or more.
-void set_radiances(const Document& doc, int scene_index, Scene& scene);
+// `owners`: of Document::extras, nodes or lights. Without an entry: no field has a value.
+const PlacedExtras& extras_of(const std::map<int, PlacedExtras>& owners, int index);
 
 // The same nodes as rig nodes.
 std::vector<RigNode> rig_nodes(const Document& doc, const std::vector<PlacedNode>& nodes);
 
 std::string node_label(const Document& doc, int node);
-
-// extras.casts_shadow of a node, if it has that. An error if it is neither true, false nor a number.
-std::optional<bool> node_casts_shadow(const Document& doc, int node);
 
 // Each copy's place relative to the node, by the node's index in the file; empty if the node is not
 // instanced. Errors: no attributes, attributes of unequal count or of a type that the extension does not
@@ -65,14 +61,14 @@ std::vector<Animation> read_animations(Document& doc, std::vector<PlacedNode>& n
 std::vector<int> add_meshes(Document& doc, const std::vector<PlacedNode>& nodes, Scene& scene, Rig& rig);
 
 // One light for each node with one. A light points along its node's -z; the node's scale changes neither
-// range nor cone. Lights without a node are not read. Errors name light and field: colour, intensity or range
-// that is negative or not finite, their product past the largest float, a violation of 0 <= inner < outer <=
-// pi/2.
-std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes);
+// range nor cone. Lights without a node are not read, lights of an unknown type are left out; a negative
+// colour or intensity counts as 0 and a range of 0 or less as none, each with a warning. Errors name light and
+// field: values that are not finite, their product past the largest float, a violation of 0 <= inner < outer
+// <= pi/2. Adds to `groups` the groups in the lights' extras, a node's before its light's.
+std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes,
+                               std::vector<GroupLists>& groups);
 
-// What extras say of the groups of the lights that read_lights returns, a node's before its light's, and of
-// instances by their nodes.
-std::vector<GroupLists> groups_of_lights(Document& doc, const std::vector<PlacedNode>& nodes);
+// The groups in the extras of instances' nodes.
 std::vector<GroupLists> groups_of_instances(const Document& doc, const std::vector<int>& node_of_instance);
 
 // One camera for each node with one; the node's scale is dropped. A camera with a fault is left out: one

@@ -25,7 +25,12 @@ class Attributes {
         vertex_count_(vertex_count),
         place_(std::move(place)) {}
 
-  bool has(const std::string& name) const { return primitive_.attributes.contains(name); }
+  bool has(const std::string& name) const {
+    const auto found = primitive_.attributes.find(name);
+    if (found == primitive_.attributes.end()) return false;
+    return (draco_ && draco_->attributes.contains(name)) ||
+           !is_empty_accessor(doc_, found->second, place_ + ": " + name);
+  }
 
   // Empty if the primitive has none.
   template <int N>
@@ -115,7 +120,9 @@ bool is_drawn(Document& doc, const tinygltf::Primitive& primitive, const std::st
     doc.warn("no positions", "{}: has no POSITION and is left out", place);
     return false;
   }
-  return true;
+  if (primitive.extensions.contains("KHR_draco_mesh_compression")) return true;
+  return !is_empty_accessor(doc, primitive.attributes.at("POSITION"), place + ": POSITION") &&
+         (primitive.indices < 0 || !is_empty_accessor(doc, primitive.indices, place + ": indices"));
 }
 
 }  // namespace
@@ -180,6 +187,7 @@ class TargetReader {
     const auto accessor = accessors_.find(attribute);
     if (values.empty() || accessor == accessors_.end()) return {};
     const std::string place = fmt::format("{} {}", place_, attribute);
+    if (is_empty_accessor(doc_, accessor->second, place)) return {};
     spend(doc_, budget_.vertices, values.size(), place, "displaced vertices");
     const FloatArray array = read_floats(doc_, accessor->second, values.size(), normalize, place);
     if (array.count() != values.size())
