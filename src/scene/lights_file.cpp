@@ -10,6 +10,7 @@
 
 #include "base/json_file.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "scene/light_groups.h"
 #include "scene/virtual_lights.h"
 
@@ -94,6 +95,15 @@ class Fields {
   const std::string& where() const { return where_; }
   bool has(const char* field) const { return json_.contains(field); }
 
+  // A mistyped field would leave its default in place unnoticed.
+  void check_keys(const std::vector<std::string>& known) const {
+    for (const auto& [key, value] : json_.items())
+      if (std::ranges::find(known, key) == known.end())
+        throw input_error("{}: {}: unknown field{}; fields are {}", where_, key, did_you_mean(key, known),
+                          fmt::join(known, ", "))
+            .about(key);
+  }
+
   template <typename Value>
   Error error(const char* field, const std::string& fault, const Value& value) const {
     return input_error("{}: {} {} {}", where_, field, value, fault).about(field);
@@ -165,6 +175,9 @@ glm::vec3 direction(const Fields& fields) {
 }
 
 Light redeclipse_light(const Fields& fields) {
+  static const std::vector<std::string> known = {"name",         "position", "radius",  "rgb255", "attrs",
+                                                 "casts_shadow", "groups",   "include", "exclude"};
+  fields.check_keys(known);
   const glm::dvec3 map = fields.vector("position", -max_float, max_float) * metres_per_redeclipse_unit;
   const double radius_m = fields.number("radius", 0, 0, max_float) * metres_per_redeclipse_unit;
   const double lit_m = radius_m > 0 ? radius_m : 16;
@@ -177,7 +190,19 @@ Light redeclipse_light(const Fields& fields) {
   return light;
 }
 
+// "range" is glTF's name of the radius.
+double radius_of(const Fields& fields, double absent) {
+  if (fields.has("radius") && fields.has("range"))
+    throw input_error("{}: has both radius and range, which are the same; give one of them", fields.where())
+        .about("range");
+  return fields.number(fields.has("range") ? "range" : "radius", absent, 0, max_float);
+}
+
 Light plain_light(const Fields& fields) {
+  static const std::vector<std::string> known = {
+      "name",  "type",      "position",     "direction",     "radius",  "range",  "inner_cone", "outer_cone",
+      "color", "intensity", "casts_shadow", "source_radius", "nearest", "groups", "include",    "exclude"};
+  fields.check_keys(known);
   Light light;
   light.name = fields.name();
   light.type = light_type(fields);
@@ -190,7 +215,7 @@ Light plain_light(const Fields& fields) {
     throw fields.error("intensity", fmt::format("times color passes the largest float, {:g}", max_float),
                        light.intensity);
   }
-  light.radius_m = float(fields.number("radius", light.radius_m, 0, max_float));
+  light.radius_m = float(radius_of(fields, light.radius_m));
   if (fields.has("source_radius")) light.source_m = float(fields.number("source_radius", 0, 0, max_float));
   if (light.is_virtual) {
     light.nearest_m = float(fields.number("nearest", 0, 0, max_float));
@@ -224,12 +249,23 @@ Json list_of(const std::filesystem::path& path, const Json& json, const char* fi
   return list;
 }
 
+// Files hold other programs' fields next to the lists, so only those near a name of ours are noticed.
+void warn_of_mistyped_lists(const std::filesystem::path& path, const Json& json) {
+  const std::vector<std::string> known = {"lights", "instances", "camera"};
+  for (const auto& [key, value] : json.items()) {
+    const std::string meant = did_you_mean(key, known);
+    if (std::ranges::find(known, key) == known.end() && !meant.empty())
+      log_warning_line(fmt::format("{}: {} is not read{}", path.string(), key, meant));
+  }
+}
+
 // Of all instances of a name.
 std::vector<GroupLists> instance_groups(const std::filesystem::path& path, const Json& list,
                                         const Scene& scene) {
   std::vector<GroupLists> all;
   for (size_t i = 0; i < list.size(); ++i) {
     const Fields fields(path, "instance", i, list[i]);
+    fields.check_keys({"name", "groups"});
     const GroupLists lists = groups_of(fields, 0);
     if (!lists.groups) throw input_error("{}: groups is missing", fields.where());
     const size_t before = all.size();
@@ -291,6 +327,7 @@ std::string lines_of(const std::vector<Light>& lights) {
 
 void load_lights(Scene& scene, const std::filesystem::path& path) {
   const Json json = read_object(path), list = list_of(path, json, "lights", false);
+  warn_of_mistyped_lists(path, json);
   std::vector<Light> lights;
   std::vector<GroupLists> groups;
   lights.reserve(list.size());

@@ -20,13 +20,13 @@ inline constexpr double metres_per_redeclipse_unit = 0.125;
 // Defaults: type point, radius infinite, colour white, intensity 1, cones 0 and pi/4, casts_shadow false;
 // without a source_radius soft shadows are those of the setting's sphere; every group. Groups, include and
 // exclude are as in scene/light_groups.h, and "instances" are the scene's. Point and spot lights require a
-// position, spot and directional lights a direction. Other keys are ignored. A light with "rgb255" is from a
-// Red Eclipse map: a point light with colour rgb255 / 255 and radiant intensity (radius / 2)^2 candela, 1 lux
-// at half the radius; radius 0 gives the intensity of 16 m. Throws Error(input) that names the file, the
-// light and the field: NaN, numbers beyond a float's range (colour times intensity too), a negative radius,
-// colour or intensity, a zero direction and cones outside 0 <= inner < outer <= pi are errors; so is a file
-// above max_lights_file_bytes.
-// Those replace the scene's lights.
+// position, spot and directional lights a direction. "range" is another name of "radius". An unknown field of
+// a light or an instance is an error that names the nearest one. A light with "rgb255" is from a Red Eclipse
+// map: a point light with colour rgb255 / 255 and radiant intensity (radius / 2)^2 candela, 1 lux at half the
+// radius; radius 0 gives the intensity of 16 m. Throws Error(input) that names the file, the light and the
+// field: NaN, numbers beyond a float's range (colour times intensity too), a negative radius, colour or
+// intensity, a zero direction and cones outside 0 <= inner < outer <= pi are errors; so is a file above
+// max_lights_file_bytes. Those replace the scene's lights.
 void load_lights(Scene& scene, const std::filesystem::path& path);
 // The same for no scene: the file names no instances.
 std::vector<Light> load_lights_file(const std::filesystem::path& path);

@@ -3,6 +3,8 @@
 #include "support/gltf_builder.h"
 #include "support/near.h"
 
+#include <ctime>
+
 namespace lightgrid {
 namespace {
 
@@ -97,6 +99,28 @@ TEST(GltfNodes, a_chain_of_a_hundred_thousand_nodes_is_read) {
   for (int i = 0; i < 100'000; ++i) nodes.push_back({{"children", {i + 1}}, {"translation", {0.5, 0, 0}}});
   nodes.push_back({{"mesh", 0}});
   EXPECT_EQ(made.load().instances.at(0).world_from_object[3].x, 50'000);
+}
+
+// Of this process, to load a triangle and lights on nodes of their own.
+double seconds_to_load(int lights) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.root["extensionsUsed"] = {"KHR_lights_punctual"};
+  made.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  const json node = {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+  for (int i = 1; i <= lights; ++i) {
+    made.root["nodes"].push_back(node);
+    made.root["scenes"][0]["nodes"].push_back(i);
+  }
+  const ModelFolder folder;
+  const auto path = folder.write("made.gltf", made.text());
+  const std::clock_t start = std::clock();
+  EXPECT_EQ(load_gltf(path).lights.size(), size_t(lights));
+  return double(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+TEST(GltfNodes, loading_takes_time_in_proportion_to_the_nodes) {
+  const double few = seconds_to_load(20'000);
+  EXPECT_LT(seconds_to_load(80'000), 8 * few) << "4 is linear, 16 quadratic";
 }
 
 TEST(GltfNodes, the_instance_limit_holds) {

@@ -54,11 +54,33 @@ class LightsFile : public testing::Test {
   std::filesystem::path path_;
 };
 
+TEST_F(LightsFile, UnknownFieldsAreRefusedWithTheNearestOne) {
+  const std::string at = R"("position": [1, 2, 3], )";
+  EXPECT_THAT(refused_light(at + R"("colour": [1, 0, 0])"),
+              HasSubstr("colour: unknown field; did you mean color?; fields are name, type, position"));
+  EXPECT_THAT(refused_light(at + R"("raduis": 3)"), HasSubstr("did you mean radius?"));
+  EXPECT_THAT(refused_light(at + R"("rgb255": [1, 2, 3], "colour": 3)"), HasSubstr("colour: unknown field"));
+  EXPECT_THAT(refused(R"({"lights": [], "instances": [{"name": "door", "group": [1]}]})"),
+              HasSubstr("group: unknown field; did you mean groups?"));
+}
+
+TEST_F(LightsFile, RangeIsAnotherNameOfRadius) {
+  const std::string at = R"("position": [1, 2, 3], )";
+  EXPECT_EQ(load_one(at + R"("range": 2.5)").radius_m, 2.5f);
+  EXPECT_THAT(refused_light(at + R"("range": -1)"), HasSubstr("range -1 is below 0"));
+  EXPECT_THAT(refused_light(at + R"("range": 2, "radius": 2)"), HasSubstr("has both radius and range"));
+}
+
+TEST_F(LightsFile, ListsWithMistypedNamesAreAWarning) {
+  EXPECT_THAT(warnings_of([&] { load(R"({"lights": [], "instance": [], "map": "keep", "units": 8})"); }),
+              HasSubstr("instance is not read; did you mean instances?"));
+}
+
 TEST_F(LightsFile, EveryFieldIsRead) {
   const Light light = load_one(
       R"("name": "lamp", "type": "spot", "position": [1, 2.5, -3], "direction": [0, -2, 0], "radius": 4,
          "inner_cone": 0.25, "outer_cone": 0.5, "color": [1, 0.5, 0.25], "intensity": 8, "casts_shadow": true,
-         "source_radius": 0.125, "unknown": {"a": [1]})");
+         "source_radius": 0.125)");
   EXPECT_EQ(light.name, "lamp");
   EXPECT_EQ(light.type, LightType::spot);
   EXPECT_EQ(light.position, glm::dvec3(1, 2.5, -3));

@@ -107,13 +107,29 @@ bool contains(const auto& names, std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
+// A callback of the parser could count too, but after each element of an array it scans all before it.
+bool is_nested_deeper(std::string_view text, int limit) {
+  int depth = 0;
+  bool in_string = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string && c == '\\') {
+      ++i;
+    } else if (c == '"') {
+      in_string = !in_string;
+    } else if (!in_string && (c == '{' || c == '[')) {
+      if (++depth > limit) return true;
+    } else if (!in_string && (c == '}' || c == ']')) {
+      --depth;
+    }
+  }
+  return false;
+}
+
 json parse(const Reporter& report, std::string_view text) {
-  const auto bounded = [&](int depth, json::parse_event_t, json&) {
-    if (depth > max_nesting) throw report.error("JSON is nested deeper than {}", max_nesting);
-    return true;
-  };
+  if (is_nested_deeper(text, max_nesting)) throw report.error("JSON is nested deeper than {}", max_nesting);
   try {
-    return json::parse(text.begin(), text.end(), bounded);
+    return json::parse(text);
   } catch (const json::exception& failure) {
     throw report.error("{}", fault_of(failure));
   }
