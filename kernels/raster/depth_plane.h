@@ -1,7 +1,7 @@
 // The plane that a triangle's depths lie in on the screen, from its corners in clip space: not from where
 // they are snapped to, and without cutting what lies behind the eye. N with N . (x, y, w) = z at each
-// corner is found; N . (x, y, 1) is then the depth at (x, y) in normalized device coordinates (Olano, Greer, "Triangle Scan
-// Conversion using 2D Homogeneous Coordinates", HWWS 1997).
+// corner is found; N . (x, y, 1) is then the depth at (x, y) in normalized device coordinates (Olano, Greer,
+// "Triangle Scan Conversion using 2D Homogeneous Coordinates", HWWS 1997).
 #pragma once
 
 #include "shared/lanes.h"

@@ -39,8 +39,7 @@ static inline mask_t covered_pixels(const TileRecord* r, int x, int y, whole acr
 
 // Not held to z_min.
 static inline real plane_depth(const TileRecord* r, int x, int y, real across, real up) {
-  const real dx = (float)(r->dx + x) + across,
-             dy = (float)(r->dy + y) + up;
+  const real dx = (float)(r->dx + x) + across, dy = (float)(r->dy + y) + up;
   return lane_min(fma((real)(r->zx), dx, fma((real)(r->zy), dy, (real)(r->z0))), (real)(r->z_max));
 }
 

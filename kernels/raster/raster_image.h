@@ -3,8 +3,8 @@
 // in two, first (-DPASS=1) all depths, then (-DPASS=2) the numbers of those that are as near.
 #pragma once
 
-#include "kernels/raster/raster_tiles.h"
 #include "kernels/common/small_float.h"
+#include "kernels/raster/raster_tiles.h"
 
 #ifndef ATOMICS
 #define ATOMICS 64

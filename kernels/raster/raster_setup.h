@@ -104,8 +104,8 @@ static inline void set_depths(const Corners* v, const Corners* of, const Snapped
   zy = thick ? zy : difference_of_products(zb, s->ax, za, s->bx) * per_area;
   const whole x = (zx > (real)(0.0f) ? s->low_x : s->high_x) * 256 + 128,
               y = (zy > (real)(0.0f) ? s->low_y : s->high_y) * 256 + 128;  // anchor_pixel()
-  const real from_snapped = fma(zx, TO_REAL(x - s->x[0]) * (1.0f / 256),
-                                fma(zy, TO_REAL(y - s->y[0]) * (1.0f / 256), z[0]));
+  const real from_snapped =
+      fma(zx, TO_REAL(x - s->x[0]) * (1.0f / 256), fma(zy, TO_REAL(y - s->y[0]) * (1.0f / 256), z[0]));
   out->z0 = thick ? plane_depth_at(of, depths, zx, zy, x, y, p) : from_snapped;
   out->zx = zx, out->zy = zy;
 }

@@ -18,8 +18,8 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// A float vector product, whose members err by 2 roundings, and how far from the exact one it may be. Given are
-// rounded and exact factors.
+// A float vector product, whose members err by 2 roundings, and how far from the exact one it may be. Given
+// are rounded and exact factors.
 struct Product {
   Vector value{}, bound{};
 };
@@ -80,12 +80,13 @@ void TriangleDepth::find_box(const std::array<SnappedPoint, 3>& p, const PixelGr
   const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
   const auto [bottom, top] = std::minmax({p[0].y, p[1].y, p[2].y});
   const auto first = [](int64_t units) { return int(std::max<int64_t>((units + 127) >> 8, 0)); };
-  const auto last = [](int64_t units, int size) { return int(std::min<int64_t>((units - 128) >> 8, size - 1)); };
+  const auto last = [](int64_t units, int size) {
+    return int(std::min<int64_t>((units - 128) >> 8, size - 1));
+  };
   box_low_ = {first(left), first(bottom)}, box_high_ = {last(right, grid.width), last(top, grid.height)};
 }
 
-void TriangleDepth::find_snapped(const std::array<glm::vec4, 3>& part,
-                                 const std::array<SnappedPoint, 3>& p) {
+void TriangleDepth::find_snapped(const std::array<glm::vec4, 3>& part, const std::array<SnappedPoint, 3>& p) {
   Real z[3];
   for (int i = 0; i < 3; ++i) z[i] = depth_in_view(part[i]);
   const Real ax = Real(p[1].x - p[0].x) / 256, ay = Real(p[1].y - p[0].y) / 256,
@@ -95,7 +96,8 @@ void TriangleDepth::find_snapped(const std::array<glm::vec4, 3>& part,
   plane.right = ((z[1] - z[0]) * by - (z[2] - z[0]) * ay) / area;
   plane.up = ((z[2] - z[0]) * ax - (z[1] - z[0]) * bx) / area;
   // A difference of products, the area, a quotient and a product.
-  plane.right_bound = 6 * float_error * std::abs(plane.right), plane.up_bound = 6 * float_error * std::abs(plane.up);
+  plane.right_bound = 6 * float_error * std::abs(plane.right),
+  plane.up_bound = 6 * float_error * std::abs(plane.up);
   plane.size = std::max({std::abs(z[0]), std::abs(z[1]), std::abs(z[2])});
 }
 
@@ -115,7 +117,8 @@ void TriangleDepth::find_exact(const std::array<glm::vec4, 3>& clip, const Pixel
   }
   const Real turn = n.value[0] * v[0][0] + n.value[1] * v[0][1] + n.value[2] * v[0][2];  // with its sign
   const Product b_from = product_of(b, v[0], float_b, v[0]), to_a = product_of(v[0], a, v[0], float_a);
-  const Real z0 = clip[0].z, za = clip[1].z - z0, zb = clip[2].z - z0, float_za = float(za), float_zb = float(zb);
+  const Real z0 = clip[0].z, za = clip[1].z - z0, zb = clip[2].z - z0, float_za = float(za),
+             float_zb = float(zb);
   Real gradient[2], bound[2];
   for (int i = 0; i < 2; ++i) {
     const Real pixels = Real(i == 0 ? grid.width : grid.height) / 2;
@@ -123,8 +126,8 @@ void TriangleDepth::find_exact(const std::array<glm::vec4, 3>& clip, const Pixel
     const Real more_bound = std::abs(float_za) * b_from.bound[i] + std::abs(float_zb) * to_a.bound[i] +
                             std::abs((float_za - za) * b_from.value[i]) +
                             std::abs((float_zb - zb) * to_a.value[i]) + 2 * float_error * std::abs(more);
-    const Real sum_bound =
-        std::abs(z0) * n.bound[i] + more_bound + 4 * float_error * (std::abs(z0 * n.value[i]) + std::abs(more));
+    const Real sum_bound = std::abs(z0) * n.bound[i] + more_bound +
+                           4 * float_error * (std::abs(z0 * n.value[i]) + std::abs(more));
     gradient[i] = sum / turn / pixels;
     bound[i] = (sum_bound + std::abs(sum) * distance_bound / distance) / least_distance / pixels +
                2 * float_error * std::abs(gradient[i]);
@@ -140,7 +143,8 @@ void TriangleDepth::find_exact(const std::array<glm::vec4, 3>& clip, const Pixel
   plane.right = gradient[0], plane.up = gradient[1], plane.right_bound = bound[0], plane.up_bound = bound[1];
   const Real steep = std::abs(gradient[0]) + std::abs(gradient[1]), steep_bound = bound[0] + bound[1];
   const Real range = 512 * (greatest_ - least_),
-             range_bound = 2048 * float_error * std::max(std::abs(greatest_), std::abs(least_)) + 2 * float_error * steep;
+             range_bound = 2048 * float_error * std::max(std::abs(greatest_), std::abs(least_)) +
+                           2 * float_error * steep;
   const bool in_reach = size < 0x1p59L && least_distance > 0x1p-89L && distance + distance_bound < 0x1p89L;
   if (in_reach && steep + steep_bound < range - range_bound) shown_ = Shown::exact;
   if (steep - steep_bound > range + range_bound) shown_ = Shown::snapped;

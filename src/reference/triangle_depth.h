@@ -32,8 +32,8 @@ class TriangleDepth {
 
  private:
   using Real = long double;
-  // A plane on the screen: depth at a point (pixels), what it gains per pixel, and how far a float gradient may
-  // be from that.
+  // A plane on the screen: depth at a point (pixels), what it gains per pixel, and how far a float gradient
+  // may be from that.
   struct Plane {
     Real at_x = 0, at_y = 0, depth = 0;
     Real right = 0, up = 0, right_bound = 0, up_bound = 0;

@@ -3,12 +3,12 @@
 
 #include "shared/language.h"
 
-#define RASTER_TILE 64      // pixels a side
-#define RASTER_CLUSTER 64   // triangles at most
-#define RASTER_BLOCK 256    // records that room is handed out in
+#define RASTER_TILE 64         // pixels a side
+#define RASTER_CLUSTER 64      // triangles at most
+#define RASTER_BLOCK 256       // records that room is handed out in
 #define RASTER_SCAN_GROUP 128  // work-items that add up a scan on GPUs
-#define RASTER_BUCKETS 256  // of distance, by which clusters are sorted
-#define RASTER_HIDDEN 255   // the bucket of clusters out of view
+#define RASTER_BUCKETS 256     // of distance, by which clusters are sorted
+#define RASTER_HIDDEN 255      // the bucket of clusters out of view
 #define RASTER_VERTEX_RUN \
   1024  // vertices of an instance that a work-item transforms in one go, a multiple of 16
 #define RASTER_NO_CONE 2.0f
@@ -22,7 +22,7 @@
 #define RASTER_INVALID 3  // triangles with a corner that is not finite
 // Low word, then high word: pairs of a record and a tile, or a window (raster/gpu/raster_small.cl).
 #define RASTER_ENTRIES 4
-#define RASTER_LARGE 6    // records of triangles that are not drawn at once, in the group shape
+#define RASTER_LARGE 6      // records of triangles that are not drawn at once, in the group shape
 #define RASTER_NEXT_TILE 7  // the first tile that no work-item of raster/cpu/raster_tiles.cl has taken yet
 #define RASTER_COUNTERS 8
 

@@ -1,5 +1,6 @@
 // Shadows in every technique's picture: each pair of a pixel and a light against the oracle, and radiance in
 // double.
+#include "reference/position.h"
 #include "scene/rig.h"
 #include "session/oracle_sample.h"
 #include "techniques/lidr_scenes.h"
