@@ -113,6 +113,11 @@ def made(type_name: str, free: Any, make: Any) -> Any:
     return owned(out[0], free)
 
 
+def warned() -> list[dict[str, Any]]:
+    """What this thread's last call warned of: text, and settings that would help ("KEY=VALUE" each)."""
+    return described("warnings")
+
+
 def encoded(value: Any) -> bytes:
     return os.fspath(value).encode() if isinstance(value, (str, os.PathLike)) else str(value).encode()
 

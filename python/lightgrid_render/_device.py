@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _arrays as arrays
 from ._arrays import Camera, Image, Projection, c_image, output
-from ._c import check, encoded, ffi, in_callbacks, lib, made, strings, text, word, words
+from ._c import check, encoded, ffi, in_callbacks, lib, made, strings, text, warned, word, words
 from ._scene import Scene, handle_of
 
 
@@ -108,6 +108,8 @@ class View:
         self.device, self.scene = device, scene
         self._handle = made("lightgrid_view", lib.lightgrid_view_close, lambda out: lib.lightgrid_view_open(
             device._handle, handle_of(scene), name, words(settings), out))
+        #: What opening it warned of, as Scene.warnings.
+        self.warnings: list[dict[str, Any]] = warned()
 
     @property
     def size(self) -> tuple[int, int]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _arrays as arrays
 from ._arrays import Camera, Projection
-from ._c import InputError, check, encoded, ffi, lib, made, word, words
+from ._c import InputError, check, encoded, ffi, lib, made, warned, word, words
 
 _maps = ("base_color_map", "metallic_roughness_map", "normal_map", "occlusion_map", "emissive_map")
 _alphas = {"opaque": 0, "mask": 1, "blend": 2}
@@ -34,6 +34,8 @@ class Scene:
     def __init__(self, name: str, **fields: Any) -> None:
         self._handle = made("lightgrid_scene", lib.lightgrid_scene_free,
                             lambda out: lib.lightgrid_scene_load(encoded(name), _fields(fields), out))
+        #: What loading warned of, as in results.json: a list of dictionaries of text, settings and command.
+        self.warnings: list[dict[str, Any]] = warned()
 
     @classmethod
     def empty(cls, name: str = "scene", **fields: Any) -> "Scene":
@@ -41,6 +43,7 @@ class Scene:
         scene = cls.__new__(cls)
         scene._handle = made("lightgrid_scene", lib.lightgrid_scene_free,
                              lambda out: lib.lightgrid_scene_create(encoded(name), _fields(fields), out))
+        scene.warnings = warned()
         return scene
 
     @classmethod

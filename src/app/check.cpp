@@ -134,7 +134,7 @@ ordered_json limit_json(const LimitResult& result, const Scene& scene) {
 }
 
 ordered_json check_json(const std::vector<LimitResult>& results, const CheckedScene& checked,
-                        const std::string& engine) {
+                        const std::string& engine, const std::vector<Warning>& warnings) {
   const Scene& scene = checked.chosen.scene;
   const auto is_unlimited = [](const Light& light) {
     return !is_directional(light) && !std::isfinite(light.radius_m);
@@ -147,6 +147,7 @@ ordered_json check_json(const std::vector<LimitResult>& results, const CheckedSc
       {"lights", scene.lights.size()},
       {"lights_without_range", std::ranges::count_if(scene.lights, is_unlimited)},
       {"holds", std::ranges::all_of(results, [](const LimitResult& r) { return r.holds(); })},
+      {"warnings", warnings_json(warnings)},
       {"limits", ordered_json::array()},
       {"unlimited", ordered_json::array()}};
   for (const LimitResult& result : results) json["limits"].push_back(limit_json(result, scene));
@@ -244,7 +245,8 @@ class LimitPictures {
   std::map<std::tuple<std::string, size_t, std::vector<int>>, Drawn> drawn_;
 };
 
-std::string page_of(const CheckOptions& o, const std::vector<LimitResult>& results, CheckedScene& checked) {
+std::string page_of(const CheckOptions& o, const std::vector<LimitResult>& results, CheckedScene& checked,
+                    const std::vector<Warning>& warnings) {
   constexpr size_t most_lights = 8;
   const Scene& scene = checked.chosen.scene;
   LimitsPage page;
@@ -252,6 +254,7 @@ std::string page_of(const CheckOptions& o, const std::vector<LimitResult>& resul
   page.view = fmt::format("{} x {}, {} frames, {} lights", checked.chosen.view.width,
                           checked.chosen.view.height, checked.path.size(), scene.lights.size());
   const auto held = std::ranges::count_if(results, [](const LimitResult& r) { return r.holds(); });
+  page.warnings = warnings;
   page.verdict = fmt::format("{} of {} limits hold.", held, results.size());
   LimitPictures pictures(o, checked, page);
   for (const LimitResult& result : results) {
@@ -290,13 +293,14 @@ int check(CheckOptions o) {
   const Settings settings = chosen_settings(o.scene);
   check_settings(settings, !o.html.empty());
   o.scene.device = o.devices.device;
+  const WarningCollector warnings;
   CheckedScene checked(o.scene);
   const std::vector<LimitResult> results = counted(limits, settings.ranges, checked, o.shorten);
   const Scene& scene = checked.chosen.scene;
-  if (!o.json.empty()) write_json(o.json, text_of(check_json(results, checked, o.engine)));
+  if (!o.json.empty()) write_json(o.json, text_of(check_json(results, checked, o.engine, warnings.warnings())));
   if (!o.sarif.empty()) write_json(o.sarif, text_of(check_sarif(results, scene, o.scene.scene)));
   if (o.json != "-" && o.sarif != "-") print_text(results, scene, o.engine);
-  if (!o.html.empty()) write_file(o.html, page_of(o, results, checked));
+  if (!o.html.empty()) write_file(o.html, page_of(o, results, checked, warnings.warnings()));
   return std::ranges::any_of(results, [](const LimitResult& r) { return !r.holds(); });
 }
 

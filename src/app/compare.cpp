@@ -1,6 +1,7 @@
 // lightgrid compare SCENE… -t A,B,… -o DIR: images, results.json and index.html.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -15,6 +16,7 @@
 #include "base/write_file.h"
 #include "report/against.h"
 #include "report/report.h"
+#include "report/speedup_words.h"
 #include "results/words.h"
 #include "session/comparison.h"
 
@@ -27,13 +29,21 @@ struct CompareCommand {
   int page_mb = 30;
 };
 
-// Prints on stderr what was refused, which is no failure, and which gates failed. Returns whether any did.
+// What was refused, which is no failure, becomes one of the report's warnings.
+void warn_of_refusals(CompareReport& report, const std::string& view) {
+  const WarningCollector collector;
+  const std::vector<std::string> names = row_names(report);
+  for (size_t i = 0; i < names.size(); ++i)
+    if (!report.rows[i].refused.empty()) log_warning("{}{}: refused: {}", view, names[i], report.rows[i].refused);
+  add_distinct(report.warnings, collector.warnings());
+}
+
+// Prints on stderr which gates failed. Returns whether any did.
 bool tell_failures(const CompareReport& report, const std::string& view) {
   const std::vector<std::string> names = row_names(report);
   bool failed = false;
   for (size_t i = 0; i < names.size(); ++i) {
     const RunResult& row = report.rows[i];
-    if (!row.refused.empty()) log_warning("{}{}: refused: {}", view, names[i], row.refused);
     if (!row.refused.empty() || passes_gates(row)) continue;
     failed = true;
     if (row.pairs->lost || row.pairs->wrong || row.nan_pixels)
@@ -63,19 +73,30 @@ bool is_worse(const CompareCommand& o, const nlohmann::json& earlier, const nloh
   return !result.worse.empty();
 }
 
-void print_report(const CompareCommand& o, const std::string& json, const std::vector<std::string>& figures) {
+void print_report(const CompareCommand& o, const std::string& json, const std::vector<std::string>& figures,
+                  const std::vector<std::string>& tables) {
   if (!o.json.empty()) write_json(o.json, json);
   if (o.json == "-") return;
   fmt::print("{}\n", (std::filesystem::path(o.output) / "index.html").string());
   for (const std::string& figure : figures) fmt::print("  {}\n", figure);
+  for (const std::string& line : tables) fmt::print("{}\n", line.empty() ? "" : "  " + line);
+}
+
+// After an empty line; `view` is its heading.
+std::vector<std::string> table_of(const CompareReport& report, const std::string& view) {
+  std::vector<std::string> lines = {""};
+  if (!view.empty()) lines.push_back(view);
+  std::ranges::copy(contestants_table(report), std::back_inserter(lines));
+  return lines;
 }
 
 int compare_one(const CompareCommand& o, Comparison comparison, const nlohmann::json& earlier) {
   CompareReport report;
   run_comparison(comparison, progress_bar(), [&](CompareReport found) { report = std::move(found); });
+  warn_of_refusals(report, "");
   comparison = {};  // pictures and pages are made without the scene
   write_report(o.output, report);
-  print_report(o, json_text(report), telling_figures(report));
+  print_report(o, json_text(report), telling_figures(report), table_of(report, ""));
   const bool failed = tell_failures(report, "");
   return is_worse(o, earlier, to_json(report)) || failed ? 1 : 0;
 }
@@ -83,12 +104,15 @@ int compare_one(const CompareCommand& o, Comparison comparison, const nlohmann::
 int compare_several(const CompareCommand& o, const Comparison& comparison, const nlohmann::json& earlier) {
   ViewsReport report(o.output, comparison.views.size(), size_t(o.page_mb) << 20);
   bool failed = false;
+  std::vector<std::string> tables;
   run_comparison(comparison, progress_bar(), [&](CompareReport found) {
+    warn_of_refusals(found, view_in_words(found) + ": ");
     const ReportView& view = report.add(std::move(found));
+    std::ranges::copy(table_of(view.report, view_in_words(view.report)), std::back_inserter(tables));
     failed |= tell_failures(view.report, view_in_words(view.report) + ": ");
   });
   report.write();
-  print_report(o, report.json_text(), report.sentences());
+  print_report(o, report.json_text(), report.sentences(), tables);
   return is_worse(o, earlier, to_json(report.views())) || failed ? 1 : 0;
 }
 
@@ -113,6 +137,7 @@ void add_compare(CommandLine& line) {
   command.list("--size", c.sizes, "image size, WxH, or several separated by commas", ',');
   command.list("--lights", c.lights,
                "scatter N lights; with --lights-file, its first N; or several separated by commas", ',');
+  add_keep_option(command, c.keep);
   add_view_options(command, c.scene);
   add_path_option(command, c.scene);
   add_exposure_option(command, c.scene);

@@ -155,6 +155,12 @@ int frontier_in_processes(const FrontierCommand& o, const Shard& shard) {
   return shard.count > 1 ? finish_part(part, path) : finish(o, {part}, {fs::path(o.output) / "pictures"});
 }
 
+int points_of_shard(size_t points, const Shard& shard) {
+  int count = 0;
+  for (size_t i = 0; i < points; ++i) count += in_shard(i, shard.index, shard.count);
+  return count;
+}
+
 // The share of the budget: the first process measures the figures too.
 double share_of_budget(const Shard& process) {
   if (process.count == 1) return 1;
@@ -191,6 +197,7 @@ int frontier(FrontierCommand o) {
   if (!o.scenes.empty() && o.scenes.front() == "export") return export_scenes(std::move(o));
   if (o.scenes.empty()) o.scenes = o.families ? std::vector<std::string>{"terrain"} : default_scenes;
   const Timer timer;
+  const WarningCollector warnings;
   const Shard shard = parse_shard(o.shard);
   if (shard.count > 1 && !(o.gate.empty() && o.json.empty())) {
     throw input_error("shard {}: a part has no answer; give {} to frontier merge", o.shard,
@@ -216,7 +223,9 @@ int frontier(FrontierCommand o) {
   part.request = request_of(o, points_of(o, job.common, renderer.gl != nullptr), of_scenes, externals);
   part.commit = commit_of_build(), part.seed = o.scene.seed, part.shard = shard.index,
   part.shards = shard.count;
-  part.baseline = job.baseline.label;
+  part.baseline = job.baseline.label, part.keep = o.keep;
+  for (size_t i = 0; i < o.scenes.size() && !o.families; ++i)
+    part.points_asked[o.scenes[i]] = points_of_shard(of_scenes[i].points.size(), shard);
   part.machine = machine_of(renderer);
   const fs::path path = part_path(o.output, shard.index, shard.count);
   RecordFile file(path, part, job.notice);
@@ -247,7 +256,7 @@ int frontier(FrontierCommand o) {
   if (measured == 0) throw input_error("budget {}: too short for one point", o.budget);
   bar(1, "");
   if (process.index + 1 < process.count) return 0;
-  file.finish(load_average());
+  file.finish(load_average(), warnings.warnings());
   if (process.count > 1) return 0;
   return shard.count > 1 ? finish_part(file.part(), path) : finish(o, {file.part()}, {job.pictures});
 }
@@ -289,6 +298,7 @@ void add_frontier(CommandLine& line) {
       "each pixel's area (default: infinite; where lights cast shadows, own; with several samples, area)");
   command.option("--rounds", o->rounds,
                  "times of each point and view, at most: fewer if the intervals are narrow before", 1, 1000);
+  add_keep_option(command, o->keep);
   command.flag("--no-growth", o->no_growth, "leaves out how times grow with lights, pixels and ranges");
   command.flag("--sequences", o->sequences,
                "flicker over 64 frames too: still camera, dolly, moving lights; comes on top of the budget");

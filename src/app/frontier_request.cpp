@@ -130,6 +130,7 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
   if (!o.truth.empty()) request["truth"] = o.truth;
   if (o.sequences) request["sequences"] = true;
   if (o.families) request["families"] = true;
+  request["keep"] = o.keep;
   for (size_t i = 0; i < of_scenes.size(); ++i) {
     if (!of_scenes[i].casts) continue;
     request["casting"].push_back(i);
@@ -142,6 +143,7 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
 std::vector<bool> check_request(const FrontierCommand& o, const Externals& externals) {
   parse_truth(o.truth);
   check_families(o);
+  parse_kept(o.keep, o.scene);
   if (!o.gate.empty()) read_frontier_json(o.gate);
   if (!o.json.empty()) check_output_file("--json", o.json);
   std::vector<bool> casts;
@@ -164,6 +166,7 @@ FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Sha
   job.views = o.views;
   job.seed = o.scene.seed;
   job.growth = shard.index == 0 && !o.no_growth;
+  job.keep = parse_kept(o.keep, o.scene);
   job.sequences = o.sequences;
   if (o.families) job.families.emplace();
   if (o.families && o.scene.lights >= 0) job.families->number = o.scene.lights;

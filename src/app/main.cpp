@@ -2,11 +2,14 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/environment.h"
@@ -38,6 +41,14 @@ void check_stdout(int code = 0) {
   throw lightgrid::machine_error("stdout: cannot be written: {}", std::strerror(code ? code : EIO));
 }
 
+// As the user gave it, without what `frontier` adds for one of its processes.
+std::vector<std::string> command_to_copy(int argc, char** argv) {
+  std::vector<std::string> words(argv, argv + argc);
+  const auto process = std::find(words.begin(), words.end(), "--process");
+  if (process != words.end()) words.erase(process, std::min(process + 2, words.end()));
+  return words;
+}
+
 int run(const lightgrid::Command& command) {
   try {
     const int status = command();
@@ -64,6 +75,7 @@ int main(int argc, char** argv) {
                          add_frontier, add_golden, add_check, add_manual})
     add(line);
   const Command command = line.parse(argc, argv);
+  set_command(command_to_copy(argc, argv));
   if (line.quiet()) set_log_level(LogLevel::quiet);
   cache.tell();
   const ProgressLines lines(argc > 1 ? argv[1] : "");

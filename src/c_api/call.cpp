@@ -65,6 +65,11 @@ lightgrid_status status_of_current_exception() {
 
 }  // namespace
 
+std::vector<Warning>& last_warnings() {
+  static thread_local std::vector<Warning> last;
+  return last;
+}
+
 lightgrid_status failed() noexcept {
   try {
     return status_of_current_exception();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "c_api/lightgrid.h"
 
 namespace lightgrid::c {
@@ -16,9 +17,22 @@ struct Cancelled {};
 // Records the exception that is being handled.
 lightgrid_status failed() noexcept;
 
+// What the last call of this thread warned of, for lightgrid_describe.
+std::vector<Warning>& last_warnings();
+
+// Makes what is warned of while it exists the last call's.
+class CallWarnings {
+ public:
+  ~CallWarnings() { last_warnings() = collector_.warnings(); }
+
+ private:
+  WarningCollector collector_;
+};
+
 template <typename Work>
 lightgrid_status call(const Work& work) noexcept {
   try {
+    const CallWarnings warnings;
     work();
     return LIGHTGRID_OK;
   } catch (...) {

@@ -1,5 +1,7 @@
 #include "session/comparison.h"
 
+#include <algorithm>
+
 #include "base/text.h"
 #include "c_api/handles.h"
 #include "c_api/images.h"
@@ -45,6 +47,14 @@ void set_field(CompareChoice& choice, const std::string& assignment) {
   }
 }
 
+// Whether one of the settings that a scene's warning advises was given: scenes are loaded without settings.
+bool is_answered(const Warning& warning, const std::vector<std::string>& given) {
+  const auto key_of = [](const std::string& setting) { return setting.substr(0, setting.find('=')); };
+  return std::ranges::any_of(warning.settings, [&](const std::string& advised) {
+    return std::ranges::find(given, key_of(advised), key_of) != given.end();
+  });
+}
+
 }  // namespace
 }  // namespace lightgrid::c
 
@@ -80,6 +90,10 @@ lightgrid_status lightgrid_compare(lightgrid_device* device, lightgrid_scene* sc
       throw;
     }
     if (!choice.scene.camera_path.empty()) of.rebuilt();  // what moved along the path stays there
+    std::vector<Warning> warnings = of.warnings;
+    std::erase_if(warnings, [&](const Warning& w) { return is_answered(w, choice.scene.set); });
+    add_distinct(warnings, made->report.warnings);
+    made->report.warnings = std::move(warnings);
     made->json = json_text(made->report);
     out = made.release();
   });

@@ -131,10 +131,14 @@ void lightgrid_set_log(lightgrid_log_function function, void* user) {
 }
 
 lightgrid_status lightgrid_describe(const char* name, char** json) {
-  return call([&] {
+  const std::vector<Warning> warnings = last_warnings();
+  const lightgrid_status status = call([&] {
     char*& out = needed(json, "json");
-    out = text_for_caller(table(&needed(name, "table")).dump(1));
+    const std::string of = &needed(name, "table");
+    out = text_for_caller((of == "warnings" ? warnings_json(warnings) : table(of)).dump(1));
   });
+  last_warnings() = warnings;  // a call for a table is none of those that they are of
+  return status;
 }
 
 lightgrid_status lightgrid_device_open(const char* name, const char* opengl, lightgrid_device** device) {

@@ -25,6 +25,7 @@ class LoadedScene {
 
   Scene scene;
   const SceneChoice choice;
+  std::vector<Warning> warnings;  // of loading, and of choosing the view
 
   // The view that the fields choose, and with it their lights, at the first call. May be called from two
   // threads.

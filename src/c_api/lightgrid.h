@@ -87,7 +87,9 @@ typedef void (*lightgrid_log_function)(int is_warning, const char* line, void* u
 void lightgrid_set_log(lightgrid_log_function function, void* user);
 
 /* A table as JSON: "techniques" (with all settings, as `lightgrid techniques --json`), "scenes" (names and
- * summaries), "fields" (of scenes), "measures" or "devices" (OpenCL's). */
+ * summaries), "fields" (of scenes), "measures", "devices" (OpenCL's), or "warnings": [{"text", "settings",
+ * "command"}] of this thread's last call that returned a status, other than of this function. settings:
+ * "KEY=VALUE" each, with which the warning would not come; command: null. Reports hold their own. */
 lightgrid_status lightgrid_describe(const char* table, char** json);
 
 /* ---- Images: rows of pixels in the caller's memory ---- */

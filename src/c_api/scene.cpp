@@ -190,7 +190,10 @@ SceneChoice choice_of(const std::string& name, const char* const* fields) {
 
 const View& LoadedScene::view() {
   const std::lock_guard lock(choosing_);
-  if (!view_) view_ = choose_view(scene, choice);
+  if (view_) return *view_;
+  const WarningCollector collector;
+  view_ = choose_view(scene, choice);
+  add_distinct(warnings, collector.warnings());
   return *view_;
 }
 
@@ -245,10 +248,12 @@ lightgrid_status lightgrid_scene_load(const char* name, const char* const* field
   return call([&] {
     lightgrid_scene*& out = needed(scene, "scene");
     SceneChoice choice = choice_of(&needed(name, "name"), fields);
+    const WarningCollector collector;
     ChosenScene chosen = load_chosen_scene(choice);
     if (!choice.camera_path.empty()) chosen_path(chosen.scene, chosen.view, choice);  // reports its faults
-    out = new lightgrid_scene{
-        std::make_shared<LoadedScene>(std::move(chosen.scene), std::move(choice), chosen.view)};
+    const auto loaded = std::make_shared<LoadedScene>(std::move(chosen.scene), std::move(choice), chosen.view);
+    loaded->warnings = collector.warnings();
+    out = new lightgrid_scene{loaded};
   });
 }
 

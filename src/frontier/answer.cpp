@@ -1,6 +1,7 @@
 // Records of all parts become one answer.
 #include "frontier/answer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -175,6 +176,21 @@ std::vector<ProcessConditions> process_conditions_of(const std::vector<FrontierP
   return all;
 }
 
+std::vector<Coverage> coverage_of(const std::vector<FrontierPart>& parts,
+                                  const std::vector<PointFigures>& points) {
+  std::vector<Coverage> all;
+  for (const FrontierPart& part : parts) {
+    for (const auto& [scene, count] : part.points_asked) {
+      auto of_scene = std::ranges::find(all, scene, &Coverage::scene);
+      if (of_scene == all.end()) of_scene = all.insert(all.end(), Coverage{scene});
+      of_scene->asked += count;
+    }
+  }
+  for (Coverage& c : all)
+    c.measured = int(std::ranges::count_if(points, [&](const PointFigures& p) { return p.point.scene == c.scene; }));
+  return all;
+}
+
 FrontierAnswer answer_of(const std::vector<FrontierPart>& parts) {
   if (parts.empty()) throw input_error("frontier: no part to answer from");
   const auto name_of = [](const FrontierPart& part) {
@@ -189,6 +205,8 @@ FrontierAnswer answer_of(const std::vector<FrontierPart>& parts) {
   answer.processes = process_conditions_of(parts);
   const std::vector<FrontierRecord> records = on_one_machine(answer.part.records, answer.machines);
   answer.points = figures_of(records);
+  answer.coverage = coverage_of(parts, answer.points);
+  for (const FrontierPart& part : parts) add_distinct(answer.part.warnings, part.warnings);
   answer.controls = controls_of(records);
   set_relative_times(answer.points, answer.controls);
   rank_points(answer.points, answer.controls);
@@ -198,7 +216,7 @@ FrontierAnswer answer_of(const std::vector<FrontierPart>& parts) {
   answer.among_opencl = among_opencl_of(answer);
   answer.break_even = break_evens_of(records);
   answer.shading_costs = shading_costs_of(records);
-  answer.growth = growth_of(records);
+  answer.growth = growth_of(records, answer.part.keep);
   answer.equal_flip = equal_flip_of(records);
   answer.failures = failures_of(records);
   answer.sentences = sentences_of(answer);

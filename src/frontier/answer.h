@@ -18,6 +18,7 @@ struct MedianInterval {
 
 // Whether no point of its scene is better in both FLIP as displayed and relative time, and the share of draws
 // of the scene's times in which none is.
+// NaN: not measured, with fewer than min_rounds rounds or a control that failed.
 struct OnFront {
   bool on = false;
   double probability = 0;
@@ -73,7 +74,13 @@ struct CheapestWithin {
   double error = 0;
   int point = 0;               // index
   RelativeTime relative_time;  // in the rounds that it was not picked on; with a single round, in that one
-  double probability = 0;      // the share of draws of the scene's times in which it is the cheapest
+  double probability = 0;      // the share of draws of the scene's times in which it is the cheapest, as OnFront
+};
+
+// Points of a scene that the sweep was asked for, and those of them that ran.
+struct Coverage {
+  std::string scene;
+  int measured = 0, asked = 0;
 };
 
 // The baseline, timed as points of its own at several places of each round: what differs from 1 is no
@@ -82,7 +89,8 @@ struct Control {
   std::string scene;
   RelativeTime relative_time;  // of all places together
   std::vector<double> places;  // the estimate of each
-  bool passed() const;         // 1 is in the interval, and within 1 % of the estimate
+  // 1 is in the interval, if there is one, and within 1 % of the estimate.
+  bool passed() const;
   // The interval reaches at most 1 % to either side: where nothing but noise differs, 95 in 100 estimates are
   // then within 1 % of 1. Of `processes` like this one, their mean is to be.
   bool is_precise(int processes = 1) const;
@@ -138,6 +146,7 @@ struct ShadingCost {  // of this machine, a slope over points of one technique a
 // time = c x^exponent, least squares in logarithms, with a 95 % interval (power_law).
 struct Growth {
   std::string scene, technique, of;  // technique: the point's label; of: the series
+  std::string kept;                  // over lights: FrontierPart::keep
   double exponent = 0, low = 0, high = 0;
   std::vector<std::pair<double, double>> samples;  // x, median ms
 };
@@ -166,6 +175,7 @@ struct FrontierAnswer {
   FrontierPart part;  // of the first; records of all
   std::vector<FrontierMachine> machines;
   std::vector<PointFigures> points;
+  std::vector<Coverage> coverage;  // of scenes whose parts know what they were asked for
   std::vector<Control> controls;
   std::vector<ProcessConditions> processes;
   std::vector<CheapestWithin> cheapest_within;

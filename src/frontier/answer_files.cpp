@@ -34,13 +34,15 @@ json pair_json(double first, double second) { return {finite_number(first), fini
 
 json interval_json(const MedianInterval& i) {
   if (i.runs == 0) return {{"median", nullptr}, {"ci95", {nullptr, nullptr}}, {"runs", 0}};
-  return {{"median", finite_number(i.median)}, {"ci95", pair_json(i.low, i.high)}, {"runs", i.runs}};
+  return {{"median", finite_number(i.median)},
+          {"ci95", i.runs < min_rounds ? json{nullptr, nullptr} : pair_json(i.low, i.high)},
+          {"runs", i.runs}};
 }
 
 json relative_time_json(const RelativeTime& t) {
   const bool timed = t.runs > 0;
   json out = {{"estimate", timed ? finite_number(t.estimate) : json()},
-              {"ci95", timed ? pair_json(t.low, t.high) : json{nullptr, nullptr}},
+              {"ci95", t.has_interval() ? pair_json(t.low, t.high) : json{nullptr, nullptr}},
               {"runs", t.runs},
               {"processes", t.processes},
               {"between_processes", finite_json(t.between_processes)},
@@ -116,7 +118,9 @@ json seeds_json(const PointFigures& p) {
       {"bias_rmse_rel_ci95", pair_json(root(seeds.bias_mse_rel - reach), root(seeds.bias_mse_rel + reach))}};
 }
 
-json on_front_json(const OnFront& front) { return {{"on", front.on}, {"probability", front.probability}}; }
+json on_front_json(const OnFront& front) {
+  return {{"on", front.on}, {"probability", finite_number(front.probability)}};
+}
 
 void add_device_json(const DeviceFigures& d, json& out) {
   out["device_ms"] = interval_json(d.device_ms);
@@ -134,7 +138,7 @@ json point_json(const PointFigures& p) {
   out["exposure_ev"] = finite_json(p.exposure_ev);
   out["size"] = p.width > 0 ? json{p.width, p.height} : json();
   out["frame_ms"] = interval_json(p.frame_ms);
-  out["frame_ms_within"] = p.frame_ms.runs > 0
+  out["frame_ms_within"] = p.frame_ms.runs >= min_rounds
                                ? json{{"p95", finite_number(p.p95_ms)}, {"p99", finite_number(p.p99_ms)}}
                                : json{{"p95", nullptr}, {"p99", nullptr}};
   out["relative_time"] = relative_time_json(p.relative_time);
@@ -200,6 +204,7 @@ json growth_json(const Growth& g) {
   return {{"scene", g.scene},
           {"technique", g.technique},
           {"of", g.of},
+          {"kept", g.kept.empty() ? json() : json(g.kept)},
           {"exponent", finite_number(g.exponent)},
           {"ci95", pair_json(g.low, g.high)},
           {"samples", array_of(g.samples, [](const auto& s) { return pair_json(s.first, s.second); })}};
@@ -216,6 +221,10 @@ json equal_flip_json(const EqualFlip& e) {
           {"samples", array_of(e.samples, [](const EqualFlip::Sample& s) -> json {
              return {{"x", s.x}, {"ms", finite_number(s.ms)}, {"label", s.label}};
            })}};
+}
+
+json coverage_json(const Coverage& c) {
+  return {{"scene", c.scene}, {"points_measured", c.measured}, {"points_asked", c.asked}};
 }
 
 json failure_json(const Failure& f) {
@@ -402,6 +411,8 @@ json to_json(const FrontierAnswer& answer) {
           {"baseline", part.baseline},
           {"pixels_per_degree", default_pixels_per_degree},
           {"scenes", scenes_of(answer)},
+          {"coverage", array_of(answer.coverage, coverage_json)},
+          {"warnings", warnings_json(answer.part.warnings)},
           {"sentences", answer.sentences},
           {"machines", finite_json(answer.machines)},
           {"machine", finite_json(answer.machines.empty() ? part.machine : answer.machines.front())},

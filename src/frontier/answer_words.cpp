@@ -17,9 +17,16 @@ namespace {
 // A technique's own error below which its picture is what its settings mean, as in report.h (exact_max_rel).
 constexpr double same_picture = 1e-5;
 
+// "3 rounds", or why figures that need more of them are missing.
+std::string rounds_in_words(int rounds) {
+  const std::string count = fmt::format("{} round{}", rounds, rounds == 1 ? "" : "s");
+  return rounds < min_rounds ? fmt::format("{}, at least {} are needed", count, min_rounds) : count;
+}
+
 std::string times_in_words(const RelativeTime& time) {
-  if (time.runs == 1)
-    return three_digits(time.estimate) + " times (one run: the budget was too short for an interval)";
+  if (!time.has_interval())
+    return fmt::format("{} times (interval not measured: {})", three_digits(time.estimate),
+                       rounds_in_words(time.runs));
   return fmt::format("{} times (95 % interval {} to {})", three_digits(time.estimate), three_digits(time.low),
                      three_digits(time.high));
 }
@@ -113,6 +120,15 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
                                   p.point.label, largest.in_words, fmt::join(figures, ", ")));
 }
 
+std::string cheapest_how_surely(const CheapestWithin& best, const FrontierAnswer& answer,
+                                const PointFigures& p) {
+  if (!std::isnan(best.probability))
+    return "the cheapest with a probability of " + probability_in_words(best.probability);
+  const int rounds = time_of(answer, p).runs;
+  return "how surely it is the cheapest was not measured: " +
+         (rounds < min_rounds ? rounds_in_words(rounds) : std::string("the control failed"));
+}
+
 // A line a step: from the largest error down, each point at the least error that it is the best within.
 void add_cheapest_within(const FrontierAnswer& answer, const std::string& scene,
                          std::vector<std::string>& sentences) {
@@ -127,11 +143,11 @@ void add_cheapest_within(const FrontierAnswer& answer, const std::string& scene,
   for (const CheapestWithin* step : steps) {
     const PointFigures& p = answer.points[step->point];
     sentences.push_back(fmt::format(
-        "FLIP as displayed up to {:g} in {}{}: {}, {} times {}{} (the cheapest with a probability of {}).",
+        "FLIP as displayed up to {:g} in {}{}: {}, {} times {}{} ({}).",
         step->error, scene_in_words(scene),
         step->of == "authored" ? ", against lights with authored ranges" : "", p.point.label,
         three_digits(step->relative_time.estimate), answer.part.baseline, clock_in_words(answer),
-        probability_in_words(step->probability)));
+        cheapest_how_surely(*step, answer, p)));
   }
 }
 
@@ -164,6 +180,13 @@ void add_break_even(const FrontierAnswer& answer, const std::string& scene,
                   most_undecided > 0 ? fmt::format(" ({} undecided)", most_undecided) : ""));
 }
 
+// What all numbers of lights of the series have in common.
+std::string kept_over_lights(const Growth* growth) {
+  if (!growth || growth->kept.empty()) return "";
+  return growth->kept == "range" ? " All numbers of lights have the same ranges."
+                                 : " Ranges shrink as the number of lights grows, so that as many reach a point.";
+}
+
 // Tells the baseline's growth, or that of the series' first point.
 void add_growth(const FrontierAnswer& answer, const std::string& scene, std::vector<std::string>& sentences) {
   const Growth* told[] = {nullptr, nullptr, nullptr};
@@ -180,8 +203,8 @@ void add_growth(const FrontierAnswer& answer, const std::string& scene, std::vec
           fmt::format("{}^{:.2f} ({:.2f} to {:.2f})", g->of, g->exponent, g->low, g->high));
   }
   for (const auto& [point, powers] : laws) {
-    sentences.push_back(fmt::format("In {} the time of {} grows as {}.", scene_in_words(scene), point,
-                                    fmt::join(powers, ", ")));
+    sentences.push_back(fmt::format("In {} the time of {} grows as {}.{}", scene_in_words(scene), point,
+                                    fmt::join(powers, ", "), kept_over_lights(told[0])));
   }
 }
 
@@ -282,16 +305,37 @@ void add_baseline(const FrontierAnswer& answer, std::vector<std::string>& senten
         " Techniques that draw in OpenCL are held against each other in a table of their own.";
 }
 
-// A control that failed, and points of two modes.
-void add_doubts(const FrontierAnswer& answer, const std::string& scene, std::vector<std::string>& sentences) {
-  for (const Control& control : answer.controls) {
+// A control that failed.
+void add_failed_control(const FrontierAnswer& answer, const std::string& scene,
+                        std::vector<std::string>& sentences) {
+  for (const Control& control : answer.by_device ? answer.device_controls : answer.controls) {
     if (control.scene != scene || control.passed()) continue;
-    sentences.push_back(
-        fmt::format("Times in {} are in doubt: {} timed as a point takes {} its own time; all intervals are "
-                    "wider by {:.1f} %.",
-                    scene_in_words(scene), answer.part.baseline, times_in_words(control.relative_time),
-                    100 * (std::exp(control.widening()) - 1)));
+    sentences.push_back(fmt::format(
+        "Control failed in {}: the baseline measured against itself gave {} instead of 1. Times of this run "
+        "are unreliable.{}",
+        scene_in_words(scene), three_digits(control.relative_time.estimate),
+        control.relative_time.has_interval()
+            ? fmt::format(" Intervals are wider by {:.1f} %.", 100 * (std::exp(control.widening()) - 1))
+            : ""));
   }
+}
+
+// How many of the points were measured, in how many rounds.
+void add_coverage(const FrontierAnswer& answer, const std::string& scene,
+                  std::vector<std::string>& sentences) {
+  const auto of_scene = std::ranges::find(answer.coverage, scene, &Coverage::scene);
+  if (of_scene == answer.coverage.end()) return;
+  int rounds = 0;
+  for (const PointFigures& p : answer.points)
+    if (p.point.scene == scene) rounds = std::max(rounds, p.relative_time.runs);
+  sentences.push_back(fmt::format(
+      "In {} {} of {} points were measured, in {}{}.", scene_in_words(scene), with_commas(uint64_t(of_scene->measured)),
+      with_commas(uint64_t(of_scene->asked)), rounds_in_words(rounds),
+      of_scene->measured < of_scene->asked ? ": a longer --budget measures more" : ""));
+}
+
+// Points of two modes.
+void add_modes(const FrontierAnswer& answer, const std::string& scene, std::vector<std::string>& sentences) {
   std::vector<std::string> bimodal;
   for (const PointFigures& p : answer.points) {
     if (p.point.scene == scene && !p.relative_time.modes.empty()) bimodal.push_back(p.point.label);
@@ -351,7 +395,7 @@ static std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer,
   std::vector<std::string> sentences;
   add_truth(answer, scene, sentences);
   add_external(answer, scene, sentences);
-  add_doubts(answer, scene, sentences);
+  add_modes(answer, scene, sentences);
   add_fastest(answer, scene, sentences);
   add_cheapest_within(answer, scene, sentences);
   add_surfaces(answer, scene, sentences);
@@ -364,12 +408,16 @@ static std::vector<std::string> sentences_of_scene(const FrontierAnswer& answer,
 
 SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene) {
   SceneWords words;
-  add_fastest(answer, scene, words.opening);
-  if (words.opening.size() > 1) words.notes.push_back(words.opening.back()), words.opening.pop_back();
+  add_failed_control(answer, scene, words.opening);
+  add_coverage(answer, scene, words.opening);
+  std::vector<std::string> fastest;
+  add_fastest(answer, scene, fastest);
+  if (!fastest.empty()) words.opening.push_back(fastest.front());
+  if (fastest.size() > 1) words.notes.push_back(fastest.back());
   add_baseline(answer, words.opening);
   add_truth(answer, scene, words.opening);
   add_external(answer, scene, words.opening);
-  add_doubts(answer, scene, words.opening);
+  add_modes(answer, scene, words.opening);
   add_surfaces(answer, scene, words.notes);
   add_shadows(answer, scene, words.notes);
   add_failures(answer, scene, words.opening);
@@ -392,6 +440,8 @@ static std::string conditions_in_words(const FrontierAnswer& answer) {
 
 std::vector<std::string> sentences_of(const FrontierAnswer& answer) {
   std::vector<std::string> sentences;
+  for (const std::string& scene : scenes_of(answer)) add_failed_control(answer, scene, sentences);
+  for (const std::string& scene : scenes_of(answer)) add_coverage(answer, scene, sentences);
   if (const std::string conditions = conditions_in_words(answer); !conditions.empty())
     sentences.push_back(conditions);
   add_baseline(answer, sentences);

@@ -153,7 +153,7 @@ std::vector<ShadingCost> shading_costs_of(Records records) {
   return costs;
 }
 
-std::vector<Growth> growth_of(Records records) {
+std::vector<Growth> growth_of(Records records, const std::string& keep) {
   const Group timed = accepted(records, [](const FrontierRecord& r) {
     return !r.series.empty() && !is_control(r) && r.refused.empty() && !r.frame_ms.empty();
   });
@@ -166,7 +166,8 @@ std::vector<Growth> growth_of(Records records) {
       medians[place_in_series(*r)].push_back(spread_of(r->frame_ms).median);
     if (medians.size() < 2) continue;
     const FrontierRecord& first = *group.front();
-    Growth& curve = curves.emplace_back(Growth{first.point.scene, first.point.label, first.series});
+    Growth& curve = curves.emplace_back(
+        Growth{first.point.scene, first.point.label, first.series, first.series == "lights" ? keep : ""});
     for (const auto& [x, of_views] : medians) {
       double sum = 0;
       for (const double ms : of_views) sum += ms;

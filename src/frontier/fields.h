@@ -244,6 +244,8 @@ void visit_fields(T& p, Visit&& visit) {
   visit("shards", p.shards, FieldRule{.low = 1});
   visit("shard", p.shard);
   visit("baseline", p.baseline);
+  visit("keep", p.keep, FieldRule{.required = false});
+  visit("points_asked", p.points_asked, FieldRule{.required = false});
   visit("machine", p.machine);
 }
 

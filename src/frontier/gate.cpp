@@ -16,6 +16,12 @@
 namespace lightgrid {
 namespace {
 
+// A relative time of too few rounds (min_rounds).
+bool has_no_interval(const JsonFields& time) {
+  const nlohmann::json& interval = time.at("ci95");
+  return interval.is_array() && !interval.empty() && interval[0].is_null();
+}
+
 using nlohmann::json;
 
 struct GatePoint {
@@ -173,6 +179,7 @@ class PointComparison {
     if (!point.has(key)) return {};
     const JsonFields ratio = point.object(key);
     if (!ratio.has("estimate")) return {};
+    if (has_no_interval(ratio)) return {};
     const std::vector<double> interval = ratio.numbers("ci95");
     if (interval.size() != 2) throw input_error("{}.ci95: {} numbers instead of 2", key, interval.size());
     return {ratio.number("estimate"), interval[0], interval[1]};
@@ -221,10 +228,13 @@ void add_failed_controls(const json& now, GateResult& result) {
     for_each_entry(now, controls, [&](const json& control, const JsonFields& fields) {
       if (control.value("passed", false)) return;
       const JsonFields time = fields.object("relative_time");
-      const std::vector<double> interval = time.numbers("ci95");
-      result.worse.push_back(
-          fmt::format("{}: the baseline as a point takes {:.4g} times its own time{} ({:.4g} to {:.4g})",
-                      fields.text("scene"), time.number("estimate"), clock, interval.at(0), interval.at(1)));
+      std::string range = "interval not measured";
+      if (!has_no_interval(time)) {
+        const std::vector<double> interval = time.numbers("ci95");
+        range = fmt::format("{:.4g} to {:.4g}", interval.at(0), interval.at(1));
+      }
+      result.worse.push_back(fmt::format("{}: the baseline as a point takes {:.4g} times its own time{} ({})",
+                                         fields.text("scene"), time.number("estimate"), clock, range));
     });
   }
 }

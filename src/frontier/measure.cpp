@@ -84,12 +84,13 @@ class SceneSweep {
         return;
       }
       complete(measured_, file_);
+      growth_round_s_ = round_of_growth();
       measured_.clear();
     }
     baseline_.reset();
     if (job_.growth) {
-      const double left = std::max(job_.seconds + sequences_s_ - seconds(), 0.05 * job_.seconds);
-      measure_growth(renderer_, gpu_, scene_, choice_, job_, left, file_);
+      const double left = std::min(job_.seconds + sequences_s_ - seconds(), 2 * share_of_growth * job_.seconds);
+      measure_growth(renderer_, gpu_, scene_, choice_, job_, left, growth_round_s_, file_);
       end_step("growth");
     }
     notice(steps_);
@@ -162,6 +163,16 @@ class SceneSweep {
       round_s += (baseline_s_ + m.picture_s + frame_s + m.around_s) * runs;
     }
     return seconds() + more + round_s * views <= until();
+  }
+
+  // What a round takes of the points that growth is measured with: each frame, and the baseline's, follows one
+  // that does not count.
+  double round_of_growth() const {
+    double round_s = 0;
+    for (const MeasuredPoint& m : measured_) {
+      if (is_grown(m.run.point())) round_s += 2 * (baseline_s_ + m.picture_s);
+    }
+    return round_s;
   }
 
   // As many points as the time allows on one view, then as many views, of which two can still be timed. Views
@@ -356,7 +367,7 @@ class SceneSweep {
   std::vector<FrontierRecord> apart_records_;
   ExportedScene exported_;  // without a name: not yet
   std::optional<PointRun> baseline_;
-  double baseline_s_ = 0, step_began_s_ = 0, sequences_s_ = 0;
+  double growth_round_s_ = 0, baseline_s_ = 0, step_began_s_ = 0, sequences_s_ = 0;
   std::string steps_;  // what took how long
   int used_views_ = 0, whole_views_ = 0;
 };

@@ -40,6 +40,7 @@ struct FrontierJob {
   size_t shaded_pairs = 10'000'000, shadow_pairs = 1'000'000;
   bool sequences = false;          // SequenceErrors too, in time of their own: `seconds` are without them
   bool growth = true;              // the series of lights, pixels and radius too
+  Kept keep = Kept::range;         // over the series of lights
   std::optional<FamilyPlan> families;
   std::filesystem::path pictures;  // folder; empty: no pictures
   std::filesystem::path exports;   // folder of what other renderers draw; used if one of the points runs

@@ -34,13 +34,16 @@ struct TimeBlock {
 // Logarithms of a single time over single ones of the baseline, as many in each round, by the round in which
 // all were taken: entry k of all rounds is a series.
 inline constexpr int baseline_runs = 3;  // of a round that count
+// Fewer rounds give no interval, no probability and no percentile: Student's t of three has two degrees of
+// freedom. Points far from the front are timed in this many.
+inline constexpr int min_rounds = 3;
 using LogRatios = std::vector<double>;
 using LogTimes = std::map<TimeBlock, LogRatios>;
 
 // Of a time over the baseline's.
 struct RelativeTime {
   double estimate = 0;
-  double low = 0, high = 0;                 // 95 % interval; the estimate with a single run
+  double low = 0, high = 0;                 // 95 % interval, if has_interval()
   int runs = 0, processes = 0;              // rounds that count; processes that they are of
   std::optional<double> between_processes;  // standard deviation of the processes' means, as a share
   // Two groups of runs that are apart: the means of the faster and of the slower one, and the share of runs
@@ -48,6 +51,8 @@ struct RelativeTime {
   // all runs.
   std::vector<double> modes;
   double slow_share = 0;
+
+  bool has_interval() const { return runs >= min_rounds; }
 };
 
 // `widen`: the logarithm by which the interval is wider on either side.

@@ -32,6 +32,7 @@ struct SceneTimes {
   std::vector<int> indices;
   std::vector<double> errors;
   std::vector<std::vector<double>> draws;
+  bool control_passed = true;
 };
 
 // Scenes of which no point has an authored error are left out.
@@ -54,9 +55,17 @@ std::map<std::string, SceneTimes> drawn_scenes(const std::vector<PointFigures>& 
   for (auto& [name, scene] : scenes) {
     const auto control = std::ranges::find(controls, name, &Control::scene);
     const double widening = control == controls.end() ? 0 : control->widening();
+    scene.control_passed = control == controls.end() || control->passed();
     scene.draws = drawn_log_times(times[name], widening, draws_of_a_scene, 1);
   }
   return scenes;
+}
+
+bool has_rounds(const PointFigures& p) { return p.log_times.size() >= size_t(min_rounds); }
+
+// What draws say of a point, where there are rounds enough for them and the control passed.
+double probability_of(const SceneTimes& scene, const PointFigures& p, double share) {
+  return scene.control_passed && has_rounds(p) ? share : unranked;
 }
 
 // Of the points within `error`, the one of least `time_of`; -1 without one.
@@ -75,7 +84,8 @@ int cheapest(const SceneTimes& scene, double error, const TimeOf& time_of) {
 }  // namespace
 
 bool Control::passed() const {
-  return relative_time.low <= 1 && relative_time.high >= 1 &&
+  const bool inside = relative_time.low <= 1 && relative_time.high >= 1;
+  return (inside || !relative_time.has_interval()) &&
          std::abs(relative_time.estimate - 1) <= most_off;
 }
 
@@ -130,8 +140,10 @@ void rank_points(std::vector<PointFigures>& points, const std::vector<Control>& 
         places.emplace_back(points[size_t(scene.indices[i])].relative_time.estimate, scene.errors[i]);
       const std::vector<bool> front = pareto_front(places);
       const std::vector<double> probabilities = front_probabilities(scene.draws, scene.errors);
-      for (size_t i = 0; i < scene.indices.size(); ++i)
-        points[size_t(scene.indices[i])].fronts[kind] = {front[i], probabilities[i]};
+      for (size_t i = 0; i < scene.indices.size(); ++i) {
+        PointFigures& p = points[size_t(scene.indices[i])];
+        p.fronts[kind] = {front[i], probability_of(scene, p, probabilities[i])};
+      }
     }
   }
 }
@@ -143,6 +155,12 @@ std::vector<FrontBand> front_bands_of(const std::vector<PointFigures>& points,
     const auto scenes = drawn_scenes(points, controls, kind);
     for (const std::string& name : distinct(points, [](const PointFigures& p) { return p.point.scene; })) {
       if (!scenes.contains(name)) continue;
+      const SceneTimes& scene = scenes.at(name);
+      const bool enough = std::ranges::all_of(scene.indices, [&](int i) {
+        const PointFigures& p = points[size_t(i)];
+        return p.log_times.empty() || has_rounds(p);
+      });
+      if (!enough) continue;
       bands.push_back({name, kind, front_band(scenes.at(name).draws, scenes.at(name).errors)});
     }
   }
@@ -240,7 +258,8 @@ static std::vector<CheapestWithin> cheapest_in_scene(const std::vector<PointFigu
     const auto hits = std::ranges::count_if(scene.draws, [&](const std::vector<double>& draw) {
       return cheapest(scene, error, [&](size_t i) { return draw[i]; }) == best;
     });
-    within.probability = double(hits) / double(scene.draws.size());
+    within.probability =
+        probability_of(scene, points[size_t(within.point)], double(hits) / double(scene.draws.size()));
     all.push_back(within);
   }
   return all;

@@ -11,6 +11,20 @@
 namespace lightgrid {
 namespace {
 
+// Parts of earlier versions have none.
+std::vector<Warning> warnings_of(const nlohmann::json& finished) {
+  std::vector<Warning> warnings;
+  if (!finished.is_object() || !finished.contains("warnings") || !finished["warnings"].is_array()) return warnings;
+  for (const nlohmann::json& entry : finished["warnings"]) {
+    const JsonFields fields(entry);
+    Warning& warning = warnings.emplace_back(Warning{fields.text("text")});
+    if (fields.has("command")) warning.command = fields.text("command");
+    for (const nlohmann::json& setting : fields.at("settings"))
+      warning.settings.push_back(setting.is_string() ? setting.get<std::string>() : "");
+  }
+  return warnings;
+}
+
 using nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -131,6 +145,7 @@ void PartLines::take(const json& line, const std::string& place, const Notice& n
   };
   part.finished = is_of("finished");
   if (part.finished) {
+    part.warnings = warnings_of(line["finished"]);
     part.machine.load_at_end = JsonFields(line).object("finished").optional_number("load_at_end").value_or(0);
   } else if (is_of("open")) {
     FrontierRecord record = record_of(line["open"]);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/log.h"
 #include "frontier/conditions.h"
 #include "results/flicker.h"
 #include "results/flip.h"
@@ -180,9 +181,12 @@ struct FrontierPart {
   uint64_t seed = 1;
   int shard = 0, shards = 1;
   std::string baseline;  // label of the baseline point
+  std::string keep = "overlap";  // what growth over lights keeps (Kept); in parts of earlier versions that
+  std::map<std::string, int> points_asked;  // by scene, of this shard; empty in parts of earlier versions
   FrontierMachine machine;
   int processes = 0;                           // that took times
   std::vector<FrontierConditions> conditions;  // one a round and process
+  std::vector<Warning> warnings;               // that the run logged, when it finished
   bool finished = false;                       // nothing more was to be measured: RecordFile::finish
   std::vector<FrontierRecord> records;
 };

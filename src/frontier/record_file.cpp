@@ -144,8 +144,9 @@ void RecordFile::complete(const std::vector<std::string>& keys) {
   if (!keys.empty()) add({{"complete", keys}});
 }
 
-void RecordFile::finish(double load_at_end) {
-  add({{"finished", {{"load_at_end", finite_number(load_at_end)}}}});
+void RecordFile::finish(double load_at_end, const std::vector<Warning>& warnings) {
+  add({{"finished",
+        {{"load_at_end", finite_number(load_at_end)}, {"warnings", warnings_json(warnings)}}}});
 }
 
 // In one call where the system allows it: a reader rarely sees half of a line.

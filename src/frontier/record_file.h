@@ -101,9 +101,9 @@ class RecordFile {
   void complete(const std::vector<std::string>& keys);
   const std::map<std::string, FrontierRecord>& open_records() const { return lines_.open; }
 
-  // Nothing more is to be measured. `load_at_end`: the system's one-minute load average. Throws like
-  // append().
-  void finish(double load_at_end);
+  // Nothing more is to be measured. `load_at_end`: the system's one-minute load average; `warnings`: of the
+  // run. Throws like append().
+  void finish(double load_at_end, const std::vector<Warning>& warnings = {});
   const FrontierPart& part() const { return lines_.part; }  // with all records
 
  private:

@@ -68,6 +68,7 @@ double culling_ms(PointRun& point) {
 }
 
 constexpr int growth_rounds = 4;
+constexpr int middle_lights = 512;  // of the series of lights, which has their ranges if it keeps ranges
 
 // A variant of the scene, by one of its three sizes.
 struct Variant {
@@ -81,7 +82,7 @@ struct Variant {
 std::vector<Variant> variants() {
   std::vector<Variant> all;
   for (const auto& steps : {std::vector{0.5, 2.0, 1.0}, {std::numbers::sqrt2 / 2, std::numbers::sqrt2}}) {
-    for (const double step : steps) all.push_back({"lights", int(512 * step * step)});
+    for (const double step : steps) all.push_back({"lights", int(middle_lights * step * step)});
     for (const double step : steps) all.push_back({"pixels", -1, step});
     for (const double step : steps) all.push_back({"radius", -1, 1, step});
   }
@@ -96,17 +97,13 @@ std::string scaled_size(const std::string& size, double side) {
 // Techniques that cull, at their defaults, in the order of the points.
 std::vector<ChosenPoint> grown_points(const FrontierJob& job) {
   std::vector<ChosenPoint> grown;
-  for (const ChosenPoint& point : job.points) {
-    if (!point.external && point.label == point.contestant.technique->name &&
-        point.contestant.technique->needs.light_grid)
-      grown.push_back(point);
-  }
+  std::ranges::copy_if(job.points, std::back_inserter(grown), is_grown);
   return grown;
 }
 
 // Times `points` on a variant, whose record without a point is `base`.
 void time_variant(const std::vector<ChosenPoint>& points, Renderer& renderer, GpuScene& gpu, const View& view,
-                  const FrontierJob& job, FrontierRecord base, RecordFile& file) {
+                  const FrontierJob& job, FrontierRecord base, double most_s, RecordFile& file) {
   const auto pool = std::make_shared<TargetPool>();
   std::vector<MeasuredPoint> measured;
   for (const ChosenPoint& point : points) {
@@ -116,10 +113,30 @@ void time_variant(const std::vector<ChosenPoint>& points, Renderer& renderer, Gp
     measured.back().records.front().refused = measured.back().run.refused();
     file.begin(measured.back().records.front());
   }
-  time_series(measured, renderer, gpu, view, job, growth_rounds, file);
+  time_series(measured, renderer, gpu, view, job, growth_rounds, file, most_s);
 }
 
+// How long variants take: the longest so far, per pixel of the image.
+class VariantSeconds {
+ public:
+  explicit VariantSeconds(double first) : seconds_(first) {}
+  double estimate(const Variant& v) const { return seconds_ * v.side * v.side; }
+  void measured(const Variant& v, double seconds) {
+    seconds_ = std::max(any_ ? seconds_ : 0, seconds / (v.side * v.side));
+    any_ = true;
+  }
+
+ private:
+  double seconds_;
+  bool any_ = false;
+};
+
 }  // namespace
+
+bool is_grown(const ChosenPoint& point) {
+  return !point.external && point.label == point.contestant.technique->name &&
+         point.contestant.technique->needs.light_grid;
+}
 
 int TimeRounds::run() {
   int done = 0;
@@ -224,7 +241,7 @@ void complete(const std::vector<MeasuredPoint>& points, RecordFile& file) {
 }
 
 void time_series(std::vector<MeasuredPoint>& measured, Renderer& renderer, GpuScene& gpu, const View& view,
-                 const FrontierJob& job, int rounds, RecordFile& file) {
+                 const FrontierJob& job, int rounds, RecordFile& file, double most_s) {
   if (measured.empty()) return;
   PointRun baseline(renderer, gpu, view, job.baseline, std::make_shared<TargetPool>());
   FrontierJob of_series = job;
@@ -234,7 +251,7 @@ void time_series(std::vector<MeasuredPoint>& measured, Renderer& renderer, GpuSc
   const Timer timer;
   TimeRounds{of_series,
              timer,
-             std::numeric_limits<double>::infinity(),
+             most_s,
              std::span(&view, 1),
              measured,
              baseline,
@@ -276,24 +293,30 @@ void measure_cull_times(std::vector<MeasuredPoint>& points, const View& view, do
 }
 
 void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const SceneChoice& choice,
-                    const FrontierJob& job, double seconds, RecordFile& file) {
+                    const FrontierJob& job, double seconds, double round_s, RecordFile& file) {
   const Timer timer;
+  VariantSeconds took(round_s * (1 + growth_rounds));
   const std::vector<ChosenPoint> points = grown_points(job);
   const std::vector<Light> own = scene.lights;
   const std::vector<Variant> all = variants();
   for (size_t i = 0; i < all.size() && !points.empty(); ++i) {
-    if (timer.elapsed_ms() / 1000 > seconds) {
+    const Variant& variant = all[i];
+    const double begun = timer.elapsed_ms() / 1000;
+    if (begun + took.estimate(variant) > seconds) {
       if (job.notice)
-        job.notice(fmt::format("{}: growth measured in part, for the time there is", choice.scene));
+        job.notice(fmt::format("{}: growth with {} of {} variants, for the time there is", choice.scene, i,
+                               all.size()));
       break;
     }
-    const Variant& variant = all[i];
     if (variant.lights >= 0 && !choice.lights_file.empty()) continue;
     if (job.progress)
       job.progress(0.9 + 0.1 * double(i) / double(all.size()), std::string("growth with ") + variant.series);
     SceneChoice varied = choice;
     varied.size = scaled_size(choice.size, variant.side);
-    if (variant.lights >= 0) varied.lights = variant.lights;
+    if (variant.lights >= 0) {
+      varied.lights = variant.lights;
+      varied.ranges_of = job.keep == Kept::range ? middle_lights : 0;
+    }
     scene.lights = own;
     const View view = choose_view(scene, varied);
     for (Light& light : scene.lights) light.radius_m *= float(variant.radius);
@@ -303,7 +326,8 @@ void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const Scene
     record.width = view.width, record.height = view.height;
     record.lights = int(scene.lights.size());
     record.radius_scale = variant.radius;
-    time_variant(points, renderer, gpu, view, job, record, file);
+    time_variant(points, renderer, gpu, view, job, record, seconds - begun, file);
+    took.measured(variant, timer.elapsed_ms() / 1000 - begun);
   }
   scene.lights = own;
 }

@@ -2,6 +2,7 @@
 // scene.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct MeasuredPoint {
   int rounds() const { return int(records.front().frame_ms.size()); }
 };
 
-constexpr int slow_rounds = 3;  // of slow points
+constexpr int slow_rounds = min_rounds;  // of slow points
 // Rounds end when the controls were precise after this many in a row. With one, rounds would end where times
 // happen to look quiet, and fewer intervals would hold the truth.
 constexpr int precise_rounds = 3;
@@ -67,15 +68,20 @@ void complete(const std::vector<MeasuredPoint>& points, RecordFile& file);
 void measure_cull_times(std::vector<MeasuredPoint>& points, const View& view, double seconds,
                         RecordFile& file);
 
-// Times points on one view, beside the job's baseline, in `rounds` rounds, and completes their records, which
-// are open.
+// Times points on one view, beside the job's baseline, in `rounds` rounds, fewer if they would take more than
+// `most_s`, and completes their records, which are open.
 void time_series(std::vector<MeasuredPoint>& measured, Renderer& renderer, GpuScene& gpu, const View& view,
-                 const FrontierJob& job, int rounds, RecordFile& file);
+                 const FrontierJob& job, int rounds, RecordFile& file,
+                 double most_s = std::numeric_limits<double>::infinity());
+
+// Whether growth is measured with it: techniques that cull, as they are.
+bool is_grown(const ChosenPoint& point);
 
 // How times grow with lights, pixels and the lights' ranges: the techniques among the job's points, each as
 // it is, beside the baseline, on scattered lights (128 to 2048), on sizes (half to twice a side) and on
-// ranges (half to twice). Ends when `seconds` have passed. The scene is left as it was.
+// ranges (half to twice). No variant is begun that would end after `seconds`, as far as those before it tell;
+// `round_s` is the estimate for the first: a round on the scene as it is. The scene is left as it was.
 void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const SceneChoice& choice,
-                    const FrontierJob& job, double seconds, RecordFile& file);
+                    const FrontierJob& job, double seconds, double round_s, RecordFile& file);
 
 }  // namespace lightgrid

@@ -175,14 +175,16 @@ struct Axis {
   const char* name;
   std::function<double(const CompareReport&)> x;
   std::function<std::string(const CompareReport&)> label, group;  // views of one group differ in x alone
+  std::function<std::string(const CompareReport&)> kept;
 };
 
 const Axis over_lights = {
     "lights", lights_of, [](const CompareReport& r) { return with_commas(uint64_t(lights_of(r))); },
-    [](const CompareReport& r) { return fmt::format("{}, {}", short_scene(r), size_of(r)); }};
+    [](const CompareReport& r) { return fmt::format("{}, {}", short_scene(r), size_of(r)); }, kept_in_words};
 const Axis over_pixels = {"pixels", pixels_of, size_of, [](const CompareReport& r) {
                             return fmt::format("{}, {}", short_scene(r), lights_in_words(lights_of(r)));
-                          }};
+                          },
+                          [](const CompareReport&) { return std::string(); }};
 
 void add_view(Chart& chart, const Axis& axis, const std::vector<ReportView>& views, size_t v) {
   const CompareReport& report = views[v].report;
@@ -203,7 +205,7 @@ std::vector<Chart> charts_over(const Axis& axis, const std::vector<ReportView>& 
   for (size_t v = 0; v < views.size(); ++v) {
     const std::string title = axis.group(views[v].report);
     auto chart = std::find_if(charts.begin(), charts.end(), [&](const Chart& c) { return c.title == title; });
-    if (chart == charts.end()) chart = charts.insert(charts.end(), Chart{title, axis.name, {}, {}, {}, {}});
+    if (chart == charts.end()) chart = charts.insert(charts.end(), Chart{title, axis.name, axis.kept(views[v].report)});
     add_view(*chart, axis, views, v);
   }
   std::erase_if(charts, [](const Chart& chart) { return chart.ticks.size() < 2; });
@@ -236,7 +238,7 @@ std::set<std::string> swept_settings(const CompareReport& report) {
 
 Chart chart_over(const std::string& key, const std::vector<ReportView>& views, size_t v) {
   const CompareReport& report = views[v].report;
-  Chart chart{view_in_words(report), spelled_setting(key), {}, {}, {}, {}};
+  Chart chart{view_in_words(report), spelled_setting(key)};
   const auto names = row_names_without(report, key);
   std::set<double> xs;
   for (size_t i = 0; i < names.size(); ++i) {
@@ -258,6 +260,14 @@ Chart chart_over(const std::string& key, const std::vector<ReportView>& views, s
 }
 
 }  // namespace
+
+std::string kept_in_words(const CompareReport& report) {
+  if (report.lights_kept.empty()) return "";
+  if (report.lights_kept == "overlap") return "ranges shrink, so that as many reach a point";
+  return report.ranges_of > 0
+             ? fmt::format("all with the ranges of {} lights", with_commas(uint64_t(report.ranges_of)))
+             : "ranges as given";
+}
 
 std::vector<Crossing> crossings_of(const std::vector<Curve>& curves) {
   std::vector<Crossing> found;

@@ -37,6 +37,7 @@ struct Tick {
 struct Chart {
   std::string title;  // "hall, 1280 × 720"
   std::string axis;   // "lights", "pixels", or a setting: "lidr-overlap"
+  std::string kept;   // over lights: kept_in_words
   std::vector<Tick> ticks;
   std::vector<Curve> curves;
   std::vector<Crossing> crossings;     // by rising x
@@ -47,6 +48,10 @@ struct Chart {
 // both if the order of their medians changes clearly: on both sides the median of the faster is below every
 // run of the slower. Otherwise the order is noise.
 std::vector<Crossing> crossings_of(const std::vector<Curve>& curves);
+
+// What views with several numbers of lights have in common: "all with the ranges of 300 lights". Empty: there is
+// a single number.
+std::string kept_in_words(const CompareReport& report);
 
 // Over lights and over pixels: a chart for each group of views that differ in that alone. Axes are
 // logarithmic: views without lights are omitted from the former.

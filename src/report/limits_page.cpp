@@ -24,6 +24,17 @@ static std::string section_text(const LimitSection& section) {
                             xml_escaped(section.source));
 }
 
+static std::string warnings_text(const std::vector<Warning>& warnings) {
+  if (warnings.empty()) return "";
+  std::string text = "<ul id=\"warnings\">\n";
+  for (const Warning& warning : warnings) {
+    text += "<li>" + xml_escaped(warning.text);
+    if (!warning.command.empty()) text += "<div><code>" + xml_escaped(warning.command) + "</code></div>";
+    text += "</li>\n";
+  }
+  return text + "</ul>\n";
+}
+
 std::string limits_page(const LimitsPage& page) {
   std::string sections;
   for (const bool holds : {false, true}) {
@@ -37,6 +48,7 @@ std::string limits_page(const LimitsPage& page) {
                                                            {"scene", xml_escaped(page.scene)},
                                                            {"view", xml_escaped(page.view)},
                                                            {"verdict", xml_escaped(page.verdict)},
+                                                           {"warnings", warnings_text(page.warnings)},
                                                            {"sections", sections},
                                                            {"pictures", pictures}});
 }

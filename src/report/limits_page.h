@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/log.h"
+
 namespace lightgrid {
 
 struct PagePicture {
@@ -24,6 +26,7 @@ struct LimitSection {
 struct LimitsPage {
   std::string scene, view;  // headings
   std::string verdict;
+  std::vector<Warning> warnings;
   std::vector<LimitSection> sections;
   std::vector<std::vector<uint8_t>> pictures;  // PNG, each once
 };

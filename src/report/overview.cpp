@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "report/charts.h"
+#include "report/speedup_words.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -167,6 +169,12 @@ std::vector<std::string> overview_sentences(const std::vector<ReportView>& views
         faster_where(views, "forward_plus", "clustered")}) {
     if (!sentence.empty()) sentences.push_back(sentence);
   }
+  const CompareReport& first = views.front().report;
+  if (const std::string kept = kept_in_words(first); !kept.empty())
+    sentences.push_back(fmt::format("Numbers of lights: {} (--keep {} keeps the other).", kept,
+                                    first.lights_kept == "range" ? "overlap" : "range"));
+  if (const std::string software = software_opengl_in_words(first); !software.empty())
+    sentences.push_back(software + ".");
   return sentences;
 }
 

@@ -35,6 +35,8 @@ CompareReport without_images(const CompareReport& report) {
   rest.reference_errors = report.reference_errors;
   rest.path_memory = report.path_memory;
   rest.exposure = report.exposure;
+  rest.warnings = report.warnings;
+  rest.lights_kept = report.lights_kept, rest.ranges_of = report.ranges_of;
   return rest;
 }
 

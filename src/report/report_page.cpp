@@ -70,6 +70,7 @@ json to_json(const std::vector<Chart>& charts) {
     }
     list.push_back({{"title", chart.title},
                     {"axis", chart.axis},
+                    {"kept", chart.kept},
                     {"ticks", ticks},
                     {"curves", curves},
                     {"crossings", crossings},

@@ -2,18 +2,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "report/report.h"
+#include "report/speedup_words.h"
 #include "results/path_changes.h"
 #include "results/words.h"
 
 namespace lightgrid {
 namespace {
-
-std::string lights_number(double value) {
-  return value >= 100 ? short_number(value) : fmt::format("{:.1f}", value);
-}
 
 // "12 leaked and 0 acned pairs".
 std::string shadows_in_words(const ShadowPairs& shadows) {
@@ -31,30 +27,17 @@ std::string failed_gates(const RunResult& row) {
   return fmt::format("{}", fmt::join(failures, " and "));
 }
 
-double pixels_with_surfaces(const CompareReport& report) {
-  return report.covered_pixels ? double(report.covered_pixels) : double(report.width) * report.height;
-}
-
-// Mean over the pixels with a surface; negative if not counted.
-double listed_per_pixel(const CompareReport& report, const RunResult& row) {
-  const double pixels = pixels_with_surfaces(report);
-  if (row.pairs && pixels > 0) return double(row.pairs->listed) / pixels;
-  const size_t i = size_t(&row - report.rows.data());
-  if (i >= report.listed.size() || report.listed[i].empty()) return -1;
-  return std::accumulate(report.listed[i].begin(), report.listed[i].end(), 0.0) / pixels;
-}
-
 std::string ms_in_words(const RunResult& row) { return short_number(row.frame_ms.median) + " ms"; }
 
 std::string time_figure(const CompareReport& report, const RunResult& row, const RunResult* reference) {
   const Spread& time = row.frame_ms;
   const auto runs = time.runs > 1 ? fmt::format("median of {}", time.runs) : "one run";
   if (reference && reference != &row && time.median > 0 && reference->frame_ms.runs > 0) {
-    return fmt::format("{} is {} times faster than {}: {} against {} a frame ({})", row_name(report, row),
+    return fmt::format("{} is {} times faster than {}: {} against {} per frame ({})", row_name(report, row),
                        short_number(reference->frame_ms.median / time.median), report.reference,
                        ms_in_words(row), ms_in_words(*reference), runs);
   }
-  return fmt::format("{} takes {} a frame ({})", row_name(report, row), ms_in_words(row), runs);
+  return fmt::format("{} takes {} per frame ({})", row_name(report, row), ms_in_words(row), runs);
 }
 
 std::string error_clause(const ImageError& error) {
@@ -97,6 +80,15 @@ std::string lights_figure(const CompareReport& report, const RunResult& row) {
   return line;
 }
 
+// For the terminal: at how many pixels the two rasterisers show another triangle.
+std::string surfaces_in_short(const CompareReport& report) {
+  if (!report.own_surfaces || !report.own_surfaces->error || !report.own_surfaces->error->silhouettes)
+    return "";
+  const uint64_t pixels = report.own_surfaces->error->silhouettes->silhouettes;
+  return fmt::format("the rasterisers of OpenCL and OpenGL show the same triangles except at {} of {} pixels",
+                     with_commas(pixels), with_commas(uint64_t(report.width) * uint64_t(report.height)));
+}
+
 // How far surfaces drawn in OpenCL are from OpenGL's, and whose are nearer to those in double.
 std::string surfaces_figure(const CompareReport& report) {
   if (!report.own_surfaces || !report.own_surfaces->error) return "";
@@ -114,19 +106,6 @@ std::string surfaces_figure(const CompareReport& report) {
                             a < b   ? ": OpenCL's are nearer"
                             : b < a ? fmt::format(": {}'s are nearer", report.reference)
                                     : "");
-}
-
-std::string why_faster(const CompareReport& report, const RunResult& row, const RunResult& reference) {
-  const double own = listed_per_pixel(report, row), other = listed_per_pixel(report, reference);
-  if (own >= 0 && other > own * 1.05) {
-    return fmt::format("it goes through {} lights a pixel where {} goes through {}", lights_number(own),
-                       report.reference, lights_number(other));
-  }
-  const auto costliest = std::max_element(reference.passes.begin(), reference.passes.end(),
-                                          [](auto& a, auto& b) { return a.median_ms < b.median_ms; });
-  if (costliest == reference.passes.end()) return "";
-  return fmt::format("most of {}'s frame is {} ({} ms)", report.reference, costliest->name,
-                     short_number(costliest->median_ms));
 }
 
 // The share of pixels at which the pictures as displayed may differ, for nobody to tell them apart.
@@ -250,12 +229,16 @@ std::string why_lost(const RunResult& row) {
                      told ? room->second : "a limited number of");
 }
 
-std::vector<std::string> remarks(const CompareReport& report) {
+namespace {
+
+std::vector<std::string> remarks_with(const CompareReport& report, const std::string& surfaces) {
   const RunResult* best = best_row(report);
   if (!best) return {};
   std::vector<std::string> lines;
+  if (const std::string software = software_opengl_in_words(report); !software.empty())
+    lines.push_back(software);
   if (listed_per_pixel(report, *best) >= 0) lines.push_back(lights_figure(report, *best));
-  if (const std::string surfaces = surfaces_figure(report); !surfaces.empty()) lines.push_back(surfaces);
+  if (!surfaces.empty()) lines.push_back(surfaces);
   const RunResult* failing = fastest(report, [](const RunResult& row) { return !passes_gates(row); });
   for (const RunResult* row : {fastest_lossy(report), failing}) {
     if (quicker(row, best) && row->error) lines.push_back(quicker_figure(report, *row));
@@ -264,14 +247,21 @@ std::vector<std::string> remarks(const CompareReport& report) {
   return lines;
 }
 
+}  // namespace
+
+std::vector<std::string> remarks(const CompareReport& report) {
+  return remarks_with(report, surfaces_figure(report));
+}
+
 std::vector<std::string> telling_figures(const CompareReport& report) {
   const RunResult* best = best_row(report);
   if (!best) return {};
   const RunResult* reference = reference_row(report);
   std::vector<std::string> lines = {time_figure(report, *best, reference)};
+  if (const std::string why = speedup_in_words(report, *best); !why.empty()) lines.push_back(why);
   if (const std::string light = light_clause(report, *best); !light.empty() && best != reference)
     lines.push_back(light);
-  for (std::string& line : remarks(report)) lines.push_back(std::move(line));
+  for (std::string& line : remarks_with(report, surfaces_in_short(report))) lines.push_back(std::move(line));
   return lines;
 }
 
@@ -281,7 +271,7 @@ std::string verdict(const CompareReport& report) {
   const std::string name = row_name(report, *best);
   if (!passes_gates(*best)) return fmt::format("No technique passes: {} has {}.", name, failed_gates(*best));
   if (!row)
-    return fmt::format("No technique is exact: {} is the fastest that fails no gate, {} a frame; {}.", name,
+    return fmt::format("No technique is exact: {} is the fastest that fails no gate, {} per frame; {}.", name,
                        ms_in_words(*best), light_clause(report, *best));
   if (!reference || reference->frame_ms.runs == 0)
     return fmt::format("{} is the fastest exact technique.", name);
@@ -292,7 +282,7 @@ std::string verdict(const CompareReport& report) {
         "Nothing exact beats {}{}.", name,
         next ? fmt::format("; {} comes next at {}", row_name(report, *next), ms_in_words(*next)) : "");
   }
-  const std::string why = why_faster(report, *row, *reference);
+  const std::string why = speedup_in_words(report, *row);
   return fmt::format("{} is the fastest exact technique, {} times faster than {}{}{}.", name,
                      short_number(reference->frame_ms.median / std::max(row->frame_ms.median, 1e-9)),
                      report.reference, why.empty() ? "" : ": ", why);
@@ -308,8 +298,8 @@ std::vector<Choice> choices(const CompareReport& report) {
   }
   if (alike) {
     Choice& choice =
-        all.emplace_back(fastest_choice(report, "Fastest that nobody can tell apart", *alike, looks_exact));
-    choice.why = alike == row ? "the same: nothing quicker looks like every light" : visible_in_words(*alike);
+        all.emplace_back(fastest_choice(report, "Fastest visually lossless", *alike, looks_exact));
+    choice.why = alike == row ? "nothing faster is indistinguishable from every light" : visible_in_words(*alike);
     if (alike->overflow) choice.why += "; it has " + failed_gates(*alike);
     const std::string rule = fmt::format("FLIP as displayed may be above {} at one pixel of {}", visible_flip,
                                          with_commas(uint64_t(1 / most_visible)));
@@ -326,7 +316,7 @@ std::vector<Choice> choices(const CompareReport& report) {
   if (least) {
     Choice& choice = all.emplace_back(
         Choice{"Least memory, exact", row_name(report, *least), bytes_in_words(least->memory_total), "", ""});
-    choice.why = fmt::format("{} a frame", ms_in_words(*least));
+    choice.why = fmt::format("{} per frame", ms_in_words(*least));
     if (next)
       choice.why += fmt::format("; the next, {}, takes {}", row_name(report, *next),
                                 bytes_in_words(next->memory_total));

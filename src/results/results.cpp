@@ -9,6 +9,7 @@
 #include "plan/settings.h"
 #include "results/error_measures.h"
 #include "results/path_changes.h"
+#include "results/speedup.h"
 
 namespace lightgrid {
 namespace {
@@ -86,19 +87,33 @@ json to_json(const ImageError& error) {
   return values;
 }
 
-json to_json(const std::optional<OwnSurfaces>& own) {
-  if (!own) return {};
-  return {{"technique", every_light_on(true)},
-          {"error", own->error ? to_json(*own->error) : json()},
-          {"why_not", own->why_not.empty() ? json() : json(own->why_not)}};
-}
-
 json to_json(const Spread& times) {
   const bool timed = times.runs > 0;
   return {{"min", timed ? finite_number(times.min) : json()},
           {"median", timed ? finite_number(times.median) : json()},
           {"max", timed ? finite_number(times.max) : json()},
           {"runs", times.runs}};
+}
+
+json speedup_json(const CompareReport& report, const RunResult& row) {
+  const std::optional<Speedup> speedup = speedup_of(report, row);
+  if (!speedup) return {};
+  const auto factor = [](const std::optional<double>& f) { return f ? finite_number(*f) : json(); };
+  const bool by_row = speedup->by && speedup->by >= report.rows.data() &&
+                      speedup->by < report.rows.data() + report.rows.size();
+  return {{"total", finite_number(speedup->total)},
+          {"lists", factor(speedup->lists)},
+          {"api", factor(speedup->api)},
+          {"other", finite_number(speedup->other)},
+          {"by", !speedup->by ? json() : by_row ? json(speedup->by->technique) : json(every_light_on(true))}};
+}
+
+json to_json(const std::optional<OwnSurfaces>& own) {
+  if (!own) return {};
+  return {{"technique", every_light_on(true)},
+          {"error", own->error ? to_json(*own->error) : json()},
+          {"why_not", own->why_not.empty() ? json() : json(own->why_not)},
+          {"frame_ms", own->every_light ? to_json(own->every_light->frame_ms) : json()}};
 }
 
 json memory_json(const RunResult& result) {
@@ -153,6 +168,15 @@ json to_json(const ShadowResult& s) {
 }
 
 }  // namespace
+
+json warnings_json(const std::vector<Warning>& warnings) {
+  json list = json::array();
+  for (const Warning& w : warnings)
+    list.push_back({{"text", w.text},
+                    {"settings", w.settings},
+                    {"command", w.command.empty() ? json() : json(w.command)}});
+  return list;
+}
 
 json pairs_json(const PairCounts& pairs) {
   json all = {{"listed", pairs.listed}, {"lit", pairs.lit}, {"lost", pairs.lost}, {"wrong", pairs.wrong}};
@@ -283,7 +307,10 @@ const Image& image_of(const CompareReport& report, size_t row) {
 
 json to_json(const CompareReport& report) {
   json rows = json::array(), reference_errors;
-  for (const auto& row : report.rows) rows.push_back(to_json(row));
+  for (const auto& row : report.rows) {
+    rows.push_back(to_json(row));
+    rows.back()["speedup"] = speedup_json(report, row);
+  }
   if (const auto& errors = report.reference_errors) {
     reference_errors = {{"model", to_json(errors->model)},
                         {"precision", to_json(errors->precision)},
@@ -295,6 +322,7 @@ json to_json(const CompareReport& report) {
               {"exposure", exposure_json(report.exposure)},
               {"devices", {{"cl", report.cl_device}, {"gl", report.gl_device}}},
               {"commit", report.commit},
+              {"warnings", warnings_json(report.warnings)},
               {"reference",
                {{"technique", report.reference},
                 {"pixels", report.reference_pixels},
@@ -304,6 +332,10 @@ json to_json(const CompareReport& report) {
               {"own_surfaces", to_json(report.own_surfaces)},
               {"covered_pixels", report.covered_pixels ? json(report.covered_pixels) : json()},
               {"rows", rows}};
+  if (!report.lights_kept.empty()) {
+    out["lights_kept"] = report.lights_kept;
+    out["ranges_of"] = report.ranges_of > 0 ? json(report.ranges_of) : json();
+  }
   if (const auto& memory = report.path_memory) {
     out["moving"] = {
         {"resident_bytes",

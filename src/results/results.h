@@ -11,6 +11,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "base/image.h"
+#include "base/log.h"
 #include "base/timer.h"
 #include "plan/plan_changes.h"
 
@@ -238,6 +239,9 @@ nlohmann::json exposure_json(const Exposure& exposure);
 // Settings by the keys of results.json, numbers as numbers.
 nlohmann::json settings_json(const std::map<std::string, std::string>& settings);
 
+// [{"text", "settings", "command"}]; command is null if there is none.
+nlohmann::json warnings_json(const std::vector<Warning>& warnings);
+
 nlohmann::json pairs_json(const PairCounts& pairs);
 nlohmann::json to_json(const RunResult& result);
 
@@ -257,6 +261,8 @@ struct ReferenceErrors {
 struct OwnSurfaces {
   std::string why_not;              // it was not drawn; empty if it was
   std::optional<ImageError> error;  // with `surfaces`, `silhouettes` and `displayed`
+  // Its times and passes, where no row tells what shorter lists are worth (results/speedup.h).
+  std::optional<RunResult> every_light = {};
 };
 
 // Everything that the report of one view shows.
@@ -280,6 +286,11 @@ struct CompareReport {
   std::optional<ReferenceErrors> reference_errors;
   std::optional<PathMemory> path_memory;  // absent without a camera path
   Exposure exposure;                      // of every picture of this view
+  std::vector<Warning> warnings;          // of this view, those of its scene included
+  // Of several views that differ in the number of lights: what stays the same, "range" or "overlap"; empty: a
+  // single number. ranges_of: the number of scattered lights whose ranges all have; 0: ranges were given.
+  std::string lights_kept;
+  int ranges_of = 0;
 };
 
 // The row that is the reference, possibly refused; null if there is none.

@@ -123,7 +123,8 @@ std::vector<Light> scatter_lights(const Scene& scene, const ScatterSettings& set
   float min_radius = settings.min_radius_m, max_radius = settings.max_radius_m;
   if (max_radius == 0 && settings.count > 0) {
     // count * pi * radius^2 = lights_per_point * area; radii vary around it.
-    const double radius = std::sqrt(lights_per_point * surface.area() / (std::numbers::pi * settings.count));
+    const int count = settings.ranges_of > 0 ? settings.ranges_of : settings.count;
+    const double radius = std::sqrt(lights_per_point * surface.area() / (std::numbers::pi * count));
     const WorldBox box = world_box(scene);
     const double bounded = std::min(radius, glm::length(box.max - box.min) / 4);
     min_radius = float(0.6 * bounded), max_radius = float(1.4 * bounded);

@@ -26,10 +26,17 @@ ReferencePixels parse_reference(const std::string& text) {
   throw input_error("reference {}: not full, sampled or auto", text);
 }
 
+// The first number above 0, whose ranges all lights of a series have; 0 for a single number.
+int ranges_of_series(const std::vector<int>& counts) {
+  const auto first = std::ranges::find_if(counts, [](int count) { return count > 0; });
+  return counts.size() < 2 || first == counts.end() ? 0 : *first;
+}
+
 std::vector<SceneChoice> chosen_views(const CompareChoice& choice) {
   std::vector<int> counts;
   for (const std::string& text : choice.lights) counts.push_back(parse_lights(text));
   if (counts.empty()) counts.push_back(-1);
+  const bool keeps_ranges = parse_kept(choice.keep, choice.scene) == Kept::range;
   std::vector<SceneChoice> views;
   for (const std::string& scene : choice.scenes) {
     for (const std::string& size : choice.sizes) {
@@ -37,6 +44,7 @@ std::vector<SceneChoice> chosen_views(const CompareChoice& choice) {
       for (const int lights : counts) {
         SceneChoice& view = views.emplace_back(choice.scene);
         view.scene = scene, view.size = size, view.lights = lights;
+        view.ranges_of = keeps_ranges ? ranges_of_series(counts) : 0;
         view.device = choice.devices.device;
       }
     }
@@ -88,6 +96,7 @@ CompareReport compare_view(Renderer& devices, Scene& scene, const View& view, co
                            const CompareChoice& choice, const std::vector<Contestant>& contestants,
                            const std::function<void(double done, const std::string& step)>& progress,
                            const std::string& which, bool all_may_refuse) {
+  const WarningCollector collector;
   CompareOptions options{.frames = choice.timing.frames,
                          .warmup = choice.timing.warmup,
                          .reference = parse_reference(choice.reference),
@@ -100,6 +109,7 @@ CompareReport compare_view(Renderer& devices, Scene& scene, const View& view, co
   options.exposure = [&](const Image& reference) { return chosen_exposure(view_choice, reference); };
   options.notice = [&](const std::string& what) { log_info("{}{}", which, what); };
   CompareReport report = compare_techniques(devices, scene, view, contestants, options);
+  report.warnings = collector.warnings();
   report.exposure = chosen_exposure(view_choice, picture_of(report));
   tell_exposure(report.exposure, which);
   return report;
@@ -119,7 +129,9 @@ void run_comparison(const Comparison& comparison,
                     const std::function<void(CompareReport report)>& found) {
   const CompareChoice& choice = comparison.choice;
   Renderer devices(choice.devices.device, parse_gl_backend(choice.devices.gl));
+  const WarningCollector of_run;
   const std::vector<Contestant> contestants = runnable(choice, comparison.contestants, devices);
+  const std::vector<Warning> of_devices = of_run.warnings();
   const size_t count = comparison.views.size();
   const std::vector<SceneChoice> choices = chosen_views(choice);
   double total = 0, before = 0;
@@ -128,12 +140,22 @@ void run_comparison(const Comparison& comparison,
     const LoadedView& view = comparison.views[i];
     const double cost = cost_of(view);
     const std::string which = count > 1 ? fmt::format("{}/{} {}: ", i + 1, count, view.scene->name) : "";
-    found(compare_view(
+    CompareReport report = compare_view(
         devices, view.with_lights(), view.view, choices[i], choice, contestants,
         [&](double done, const std::string& step) {
           if (progress) progress((before + done * cost) / total, which + step);
         },
-        which, count > 1));
+        which, count > 1);
+    std::vector<Warning> warnings = of_devices;
+    add_distinct(warnings, view.warnings);
+    add_distinct(warnings, report.warnings);
+    report.warnings = std::move(warnings);
+    if (choice.lights.size() > 1) {
+      report.lights_kept = name_of(parse_kept(choice.keep, choice.scene));
+      const bool given = !choice.scene.light_radius.empty() || !choice.scene.lights_file.empty();
+      report.ranges_of = given ? 0 : choices[i].ranges_of;
+    }
+    found(std::move(report));
     before += cost;
   }
 }

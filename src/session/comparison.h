@@ -21,6 +21,7 @@ struct CompareChoice {
   std::vector<std::string> techniques;  // empty: default_techniques(), or those that run without OpenGL
   std::vector<std::string> compare;
   std::string reference = "auto";
+  std::string keep = "range";  // over several numbers of lights (Kept)
   bool flip = false;
 };
 const std::vector<std::string>& default_techniques();

@@ -33,6 +33,7 @@ void scatter_over(Scene& scene, const SceneChoice& choice) {
   ScatterSettings scatter;
   scatter.count = choice.lights;
   scatter.seed = choice.seed;
+  scatter.ranges_of = choice.ranges_of;
   if (!choice.light_radius.empty()) {
     const auto [low, high] = parse_pair<float>(choice.light_radius, ',').value_or(std::pair(0.0f, 0.0f));
     if (!(low > 0) || !(high >= low) || std::isinf(high))
@@ -78,13 +79,15 @@ void tell_endless_lights(const Scene& scene, const SceneChoice& choice) {
       scene.lights, [](const Light& l) { return !is_directional(l) && std::isinf(l.radius_m); });
   if (endless < many || chosen_settings(choice).ranges.range != LightRange::scene) return;
   const std::optional<CutoffEffect> help = helpful_cutoff(scene);
-  log_warning(
-      "{}: {} of {} lights have no range: every technique lists them everywhere{}", choice.scene, endless,
-      scene.lights.size(),
-      help ? fmt::format("; with --set range=cutoff --set cutoff={:g} about {:.0f} reach a point, which "
-                         "keeps {:.0f} % of its light",
-                         help->cutoff, help->lights, 100 * help->share)
-           : "");
+  const std::string line = fmt::format(
+      "{}: {} of {} lights have no range: every technique lists them everywhere", choice.scene, endless,
+      scene.lights.size());
+  if (!help) return log_warning_line(line);
+  const std::string cutoff = fmt::format("cutoff={:g}", help->cutoff);
+  log_warning_line(fmt::format("{}; with --set range=cutoff --set {} about {:.0f} reach a point, which keeps "
+                               "{:.0f} % of its light",
+                               line, cutoff, help->lights, 100 * help->share),
+                   {"range=cutoff", cutoff});
 }
 
 VirtualLightSettings virtual_settings(const SceneChoice& choice) {
@@ -120,6 +123,18 @@ void place_virtual_lights(Scene& scene, const SceneChoice& choice) {
 }
 
 }  // namespace
+
+Kept parse_kept(const std::string& keep, const SceneChoice& choice) {
+  if (keep == name_of(Kept::range)) return Kept::range;
+  if (keep != name_of(Kept::overlap)) throw input_error("keep {}: neither range nor overlap", keep);
+  for (const auto& [name, text] :
+       {std::pair("light-radius", choice.light_radius), {"lights-file", choice.lights_file}}) {
+    if (!text.empty()) throw input_error("keep {}: {} {} gives the lights their ranges", keep, name, text);
+  }
+  return Kept::overlap;
+}
+
+const char* name_of(Kept kept) { return kept == Kept::range ? "range" : "overlap"; }
 
 const std::vector<ChoiceField>& choice_fields() {
   using enum ChoiceField::Of;
@@ -390,17 +405,22 @@ static bool same_file(const SceneChoice& a, const SceneChoice& b) {
 std::vector<LoadedView> load_views(const std::vector<SceneChoice>& choices) {
   std::vector<LoadedView> views;
   const SceneChoice* loaded = nullptr;
+  std::vector<Warning> of_file;
   Scene own;  // the scene's own lights
   std::shared_ptr<Scene> scene;
   for (const SceneChoice& choice : choices) {
     if (!loaded || !same_file(choice, *loaded)) {
+      const WarningCollector collector;
       scene = std::make_shared<Scene>(load_scene(choice));
       loaded = &choice;
       own.lights = scene->lights, own.ambient = scene->ambient;
+      of_file = collector.warnings();
     }
+    const WarningCollector collector;
     scene->lights = own.lights, scene->ambient = own.ambient;
     const View view = choose_view(*scene, choice);
-    views.push_back({scene, view, scene->lights, scene->ambient});
+    views.push_back({scene, view, scene->lights, scene->ambient, of_file});
+    add_distinct(views.back().warnings, collector.warnings());
   }
   return views;
 }

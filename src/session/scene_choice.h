@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/log.h"
 #include "plan/settings.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
@@ -30,6 +31,7 @@ struct SceneChoice {
   std::string time;         // seconds; empty: at rest
   std::string light_motion = "none";
   int lights = -1;  // -1: the scene's own
+  int ranges_of = 0;  // scattered lights have the ranges of this many; 0: of `lights`
   std::string lights_file;
   std::string light_radius;
   std::string ambient;  // radiance from all sides; empty: the scene's own
@@ -61,6 +63,14 @@ const std::vector<ChoiceField>& choice_fields();
 // Sets one from "NAME=VALUE". Throws Error(input) that lists the names. Values of text are checked when they
 // are used.
 void set_choice_field(SceneChoice& choice, const std::string& assignment);
+
+// What stays the same over a series of numbers of scattered lights: their ranges, or how many of them reach a
+// point, for which ranges shrink as the number grows.
+enum class Kept { range, overlap };
+// Throws Error(input) for another word, and for overlap where ranges cannot follow the number: those of
+// light-radius or of a lights-file.
+Kept parse_kept(const std::string& keep, const SceneChoice& choice);
+const char* name_of(Kept kept);
 
 struct DeviceOptions {
   std::string device;
@@ -119,6 +129,7 @@ struct LoadedView {
   View view;
   std::vector<Light> lights;
   glm::vec3 ambient;
+  std::vector<Warning> warnings;  // of the file, the lights and the camera
 
   // The scene with this view's lights.
   Scene& with_lights() const {

@@ -18,9 +18,11 @@ function threeDigits(value) {
 
 const percentText = (percent) => `${threeDigits(percent)} %`;
 
-// Below six runs a median has no interval: the range of the runs, with their number.
+const roundsText = (runs) => `${runs} round${runs === 1 ? "" : "s"}`;
+
+// Below six runs a median has no interval: the range of the runs, with their number. With too few of them, nothing.
 const intervalInWords = ({ median, estimate, ci95: [low, high], runs }, unit) =>
-  `${threeDigits(median ?? estimate)}${unit} (${runs === 1 ? "one run, no interval" : `${threeDigits(low)} to ${threeDigits(high)}${runs < 6 && median !== undefined ? `, ${runs} runs` : ""}`})`;
+  `${threeDigits(median ?? estimate)}${unit} (${low === null ? `interval not measured: ${roundsText(runs)}` : `${threeDigits(low)} to ${threeDigits(high)}${runs < 6 && median !== undefined ? `, ${runs} runs` : ""}`})`;
 
 // A measure of an error's figures, or null.
 const measureOf = (figures, measure) => (measure === "displayed_flip" ? figures?.displayed_flip?.mean : figures?.[measure]) ?? null;
@@ -67,7 +69,8 @@ function surfacesFloor(points, { key }) {
   return kind === "total" ? points.map(({ error }) => size(measureOf(error.surfaces, measure))).find((floor) => floor > 0) ?? null : null;
 }
 
-const probabilityText = (p) => (p > 0.995 ? "more than 99 %" : p < 0.005 ? "less than 1 %" : `${Math.round(100 * p)} %`);
+// Null: too few rounds, or a control that failed.
+const probabilityText = (p) => (p === null ? "not measured" : p > 0.995 ? "more than 99 %" : p < 0.005 ? "less than 1 %" : `${Math.round(100 * p)} %`);
 
 // Runs that fall into two groups: "two modes: 0.9 and 1.8 (30 % of runs)".
 const modesInWords = ({ modes, slow_share: share }) => (modes.length ? `two modes: ${threeDigits(modes[0])} and ${threeDigits(modes[1])} (${Math.round(100 * share)} % of runs)` : "");

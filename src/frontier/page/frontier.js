@@ -30,7 +30,7 @@ function withinCell(best) {
   const point = page.points[best.point];
   return make("td", {}, make("div", {}, pointButton(point, nameElement(point.label))),
     make("div", { class: "note" }, `${intervalInWords(best.relative_time, "\u00d7")}, ${milliseconds(state.clock.ms(point).median)}`),
-    make("div", { class: "note" }, `the cheapest with a probability of ${probabilityText(best.probability)}`));
+    make("div", { class: "note" }, best.probability === null ? "how surely it is the cheapest: not measured" : `the cheapest with a probability of ${probabilityText(best.probability)}`));
 }
 
 function showBestWithin() {
@@ -143,7 +143,7 @@ function choosePoint(point) {
   const timed = point?.relative_time.runs > 0;
   const summary = point && [externalInWords(point), timed && `${intervalInWords(point.relative_time, "")} times ${page.baseline}`, timed && `${intervalInWords(point.frame_ms, " ms")} a frame`,
     point?.device_ms.runs > 0 && `on the devices ${intervalInWords(point.device_ms, " ms")}, hand-over ${threeDigits(point.hand_over_ms.median)} ms, copies ${threeDigits(point.copy_ms.median)} ms, read-back ${threeDigits(point.read_back_ms.median)} ms`,
-    timed && `95 % of frames within ${threeDigits(point.frame_ms_within.p95)} ms, 99 % within ${threeDigits(point.frame_ms_within.p99)} ms`,
+    timed && point.frame_ms_within.p95 !== null && `95 % of frames within ${threeDigits(point.frame_ms_within.p95)} ms, 99 % within ${threeDigits(point.frame_ms_within.p99)} ms`,
     timed && modesInWords(point.relative_time), timed && point.relative_time.between_processes !== null && `${percentText(100 * point.relative_time.between_processes)} between ${point.relative_time.processes} processes`,
     `${point.views} view${point.views === 1 ? "" : "s"}`, timed && point.timed_views < point.views && `timed on ${point.timed_views} of them`, flipOverViews(point), point.pairs?.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
     quantity("leaked").value(point) !== null && `${percentText(point.leaked_percent)} of ${wholeNumber(point.pairs.shadow_pairs)} pairs leaked, ${percentText(point.acned_percent)} acned`,
@@ -235,7 +235,7 @@ function chooseReference(reference) {
 function showFigures() {
   const frontTag = (point) => {
     const { on, probability } = frontOfChoice(point);
-    return on ? `front ${probabilityText(probability)}` : "";
+    return on ? `front${probability === null ? "" : ` ${probabilityText(probability)}`}` : "";
   };
   showTable(byId("figures-table"), FIGURE_COLUMNS, state.points, frontTag);
 }
@@ -279,6 +279,7 @@ function startChoices() {
 
 for (const part of ['front-part', 'table-part']) byId(part).hidden = page.points.length === 0;
 showHeader();
+showWarnings(page.warnings);
 showBestWithin();
 showFailures();
 showMachines();

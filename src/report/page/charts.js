@@ -33,7 +33,7 @@ function chartFrame(chart, width, x, y, steps) {
     frame.push(make("text", { x: x(tick.x), y: CHART_HEIGHT - bottom + 16, "text-anchor": "middle" }, tick.label));
     free = x(tick.x) + half + 6;
   }
-  frame.push(make("text", { x: (left + width - right) / 2, y: CHART_HEIGHT - 8, "text-anchor": "middle" }, chart.axis),
+  frame.push(make("text", { x: (left + width - right) / 2, y: CHART_HEIGHT - 8, "text-anchor": "middle" }, [chart.axis, chart.kept].filter(Boolean).join(", ")),
     make("text", { x: left - 6, y: 11, "text-anchor": "end" }, "ms"));
   return frame;
 }

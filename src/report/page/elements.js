@@ -11,6 +11,18 @@ function make(tag, attributes, ...children) {
   return element;
 }
 
+// Warnings, with the command that avoids each; [{ text, command }].
+function showWarnings(warnings) {
+  const list = byId("warnings"), lines = [...new Map(warnings.map((warning) => [warning.text, warning])).values()];
+  list.hidden = lines.length === 0;
+  list.replaceChildren(...lines.map(({ text, command }) => {
+    if (command === null) return make("li", {}, text);
+    const copy = make("button", { type: "button", class: "copy" }, "Copy");
+    copy.addEventListener("click", () => navigator.clipboard.writeText(command));
+    return make("li", {}, text, make("div", {}, make("code", {}, command), " ", copy));
+  }));
+}
+
 // A row's name, with line breaks only after colons and commas.
 function nameElement(name) {
   const parts = name.split(/(?<=[:,])/);

@@ -70,6 +70,7 @@ function readState() {
 const redrawAll = () => [...redrawsOfAll, ...redraws].forEach((draw) => draw());
 
 showHeader();
+showWarnings(views.flatMap((view) => view.results.warnings));
 [page.difference_legend, page.heat_legend].forEach(loadRamp);
 startSlider(keepStateSoon);
 startOverview();

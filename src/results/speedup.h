@@ -1,0 +1,34 @@
+// What makes a row faster than the reference: factors that rows of the same run isolate.
+#pragma once
+
+#include <optional>
+
+#include "results/results.h"
+
+namespace lightgrid {
+
+// Times of the reference relative to the row's. The product of the factors that are known is the total.
+struct Speedup {
+  double total = 1;
+  // Shorter lists, on rows that draw with the same passes otherwise. Empty: no such rows were timed.
+  std::optional<double> lists;
+  // OpenCL instead of OpenGL, between rows with equally long lists. Empty: no such rows were timed.
+  std::optional<double> api;
+  double other = 1;  // everything that no pair of rows isolates
+  // The row that isolates a factor, next to the reference or to the row itself. Null: the two themselves do.
+  const RunResult* by = nullptr;
+};
+
+// Empty if the row or the reference was not timed.
+std::optional<Speedup> speedup_of(const CompareReport& report, const RunResult& row);
+
+// Whether no pass draws or shades in OpenGL.
+bool draws_without_opengl(const RunResult& row);
+
+// Whether the row draws with the passes of `every_light`: what it has in addition builds its lists.
+bool adds_only_lists(const RunResult& row, const RunResult& every_light);
+
+// The name of a driver that draws without a graphics card ("llvmpipe"); empty for others.
+std::string software_opengl(const std::string& gl_device);
+
+}  // namespace lightgrid
