@@ -135,7 +135,7 @@ lightgrid_status lightgrid_describe(const char* name, char** json) {
   const lightgrid_status status = call([&] {
     char*& out = needed(json, "json");
     const std::string of = &needed(name, "table");
-    out = text_for_caller((of == "warnings" ? warnings_json(warnings) : table(of)).dump(1));
+    out = text_for_caller(of == "warnings" ? warnings_json(warnings).dump(1) : table(of).dump(1));
   });
   last_warnings() = warnings;  // a call for a table is none of those that they are of
   return status;

@@ -146,9 +146,9 @@ struct ShadingCost {  // of this machine, a slope over points of one technique a
 // time = c x^exponent, least squares in logarithms, with a 95 % interval (power_law).
 struct Growth {
   std::string scene, technique, of;  // technique: the point's label; of: the series
-  std::string kept;                  // over lights: FrontierPart::keep
   double exponent = 0, low = 0, high = 0;
   std::vector<std::pair<double, double>> samples;  // x, median ms
+  std::string kept = {};                           // over lights: FrontierPart::keep
 };
 
 // Of a family of lights: the cheapest point of each technique whose picture is within a FLIP as displayed,

@@ -9,6 +9,7 @@
 #include "frontier/answer_steps.h"
 #include "frontier/fields.h"
 #include "plan/settings.h"
+#include "results/speedup.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -20,7 +21,7 @@ constexpr double same_picture = 1e-5;
 // "3 rounds", or why figures that need more of them are missing.
 std::string rounds_in_words(int rounds) {
   const std::string count = fmt::format("{} round{}", rounds, rounds == 1 ? "" : "s");
-  return rounds < min_rounds ? fmt::format("{}, at least {} are needed", count, min_rounds) : count;
+  return rounds < min_rounds ? fmt::format("{}; at least {} are needed", count, min_rounds) : count;
 }
 
 std::string times_in_words(const RelativeTime& time) {
@@ -287,11 +288,11 @@ void add_baseline(const FrontierAnswer& answer, std::vector<std::string>& senten
   if (answer.points.empty() || answer.machines.empty() || draws_in_opencl(answer.part.baseline)) return;
   const std::string& gl = answer.machines.front().gl_device;
   const auto is = [&](const char* name) { return gl.find(name) != std::string::npos; };
-  if (is("llvmpipe") || is("softpipe")) {
+  if (const std::string driver = software_opengl(gl); !driver.empty()) {
     sentences.push_back(
-        fmt::format("OpenGL is a rasteriser in software here ({}): times over {} hold OpenCL on all of the "
-                    "processor's cores against it, and say nothing of a graphics card.",
-                    is("llvmpipe") ? "llvmpipe" : "softpipe", answer.part.baseline));
+        fmt::format("OpenGL runs in software on this machine ({}): times relative to {} compare OpenCL on all of "
+                    "the processor's cores with it, and say nothing about a graphics card.",
+                    driver, answer.part.baseline));
   } else if (is("H100") || is("H200") || is("GH200")) {
     sentences.push_back(
         fmt::format("On a Hopper GPU pixel shaders run on few of its units and kernels on all: times over {} "
@@ -302,7 +303,7 @@ void add_baseline(const FrontierAnswer& answer, std::vector<std::string>& senten
   }
   if (!answer.among_opencl.empty())
     sentences.back() +=
-        " Techniques that draw in OpenCL are held against each other in a table of their own.";
+        " Techniques that draw in OpenCL are compared with each other in a table of their own.";
 }
 
 // A control that failed.

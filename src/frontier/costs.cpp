@@ -166,8 +166,8 @@ std::vector<Growth> growth_of(Records records, const std::string& keep) {
       medians[place_in_series(*r)].push_back(spread_of(r->frame_ms).median);
     if (medians.size() < 2) continue;
     const FrontierRecord& first = *group.front();
-    Growth& curve = curves.emplace_back(
-        Growth{first.point.scene, first.point.label, first.series, first.series == "lights" ? keep : ""});
+    Growth& curve = curves.emplace_back(Growth{first.point.scene, first.point.label, first.series});
+    if (first.series == "lights") curve.kept = keep;
     for (const auto& [x, of_views] : medians) {
       double sum = 0;
       for (const double ms : of_views) sum += ms;

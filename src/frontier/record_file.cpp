@@ -145,8 +145,9 @@ void RecordFile::complete(const std::vector<std::string>& keys) {
 }
 
 void RecordFile::finish(double load_at_end, const std::vector<Warning>& warnings) {
-  add({{"finished",
-        {{"load_at_end", finite_number(load_at_end)}, {"warnings", warnings_json(warnings)}}}});
+  json line = {{"finished", {{"load_at_end", finite_number(load_at_end)}}}};
+  if (!warnings.empty()) line["finished"]["warnings"] = warnings_json(warnings);
+  add(line);
 }
 
 // In one call where the system allows it: a reader rarely sees half of a line.

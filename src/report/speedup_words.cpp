@@ -55,8 +55,8 @@ std::string not_isolated(const CompareReport& report, const RunResult& row, cons
   if (draws_without_opengl(row) && !draws_without_opengl(reference))
     differences.push_back(opencl_instead(report));
   if (differences.empty()) return "";
-  return fmt::format("this run does not isolate the cause; what differs is {}{}",
-                     fmt::join(differences, ", and "), " and the technique's passes");
+  differences.push_back("the technique's other passes");
+  return fmt::format("this run does not isolate the cause; what differs is {}", fmt::join(differences, ", and "));
 }
 
 // Where lists are as long as the reference's and nothing else is known: its costliest pass.
@@ -114,6 +114,7 @@ std::string speedup_in_words(const CompareReport& report, const RunResult& row) 
     const std::string differs = not_isolated(report, row, *reference);
     return differs.empty() ? costliest_pass(report, *reference) : differs;
   }
+  if (factors.size() == 1 && factors[0].value >= worth_a_word) return "all of it from " + factors[0].cause;
   std::vector<std::string> gains, none;
   for (const Factor& f : factors) {
     if (f.value >= worth_a_word)

@@ -12,8 +12,8 @@ struct ScatterSettings {
   // Both 0: from the surfaces' area and `ranges_of`, so that about eight lights reach a point of a large plane.
   // Where surfaces lie within each other's reach, as in a building, several times as many do.
   float min_radius_m = 0, max_radius_m = 0;
-  int ranges_of = 0;  // the ranges are those of this many lights; 0: of `count`
   uint64_t seed = 1;
+  int ranges_of = 0;  // the ranges are those of this many lights; 0: of `count`
 };
 
 // Point lights (one in eight a spot) near surfaces: a triangle by area, a point on it, then up to half a

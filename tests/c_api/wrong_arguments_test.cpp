@@ -279,6 +279,25 @@ TEST(CLog, HasTheLinesOfTheProgram) {
   EXPECT_THAT(lines[0], HasSubstr("time 1: "));
 }
 
+nlohmann::json warnings() {
+  char* json = nullptr;
+  must(lightgrid_describe("warnings", &json));
+  const auto list = nlohmann::json::parse(json);
+  lightgrid_free(json);
+  return list;
+}
+
+TEST(CWarnings, AreThoseOfTheLastCall) {
+  load_scene("particles", {"size=64x36", "time=1"});
+  const nlohmann::json of_scene = warnings();
+  ASSERT_EQ(of_scene.size(), 1u);
+  EXPECT_THAT(of_scene[0]["text"].get<std::string>(), HasSubstr("time 1: "));
+  EXPECT_TRUE(of_scene[0]["command"].is_null());
+  EXPECT_EQ(warnings(), of_scene) << "describing is none of the calls";
+  load_scene("particles", {"size=64x36"});
+  EXPECT_TRUE(warnings().empty());
+}
+
 // A suite of its own, and so a process in which nobody has asked for lines yet.
 TEST(CSilence, IsWhatALibraryKeepsAtFirst) {
   testing::internal::CaptureStderr();

@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "base/error.h"
 #include "frontier/answer_steps.h"
 #include "frontier/synthetic_records.h"
@@ -126,9 +128,9 @@ TEST(Answer, SaysWhatTheBaselineIsOnThisMachine) {
     part.machine.gl_device = gl_device, part.baseline = baseline;
     const FrontierAnswer answer = answer_of({part});
     const std::string sentence = answer.sentences.empty() ? "" : answer.sentences.front();
-    const bool about = sentence.find("OpenGL is") == 0 || sentence.find("On a Hopper") == 0;
+    const bool about = sentence.find("OpenGL runs") == 0 || sentence.find("On a Hopper") == 0;
     for (const std::string& line : words_of_scene(answer, "hall").opening)
-      EXPECT_EQ(line == sentence && about, line.find("OpenGL is") == 0 || line.find("On a Hopper") == 0);
+      EXPECT_EQ(line == sentence && about, line.find("OpenGL runs") == 0 || line.find("On a Hopper") == 0);
     EXPECT_THAT(words_of_scene(answer, "hall").opening, SizeIs(about ? 2 : 1));
     return about ? sentence : "";
   };
@@ -358,8 +360,12 @@ TEST(Answer, ControlsWidenTheIntervalsOfTheirScene) {
   const RelativeTime &hall = answer.points[0].relative_time, &terrain = answer.points[1].relative_time;
   EXPECT_NEAR(hall.high / terrain.high, answer.controls[0].relative_time.estimate, 1e-9);
   EXPECT_NEAR(terrain.low / hall.low, answer.controls[0].relative_time.estimate, 1e-9);
-  EXPECT_THAT(answer.sentences, testing::Contains(HasSubstr("Times in hall are in doubt")));
-  EXPECT_THAT(answer.sentences, testing::Not(testing::Contains(HasSubstr("Times in terrain are in doubt"))));
+  EXPECT_THAT(answer.sentences[0],
+              testing::StartsWith("Control failed in hall: the baseline measured against itself gave 1.08 instead "
+                                  "of 1. Times of this run are unreliable. Intervals are wider by 8"));
+  EXPECT_THAT(answer.sentences, testing::Not(testing::Contains(HasSubstr("Control failed in terrain"))));
+  EXPECT_TRUE(std::isnan(answer.points[0].fronts.at("total").probability)) << "of times that are unreliable";
+  EXPECT_FALSE(std::isnan(answer.points[1].fronts.at("total").probability));
 }
 
 // Parts of one sweep have controls of their own; none is in the rounds of another part.
@@ -404,6 +410,45 @@ TEST(Answer, FindsTheCheapestPointWithinEachError) {
   EXPECT_EQ(answer.cheapest_within[4].error, 0.2);
   EXPECT_EQ(best(4), "a");
   EXPECT_EQ(answer.cheapest_within[4].relative_time.runs, 5) << "picked on the other five of ten";
+}
+
+// Of one round: no interval, no probability, no percentile, in figures and in words.
+TEST(Answer, OfFewRoundsClaimsNoCertainty) {
+  const auto of = [](const std::string& name, double ratio, double error, int rounds) {
+    return synthetic_record(synthetic_point("hall", name), ratio, error, 0, rounds);
+  };
+  FrontierRecord control = of("forward_plus", 1.54, 0, 1);
+  control.series = "control 0";
+  FrontierPart part =
+      synthetic_part({of("forward_plus", 1, 0, 1), of("visibility", 0.5, 0.005, 1), control});
+  part.points_asked = {{"hall", 61}};
+  const FrontierAnswer once = answer_of({part});
+  EXPECT_THAT(once.sentences[0], testing::StartsWith("Control failed in hall: the baseline measured against itself "
+                                                     "gave 1.5"));
+  EXPECT_EQ(once.sentences[1],
+            "In hall 2 of 61 points were measured, in 1 round; at least 3 are needed: a longer --budget measures "
+            "more.");
+  for (const std::string& sentence : once.sentences) EXPECT_THAT(sentence, testing::Not(HasSubstr("probability")));
+  const nlohmann::json json = to_json(once);
+  EXPECT_EQ(json["coverage"][0],
+            nlohmann::json({{"scene", "hall"}, {"points_measured", 2}, {"points_asked", 61}}));
+  const nlohmann::json none = {nullptr, nullptr};
+  for (const nlohmann::json& point : json["points"]) {
+    EXPECT_EQ(point["relative_time"]["ci95"], none);
+    EXPECT_TRUE(point["relative_time"]["estimate"].is_number());
+    EXPECT_EQ(point["frame_ms"]["ci95"], none);
+    EXPECT_TRUE(point["frame_ms_within"]["p99"].is_null());
+    EXPECT_TRUE(point["fronts"]["total"]["probability"].is_null());
+  }
+  for (const nlohmann::json& best : json["cheapest_within_flip"]) EXPECT_TRUE(best["probability"].is_null());
+  EXPECT_TRUE(json["flip_front_bands"].empty());
+  EXPECT_TRUE(json["controls"][0]["passed"] == false);
+
+  const FrontierAnswer enough = answer_from({of("forward_plus", 1, 0, 6), of("visibility", 0.5, 0.005, 6)});
+  const nlohmann::json figures = to_json(enough);
+  EXPECT_TRUE(figures["points"][1]["relative_time"]["ci95"][0].is_number());
+  EXPECT_TRUE(figures["points"][1]["fronts"]["total"]["probability"].is_number());
+  EXPECT_TRUE(figures["cheapest_within_flip"][0]["probability"].is_number());
 }
 
 TEST(Failures, NameCauseAndFigureOnceAPoint) {
@@ -471,7 +516,7 @@ TEST(Answer, SaysWhatTheFiguresSay) {
   FrontierRecord once = short_run("visibility", 0.5), base = short_run("forward_plus", 1);
   for (FrontierRecord* record : {&once, &base}) record->frame_ms.resize(1), record->baseline_ms.resize(1);
   EXPECT_THAT(answer_from({base, once}).sentences[0],
-              HasSubstr("times (one run: the budget was too short for an interval) as long."));
+              HasSubstr("times (interval not measured: 1 round; at least 3 are needed) as long."));
   const SceneWords words = words_of_scene(answer, scenes_of(answer)[0]);
   ASSERT_THAT(words.opening, SizeIs(2));
   EXPECT_EQ(words.opening[0], answer.sentences[0]);

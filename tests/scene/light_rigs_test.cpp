@@ -158,5 +158,16 @@ TEST(DefaultLights, LeaveWhitePaintThatFacesTheViewerAtEightTenths) {
   EXPECT_NEAR(radiance, 0.8f, 0.01f);
 }
 
+TEST(ScatterLights, OfAnotherNumberCanKeepTheRangesOfOne) {
+  const auto few = scatter_lights(floor_scene(), {.count = 300, .seed = 7});
+  const auto many = scatter_lights(floor_scene(), {.count = 1000, .seed = 7, .ranges_of = 300});
+  for (size_t i = 0; i < few.size(); ++i) {
+    EXPECT_EQ(many[i].radius_m, few[i].radius_m);
+    EXPECT_EQ(many[i].position, few[i].position);
+  }
+  const auto shrunk = scatter_lights(floor_scene(), {.count = 1000, .seed = 7});
+  EXPECT_LT(shrunk[0].radius_m, 0.6f * few[0].radius_m) << "as many lights reach a point";
+}
+
 }  // namespace
 }  // namespace lightgrid
