@@ -297,7 +297,8 @@ int check(CheckOptions o) {
   CheckedScene checked(o.scene);
   const std::vector<LimitResult> results = counted(limits, settings.ranges, checked, o.shorten);
   const Scene& scene = checked.chosen.scene;
-  if (!o.json.empty()) write_json(o.json, text_of(check_json(results, checked, o.engine, warnings.warnings())));
+  if (!o.json.empty())
+    write_json(o.json, text_of(check_json(results, checked, o.engine, warnings.warnings())));
   if (!o.sarif.empty()) write_json(o.sarif, text_of(check_sarif(results, scene, o.scene.scene)));
   if (o.json != "-" && o.sarif != "-") print_text(results, scene, o.engine);
   if (!o.html.empty()) write_file(o.html, page_of(o, results, checked, warnings.warnings()));

@@ -34,7 +34,8 @@ void warn_of_refusals(CompareReport& report, const std::string& view) {
   const WarningCollector collector;
   const std::vector<std::string> names = row_names(report);
   for (size_t i = 0; i < names.size(); ++i)
-    if (!report.rows[i].refused.empty()) log_warning("{}{}: refused: {}", view, names[i], report.rows[i].refused);
+    if (!report.rows[i].refused.empty())
+      log_warning("{}{}: refused: {}", view, names[i], report.rows[i].refused);
   add_distinct(report.warnings, collector.warnings());
 }
 

@@ -45,9 +45,10 @@ void add_view_options(Subcommand& command, SceneChoice& o) {
 }
 
 void add_keep_option(Subcommand& command, std::string& keep) {
-  command.option("--keep", keep,
-                 "over several numbers of scattered lights: range (all have the ranges of one number), or overlap "
-                 "(as many lights reach a point: ranges shrink as the number grows)");
+  command.option(
+      "--keep", keep,
+      "over several numbers of scattered lights: range (all have the ranges of one number), or overlap "
+      "(as many lights reach a point: ranges shrink as the number grows)");
 }
 
 void add_exposure_option(Subcommand& command, SceneChoice& o) {

@@ -39,7 +39,8 @@ thread_local WarningCollector* innermost = nullptr;
 // In single quotes where a shell would read more than a word.
 std::string shell_word(const std::string& word) {
   const auto plain = [](char c) {
-    return std::isalnum(uint8_t(c)) || uint8_t(c) >= 0x80 || std::string_view("_-+=.,:/@%").find(c) != std::string_view::npos;
+    return std::isalnum(uint8_t(c)) || uint8_t(c) >= 0x80 ||
+           std::string_view("_-+=.,:/@%").find(c) != std::string_view::npos;
   };
   if (!word.empty() && std::ranges::all_of(word, plain)) return word;
   std::string quoted = "'";
@@ -86,7 +87,8 @@ void log_warning_line(const std::string& line, const std::vector<std::string>& s
 void set_command(const std::vector<std::string>& words) {
   const std::lock_guard lock(sink().mutex);
   sink().command.clear();
-  for (const std::string& word : words) sink().command += (sink().command.empty() ? "" : " ") + shell_word(word);
+  for (const std::string& word : words)
+    sink().command += (sink().command.empty() ? "" : " ") + shell_word(word);
 }
 
 WarningCollector::WarningCollector() : outer_(innermost) { innermost = this; }

@@ -251,7 +251,8 @@ lightgrid_status lightgrid_scene_load(const char* name, const char* const* field
     const WarningCollector collector;
     ChosenScene chosen = load_chosen_scene(choice);
     if (!choice.camera_path.empty()) chosen_path(chosen.scene, chosen.view, choice);  // reports its faults
-    const auto loaded = std::make_shared<LoadedScene>(std::move(chosen.scene), std::move(choice), chosen.view);
+    const auto loaded =
+        std::make_shared<LoadedScene>(std::move(chosen.scene), std::move(choice), chosen.view);
     loaded->warnings = collector.warnings();
     out = new lightgrid_scene{loaded};
   });

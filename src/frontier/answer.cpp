@@ -187,7 +187,8 @@ std::vector<Coverage> coverage_of(const std::vector<FrontierPart>& parts,
     }
   }
   for (Coverage& c : all)
-    c.measured = int(std::ranges::count_if(points, [&](const PointFigures& p) { return p.point.scene == c.scene; }));
+    c.measured =
+        int(std::ranges::count_if(points, [&](const PointFigures& p) { return p.point.scene == c.scene; }));
   return all;
 }
 

@@ -74,7 +74,7 @@ struct CheapestWithin {
   double error = 0;
   int point = 0;               // index
   RelativeTime relative_time;  // in the rounds that it was not picked on; with a single round, in that one
-  double probability = 0;      // the share of draws of the scene's times in which it is the cheapest, as OnFront
+  double probability = 0;  // the share of draws of the scene's times in which it is the cheapest, as OnFront
 };
 
 // Points of a scene that the sweep was asked for, and those of them that ran.

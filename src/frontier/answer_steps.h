@@ -78,7 +78,8 @@ std::vector<BreakEven> break_evens_of(Records records);
 std::vector<ShadingCost> shading_costs_of(Records records);
 std::vector<Growth> growth_of(Records records, const std::string& keep = "");
 // Over the shards of the parts.
-std::vector<Coverage> coverage_of(const std::vector<FrontierPart>& parts, const std::vector<PointFigures>& points);
+std::vector<Coverage> coverage_of(const std::vector<FrontierPart>& parts,
+                                  const std::vector<PointFigures>& points);
 std::vector<EqualFlip> equal_flip_of(Records records);
 std::vector<Failure> failures_of(Records records);
 

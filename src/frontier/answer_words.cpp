@@ -144,8 +144,7 @@ void add_cheapest_within(const FrontierAnswer& answer, const std::string& scene,
   for (const CheapestWithin* step : steps) {
     const PointFigures& p = answer.points[step->point];
     sentences.push_back(fmt::format(
-        "FLIP as displayed up to {:g} in {}{}: {}, {} times {}{} ({}).",
-        step->error, scene_in_words(scene),
+        "FLIP as displayed up to {:g} in {}{}: {}, {} times {}{} ({}).", step->error, scene_in_words(scene),
         step->of == "authored" ? ", against lights with authored ranges" : "", p.point.label,
         three_digits(step->relative_time.estimate), answer.part.baseline, clock_in_words(answer),
         cheapest_how_surely(*step, answer, p)));
@@ -184,8 +183,9 @@ void add_break_even(const FrontierAnswer& answer, const std::string& scene,
 // What all numbers of lights of the series have in common.
 std::string kept_over_lights(const Growth* growth) {
   if (!growth || growth->kept.empty()) return "";
-  return growth->kept == "range" ? " All numbers of lights have the same ranges."
-                                 : " Ranges shrink as the number of lights grows, so that as many reach a point.";
+  return growth->kept == "range"
+             ? " All numbers of lights have the same ranges."
+             : " Ranges shrink as the number of lights grows, so that as many reach a point.";
 }
 
 // Tells the baseline's growth, or that of the series' first point.
@@ -289,10 +289,10 @@ void add_baseline(const FrontierAnswer& answer, std::vector<std::string>& senten
   const std::string& gl = answer.machines.front().gl_device;
   const auto is = [&](const char* name) { return gl.find(name) != std::string::npos; };
   if (const std::string driver = software_opengl(gl); !driver.empty()) {
-    sentences.push_back(
-        fmt::format("OpenGL runs in software on this machine ({}): times relative to {} compare OpenCL on all of "
-                    "the processor's cores with it, and say nothing about a graphics card.",
-                    driver, answer.part.baseline));
+    sentences.push_back(fmt::format(
+        "OpenGL runs in software on this machine ({}): times relative to {} compare OpenCL on all of "
+        "the processor's cores with it, and say nothing about a graphics card.",
+        driver, answer.part.baseline));
   } else if (is("H100") || is("H200") || is("GH200")) {
     sentences.push_back(
         fmt::format("On a Hopper GPU pixel shaders run on few of its units and kernels on all: times over {} "
@@ -329,10 +329,11 @@ void add_coverage(const FrontierAnswer& answer, const std::string& scene,
   int rounds = 0;
   for (const PointFigures& p : answer.points)
     if (p.point.scene == scene) rounds = std::max(rounds, p.relative_time.runs);
-  sentences.push_back(fmt::format(
-      "In {} {} of {} points were measured, in {}{}.", scene_in_words(scene), with_commas(uint64_t(of_scene->measured)),
-      with_commas(uint64_t(of_scene->asked)), rounds_in_words(rounds),
-      of_scene->measured < of_scene->asked ? ": a longer --budget measures more" : ""));
+  sentences.push_back(
+      fmt::format("In {} {} of {} points were measured, in {}{}.", scene_in_words(scene),
+                  with_commas(uint64_t(of_scene->measured)), with_commas(uint64_t(of_scene->asked)),
+                  rounds_in_words(rounds),
+                  of_scene->measured < of_scene->asked ? ": a longer --budget measures more" : ""));
 }
 
 // Points of two modes.

@@ -89,7 +89,8 @@ class SceneSweep {
     }
     baseline_.reset();
     if (job_.growth) {
-      const double left = std::min(job_.seconds + sequences_s_ - seconds(), 2 * share_of_growth * job_.seconds);
+      const double left =
+          std::min(job_.seconds + sequences_s_ - seconds(), 2 * share_of_growth * job_.seconds);
       measure_growth(renderer_, gpu_, scene_, choice_, job_, left, growth_round_s_, file_);
       end_step("growth");
     }
@@ -165,8 +166,8 @@ class SceneSweep {
     return seconds() + more + round_s * views <= until();
   }
 
-  // What a round takes of the points that growth is measured with: each frame, and the baseline's, follows one
-  // that does not count.
+  // What a round takes of the points that growth is measured with: each frame, and the baseline's, follows
+  // one that does not count.
   double round_of_growth() const {
     double round_s = 0;
     for (const MeasuredPoint& m : measured_) {

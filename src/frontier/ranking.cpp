@@ -85,8 +85,7 @@ int cheapest(const SceneTimes& scene, double error, const TimeOf& time_of) {
 
 bool Control::passed() const {
   const bool inside = relative_time.low <= 1 && relative_time.high >= 1;
-  return (inside || !relative_time.has_interval()) &&
-         std::abs(relative_time.estimate - 1) <= most_off;
+  return (inside || !relative_time.has_interval()) && std::abs(relative_time.estimate - 1) <= most_off;
 }
 
 bool Control::is_precise(int processes) const {

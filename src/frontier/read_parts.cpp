@@ -14,7 +14,8 @@ namespace {
 // Parts of earlier versions have none.
 std::vector<Warning> warnings_of(const nlohmann::json& finished) {
   std::vector<Warning> warnings;
-  if (!finished.is_object() || !finished.contains("warnings") || !finished["warnings"].is_array()) return warnings;
+  if (!finished.is_object() || !finished.contains("warnings") || !finished["warnings"].is_array())
+    return warnings;
   for (const nlohmann::json& entry : finished["warnings"]) {
     const JsonFields fields(entry);
     Warning& warning = warnings.emplace_back(Warning{fields.text("text")});

@@ -249,14 +249,7 @@ void time_series(std::vector<MeasuredPoint>& measured, Renderer& renderer, GpuSc
   of_series.least_rounds = of_series.most_rounds = rounds;
   of_series.process = 0, of_series.processes = 1;
   const Timer timer;
-  TimeRounds{of_series,
-             timer,
-             most_s,
-             std::span(&view, 1),
-             measured,
-             baseline,
-             file,
-             DeviceClock(renderer)}
+  TimeRounds{of_series, timer, most_s, std::span(&view, 1), measured, baseline, file, DeviceClock(renderer)}
       .run();
   complete(measured, file);
 }

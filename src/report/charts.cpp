@@ -181,7 +181,8 @@ struct Axis {
 const Axis over_lights = {
     "lights", lights_of, [](const CompareReport& r) { return with_commas(uint64_t(lights_of(r))); },
     [](const CompareReport& r) { return fmt::format("{}, {}", short_scene(r), size_of(r)); }, kept_in_words};
-const Axis over_pixels = {"pixels", pixels_of, size_of, [](const CompareReport& r) {
+const Axis over_pixels = {"pixels", pixels_of, size_of,
+                          [](const CompareReport& r) {
                             return fmt::format("{}, {}", short_scene(r), lights_in_words(lights_of(r)));
                           },
                           [](const CompareReport&) { return std::string(); }};
@@ -205,7 +206,8 @@ std::vector<Chart> charts_over(const Axis& axis, const std::vector<ReportView>& 
   for (size_t v = 0; v < views.size(); ++v) {
     const std::string title = axis.group(views[v].report);
     auto chart = std::find_if(charts.begin(), charts.end(), [&](const Chart& c) { return c.title == title; });
-    if (chart == charts.end()) chart = charts.insert(charts.end(), Chart{title, axis.name, axis.kept(views[v].report)});
+    if (chart == charts.end())
+      chart = charts.insert(charts.end(), Chart{title, axis.name, axis.kept(views[v].report)});
     add_view(*chart, axis, views, v);
   }
   std::erase_if(charts, [](const Chart& chart) { return chart.ticks.size() < 2; });

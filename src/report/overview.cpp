@@ -171,9 +171,9 @@ std::vector<std::string> overview_sentences(const std::vector<ReportView>& views
   }
   const CompareReport& first = views.front().report;
   if (const std::string kept = kept_in_words(first); !kept.empty())
-    sentences.push_back(fmt::format("Numbers of lights: {} (--keep {} for {}).", kept,
-                                    first.lights_kept == "range" ? "overlap" : "range",
-                                    first.lights_kept == "range" ? "as many lights per point" : "equal ranges"));
+    sentences.push_back(fmt::format(
+        "Numbers of lights: {} (--keep {} for {}).", kept, first.lights_kept == "range" ? "overlap" : "range",
+        first.lights_kept == "range" ? "as many lights per point" : "equal ranges"));
   if (const std::string software = software_opengl_in_words(first); !software.empty())
     sentences.push_back(software + ".");
   return sentences;

@@ -40,7 +40,8 @@ std::vector<Factor> factors_of(const CompareReport& report, const RunResult& row
   std::vector<Factor> factors;
   const std::string lights = lights_instead(report, row, reference);
   if (speedup.lists && !lights.empty()) factors.push_back({*speedup.lists, "shorter lists " + lights});
-  if (speedup.api && speedup.by && *speedup.api != 1) factors.push_back({*speedup.api, opencl_instead(report)});
+  if (speedup.api && speedup.by && *speedup.api != 1)
+    factors.push_back({*speedup.api, opencl_instead(report)});
   if (speedup.lists && std::abs(std::log(speedup.other)) > std::log(worth_a_word))
     factors.push_back({speedup.other, "other differences"});
   std::ranges::stable_sort(factors, [](const Factor& a, const Factor& b) { return a.value > b.value; });
@@ -56,7 +57,8 @@ std::string not_isolated(const CompareReport& report, const RunResult& row, cons
     differences.push_back(opencl_instead(report));
   if (differences.empty()) return "";
   differences.push_back("the technique's other passes");
-  return fmt::format("this run does not isolate the cause; what differs is {}", fmt::join(differences, ", and "));
+  return fmt::format("this run does not isolate the cause; what differs is {}",
+                     fmt::join(differences, ", and "));
 }
 
 // Where lists are as long as the reference's and nothing else is known: its costliest pass.
@@ -133,7 +135,8 @@ std::string software_opengl_in_words(const CompareReport& report) {
   };
   if (driver.empty() || std::ranges::none_of(report.rows, draws_in_opengl)) return "";
   return fmt::format(
-      "OpenGL runs in software on this machine ({}): times of techniques that draw with it say nothing about a "
+      "OpenGL runs in software on this machine ({}): times of techniques that draw with it say nothing about "
+      "a "
       "graphics card",
       driver);
 }

@@ -299,7 +299,8 @@ std::vector<Choice> choices(const CompareReport& report) {
   if (alike) {
     Choice& choice =
         all.emplace_back(fastest_choice(report, "Fastest visually lossless", *alike, looks_exact));
-    choice.why = alike == row ? "nothing faster is indistinguishable from every light" : visible_in_words(*alike);
+    choice.why =
+        alike == row ? "nothing faster is indistinguishable from every light" : visible_in_words(*alike);
     if (alike->overflow) choice.why += "; it has " + failed_gates(*alike);
     const std::string rule = fmt::format("FLIP as displayed may be above {} at one pixel of {}", visible_flip,
                                          with_commas(uint64_t(1 / most_visible)));

@@ -105,7 +105,9 @@ json speedup_json(const CompareReport& report, const RunResult& row) {
           {"lists", factor(speedup->lists)},
           {"api", factor(speedup->api)},
           {"other", finite_number(speedup->other)},
-          {"by", !speedup->by ? json() : by_row ? json(speedup->by->technique) : json(every_light_on(true))}};
+          {"by", !speedup->by ? json()
+                 : by_row     ? json(speedup->by->technique)
+                              : json(every_light_on(true))}};
 }
 
 json to_json(const std::optional<OwnSurfaces>& own) {

@@ -36,9 +36,8 @@ bool same_picture(const RunResult& a, const RunResult& b) {
 
 // Whether every pass of the row in OpenCL is also one of the reference.
 bool same_api(const RunResult& row, const RunResult& reference) {
-  return std::ranges::all_of(row.passes, [&](const PassResult& pass) {
-    return pass.on != "cl" || has_pass(reference, pass);
-  });
+  return std::ranges::all_of(
+      row.passes, [&](const PassResult& pass) { return pass.on != "cl" || has_pass(reference, pass); });
 }
 
 // How far the numbers of listed pairs are apart, as a factor of 1 or more; infinite if one was not counted.
@@ -49,7 +48,8 @@ double lists_apart(const RunResult& a, const RunResult& b) {
 }
 
 // The row with the reference's passes whose lists are as long as the row's; null if there is none.
-const RunResult* with_lists_of(const CompareReport& report, const RunResult& row, const RunResult& reference) {
+const RunResult* with_lists_of(const CompareReport& report, const RunResult& row,
+                               const RunResult& reference) {
   const RunResult* best = nullptr;
   for (const RunResult& other : report.rows) {
     if (&other == &reference || !is_timed(other) || !adds_only_lists(other, reference)) continue;
@@ -80,8 +80,7 @@ bool draws_without_opengl(const RunResult& row) {
 }
 
 bool adds_only_lists(const RunResult& row, const RunResult& every_light) {
-  return std::ranges::all_of(every_light.passes,
-                             [&](const PassResult& pass) { return has_pass(row, pass); });
+  return std::ranges::all_of(every_light.passes, [&](const PassResult& pass) { return has_pass(row, pass); });
 }
 
 std::optional<Speedup> speedup_of(const CompareReport& report, const RunResult& row) {

@@ -9,8 +9,8 @@ namespace lightgrid {
 
 struct ScatterSettings {
   int count = 256;
-  // Both 0: from the surfaces' area and `ranges_of`, so that about eight lights reach a point of a large plane.
-  // Where surfaces lie within each other's reach, as in a building, several times as many do.
+  // Both 0: from the surfaces' area and `ranges_of`, so that about eight lights reach a point of a large
+  // plane. Where surfaces lie within each other's reach, as in a building, several times as many do.
   float min_radius_m = 0, max_radius_m = 0;
   uint64_t seed = 1;
   int ranges_of = 0;  // the ranges are those of this many lights; 0: of `count`

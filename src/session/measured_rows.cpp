@@ -85,7 +85,8 @@ void draw_every_light_with_samples(const Compared& compared, const std::vector<C
   }
 }
 
-// Whether a contestant differs from the reference only by its lists, so that the two tell what these are worth.
+// Whether a contestant differs from the reference only by its lists, so that the two tell what these are
+// worth.
 static bool lists_are_isolated(const std::vector<ContestantRun>& entries, const TechniqueRun& reference) {
   return std::ranges::any_of(entries, [&](const ContestantRun& e) {
     return e.run && e.run.get() != &reference && adds_only_lists(e.run->result(), reference.result());
@@ -95,8 +96,7 @@ static bool lists_are_isolated(const std::vector<ContestantRun>& entries, const 
 // Times every light on surfaces drawn in OpenCL, if the reference is timed and lists are not isolated. The
 // frames are taken after those of the contestants, and at most for a few seconds.
 static void time_every_light(TechniqueRun& run, const Compared& compared,
-                             const std::vector<ContestantRun>& entries, const Measured& m,
-                             OwnSurfaces& own) {
+                             const std::vector<ContestantRun>& entries, const Measured& m, OwnSurfaces& own) {
   constexpr double most_ms = 5000;
   const bool is_timed = std::holds_alternative<RunOfContestant>(m.reference.kind);
   if (!is_timed || lists_are_isolated(entries, m.reference.run())) return;

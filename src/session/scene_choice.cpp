@@ -79,9 +79,9 @@ void tell_endless_lights(const Scene& scene, const SceneChoice& choice) {
       scene.lights, [](const Light& l) { return !is_directional(l) && std::isinf(l.radius_m); });
   if (endless < many || chosen_settings(choice).ranges.range != LightRange::scene) return;
   const std::optional<CutoffEffect> help = helpful_cutoff(scene);
-  const std::string line = fmt::format(
-      "{}: {} of {} lights have no range: every technique lists them everywhere", choice.scene, endless,
-      scene.lights.size());
+  const std::string line =
+      fmt::format("{}: {} of {} lights have no range: every technique lists them everywhere", choice.scene,
+                  endless, scene.lights.size());
   if (!help) return log_warning_line(line);
   const std::string cutoff = fmt::format("cutoff={:g}", help->cutoff);
   log_warning_line(fmt::format("{}; with --set range=cutoff --set {} about {:.0f} reach a point, which keeps "

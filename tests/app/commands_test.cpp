@@ -215,18 +215,19 @@ TEST(CompareCommand, KeepsTheRangesOfASeriesOfLightsUnlessAskedForTheirOverlap) 
   const TempFolder folder;
   const auto lit_of = [&](const char* keep) {
     const auto report = folder.path / keep;
-    const ProgramRun run = run_program({"compare", "spheres", "-t", "visibility", "--gl", "none", "--size", "48x27",
-                                        "--lights", "50,400", "--keep", keep, "--frames", "1", "--warmup", "0",
-                                        "-o", report});
+    const ProgramRun run =
+        run_program({"compare", "spheres", "-t", "visibility", "--gl", "none", "--size", "48x27", "--lights",
+                     "50,400", "--keep", keep, "--frames", "1", "--warmup", "0", "-o", report});
     EXPECT_EQ(run.status, 0) << run.err;
     const auto views = nlohmann::json::parse(file_bytes(report / "results.json"))["views"];
     EXPECT_EQ(views[0]["lights_kept"], keep);
-    return views[1]["rows"][0]["pairs"]["lit"].get<double>() / views[0]["rows"][0]["pairs"]["lit"].get<double>();
+    return views[1]["rows"][0]["pairs"]["lit"].get<double>() /
+           views[0]["rows"][0]["pairs"]["lit"].get<double>();
   };
   EXPECT_GT(lit_of("range"), 4);
   EXPECT_LT(lit_of("overlap"), 2);
-  const ProgramRun wrong =
-      run_program({"compare", "--lights", "3,4", "--light-radius", "1,2", "--keep", "overlap", "-o", folder.path});
+  const ProgramRun wrong = run_program(
+      {"compare", "--lights", "3,4", "--light-radius", "1,2", "--keep", "overlap", "-o", folder.path});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.err, HasSubstr("--keep overlap: light-radius 1,2 gives the lights their ranges"));
 }
@@ -238,8 +239,9 @@ TEST(CompareCommand, PutsItsWarningsWithACommandOnThePageAndIntoResults) {
   nlohmann::json list = nlohmann::json::array();
   for (int i = 0; i < 40; ++i) list.push_back({{"position", {i % 8 - 4, 1, i / 8 - 2}}, {"intensity", 1}});
   std::ofstream(lights) << nlohmann::json({{"lights", list}});
-  const std::vector<std::string> words = {"compare", "spheres", "-t", "visibility", "--gl", "none", "--size", "32x18",
-                                          "--lights-file", lights, "--frames", "1", "--warmup", "0", "-o", report};
+  const std::vector<std::string> words = {
+      "compare",       "spheres", "-t",       "visibility", "--gl",     "none", "--size", "32x18",
+      "--lights-file", lights,    "--frames", "1",          "--warmup", "0",    "-o",     report};
   const ProgramRun run = run_program(words);
   ASSERT_EQ(run.status, 0) << run.err;
   const auto warnings = nlohmann::json::parse(file_bytes(report / "results.json"))["warnings"];
@@ -252,7 +254,8 @@ TEST(CompareCommand, PutsItsWarningsWithACommandOnThePageAndIntoResults) {
   EXPECT_THAT(command, testing::ContainsRegex(" --set range=cutoff --set cutoff=[0-9.]+$"));
   EXPECT_THAT(file_bytes(report / "index.html"), HasSubstr(command.substr(command.find("--set"))));
   std::vector<std::string> followed = words;
-  for (const std::string setting : warnings[0]["settings"]) followed.insert(followed.end(), {"--set", setting});
+  for (const std::string setting : warnings[0]["settings"])
+    followed.insert(followed.end(), {"--set", setting});
   ASSERT_EQ(run_program(followed).status, 0);
   EXPECT_TRUE(nlohmann::json::parse(file_bytes(report / "results.json"))["warnings"].empty());
 }

@@ -120,7 +120,8 @@ TEST(FrontierJson, HoldsTheAnswer) {
   EXPECT_EQ(frontier["shading_costs"],
             json::parse(R"([{"scene": "hall", "technique": "forward_plus", "brdf": "ggx",
     "ns_per_pixel_light": 0.75, "ci95": [0.5, 1.0]}])"));
-  EXPECT_EQ(frontier["growth"], json::parse(R"([{"scene": "hall", "technique": "forward_plus", "of": "lights", "kept": null,
+  EXPECT_EQ(frontier["growth"],
+            json::parse(R"([{"scene": "hall", "technique": "forward_plus", "of": "lights", "kept": null,
     "exponent": 0.5, "ci95": [0.25, 0.75], "samples": [[100.0, 1.0], [400.0, 2.0], [1600.0, 4.0]]}])"));
   EXPECT_EQ(frontier["failures"][0]["label"], "forward_plus:tile=32");
   EXPECT_EQ(frontier["failures"][0]["cause"], "refused");

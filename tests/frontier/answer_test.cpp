@@ -360,9 +360,10 @@ TEST(Answer, ControlsWidenTheIntervalsOfTheirScene) {
   const RelativeTime &hall = answer.points[0].relative_time, &terrain = answer.points[1].relative_time;
   EXPECT_NEAR(hall.high / terrain.high, answer.controls[0].relative_time.estimate, 1e-9);
   EXPECT_NEAR(terrain.low / hall.low, answer.controls[0].relative_time.estimate, 1e-9);
-  EXPECT_THAT(answer.sentences[0],
-              testing::StartsWith("Control failed in hall: the baseline measured against itself gave 1.08 instead "
-                                  "of 1. Times of this run are unreliable. Intervals are wider by 8"));
+  EXPECT_THAT(
+      answer.sentences[0],
+      testing::StartsWith("Control failed in hall: the baseline measured against itself gave 1.08 instead "
+                          "of 1. Times of this run are unreliable. Intervals are wider by 8"));
   EXPECT_THAT(answer.sentences, testing::Not(testing::Contains(HasSubstr("Control failed in terrain"))));
   EXPECT_TRUE(std::isnan(answer.points[0].fronts.at("total").probability)) << "of times that are unreliable";
   EXPECT_FALSE(std::isnan(answer.points[1].fronts.at("total").probability));
@@ -419,16 +420,18 @@ TEST(Answer, OfFewRoundsClaimsNoCertainty) {
   };
   FrontierRecord control = of("forward_plus", 1.54, 0, 1);
   control.series = "control 0";
-  FrontierPart part =
-      synthetic_part({of("forward_plus", 1, 0, 1), of("visibility", 0.5, 0.005, 1), control});
+  FrontierPart part = synthetic_part({of("forward_plus", 1, 0, 1), of("visibility", 0.5, 0.005, 1), control});
   part.points_asked = {{"hall", 61}};
   const FrontierAnswer once = answer_of({part});
-  EXPECT_THAT(once.sentences[0], testing::StartsWith("Control failed in hall: the baseline measured against itself "
-                                                     "gave 1.5"));
-  EXPECT_EQ(once.sentences[1],
-            "In hall 2 of 61 points were measured, in 1 round; at least 3 are needed: a longer --budget measures "
-            "more.");
-  for (const std::string& sentence : once.sentences) EXPECT_THAT(sentence, testing::Not(HasSubstr("probability")));
+  EXPECT_THAT(once.sentences[0],
+              testing::StartsWith("Control failed in hall: the baseline measured against itself "
+                                  "gave 1.5"));
+  EXPECT_EQ(
+      once.sentences[1],
+      "In hall 2 of 61 points were measured, in 1 round; at least 3 are needed: a longer --budget measures "
+      "more.");
+  for (const std::string& sentence : once.sentences)
+    EXPECT_THAT(sentence, testing::Not(HasSubstr("probability")));
   const nlohmann::json json = to_json(once);
   EXPECT_EQ(json["coverage"][0],
             nlohmann::json({{"scene", "hall"}, {"points_measured", 2}, {"points_asked", 61}}));

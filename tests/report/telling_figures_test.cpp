@@ -76,8 +76,8 @@ TEST(TellingFigures, SayHowFarLightWithinRoundingIs) {
 TEST(TellingFigures, WithoutImagesOrOracleSayWhatIsLeft) {
   auto report = two_rows();
   for (auto& row : report.rows) row.pairs.reset(), row.error.reset();
-  EXPECT_THAT(telling_figures(report),
-              ElementsAre(HasSubstr("11.3 times faster"), "most of forward's frame is shade_forward (2,365 ms)"));
+  EXPECT_THAT(telling_figures(report), ElementsAre(HasSubstr("11.3 times faster"),
+                                                   "most of forward's frame is shade_forward (2,365 ms)"));
   report.listed = {{}, std::vector<uint32_t>(100, 3)};
   EXPECT_EQ(telling_figures(report)[2], "lights per pixel: 3.0 listed");
 }
@@ -148,7 +148,8 @@ TEST(OwnSurfaces, AreToldApartFromLightThatIsExactOnThem) {
       telling_figures(report),
       ElementsAre(
           "visibility is 24.2 times faster than forward: 100 ms against 2,420 ms per frame (median of 5)",
-          "11.3 times from shorter lists (2.0 lights per pixel instead of 10.0), 2.14 times from OpenCL instead of "
+          "11.3 times from shorter lists (2.0 lights per pixel instead of 10.0), 2.14 times from OpenCL "
+          "instead of "
           "OpenGL",
           "exact: the image of every light at every pixel of its own surfaces (visibility:lights=all), bit "
           "for bit",
@@ -181,10 +182,9 @@ TEST(OwnSurfaces, WithoutEveryLightOnThemNothingIsSaidOfTheirLight) {
 }
 
 TEST(Verdict, NamesTheFastestExactTechniqueAndWhy) {
-  EXPECT_EQ(
-      verdict(two_rows()),
-      "forward_plus is the fastest exact technique, 11.3 times faster than forward: all of it from "
-      "shorter lists (2.0 lights per pixel instead of 10.0).");
+  EXPECT_EQ(verdict(two_rows()),
+            "forward_plus is the fastest exact technique, 11.3 times faster than forward: all of it from "
+            "shorter lists (2.0 lights per pixel instead of 10.0).");
   EXPECT_EQ(verdict(with_faster_row(2e-3)), verdict(two_rows()));
   EXPECT_THAT(verdict(with_faster_row(9e-6)), testing::StartsWith("deferred is the fastest exact"));
 }
@@ -210,10 +210,11 @@ TEST(Verdict, NamesTheLargestMeasuredFactorFirstAndCreditsNoListsThatDoNotHelp) 
   report.rows[0].pairs->listed = 30'000, report.rows[0].frame_ms.median = 920;
   report.rows[1].pairs->listed = 25'300, report.rows[1].frame_ms.median = 1000;
   report.rows[2].pairs->listed = 25'300;
-  EXPECT_EQ(verdict(report),
-            "visibility is the fastest exact technique, 9.20 times faster than forward: 10.0 times from OpenCL "
-            "instead of OpenGL, which runs in software on this machine, nothing from shorter lists (253 lights "
-            "per pixel instead of 300): 0.92 times.");
+  EXPECT_EQ(
+      verdict(report),
+      "visibility is the fastest exact technique, 9.20 times faster than forward: 10.0 times from OpenCL "
+      "instead of OpenGL, which runs in software on this machine, nothing from shorter lists (253 lights "
+      "per pixel instead of 300): 0.92 times.");
   EXPECT_EQ(remarks(report)[0],
             "OpenGL runs in software on this machine (llvmpipe): times of techniques that draw with it say "
             "nothing about a graphics card");
@@ -222,10 +223,11 @@ TEST(Verdict, NamesTheLargestMeasuredFactorFirstAndCreditsNoListsThatDoNotHelp) 
 TEST(Verdict, SaysWhatThisRunDoesNotIsolate) {
   CompareReport report = with_own_surfaces();
   report.rows.erase(report.rows.begin() + 1);
-  EXPECT_EQ(verdict(report),
-            "visibility is the fastest exact technique, 24.2 times faster than forward: this run does not isolate "
-            "the cause; what differs is shorter lists (2.0 lights per pixel instead of 10.0), and OpenCL instead "
-            "of OpenGL, and the technique's other passes.");
+  EXPECT_EQ(
+      verdict(report),
+      "visibility is the fastest exact technique, 24.2 times faster than forward: this run does not isolate "
+      "the cause; what differs is shorter lists (2.0 lights per pixel instead of 10.0), and OpenCL instead "
+      "of OpenGL, and the technique's other passes.");
 }
 
 TEST(ContestantsTable, HasALinePerRow) {
@@ -233,10 +235,10 @@ TEST(ContestantsTable, HasALinePerRow) {
   report.rows.emplace_back().technique = "lidr";
   report.rows.back().refused = "blending is not exact";
   EXPECT_THAT(contestants_table(report),
-              ElementsAre("technique     ms per frame  speed-up  picture",       //
-                          "forward       2,420 ± 20.0     1.00x  exact",         //
-                          "forward_plus    214 ± 15.0     11.3x  exact",         //
-                          "deferred        100 ± 10.0     24.2x  RMSE 5.0e-4",   //
+              ElementsAre("technique     ms per frame  speed-up  picture",      //
+                          "forward       2,420 ± 20.0     1.00x  exact",        //
+                          "forward_plus    214 ± 15.0     11.3x  exact",        //
+                          "deferred        100 ± 10.0     24.2x  RMSE 5.0e-4",  //
                           "lidr                     -         -  refused"));
 }
 

@@ -174,9 +174,9 @@ TEST(Results, WriteWhatIsNotFiniteAsNull) {
 
 TEST(Results, OfAReportHoldTheDocumentedKeys) {
   const auto value = to_json(synthetic_report(17, 9));
-  EXPECT_EQ(keys_of(value),
-            (std::set<std::string>{"ambient", "exposure", "scene", "size", "devices", "commit", "reference",
-                                   "reference_errors", "own_surfaces", "covered_pixels", "rows", "warnings"}));
+  EXPECT_EQ(keys_of(value), (std::set<std::string>{"ambient", "exposure", "scene", "size", "devices",
+                                                   "commit", "reference", "reference_errors", "own_surfaces",
+                                                   "covered_pixels", "rows", "warnings"}));
   EXPECT_EQ(value["size"], json::parse("[17, 9]"));
   EXPECT_EQ(keys_of(value["reference"]),
             (std::set<std::string>{"technique", "pixels", "brightest", "surfaces"}));

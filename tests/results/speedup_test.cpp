@@ -98,7 +98,8 @@ TEST(Speedup, IsTheProductOfItsFactorsInResultsJson) {
   }
   const auto json = to_json(report);
   EXPECT_EQ(json["rows"][2]["speedup"],
-            nlohmann::json({{"total", 45.0}, {"lists", 7.5}, {"api", 6.0}, {"other", 1.0}, {"by", "forward_plus"}}));
+            nlohmann::json(
+                {{"total", 45.0}, {"lists", 7.5}, {"api", 6.0}, {"other", 1.0}, {"by", "forward_plus"}}));
   EXPECT_EQ(json["rows"][0]["speedup"]["total"], 1.0);
   CompareReport untimed = hall();
   untimed.rows[0].frame_ms = {};
