@@ -69,16 +69,25 @@ bool may_reach(const GrownLightBounds& reach, const InstanceBox& box) {
 }
 
 PixelErrors::PixelErrors(const View& view)
-    : eye_(view.eye), ahead_(ahead_of(view)), near_m_(view.near_m), fixed_m_(0), across_(0), along_(0) {
+    : eye_(view.eye), ahead_(ahead_of(view)), orthographic_(view.orthographic), near_m_(view.near_m) {
   const glm::dmat4& clip = view.clip_from_view;
-  const double a_256th = std::hypot(2 / (clip[0][0] * view.width), 2 / (clip[1][1] * view.height)) / 256;
-  if (view.orthographic) {
-    fixed_m_ = a_256th + (view.far_m - view.near_m) * 0x1p-19;
+  across_ = std::hypot(2 / (clip[0][0] * view.width), 2 / (clip[1][1] * view.height)) / 256;
+  if (orthographic_) {
+    fixed_m_ = (view.far_m - view.near_m) * 0x1p-19;
     return;
   }
-  across_ = a_256th;
-  along_ = 0x1p-19 *
-           std::hypot(1, (1 + std::abs(clip[2][0])) / clip[0][0], (1 + std::abs(clip[2][1])) / clip[1][1]);
+  widest_ = std::hypot(1, (1 + std::abs(clip[2][0])) / clip[0][0], (1 + std::abs(clip[2][1])) / clip[1][1]);
+  along_ = 0x1p-19 * widest_;
+}
+
+// Of the least angle at which the view meets the triangles of the box, at distances along the view up to z.
+double PixelErrors::sine_at(const InstanceBox& box, double z) const {
+  constexpr double least = 1.0 / 16;
+  const int axis = box.flat_axis;
+  if (axis < 0) return least;
+  const double sine =
+      orthographic_ ? std::abs(ahead_[axis]) : std::abs(eye_[axis] - box.min[axis]) / (z * widest_);
+  return std::clamp(sine, least, 1.0);
 }
 
 double PixelErrors::displaced_m(const GrownLightBounds& reach, const InstanceBox& box) const {
@@ -86,7 +95,8 @@ double PixelErrors::displaced_m(const GrownLightBounds& reach, const InstanceBox
                nearest_m = std::max(box.nearest_m, near_m_),
                z = std::max(nearest_m,
                             std::min(light_m + reach.light.radius_m + reach.slack_m, box.farthest_m));
-  return fixed_m_ + z * across_ + z * z / nearest_m * along_;
+  const double across_m = (orthographic_ ? 1 : z) * across_ / sine_at(box, z);
+  return fixed_m_ + across_m + z * z / nearest_m * along_;
 }
 
 }  // namespace lightgrid

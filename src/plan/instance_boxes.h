@@ -36,18 +36,25 @@ struct GrownLightBounds {
 bool may_reach(const GrownLightBounds& reach, const InstanceBox& box);
 
 // How far a pixel's point, within a light's reach, may lie from the triangle of an instance that it shows.
-// Rasterisers move vertices to 1/256 pixel: by at most half of that and never in depth, so that a point at
-// distance z of the moved triangle is as far from the true one as that is at z. Depth is interpolated in
-// float, with errors of up to 3 * 2^-21 of the greatest depth, that of the nearest corner: near / z0. At z
-// that is 3 * 2^-21 z^2 / z0 along the view (docs/raster.md). Both are doubled.
+// Rasterisers move vertices to 1/256 pixel, by at most half of that, so that the centre of a covered pixel
+// may lie beside its triangle. Its point is in the triangle's plane all the same: where the view meets the
+// plane at the angle a, 1 / sin(a) times as far from the triangle. The angle is known of flat instances only;
+// of others 1 / 16 is allowed for, and never less of any. Depth is interpolated in float, with errors of up
+// to 3 * 2^-21 of the greatest depth, that of the nearest corner: near / z0. At z that is 3 * 2^-21 z^2 / z0
+// along the view (docs/raster.md). Both are doubled.
 class PixelErrors {
  public:
   explicit PixelErrors(const View& view);
   double displaced_m(const GrownLightBounds& reach, const InstanceBox& box) const;
 
  private:
+  double sine_at(const InstanceBox& box, double z) const;
+
   glm::dvec3 eye_, ahead_;
-  double near_m_, fixed_m_, across_, along_;  // metres, and those a metre and a metre^2 / metre of distance
+  bool orthographic_;
+  double near_m_, widest_ = 1;  // greatest distance of a pixel's point, relative to that along the view
+  double fixed_m_ = 0, across_ = 0,
+         along_ = 0;  // metres, and those a metre and a metre^2 / metre of distance
 };
 
 }  // namespace lightgrid

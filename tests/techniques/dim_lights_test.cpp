@@ -32,7 +32,7 @@ TEST(DimLights, MoveNoPixelByMoreThanTheyMay) {
   for (const int threshold : {1, 16}) {
     double most = 0, told = 0;
     size_t dim = 0, shadowed = 0;
-    for (int i = 0; i < 15; ++i) {
+    for (int i = 0; i < 25; ++i) {
       RandomRoom room = random_room(random, 45, 31);
       const double ev = i % 3 - 1;
       // Of all brightnesses around what a threshold lets pass.
