@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <limits>
 #include <optional>
 
@@ -53,6 +54,47 @@ bool move_light(Light& light, const glm::dmat4& world, RestFallback& rest) {
   return moved || turned;
 }
 
+// The value of an animated property as the loader reads it at rest: exporters' splines may overshoot.
+float light_value(double value, double low, double high) {
+  return float(value >= low ? std::min(value, high) : low);
+}
+
+void animate_light(const Pose& pose, int file_light, Light& light) {
+  constexpr double max_float = std::numeric_limits<float>::max();
+  const auto value = [&](AnimatedPath path) -> const std::vector<double>* {
+    const auto found = pose.lights.find({file_light, path});
+    return found == pose.lights.end() ? nullptr : &found->second;
+  };
+  if (const auto* color = value(AnimatedPath::color))
+    for (int i = 0; i < 3; ++i) light.color[i] = light_value((*color)[size_t(i)], 0, max_float);
+  if (const auto* intensity = value(AnimatedPath::intensity))
+    light.intensity = light_value((*intensity)[0], 0, max_float);
+  if (const auto* range = value(AnimatedPath::range); range && light.type != LightType::directional)
+    light.radius_m = (*range)[0] > 0 ? float((*range)[0]) : std::numeric_limits<float>::infinity();
+  if (const auto* outer = value(AnimatedPath::outer_cone))
+    light.outer_cone_rad = light_value((*outer)[0], 1e-6, glm::half_pi<float>());
+  if (const auto* inner = value(AnimatedPath::inner_cone))
+    light.inner_cone_rad = light_value((*inner)[0], 0, light.outer_cone_rad);
+  light.inner_cone_rad = std::min(light.inner_cone_rad, light.outer_cone_rad);
+  const float brightest = std::max({light.color.r, light.color.g, light.color.b, 1.0f});
+  if (intensity_overflows(light)) light.intensity = std::numeric_limits<float>::max() / brightest;
+}
+
+// Sets what KHR_node_visibility and KHR_animation_pointer change. A hidden light reaches nothing.
+bool switch_light(const Rig& rig, const Pose& pose, Light& light) {
+  const auto found = rig.lights.find(light.node);
+  if (found == rig.lights.end()) return false;
+  Light now = found->second.rest;
+  animate_light(pose, found->second.light, now);
+  if (pose.hidden[size_t(light.node)]) now.intensity = 0, now.radius_m = 0;
+  bool changed = assign(light.color, now.color);
+  changed |= assign(light.intensity, now.intensity);
+  changed |= assign(light.radius_m, now.radius_m);
+  changed |= assign(light.inner_cone_rad, now.inner_cone_rad);
+  changed |= assign(light.outer_cone_rad, now.outer_cone_rad);
+  return changed;
+}
+
 bool move_camera(Camera& camera, const glm::dmat4& world, RestFallback& rest) {
   std::optional<glm::dmat4> rigid = rigid_part(world);
   if (!rigid) {
@@ -97,8 +139,9 @@ std::vector<int> move_instances(Scene& scene, const Pose& pose) {
     Instance& instance = scene.instances[i];
     if (instance.node < 0) continue;
     const glm::dmat4& node = pose.world_from_node[instance.node];
-    const glm::dmat4 world = skinned[size_t(instance.mesh)] ? winding_matrix(is_mirrored(node))
-                                                            : world_of_instance(node);
+    const glm::dmat4 world = pose.hidden[size_t(instance.node)] ? point_at(node[3])
+                             : skinned[size_t(instance.mesh)]   ? winding_matrix(is_mirrored(node))
+                                                                : world_of_instance(node);
     if (assign(instance.world_from_object, world)) changed.push_back(int(i));
   }
   return changed;
@@ -147,7 +190,11 @@ SceneChanges set_time(Scene& scene, std::optional<double> seconds, int animation
   changes.meshes = deform_meshes(scene, pose, before, seconds);
   RestFallback rest(*scene.rig);
   changes.instances = move_instances(scene, pose);
-  changes.lights = move_all(scene.lights, pose, rest, move_light);
+  changes.lights =
+      move_all(scene.lights, pose, rest, [&](Light& light, const glm::dmat4& world, RestFallback& at_rest) {
+        const bool moved = move_light(light, world, at_rest);
+        return switch_light(*scene.rig, pose, light) || moved;
+      });
   changes.cameras = move_all(scene.cameras, pose, rest, move_camera);
   scene.time_s = seconds;
   scene.animation = animation;

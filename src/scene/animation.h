@@ -14,7 +14,7 @@ namespace lightgrid {
 struct SceneChanges {
   std::vector<int> instances;  // world_from_object
   std::vector<int> meshes;     // all arrays but indices, and bounds
-  std::vector<int> lights;     // position, direction
+  std::vector<int> lights;     // position, direction, colour, intensity, radius, cones
   std::vector<int> cameras;    // world_from_view
   bool empty() const { return instances.empty() && meshes.empty() && lights.empty() && cameras.empty(); }
 };
@@ -27,9 +27,10 @@ struct SceneChanges {
 // file without its animations. That may differ from the first keys, which time 0 poses.
 //
 // The result depends on the rig, `seconds` and `animation` alone, not on earlier poses. Instances on a node
-// that is scaled to no volume shrink to a point and cover no pixel; a light or camera on such a node keeps
-// its direction at rest. Lights and cameras that the caller has added or replaced (Light::node -1) stay.
-// Without a rig nothing changes.
+// that is hidden, or scaled to a line or a point, shrink to a point and cover no pixel; a light or camera on
+// such a node keeps its direction at rest. A light on a hidden node has no intensity and a radius of 0.
+// Lights and cameras that the caller has added or replaced (Light::node -1) stay. Without a rig nothing
+// changes.
 //
 // Throws Error(input) for a time that is not finite, an animation out of range or a pose that is not finite.
 // In the last case meshes may be partly updated; the next successful call updates and lists all that deform.

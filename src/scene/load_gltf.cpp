@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 
+#include "scene/animation.h"
 #include "scene/gltf/json.h"
 #include "scene/gltf/materials.h"
 #include "scene/gltf/nodes.h"
@@ -33,7 +34,8 @@ Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits&
           .nodes = {},
           .animations = gltf::read_animations(doc, nodes),
           .skins = {},
-          .meshes = {}};
+          .meshes = {},
+          .lights = {}};
   Scene scene;
   scene.name = path.stem().string();
   gltf::apply_extras(doc, scene_index, scene);
@@ -41,12 +43,13 @@ Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits&
   if (has_channels(rig)) rig.nodes = gltf::rig_nodes(doc, nodes);
   const std::vector<int> node_of_instance = gltf::add_meshes(doc, nodes, scene, rig);
   std::vector<GroupLists> groups;
-  scene.lights = gltf::read_lights(doc, nodes, groups);
+  scene.lights = gltf::read_lights(doc, nodes, groups, rig);
   compile_groups(scene, groups, gltf::groups_of_instances(doc, node_of_instance));
   scene.cameras = gltf::read_cameras(doc, nodes);
   gltf::keep_used_materials(scene);
   gltf::add_textures(doc, scene);
   if (has_channels(rig)) scene.rig = std::make_shared<const Rig>(std::move(rig));
+  set_time(scene, {});  // hides what is hidden at rest
   return scene;
 }
 

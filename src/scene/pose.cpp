@@ -4,8 +4,6 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include "base/error.h"
 #include "base/facing.h"
 
@@ -111,6 +109,10 @@ std::vector<glm::dmat4> world_matrices(const Rig& rig, const std::vector<NodeTra
 void apply_channel(const AnimationChannel& channel, double seconds, std::vector<NodeTransform>& transforms,
                    Pose& pose) {
   const std::vector<double> value = sample_channel(channel, seconds);
+  if (is_of_light(channel.path)) {
+    pose.lights[{channel.node, channel.path}] = value;
+    return;
+  }
   NodeTransform& transform = transforms[channel.node];
   switch (channel.path) {
     case AnimatedPath::translation:
@@ -124,6 +126,11 @@ void apply_channel(const AnimationChannel& channel, double seconds, std::vector<
       break;
     case AnimatedPath::weights:
       pose.weights[channel.node] = value;
+      break;
+    case AnimatedPath::visible:
+      pose.hidden[channel.node] = value[0] == 0;
+      break;
+    default:
       break;
   }
 }
@@ -145,20 +152,39 @@ void check_finite(const Rig& rig, const Pose& pose, double seconds) {
   }
 }
 
+std::vector<char> hidden_at_rest(const Rig& rig) {
+  std::vector<char> hidden;
+  hidden.reserve(rig.nodes.size());
+  for (const RigNode& node : rig.nodes) hidden.push_back(!node.visible);
+  return hidden;
+}
+
+// A node under a hidden one is hidden too.
+void inherit_hidden(const Rig& rig, std::vector<char>& hidden) {
+  for (size_t i = 0; i < rig.nodes.size(); ++i)
+    if (rig.nodes[i].parent >= 0 && hidden[size_t(rig.nodes[i].parent)]) hidden[i] = 1;
+}
+
 }  // namespace
 
-Pose rest_pose(const Rig& rig) { return {world_matrices(rig, nullptr), {}}; }
+Pose rest_pose(const Rig& rig) {
+  Pose pose{world_matrices(rig, nullptr), {}, hidden_at_rest(rig), {}};
+  inherit_hidden(rig, pose.hidden);
+  return pose;
+}
 
 Pose animated_pose(const Rig& rig, double seconds, int animation) {
   std::vector<NodeTransform> transforms;
   transforms.reserve(rig.nodes.size());
   for (const RigNode& node : rig.nodes) transforms.push_back(node.rest);
   Pose pose;
+  pose.hidden = hidden_at_rest(rig);
   for (size_t i = 0; i < rig.animations.size(); ++i) {
     if (animation >= 0 && static_cast<size_t>(animation) != i) continue;
     for (const AnimationChannel& channel : rig.animations[i].channels)
       apply_channel(channel, seconds, transforms, pose);
   }
+  inherit_hidden(rig, pose.hidden);
   pose.world_from_node = world_matrices(rig, &transforms);
   check_finite(rig, pose, seconds);
   return pose;
@@ -178,12 +204,19 @@ bool is_finite(const glm::dmat4& m) {
   return true;
 }
 
-bool is_flat(const glm::dmat4& world_from_node) { return glm::determinant(glm::dmat3(world_from_node)) == 0; }
+bool is_thin(const glm::dmat4& world_from_node) {
+  const glm::dmat3 m(world_from_node);
+  const glm::dvec3 none(0);
+  return glm::cross(m[0], m[1]) == none && glm::cross(m[1], m[2]) == none && glm::cross(m[2], m[0]) == none;
+}
 
 glm::dmat4 world_of_instance(const glm::dmat4& world_from_node) {
-  if (!is_flat(world_from_node)) return world_from_node;
+  return is_thin(world_from_node) ? point_at(world_from_node[3]) : world_from_node;
+}
+
+glm::dmat4 point_at(const glm::dvec3& position) {
   glm::dmat4 point(glm::dmat3(0x1p-40));
-  point[3] = world_from_node[3];
+  point[3] = glm::dvec4(position, 1);
   return point;
 }
 

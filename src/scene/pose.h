@@ -12,6 +12,9 @@ namespace lightgrid {
 struct Pose {
   std::vector<glm::dmat4> world_from_node;     // one a node of the rig
   std::map<int, std::vector<double>> weights;  // of the nodes whose morph weights are animated
+  std::vector<char> hidden;                    // one per node: it or a node above it is not visible
+  std::map<std::pair<int, AnimatedPath>, std::vector<double>>
+      lights;  // animated properties, by the file's light
 };
 
 Pose rest_pose(const Rig& rig);
@@ -24,12 +27,15 @@ glm::dmat4 parent_from_node(const NodeTransform& transform);
 
 bool is_finite(const glm::dmat4& m);
 
-// True if the matrix maps volumes to zero; normals do not exist then.
-bool is_flat(const glm::dmat4& world_from_node);
+// True if the matrix maps everything to a line or a point: nothing is seen of it.
+bool is_thin(const glm::dmat4& world_from_node);
 
-// Instance::world_from_object for this node: the node's matrix. A flat one is replaced by a scale of 2^-40
+// Instance::world_from_object for this node: the node's matrix. A thin one is replaced by a scale of 2^-40
 // about the node's position: the instance covers no pixel, and its normal matrix stays finite.
 glm::dmat4 world_of_instance(const glm::dmat4& world_from_node);
+
+// That scale, which is also the matrix of a hidden instance.
+glm::dmat4 point_at(const glm::dvec3& position);
 
 // The node's -z as a unit vector (KHR_lights_punctual); empty if the node scales it to 0.
 std::optional<glm::vec3> light_direction(const glm::dmat4& world_from_node);

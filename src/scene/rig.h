@@ -3,6 +3,7 @@
 // scene/animation.h applies it.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,17 +26,37 @@ struct RigNode {
   int parent = -1;                   // an earlier node; -1: a root
   NodeTransform rest;                // used unless an animation moves it
   std::optional<glm::dmat4> matrix;  // affine; replaces `rest`: such a node cannot be animated
+  bool visible = true;               // at rest, KHR_node_visibility; a node under a hidden one is hidden too
 };
 
-enum class AnimatedPath { translation, rotation, scale, weights };
+enum class AnimatedPath {
+  translation,
+  rotation,
+  scale,
+  weights,
+  visible,
+  color,  // this and all below: of a light
+  intensity,
+  range,
+  inner_cone,
+  outer_cone
+};
+inline bool is_of_light(AnimatedPath path) { return path >= AnimatedPath::color; }
+
+// A light that is hidden or shown, or whose properties are animated.
+struct RigLight {
+  int light = 0;  // of the file
+  Light rest;
+};
 enum class Interpolation { linear, step, cubic_spline };
 
-// One animated property of one node.
+// One animated property of one node, or of all lights that are one light of the file.
 struct AnimationChannel {
-  int node = 0;
+  int node = 0;  // or the light of the file
   AnimatedPath path = AnimatedPath::translation;
   Interpolation interpolation = Interpolation::linear;
-  int components = 3;  // translation and scale 3, rotation 4 (x, y, z, w), weights: one for each morph target
+  int components = 3;  // translation, scale and color 3, rotation 4 (x, y, z, w), weights: one for each morph
+                       // target; others 1
   std::vector<float> times;  // seconds, from 0 on, not decreasing; at least one
   // `components` for each time; for cubic_spline in-tangent, value and out-tangent, `components` each.
   std::vector<float> values;
@@ -91,6 +112,7 @@ struct Rig {
   std::vector<Animation> animations;  // all of the file, by its index
   std::vector<RigSkin> skins;         // all of the file, by its index; those that deform nothing are empty
   std::vector<DeformingMesh> meshes;
+  std::map<int, RigLight> lights;  // by their node
 };
 
 }  // namespace lightgrid

@@ -66,7 +66,7 @@ TEST(GltfAnimation, unknown_paths_and_weights_without_targets_are_a_warning) {
   channel_of(made)["target"] = {{"path", "pointer"},
                                 {"extensions", {{"KHR_animation_pointer", {{"pointer", "/nodes/0/mesh"}}}}}};
   EXPECT_THAT(warnings_of([&] { EXPECT_EQ(made.load().rig, nullptr); }),
-              HasSubstr("animation 0 channel 0: path \"pointer\" is not supported; left out"));
+              HasSubstr("animation 0 channel 0: pointer \"/nodes/0/mesh\" is not supported; left out"));
   made = animated();
   channel_of(made)["target"]["path"] = "weights";
   EXPECT_THAT(warnings_of([&] { EXPECT_EQ(made.load().rig, nullptr); }),

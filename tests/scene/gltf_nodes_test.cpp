@@ -60,13 +60,6 @@ TEST(GltfNodes, matrices_that_are_not_affine_or_not_finite_are_refused) {
   EXPECT_THAT(made.refusal(), HasSubstr("node 1 \"far\": its world matrix is not finite"));
 }
 
-TEST(GltfNodes, a_mesh_flattened_to_nothing_is_left_out_with_a_warning) {
-  GltfBuilder made = GltfBuilder::triangle();
-  made.node()["scale"] = {1, 0, 1};
-  const std::string warning = warnings_of([&] { EXPECT_TRUE(made.load().instances.empty()); });
-  EXPECT_THAT(warning, HasSubstr("node 0: is scaled to no volume"));
-}
-
 TEST(GltfNodes, the_chosen_scene_comes_before_the_default_the_first_and_all_roots) {
   GltfBuilder made = GltfBuilder::triangle();
   made.root["nodes"] = {

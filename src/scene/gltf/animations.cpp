@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "base/text.h"
 #include "scene/gltf/accessor.h"
 
 namespace lightgrid::gltf {
@@ -20,12 +21,56 @@ size_t target_count(const Document& doc, int node) {
   return count;
 }
 
+// What a channel animates. Without a path: nothing that is read.
+struct Target {
+  int index = -1;  // node or light of the file
+  std::optional<AnimatedPath> path;
+};
+
 std::optional<AnimatedPath> read_path(const std::string& path) {
   if (path == "translation") return AnimatedPath::translation;
   if (path == "rotation") return AnimatedPath::rotation;
   if (path == "scale") return AnimatedPath::scale;
   if (path == "weights") return AnimatedPath::weights;
   return {};
+}
+
+std::optional<AnimatedPath> path_of_light(std::string_view property) {
+  if (property == "color") return AnimatedPath::color;
+  if (property == "intensity") return AnimatedPath::intensity;
+  if (property == "range") return AnimatedPath::range;
+  if (property == "spot/innerConeAngle") return AnimatedPath::inner_cone;
+  if (property == "spot/outerConeAngle") return AnimatedPath::outer_cone;
+  return {};
+}
+
+// KHR_animation_pointer (Khronos, 2024), for nodes and lights.
+Target target_of_pointer(std::string_view pointer) {
+  constexpr std::string_view nodes = "/nodes/", lights = "/extensions/KHR_lights_punctual/lights/";
+  const bool of_light = pointer.starts_with(lights);
+  if (!of_light && !pointer.starts_with(nodes)) return {};
+  pointer.remove_prefix(of_light ? lights.size() : nodes.size());
+  const size_t slash = pointer.find('/');
+  if (slash == std::string_view::npos) return {};
+  const auto index = parse_number<int>(pointer.substr(0, slash));
+  if (!index || *index < 0) return {};
+  const std::string_view property = pointer.substr(slash + 1);
+  if (of_light) return {*index, path_of_light(property)};
+  if (property == "extensions/KHR_node_visibility/visible") return {*index, AnimatedPath::visible};
+  return {*index, read_path(std::string(property))};
+}
+
+// The pointer without its numbers: one warning names the same property of all materials.
+std::string kind_of(std::string pointer) {
+  std::erase_if(pointer, [](char c) { return c >= '0' && c <= '9'; });
+  return "animation " + pointer;
+}
+
+int components_of(AnimatedPath path) {
+  if (path == AnimatedPath::rotation) return 4;
+  const bool is_vector =
+      path == AnimatedPath::translation || path == AnimatedPath::scale || path == AnimatedPath::color;
+  return is_vector ? 3 : 1;
 }
 
 Interpolation read_interpolation(const Document& doc, const std::string& name, const std::string& place) {
@@ -66,8 +111,7 @@ class AnimationReader {
       auto channel = read_target(entry.channels[i], inner);
       if (!channel) continue;
       if (!targets.insert({channel->node, channel->path}).second)
-        throw doc_.error("{}: an earlier channel animates the {} of node {} too", inner,
-                         entry.channels[i].path, entry.channels[i].node);
+        throw doc_.error("{}: an earlier channel animates the {} too", inner, name_of(entry.channels[i]));
       if (entry.channels[i].sampler < 0) throw doc_.error("{}: has no sampler", inner);
       if (!read_keys(checked(doc_, entry.samplers, entry.channels[i].sampler, inner, "sampler"),
                      fmt::format("{} sampler {}", place, entry.channels[i].sampler), *channel))
@@ -79,23 +123,35 @@ class AnimationReader {
 
   // Empty if the channel moves nothing in this scene.
   std::optional<AnimationChannel> read_target(const AnimationEntry::Channel& in, const std::string& place) {
-    const auto path = read_path(in.path);
-    if (!path && (in.node >= 0 || in.path == "pointer"))
+    const bool is_pointer = in.path == "pointer";
+    const Target target = is_pointer ? target_of_pointer(in.pointer) : Target{in.node, read_path(in.path)};
+    if (!target.path && is_pointer)
+      doc_.warn(kind_of(in.pointer), "{}: pointer \"{}\" is not supported; left out", place, in.pointer);
+    else if (!target.path && in.node >= 0)
       doc_.warn("animation path", "{}: path \"{}\" is not supported; left out", place, in.path);
-    if (!path || in.node < 0) return {};
-    if (checked(doc_, place_of_node_, in.node, place, "target node") < 0) return {};
-    AnimationChannel out{.node = place_of_node_[in.node], .path = *path, .times = {}, .values = {}};
-    if (*path == AnimatedPath::rotation) out.components = 4;
-    if (*path == AnimatedPath::weights) {
-      out.components = static_cast<int>(target_count(doc_, in.node));
+    if (!target.path || target.index < 0) return {};
+    AnimationChannel out{.node = target.index,
+                         .path = *target.path,
+                         .components = components_of(*target.path),
+                         .times = {},
+                         .values = {}};
+    if (is_of_light(out.path)) {
+      checked(doc_, doc_.model.lights, target.index, place, "target light");
+      return out;
+    }
+    out.node = checked(doc_, place_of_node_, target.index, place, "target node");
+    if (out.node < 0) return {};
+    if (out.path == AnimatedPath::visible) return out;
+    if (out.path == AnimatedPath::weights) {
+      out.components = static_cast<int>(target_count(doc_, target.index));
       if (out.components > 0) return out;
       doc_.warn("animated weights", "{}: {} has no morph targets; left out", place,
-                node_label(doc_, in.node));
+                node_label(doc_, target.index));
       return {};
     }
     if (nodes_[out.node].matrix)
       throw doc_.error("{}: {} has a matrix; only translation, rotation and scale can be animated", place,
-                       node_label(doc_, in.node));
+                       node_label(doc_, target.index));
     return out;
   }
 
@@ -110,11 +166,13 @@ class AnimationReader {
     out.times = read_values(in.input, Normalize::as_accessor_says, "SCALAR", true, place + ": input");
     check_times(out.times, place);
     const bool is_cubic = out.interpolation == Interpolation::cubic_spline;
+    if (is_cubic && out.path == AnimatedPath::visible)
+      throw doc_.error("{}: interpolation is CUBICSPLINE, but visible is true or false: STEP", place);
+    if (out.path == AnimatedPath::visible) out.interpolation = Interpolation::step;
     if (is_cubic && out.times.size() < 2)
       throw doc_.error("{}: a cubic spline of one key; it needs two", place);
-    const char* type = out.path == AnimatedPath::weights    ? "SCALAR"
-                       : out.path == AnimatedPath::rotation ? "VEC4"
-                                                            : "VEC3";
+    const int components = components_of(out.path);
+    const char* type = components == 1 ? "SCALAR" : components == 4 ? "VEC4" : "VEC3";
     const bool is_float = out.path == AnimatedPath::translation || out.path == AnimatedPath::scale;
     out.values = read_values(in.output, Normalize::always, type, is_float, place + ": output");
     const size_t a_key = static_cast<size_t>(out.components) * (is_cubic ? 3 : 1);
@@ -147,6 +205,11 @@ class AnimationReader {
     for (size_t i = 1; i < times.size(); ++i)
       if (times[i] < times[i - 1])
         throw doc_.error("{}: input: time {} is {}, before {}", place, i, times[i], times[i - 1]);
+  }
+
+  static std::string name_of(const AnimationEntry::Channel& channel) {
+    return channel.path == "pointer" ? channel.pointer
+                                     : fmt::format("{} of node {}", channel.path, channel.node);
   }
 
   void check_rotations(const AnimationChannel& channel, bool is_cubic, const std::string& place) const {
@@ -183,12 +246,16 @@ std::vector<Animation> read_animations(Document& doc, std::vector<PlacedNode>& n
   Document::warn_left_out(faults, "animation");
   for (const Animation& animation : out)
     for (const AnimationChannel& channel : animation.channels) {
+      if (is_of_light(channel.path)) continue;
       PlacedNode& node = nodes[channel.node];
+      node.blinks |= channel.path == AnimatedPath::visible;
       (channel.path == AnimatedPath::weights ? node.morphs : node.moves) = true;
       node.scales |= channel.path == AnimatedPath::scale;
     }
   for (PlacedNode& node : nodes) {
+    node.off = !node.visible && !node.blinks;
     if (node.parent < 0) continue;
+    node.off |= nodes[node.parent].off, node.blinks |= nodes[node.parent].blinks;
     node.moves |= nodes[node.parent].moves;
     node.scales |= nodes[node.parent].scales;
   }

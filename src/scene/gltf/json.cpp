@@ -32,6 +32,11 @@ std::string animation_string(const Reporter& report, const json& object, const c
   return it->get<std::string>();
 }
 
+std::string pointer_of(const json& target) {
+  const json::json_pointer pointer("/extensions/KHR_animation_pointer/pointer");
+  return target.contains(pointer) && target[pointer].is_string() ? target[pointer].get<std::string>() : "";
+}
+
 // Calls read(element, its path) for each object of the array object[key], if present.
 template <typename Read>
 void for_each_object(const Reporter& report, const json& object, const char* key, const std::string& place,
@@ -60,7 +65,8 @@ void read_animation_entry(const Reporter& report, const json& animation, const s
     if (!target.is_object()) throw report.error("{}.target is not an object", at);
     entry.channels.push_back({.sampler = animation_index(report, channel, "sampler", at),
                               .node = animation_index(report, target, "node", at + ".target"),
-                              .path = animation_string(report, target, "path", "", at + ".target")});
+                              .path = animation_string(report, target, "path", "", at + ".target"),
+                              .pointer = pointer_of(target)});
   });
 }
 
@@ -84,20 +90,13 @@ std::vector<AnimationEntry> take_animations(const Reporter& report, json& root) 
 
 constexpr int max_nesting = 64;  // the format itself needs about 10
 
-constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing",
-                                                "EXT_meshopt_compression",
-                                                "EXT_texture_webp",
-                                                "KHR_draco_mesh_compression",
-                                                "KHR_lights_punctual",
-                                                "KHR_materials_clearcoat",
-                                                "KHR_materials_ior",
-                                                "KHR_materials_specular",
-                                                "KHR_materials_transmission",
-                                                "KHR_materials_unlit",
-                                                "KHR_materials_emissive_strength",
-                                                "KHR_mesh_quantization",
-                                                "KHR_meshopt_compression",
-                                                "KHR_texture_transform"};
+constexpr const char* supported_extensions[] = {
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",    "EXT_texture_webp",
+    "KHR_animation_pointer",      "KHR_draco_mesh_compression", "KHR_lights_punctual",
+    "KHR_materials_clearcoat",    "KHR_materials_ior",          "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_unlit",        "KHR_materials_emissive_strength",
+    "KHR_mesh_quantization",      "KHR_meshopt_compression",    "KHR_node_visibility",
+    "KHR_texture_transform"};
 
 constexpr const char* collections[] = {"accessors", "animations", "bufferViews", "buffers", "cameras",
                                        "images",    "materials",  "meshes",      "nodes",   "samplers",

@@ -30,6 +30,7 @@ struct AnimationEntry {
   struct Channel {
     int sampler = -1, node = -1;  // -1: absent
     std::string path;
+    std::string pointer;  // KHR_animation_pointer
   };
   std::string name;
   std::vector<Sampler> samplers;

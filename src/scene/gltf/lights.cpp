@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <set>
 
 #include "scene/pose.h"
 
@@ -84,16 +85,25 @@ bool has_range(const Document& doc, int light) {
   return value.IsObject() && value.Has("range");
 }
 
+std::set<int> animated_lights(const Rig& rig) {
+  std::set<int> lights;
+  for (const Animation& animation : rig.animations)
+    for (const AnimationChannel& channel : animation.channels)
+      if (is_of_light(channel.path)) lights.insert(channel.node);
+  return lights;
+}
+
 }  // namespace
 
 std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes,
-                               std::vector<GroupLists>& groups) {
+                               std::vector<GroupLists>& groups, Rig& rig) {
+  const std::set<int> animated = animated_lights(rig);
   std::vector<Light> out;
   for (size_t i = 0; i < nodes.size(); ++i) {
     const PlacedNode& placed = nodes[i];
     const tinygltf::Node& node = doc.model.nodes[placed.node];
     const tinygltf::Value* extension = find_extension(node.extensions, "KHR_lights_punctual");
-    if (!extension) continue;
+    if (!extension || placed.off) continue;
     const std::string place = node_label(doc, placed.node);
     if (!extension->Has("light")) throw doc.error("{}: KHR_lights_punctual has no light", place);
     const int index = static_cast<int>(size_or(doc, *extension, "light", 0, place));
@@ -107,7 +117,8 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
                        &common = extras_of(doc.extras.lights, index);
     light.casts_shadow = own.casts_shadow.value_or(common.casts_shadow.value_or(light.casts_shadow));
     light.source_m = own.source_radius_m.value_or(common.source_radius_m.value_or(light.source_m));
-    if (placed.moves) light.node = static_cast<int>(i);
+    const bool switched = placed.blinks || animated.contains(index);
+    if (placed.moves || switched) light.node = static_cast<int>(i);
     if (const auto direction = light_direction(placed.world_from_node))
       light.direction = *direction;
     else if (light.type != LightType::point)
@@ -117,6 +128,7 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
       groups.push_back(extras.lists);
       groups.back().owner = static_cast<int>(out.size()), groups.back().where = doc.place(place);
     }
+    if (switched) rig.lights[light.node] = {index, light};
     out.push_back(std::move(light));
   }
   return out;

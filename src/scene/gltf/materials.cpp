@@ -234,7 +234,7 @@ std::vector<char> used_materials(const tinygltf::Model& model, const std::vector
   std::vector<char> used(model.materials.size(), 0);
   for (const PlacedNode& placed : nodes) {
     const int mesh = model.nodes[placed.node].mesh;
-    if (mesh < 0) continue;
+    if (mesh < 0 || placed.off) continue;
     for (const tinygltf::Primitive& primitive : model.meshes[mesh].primitives)
       if (primitive.material >= 0) used[primitive.material] = 1;
   }

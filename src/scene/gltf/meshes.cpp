@@ -59,7 +59,7 @@ class MeshReader {
   void add(int index) {
     const PlacedNode& placed = nodes_[index];
     const tinygltf::Node& node = doc_.model.nodes[placed.node];
-    if (node.mesh < 0) return;
+    if (node.mesh < 0 || placed.off) return;
     const std::string place = node_label(doc_, placed.node);
     const tinygltf::Mesh& mesh = checked(doc_, doc_.model.meshes, node.mesh, place, "mesh");
     if (node.skin >= 0) checked(doc_, doc_.model.skins, node.skin, place, "skin");
@@ -68,7 +68,7 @@ class MeshReader {
                   default_weights(doc_, node, mesh, place),
                   placed.morphs ? index : -1,
                   node.skin >= 0 && is_mirrored(placed.world_from_node),
-                  node.skin >= 0 && placed.scales ? index : -1};
+                  node.skin >= 0 && (placed.scales || placed.blinks) ? index : -1};
     const std::vector<Drawn>& meshes = meshes_of(use);
     casts_shadow_ = extras_of(doc_.extras.nodes, placed.node).casts_shadow.value_or(true),
     file_node_ = placed.node;
@@ -99,9 +99,8 @@ class MeshReader {
   // `node`: of the rig, which moves the instance, or -1.
   void add_instance(const Drawn& drawn, const std::string& name, const std::string& place,
                     const glm::dmat4& world_from_node, int node) {
-    // A mesh flattened to a plane, line or point has no usable normals.
-    if (!drawn.skinned && node < 0 && is_flat(world_from_node)) {
-      doc_.warn("flattened", "{}: is scaled to no volume and left out", place);
+    if (!drawn.skinned && node < 0 && is_thin(world_from_node)) {
+      doc_.warn("thin", "{}: is scaled to a line or a point and left out", place);
       return;
     }
     if (scene_.instances.size() >= doc_.limits.max_instances)

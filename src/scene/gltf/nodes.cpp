@@ -47,6 +47,14 @@ void read_node_transform(const Document& doc, const tinygltf::Node& node, const 
   if (!node.scale.empty()) out.transform.scale = {node.scale[0], node.scale[1], node.scale[2]};
 }
 
+bool is_visible(const Document& doc, const tinygltf::Node& node, const std::string& place) {
+  const tinygltf::Value* extension = find_extension(node.extensions, "KHR_node_visibility");
+  if (!extension || !extension->Has("visible")) return true;
+  const tinygltf::Value& visible = extension->Get("visible");
+  if (!visible.IsBool()) throw doc.error("{}: KHR_node_visibility.visible is neither true nor false", place);
+  return visible.Get<bool>();
+}
+
 // -1: the file has no scenes.
 int chosen_scene(const Document& doc, int scene) {
   const tinygltf::Model& model = doc.model;
@@ -100,7 +108,8 @@ std::vector<RigNode> rig_nodes(const Document& doc, const std::vector<PlacedNode
     out.push_back({.label = node_label(doc, placed.node),
                    .parent = placed.parent,
                    .rest = placed.transform,
-                   .matrix = placed.matrix});
+                   .matrix = placed.matrix,
+                   .visible = placed.visible});
   return out;
 }
 
@@ -123,13 +132,13 @@ std::vector<PlacedNode> place_nodes(Document& doc, int scene) {
       throw doc.error("{}: is reached twice; nodes must form trees", place);
     PlacedNode& out = placed.emplace_back(PlacedNode{.node = next.node, .parent = next.parent});
     read_node_transform(doc, node, place, out);
+    out.visible = is_visible(doc, node, place);
     const glm::dmat4 world_from_parent =
         next.parent < 0 ? glm::dmat4(1) : placed[next.parent].world_from_node;
     out.world_from_node = world_from_parent * (out.matrix ? *out.matrix : parent_from_node(out.transform));
     if (!is_finite(out.world_from_node)) throw doc.error("{}: its world matrix is not finite", place);
     const int index = static_cast<int>(placed.size()) - 1;
-    for (auto it = node.children.rbegin(); it != node.children.rend(); ++it)
-      pending.push_back({*it, index});
+    for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) pending.push_back({*it, index});
   }
   return placed;
 }

@@ -16,9 +16,12 @@ struct PlacedNode {
   NodeTransform transform;
   std::optional<glm::dmat4> matrix;  // replaces `transform`
   glm::dmat4 world_from_node{1};     // at rest
-  bool moves = false;                // an animation moves this node or an ancestor; set by read_animations
-  bool scales = false;               // an animation scales this node or an ancestor; set by read_animations
-  bool morphs = false;               // an animation sets its morph weights; set by read_animations
+  bool visible = true;               // its own property (KHR_node_visibility)
+  bool off = false;                  // hidden at all times, by itself or an ancestor; set by read_animations
+  bool blinks = false;               // an animation shows or hides it or an ancestor; set by read_animations
+  bool moves = false;   // it blinks, or an animation moves this node or an ancestor; set by read_animations
+  bool scales = false;  // an animation scales this node or an ancestor; set by read_animations
+  bool morphs = false;  // an animation sets its morph weights; set by read_animations
 };
 
 // Depth first, in the file's order. `scene` -1: the file's default, else its first scene, else (a file
@@ -43,13 +46,14 @@ std::string node_label(const Document& doc, int node);
 std::optional<std::vector<NodeTransform>> read_instances(Document& doc, int node);
 
 // All animations of the file, each with the channels that move a node of `nodes`. AnimationChannel::node is
-// an index into `nodes`; the function sets their `moves`, `scales` and `morphs`. Channels without a node, and of nodes
-// outside the scene, are omitted; so are (with a warning) paths not in glTF 2.0 and weights of a node without
-// morph targets. An animation with a fault has no channels: one warning names the first, its fault and the
-// number of others. Faults: broken JSON or indices; two channels of one animation with the same target;
-// translation, rotation or scale of a node with a matrix; a missing sampler; times that are not float
-// scalars, negative or decreasing; values of another type or number than the target's; an unknown
-// interpolation; a cubic spline of one key; a rotation of length 0; more values than
+// an index into `nodes`, or a light of the file; the function sets their `moves`, `scales`, `morphs`,
+// `blinks` and `off`. Channels without a node, and of nodes outside the scene, are omitted; so are (with a
+// warning) paths not in glTF 2.0, pointers (KHR_animation_pointer) to properties that AnimatedPath does not
+// have, and weights of a node without morph targets. An animation with a fault has no channels: one warning
+// names the first, its fault and the number of others. Faults: broken JSON or indices; two channels of one
+// animation with the same target; translation, rotation or scale of a node with a matrix; a missing sampler;
+// times that are not float scalars, negative or decreasing; values of another type or number than the
+// target's; an unknown interpolation; a cubic spline of one key; a rotation of length 0; more values than
 // limits.max_animation_values.
 std::vector<Animation> read_animations(Document& doc, std::vector<PlacedNode>& nodes);
 
@@ -62,11 +66,12 @@ std::vector<int> add_meshes(Document& doc, const std::vector<PlacedNode>& nodes,
 
 // One light for each node with one. A light points along its node's -z; the node's scale changes neither
 // range nor cone. Lights without a node are not read, lights of an unknown type are left out; a negative
-// colour or intensity counts as 0 and a range of 0 or less as none, each with a warning. Errors name light and
-// field: values that are not finite, their product past the largest float, a violation of 0 <= inner < outer
-// <= pi/2. Adds to `groups` the groups in the lights' extras, a node's before its light's.
+// colour or intensity counts as 0 and a range of 0 or less as none, each with a warning. Errors name light
+// and field: values that are not finite, their product past the largest float. Adds to `groups` the groups in
+// the lights' extras, a node's before its light's, and to `rig` the lights that its animations switch or
+// change.
 std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes,
-                               std::vector<GroupLists>& groups);
+                               std::vector<GroupLists>& groups, Rig& rig);
 
 // The groups in the extras of instances' nodes.
 std::vector<GroupLists> groups_of_instances(const Document& doc, const std::vector<int>& node_of_instance);
