@@ -10,7 +10,6 @@
 #include "base/text.h"
 #include "base/timer.h"
 #include "cl/error.h"
-#include "passes/shadows/certificates.h"
 #include "results/metrics.h"
 #include "scene/random.h"
 #include "session/contestants.h"
@@ -84,11 +83,9 @@ constexpr Star shadow_variations[] = {
     {"voxel_lights", "raster=opencl"},
     {"world_grid", "raster=opencl"},
     {"lidr", "lidr-overlap=4"},
-    {"forward_plus", "shadow-kept=64M"},
     {"forward_plus", "shadow-pick=4"},
     {"forward_plus", "shadows=map"},
     {"forward_plus", "shadows=none"},
-    {"visibility", "shadow-kept=64M"},
     {"visibility", "shadow-pick=1"},
     {"visibility", "shadow-pick=4"},
     {"visibility", "shadow-pick=16"},

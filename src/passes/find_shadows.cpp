@@ -12,14 +12,12 @@
 #include "cl/transfer.h"
 #include "passes/blended_layers.h"
 #include "passes/shadows/bands.h"
-#include "passes/shadows/certificates.h"
 #include "passes/shadows/shadow_lights.h"
 #include "passes/shadows/shadow_lists.h"
 #include "passes/shadows/triangle_numbers.h"
 #include "passes/shadows/view_shadow_maps.h"
 #include "renderer/upload/lights.h"
 #include "shared/shadow_bits.h"
-#include "shared/shadow_certificates.h"
 #include "shared/shadow_records.h"
 
 namespace lightgrid {
@@ -63,7 +61,6 @@ class ShadowBits : public PassCache {
     size_t bytes = lights_.bytes() + view_.bytes() + offsets_.bytes() + blended_offsets_.bytes() +
                    rays_.bytes() + lists_.memory_bytes();
     if (scene_) bytes += scene_->memory_bytes();
-    if (certificates_) bytes += certificates_->memory_bytes();
     if (maps_) bytes += maps_->memory_bytes();
     return bytes + first_entries_.bytes() + banded_.memory_bytes();
   }
@@ -181,10 +178,6 @@ class ShadowBits : public PassCache {
       f.bytes += maps_->atlas().bytes;
     }
     if (!unchanged_) f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
-    if (certificates_) {
-      if (keeps_ && !unchanged_) f.certified = certificates_->decided(*work.renderer.cl);
-      f.bytes += certificates_->memory_bytes();
-    }
     return f;
   }
 
@@ -211,26 +204,27 @@ class ShadowBits : public PassCache {
     ClArguments after;
     if (bands_.bands.size() > 1)
       after = {{"first_tile", cl_uint(band.first)}, {"first_entries", first_entries_.buffer()}};
-    if (keeps_) after = certificates_->arguments(device, parts_, band.entries);
     for (size_t i = 0; i < images.size(); ++i) {
       kernels_.of("find_shadows")
           .launch(device, "find_shadows", kernels_.lanes ? lanes : groups,
                   kernels_.lanes ? cl::NDRange(1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
-                  before + ClArguments{{"triangles", images[i].numbers},
-                                       {"triangle_instance", images[i].triangle_instance},
-                                       {"number_offsets", images[i].number_offsets},
-                                       {"depths", images[i].depths},
-                                       {"cells", lists_.cells(i)},
-                                       {"indices", lists_.indices(i)},
-                                       {"lights", lights_.buffer()},
-                                       {"shadow_view", view_.buffer()},
-                                       {"view", work.cl_lights().view.buffer()},
-                                       {"image", cl_uint(i)},
-                                       {"first_entry", cl_uint(lists_.first_entry(i))},
-                                       {"own_hides", cl_uint(images[i].own_hides)},
-                                       {"tiles", work.shadows.tiles.buffer->cl_buffer()},
-                                       {"bits", work.shadows.bits.buffer->cl_buffer()},
-                                       {"rays", rays}} + after);
+                  before +
+                      ClArguments{{"triangles", images[i].numbers},
+                                  {"triangle_instance", images[i].triangle_instance},
+                                  {"number_offsets", images[i].number_offsets},
+                                  {"depths", images[i].depths},
+                                  {"cells", lists_.cells(i)},
+                                  {"indices", lists_.indices(i)},
+                                  {"lights", lights_.buffer()},
+                                  {"shadow_view", view_.buffer()},
+                                  {"view", work.cl_lights().view.buffer()},
+                                  {"image", cl_uint(i)},
+                                  {"first_entry", cl_uint(lists_.first_entry(i))},
+                                  {"own_hides", cl_uint(images[i].own_hides)},
+                                  {"tiles", work.shadows.tiles.buffer->cl_buffer()},
+                                  {"bits", work.shadows.bits.buffer->cl_buffer()},
+                                  {"rays", rays}} +
+                      after);
     }
   }
 
@@ -282,35 +276,21 @@ class ShadowBits : public PassCache {
     const Settings& settings = work.plan.settings;
     if (settings.shadows == ShadowMethod::map) {
       if (!maps_) maps_.emplace(work);
-      if (!followed_) maps_->look(work, rays, work.plan.shadowed);
+      if (!followed_) maps_->look(work, rays, work.plan.shadowed, shadow_reuse.of(settings));
     }
-    const size_t kept_bytes = kept_bytes_of(work);
     if (followed_) return;
     ClDevice& device = *work.renderer.cl;
-    const std::vector<CullLight> shining = shining_lights(work), lights = shadowed_lights(work, shining);
+    const std::vector<CullLight> lights = shadowed_lights(work, shining_lights(work));
     lists_.look(work, lights);
-    std::vector<ShadowLight> records = shadow_light_records(work, lights, rays.origin());
-    std::vector<int32_t> offsets;
-    if (visible) offsets = put_offsets(work, visible->instances, offsets_);
-    if (blended) {
-      const auto of_blended = put_offsets(work, blended->instances, blended_offsets_);
-      offsets.insert(offsets.end(), of_blended.begin(), of_blended.end());
-    }
-    ShadowView seen_from = shadow_view(work, rays.origin());
-    if (kept_bytes != 0) {
-      if (!certificates_) certificates_.emplace(device, kept_bytes);
-      certificates_->follow(
-          work, rays, shining,
-          {seen_from, work.params, layers_.numbers.size(), offsets, defines_of(work, visible)});
-      for (size_t i = 0; i < records.size(); ++i) records[i].stamp = certificates_->stamp(i);
-      seen_from.stamp = certificates_->sight_stamp();
-    }
-    lights_.put(device, "uploading lights of shadows", records);
-    view_.put(device, "uploading the view of shadows", std::vector<ShadowView>{seen_from});
+    if (visible) put_offsets(work, visible->instances, offsets_);
+    if (blended) put_offsets(work, blended->instances, blended_offsets_);
+    lights_.put(device, "uploading lights of shadows", shadow_light_records(work, lights, rays.origin()));
+    view_.put(device, "uploading the view of shadows",
+              std::vector<ShadowView>{shadow_view(work, rays.origin())});
     followed_ = true;
   }
 
-  std::vector<int32_t> put_offsets(Work& work, std::span<const int> instances, UploadedBuffer& to) {
+  void put_offsets(Work& work, std::span<const int> instances, UploadedBuffer& to) {
     std::vector<int32_t> offsets;
     uint32_t first = 0;
     for (const int i : instances) {
@@ -318,15 +298,6 @@ class ShadowBits : public PassCache {
       first += uint32_t(work.scene.meshes[size_t(work.scene.instances[size_t(i)].mesh)].indices.size() / 3);
     }
     to.put(*work.renderer.cl, "uploading numbers of triangles", offsets);
-    return offsets;
-  }
-
-  size_t kept_bytes_of(const Seen& seen) const {
-    const Settings& settings = seen.plan.settings;
-    const bool keeps = kernels_.lanes && settings.shadows == ShadowMethod::exact &&
-                       !settings.soft_shadows() && !settings.picks_shadows() &&
-                       !has_veils(seen.scene, settings.blended_casters());
-    return keeps ? ShadowCertificates::bytes_of(settings) : 0;
   }
 
   std::string defines_of(Work& work, const VisibilityBuffer* visible) const {
@@ -343,17 +314,14 @@ class ShadowBits : public PassCache {
     return defines;
   }
 
-  // After the bands are known. In bands nothing is kept: entries have numbers of their own in each.
+  // After the bands are known.
   void use_kernels(Work& work, const VisibilityBuffer* visible) {
-    keeps_ = kept_bytes_of(work) != 0 && bands_.bands.size() == 1;
-    kernels_.use(defines_of(work, visible) + (keeps_ ? " -DKEPT" : "") +
-                 (bands_.bands.size() > 1 ? " -DBANDS" : ""));
+    kernels_.use(defines_of(work, visible) + (bands_.bands.size() > 1 ? " -DBANDS" : ""));
   }
 
   PassKernels kernels_;
   std::shared_ptr<RayScene> scene_;
   std::optional<ViewShadowMaps> maps_;
-  std::optional<ShadowCertificates> certificates_;
   ShadowLists lists_;
   BlendedLayers layers_;
   UploadedBuffer lights_, view_, offsets_, blended_offsets_, first_entries_;
@@ -366,7 +334,7 @@ class ShadowBits : public PassCache {
   size_t parts_ = 0;    // counts of rays
   size_t cleared_ = 0;  // bytes of tiles in which nothing was found since they were cleared
   std::optional<ShadowInputs> found_for_;  // what the bits were found for, with shadow-reuse
-  bool followed_ = false, unchanged_ = false, keeps_ = false;
+  bool followed_ = false, unchanged_ = false;
 };
 
 namespace {

@@ -130,7 +130,8 @@ std::vector<Setting>& all_settings() {
                                    {"256", 256}})},
       {"list-cap-order",
        "the lights that a longer list keeps: the scene's first, the nearest to the eye or to the object's "
-       "middle, those that add the most to the cell's or the object's middle; or lights drawn at random, from "
+       "middle, those that add the most to the cell's or the object's middle; or lights drawn at random, "
+       "from "
        "the list or a tree of all lights, which count so often that the expected picture is that of whole "
        "lists",
        named(&Settings::list_cap_order, {{"index", ListCapOrder::index},
@@ -372,6 +373,11 @@ void add_own_setting(const char* key, const char* before, const char* meaning,
 void apply_setting(Settings& settings, const std::string& assignment) {
   const size_t equals = assignment.find('=');
   const std::string key = assignment.substr(0, equals);
+  if (key == "shadow-kept")
+    throw input_error(
+        "set {}: shadow-kept was removed: it saved no time while the camera moved, and shadows leaked; "
+        "shadow-reuse=on keeps shadows while nothing changes",
+        assignment);
   const auto& all = all_settings();
   const auto setting = std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.key == key; });
   if (equals == std::string::npos || setting == all.end()) {

@@ -162,7 +162,6 @@ json to_json(const ShadowResult& s) {
   for (const auto& light : s.skipped) skipped.push_back({{"light", light.light}, {"why", light.why}});
   json out = {{"lights", s.lights}, {"maps", s.maps}, {"drawn", s.drawn},         {"kept", s.kept},
               {"bytes", s.bytes},   {"rays", s.rays}, {"undecided", s.undecided}, {"skipped", skipped}};
-  if (s.certified > 0) out["certified"] = s.certified;
   if (s.dim_steps > 0) out["dim_steps"] = s.dim_steps;
   if (s.bands > 1) out["bands"] = s.bands;
   if (s.maps > 0) out["halvings"] = s.halvings;

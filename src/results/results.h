@@ -169,9 +169,9 @@ struct ShadowResult {
   size_t lights = 0;                                                         // whose shadows were found
   size_t maps = 0, drawn = 0, kept = 0, bytes = 0, rays = 0, undecided = 0;  // as in ShadowFigures
   std::vector<Skipped> skipped;
-  size_t certified = 0, bands = 0;  // as in ShadowFigures
-  double dim_steps = 0;             // as in FramePlan
-  int halvings = 0;                 // of all maps' sizes
+  size_t bands = 0;      // as in ShadowFigures
+  double dim_steps = 0;  // as in FramePlan
+  int halvings = 0;      // of all maps' sizes
 };
 
 // Of the last frame, with several samples a pixel: as SampleFigures.

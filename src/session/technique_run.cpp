@@ -143,7 +143,7 @@ static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Fr
   if (frame.shadow_figures) {
     const ShadowFigures figures = frame.shadow_figures();
     result.lights = figures.lights, result.maps = figures.maps, result.drawn = figures.drawn;
-    result.kept = figures.kept, result.certified = figures.certified, result.bytes = figures.bytes;
+    result.kept = figures.kept, result.bytes = figures.bytes;
     result.rays = figures.rays, result.undecided = figures.undecided;
     result.halvings = figures.halvings, result.bands = figures.bands;
     unchanged = figures.unchanged;

@@ -18,8 +18,8 @@ typedef struct ShadowLight {
   float slack;     // metres
   float range;     // metres
   float source_m;  // the sphere's radius
-  uint stamp;      // of what is kept: another one after the light, or what it may reach, moved
   float luminance;
+  uint padding;
 } ShadowLight;
 
 typedef struct ShadowView {
@@ -27,12 +27,10 @@ typedef struct ShadowView {
   float world_from_view[9];           // rows
   float from_x, from_y, from_z;       // the eye, to which positions in view space are relative
   uint words;                         // pairs of words a tile: a bit a light (shared/shadow_bits.h)
-  float piece_scale;                  // (PIECE_PIXELS pixels)^2 at the distance 1 m; orthographic: at any
-  uint stamp;                         // another one after anything changed that pixels' points depend on
   uint padding;
 } ShadowView;
 
 #if !defined(__OPENCL_VERSION__)
-static_assert(sizeof(ShadowLight) == 72 && sizeof(ShadowView) == 96);
+static_assert(sizeof(ShadowLight) == 72 && sizeof(ShadowView) == 88);
 }  // namespace lightgrid
 #endif

@@ -1,5 +1,5 @@
 // How the time of a frame of the technique visibility grows with the number of lights, all of which cast:
-// with exact shadows, exact ones of which certificates are kept, shadow maps, and none. Frames of the
+// with exact shadows, shadow maps, and none. Frames of the
 // settings run in turn. A CSV line for each scene, size, number of lights and setting, as shadow_lights.py
 // reads it (docs/results/shadows.md).
 //   shadow_lights [--device NAME] [--seconds N] [SCENE.gltf LIGHTS.json]…     about N seconds, 240 by default
@@ -22,8 +22,8 @@
 namespace lightgrid {
 namespace {
 
-constexpr const char* settings[] = {"shadows=none", "shadows=exact", "shadow-kept=64M",
-                                    "shadows=map shadow-size=64", "shadows=map shadow-size=256"};
+constexpr const char* settings[] = {"shadows=none", "shadows=exact", "shadows=map shadow-size=64",
+                                    "shadows=map shadow-size=256"};
 constexpr const char* exact = settings[1];
 
 // From a longest frame on, more lights are not measured; the frames of a setting are as many as fit into its
@@ -67,10 +67,10 @@ void print_row(const SettingRun& s, const Scene& scene, const View& view, const 
   const Frame& frame = s.run->frame();
   const ShadowFigures f = frame.shadow_figures ? frame.shadow_figures() : ShadowFigures{};
   const Spread ms = spread_of(s.run->frame_ms());
-  fmt::print("{},\"{}\",{},{}x{},{},{:g},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{},{}\n",
+  fmt::print("{},\"{}\",{},{}x{},{},{:g},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{}\n",
              commit_of_build(), device.name, scene.name, view.width, view.height, scene.lights.size(),
              median_radius(scene.lights), s.name, s.run->frame_ms().size(), ms.min, ms.median, kernels, found,
-             drawn, pairs, f.lights, f.rays, f.maps, f.drawn, f.kept, f.certified, f.bytes);
+             drawn, pairs, f.lights, f.rays, f.maps, f.drawn, f.kept, f.bytes);
   std::fflush(stdout);
 }
 
@@ -128,7 +128,7 @@ void measure(const std::string& device, double seconds, const std::vector<std::s
   Renderer renderer(device, GlBackend::none);
   fmt::print(
       "commit,device,scene,size,lights,radius_m,shadows,frames,least_ms,frame_ms,kernels_ms,"
-      "find_shadows_ms,draw_maps_ms,pairs,lights_found,rays,maps,maps_drawn,maps_kept,certified,bytes\n");
+      "find_shadows_ms,draw_maps_ms,pairs,lights_found,rays,maps,maps_drawn,maps_kept,bytes\n");
   const std::vector<int> series = {4, 16, 64, 256, 1024, 4096};
   const std::vector<std::pair<const char*, std::vector<int>>> sizes = {
       {"640x360", series}, {"1280x720", series}, {"3840x2160", {64}}};

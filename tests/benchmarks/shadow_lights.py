@@ -13,9 +13,9 @@ import sys
 
 BUDGETS = (16, 33, 100)
 TABLED = "1280x720"  # whose times are in a table; the CSV has the others
-NONE, EXACT, KEPT = "shadows=none", "shadows=exact", "shadow-kept=64M"
+NONE, EXACT = "shadows=none", "shadows=exact"
 MAPS = {64: "shadows=map shadow-size=64", 256: "shadows=map shadow-size=256"}
-NAMES = {NONE: "none", EXACT: "exact", KEPT: "kept", MAPS[64]: "maps of 64", MAPS[256]: "maps of 256"}
+NAMES = {NONE: "none", EXACT: "exact", MAPS[64]: "maps of 64", MAPS[256]: "maps of 256"}
 
 
 class Series:

@@ -39,7 +39,7 @@ TEST(FrontierShadowPoints, AreOfScenesWhoseLightsCastAlone) {
   EXPECT_THAT(default_labels({}), AllOf(Each(Not(HasSubstr("shadow"))), Contains(HasSubstr("range="))));
   const auto hard = default_labels(FrontierTruth{.own_ranges = true});
   for (const char* label :
-       {"visibility", "visibility:shadow-kept=64M", "visibility:shadow-pick=1", "visibility:shadow-pick=16",
+       {"visibility", "visibility:shadow-pick=1", "visibility:shadow-pick=16",
         "visibility:shadows=map,shadow-size=64", "visibility:shadows=map",
         "visibility:shadows=map,shadow-bits=16", "visibility:shadows=map,shadow-filter=pcf5",
         "visibility:shadows=none", "forward_plus:shadows=none", "lidr"})
@@ -66,8 +66,7 @@ TEST(FrontierTruths, KeepRangesWhereLightsCastAndSpheresWhereOneIsSet) {
 
 TEST(FrontierTruths, CountPairsOfHardShadowsOfPointsAlone) {
   const FrontierTruth points{true, 0, 1}, spheres{true, 0.1, 256};
-  for (const char* hard :
-       {"shadows=exact", "shadows=map", "shadows=none", "shadow-kept=1M", "shadow-source=0.2"}) {
+  for (const char* hard : {"shadows=exact", "shadows=map", "shadows=none", "shadow-source=0.2"}) {
     EXPECT_TRUE(counts_shadow_pairs(settings_with({hard}), points)) << hard;
     EXPECT_FALSE(counts_shadow_pairs(settings_with({hard}), spheres)) << hard;
   }

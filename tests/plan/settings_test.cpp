@@ -105,6 +105,11 @@ TEST(Settings, AWrongKeyListsTheKeys) {
   }
 }
 
+TEST(Settings, ARemovedKeySaysWhatToUse) {
+  EXPECT_THAT(message_of("shadow-kept=64M"),
+              AllOf(HasSubstr("set shadow-kept=64M: "), HasSubstr("removed"), HasSubstr("shadow-reuse=on")));
+}
+
 TEST(Settings, AWrongValueListsTheValues) {
   for (const char* wrong : {"tile=17", "tile=", "tile=16 ", "tile=16=16", "tile=016"}) {
     EXPECT_THAT(message_of(wrong), AllOf(HasSubstr("8"), HasSubstr("32"), HasSubstr("64"), HasSubstr(wrong)))

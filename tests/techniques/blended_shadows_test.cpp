@@ -73,12 +73,12 @@ std::unique_ptr<TechniqueRun> glazed_run(const char* technique, const std::vecto
   return run;
 }
 
-// Kernels for GPUs, everything's code, certificates.
+// Kernels for GPUs, everything's code.
 TEST(BlendedShadowBits, AreTheSameUnderEverySetting) {
   const auto run = glazed_run("visibility", {});
   const std::vector<HostShadowLayer> layers = run->frame().blended_shadows();
   for (const std::vector<std::string>& settings : std::vector<std::vector<std::string>>{
-           {"kernel-shape=group"}, {"everything-on=on"}, {"shadow-kept=1M"}}) {
+           {"kernel-shape=group"}, {"everything-on=on"}, {"shadow-reuse=on"}}) {
     SCOPED_TRACE(settings[0]);
     const auto other = glazed_run("visibility", settings);
     EXPECT_TRUE(identical(other->image(), run->image()));

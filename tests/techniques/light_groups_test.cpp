@@ -224,7 +224,7 @@ TEST(GroupsAndShadows, AreOnePictureInEveryTechnique) {
     expect_exact(scene, view, {}, forward, technique);
   const Image in_opencl = render(scene, view, "visibility");
   EXPECT_TRUE(identical(render(scene, view, "visibility", assigned("kernel-shape=group")), in_opencl));
-  EXPECT_TRUE(identical(render(scene, view, "visibility", assigned("shadow-kept=16M")), in_opencl));
+  EXPECT_TRUE(identical(render(scene, view, "visibility", assigned("shadow-reuse=on")), in_opencl));
 }
 
 }  // namespace

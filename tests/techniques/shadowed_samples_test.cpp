@@ -34,8 +34,8 @@ class ShadowedSamples : public testing::TestWithParam<int> {
 TEST_P(ShadowedSamples, HaveTheSameBytesInEveryShapeTileListAndWayToKeepShadows) {
   const Image image = draw(s_.scene);
   EXPECT_FALSE(same_bytes(image, draw(s_.scene, "shadows=none")));
-  for (const char* more : {"kernel-shape=group", "portable=on", "lights=all", "tile=8", "slices=8 z-bins=16",
-                           "shadow-kept=1M", "shadow-reuse=on"})
+  for (const char* more :
+       {"kernel-shape=group", "portable=on", "lights=all", "tile=8", "slices=8 z-bins=16", "shadow-reuse=on"})
     EXPECT_TRUE(identical(draw(s_.scene, more), image)) << more;
   EXPECT_TRUE(identical(draw(s_.scene, "", "visibility", 1200), image)) << "in bands";
   EXPECT_TRUE(identical(draw(s_.scene, "raster=opencl", "world_grid"), image));

@@ -128,7 +128,7 @@ TEST_F(ViewShadowsInDisplay, ShadowsAreChosenWhileItRuns) {
       {"set shadows=exact|set shadow-rays=4|set shadow-source=0.2",
        {"--shadows", "all", "--set", "shadow-rays=4", "--set", "shadow-source=0.2"}},
       {"set shadow-rays=1|set shadow-pick=1", {"--shadows", "all", "--set", "shadow-pick=1"}},
-      {"set shadow-pick=off|set shadow-kept=1M", {}, 1},
+      {"set shadow-pick=off|set shadow-reuse=on", {}, 1},
       {"shadows 100", {"--shadows", "100"}},
       {"shadows scene", {}, 0},
   };

@@ -3,20 +3,11 @@
 //
 // SHADOW_TEST_ARGUMENTS          kernels/shadows/shadow_test.h
 // SHADOW_PASS_ARGUMENTS  kernels/shadows/receivers.h
-// -DKEPT                 what is kept decides what it can: tiles' bits
-//                        (kernels/shadows/cpu/kept_tiles.h), certificates (kernels/shadows/certificates.h)
-// decided                out, with -DKEPT: pairs of a pixel and a listed light that took no ray, a tile
 #define LANES 16
 #include "kernels/common/pack.h"
 #include "kernels/common/fetch.h"
 #include "kernels/common/image_blocks.h"
 #include "kernels/shadows/shadow_test.h"
-#ifdef KEPT
-#include "kernels/shadows/cpu/certified_lights.h"
-#define ALL_ARGUMENTS SHADOW_PASS_ARGUMENTS, CERTIFICATE_ARGUMENTS, KEPT_TILE_ARGUMENTS
-#else
-#define ALL_ARGUMENTS SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS
-#endif
 #ifdef SHADOW_PICK
 #include "kernels/shadows/picked_shadows.h"
 #endif
@@ -88,7 +79,7 @@ static inline uint receivers_of_tile(Receivers receivers[16], const RayScene* sc
   return used;
 }
 
-kernel void find_shadows(ALL_ARGUMENTS) {
+kernel void find_shadows(SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
   const RayScene scene = RAYS_SCENE;
   const uint width = view->width, height = view->height, words_a_tile = shadow_view->words;
   const uint row = (uint)get_global_id(0), rows = (uint)get_global_size(0), tile = FIRST_TILE + row,
@@ -103,29 +94,10 @@ kernel void find_shadows(ALL_ARGUMENTS) {
     for (uint i = 0; i < words_a_tile; ++i) tiles[1 + i] = (uint2)(0);
   }
   ShadowTest test = SHADOW_TEST;
-#ifdef KEPT
-  const Certificates kept = CERTIFICATES;
-  uint without_ray = 0;
-  KeptTile kept_tile = {0, 0, 0};
-#endif
   if (range.y != 0) {
     Receivers receivers[16];
-#ifdef KEPT
-    TilePieces pieces;
-    LightBatch batch;
-    batch.count = 0;
-    bool has_pieces = false;
-    uint covered;
-    const bool same = follow_surfaces(kept_surfaces + (size_t)own_tile * KEPT_SURFACE_WORDS, triangles,
-                                      depths, tile_x, tile_y, view->width, view->height, &covered) &&
-                      kept_tiles[own_tile].view == shadow_view->stamp;
-    uint at = kept_tiles[own_tile].first;
-    const uint end = same ? at + kept_tiles[own_tile].count : at;
-    kept_tile.view = shadow_view->stamp, kept_tile.first = own_entry, kept_tile.count = range.y;
-#else
     const uint used = receivers_of_tile(receivers, &scene, tile_x, tile_y, triangles, depths,
                                         triangle_instance, number_offsets, own_hides, shadow_view, view);
-#endif
 #ifdef SHADOW_PICK
     for (uint left = used; left != 0; left &= left - 1) {
       const uint block = lowest_bit(left);
@@ -136,30 +108,6 @@ kernel void find_shadows(ALL_ARGUMENTS) {
 #endif
     for (uint i = range.x; i < range.x + range.y; ++i) {
       const uint index = indices[i], number = i - range.x + own_entry;
-#ifdef KEPT
-      const uint stamp = lights[index].stamp;
-      global const KeptShadow* known = kept_shadow(last_shadows, &at, end, index, stamp);
-      if (known) {
-        keep_shadow(bits, next_shadows, number, index, stamp, vload8(0, known->words));
-        without_ray += covered;
-      } else {
-        batch.entry[batch.count] = number, batch.light[batch.count] = index, ++batch.count;
-      }
-      if (batch.count == 16 || (batch.count != 0 && i + 1 == range.x + range.y)) {
-        if (!has_pieces) {
-          const uint used =
-              receivers_of_tile(receivers, &scene, tile_x, tile_y, triangles, depths, triangle_instance,
-                                number_offsets, own_hides, shadow_view, view);
-          if (range.y < LEAST_LIGHTS)
-            set_no_pieces(&pieces, receivers, used);
-          else
-            set_pieces(&pieces, &scene, receivers, used, &kept, shadow_view);
-          has_pieces = true;
-        }
-        hidden_from_batch(&scene, &pieces, receivers, &batch, lights, &kept, shadow_view, bits, next_shadows,
-                          &without_ray, &test.traced, &test.last_blocker);
-      }
-#else
       global uint* entry = bits + (size_t)number * SHADOW_WORDS;
       for (uint word = 0; word < SHADOW_WORDS; word += 8) vstore8((uint8)(0), 0, entry + word);
       for (uint left = used; left != 0; left &= left - 1) {
@@ -168,15 +116,10 @@ kernel void find_shadows(ALL_ARGUMENTS) {
                       hidden_share(&test, &scene, receivers + block, block, index, lights, shadow_view,
                                    tile_x * SHADOW_TILE + block % 4 * 4, tile_y * SHADOW_TILE + block / 4 * 4));
       }
-#endif
       global uint2* here = listed + index / 32;
       if (here->x == 0) here->y = number;
       here->x |= 1u << (index & 31u);
     }
   }
   rays[own_tile] = rays_of_test(&test);
-#ifdef KEPT
-  decided[own_tile] = without_ray;
-  kept_tiles[own_tile] = kept_tile;
-#endif
 }

@@ -64,9 +64,8 @@ struct ShadowFigures {
   size_t maps = 0;         // in use, of these
   size_t drawn = 0;        // drawn in this frame, and
   size_t kept = 0;         // kept from frames before
-  size_t certified = 0;    // pairs of a pixel and a listed light that certificates decided
   bool unchanged = false;  // all are those of the frame before, and nothing was found
-  size_t bytes = 0;        // of bits, maps and certificates
+  size_t bytes = 0;        // of bits and maps
   size_t undecided = 0;    // pairs that maps left to rays
   size_t bands = 0;        // of tiles, for each of which the frame was shaded: their bits fit into memory
   int halvings = 0;        // of the sizes of all maps, to fit into their bound of memory
@@ -81,10 +80,10 @@ struct ShadowFigures {
 
 // What several samples a pixel took, for results.json.
 struct SampleFigures {
-  size_t edge_pixels = 0;  // whose samples see more than one surface
-  size_t shadings = 0;     // surfaces that were shaded, each once a pixel
-  size_t covered = 0;      // samples that see a surface: what shading each of them would take
-  size_t bytes = 0;        // of images of samples and of what says where edges are
+  size_t edge_pixels = 0;          // whose samples see more than one surface
+  size_t shadings = 0;             // surfaces that were shaded, each once a pixel
+  size_t covered = 0;              // samples that see a surface: what shading each of them would take
+  size_t bytes = 0;                // of images of samples and of what says where edges are
   std::vector<uint32_t> surfaces;  // of each pixel at an edge, with the background; of others 0
 };
 
@@ -92,10 +91,10 @@ struct SampleFigures {
 struct Frame {
   ShadedImage image;
   std::optional<DisplayedImage> displayed;  // with picture=bytes
-  std::optional<ViewGrid> grid;          // of opaque surfaces
-  std::optional<ViewGrid> blend_grid;    // of blended ones
-  HostLists listed;                      // of opaque surfaces
-  std::function<HostShadows()> shadows;  // reads those that it shaded with, for the oracle; null: none
+  std::optional<ViewGrid> grid;             // of opaque surfaces
+  std::optional<ViewGrid> blend_grid;       // of blended ones
+  HostLists listed;                         // of opaque surfaces
+  std::function<HostShadows()> shadows;     // reads those that it shaded with, for the oracle; null: none
   std::function<std::vector<HostShadowLayer>()> blended_shadows;  // of its blended surfaces, likewise
   bool lights_in_volume = false;  // which has no shadows: all count as seen, also those shaded apart
   size_t list_bytes = 0;          // of lists of lights in no grid

@@ -5,7 +5,6 @@
 
 #include "renderer/upload/culler_input.h"
 #include "shared/shadow_bits.h"
-#include "shared/shadow_certificates.h"
 
 namespace lightgrid {
 namespace {
@@ -15,8 +14,17 @@ namespace {
 // its range, and all of these errors together are below 2^-19 of that.
 ShadowLight shadow_light(const CullLight& light, const View& view, const glm::dvec3& origin) {
   const glm::dvec3 at = light.position - origin;
-  ShadowLight s{at.x, at.y, at.z, 1, float(light.direction.x), float(light.direction.y),
-                float(light.direction.z), float(light.cos_outer), 0, 0, float(light.radius_m)};
+  ShadowLight s{at.x,
+                at.y,
+                at.z,
+                1,
+                float(light.direction.x),
+                float(light.direction.y),
+                float(light.direction.z),
+                float(light.cos_outer),
+                0,
+                0,
+                float(light.radius_m)};
   if (light.cos_outer < -1) s.cos_outer = -1;
   const double slack =
       0x1p-19 * (glm::length(at) + glm::length(light.position - view.eye) + 2 * light.radius_m);
@@ -79,15 +87,13 @@ ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
   const View& view = seen.view;
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
   const glm::dvec3 from = view.eye - origin, eye = view.orthographic ? world_from_view[2] : from;
-  ShadowView v{eye.x, eye.y, eye.z, view.orthographic ? 0.0 : 1.0, {}, float(from.x), float(from.y),
-               float(from.z), 0, 0, {}};
+  ShadowView v{eye.x,         eye.y, eye.z, view.orthographic ? 0.0 : 1.0, {}, float(from.x), float(from.y),
+               float(from.z), 0,     0};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
       v.world_from_view[3 * row + column] = float(world_from_view[column][row]);
   }
   v.words = uint(shadow_table_words(seen.plan));
-  const double piece = PIECE_PIXELS * 2 / (view.clip_from_view[1][1] * view.height);
-  v.piece_scale = float(piece * piece);
   return v;
 }
 

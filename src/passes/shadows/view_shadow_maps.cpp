@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "passes/shadows/certificates.h"
 
 namespace lightgrid {
 namespace {
@@ -33,7 +32,8 @@ ViewShadowMaps::ViewShadowMaps(Work& work, int taps, size_t most_bytes)
     : options_(options_of(work.plan.settings, taps, most_bytes)),
       maps_(*work.renderer.cl, *work.renderer.kernels, options_) {}
 
-void ViewShadowMaps::look(const Work& work, const RayScene& rays, const std::vector<uint8_t>& shadowed) {
+void ViewShadowMaps::look(const Work& work, const RayScene& rays, const std::vector<uint8_t>& shadowed,
+                          bool keeps) {
   const glm::dvec3 origin = rays.origin();
   const FramePlan& plan = work.plan;
   std::vector<size_t> numbers(plan.local.begin(), plan.local.end());
@@ -57,7 +57,7 @@ void ViewShadowMaps::look(const Work& work, const RayScene& rays, const std::vec
     if (shadowed[i]) by_number[i] = atlas_.lights[next++];
   atlas_.lights = std::move(by_number);
 
-  keeps_ = ShadowCertificates::bytes_of(plan.settings) != 0;
+  keeps_ = keeps;
   const auto moved = keeps_ ? moved_.since_last(work, rays) : std::nullopt;
   if (!moved) kept_.clear();
   kept_.resize(std::min(kept_.size(), atlas_.faces.size()));

@@ -16,8 +16,9 @@ class ViewShadowMaps {
 
   // When the view, lights or surfaces moved: which maps, and their sizes. shadowed: as FramePlan's, whether a
   // light has maps. Throws Error(input) where even the least sizes take more than the setting shadow-memory.
-  void look(const Work& work, const RayScene& rays, const std::vector<uint8_t>& shadowed);
-  // All of them; with shadow-kept only those of which something changed since they were drawn. texels: of
+  // keeps: draw() then draws only those of which something changed since they were drawn.
+  void look(const Work& work, const RayScene& rays, const std::vector<uint8_t>& shadowed, bool keeps = false);
+  // All of them, unless they are kept. texels: of
   // atlas().bytes, for a reader besides kernels, into which all are drawn; null: its own.
   void draw(const RayScene& rays, const cl::Buffer& texels = {});
   size_t drawn_lights() const { return drawn_lights_; }  // of the last frame
