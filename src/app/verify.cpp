@@ -71,7 +71,7 @@ verify::VerifyReport replay(const VerifyCommand& o,
                             const CapturedFrame& frame) {
   const std::optional<FrameGrid> own = read_frame_grid(o.replay, frame);
   return verify::replay_frame(engines, frame,
-                              {verify::replayed_views(frame, own, o.set), o.nightly, progress_bar()});
+                              {verify::replayed_views(frame, own, o.set), own, o.nightly, progress_bar()});
 }
 
 int run(const VerifyCommand& o) {
@@ -105,9 +105,10 @@ void add_verify(CommandLine& line) {
   command.option("--filter", o->filter, "only cases whose GROUP/NAME matches this regular expression");
   command.option("--device", o->device,
                  "only the OpenCL device whose platform and name contain this text; else all");
-  command.option("--replay", o->replay,
-                 "a captured frame's folder instead: compares its lists with the oracle, and bit for bit "
-                 "with the float twin");
+  command.option(
+      "--replay", o->replay,
+      "a captured frame's folder instead: compares its own lists, if it has any, and those made of it "
+      "with the oracle, the latter also bit for bit with the float twin");
   command.list(
       "--set", o->set,
       "with --replay: slices=N, z-bins=N, slice-spacing=… to replay beside the frame's own; may be repeated");

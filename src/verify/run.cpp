@@ -179,6 +179,8 @@ namespace {
 const HardCase replayed{"replay", "float_twin", "a captured frame, under every test and every kind of bounds",
                         "",       "",           nullptr};
 
+const HardCase own_lists{"replay", "own_lists", "the lists that came with a captured frame", "", "", nullptr};
+
 std::vector<CullerOptions> chosen_settings(int tile, bool every_combination) {
   const CullerOptions usual;
   std::vector<CullerOptions> settings;
@@ -200,22 +202,40 @@ struct Replay {
 };
 
 // Counts the pairs that are lit but not listed.
+LitPairs pairs_of(const Replay& r, const FrameGrid& grid) {
+  return count_pairs(r.frame.view, r.covered, r.true_lights, listed_lights(r.frame, grid));
+}
+
+std::string first_lost(const LitPairs& pairs, int width) {
+  const auto at =
+      std::find_if(pairs.lost_of_pixel.begin(), pairs.lost_of_pixel.end(), [](uint32_t n) { return n > 0; });
+  const int pixel = int(at - pairs.lost_of_pixel.begin());
+  return fmt::format("{} of {} lit (pixel, light) pairs lost, the first at pixel {},{}", pairs.lost,
+                     pairs.lit, pixel % width, pixel / width);
+}
+
+CaseResult compare_own_lists(const Replay& r, const FrameGrid& own) {
+  const Timer timer;
+  const LitPairs pairs = pairs_of(r, own);
+  Outcome outcome{.trials = pairs.lit, .contacts = pairs.lit, .lost = pairs.lost};
+  if (pairs.lost > 0) {
+    outcome.verdict = Verdict::fail;
+    outcome.why = "the frame's own lists: " + first_lost(pairs, r.frame.view.width);
+  }
+  return {&own_lists, "", outcome, timer.elapsed_ms()};
+}
+
 void count_lost(Check& c, const Replay& r, const CullView& view, const CullerOptions& options) {
   FrameGrid grid;
   grid.tile = options.tile, grid.slice_edges = view.slice_edges, grid.z_bin_edges = view.z_bin_edges;
   grid.lists = c.engine.cull_depth(options, view, r.lights, r.depth);
   const std::string wrong = malformed(grid.lists, r.lights.size());
   if (!c.that(wrong.empty(), "{}: {}", to_string(options), wrong)) return;
-  const LitPairs pairs = count_pairs(r.frame.view, r.covered, r.true_lights, listed_lights(r.frame, grid));
+  const LitPairs pairs = pairs_of(r, grid);
   c.trials(pairs.lit);
   if (pairs.lost == 0) return;
-  const auto at =
-      std::find_if(pairs.lost_of_pixel.begin(), pairs.lost_of_pixel.end(), [](uint32_t n) { return n > 0; });
-  const int pixel = int(at - pairs.lost_of_pixel.begin()), width = r.frame.view.width;
-  c.lost_pairs(pairs.lost,
-               "{}, {} slices, {} z-bins: {} of {} lit (pixel, light) pairs lost, the first at pixel {},{}",
-               to_string(options), view.slice_edges.size() + 1, view.z_bin_edges.size() + 1, pairs.lost,
-               pairs.lit, pixel % width, pixel / width);
+  c.lost_pairs(pairs.lost, "{}, {} slices, {} z-bins: {}", to_string(options), view.slice_edges.size() + 1,
+               view.z_bin_edges.size() + 1, first_lost(pairs, r.frame.view.width));
 }
 
 }  // namespace
@@ -230,6 +250,10 @@ VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engine
   const double steps = double(engines.size() * views.size() * settings.size());
   double done = 0;
   VerifyReport report;
+  if (options.own) {
+    report.cases.push_back(compare_own_lists(replay, *options.own));
+    report.failed += report.cases.back().outcome.verdict == Verdict::fail;
+  }
   for (const auto& engine : engines) {
     report.devices.push_back(engine->name());
     const Timer timer;

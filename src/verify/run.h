@@ -53,13 +53,14 @@ std::vector<std::string> catalogue_rows(const std::vector<const HardCase*>& case
 struct ReplayOptions {
   // Further views. The frame's view without slices and z-bins is always replayed.
   std::vector<CullView> more_views;
+  std::optional<FrameGrid> own;    // the lists that came with the frame, from whatever made them
   bool every_combination = false;  // of cull test and depth bounds; else each test with the default bounds,
                                    // and each kind of bounds with the default test
   std::function<void(double done, const std::string& step)> progress;
 };
 
-// One case a device. Under the chosen settings, which include every cull test and every kind of depth bounds,
-// on each view:
+// With the frame's own lists, a case first that compares them with the oracle. Then one case per device.
+// Under the chosen settings, which include every cull test and every kind of depth bounds, on each view:
 // - bounds and lists have the float twin's bytes in both kernel shapes (float_twin.h; the library only);
 // - no pixel loses a light that the oracle in double (reference/lit_set.h) says is lit there. `lost` of the
 //   outcome counts such (pixel, light) pairs, over all settings; one lost pair fails the case.

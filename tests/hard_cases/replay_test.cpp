@@ -3,13 +3,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "hard_cases/naive_culler.h"
-#include "reference/lit_set.h"
 #include "capture/captured_frame.h"
 #include "capture/frame_culler.h"
-#include "verify/run.h"
+#include "hard_cases/naive_culler.h"
+#include "reference/lit_set.h"
+#include "support/devices.h"
 #include "support/run_program.h"
 #include "support/temp_folder.h"
+#include "verify/run.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -63,6 +64,36 @@ TEST(Replay, CountsPairsOfPixelsAndLightsUnderEverySetting) {
   std::vector<std::unique_ptr<CullEngine>> engines;
   engines.push_back(std::make_unique<NaiveCuller>(Fault::zero_means_none));
   EXPECT_EQ(replay_frame(engines, frame, {.every_combination = true}).cases[0].outcome.lost, 25 * pairs.lit);
+}
+
+FrameGrid grid_with_a_planted_loss(const CapturedFrame& frame, FrameGrid grid) {
+  const LitPairs lit =
+      count_pairs(frame.view, covered_depth(frame), local_lights(frame), list_every_light(0));
+  const auto at = std::ranges::find_if(lit.lost_of_pixel, [](uint32_t n) { return n > 0; });
+  const int pixel = int(at - lit.lost_of_pixel.begin()), width = frame.view.width,
+            across = (width + grid.tile - 1) / grid.tile;
+  grid.lists.cells[size_t(pixel / width / grid.tile * across + pixel % width / grid.tile)].y = 0;
+  return grid;
+}
+
+// Lists of another engine, of which one tile's are missing.
+TEST(Replay, ComparesTheFramesOwnLists) {
+  const CapturedFrame frame = small_frame();
+  FrameCuller culler(*software_devices().cl, *software_devices().kernels, frame, {});
+  culler.run();
+  const FrameGrid right = culler.grid();
+  const auto outcome_of = [&](const FrameGrid& own) {
+    const VerifyReport report = replay_frame({}, frame, {.own = own});
+    EXPECT_EQ(report.cases.size(), 1u);
+    EXPECT_EQ(report.failed, int(report.cases[0].outcome.verdict == Verdict::fail));
+    return report.cases[0].outcome;
+  };
+  const Outcome good = outcome_of(right), bad = outcome_of(grid_with_a_planted_loss(frame, right));
+  EXPECT_EQ(good.verdict, Verdict::pass) << good.why;
+  EXPECT_GT(good.trials, 100u);
+  EXPECT_EQ(bad.verdict, Verdict::fail);
+  EXPECT_GT(bad.lost, 0u);
+  EXPECT_NE(bad.why.find("the frame's own lists: "), std::string::npos) << bad.why;
 }
 
 // The library, on a captured frame, from the program. Without a kernel cache most of the time goes to
