@@ -103,7 +103,7 @@ class Reported(unittest.TestCase):
         arguments[arguments.index("-t") + 1] = technique
         arguments[arguments.index("-o") + 1] = out
         if folder.name == "uri_parent_folder":
-            arguments.append("--allow-outside")  # the option that the message without it names
+            arguments.append("--files=anywhere")  # the option that the message without it names
         ran = subprocess.run([PROGRAM, *arguments], cwd=folder, text=True, capture_output=True)
         status, words = STATUS.get(folder.name, (0, ""))
         self.assertEqual(ran.returncode, status, ran.stderr)
