@@ -52,7 +52,7 @@ inline constexpr LightReader light_readers[] = {
      .cone = reads,
      .most_falloff = reads,
      .groups = reads,  // a light that lacks a group has no far light
-     .shadows = "far light is not hidden: docs/far_light.md#limits"},
+     .shadows = "far light is not hidden: docs/far_light.md#errors"},
     {.name = "voxel volumes",
      .files =
          "src/passes/voxels/voxel_inputs.cpp kernels/voxels/voxel_light.h kernels/voxels/gpu/build_voxels.cl "
