@@ -194,7 +194,8 @@ TEST(GltfMaterial, impossible_models_are_refused_by_name) {
       {{{"model", "skin"}, {"rolloff", 0.1}}, "extras.lightgrid.rolloff: unknown key; did you mean rollOff?"},
       {{{"model", "skin"}, {"rollOff", 1.5}}, "extras.lightgrid: rollOff is 1.5, outside 0 to 1"},
       {{{"model", "skin"}, {"rollOff", "much"}}, "rollOff is \"much\"; it must be a number"},
-      {{{"model", "skin"}, {"subsurfaceColor", {1, 2}}}, "subsurfaceColor is [1,2]; it must be three numbers"},
+      {{{"model", "skin"}, {"subsurfaceColor", {1, 2}}},
+       "subsurfaceColor is [1,2]; it must be three numbers"},
       {{{"model", "skin"}, {"subsurfaceColor", {1, 2, 1}}}, "subsurfaceColor is 2, outside 0 to 1"},
       {{{"model", "skin"}, {"k", 1}}, "k is given, but the model is skin"},
       {{{"model", "minnaert"}}, "k is missing"},
@@ -247,13 +248,40 @@ TEST(GltfMaterial, impossible_values_are_refused_by_name) {
     EXPECT_THAT(with_material(material).refusal(), HasSubstr(message)) << material;
 }
 
-TEST(GltfMaterial, a_third_uv_set_is_left_out_with_a_warning) {
-  GltfBuilder made = with_material({{"normalTexture", {{"index", 0}, {"texCoord", 2}}}});
+TEST(GltfMaterial, any_two_uv_sets_are_read) {
+  GltfBuilder made = with_material({{"normalTexture", {{"index", 0}, {"texCoord", 5}}},
+                                    {"emissiveTexture", {{"index", 1}, {"texCoord", 2}}}});
+  for (const int set : {0, 1, 2, 5})
+    made.attribute(fmt::format("TEXCOORD_{}", set).c_str(), std::vector<float>(6, float(set)), "VEC2", f32,
+                   3);
+  const std::vector<float> moves(6, 0.5f);
+  made.primitive()["targets"] = {{{"TEXCOORD_5", made.accessor(made.view(bytes_of(moves)), "VEC2", f32, 3)}}};
+  made.root["meshes"][0]["weights"] = {1};
   Scene scene;
-  EXPECT_THAT(warnings_of([&] { scene = made.load(); }),
-              HasSubstr("uses TEXCOORD_2; only two sets are supported"));
-  EXPECT_EQ(scene.materials[0].normal_map.texture, -1);
-  EXPECT_TRUE(scene.bitmaps.empty());
+  EXPECT_THAT(warnings_of([&] { scene = made.load(); }), testing::IsEmpty());
+  EXPECT_EQ(scene.materials[0].normal_map.uv_set, 1);
+  EXPECT_EQ(scene.materials[0].emissive_map.uv_set, 0);
+  EXPECT_EQ(scene.meshes[0].uv0, std::vector(3, glm::vec2(2)));
+  EXPECT_EQ(scene.meshes[0].uv1, std::vector(3, glm::vec2(5.5f)));
+  made.root["materials"][0].erase("emissiveTexture");
+  scene = made.load();
+  EXPECT_EQ(scene.materials[0].normal_map.uv_set, 0);
+  EXPECT_EQ(scene.meshes[0].uv0, std::vector(3, glm::vec2(5.5f)));
+  EXPECT_TRUE(scene.meshes[0].uv1.empty());
+}
+
+TEST(GltfMaterial, a_third_uv_set_of_one_material_is_left_out_with_a_warning) {
+  GltfBuilder made = with_material({{"normalTexture", {{"index", 0}, {"texCoord", 1}}},
+                                    {"occlusionTexture", {{"index", 0}, {"texCoord", 3}}},
+                                    {"emissiveTexture", {{"index", 1}, {"texCoord", 2}}}});
+  Scene scene;
+  EXPECT_THAT(
+      warnings_of([&] { scene = made.load(); }),
+      HasSubstr("uses TEXCOORD_2 besides TEXCOORD_1 and _3; its textures of a third set are left out"));
+  EXPECT_EQ(scene.materials[0].normal_map.uv_set, 0);
+  EXPECT_EQ(scene.materials[0].occlusion_map.uv_set, 1);
+  EXPECT_EQ(scene.materials[0].emissive_map.texture, -1);
+  EXPECT_EQ(scene.bitmaps.size(), 1u);
 }
 
 TEST(GltfMaterial, a_texture_transform_scales_then_turns_then_moves) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tiny_gltf.h>
+#include <array>
 #include <map>
 #include <span>
 
@@ -20,6 +21,8 @@ struct Document : Reporter {
   tinygltf::Model model;  // without buffers, images and animations
   std::vector<ImageEntry> images;
   std::vector<AnimationEntry> animations;
+  // The file's sets that are Mesh::uv0 and uv1, by material, where they are not 0 and 1; -1: none.
+  std::map<int, std::array<int, 2>> uv_sets;
   Extras extras;
   std::vector<std::span<const uint8_t>> buffers;  // empty if the file gives no bytes
   std::vector<std::vector<uint8_t>> owned;        // memory that `buffers` points into

@@ -59,12 +59,34 @@ TextureSlot read_slot(Document& doc, const auto& info, const std::string& place)
   int uv_set = info.texCoord;
   if (const auto* transform = find_extension(info.extensions, "KHR_texture_transform"))
     read_transform(doc, *transform, place, slot, uv_set);
-  if (uv_set < 0 || uv_set > 1) {
-    doc.warn("uv set", "{}: uses TEXCOORD_{}; only two sets are supported, left out", place, uv_set);
-    return {};
-  }
-  slot.uv_set = uv_set;
+  slot.uv_set = uv_set;  // of the file, until number_uv_sets
   return slot;
+}
+
+// Meshes have two sets. A material that uses others has its first two in their place.
+void number_uv_sets(Document& doc, int index, const std::string& place, Material& material) {
+  std::vector<int> sets;
+  for (const SlotUse& use : material_slots) {
+    const TextureSlot& slot = material.*use.slot;
+    if (slot.texture >= 0 && std::ranges::find(sets, slot.uv_set) == sets.end()) sets.push_back(slot.uv_set);
+  }
+  if (std::ranges::all_of(sets, [](int set) { return set < 2; })) return;
+  for (size_t i = 2; i < sets.size(); ++i)
+    doc.warn("uv set",
+             "{}: uses TEXCOORD_{} besides TEXCOORD_{} and _{}; its textures of a third set are left out",
+             place, sets[i], sets[0], sets[1]);
+  sets.resize(2, -1);
+  if (sets[1] >= 0) std::ranges::sort(sets);
+  for (const SlotUse& use : material_slots) {
+    TextureSlot& slot = material.*use.slot;
+    if (slot.texture < 0) continue;
+    const auto set = std::ranges::find(sets, slot.uv_set);
+    if (set == sets.end())
+      slot = {};
+    else
+      slot.uv_set = static_cast<int>(set - sets.begin());
+  }
+  doc.uv_sets[index] = {sets[0], sets[1]};
 }
 
 // A texture of an extension, which tinygltf leaves as it is in the file.
@@ -250,11 +272,13 @@ std::vector<Material> read_materials(Document& doc, const std::vector<PlacedNode
     const tinygltf::Material& material = doc.model.materials[i];
     const std::string place = label("material", static_cast<int>(i), material.name);
     out.push_back(used[i] ? read_material(doc, material, place) : Material());
+    number_uv_sets(doc, static_cast<int>(i), place, out.back());
   }
   for (const auto& [index, extras] : doc.extras.materials) {
     Material& material = out[size_t(index)];
     if (used[size_t(index)])
-      material.model = read_model(doc, extras, label("material", index, material.name) + ": extras.lightgrid");
+      material.model =
+          read_model(doc, extras, label("material", index, material.name) + ": extras.lightgrid");
   }
   out.push_back({.name = "default"});
   return out;

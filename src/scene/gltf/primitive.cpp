@@ -109,6 +109,12 @@ SkinWeights read_skin_weights(const Document& doc, const Attributes& attributes,
   return out;
 }
 
+std::pair<std::string, std::string> uv_attributes(const Document& doc, const tinygltf::Primitive& primitive) {
+  const auto found = doc.uv_sets.find(primitive.material);
+  const auto [first, second] = found == doc.uv_sets.end() ? std::array{0, 1} : found->second;
+  return {fmt::format("TEXCOORD_{}", first), fmt::format("TEXCOORD_{}", second)};
+}
+
 bool is_drawn(Document& doc, const tinygltf::Primitive& primitive, const std::string& place) {
   if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
     throw doc.error("{}: mode is {}", place, primitive.mode);
@@ -145,8 +151,9 @@ std::optional<Primitive> read_primitive(Document& doc, const tinygltf::Primitive
   out.mesh.positions = attributes.read<3>("POSITION", 3, Normalize::as_accessor_says);
   out.mesh.normals = attributes.read<3>("NORMAL", 3, Normalize::always);
   out.mesh.tangents = attributes.read<4>("TANGENT", 4, Normalize::always);
-  out.mesh.uv0 = attributes.read<2>("TEXCOORD_0", 2, Normalize::as_accessor_says);
-  out.mesh.uv1 = attributes.read<2>("TEXCOORD_1", 2, Normalize::as_accessor_says);
+  const auto [uv0, uv1] = uv_attributes(doc, primitive);
+  out.mesh.uv0 = attributes.read<2>(uv0, 2, Normalize::as_accessor_says);
+  out.mesh.uv1 = attributes.read<2>(uv1, 2, Normalize::as_accessor_says);
   out.mesh.colors = attributes.read<4>("COLOR_0", 3, Normalize::always);
   for (glm::vec4& color : out.mesh.colors)
     color = glm::clamp(color, 0.0f, 1.0f);  // as the specification requires
@@ -182,7 +189,7 @@ class TargetReader {
 
   // Empty if the target does not displace the attribute, or if the mesh (with `values`) does not have it.
   template <int N, typename Value>
-  std::vector<glm::vec<N, float>> read(const char* attribute, int min_components, Normalize normalize,
+  std::vector<glm::vec<N, float>> read(const std::string& attribute, int min_components, Normalize normalize,
                                        const std::vector<Value>& values) const {
     const auto accessor = accessors_.find(attribute);
     if (values.empty() || accessor == accessors_.end()) return {};
@@ -221,14 +228,15 @@ std::vector<MorphTarget> read_morph_targets(Document& doc, const tinygltf::Primi
     throw doc.error("{}: there are {} weights for {} morph targets", place, weights.size(),
                     primitive.targets.size());
   std::vector<MorphTarget> out(primitive.targets.size());
+  const auto [uv0, uv1] = uv_attributes(doc, primitive);
   for (size_t i = 0; i < out.size(); ++i) {
     if (!animated && weights[i] == 0) continue;
     const TargetReader target(doc, primitive.targets[i], budget, fmt::format("{}: target {}", place, i));
     out[i].positions = target.read<3>("POSITION", 3, Normalize::as_accessor_says, mesh.positions);
     out[i].normals = target.read<3>("NORMAL", 3, Normalize::always, mesh.normals);
     out[i].tangents = target.read<3>("TANGENT", 3, Normalize::always, mesh.tangents);
-    out[i].uv0 = target.read<2>("TEXCOORD_0", 2, Normalize::as_accessor_says, mesh.uv0);
-    out[i].uv1 = target.read<2>("TEXCOORD_1", 2, Normalize::as_accessor_says, mesh.uv1);
+    out[i].uv0 = target.read<2>(uv0, 2, Normalize::as_accessor_says, mesh.uv0);
+    out[i].uv1 = target.read<2>(uv1, 2, Normalize::as_accessor_says, mesh.uv1);
     out[i].colors = target.read<4>("COLOR_0", 3, Normalize::always, mesh.colors);
   }
   return out;
