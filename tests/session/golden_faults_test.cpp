@@ -19,7 +19,8 @@ std::vector<KernelFault> kernel_faults() {
   return {
       {"corners_a_16th_of_a_pixel_to_the_right", "lane_rint(live ? sx : zero)",
        "lane_rint(live ? sx + (real)(16.0f) : zero)", "triangles"},
-      {"depth_bias", "out->z0 = z[0];", "out->z0 = z[0] * (real)(0.99999f);", "depth"},
+      {"depth_bias", "out->zx = zx, out->zy = zy;",
+       "out->zx = zx, out->zy = zy, out->z0 *= (real)(0.99999f);", "depth"},
       {"last_light_of_a_list_lost", "(uint2)(first, n)", "(uint2)(first, max(n, 1u) - 1)", "lists"},
       {"brighter_by_a_thousandth", "real falloff = inverse_distance * inverse_distance;",
        "real falloff = inverse_distance * inverse_distance * REAL(1.001f);", "radiance"},
@@ -41,12 +42,13 @@ TEST(GoldenFaults, InKernelsNameTheirStage) {
   EXPECT_FALSE(first_difference(right, view_of(scene, [](std::string text) { return text; })));
   for (const KernelFault& fault : kernel_faults()) {
     int planted = 0;
-    const auto found = first_difference(right, view_of(scene, [&](std::string text) {
-      const size_t at = text.find(fault.right);
-      if (at == std::string::npos) return text;
-      ++planted;
-      return text.replace(at, std::string(fault.right).size(), fault.wrong);
-    }));
+    const auto found =
+        first_difference(right, view_of(scene, [&](std::string text) {
+                           const size_t at = text.find(fault.right);
+                           if (at == std::string::npos) return text;
+                           ++planted;
+                           return text.replace(at, std::string(fault.right).size(), fault.wrong);
+                         }));
     EXPECT_GT(planted, 0) << fault.name << ": no kernel has this text";
     ASSERT_TRUE(found) << fault.name;
     EXPECT_STREQ(golden_stages[found->stage], fault.stage) << fault.name;
