@@ -91,6 +91,11 @@ def interval(time):
     return f"{three(time['estimate'])} ({three(time['ci95'][0])} to {three(time['ci95'][1])})"
 
 
+def share(probability):
+    """A probability is null where a scene's control failed."""
+    return "not measured" if probability is None else f"{100 * probability:.0f} %"
+
+
 def percent(share):
     return "-" if share is None else f"{100 * share:+.1f} %".replace("+0.0 %", "0.0 %").replace("-0.0 %", "0.0 %")
 
@@ -147,7 +152,7 @@ class Run:
                 rows.append([f"`{p['label']}`", interval(p[self.time]), three(p[self.ms]["median"]),
                              three(flip_of(p, of)) + views, percent(p["error"][of]["energy_rel"] if of == "total" else
                                                                     p["error"]["authored"]["total"]["energy_rel"]),
-                             f"{100 * front['probability']:.0f} %"])
+                             share(front["probability"])])
             text.append(f"`{scene}`:\n\n" + table(["point", "times `forward_plus`", "ms", "FLIP as displayed", "energy", "on the front with"], rows))
         return "\n".join(text)
 
@@ -172,7 +177,7 @@ class Run:
             for c in self.answer[self.within]:
                 if c["scene"] == scene and c["of"] == of:
                     p = self.answer["points"][c["point"]]
-                    rows.append([f"`{scene}`", f"{c['flip']:g}", f"`{p['label']}`", interval(c["relative_time"]), f"{100 * c['probability']:.0f} %"])
+                    rows.append([f"`{scene}`", f"{c['flip']:g}", f"`{p['label']}`", interval(c["relative_time"]), share(c["probability"])])
         return table(["scene", "FLIP up to", "cheapest point", "times `forward_plus`", "the cheapest with"], rows)
 
     def made_range(self):
