@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """shared_cases_test.py PROGRAM LIBRARY: inputs that once failed, each with its right value.
 
-The folder `shared/cases` beside the checkout holds them; without it the test is skipped (77). A case in `reported/` has a README
+The folder `shared/cases` next to the checkout holds them; without it the test is skipped (77). A case in `reported/` has a README
 with a command and linear radiance at pixels; this script runs the command for every technique that the README names and
-reads the EXR by itself. Tests of the folders beside this one generate equivalent inputs."""
+reads the EXR by itself. Tests in the other folders generate equivalent inputs."""
 import os
 import pathlib
 import re
