@@ -112,6 +112,59 @@ TEST(OwnMaterials, SpecularTextures) {
   expect_quarters(both, {at(0.1, grey), at(0.5, grey), at(0.1, red), at(0.5, red)});
 }
 
+// KHR_materials_pbrSpecularGlossiness: F0 is the specular colour, the diffuse part is (1 - its largest
+// channel) of the diffuse colour, and the roughness is 1 - glossiness.
+GltfBuilder glossy(GltfBuilder made, const json& extension) {
+  material_of(made) = {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 1, 0, 1}}, {"metallicFactor", 1}}},
+                       {"extensions", {{"KHR_materials_pbrSpecularGlossiness", extension}}}};
+  return made;
+}
+
+TEST(OwnMaterials, SpecularGlossinessFactors) {
+  const glm::dvec3 diffuse(0.2, 0.4, 0.8);
+  const json color = {diffuse.r, diffuse.g, diffuse.b, 1};
+  for (const glm::dvec3 f0 : {glm::dvec3(0), {0.04, 0.04, 0.04}, {0.5, 0.25, 0.125}, {1, 0.5, 0}}) {
+    for (const double roughness : {1.0, 0.5}) {
+      const GltfBuilder made = glossy(under_the_sun(plate()), {{"diffuseFactor", color},
+                                                               {"specularFactor", {f0.r, f0.g, f0.b}},
+                                                               {"glossinessFactor", 1 - roughness}});
+      expect_radiance(shown(made).at({0, 0, 0}), dielectric_of(diffuse, roughness, f0));
+    }
+  }
+  // Without factors it is a white mirror without a diffuse part.
+  const Material mirror = glossy(plate(), json::object()).load().materials.at(0);
+  EXPECT_EQ(mirror.base_color, glm::vec4(1));
+  EXPECT_EQ(mirror.roughness, 0);
+  EXPECT_EQ(dielectric_f0(mirror), glm::vec3(1));
+}
+
+// The two textures have different sizes, transforms and sets of coordinates.
+TEST(OwnMaterials, SpecularGlossinessTextures) {
+  GltfBuilder made = under_the_sun(plate());
+  made.attribute("TEXCOORD_1", std::vector<float>{0, 1, 1, 1, 1, 0, 0, 0}, "VEC2", f32, 4);
+  const json transform = {{"KHR_texture_transform", {{"offset", {0.5, 0}}, {"texCoord", 1}}}};
+  const int diffuse = add_texels(made, 1, 2, 3, {255, 0, 0, 0, 255, 0});
+  const int specular = add_texels(made, 2, 1, 4, {0, 0, 255, 51, 255, 255, 255, 102});
+  made = glossy(made, {{"diffuseFactor", {0.5, 0.25, 1, 1}},
+                       {"diffuseTexture", {{"index", diffuse}}},
+                       {"specularFactor", {0.25, 0.75, 0.5}},
+                       {"glossinessFactor", 0.5},
+                       {"specularGlossinessTexture", {{"index", specular}, {"extensions", transform}}}});
+  const glm::dvec3 upper(0.5, 0, 0), lower(0, 0.25, 0), left(0.25, 0.75, 0.5), right(0, 0, 0.5);
+  // Glossiness 0.5 * 102 / 255 and 0.5 * 51 / 255, to the nearest of 255 steps.
+  const double rough_left = 204 / 255.0, rough_right = 230 / 255.0;
+  expect_quarters(shown(made),
+                  {dielectric_of(upper, rough_left, left), dielectric_of(upper, rough_right, right),
+                   dielectric_of(lower, rough_left, left), dielectric_of(lower, rough_right, right)});
+}
+
+// KHR_materials_unlit wins, and shows the metallic-roughness base colour.
+TEST(OwnMaterials, SpecularGlossinessOfAnUnlitMaterialIsNotUsed) {
+  GltfBuilder made = glossy(under_the_sun(plate()), {{"diffuseFactor", {0.5, 0.25, 1, 1}}});
+  material_of(made)["extensions"]["KHR_materials_unlit"] = json::object();
+  expect_radiance(shown(made).at({0, 0, 0}), green);
+}
+
 TEST(OwnMaterials, MetalsHaveNoReflectanceOfTheirOwn) {
   const glm::dvec3 base(0.2, 0.4, 0.8);
   const json specular = {{"specularFactor", 0.5}, {"specularColorFactor", {1, 0, 0}}};

@@ -87,6 +87,21 @@ TEST(GltfImage, a_missing_image_is_a_checkerboard_and_its_other_maps_are_left_ou
   EXPECT_EQ(material.emissive, glm::vec3(0));
 }
 
+// Its pixels would be both the specular colour and the roughness.
+TEST(GltfImage, a_missing_specular_glossiness_image_is_named_once_and_leaves_no_mirror) {
+  GltfBuilder made = with_maps(
+      {{"extensions",
+        {{"KHR_materials_pbrSpecularGlossiness", {{"specularGlossinessTexture", {{"index", 0}}}}}}}});
+  made.root["images"][0] = {{"uri", "gone.png"}};
+  Scene scene;
+  const std::string warnings = warnings_of([&] { scene = made.load(); });
+  EXPECT_EQ(std::count(warnings.begin(), warnings.end(), '\n'), 1) << warnings;
+  EXPECT_EQ(scene.materials.at(0).specular_color_map.texture, -1);
+  EXPECT_EQ(scene.materials.at(0).metallic_roughness_map.texture, -1);
+  EXPECT_EQ(dielectric_f0(scene.materials.at(0)), glm::vec3(0.04f));
+  EXPECT_EQ(scene.materials.at(0).roughness, 1);
+}
+
 TEST(GltfImage, each_missing_image_is_named_up_to_eight) {
   GltfBuilder made = with_maps(nlohmann::json::object());
   made.root["materials"] = nlohmann::json::array();

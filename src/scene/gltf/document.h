@@ -23,6 +23,7 @@ struct Document : Reporter {
   std::vector<AnimationEntry> animations;
   // The file's sets that are Mesh::uv0 and uv1, by material, where they are not 0 and 1; -1: none.
   std::map<int, std::array<int, 2>> uv_sets;
+  std::map<std::pair<int, float>, int> roughness_textures;  // made of those with glossiness, by its factor
   Extras extras;
   std::vector<std::span<const uint8_t>> buffers;  // empty if the file gives no bytes
   std::vector<std::vector<uint8_t>> owned;        // memory that `buffers` points into

@@ -26,6 +26,7 @@ struct Encoded {
   std::span<const uint8_t> bytes;
   int width = 0, height = 0;
   bool has_16_bits = false;
+  std::optional<float> glossiness;
 };
 
 bool starts_with(std::span<const uint8_t> bytes, std::string_view magic) {
@@ -81,6 +82,7 @@ size_t pixels_of(const Encoded& image) { return size_t(image.width) * size_t(ima
 void fetch(Document& doc, int index, Encoded& out) {
   const ImageEntry& entry = doc.images[index];
   if (entry.fault) throw *entry.fault;
+  if (entry.roughness) out.glossiness = entry.roughness->glossiness, index = entry.roughness->image;
   const bool named_by_uri = entry.name.empty() && !entry.uri.starts_with("data:");
   out.place = label("image", index, named_by_uri ? entry.uri : entry.name);
   if (entry.view >= 0) {
@@ -142,6 +144,14 @@ Bitmap decode(const Document& doc, const Encoded& image) {
   return out;
 }
 
+void convert_to_roughness(Bitmap& bitmap, float glossiness) {
+  for (size_t i = 0; i < bitmap.rgba.size(); i += 4) {
+    const float roughness = 255 - glossiness * float(bitmap.rgba[i + 3]);
+    bitmap.rgba[i] = 0, bitmap.rgba[i + 1] = uint8_t(roughness + 0.5f), bitmap.rgba[i + 2] = 0;
+    bitmap.rgba[i + 3] = 255;
+  }
+}
+
 // Keeps an input error as a fault.
 template <typename Work>
 void keep_fault(std::optional<Error>& fault, const Work& work) {
@@ -196,8 +206,9 @@ void decode_all(const Document& doc, std::vector<Encoded>& encoded, const std::v
       const size_t image = first + size_t(i);
       if (!out[image].fault)
         keep_fault(out[image].fault, [&] {
-          out[image].bitmap =
-              reduced(decode(doc, encoded[image]), doc.limits.texture_side, colors[image] != 0);
+          Bitmap bitmap = decode(doc, encoded[image]);
+          if (encoded[image].glossiness) convert_to_roughness(bitmap, *encoded[image].glossiness);
+          out[image].bitmap = reduced(std::move(bitmap), doc.limits.texture_side, colors[image] != 0);
         });
       encoded[image] = {};
     });
@@ -210,8 +221,8 @@ ImageSet fetch_images(Document& doc, const std::vector<ImageUse>& uses) {
   ImageSet out;
   std::vector<Encoded> encoded;
   std::vector<char> colors;  // matters only for images that are averaged down
-  std::map<std::pair<std::string_view, bool>, size_t> known;  // by their bytes
-  std::map<int, size_t> broken;                               // by index
+  std::map<std::tuple<std::string_view, bool, std::optional<float>>, size_t> known;  // by their bytes
+  std::map<int, size_t> broken;                                                      // by index
   for (const ImageUse& use : uses) {
     if (const auto found = broken.find(use.image); found != broken.end()) {
       out.bitmap_of_use.push_back(found->second);
@@ -223,8 +234,9 @@ ImageSet fetch_images(Document& doc, const std::vector<ImageUse>& uses) {
     const bool as_colors = use.colors && std::max(image.width, image.height) > doc.limits.texture_side;
     const std::string_view bytes(reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size());
     const size_t next = encoded.size();
-    const auto place = fault ? broken.emplace(use.image, next).first->second
-                             : known.emplace(std::pair(bytes, as_colors), next).first->second;
+    const auto place =
+        fault ? broken.emplace(use.image, next).first->second
+              : known.emplace(std::tuple(bytes, as_colors, image.glossiness), next).first->second;
     out.bitmap_of_use.push_back(place);
     if (place != next) continue;
     if (fault) image = {};

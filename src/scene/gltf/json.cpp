@@ -90,13 +90,23 @@ std::vector<AnimationEntry> take_animations(const Reporter& report, json& root) 
 
 constexpr int max_nesting = 64;  // the format itself needs about 10
 
-constexpr const char* supported_extensions[] = {
-    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",    "EXT_texture_webp",
-    "KHR_animation_pointer",      "KHR_draco_mesh_compression", "KHR_lights_punctual",
-    "KHR_materials_clearcoat",    "KHR_materials_ior",          "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_unlit",        "KHR_materials_emissive_strength",
-    "KHR_mesh_quantization",      "KHR_meshopt_compression",    "KHR_node_visibility",
-    "KHR_texture_transform"};
+constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing",
+                                                "EXT_meshopt_compression",
+                                                "EXT_texture_webp",
+                                                "KHR_animation_pointer",
+                                                "KHR_draco_mesh_compression",
+                                                "KHR_lights_punctual",
+                                                "KHR_materials_clearcoat",
+                                                "KHR_materials_ior",
+                                                "KHR_materials_specular",
+                                                "KHR_materials_transmission",
+                                                "KHR_materials_unlit",
+                                                "KHR_materials_emissive_strength",
+                                                "KHR_mesh_quantization",
+                                                "KHR_meshopt_compression",
+                                                "KHR_node_visibility",
+                                                "KHR_texture_transform",
+                                                "KHR_materials_pbrSpecularGlossiness"};
 
 constexpr const char* collections[] = {"accessors", "animations", "bufferViews", "buffers", "cameras",
                                        "images",    "materials",  "meshes",      "nodes",   "samplers",

@@ -20,6 +20,12 @@ struct ImageEntry {
   std::string name, uri;
   int view = -1;               // buffer view; -1: uri
   std::optional<Error> fault;  // thrown if the image is used
+  // An image that is made of one of the file: green is its roughness, 1 - glossiness * alpha.
+  struct Roughness {
+    int image = 0;
+    float glossiness = 1;
+  };
+  std::optional<Roughness> roughness = std::nullopt;
 };
 
 struct AnimationEntry {

@@ -112,6 +112,23 @@ ExtensionTexture read_extension_texture(const Document& doc, const tinygltf::Val
   return out;
 }
 
+// An extension's array of numbers; unchanged if it is absent.
+template <int count>
+void read_numbers(const Document& doc, const tinygltf::Value& in, const char* key, const std::string& place,
+                  float (*check)(const Document&, double, const std::string&, const char*),
+                  glm::vec<count, float>& out) {
+  if (!in.Has(key)) return;
+  const tinygltf::Value& array = in.Get(key);
+  const auto fault = [&] {
+    return doc.error("{}: {} is not {} numbers", place, key, count == 3 ? "three" : "four");
+  };
+  if (!array.IsArray() || array.ArrayLen() != count) throw fault();
+  for (int i = 0; i < count; ++i) {
+    if (!array.Get(i).IsNumber()) throw fault();
+    out[i] = check(doc, array.Get(i).GetNumberAsDouble(), place, key);
+  }
+}
+
 // KHR_materials_clearcoat.
 void read_clearcoat(Document& doc, const tinygltf::Value& in, const std::string& place, Material& out) {
   const auto factor = [&](const char* key) {
@@ -140,22 +157,51 @@ float read_ior(const Document& doc, const tinygltf::Value& in, const std::string
 // KHR_materials_specular.
 void read_specular(Document& doc, const tinygltf::Value& in, const std::string& place, Material& out) {
   out.specular = in_unit(doc, number_or(doc, in, "specularFactor", 1, place), place, "specularFactor");
-  if (in.Has("specularColorFactor")) {
-    const tinygltf::Value& color = in.Get("specularColorFactor");
-    if (!color.IsArray() || color.ArrayLen() != 3)
-      throw doc.error("{}: specularColorFactor is not three numbers", place);
-    for (int i = 0; i < 3; ++i) {
-      if (!color.Get(i).IsNumber()) throw doc.error("{}: specularColorFactor is not three numbers", place);
-      out.specular_color[i] =
-          not_negative(doc, color.Get(i).GetNumberAsDouble(), place, "specularColorFactor");
-    }
-  }
+  read_numbers(doc, in, "specularColorFactor", place, not_negative, out.specular_color);
   const auto slot = [&](const char* key) {
     return read_slot(doc, read_extension_texture(doc, in, key, place), place + ": " + key);
   };
   out.specular_map = slot("specularTexture");
   out.specular_color_map = slot("specularColorTexture");
   if (out.specular == 0) out.specular_map = out.specular_color_map = {};  // not decoded
+}
+
+// A texture of the roughness 1 - glossiness * alpha.
+int roughness_texture(Document& doc, int texture, float glossiness) {
+  const auto [known, is_new] =
+      doc.roughness_textures.try_emplace({texture, glossiness}, static_cast<int>(doc.model.textures.size()));
+  if (!is_new) return known->second;
+  const int source = image_of_texture(doc, texture);
+  ImageEntry image = doc.images[size_t(source)];
+  image.roughness = {source, glossiness};
+  tinygltf::Texture made = doc.model.textures[size_t(texture)];
+  made.extensions.clear();
+  made.source = static_cast<int>(doc.images.size());
+  doc.images.push_back(std::move(image));
+  doc.model.textures.push_back(std::move(made));
+  return known->second;
+}
+
+// KHR_materials_pbrSpecularGlossiness, converted as KHR_materials_specular states: a dielectric with an index
+// of refraction of 0 reflects its specular colour at normal incidence.
+void read_specular_glossiness(Document& doc, const tinygltf::Value& in, const std::string& place,
+                              Material& out) {
+  out.base_color = glm::vec4(1), out.specular_color = glm::vec3(1);
+  out.metallic = 0, out.ior = 0, out.specular = 1;
+  read_numbers(doc, in, "diffuseFactor", place, in_unit, out.base_color);
+  read_numbers(doc, in, "specularFactor", place, in_unit, out.specular_color);
+  const float glossiness =
+      in_unit(doc, number_or(doc, in, "glossinessFactor", 1, place), place, "glossinessFactor");
+  out.roughness = 1 - glossiness;
+  const auto slot = [&](const char* key) {
+    return read_slot(doc, read_extension_texture(doc, in, key, place), place + ": " + key);
+  };
+  out.base_color_map = slot("diffuseTexture");
+  out.specular_map = {};
+  out.metallic_roughness_map = out.specular_color_map = slot("specularGlossinessTexture");
+  if (out.specular_color_map.texture < 0) return;
+  out.roughness = 1;
+  out.metallic_roughness_map.texture = roughness_texture(doc, out.specular_color_map.texture, glossiness);
 }
 
 // KHR_materials_transmission, as blending: what passes both faces of a thin pane is what is not reflected at
@@ -246,6 +292,9 @@ Material read_material(Document& doc, const tinygltf::Material& in, const std::s
     out.ior = read_ior(doc, *ior, place);
   if (const auto* specular = find_extension(in.extensions, "KHR_materials_specular"))
     read_specular(doc, *specular, place, out);
+  if (const auto* glossy = find_extension(in.extensions, "KHR_materials_pbrSpecularGlossiness");
+      glossy && !out.unlit)
+    read_specular_glossiness(doc, *glossy, place, out);
   if (const auto* transmission = find_extension(in.extensions, "KHR_materials_transmission"))
     read_transmission(doc, *transmission, place, out);
   return out;

@@ -1,6 +1,8 @@
 // Samplers, and the sharing of images between textures.
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string>
 #include <tuple>
 
 #include "scene/gltf/images.h"
@@ -10,12 +12,13 @@ namespace lightgrid::gltf {
 namespace {
 
 void warn_of_faults(const std::vector<DecodedImage>& images) {
-  constexpr int most_named = 8;
-  int faults = 0;
+  constexpr size_t most_named = 8;
+  std::set<std::string> faults;  // two bitmaps can be made of one image
   for (const DecodedImage& image : images)
-    if (image.fault && ++faults <= most_named)
+    if (image.fault && faults.insert(image.fault->what()).second && faults.size() <= most_named)
       log_warning_line(std::string(image.fault->what()) + "; a checkerboard is drawn in its place");
-  if (faults > most_named) log_warning("{} more images are missing or broken", faults - most_named);
+  if (faults.size() > most_named)
+    log_warning("{} more images are missing or broken", faults.size() - most_named);
 }
 
 Bitmap checkerboard() {
@@ -38,6 +41,7 @@ void leave_out_maps(Scene& scene, const std::vector<DecodedImage>& images) {
   for (Material& material : scene.materials) {
     if (is_missing(material.metallic_roughness_map)) material.metallic = 0;
     if (is_missing(material.emissive_map)) material.emissive = glm::vec3(0);
+    if (is_missing(material.specular_color_map) && material.ior == 0) material.ior = 1.5f;  // not a mirror
     for (const SlotUse& use : material_slots)
       if (use.slot != &Material::base_color_map && is_missing(material.*use.slot)) material.*use.slot = {};
   }
