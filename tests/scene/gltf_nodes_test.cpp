@@ -94,8 +94,17 @@ TEST(GltfNodes, a_chain_of_a_hundred_thousand_nodes_is_read) {
   EXPECT_EQ(made.load().instances.at(0).world_from_object[3].x, 50'000);
 }
 
-// Of this process, to load a triangle and lights on nodes of their own.
-double seconds_to_load(int lights) {
+// Processor time of this process.
+double seconds_to_load(const GltfBuilder& made, Scene& scene) {
+  const ModelFolder folder;
+  const auto path = folder.write("made.gltf", made.text());
+  const std::clock_t start = std::clock();
+  scene = load_gltf(path);
+  return double(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+// Each on a node of its own.
+double seconds_to_load_lights(int lights) {
   GltfBuilder made = GltfBuilder::triangle();
   made.root["extensionsUsed"] = {"KHR_lights_punctual"};
   made.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
@@ -104,16 +113,37 @@ double seconds_to_load(int lights) {
     made.root["nodes"].push_back(node);
     made.root["scenes"][0]["nodes"].push_back(i);
   }
-  const ModelFolder folder;
-  const auto path = folder.write("made.gltf", made.text());
-  const std::clock_t start = std::clock();
-  EXPECT_EQ(load_gltf(path).lights.size(), size_t(lights));
-  return double(std::clock() - start) / CLOCKS_PER_SEC;
+  Scene scene;
+  const double seconds = seconds_to_load(made, scene);
+  EXPECT_EQ(scene.lights.size(), size_t(lights));
+  return seconds;
+}
+
+// Each on a mesh of its own, all with one joint.
+double seconds_to_load_skins(int skins) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.attribute("JOINTS_0", std::vector<uint8_t>(12, 0), "VEC4", u8, 3);
+  made.attribute("WEIGHTS_0", std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", f32, 3);
+  made.root["nodes"] = {json::object()};
+  for (int i = 1; i <= skins; ++i) {
+    made.root["skins"].push_back({{"joints", {0}}});
+    made.root["nodes"].push_back({{"mesh", 0}, {"skin", i - 1}});
+    made.root["scenes"][0]["nodes"].push_back(i);
+  }
+  Scene scene;
+  const double seconds = seconds_to_load(made, scene);
+  EXPECT_EQ(scene.meshes.size(), size_t(skins));
+  return seconds;
 }
 
 TEST(GltfNodes, loading_takes_time_in_proportion_to_the_nodes) {
-  const double few = seconds_to_load(20'000);
-  EXPECT_LT(seconds_to_load(80'000), 8 * few) << "4 is linear, 16 quadratic";
+  const double few = seconds_to_load_lights(20'000);
+  EXPECT_LT(seconds_to_load_lights(80'000), 8 * few) << "4 is linear, 16 quadratic";
+}
+
+TEST(GltfNodes, loading_takes_time_in_proportion_to_the_skins) {
+  const double few = seconds_to_load_skins(8'000);
+  EXPECT_LT(seconds_to_load_skins(32'000), 8 * few) << "4 is linear, 16 quadratic";
 }
 
 TEST(GltfNodes, the_instance_limit_holds) {

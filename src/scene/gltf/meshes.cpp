@@ -10,13 +10,11 @@
 namespace lightgrid::gltf {
 namespace {
 
-// Joints as indices into `nodes`, which must contain them, and their inverse bind matrices (identities if the
-// file has none).
-RigSkin read_skin(Document& doc, int index, const std::vector<PlacedNode>& nodes) {
+// Joints as places in the rig, -1 for a node of the file that is not in the scene, and their inverse bind
+// matrices (identities if the file has none).
+RigSkin read_skin(Document& doc, int index, const std::vector<int>& place_of_node) {
   const std::string place = fmt::format("skin {}", index);
   const tinygltf::Skin& skin = checked(doc, doc.model.skins, index, "node", "skin");
-  std::vector<int> place_of_node(doc.model.nodes.size(), -1);
-  for (size_t i = 0; i < nodes.size(); ++i) place_of_node[nodes[i].node] = static_cast<int>(i);
   FloatArray inverse_bind;
   if (skin.inverseBindMatrices >= 0 &&
       !is_empty_accessor(doc, skin.inverseBindMatrices, place + ": inverseBindMatrices")) {
@@ -52,8 +50,13 @@ class MeshReader {
  public:
   MeshReader(Document& doc, const std::vector<PlacedNode>& nodes, Scene& scene, Rig& rig)
       : doc_(doc), nodes_(nodes), scene_(scene), rig_(rig), budget_(doc.limits.max_vertices) {
-    for (const PlacedNode& placed : nodes) world_from_node_.push_back(placed.world_from_node);
+    place_of_node_.resize(doc.model.nodes.size(), -1);
+    for (size_t i = 0; i < nodes.size(); ++i) {
+      world_from_node_.push_back(nodes[i].world_from_node);
+      place_of_node_[nodes[i].node] = static_cast<int>(i);
+    }
     rig_.skins.resize(doc.model.skins.size());
+    joints_at_rest_.resize(doc.model.skins.size());
   }
 
   void add(int index) {
@@ -193,13 +196,15 @@ class MeshReader {
   void apply_checked_skin(const DeformingMesh& shape, Mesh& mesh) {
     const RigSkin& skin = skin_of(shape.skin);
     check_joints(doc_, skin, shape.skin_weights, shape.label);
-    apply_skin(joint_matrices(skin, world_from_node_), shape.skin_weights, shape.mirrored, mesh);
+    std::vector<glm::dmat4>& joints = joints_at_rest_[size_t(shape.skin)];
+    if (joints.empty()) joints = joint_matrices(skin, world_from_node_);
+    apply_skin(joints, shape.skin_weights, shape.mirrored, mesh);
     if (const auto vertex = first_not_finite(mesh))
       throw doc_.error("{}: vertex {} is moved to infinity by its joints", shape.label, *vertex);
   }
 
   const RigSkin& skin_of(int skin) {
-    if (rig_.skins[skin].joints.empty()) rig_.skins[skin] = read_skin(doc_, skin, nodes_);
+    if (rig_.skins[skin].joints.empty()) rig_.skins[skin] = read_skin(doc_, skin, place_of_node_);
     return rig_.skins[skin];
   }
 
@@ -216,7 +221,9 @@ class MeshReader {
   int file_node_ = 0;         // the same node
   std::vector<int> node_of_instance_;
   Budget budget_;
+  std::vector<int> place_of_node_;
   std::vector<glm::dmat4> world_from_node_;
+  std::vector<std::vector<glm::dmat4>> joints_at_rest_;  // by skin; empty until they are used
   std::map<Use, std::vector<Drawn>> drawn_;
 };
 
