@@ -145,11 +145,13 @@ std::vector<RecordedScene> read_golden(const std::filesystem::path& path) {
       throw input_error(
           "lightgrid_golden: {} is another format than {}, which this program reads: record again",
           file.count("lightgrid_golden"), golden_format);
+    file.check_fields({"lightgrid_golden", "version", "commit", "scenes"});
     std::vector<RecordedScene> scenes;
     const json& list = file.at("scenes");
     if (!list.is_array() || list.empty()) throw input_error("scenes: is not a list of one or more");
     for (size_t i = 0; i < list.size(); ++i) {
       const JsonFields fields(list[i], fmt::format("scenes[{}].", i));
+      fields.check_fields({"scene", "technique", "options", "set", "views"});
       RecordedScene& scene = scenes.emplace_back();
       scene.golden.choice.scene = fields.text("scene");
       scene.golden.technique = fields.text("technique");

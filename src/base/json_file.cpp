@@ -1,5 +1,6 @@
 #include "base/json_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -7,6 +8,8 @@
 #include <map>
 #include <mutex>
 #include <system_error>
+
+#include "base/text.h"
 
 namespace lightgrid {
 namespace {
@@ -16,23 +19,22 @@ using nlohmann::json;
 constexpr int most_file_depth = 16;
 constexpr size_t longest_value_told = 60;
 
-// For json::parse: throws "PLACE nested deeper than 16".
-json::parser_callback_t at_most_deep(int max_depth, const std::string& place) {
-  return [=](int depth, json::parse_event_t, json&) {
-    if (depth > max_depth) throw input_error("{}nested deeper than {}", place, max_depth);
-    return true;
-  };
-}
-
-json parse(const std::string& path) {
-  const std::string text = read_small_file(path, max_json_file_bytes, "this file");
-  try {
-    return json::parse(text, at_most_deep(most_file_depth, path + ": "));
-  } catch (const json::parse_error& error) {
-    throw input_error("{}: is not JSON: {}", path, fault_of(error));
-  } catch (const json::exception& error) {
-    throw input_error("{}: {}", path, fault_of(error));
+bool is_nested_deeper(std::string_view text, int limit) {
+  int depth = 0;
+  bool in_string = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string && c == '\\') {
+      ++i;
+    } else if (c == '"') {
+      in_string = !in_string;
+    } else if (!in_string && (c == '{' || c == '[')) {
+      if (++depth > limit) return true;
+    } else if (!in_string && (c == '}' || c == ']')) {
+      --depth;
+    }
   }
+  return false;
 }
 
 std::string told(const json& value) {
@@ -114,11 +116,16 @@ json exact_number(double value) {
   return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
 }
 
-json parsed_json(const std::string& text, int max_depth) {
+void check_nesting(std::string_view text, int max_depth, const std::string& place) {
+  if (is_nested_deeper(text, max_depth)) throw input_error("{}is nested deeper than {}", place, max_depth);
+}
+
+json parsed_json(std::string_view text, int max_depth, const std::string& place) {
+  check_nesting(text, max_depth, place);
   try {
-    return json::parse(text, at_most_deep(max_depth, "is "));
-  } catch (const json::exception&) {
-    throw input_error("is not JSON");
+    return json::parse(text);
+  } catch (const json::exception& error) {
+    throw input_error("{}is not JSON: {}", place, fault_of(error));
   }
 }
 
@@ -127,7 +134,8 @@ json finite_number(double value) { return std::isfinite(value) ? json(value) : j
 JsonFields::JsonFields(const json& object, std::string within) : object_(object), within_(std::move(within)) {
   if (object.is_object()) return;
   if (within_.empty()) throw input_error("{} is not an object", shown(object));
-  throw input_error("{}: {} is not an object", within_.substr(0, within_.size() - 1), shown(object));
+  throw input_error("{}: {} is not an object", within_.substr(0, within_.find_last_not_of(".: ") + 1),
+                    shown(object));
 }
 
 bool JsonFields::has(const std::string& name) const {
@@ -195,13 +203,26 @@ std::vector<std::string> JsonFields::names() const {
   return all;
 }
 
-JsonFile::JsonFile(const std::filesystem::path& path) : path_(path.string()), json_(parse(path_)) {
+void JsonFields::check_fields(const std::vector<std::string>& known) const {
+  for (const auto& [name, value] : object_.items())
+    if (std::ranges::find(known, name) == known.end())
+      throw input_error("{}{}: {}", within_, name, unknown_field(name, known)).about(name);
+}
+
+JsonFile::JsonFile(const std::filesystem::path& path)
+    : path_(path.string()),
+      json_(parsed_json(read_small_file(path_, max_json_file_bytes, "this file"), most_file_depth,
+                        path_ + ": ")) {
   if (!json_.is_object()) throw input_error("{}: is {}, not an object", path_, json_.type_name());
 }
 
 bool JsonFile::has(const std::string& field) const { return JsonFields(json_).has(field); }
 
 const json& JsonFile::at(const std::string& field) const { return JsonFields(json_, path_ + ": ").at(field); }
+
+void JsonFile::check_fields(const std::vector<std::string>& known) const {
+  JsonFields(json_, path_ + ": ").check_fields(known);
+}
 
 Error JsonFile::error(const std::string& field, const json& value, const std::string& fault) const {
   return input_error("{}: {} {} {}", path_, field, told(value), fault).about(field);

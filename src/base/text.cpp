@@ -39,6 +39,12 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return nearest ? "; did you mean " + *nearest + "?" : "";
 }
 
+std::string unknown_field(std::string_view field, const std::vector<std::string>& known) {
+  std::string text = "unknown field" + did_you_mean(field, known) + "; fields are ";
+  for (const std::string& name : known) text += (&name == known.data() ? "" : ", ") + name;
+  return text;
+}
+
 std::string xml_escaped(std::string_view text) {
   std::string escaped;
   for (const char c : text) {

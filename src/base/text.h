@@ -32,6 +32,9 @@ std::optional<std::pair<T, T>> parse_pair(std::string_view text, char separator)
 // "; did you mean NAME?" with the nearest of the names; nothing if none is near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
+// "unknown field; did you mean NAME?; fields are NAME, NAME"
+std::string unknown_field(std::string_view field, const std::vector<std::string>& known);
+
 std::string xml_escaped(std::string_view text);  // for text and attributes of XML and HTML
 
 std::string base64(const std::vector<uint8_t>& bytes);

@@ -80,6 +80,7 @@ std::vector<float> read_edges(const JsonFile& file, const char* field, size_t mo
 
 // The fields of grid.json, each checked against the frame.
 FrameGrid read_grid_header(const JsonFile& file, const CapturedFrame& frame) {
+  file.check_fields({"cells", "tile", "slice_edges", "z_bin_edges", "settings"});
   FrameGrid grid;
   grid.tile = file.whole("tile", 1, max_frame_side);
   const std::vector<int> cells = file.wholes("cells", 3, 1, max_frame_side);

@@ -137,6 +137,8 @@ void read_pose(const JsonFile& file, View& view) {
 
 FrameView read_view_file(const std::filesystem::path& path) {
   const JsonFile file(path);
+  file.check_fields(
+      {"size", "tile", "near", "far", "surfaces_far", "clip_from_view", "view_from_world", "eye"});
   FrameView frame;
   const std::vector<int> size = file.wholes("size", 2, 1, max_frame_side);
   frame.view.width = size[0], frame.view.height = size[1];

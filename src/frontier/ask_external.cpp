@@ -44,6 +44,7 @@ FrameAnswer frame_answer(const std::string& line, double asked_ms) {
   };
   FrameAnswer frame{.ms = checked("frame_ms"), .device_ms = {}};
   if (answer.has("device_ms")) frame.device_ms = checked("device_ms");
+  answer.check_fields({"frame_ms", "device_ms"});
   return frame;
 }
 

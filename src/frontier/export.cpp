@@ -100,13 +100,8 @@ std::string camera_of(const ExportedScene& exported, const View& view) {
 
 void check_exported_views(const fs::path& path, const Scene& scene, const std::vector<View>& views) {
   const std::string where = path.string() + ": ";
-  nlohmann::json parsed;
-  try {
-    parsed = parsed_json(read_small_file(path, most_views_bytes, "a file of views"), most_views_depth);
-  } catch (const Error& error) {
-    const std::string fault = error.what();
-    throw input_error("{}{}", fault.starts_with(where) ? "" : where, fault);
-  }
+  const nlohmann::json parsed =
+      parsed_json(read_small_file(path, most_views_bytes, "a file of views"), most_views_depth, where);
   const JsonFields file(parsed, where);
   if (file.whole("lightgrid_views", 0) != 1) throw input_error("{}lightgrid_views: is not 1", where);
   if (file.text("lights_hash") != lights_hash(scene))

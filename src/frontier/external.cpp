@@ -76,12 +76,14 @@ std::vector<double> times_of(const JsonFields& frame, const char* key, const std
 }
 
 ExternalFrames frames_of(const JsonFields& scene, const std::string& where, const fs::path& folder) {
+  scene.check_fields({"views", "frames"});
   ExternalFrames frames{.views = folder / scene.text("views"), .frames = {}};
   const json& array = scene.at("frames");
   if (!array.is_array() || array.empty()) throw input_error("{}frames: is not a list of frames", where);
   for (size_t i = 0; i < array.size(); ++i) {
     const std::string at = fmt::format("{}frames[{}].", where, i);
     const JsonFields fields(array[i], at);
+    fields.check_fields({"picture", "frame_ms", "baseline_ms"});
     ExternalFrame& frame = frames.frames.emplace_back();
     frame.picture = folder / fields.text("picture");
     frame.frame_ms = times_of(fields, "frame_ms", at);
@@ -107,14 +109,10 @@ std::string ExternalRenderer::label() const {
 ExternalRenderer read_external_renderer(const fs::path& file_path) {
   const std::string path = file_path.string();
   const std::string text = read_small_file(file_path, most_description_bytes, "a renderer's description");
-  json parsed;
-  try {
-    parsed = parsed_json(text, most_description_depth);
-  } catch (const Error& error) {
-    throw input_error("{}: {}", path, error.what());
-  }
   const std::string where = path + ": ";
+  const json parsed = parsed_json(text, most_description_depth, where);
   const JsonFields file(parsed, where);
+  file.check_fields({"name", "note", "settings", "surfaces", "command", "timeout_s", "scenes"});
   ExternalRenderer renderer{.name = name_of(file, path), .settings = settings_of(file, path)};
   if (file.has("note")) renderer.note = file.text("note");
   if (file.has("surfaces")) {

@@ -280,7 +280,8 @@ json read_frontier_json(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, ignored) || !file)
     throw input_error("{}: no such file", path.string());
   try {
-    json frontier = parsed_json({std::istreambuf_iterator<char>(file), {}}, 16);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    json frontier = parsed_json(text, 16);
     JsonFields(frontier).at("points");
     return frontier;
   } catch (const Error& error) {

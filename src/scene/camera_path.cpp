@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -11,12 +9,14 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_file.h"
 #include "base/text.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr int most_views = 100'000;
+constexpr int most_views = 100'000, max_json_depth = 8;
+constexpr uintmax_t max_file_bytes = 64 << 20;
 
 // `start` from another position, with its view space turned by `turn` (world from world).
 View moved(const View& start, const glm::dvec3& eye, const glm::dmat3& turn) {
@@ -57,14 +57,11 @@ struct Key {
 class KeyFile {
  public:
   KeyFile(const std::string& path, const std::string& text) : path_(path) {
-    try {
-      json_ = nlohmann::json::parse(text);
-    } catch (const nlohmann::json::exception&) {
-      throw input_error("camera-path {}: is not JSON", path);
-    }
+    json_ = parsed_json(text, max_json_depth, fmt::format("camera-path {}: ", path));
     if (!json_.is_object() || !json_.contains("keys") || !json_["keys"].is_array() || json_["keys"].empty()) {
       throw input_error("camera-path {}: has no \"keys\"", path);
     }
+    JsonFields(json_, fmt::format("camera-path {}: ", path)).check_fields({"frames", "keys"});
     for (size_t i = 0; i < json_["keys"].size(); ++i) keys_.push_back(key(json_["keys"][i], i));
   }
 
@@ -94,6 +91,8 @@ class KeyFile {
   }
 
   Key key(const nlohmann::json& object, size_t index) const {
+    JsonFields(object, fmt::format("camera-path {}: key {}: ", path_, index))
+        .check_fields({"eye", "target", "fov"});
     Key key{place(object, index, "eye"), place(object, index, "target")};
     if (!object.contains("fov")) return key;
     if (!object["fov"].is_number())
@@ -106,7 +105,7 @@ class KeyFile {
     const auto wrong = [&] {
       return input_error("camera-path {}: key {}: {} is not three finite numbers", path_, index, name);
     };
-    if (!object.is_object() || !object.contains(name)) throw wrong();
+    if (!object.contains(name)) throw wrong();
     const nlohmann::json& values = object[name];
     if (!values.is_array() || values.size() != 3) throw wrong();
     glm::dvec3 out;
@@ -132,15 +131,21 @@ std::optional<int> count_of(const std::string& text, const std::string& name) {
   return count;
 }
 
+std::string key_file(const std::string& path) {
+  try {
+    return read_small_file(path, max_file_bytes, "a camera path");
+  } catch (const Error& error) {
+    throw input_error("camera-path {}; it is neither turn:N nor dolly:N, nor a file that can be read",
+                      error.what());
+  }
+}
+
 }  // namespace
 
 std::vector<View> camera_path(const Scene& scene, const View& start, const std::string& path) {
   if (const auto count = count_of(path, "turn")) return turn(start, *count);
   if (const auto count = count_of(path, "dolly")) return dolly(scene, start, *count);
-  std::ifstream file(path);
-  if (!file)
-    throw input_error("camera-path {}: neither turn:N nor dolly:N, nor a file that can be read", path);
-  return camera_path_of_keys(start, {std::istreambuf_iterator<char>(file), {}}, path);
+  return camera_path_of_keys(start, key_file(path), path);
 }
 
 std::vector<View> camera_path_of_keys(const View& start, const std::string& text, const std::string& path) {

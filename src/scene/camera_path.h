@@ -14,7 +14,7 @@ namespace lightgrid {
 //           views evenly along the keys, linear between neighbours; without "frames" one view a key; fov is
 //           vertical, default 60.
 // All have the size, near and far of `start`. World space, metres. Throws Error(input) for another form, N
-// outside 1 to 100,000, an invalid file, and a target at its eye.
+// outside 1 to 100,000, an invalid file or an unknown field, and a target at its eye.
 std::vector<View> camera_path(const Scene& scene, const View& start, const std::string& path);
 
 // The same of the text of such a file; `path`: its name in errors.

@@ -22,16 +22,15 @@ using Json = nlohmann::json;
 constexpr int max_json_depth = 32;
 constexpr double max_float = std::numeric_limits<float>::max();
 
-// Follows a parse without storing anything, for messages with the position of a fault, since the parser's own
-// messages give only line and column. (Parser callbacks would work, but rescan the whole list at the end of
-// each light.)
+// Follows the parse of a file with a fault, for a message with its position, since the parser's own messages
+// give only line and column.
 class Place : public Json::json_sax_t {
  public:
   explicit Place(const std::filesystem::path& path) : path_(path) {}
 
   bool start_object(std::size_t) override {
     if (depth_ == 2 && in_lights_) ++light_, field_.clear();
-    return deeper();
+    return ++depth_, true;
   }
   bool key(std::string& name) override {
     if (depth_ == 1) in_lights_ = name == "lights";
@@ -39,7 +38,7 @@ class Place : public Json::json_sax_t {
     return true;
   }
   bool end_object() override { return --depth_, true; }
-  bool start_array(std::size_t) override { return deeper(); }
+  bool start_array(std::size_t) override { return ++depth_, true; }
   bool end_array() override { return --depth_, true; }
   bool null() override { return true; }
   bool boolean(bool) override { return true; }
@@ -55,12 +54,6 @@ class Place : public Json::json_sax_t {
   }
 
  private:
-  bool deeper() {
-    if (++depth_ > max_json_depth)
-      throw input_error("{}: nested deeper than {}", path_.string(), max_json_depth);
-    return true;
-  }
-
   std::string place() const {
     const std::string field = field_.empty() ? "" : fmt::format("near {:?}: ", field_);
     return light_ < 0 ? field : fmt::format("light {}: {}", light_, field);
@@ -74,9 +67,12 @@ class Place : public Json::json_sax_t {
 
 Json read_object(const std::filesystem::path& path) {
   const std::string text = read_small_file(path, max_lights_file_bytes, "a lights file");
-  Place place(path);
-  Json::sax_parse(text, &place);
-  Json json = Json::parse(text);
+  check_nesting(text, max_json_depth, path.string() + ": ");
+  Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) {
+    Place place(path);
+    Json::sax_parse(text, &place);
+  }
   if (!json.is_object()) throw input_error("{}: is {}, not an object", path.string(), json.type_name());
   return json;
 }
@@ -95,13 +91,8 @@ class Fields {
   const std::string& where() const { return where_; }
   bool has(const char* field) const { return json_.contains(field); }
 
-  // A mistyped field would leave its default in place unnoticed.
-  void check_keys(const std::vector<std::string>& known) const {
-    for (const auto& [key, value] : json_.items())
-      if (std::ranges::find(known, key) == known.end())
-        throw input_error("{}: {}: unknown field{}; fields are {}", where_, key, did_you_mean(key, known),
-                          fmt::join(known, ", "))
-            .about(key);
+  void check_fields(const std::vector<std::string>& known) const {
+    JsonFields(json_, where_ + ": ").check_fields(known);
   }
 
   template <typename Value>
@@ -177,7 +168,7 @@ glm::vec3 direction(const Fields& fields) {
 Light redeclipse_light(const Fields& fields) {
   static const std::vector<std::string> known = {"name",         "position", "radius",  "rgb255", "attrs",
                                                  "casts_shadow", "groups",   "include", "exclude"};
-  fields.check_keys(known);
+  fields.check_fields(known);
   const glm::dvec3 map = fields.vector("position", -max_float, max_float) * metres_per_redeclipse_unit;
   const double radius_m = fields.number("radius", 0, 0, max_float) * metres_per_redeclipse_unit;
   const double lit_m = radius_m > 0 ? radius_m : 16;
@@ -202,7 +193,7 @@ Light plain_light(const Fields& fields) {
   static const std::vector<std::string> known = {
       "name",  "type",      "position",     "direction",     "radius",  "range",  "inner_cone", "outer_cone",
       "color", "intensity", "casts_shadow", "source_radius", "nearest", "groups", "include",    "exclude"};
-  fields.check_keys(known);
+  fields.check_fields(known);
   Light light;
   light.name = fields.name();
   light.type = light_type(fields);
@@ -265,7 +256,7 @@ std::vector<GroupLists> instance_groups(const std::filesystem::path& path, const
   std::vector<GroupLists> all;
   for (size_t i = 0; i < list.size(); ++i) {
     const Fields fields(path, "instance", i, list[i]);
-    fields.check_keys({"name", "groups"});
+    fields.check_fields({"name", "groups"});
     const GroupLists lists = groups_of(fields, 0);
     if (!lists.groups) throw input_error("{}: groups is missing", fields.where());
     const size_t before = all.size();

@@ -129,6 +129,9 @@ nlohmann::ordered_json to_json(const GoldenView& view) {
 }
 
 GoldenView golden_view(const JsonFields& fields) {
+  std::vector<std::string> known = {"width", "height", "tile"};
+  known.insert(known.end(), golden_stages.begin(), golden_stages.end());
+  fields.check_fields(known);
   GoldenView view{fields.whole("width", 1), fields.whole("height", 1), fields.whole("tile", 1), {}};
   if (view.width > 16384 || view.height > 16384) throw input_error("width or height: more than 16384");
   for (size_t stage = 0; stage < golden_stages.size(); ++stage) {

@@ -172,6 +172,7 @@ TEST(FrontierExternal, FaultyCommandsAreRefusedPoints) {
       {"read line; echo '{\"error\": \"no such light\"}'", "no such light"},
       {"read line; echo '{'", "is not JSON"},
       {"read line; echo '{\"ms\": 1}'", "frame_ms is missing"},
+      {"read line; echo '{\"frame_ms\": 0.001, \"devise_ms\": 1}'", "did you mean device_ms?"},
       {"read line; echo '{\"frame_ms\": -1}'", "frame_ms: -1 is not above 0"},
       {"read line; echo '{\"frame_ms\": 1e9}'", "is more than the"},
       {"read line; echo '{\"frame_ms\": 0.001}'", ".exr"},  // it wrote no picture

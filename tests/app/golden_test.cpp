@@ -303,6 +303,15 @@ TEST_F(Golden, BrokenFilesAreErrorsOfTheirField) {
   golden["scenes"][0]["options"]["sise"] = "1x1";
   fails(golden, "sise");
   golden = recorded();
+  golden["scene"] = golden["scenes"];
+  fails(golden, "golden.json: scene: unknown field; did you mean scenes?");
+  golden = recorded();
+  golden["scenes"][0]["sets"] = json::array({"tile=8"});
+  fails(golden, "golden.json: scenes[0].sets: unknown field; did you mean set?");
+  golden = recorded();
+  golden["scenes"][0]["views"][0]["tiles"] = 8;
+  fails(golden, "golden.json: scenes[0].views[0].tiles: unknown field; did you mean tile?");
+  golden = recorded();
   golden["scenes"][0]["views"][0].erase("depth");
   fails(golden, "depth");
   golden = recorded();

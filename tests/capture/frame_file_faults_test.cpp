@@ -135,6 +135,11 @@ TEST_F(BrokenFrame, AMissingFileIsNamed) {
   }
 }
 
+TEST_F(BrokenFrame, AnUnknownFieldOfTheGridIsRefused) {
+  set_in_grid("slice_edge", {1, 2});
+  expect_told("grid.json", {"slice_edge: unknown field; did you mean slice_edges?; fields are cells, tile"});
+}
+
 TEST_F(BrokenFrame, AFolderThatIsNoneIsNamed) {
   EXPECT_THAT(fault_of(folder_.path / "none"), HasSubstr((folder_.path / "none").string()));
   EXPECT_THAT(fault_of(folder_.path / "view.json"), HasSubstr("no such folder"));

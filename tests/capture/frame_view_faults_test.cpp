@@ -45,6 +45,10 @@ INSTANTIATE_TEST_SUITE_P(
     FrameFile, WrongViews,
     testing::Values(
         WrongView{"NoSize", "size", "", {"missing"}},  //
+        WrongView{"Unknown",
+                  "surface_far",
+                  "20",
+                  {"surface_far: unknown field; did you mean surfaces_far?; fields are size, tile"}},
         WrongView{"SizeZero", "size", "[0, 4]", {"0"}},
         WrongView{"SizeAbsurd", "size", "[4, 4000000000]", {"4000000000"}},
         WrongView{"SizeNotWhole", "size", "[4.5, 4]", {"4.5"}},

@@ -71,6 +71,17 @@ TEST(ExternalRenderer, IsACommandOrFramesOfScenes) {
   EXPECT_NE(read_external_renderer(description.folder.path / "engine.json").content, files.content);
 }
 
+TEST(ExternalRenderer, UnknownFieldsOfItsFileAreRefused) {
+  const Description d;
+  EXPECT_THAT(d.fault(ready_command(), "/timeout", 2),
+              HasSubstr("engine.json: timeout: unknown field; did you mean timeout_s?; fields are name, "));
+  EXPECT_THAT(d.fault(ready_files(), "/scenes/hall/view", 2),
+              HasSubstr("engine.json: scenes.hall.view: unknown field; did you mean views?"));
+  EXPECT_THAT(
+      d.fault(ready_files(), "/scenes/hall/frames/0/frames_ms", {1}),
+      HasSubstr("engine.json: scenes.hall.frames[0].frames_ms: unknown field; did you mean frame_ms?"));
+}
+
 TEST(ExternalRenderer, FaultsOfItsFileAreNamed) {
   const Description d;
   EXPECT_THAT(fault_of([&] { read_external_renderer(d.folder.path / "none.json"); }), HasSubstr("none.json"));

@@ -236,12 +236,15 @@ TEST(Gate, ReadsAFileOrNamesIt) {
   EXPECT_EQ(fault_of([&] { read_frontier_json(path); }), path + ": no such file");
   EXPECT_EQ(fault_of([&] { read_frontier_json(folder.path); }), folder.path.string() + ": no such file");
   const std::pair<std::string, std::string> wrong[] = {
-      {"", "is not JSON"},         {"{\"points\"", "is not JSON"},
-      {"\"\xff\"", "is not JSON"}, {"[]", "array is not an object"},
-      {"{}", "points is missing"}, {std::string(99999, '['), "is nested deeper than 16"}};
+      {"", "is not JSON: parse error at line 1, column 1"},
+      {"{\"points\"", "is not JSON: parse error at line 1, column 10"},
+      {"\"\xff\"", "is not JSON: parse error at line 1, column 2"},
+      {"[]", "array is not an object"},
+      {"{}", "points is missing"},
+      {std::string(99999, '['), "is nested deeper than 16"}};
   for (const auto& [text, why] : wrong) {
     std::ofstream(path) << text;
-    EXPECT_EQ(fault_of([&] { read_frontier_json(path); }), path + ": " + why);
+    EXPECT_THAT(fault_of([&] { read_frontier_json(path); }), StartsWith(path + ": " + why));
   }
   std::ofstream(path) << frontier();
   EXPECT_EQ(read_frontier_json(path), frontier());

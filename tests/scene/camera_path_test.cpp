@@ -79,6 +79,10 @@ TEST(CameraPath, RefusesWhatIsNone) {
   const std::pair<const char*, const char*> files[] = {
       {"[", "not JSON"},
       {"{}", "keys"},
+      {R"({"keys": [3]})", "key 0: 3 is not an object"},
+      {R"({"key": [], "keys": [{}]})", "key: unknown field; did you mean keys?; fields are frames, keys"},
+      {R"({"keys": [{"eye": [0, 0, 0], "target": [0, 0, 1], "fow": 40}]})",
+       "key 0: fow: unknown field; did you mean fov?; fields are eye, target, fov"},
       {R"({"keys": []})", "keys"},
       {R"({"keys": [{"eye": [0, 0], "target": [0, 0, 1]}]})", "key 0: eye"},
       {R"({"keys": [{"eye": [0, 0, 0]}]})", "key 0: target"},
@@ -86,6 +90,10 @@ TEST(CameraPath, RefusesWhatIsNone) {
       {R"({"keys": [{"eye": [0, 0, 0], "target": [0, 0, 1e300]}]})", "key 0: target"},
       {R"({"keys": [{"eye": [0, 0, 0], "target": [0, 0, 1]}], "frames": 0})", "frames"},
   };
+  const std::string deep = std::string(200'000, '[');
+  EXPECT_THAT(message(folder.path.string()), testing::HasSubstr("is a folder, not a file"));
+  std::ofstream(path) << deep;
+  EXPECT_THAT(message(path), testing::HasSubstr("is nested deeper than 8"));
   for (const auto& [text, wanted] : files) {
     std::ofstream(path) << text;
     EXPECT_THAT(message(path), testing::HasSubstr(wanted)) << text;

@@ -69,10 +69,10 @@ TEST(GltfExtras, unknown_keys_and_wrong_values_are_refused_by_name) {
        std::initializer_list<json>{{1, 2}, {1, 2, -1}, {1, 2, "3"}, 0.5, {1, 2, 1e300}, "#112233"})
     EXPECT_THAT(of_scene({{"ambient", wrong}}), HasSubstr("it must be three finite numbers of 0 or more"));
   EXPECT_THAT(of_scene({{"sample", 4}}),
-              HasSubstr("scene 0: extras.lightgrid.sample: unknown key; did you mean samples?; keys are "
+              HasSubstr("scene 0: extras.lightgrid.sample: unknown field; did you mean samples?; fields are "
                         "samples, ambient, background"));
   EXPECT_THAT(lit_triangle({}, own({{"casts_shadows", true}})).refusal(),
-              HasSubstr("node 0: extras.lightgrid.casts_shadows: unknown key; did you mean casts_shadow?"));
+              HasSubstr("node 0: extras.lightgrid.casts_shadows: unknown field; did you mean casts_shadow?"));
   EXPECT_THAT(
       lit_triangle(own({{"casts_shadow", "On"}}), {}).refusal(),
       HasSubstr("light 0: extras.lightgrid.casts_shadow is \"On\"; it must be true, false or a number"));

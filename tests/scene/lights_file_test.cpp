@@ -226,8 +226,9 @@ TEST_F(LightsFile, WhatIsNoLightsFile) {
   EXPECT_EQ(refused("[]"), "is array, not an object");
   EXPECT_EQ(refused("{}"), "lights is missing");
   EXPECT_EQ(refused(R"({"lights": {"a": 1}})"), "lights is object, not an array");
-  EXPECT_EQ(refused(std::string(1'000'000, '[')), "nested deeper than 32");
-  EXPECT_EQ(refused("{\"lights\": [{\"position\": " + std::string(1'000'000, '[')), "nested deeper than 32");
+  EXPECT_EQ(refused(std::string(1'000'000, '[')), "is nested deeper than 32");
+  EXPECT_EQ(refused("{\"lights\": [{\"position\": " + std::string(1'000'000, '[')),
+            "is nested deeper than 32");
 }
 
 TEST_F(LightsFile, FilesThatCannotBeRead) {

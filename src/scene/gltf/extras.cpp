@@ -133,8 +133,7 @@ void read_own(const Reporter& report, const json& in, const std::string& place,
   for (const auto& [key, value] : in.items()) {
     const auto field = std::ranges::find(fields, key, &Field<Owner>::key);
     if (field == fields.end())
-      throw report.error("{}.{}: unknown key{}; keys are {}", place, key, did_you_mean(key, keys_of(fields)),
-                         fmt::join(keys_of(fields), ", "));
+      throw report.error("{}.{}: {}", place, key, unknown_field(key, keys_of(fields)));
     if (!field->read(value, out))
       throw report.error("{}.{} is {}; it must be {}", place, key,
                          value.dump(-1, ' ', false, json::error_handler_t::replace), field->requirement);

@@ -116,34 +116,6 @@ bool contains(const auto& names, std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-// A callback of the parser could count too, but after each element of an array it scans all before it.
-bool is_nested_deeper(std::string_view text, int limit) {
-  int depth = 0;
-  bool in_string = false;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string && c == '\\') {
-      ++i;
-    } else if (c == '"') {
-      in_string = !in_string;
-    } else if (!in_string && (c == '{' || c == '[')) {
-      if (++depth > limit) return true;
-    } else if (!in_string && (c == '}' || c == ']')) {
-      --depth;
-    }
-  }
-  return false;
-}
-
-json parse(const Reporter& report, std::string_view text) {
-  if (is_nested_deeper(text, max_nesting)) throw report.error("JSON is nested deeper than {}", max_nesting);
-  try {
-    return json::parse(text);
-  } catch (const json::exception& failure) {
-    throw report.error("{}", fault_of(failure));
-  }
-}
-
 class Tidier {
  public:
   explicit Tidier(const Reporter& report) : report_(report) {}
@@ -347,7 +319,7 @@ bool keeps_the_picture(std::string_view extension) {
 }
 
 PreparedJson prepare_json(Reporter& report, std::string_view text) {
-  json root = parse(report, text);
+  json root = parsed_json(text, max_nesting, report.place(""));
   if (!root.is_object()) throw report.error("JSON is not an object");
   for (const char* name : collections) {
     if (!root.contains(name)) continue;
