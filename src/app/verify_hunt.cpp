@@ -43,13 +43,15 @@ void print(const verify::HuntReport& report) {
 void print(const verify::ShadowHuntReport& report) {
   const auto row = [](const verify::ShadowHuntTally& t) {
     const verify::ShadowPairs& p = t.pairs;
-    fmt::print("  {:<13} {:>12} {:>12} {:>10} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9.2f}  {}\n", t.name,
-               p.decided(), p.hidden, p.either, p.leaked, p.acned, t.views, t.refused, t.shapes_differ,
-               t.seconds > 0 ? double(p.decided()) / t.seconds / 1e6 : 0, p.why.empty() ? t.refusal : p.why);
+    fmt::print("  {:<13} {:>12} {:>12} {:>10} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9.2f}  {}\n",
+               t.name, p.decided(), p.hidden, p.either, p.leaked, p.acned, t.views, t.refused,
+               t.shapes_differ, t.frames, t.stale, t.seconds > 0 ? double(p.decided()) / t.seconds / 1e6 : 0,
+               p.why.empty() ? t.refusal : p.why);
   };
   fmt::print("{}, seed {}\n", report.device, report.seed);
-  fmt::print("  {:<13} {:>12} {:>12} {:>10} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9}\n", "class", "pairs",
-             "hidden", "either", "leaked", "acned", "views", "refused", "differ", "M pairs/s");
+  fmt::print("  {:<13} {:>12} {:>12} {:>10} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>9}\n", "class",
+             "pairs", "hidden", "either", "leaked", "acned", "views", "refused", "differ", "frames", "stale",
+             "M pairs/s");
   for (const verify::ShadowHuntTally& tally : report.classes) row(tally);
   row(report.total());
   for (const verify::ShadowHuntTally& tally : report.classes) {
@@ -85,8 +87,10 @@ int tell(const Report& report, const std::string& json) {
 void add_hunt_options(Subcommand& command, HuntCommand& o) {
   command.option("--hunt", o.minutes,
                  "instead, minutes of random views with lights that barely reach a pixel, on one device");
-  command.flag("--shadow-pairs", o.shadows,
-               "with --hunt: of random scenes instead, each pair of a pixel and a light that casts a shadow");
+  command.flag(
+      "--shadow-pairs", o.shadows,
+      "with --hunt: of random scenes instead, each pair of a pixel and a light that casts a shadow, and "
+      "moving sequences against frames that keep nothing");
   command.flag("--cases", o.cases,
                "with --hunt: random cases of samples and of light indices instead, against their oracles");
   command.option("--contacts", o.contacts,

@@ -18,7 +18,7 @@ struct HuntCommand {
 void add_hunt_options(Subcommand& command, HuntCommand& options);
 
 // Runs on one device, for the classes whose name matches `filter`. Returns the exit status: 1 if a light was
-// lost, a shadow wrong or a case failed, a view was refused or the kernel shapes differed.
+// lost, a shadow wrong, a frame stale or a case failed, a view was refused or the kernel shapes differed.
 int run_hunt(const HuntCommand& options, verify::CullEngine& engine, const std::string& filter,
              const std::string& json);
 

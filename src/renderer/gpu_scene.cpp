@@ -114,7 +114,7 @@ std::shared_ptr<RayScene> GpuScene::in_rays(TexelLayout layout, BlendedCasters b
   HeldRays& of = in_rays_[by_blended];
   std::shared_ptr<RayScene> held = of.rays.lock();
   const bool made = !held;
-  if (made) of.rays = held = std::make_shared<RayScene>(*renderer_.cl, *renderer_.kernels);
+  if (made) of.rays = held = std::make_shared<RayScene>(*renderer_.cl, *renderer_.kernels, ray_options_);
   const bool reshaped = made || of.shape != shape_version_;
   if (reshaped) set_ray_meshes(scene_, *held);
   if (reshaped || of.instances != instances_version_) set_ray_instances(scene_, by_blended, *held);

@@ -5,7 +5,6 @@
 #include "base/resident.h"
 #include "gl/bindings.h"
 #include "gl/gl.h"
-#include "passes/find_shadows.h"
 #include "passes/tone_map.h"
 #include "results/metrics.h"
 
@@ -53,11 +52,7 @@ void TechniqueRun::draw_frame() {
   hide();
   const bool opengl = view_.renderer.gl != nullptr;
   if (opengl) reset_gl_state();
-  begin_shadow_bands(view_, view_.caches.shadow_bits);
-  do {
-    frame_ = lightgrid::draw_frame(technique_, view_);
-  } while (next_shadow_band(view_, view_.caches.shadow_bits, frame_.image));
-  tell_shadows(view_, view_.caches.shadow_bits, frame_);
+  frame_ = lightgrid::draw_frame(technique_, view_);
   if (draws_bytes()) frame_.displayed = tone_map(view_, view_.caches.tone_map, frame_.image);
   if (opengl) check_gl(technique_.name);
 }

@@ -31,9 +31,8 @@ void ShadowMaps::draw(const RayScene& rays, const ShadowAtlas& atlas, const std:
     throw machine_error("shadow maps: {} texels, more than 2^32 - 1: a smaller shadow-size", atlas.texels);
   lights_.put(device_, "shadow maps: lights", atlas.lights);
   faces_.put(device_, "shadow maps: faces", atlas.faces);
-  const cl_mem before = texels_.get()();
+  const bool lost = texels() || texels_.bytes() < atlas.bytes;
   const cl::Buffer& drawn = texels() ? texels : texels_.at_least(device_, atlas.bytes);
-  const bool lost = texels() || drawn() != before;
   light_count_ = atlas.lights.size();
   const uint side = lanes() ? FACE_TILE_LANES : FACE_TILE_GROUP;
   std::vector<std::array<uint32_t, 2>> tiles;  // of each face that is drawn: the first, and the face

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "passes/fill_far_light.h"
+#include "passes/find_shadows.h"
 #include "passes/resolve_samples.h"
 #include "techniques/technique.h"
 
@@ -127,9 +128,14 @@ bool is_approximate(const Technique& technique, const Settings& settings) {
 }
 
 Frame draw_frame(const Technique& technique, RenderView& v) {
-  fill_far_light(v, v.caches.far_light);
-  Frame frame = technique.render(v);
-  frame.image = resolve_samples(v, frame.image);
+  Frame frame;
+  begin_shadow_bands(v, v.caches.shadow_bits);
+  do {
+    fill_far_light(v, v.caches.far_light);
+    frame = technique.render(v);
+    frame.image = resolve_samples(v, frame.image);
+  } while (next_shadow_band(v, v.caches.shadow_bits, frame.image));
+  tell_shadows(v, v.caches.shadow_bits, frame);
   return frame;
 }
 

@@ -50,7 +50,7 @@ bool is_random(const Technique& technique, const Settings& settings);
 // Whether with these settings its picture is not forward's, by nature, or its shadows are no exact ones.
 bool is_approximate(const Technique& technique, const Settings& settings);
 
-// The technique's frame, its image of one sample a pixel.
+// The technique's frame, its image of one sample per pixel, with its shadows.
 Frame draw_frame(const Technique& technique, RenderView& v);
 
 // The most samples a pixel that the technique can take with these settings.

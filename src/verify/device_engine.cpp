@@ -46,6 +46,59 @@ std::vector<CastingTriangle> triangles_of(const Scene& scene, const TriangleBuff
   return triangles;
 }
 
+std::vector<glm::vec4> read_pixels(RenderView& v, const ShadedImage& image) {
+  std::vector<glm::vec4> pixels(v.grid().pixels());
+  if (image.in_cl) {
+    read_buffer(*v.renderer.cl, "image", image.in_cl->cl_buffer(), pixels.data(), pixels.size() * 16);
+  } else {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, image.framebuffer);
+    glReadPixels(0, 0, v.view.width, v.view.height, GL_RGBA, GL_FLOAT, pixels.data());
+  }
+  return pixels;
+}
+
+// What OpenCL's rasteriser left of a frame, and its shadows.
+ShadowImage shadow_image(RenderView& v, const Frame& frame) {
+  ShadowImage image{.lights = v.plan.local};
+  if (frame.shadows) image.shadows = frame.shadows();
+  if (!frame.triangles) return image;
+  std::vector<uint32_t> numbers(v.view.grid().pixels());
+  image.depths.resize(numbers.size());
+  read_buffer(*v.renderer.cl, "triangles", frame.triangles->numbers, numbers.data(), numbers.size() * 4);
+  read_buffer(*v.renderer.cl, "depths", frame.depth->values, image.depths.data(), numbers.size() * 4);
+  image.triangles = triangles_of(v.scene, *frame.triangles, numbers);
+  return image;
+}
+
+class DeviceSequence : public FrameSequence {
+ public:
+  DeviceSequence(Renderer& renderer, const Scene& scene, const Technique& technique, const View& view,
+                 const Settings& settings, const std::optional<glm::dvec3>& ray_origin)
+      : technique_(technique),
+        gpu_(renderer, scene, {.origin = ray_origin}),
+        view_(renderer, gpu_, view, settings, technique.needs) {}
+
+  SequenceFrame draw(const View& view, const SceneChanges& changes) override {
+    if (!changes.empty()) gpu_.update(changes);
+    view_.look(view);
+    if (!changes.lights.empty()) view_.lights_changed();
+    if (view_.renderer.gl) reset_gl_state();
+    const Frame frame = draw_frame(technique_, view_);
+    SequenceFrame drawn{.pixels = read_pixels(view_, frame.image)};
+    drawn.shadows = shadow_image(view_, frame);
+    if (frame.shadow_figures && frame.shadow_figures().lights > 0)
+      drawn.ray_origin =
+          gpu_.in_rays(view_.plan.settings.texels, view_.plan.settings.blended_casters())->origin();
+    if (view_.renderer.gl) check_gl(technique_.name);
+    return drawn;
+  }
+
+ private:
+  const Technique& technique_;
+  GpuScene gpu_;
+  RenderView view_;
+};
+
 class DeviceEngine : public CullEngine {
  public:
   DeviceEngine(const std::string& substring, ProgramCache::Alter alter, bool both_shapes)
@@ -131,15 +184,18 @@ class DeviceEngine : public CullEngine {
       if (!images.empty()) v.look(view);
       Frame frame = frame_of(v, find_surfaces(v));
       tell_shadows(v, v.caches.shadow_bits, frame);
-      ShadowImage& image = images.emplace_back();
-      image.lights = v.plan.local, image.shadows = frame.shadows();
-      std::vector<uint32_t> numbers(v.grid().pixels());
-      image.depths.resize(numbers.size());
-      read_buffer(*renderer_->cl, "triangles", frame.triangles->numbers, numbers.data(), numbers.size() * 4);
-      read_buffer(*renderer_->cl, "depths", frame.depth->values, image.depths.data(), numbers.size() * 4);
-      image.triangles = triangles_of(scene, *frame.triangles, numbers);
+      images.push_back(shadow_image(v, frame));
     }
     return images;
+  }
+
+  std::unique_ptr<FrameSequence> sequence(const Scene& scene, const std::string& name, const View& view,
+                                          const Settings& settings,
+                                          const std::optional<glm::dvec3>& ray_origin) override {
+    const Technique& technique = find_technique(name);
+    Renderer* renderer = renderer_for(technique, settings);
+    if (!renderer) return nullptr;
+    return std::make_unique<DeviceSequence>(*renderer, scene, technique, view, settings, ray_origin);
   }
 
   std::vector<ListImage> lists(const Scene& scene, const std::string& name, std::span<const View> views,
@@ -203,17 +259,6 @@ class DeviceEngine : public CullEngine {
     if (!with_opengl_->gl && draws_with_opengl(technique.needs, settings)) return nullptr;
     if (with_opengl_->gl) with_opengl_->gl->make_current();
     return with_opengl_.get();
-  }
-
-  static std::vector<glm::vec4> read_pixels(RenderView& v, const ShadedImage& image) {
-    std::vector<glm::vec4> pixels(v.grid().pixels());
-    if (image.in_cl) {
-      read_buffer(*v.renderer.cl, "image", image.in_cl->cl_buffer(), pixels.data(), pixels.size() * 16);
-    } else {
-      glBindFramebuffer(GL_READ_FRAMEBUFFER, image.framebuffer);
-      glReadPixels(0, 0, v.view.width, v.view.height, GL_RGBA, GL_FLOAT, pixels.data());
-    }
-    return pixels;
   }
 
   static std::vector<float> depths_of(RenderView& v, const Frame& frame) {

@@ -13,6 +13,7 @@
 #include "plan/settings.h"
 #include "raster/raster_view.h"
 #include "reference/occlusion.h"
+#include "scene/animation.h"
 #include "scene/host_shadows.h"
 #include "scene/listed_lights.h"
 
@@ -79,6 +80,21 @@ struct GroupImage {
   int tile = 0;                   // pixels a side
 };
 
+// A frame of a scene that moves.
+struct SequenceFrame {
+  ShadowImage shadows;                   // without surfaces where OpenGL draws them
+  std::vector<glm::vec4> pixels;         // linear
+  std::optional<glm::dvec3> ray_origin;  // RayScene::origin; none where it found no shadows
+};
+
+// The frames of a technique by one renderer, which keeps what it may from the frames before.
+class FrameSequence {
+ public:
+  virtual ~FrameSequence() = default;
+  // changes: of the scene, after the frame before.
+  virtual SequenceFrame draw(const View& view, const SceneChanges& changes) = 0;
+};
+
 // A cull from depth with all of its inputs, for the float twin.
 struct KernelRun {
   CullInputs inputs;
@@ -128,6 +144,15 @@ class CullEngine {
   // OpenGL where the technique draws with it.
   virtual std::vector<GroupImage> group_images(const Scene&, const std::string& /*technique*/,
                                                std::span<const View>, const Settings&) {
+    return {};
+  }
+
+  // Frames of a scene that outlives them and may change from one to the next, the first from `view`. Null
+  // from an engine that only culls, or without OpenGL where the technique draws with it. Shadows at the edges
+  // of triangles depend on ray_origin, which a scene that moves keeps; none: the scene's own.
+  virtual std::unique_ptr<FrameSequence> sequence(const Scene&, const std::string& /*technique*/,
+                                                  const View& /*view*/, const Settings&,
+                                                  const std::optional<glm::dvec3>& /*ray_origin*/ = {}) {
     return {};
   }
 

@@ -20,6 +20,7 @@ struct HuntOptions {
   std::string filter;         // a regular expression searched in class names; empty: all
   bool few_settings = false;  // as in HuntSetting, for tests
   size_t lights_a_view = 32768;
+  int frames = 6;  // of each sequence of the hunt of shadows; 0: it draws none
   std::filesystem::path save;  // folder for losing views; empty: not saved
   std::function<void(double done, const std::string& step)> progress;
 };

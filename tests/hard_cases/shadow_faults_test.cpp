@@ -94,8 +94,10 @@ TEST_P(FaultyShadows, Fail) {
     EXPECT_TRUE(fails(*chosen[0], *engine, 0)) << name;
   }
   if (fault.hunted) {
-    const ShadowHuntReport report = hunt_shadows(
-        *engine, {.contacts = 300'000, .seed = fault.seed, .filter = std::string("^") + fault.hunted + "$"});
+    const ShadowHuntReport report = hunt_shadows(*engine, {.contacts = 300'000,
+                                                           .seed = fault.seed,
+                                                           .filter = std::string("^") + fault.hunted + "$",
+                                                           .frames = 0});
     EXPECT_GT(report.total().pairs.wrong(), 0u);
     EXPECT_FALSE(report.total().failed.empty());
   }
@@ -104,7 +106,8 @@ TEST_P(FaultyShadows, Fail) {
 
 TEST(HuntOfShadows, FindsNothingWrongAndCountsTheSameForTheSameSeed) {
   const auto engine = device_engine("");
-  const HuntOptions options{.contacts = 1'000'000, .seed = 5, .filter = "rooms|boxes|foliage|far_soups"};
+  const HuntOptions options{
+      .contacts = 1'000'000, .seed = 5, .filter = "rooms|boxes|foliage|far_soups", .frames = 0};
   auto first = to_json(hunt_shadows(*engine, options)), second = to_json(hunt_shadows(*engine, options));
   for (auto* json : {&first, &second}) {
     json->erase("seconds");

@@ -240,5 +240,32 @@ TEST(DrawFaces, FacesOfEachSizeAreDrawn) {
   }
 }
 
+// Where a device gives the larger buffer the old one's handle, its texels are still lost.
+TEST(DrawFaces, KeptFacesAreDrawnAgainInABufferThatGrew) {
+  const ShadowMapOptions options{.size = 256};
+  const RayScene rays = scene_of_soup();
+  const Light light = lights_in_soup()[0];
+  ShadowAtlas atlas = plan_shadow_atlas({&light, 1}, view_from(5), glm::dvec3(0), soup_box, options);
+  const size_t faces = atlas.faces.size(), bytes = atlas.bytes;
+  ShadowMaps maps(device(), programs(), options);
+  const auto texels = [&] {
+    std::vector<uint8_t> read(bytes);
+    read_buffer(device(), "texels", maps.texels(), read.data(), bytes);
+    return read;
+  };
+  maps.draw(rays, atlas);
+  const std::vector<uint8_t> drawn = texels();
+  for (int growth = 0; growth < 12; ++growth) {
+    const uint32_t first = uint32_t(atlas.texels);
+    for (size_t face = 0; face < faces; ++face) {
+      atlas.faces.push_back(atlas.faces[face]);
+      atlas.faces.back().first += first;
+    }
+    atlas.texels += bytes / sizeof(float), atlas.bytes += bytes;
+    maps.draw(rays, atlas, std::vector<uint8_t>(faces, 1));
+    EXPECT_EQ(texels() == drawn, true) << growth;
+  }
+}
+
 }  // namespace
 }  // namespace lightgrid

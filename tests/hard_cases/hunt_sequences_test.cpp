@@ -1,0 +1,140 @@
+// Sequences of the hunt of shadows: what the library keeps from frame to frame does not show, and what a
+// faulty one keeps does.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "verify/hunt_sequences.h"
+#include "verify/hunt_shadows.h"
+
+namespace lightgrid::verify {
+namespace {
+
+// Draws the scene as it was before lights changed where nothing else did, as if shadow-reuse overlooked them.
+class OverlooksLights : public FrameSequence {
+ public:
+  OverlooksLights(CullEngine& library, const Scene& scene, const std::string& technique, const View& view,
+                  const Settings& settings, const std::optional<glm::dvec3>& ray_origin)
+      : scene_(scene), shown_(scene) {
+    frames_ = library.sequence(shown_, technique, view, settings, ray_origin);
+  }
+
+  SequenceFrame draw(const View& view, const SceneChanges& changes) override {
+    if (changes.lights.empty() || !changes.instances.empty() || !changes.meshes.empty()) shown_ = scene_;
+    return frames_->draw(view, changes);
+  }
+
+ private:
+  const Scene& scene_;
+  Scene shown_;
+  std::unique_ptr<FrameSequence> frames_;
+};
+
+// Is not told of all changes.
+class Forgets : public FrameSequence {
+ public:
+  Forgets(std::unique_ptr<FrameSequence> frames, std::vector<int> SceneChanges::*what)
+      : frames_(std::move(frames)), what_(what) {}
+
+  SequenceFrame draw(const View& view, const SceneChanges& changes) override {
+    SceneChanges told = changes;
+    (told.*what_).clear();
+    return frames_->draw(view, told);
+  }
+
+ private:
+  std::unique_ptr<FrameSequence> frames_;
+  std::vector<int> SceneChanges::*what_;
+};
+
+// The library, whose sequences are drawn with a fault.
+struct Faulty : CullEngine {
+  explicit Faulty(std::vector<int> SceneChanges::*of = nullptr) : forgotten(of) {}
+
+  std::unique_ptr<CullEngine> library = device_engine("");
+  std::vector<int> SceneChanges::*forgotten;  // null: OverlooksLights
+
+  std::string name() const override { return "faulty"; }
+  bool is_the_library() const override { return false; }
+  HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
+                std::span<const DepthInterval> bounds) override {
+    return library->cull(options, view, lights, bounds);
+  }
+  std::vector<DepthInterval> depth_bounds(const CullerOptions& options, const CullView& view,
+                                          const DepthImage& depth, bool blend) override {
+    return library->depth_bounds(options, view, depth, blend);
+  }
+  HostGrid cull_depth(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
+                      const DepthImage& depth, bool blend) override {
+    return library->cull_depth(options, view, lights, depth, blend);
+  }
+  std::vector<ShadowImage> shadows(const Scene& scene, std::span<const View> views,
+                                   const Settings& settings) override {
+    return library->shadows(scene, views, settings);
+  }
+  std::unique_ptr<FrameSequence> sequence(const Scene& scene, const std::string& technique, const View& view,
+                                          const Settings& settings,
+                                          const std::optional<glm::dvec3>& ray_origin) override {
+    if (!forgotten)
+      return std::make_unique<OverlooksLights>(*library, scene, technique, view, settings, ray_origin);
+    return std::make_unique<Forgets>(library->sequence(scene, technique, view, settings, ray_origin),
+                                     forgotten);
+  }
+};
+
+// Of 10 scenes; ends with the first stale frame.
+SequenceReport short_sequences(CullEngine& engine, const SequenceKind& kind) {
+  SequenceReport sum;
+  const std::vector<ShadowHuntClass> classes = chosen_shadow_classes("rooms|boxes");
+  for (uint64_t seed = 1; seed <= 10 && sum.stale == 0; ++seed) {
+    Random random(seed);
+    const SequenceReport report =
+        compare_sequence(engine, hunted_scene(classes[seed % 2], seed), kind, settings_of(kind), 6, random);
+    sum.frames += report.frames, sum.stale += report.stale, sum.pairs += report.pairs;
+    if (sum.why.empty()) sum.why = report.why;
+  }
+  return sum;
+}
+
+TEST(HuntOfSequences, WhatTheLibraryKeepsDoesNotShow) {
+  const auto engine = device_engine("");
+  for (const SequenceKind& kind : sequence_kinds().first(2)) {
+    const SequenceReport report = short_sequences(*engine, kind);
+    EXPECT_EQ(report.frames, 60u);
+    EXPECT_EQ(report.stale, 0u) << report.why;
+    EXPECT_EQ(report.pairs.wrong(), 0u) << report.pairs.why;
+    EXPECT_EQ(report.pairs.decided() > 10'000, kind.exact);
+  }
+}
+
+TEST(HuntOfSequences, FaultsAreFound) {
+  Faulty lights, instances(&SceneChanges::instances), meshes(&SceneChanges::meshes);
+  for (Faulty* fault : {&lights, &instances, &meshes}) {
+    for (const SequenceKind& kind : sequence_kinds().first(2)) {
+      const SequenceReport report = short_sequences(*fault, kind);
+      EXPECT_GT(report.stale, 0u) << kind.settings;
+      EXPECT_THAT(report.why, testing::HasSubstr("of visibility shadow-reuse=on"));
+    }
+  }
+}
+
+TEST(HuntOfSequences, AStaleFrameFailsTheHuntAndItsSeedShowsItAgain) {
+  Faulty engine(&SceneChanges::instances);
+  const HuntOptions hunted{.contacts = 600'000, .seed = 1, .filter = "^instances$"};
+  const ShadowHuntReport report = hunt_shadows(engine, hunted);
+  EXPECT_GT(report.total().stale, 0u);
+  EXPECT_EQ(report.total().pairs.wrong() + report.total().refused, 0u);
+  ASSERT_FALSE(report.total().failed.empty());
+  EXPECT_THAT(report.total().refusal, testing::HasSubstr("differ"));
+  const nlohmann::ordered_json json = to_json(report);
+  EXPECT_EQ(json["frames"], report.total().frames);
+  EXPECT_EQ(json["classes"][0]["stale"], report.total().stale);
+
+  const uint64_t seed = report.total().failed.front();
+  const ShadowHuntReport again = hunt_shadows(engine, {.contacts = 1, .seed = seed, .filter = "^instances$"});
+  EXPECT_GT(again.total().stale, 0u);
+  EXPECT_EQ(again.total().failed, std::vector<uint64_t>{seed});
+}
+
+}  // namespace
+}  // namespace lightgrid::verify
