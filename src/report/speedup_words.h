@@ -14,8 +14,8 @@ double pixels_with_surfaces(const CompareReport& report);
 std::string lights_number(double value);  // "11.8", "237"
 
 // The measured factors of speedup_of, the largest first: "7.53 times from shorter lists (11.8 lights per
-// pixel instead of 237), 5.91 times from OpenCL instead of OpenGL". Says so where no rows isolate them. Empty
-// without a speed-up.
+// pixel instead of 237), 5.91 times from OpenCL instead of OpenGL". Says so where no rows isolate them, and
+// what lists give in OpenCL if it is something else. Empty without a speed-up.
 std::string speedup_in_words(const CompareReport& report, const RunResult& row);
 
 // "OpenGL runs in software on this machine (llvmpipe): …"; empty elsewhere, and where no row draws in OpenGL.

@@ -96,12 +96,13 @@ std::string surfaces_figure(const CompareReport& report) {
   std::string line = fmt::format("surfaces drawn in OpenCL, apart from light, differ from {}'s {}",
                                  report.reference, error_clause(error));
   if (error.silhouettes && error.silhouettes->silhouettes)
-    line += fmt::format("; {} pixels show another triangle", with_commas(error.silhouettes->silhouettes));
+    line += fmt::format("; {} {} another triangle", with_commas(error.silhouettes->silhouettes),
+                        error.silhouettes->silhouettes == 1 ? "pixel shows" : "pixels show");
   const auto& own = error.surfaces;
   const auto& reference = report.reference_surfaces;
   if (!own || !reference || own->pixels == 0) return line;
   const double a = own->rmse_rel, b = reference->rmse_rel;
-  return line + fmt::format("; from surfaces in double they are RMSE {} off, {}'s {}{}", error_in_words(a),
+  return line + fmt::format("; their RMSE against surfaces in double is {}, {}'s {}{}", error_in_words(a),
                             report.reference, error_in_words(b),
                             a < b   ? ": OpenCL's are nearer"
                             : b < a ? fmt::format(": {}'s are nearer", report.reference)

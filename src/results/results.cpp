@@ -105,6 +105,7 @@ json speedup_json(const CompareReport& report, const RunResult& row) {
           {"lists", factor(speedup->lists)},
           {"api", factor(speedup->api)},
           {"other", finite_number(speedup->other)},
+          {"lists_in_opencl", factor(speedup->lists_in_opencl)},
           {"by", !speedup->by ? json()
                  : by_row     ? json(speedup->by->technique)
                               : json(every_light_on(true))}};

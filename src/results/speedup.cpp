@@ -100,12 +100,14 @@ std::optional<Speedup> speedup_of(const CompareReport& report, const RunResult& 
     return speedup;
   }
   const bool other_api = draws_without_opengl(row) && !draws_without_opengl(*reference);
+  const RunResult* all = other_api ? every_light_for(report, row) : nullptr;
+  if (all && all != &row) speedup.lists_in_opencl = times_faster(row, *all);
   if (!other_api && same_api(row, *reference)) speedup.api = 1;
   if (const RunResult* alike = with_lists_of(report, row, *reference)) {
     speedup.by = alike;
     speedup.lists = times_faster(*alike, *reference);
     (other_api ? speedup.api.emplace() : speedup.other) = times_faster(row, *alike);
-  } else if (const RunResult* all = other_api ? every_light_for(report, row) : nullptr) {
+  } else if (all) {
     speedup.by = all;
     speedup.lists = times_faster(row, *all);
     speedup.api = times_faster(*all, *reference);

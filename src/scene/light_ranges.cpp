@@ -88,39 +88,68 @@ static std::vector<glm::dvec3> surface_points(const Scene& scene, size_t count) 
   return points;
 }
 
-std::optional<CutoffEffect> helpful_cutoff(const Scene& scene) {
+namespace {
+
+// Of the lights that are sampled, at each of some points on surfaces.
+struct SampledIrradiance {
+  std::vector<std::vector<double>> at_points;
+  double lights = 0;  // sampled
+  double stride = 1;  // every n-th of many
+};
+
+SampledIrradiance sampled_irradiance(const Scene& scene) {
   constexpr size_t count = 256, most_lights = 10'000;
   const std::vector<glm::dvec3> points = surface_points(scene, count);
-  if (points.empty()) return {};
-  const size_t stride = scene.lights.size() / most_lights + 1;  // every n-th of many
-  std::vector<std::vector<double>> irradiances(points.size());
-  size_t lights = 0;
+  const size_t stride = scene.lights.size() / most_lights + 1;
+  SampledIrradiance sampled{std::vector<std::vector<double>>(points.size()), 0, double(stride)};
   for (size_t i = 0; i < scene.lights.size(); i += stride) {
     const Light& light = scene.lights[i];
     if (is_directional(light)) continue;
-    ++lights;
+    ++sampled.lights;
     for (size_t p = 0; p < points.size(); ++p) {
       const glm::dvec3 to = light.position - points[p];
-      irradiances[p].push_back(brightest_intensity(light) / std::max(glm::dot(to, to), 1e-4));
+      sampled.at_points[p].push_back(brightest_intensity(light) / std::max(glm::dot(to, to), 1e-4));
     }
   }
-  const double most = std::max(double(lights) / 8, 8.0 / double(stride)), every = double(points.size());
-  for (int step = 0; step <= 30; ++step) {
+  return sampled;
+}
+
+CutoffEffect effect_of(double cutoff, const SampledIrradiance& sampled) {
+  double reach = 0, share = 0;
+  for (const std::vector<double>& at : sampled.at_points) {
+    double kept = 0, sum = 0;
+    for (const double irradiance : at) {
+      sum += irradiance;
+      if (irradiance <= cutoff) continue;
+      const double squares = cutoff / irradiance;  // of distance over range
+      ++reach, kept += irradiance * (1 - squares * squares);
+    }
+    share += sum > 0 ? kept / sum : 1;
+  }
+  const auto points = double(sampled.at_points.size());
+  return {cutoff, reach * sampled.stride / points, share / points};
+}
+
+}  // namespace
+
+std::vector<CutoffEffect> helpful_cutoffs(const Scene& scene) {
+  const SampledIrradiance sampled = sampled_irradiance(scene);
+  if (sampled.at_points.empty()) return {};
+  const double all = sampled.lights * sampled.stride, most = std::max(all / 8, 8.0);
+  std::vector<CutoffEffect> gentle, found;  // the least cutoff first
+  for (int step = 0; step <= 30 && found.empty(); ++step) {
     const double cutoff = std::array{1, 2, 5}[size_t(step % 3)] * std::pow(10, step / 3 - 4);
-    double reach = 0, share = 0;
-    for (const std::vector<double>& at : irradiances) {
-      double kept = 0, sum = 0;
-      for (const double irradiance : at) {
-        sum += irradiance;
-        if (irradiance <= cutoff) continue;
-        const double squares = cutoff / irradiance;  // of distance over range
-        ++reach, kept += irradiance * (1 - squares * squares);
-      }
-      share += sum > 0 ? kept / sum : 1;
-    }
-    if (reach <= most * every) return CutoffEffect{cutoff, reach * double(stride) / every, share / every};
+    const CutoffEffect effect = effect_of(cutoff, sampled);
+    (effect.lights <= most ? found : gentle).push_back(effect);
   }
-  return {};
+  if (found.empty() || found[0].share >= 0.9) return found;
+  for (const double share : {0.7, 0.9}) {
+    const auto largest =
+        std::find_if(gentle.rbegin(), gentle.rend(), [&](const CutoffEffect& e) { return e.share >= share; });
+    if (found[0].share >= share || largest == gentle.rend() || largest->lights > all * 2 / 3) continue;
+    if (largest->cutoff < found.back().cutoff) found.push_back(*largest);
+  }
+  return found;
 }
 
 RangeWindow window_of(const LightRanges& ranges) {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <limits>
-#include <optional>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -55,9 +55,11 @@ struct CutoffEffect {
   double cutoff = 0, lights = 0, share = 0;
 };
 
-// The least of 0.0001, 0.0002, 0.0005, … 1000000 with which an eighth of the lights, or eight, reach a point
-// on average. None without surfaces, or if no such cutoff is enough. Deterministic.
-std::optional<CutoffEffect> helpful_cutoff(const Scene& scene);
+// Of 0.0001, 0.0002, 0.0005, … 1000000 the least with which an eighth of the lights, or eight, reach a point
+// on average. If it keeps less than 0.9 of the light, then also the largest that keep 0.7 and 0.9, where they
+// leave two thirds of the lights or fewer. Largest cutoff first; empty without surfaces, or if no such cutoff
+// is enough. Deterministic.
+std::vector<CutoffEffect> helpful_cutoffs(const Scene& scene);
 
 // The window that shading uses.
 RangeWindow window_of(const LightRanges& ranges);

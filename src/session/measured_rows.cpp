@@ -85,21 +85,12 @@ void draw_every_light_with_samples(const Compared& compared, const std::vector<C
   }
 }
 
-// Whether a contestant differs from the reference only by its lists, so that the two tell what these are
-// worth.
-static bool lists_are_isolated(const std::vector<ContestantRun>& entries, const TechniqueRun& reference) {
-  return std::ranges::any_of(entries, [&](const ContestantRun& e) {
-    return e.run && e.run.get() != &reference && adds_only_lists(e.run->result(), reference.result());
-  });
-}
-
-// Times every light on surfaces drawn in OpenCL, if the reference is timed and lists are not isolated. The
-// frames are taken after those of the contestants, and at most for a few seconds.
-static void time_every_light(TechniqueRun& run, const Compared& compared,
-                             const std::vector<ContestantRun>& entries, const Measured& m, OwnSurfaces& own) {
+// Times every light on surfaces drawn in OpenCL, if the reference is timed. The frames are taken after those
+// of the contestants, and at most for a few seconds.
+static void time_every_light(TechniqueRun& run, const Compared& compared, const Measured& m,
+                             OwnSurfaces& own) {
   constexpr double most_ms = 5000;
-  const bool is_timed = std::holds_alternative<RunOfContestant>(m.reference.kind);
-  if (!is_timed || lists_are_isolated(entries, m.reference.run())) return;
+  if (!std::holds_alternative<RunOfContestant>(m.reference.kind)) return;
   double ms = 0;
   for (int frame = 0; frame < compared.options.frames && ms < most_ms; ++frame) ms += run.run_frame();
   run.run_profiled_frames(0);
@@ -129,7 +120,7 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
         with_samples(own->contestant->settings, m.reference.run().view().plan.settings.samples);
     const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, settings, true);
     run->run_frame(true);
-    time_every_light(*run, compared, entries, m, *report.own_surfaces);
+    time_every_light(*run, compared, m, *report.own_surfaces);
     m.every_light_on_own = run->take_image();
     ImageError error = error_of(m.every_light_on_own, m);
     error.displayed = displayed_flip(m.every_light_on_own, m.reference.image, report.exposure);

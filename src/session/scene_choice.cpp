@@ -78,16 +78,19 @@ void tell_endless_lights(const Scene& scene, const SceneChoice& choice) {
   const auto endless = std::ranges::count_if(
       scene.lights, [](const Light& l) { return !is_directional(l) && std::isinf(l.radius_m); });
   if (endless < many || chosen_settings(choice).ranges.range != LightRange::scene) return;
-  const std::optional<CutoffEffect> help = helpful_cutoff(scene);
+  const std::vector<CutoffEffect> help = helpful_cutoffs(scene);
   const std::string line =
-      fmt::format("{}: {} of {} lights have no range: every technique lists them everywhere", choice.scene,
-                  endless, scene.lights.size());
-  if (!help) return log_warning_line(line);
-  const std::string cutoff = fmt::format("cutoff={:g}", help->cutoff);
-  log_warning_line(fmt::format("{}; with --set range=cutoff --set {} about {:.0f} reach a point, which keeps "
-                               "{:.0f} % of its light",
-                               line, cutoff, help->lights, 100 * help->share),
-                   {"range=cutoff", cutoff});
+      fmt::format("{}: {} of {} lights have no range: every technique lists them at any distance",
+                  choice.scene, endless, scene.lights.size());
+  if (help.empty()) return log_warning_line(line);
+  const auto setting = [](const CutoffEffect& e) { return fmt::format("cutoff={:g}", e.cutoff); };
+  std::string effects = fmt::format(
+      "with --set range=cutoff --set {} about {:.0f} reach a point, which keeps {:.0f} % of its light",
+      setting(help[0]), help[0].lights, 100 * help[0].share);
+  for (size_t i = 1; i < help.size(); ++i)
+    effects += fmt::format("; with {} about {:.0f}, which keep {:.0f} %", setting(help[i]), help[i].lights,
+                           100 * help[i].share);
+  log_warning_line(line + "; " + effects, {"range=cutoff", setting(help[0])});
 }
 
 VirtualLightSettings virtual_settings(const SceneChoice& choice) {

@@ -72,7 +72,7 @@ TEST(LightRanges, AreIndependentBetweenLightsAndSeeds) {
 // Lights ten metres from a triangle of a millimetre: 30 of irradiance 4, 270 of 1.5.
 TEST(LightRanges, HelpfulCutoffLeavesAnEighthOfTheLights) {
   Scene scene;
-  EXPECT_FALSE(helpful_cutoff(scene)) << "no surface";
+  EXPECT_TRUE(helpful_cutoffs(scene).empty()) << "no surface";
   Mesh& mesh = scene.meshes.emplace_back();
   mesh.positions = {{0, 0, 0}, {1e-3f, 0, 0}, {0, 1e-3f, 0}};
   mesh.indices = {0, 1, 2};
@@ -83,13 +83,37 @@ TEST(LightRanges, HelpfulCutoffLeavesAnEighthOfTheLights) {
     light.intensity = i % 10 ? 150 : 400;
     scene.lights.push_back(light);
   }
-  const std::optional<CutoffEffect> effect = helpful_cutoff(scene);
-  ASSERT_TRUE(effect);
-  EXPECT_DOUBLE_EQ(effect->cutoff, 2);
-  EXPECT_DOUBLE_EQ(effect->lights, 30);
-  EXPECT_NEAR(effect->share, 120 * 0.75 / 525, 1e-6) << "1 - (2 / 4)^2 is left by the window";
+  const std::vector<CutoffEffect> effects = helpful_cutoffs(scene);
+  ASSERT_EQ(effects.size(), 1) << "less would leave all 300";
+  EXPECT_DOUBLE_EQ(effects[0].cutoff, 2);
+  EXPECT_DOUBLE_EQ(effects[0].lights, 30);
+  EXPECT_NEAR(effects[0].share, 120 * 0.75 / 525, 1e-6) << "1 - (2 / 4)^2 is left by the window";
   scene.lights.resize(8);
-  EXPECT_NEAR(helpful_cutoff(scene)->cutoff, 1e-4, 1e-12) << "eight lights are few";
+  EXPECT_NEAR(helpful_cutoffs(scene)[0].cutoff, 1e-4, 1e-12) << "eight lights are few";
+}
+
+// Ten metres from 300 lights: 30 of irradiance 10, 90 of 3 and 180 of 0.3, which are 300, 270 and 54 of 624.
+TEST(LightRanges, HelpfulCutoffsThatKeepMoreLightComeAfterIt) {
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.positions = {{0, 0, 0}, {1e-3f, 0, 0}, {0, 1e-3f, 0}};
+  mesh.indices = {0, 1, 2};
+  scene.instances.push_back({"speck", 0, glm::dmat4(1)});
+  for (int i = 0; i < 300; ++i) {
+    Light light;
+    light.position = {0, 0, 10};
+    light.intensity = i < 30 ? 1000 : i < 120 ? 300 : 30;
+    scene.lights.push_back(light);
+  }
+  const std::vector<CutoffEffect> effects = helpful_cutoffs(scene);
+  ASSERT_EQ(effects.size(), 3);
+  EXPECT_DOUBLE_EQ(effects[0].cutoff, 5);
+  EXPECT_NEAR(effects[0].share, 300 * 0.75 / 624, 1e-6);
+  EXPECT_DOUBLE_EQ(effects[1].cutoff, 2);
+  EXPECT_DOUBLE_EQ(effects[1].lights, 120);
+  EXPECT_NEAR(effects[1].share, (300 * 0.96 + 270 * (1 - 4 / 9.0)) / 624, 1e-6);
+  EXPECT_DOUBLE_EQ(effects[2].cutoff, 0.5);
+  EXPECT_NEAR(effects[2].share, (300 * (1 - 1 / 400.0) + 270 * (1 - 1 / 36.0)) / 624, 1e-6);
 }
 
 }  // namespace
