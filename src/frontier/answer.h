@@ -67,7 +67,7 @@ struct PointFigures {
 std::optional<double> leaked_percent(const PairCounts& pairs);
 std::optional<double> acned_percent(const PairCounts& pairs);
 
-// "If you can bear a FLIP of … use …": the point of least time whose mean FLIP as displayed is at most
+// "If a FLIP of … is acceptable, use …": the point of least time whose mean FLIP as displayed is at most
 // `error`, picked on one half of the rounds and reported on the other.
 struct CheapestWithin {
   std::string scene, of;  // of: the error (front_errors)

@@ -117,8 +117,9 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
     figures.push_back(fmt::format("{} {}", kind.name, error_in_words(kind.rmse)));
   }
   if (!(largest.rmse > 0)) return;
-  sentences.push_back(fmt::format("The largest error of {} is {}: {} (RMSE over the brightest channel).",
-                                  p.point.label, largest.in_words, fmt::join(figures, ", ")));
+  sentences.push_back(
+      fmt::format("The largest error of {} is {}: {} (RMSE relative to the brightest channel).",
+                  p.point.label, largest.in_words, fmt::join(figures, ", ")));
 }
 
 std::string cheapest_how_surely(const CheapestWithin& best, const FrontierAnswer& answer,
@@ -245,7 +246,7 @@ void add_truth(const FrontierAnswer& answer, const std::string& scene, std::vect
   sentences.push_back(fmt::format(
       "Errors in {} are against every light {}{}{}.", scene_in_words(scene),
       truth.own_ranges ? "with its range" : "without a range",
-      truth.source_m > 0 ? fmt::format(", each a sphere of {:g} m with {} shadow rays a pixel",
+      truth.source_m > 0 ? fmt::format(", each a sphere of {:g} m with {} shadow rays per pixel",
                                        truth.source_m, truth.shadow_rays)
                          : "",
       truth.places ? fmt::format(", and the mean over each pixel's area, of {} places", *truth.places) : ""));
@@ -294,10 +295,10 @@ void add_baseline(const FrontierAnswer& answer, std::vector<std::string>& senten
         "the processor's cores with it, and say nothing about a graphics card.",
         driver, answer.part.baseline));
   } else if (is("H100") || is("H200") || is("GH200")) {
-    sentences.push_back(
-        fmt::format("On a Hopper GPU pixel shaders run on few of its units and kernels on all: times over {} "
-                    "say more of that than of techniques.",
-                    answer.part.baseline));
+    sentences.push_back(fmt::format(
+        "On a Hopper GPU pixel shaders run on few of its units and kernels on all: times relative to {} "
+        "show that more than they show differences between techniques.",
+        answer.part.baseline));
   } else {
     return;
   }

@@ -492,7 +492,7 @@ TEST(Answer, SaysWhatTheFiguresSay) {
             "The largest error of visibility:range=scene is the model's (where a light's range ends, and its "
             "window): model 1.0e-4, "
             "precision 0, "
-            "technique 0 (RMSE over the brightest channel).");
+            "technique 0 (RMSE relative to the brightest channel).");
   EXPECT_THAT(answer.sentences[2],
               testing::MatchesRegex(
                   "FLIP as displayed up to 0.01 in hall: visibility:cutoff=0.01,range=cutoff, 0.20[0-9] "
@@ -535,11 +535,14 @@ TEST(Answer, JoinsPartsOfOneSweepOnly) {
   FrontierPart b = synthetic_part({synthetic_record(synthetic_point("hall", "b"), 0.5, 0.1), a.records[0]});
   b.shard = 1, a.shards = b.shards = 2;
   b.machine.cpu = "another";
+  a.warnings = {{"no lights"}},
+  b.warnings = {{"no lights"}, {"no range", {"range=cutoff"}, "lightgrid frontier --set range=cutoff"}};
   const FrontierAnswer answer = answer_of({a, b});
   EXPECT_THAT(answer.points, SizeIs(2));
   EXPECT_THAT(answer.part.records, SizeIs(2)) << "a record that is in two parts counts once";
   ASSERT_THAT(answer.machines, SizeIs(2));
   EXPECT_EQ(answer.machines[1].cpu, "another");
+  EXPECT_EQ(answer.part.warnings, b.warnings) << "each warning once";
   const auto message = [](const FrontierPart& x, const FrontierPart& y) -> std::string {
     try {
       answer_of({x, y});

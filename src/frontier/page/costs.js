@@ -33,7 +33,7 @@ function breakEvenPlot(scene, technique) {
   const x = logAxis([0, ...[...pairs, ...costs].map((cost) => cost.ns_per_pixel_light ?? 0), ...pairs.flatMap((pair) => pair.ci95.map((end) => end ?? 0))],
     area.left, area.right);
   const title = `${sceneTitle(scene)}, ${technique}: shading cost from which the tighter cull test wins`;
-  const svg = drawing(PLOT_WIDTH, area.bottom + 50, title, ...acrossAxis(x, "ns a pixel and light", area),
+  const svg = drawing(PLOT_WIDTH, area.bottom + 50, title, ...acrossAxis(x, "ns per pixel and light", area),
     ...pairs.flatMap((pair, i) => pairBar(pair, x, area.top + 34 * i, area.right)),
     ...costs.flatMap(({ ns_per_pixel_light: cost, brdf }, i) => {
       const at = x.at(cost), words = `${threeDigits(cost)} ns${brdf ? ` with ${brdf}` : ""} on this machine`;
@@ -80,7 +80,7 @@ function growthPlot(scene, of) {
     name: `growth-${of.replace(' ', '-')}-${sceneTitle(scene)}`,
     svg: drawing(
         PLOT_WIDTH, 390 + 20 * curves.length, title, ...acrossAxis(x, SERIES[of][1], area),
-        ...alongAxis(y, 'ms a frame', area), ...curves.flatMap((curve) => growthCurve(curve, x, y)),
+        ...alongAxis(y, 'ms per frame', area), ...curves.flatMap((curve) => growthCurve(curve, x, y)),
         ...markedNames(names, area.left, area.bottom + 64, 1, 0))
   };
 }
@@ -125,7 +125,7 @@ function equalFlipPlot(scene, series, flip) {
     name: `flip-${flip}-${series.replace(' ', '-')}-${sceneTitle(scene)}`,
     svg: drawing(
         PLOT_WIDTH, 390 + 20 * Math.ceil(curves.length / 3), title, ...acrossAxis(x, SERIES[series][1], area),
-        ...alongAxis(y, `ms a frame${state.clock.words}`, area), ...marks,
+        ...alongAxis(y, `ms per frame${state.clock.words}`, area), ...marks,
         ...markedNames(
             curves.map(({technique}) => ({technique, text: technique})), area.left, area.bottom + 64, 3,
             area.right - area.left))

@@ -47,13 +47,13 @@ const DEVICE = { relative: (point) => point.relative_device_time, fronts: (point
   words: " by the devices' clocks" };
 const COSTS = [
   { key: "relative", clock: WALL, title: "Time, over the baseline's", value: (point) => point.relative_time.estimate, text: threeDigits, time: true },
-  { key: "ms", title: "Time, ms a frame", value: (point) => point.frame_ms.median, text: threeDigits, time: true },
+  { key: "ms", title: "Time, ms per frame", value: (point) => point.frame_ms.median, text: threeDigits, time: true },
   { key: "p95", title: "Time that 95 % of frames are within, ms", value: (point) => point.frame_ms_within.p95, text: threeDigits, time: true },
   { key: "p99", title: "Time that 99 % of frames are within, ms", value: (point) => point.frame_ms_within.p99, text: threeDigits, time: true },
   { key: "relative_device", title: "Time by the devices' clocks, over the baseline's", short: "On the devices, over the baseline's", value: (point) => point.relative_device_time.estimate, text: threeDigits, time: true, clock: DEVICE },
   ...[["device", "On the devices"], ["hand_over", "Hand-over"], ["copy", "Copies"], ["read_back", "Read-back"]].map(([key, title]) => (
-    { key, title: `${title}, ms a frame`, short: `${title}, ms`, value: (point) => point[`${key}_ms`].median, text: threeDigits, time: true })),
-  { key: "moved", title: "Bytes moved a frame", value: (point) => point.bytes_moved, text: byteNumber },
+    { key, title: `${title}, ms per frame`, short: `${title}, ms`, value: (point) => point[`${key}_ms`].median, text: threeDigits, time: true })),
+  { key: "moved", title: "Bytes moved per frame", value: (point) => point.bytes_moved, text: byteNumber },
   { key: "listed", title: "Listed pairs a view", value: ({ pairs, views }) => (pairs ? pairs.listed / views : null), text: shortCount },
   { key: "memory", title: "Memory", value: (point) => point.memory_bytes, text: byteNumber },
 ];

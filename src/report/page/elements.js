@@ -65,7 +65,7 @@ function errorInWords(error) {
 // Both images compared with the oracle, at the same pixels.
 function oracleInWords(oracle, reference) {
   if (!oracle || oracle.max_rel === null || oracle.of_reference_max_rel === null) return "";
-  return `; off the oracle by at most ${errorNumber(oracle.max_rel)}, ${reference} by ${errorNumber(oracle.of_reference_max_rel)}`;
+  return `; differs from the oracle by at most ${errorNumber(oracle.max_rel)}, ${reference} by ${errorNumber(oracle.of_reference_max_rel)}`;
 }
 
 // Against light and surfaces both in double.

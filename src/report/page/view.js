@@ -88,7 +88,7 @@ const columnsOf = (view) =>
      ...page.measures.map(
          ({key, title}) => ({title, value: (row) => row.same_surfaces?.[key] ?? null, text: errorNumber})),
      ...(view.results.own_surfaces?.error ? [{
-       title: 'Surfaces off, RMSE',
+       title: 'Surfaces: RMSE',
        value: (row) => (hasOwnSurfaces(view, row) ? view.results.own_surfaces.error.rmse_rel : null),
        text: errorNumber
      }] :
@@ -97,12 +97,12 @@ const columnsOf = (view) =>
              [{title: 'FLIP, mean', value: (row) => row.error?.flip_mean ?? null, text: errorNumber}] :
              []),
      {
-       title: 'Off the oracle, largest',
+       title: 'Oracle: largest error',
        value: (row) => (hasOwnSurfaces(view, row) ? null : row.error?.oracle?.max_rel ?? null),
        text: errorNumber
      },
      {
-       title: 'Off double surfaces, RMSE',
+       title: 'Double: RMSE',
        value: (row) => row.error?.surfaces?.rmse_rel ?? null,
        text: errorNumber
      },
@@ -173,7 +173,7 @@ function techniqueCard(view, row) {
   const pictures = view.page.rows[view.results.rows.indexOf(row)], reference = view.results.reference.technique;
   const isReference = row === referenceOf(view), ratio = speedUp(view, row);
   const summary = [
-    milliseconds(row.frame_ms.median ?? 0) + " a frame",
+    milliseconds(row.frame_ms.median ?? 0) + " per frame",
     !isReference && ratio !== null && `${shortNumber(ratio)} times the speed of ${reference}`,
     isReference ? "the reference" : row.same_surfaces && `light: ${errorInWords(row.same_surfaces)}`,
     row.inf_pixels > 0 && `${wholeNumber(row.inf_pixels)} pixels pass the largest float`,
