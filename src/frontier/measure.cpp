@@ -19,9 +19,6 @@
 namespace lightgrid {
 namespace {
 
-// The share of the scene's time that the series take, as far as it is limited.
-constexpr double share_of_growth = 0.12;
-
 // Points that take more than slow_factor times as long as the baseline, and beaten_factor times as long as a
 // point with no larger error, are far from the front: few rounds tell how far.
 constexpr double slow_factor = 1.25, beaten_factor = 3;
@@ -89,8 +86,7 @@ class SceneSweep {
     }
     baseline_.reset();
     if (job_.growth) {
-      const double left =
-          std::min(job_.seconds + sequences_s_ - seconds(), 2 * share_of_growth * job_.seconds);
+      const double left = growth_seconds(job_.seconds, seconds() - sequences_s_);
       measure_growth(renderer_, gpu_, scene_, choice_, job_, left, growth_round_s_, file_);
       end_step("growth");
     }

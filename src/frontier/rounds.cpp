@@ -285,6 +285,10 @@ void measure_cull_times(std::vector<MeasuredPoint>& points, const View& view, do
   }
 }
 
+double growth_seconds(double budget, double used) {
+  return std::min(budget - used, 2 * share_of_growth * budget);
+}
+
 void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const SceneChoice& choice,
                     const FrontierJob& job, double seconds, double round_s, RecordFile& file) {
   const Timer timer;

@@ -74,6 +74,13 @@ void time_series(std::vector<MeasuredPoint>& measured, Renderer& renderer, GpuSc
                  const FrontierJob& job, int rounds, RecordFile& file,
                  double most_s = std::numeric_limits<double>::infinity());
 
+// The share of a scene's time that is left to growth.
+constexpr double share_of_growth = 0.12;
+
+// How long growth may take after `used` of a scene's `budget`, in seconds: what is left, and twice its share
+// at most. Negative if the budget is exceeded.
+double growth_seconds(double budget, double used);
+
 // Whether growth is measured with it: techniques that cull, as they are.
 bool is_grown(const ChosenPoint& point);
 

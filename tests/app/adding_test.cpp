@@ -218,7 +218,7 @@ TEST(Adding, AnErrorMeasureTakesItsFieldAndItsRow) {
   const Naming expected = {
       {"src/results/error_measures.cpp", all},
       // What the frontier tells of two pictures beside the one that a sample is of.
-      {"src/frontier/answer_files.cpp", {"max_rel"}},
+      {"src/frontier/answer_csv.cpp", {"max_rel"}},
       // Figures of the oracle and of surfaces have these names too.
       {"src/report/report.cpp", {"max_rel", "rmse_rel"}},
   };

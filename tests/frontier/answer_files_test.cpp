@@ -128,6 +128,16 @@ TEST(FrontierJson, HoldsTheAnswer) {
   EXPECT_EQ(frontier["sentences"], (json{"One.", "Two."}));
 }
 
+TEST(FrontierJson, HasTheWarningsOfTheRun) {
+  FrontierAnswer answer = some_answer();
+  EXPECT_EQ(to_json(answer)["warnings"], json::array());
+  answer.part.warnings = {{"no range", {"range=cutoff"}, "lightgrid frontier --set range=cutoff"}};
+  const json expected = {{{"text", "no range"},
+                          {"settings", {"range=cutoff"}},
+                          {"command", "lightgrid frontier --set range=cutoff"}}};
+  EXPECT_EQ(to_json(answer)["warnings"], expected);
+}
+
 TEST(FrontierJson, HasNullForWhatIsNotFinite) {
   FrontierAnswer answer = some_answer();
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -67,6 +67,14 @@ TEST(RecordFile, FindsRecordsAgainWhosePathIsNotText) {
   EXPECT_TRUE(part.open().has(record_key(record)));
 }
 
+TEST(RecordFile, KeepsTheWarningsOfTheRunThatFinishedIt) {
+  PartFile part;
+  const std::vector<Warning> warnings = {{"no lights"},
+                                         {"no range", {"range=cutoff"}, "lightgrid --set range=cutoff"}};
+  part.open().finish(0.5, warnings);
+  EXPECT_EQ(part.open().part().warnings, warnings);
+}
+
 // As after a kill at any moment: never a crash, never an error, at most the last record is lost, and run
 // again the file has what it would have had.
 TEST(RecordFile, LosesAtMostTheLastRecordWhereverItIsCutOff) {
