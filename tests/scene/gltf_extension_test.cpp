@@ -25,23 +25,31 @@ TEST(GltfExtension, required_and_not_supported_is_an_error_that_names_it) {
             "PNG (gltf-transform ktxdecompress IN OUT)");
 }
 
-TEST(GltfExtension, required_basisu_is_read_where_each_texture_has_another_image) {
+TEST(GltfExtension, a_required_image_format_is_left_out_where_each_texture_has_another_image) {
   GltfBuilder made = GltfBuilder::triangle();
-  made.root["extensionsUsed"] = made.root["extensionsRequired"] = {"KHR_texture_basisu"};
-  made.root["textures"] = {{{"source", 1}, {"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}}};
-  made.root["images"] = {{{"uri", "a.ktx2"}}, {{"uri", "a.png"}}};
-  EXPECT_THAT(warnings_of([&] { made.load(); }),
-              HasSubstr("KHR_texture_basisu is not supported and left out"));
+  for (const std::string name : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
+    made.root["extensionsUsed"] = made.root["extensionsRequired"] = {name};
+    made.root["textures"] = {{{"source", 1}, {"extensions", {{name, {{"source", 0}}}}}}};
+    made.root["images"] = {{{"uri", "a.other"}}, {{"uri", "a.png"}}};
+    EXPECT_THAT(warnings_of([&] { made.load(); }), HasSubstr(name + " is not supported and left out"));
+  }
 }
 
 TEST(GltfExtension, required_ones_that_change_no_picture_are_a_warning) {
   GltfBuilder made = GltfBuilder::triangle();
-  made.root["extensionsRequired"] = {"EXT_structural_metadata", "EXT_mesh_features", "KHR_xmp_json_ld",
-                                     "KHR_materials_variants",  "MSFT_lod",          "AGI_articulations",
-                                     "CESIUM_primitive_outline"};
+  made.root["extensionsRequired"] = {"EXT_structural_metadata",
+                                     "EXT_mesh_features",
+                                     "KHR_xmp_json_ld",
+                                     "KHR_materials_variants",
+                                     "MSFT_lod",
+                                     "AGI_articulations",
+                                     "CESIUM_primitive_outline",
+                                     "FB_ngon_encoding",
+                                     "MOZ_hubs_components",
+                                     "MSFT_packing_occlusionRoughnessMetallic"};
   made.root["extensionsUsed"] = made.root["extensionsRequired"];
   const std::string warnings = warnings_of([&] { EXPECT_EQ(made.load().meshes.size(), 1u); });
-  EXPECT_EQ(count_lines(warnings), 7u);
+  EXPECT_EQ(count_lines(warnings), 10u);
   EXPECT_THAT(warnings, HasSubstr("extension EXT_structural_metadata is not supported and left out"));
 }
 

@@ -115,6 +115,8 @@ TEST(GltfGeometry, sparse_elements_replace_those_of_the_base_or_zeros) {
                           {"values", {{"bufferView", what}}}};
     EXPECT_THAT(made.load().meshes.at(0).positions,
                 ElementsAre(glm::vec3(0), glm::vec3(5, 0, 0), glm::vec3(0, 6, 0)));
+    accessor["sparse"]["count"] = 0;
+    EXPECT_EQ(made.load().meshes.at(0).positions[1], with_base ? glm::vec3(1, 0, 0) : glm::vec3(0));
     accessor["sparse"]["count"] = 4;
     EXPECT_THAT(made.refusal(), HasSubstr("POSITION: sparse.count is 4 of 3"));
     accessor["sparse"]["count"] = 2;

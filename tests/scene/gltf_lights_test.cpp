@@ -101,6 +101,16 @@ GltfBuilder with_light(const json& light) {
   return made;
 }
 
+TEST(GltfLights, a_spot_without_its_object_has_the_default_cone) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
+  made.node()["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  const Light light = made.load().lights.at(0);
+  EXPECT_EQ(light.type, LightType::spot);
+  EXPECT_EQ(light.inner_cone_rad, 0);
+  EXPECT_EQ(light.outer_cone_rad, float(glm::pi<double>() / 4));
+}
+
 TEST(GltfLights, a_light_looks_along_its_nodes_negative_z_and_keeps_its_range_under_scale) {
   GltfBuilder made = with_light({{"type", "spot"},
                                  {"color", {0.25, 0.5, 1}},

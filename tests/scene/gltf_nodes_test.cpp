@@ -183,8 +183,23 @@ TEST(GltfNodes, properties_with_names_of_indices_are_other_programs_where_gltf_h
   EXPECT_EQ(made.load().instances.size(), 1u);
 }
 
+// Serialisers write it for properties without a value.
+TEST(GltfNodes, null_is_no_property) {
+  GltfBuilder made = GltfBuilder::triangle();
+  for (const char* key :
+       {"skin", "camera", "children", "matrix", "name", "rotation", "extensions", "weights"})
+    made.node()[key] = nullptr;
+  for (const char* key : {"animations", "materials", "skins", "images", "extensionsRequired"})
+    made.root[key] = nullptr;
+  for (const char* key : {"material", "indices", "mode", "targets"}) made.primitive()[key] = nullptr;
+  made.root["bufferViews"][0]["byteStride"] = nullptr;
+  const Scene scene = made.load();
+  ASSERT_EQ(scene.instances.size(), 1u);
+  EXPECT_EQ(scene.instances[0].world_from_object, glm::dmat4(1));
+}
+
 TEST(GltfNodes, an_index_is_an_integer_from_zero_on) {
-  for (const json& value : {json(-1), json(0.5), json("0"), json(4294967296), json(true), json(nullptr)}) {
+  for (const json& value : {json(-1), json(0.5), json("0"), json(4294967296), json(true)}) {
     GltfBuilder made = GltfBuilder::triangle();
     made.node()["mesh"] = value;
     EXPECT_THAT(made.refusal(), HasSubstr("nodes[0].mesh is " + value.dump() + ": not an index"));

@@ -200,6 +200,7 @@ template <typename To>
 void apply_sparse(Document& doc, const tinygltf::Accessor& accessor, const Layout& base, bool normalize,
                   std::vector<To>& values, const std::string& place) {
   const auto& sparse = accessor.sparse;
+  if (sparse.count == 0) return doc.warn("sparse 0", "{}: sparse.count is 0; nothing is replaced", place);
   if (sparse.count < 1 || static_cast<size_t>(sparse.count) > base.count)
     throw doc.error("{}: sparse.count is {}", place,
                     sparse.count < 1 ? "not a number from 1 to the accessor's count"

@@ -137,7 +137,11 @@ int major_version(const std::string& version) {
 
 constexpr const char* basisu = "KHR_texture_basisu";
 
-// Whether each texture names an image other than one of KTX2 too, which is used.
+bool is_of_images(const std::string& extension) {
+  return extension == basisu || extension == "EXT_texture_avif" || extension == "MSFT_texture_dds";
+}
+
+// Whether each texture names an image of another format too, which is used.
 bool has_other_sources(const Document& doc) {
   for (size_t i = 0; i < doc.model.textures.size(); ++i)
     if (image_of_texture(doc, static_cast<int>(i)) < 0) return false;
@@ -152,7 +156,7 @@ void check_asset(Document& doc) {
     throw doc.error("asset.minVersion is \"{}\"; glTF 2.0 is read", asset.minVersion);
   for (const std::string& name : doc.model.extensionsRequired)
     if (!is_supported_extension(name) && !keeps_the_picture(name) &&
-        !(name == basisu && has_other_sources(doc)))
+        !(is_of_images(name) && has_other_sources(doc)))
       throw doc.error(
           "requires the extension {}, which is not supported{}", name,
           name == basisu ? ": convert its KTX2 images to PNG (gltf-transform ktxdecompress IN OUT)" : "");

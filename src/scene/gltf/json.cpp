@@ -242,6 +242,30 @@ std::string string_of(const json& object, const char* key) {
   return it != object.end() && it->is_string() ? it->get<std::string>() : std::string();
 }
 
+// Exporters write null for properties without a value.
+void drop_nulls(json& value) {
+  if (value.is_array())
+    for (json& element : value) drop_nulls(element);
+  if (!value.is_object()) return;
+  for (auto it = value.begin(); it != value.end();) {
+    if (it->is_null()) {
+      it = value.erase(it);
+      continue;
+    }
+    if (it.key() != "extras") drop_nulls(*it);
+    ++it;
+  }
+}
+
+// tinygltf refuses a spot light without its object, whose fields all have defaults.
+void complete_spots(json& root) {
+  const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+  if (!root.contains(lights) || !root[lights].is_array()) return;
+  for (json& light : root[lights])
+    if (light.is_object() && string_of(light, "type") == "spot" && !light.contains("spot"))
+      light["spot"] = json::object();
+}
+
 std::vector<BufferEntry> take_buffers(const Reporter& report, json& root) {
   std::vector<BufferEntry> out;
   for (json& buffer : root["buffers"]) {
@@ -292,6 +316,7 @@ bool keeps_the_picture(std::string_view extension) {
                                                 "EXT_mesh_manifold",
                                                 "EXT_structural_metadata",
                                                 "FB_geometry_metadata",
+                                                "FB_ngon_encoding",
                                                 "GODOT_single_root",
                                                 "KHR_audio",
                                                 "KHR_implicit_shapes",
@@ -301,9 +326,11 @@ bool keeps_the_picture(std::string_view extension) {
                                                 "KHR_node_selectability",
                                                 "KHR_physics",
                                                 "KHR_xmp",
+                                                "MOZ_hubs_components",
                                                 "MSFT_audio",
                                                 "MSFT_collision",
                                                 "MSFT_lod",
+                                                "MSFT_packing",
                                                 "MSFT_physics",
                                                 "OMI_audio",
                                                 "OMI_link",
@@ -321,6 +348,8 @@ bool keeps_the_picture(std::string_view extension) {
 PreparedJson prepare_json(Reporter& report, std::string_view text) {
   json root = parsed_json(text, max_nesting, report.place(""));
   if (!root.is_object()) throw report.error("JSON is not an object");
+  drop_nulls(root);
+  complete_spots(root);
   for (const char* name : collections) {
     if (!root.contains(name)) continue;
     if (!root[name].is_array()) throw report.error("{} is not an array", name);

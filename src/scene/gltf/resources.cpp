@@ -165,8 +165,9 @@ std::vector<uint8_t> read_uri(Reporter& report, const std::string& place, const 
   }
   if (has_scheme(uri))
     throw report.error("{}uri \"{}\": only relative paths and data URIs are read", place, uri);
-  const auto decoded = percent_decoded(uri);
-  if (!decoded || decoded->empty() || decoded->find('\0') != std::string::npos)
+  auto decoded = percent_decoded(uri);
+  if (!decoded) decoded = uri;  // written without encoding
+  if (decoded->empty() || decoded->find('\0') != std::string::npos)
     throw report.error("{}uri \"{}\" is not a valid path", place, uri);
   try {
     const fs::path file = found_path(report, place, reach, uri, *decoded);
