@@ -24,12 +24,9 @@ std::string rounds_in_words(int rounds) {
   return rounds < min_rounds ? fmt::format("{}; at least {} are needed", count, min_rounds) : count;
 }
 
-std::string times_in_words(const RelativeTime& time) {
-  if (!time.has_interval())
-    return fmt::format("{} times (interval not measured: {})", three_digits(time.estimate),
-                       rounds_in_words(time.runs));
-  return fmt::format("{} times (95 % interval {} to {})", three_digits(time.estimate), three_digits(time.low),
-                     three_digits(time.high));
+std::string interval_in_words(const RelativeTime& time) {
+  if (!time.has_interval()) return "interval not measured: " + rounds_in_words(time.runs);
+  return fmt::format("95 % interval {} to {}", three_digits(time.low), three_digits(time.high));
 }
 
 std::string probability_in_words(double probability) {
@@ -97,9 +94,9 @@ void add_fastest(const FrontierAnswer& answer, const std::string& scene,
   } else {
     sentences.push_back(fmt::format(
         "In {} the fastest point that computes the same picture as {} (to 1e-5 of the brightest channel) is "
-        "{}: it takes {} as long{}.",
-        scene_in_words(scene), answer.part.baseline, p.point.label, times_in_words(time_of(answer, p)),
-        clock_in_words(answer)));
+        "{}: it takes {} times as long{} ({}).",
+        scene_in_words(scene), answer.part.baseline, p.point.label, three_digits(time_of(answer, p).estimate),
+        clock_in_words(answer), interval_in_words(time_of(answer, p))));
   }
   const PointErrors& e = p.errors;
   struct Kind {

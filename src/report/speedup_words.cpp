@@ -53,7 +53,7 @@ std::string lists_in_opencl_in_words(const Speedup& speedup) {
   if (!speedup.lists || !speedup.lists_in_opencl) return "";
   const double times = *speedup.lists_in_opencl;
   if (std::abs(std::log(times / *speedup.lists)) <= std::log(worth_a_word)) return "";
-  return fmt::format("; where OpenCL draws every light too, shorter lists give {} times",
+  return fmt::format("; within OpenCL, shorter lists give {} times",
                      short_number(times));
 }
 

@@ -65,7 +65,7 @@ std::vector<std::string> sentences_of(const LimitResult& result, const Scene& sc
                               limit.scope == LimitScope::pool ? "may be dropped" : "dropped",
                               fmt::join(named, ", "), more ? fmt::format(" and {} more", more) : ""));
   if (limit.order == LimitOrder::unknown && limit.scope != LimitScope::pool)
-    lines.push_back("which ones is not known: these are the last in the scene's order");
+    lines.push_back("the engine's choice is not public: listed are the lights that come last in the scene");
   if (result.holds_at > 0)
     lines.push_back(fmt::format("holds with all ranges at {:.0f} %", 100 * result.holds_at));
   lines.push_back(std::string("change: ") + limit.change);

@@ -1,6 +1,6 @@
 // The light table: what shading reads of the point and spot lights, one array a column, lights in the order
 // of FramePlan::local. A row of LIGHT_TABLE is all that shaders, kernels and uploads know of a column; the
-// function of its member's name in renderer/light_table.cpp makes its values.
+// function of its member's name in renderer/upload/lights.cpp makes its values.
 //   SPOTS: at least one light has a cone.
 //   VIRTUAL_LIGHTS: at least one of those is a virtual point light.
 //   SHADOWS: some light of the scene casts a shadow (FramePlan::light_reaches).

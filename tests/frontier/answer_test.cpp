@@ -487,7 +487,7 @@ TEST(Answer, SaysWhatTheFiguresSay) {
       answer.sentences[0],
       HasSubstr("In hall the fastest point that computes the same picture as forward_plus (to 1e-5 of the "
                 "brightest "
-                "channel) is visibility:range=scene: it takes 0.300 times (95 % interval 0.29"));
+                "channel) is visibility:range=scene: it takes 0.300 times as long (95 % interval 0.29"));
   EXPECT_EQ(answer.sentences[1],
             "The largest error of visibility:range=scene is the model's (where a light's range ends, and its "
             "window): model 1.0e-4, "
@@ -515,11 +515,11 @@ TEST(Answer, SaysWhatTheFiguresSay) {
     return synthetic_record(synthetic_point("hall", technique), ratio, 0, 0, 4);
   };
   EXPECT_THAT(answer_from({short_run("forward_plus", 1), short_run("visibility", 0.5)}).sentences[0],
-              HasSubstr("is visibility: it takes 0.501 times (95 % interval 0.49"));
+              HasSubstr("is visibility: it takes 0.501 times as long (95 % interval 0.49"));
   FrontierRecord once = short_run("visibility", 0.5), base = short_run("forward_plus", 1);
   for (FrontierRecord* record : {&once, &base}) record->frame_ms.resize(1), record->baseline_ms.resize(1);
   EXPECT_THAT(answer_from({base, once}).sentences[0],
-              HasSubstr("times (interval not measured: 1 round; at least 3 are needed) as long."));
+              HasSubstr("times as long (interval not measured: 1 round; at least 3 are needed)."));
   const SceneWords words = words_of_scene(answer, scenes_of(answer)[0]);
   ASSERT_THAT(words.opening, SizeIs(2));
   EXPECT_EQ(words.opening[0], answer.sentences[0]);

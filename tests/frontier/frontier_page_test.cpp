@@ -103,7 +103,7 @@ void expect_front(const json& seen, const FrontierAnswer& answer) {
   EXPECT_GT(y_of("deferred"), y_of("clustered") + 30);
   EXPECT_THAT(texts(seen["axes"]),
               testing::IsSupersetOf(
-                  {"0", "1e-4", "0.01", "FLIP as displayed, whole picture", "Time, over the baseline's"}));
+                  {"0", "1e-4", "0.01", "FLIP as displayed, whole picture", "Time relative to the baseline's"}));
 
   EXPECT_THAT(texts(seen["hovered"]),
               testing::AllOf(Contains("clustered"), Contains(HasSubstr("times forward_plus")),
@@ -177,7 +177,7 @@ void expect_saved(const json& seen) {
     return found;
   };
   EXPECT_THAT(front, testing::AllOf(testing::StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\""),
-                                    HasSubstr("<title>deferred: Time, over the baseline's 0.50"),
+                                    HasSubstr("<title>deferred: Time relative to the baseline's 0.50"),
                                     HasSubstr("FLIP as displayed, whole picture 0</title>")));
   EXPECT_EQ(times("<title>"), 1u + 8u) << "the plot's own, and points";
   EXPECT_EQ(times("<path "), 8u + 5u) << "points, and techniques in the legend";

@@ -227,8 +227,8 @@ TEST(Verdict, HasWhatListsGiveInOpenClWhereThatDiffers) {
   EXPECT_EQ(
       verdict(report),
       "visibility is the fastest exact technique, 24.2 times faster than forward: 11.3 times from shorter "
-      "lists (2.0 lights per pixel instead of 10.0), 2.14 times from OpenCL instead of OpenGL; where "
-      "OpenCL draws every light too, shorter lists give 1.60 times.");
+      "lists (2.0 lights per pixel instead of 10.0), 2.14 times from OpenCL instead of OpenGL; within "
+      "OpenCL, shorter lists give 1.60 times.");
 }
 
 TEST(Verdict, SaysWhatThisRunDoesNotIsolate) {

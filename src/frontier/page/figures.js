@@ -46,11 +46,11 @@ const WALL = { relative: (point) => point.relative_time, fronts: (point) => poin
 const DEVICE = { relative: (point) => point.relative_device_time, fronts: (point) => point.device_fronts, bands: page.device_flip_front_bands, within: page.device_cheapest_within_flip, equalFlip: page.device_equal_flip, ms: (point) => point.device_ms,
   words: " by the devices' clocks" };
 const COSTS = [
-  { key: "relative", clock: WALL, title: "Time, over the baseline's", value: (point) => point.relative_time.estimate, text: threeDigits, time: true },
+  { key: "relative", clock: WALL, title: "Time relative to the baseline's", value: (point) => point.relative_time.estimate, text: threeDigits, time: true },
   { key: "ms", title: "Time, ms per frame", value: (point) => point.frame_ms.median, text: threeDigits, time: true },
   { key: "p95", title: "Time that 95 % of frames are within, ms", value: (point) => point.frame_ms_within.p95, text: threeDigits, time: true },
   { key: "p99", title: "Time that 99 % of frames are within, ms", value: (point) => point.frame_ms_within.p99, text: threeDigits, time: true },
-  { key: "relative_device", title: "Time by the devices' clocks, over the baseline's", short: "On the devices, over the baseline's", value: (point) => point.relative_device_time.estimate, text: threeDigits, time: true, clock: DEVICE },
+  { key: "relative_device", title: "Device time relative to the baseline's", short: "Device time, relative", value: (point) => point.relative_device_time.estimate, text: threeDigits, time: true, clock: DEVICE },
   ...[["device", "On the devices"], ["hand_over", "Hand-over"], ["copy", "Copies"], ["read_back", "Read-back"]].map(([key, title]) => (
     { key, title: `${title}, ms per frame`, short: `${title}, ms`, value: (point) => point[`${key}_ms`].median, text: threeDigits, time: true })),
   { key: "moved", title: "Bytes moved per frame", value: (point) => point.bytes_moved, text: byteNumber },
@@ -71,6 +71,8 @@ function surfacesFloor(points, { key }) {
 
 // Null: too few rounds, or a control that failed.
 const probabilityText = (p) => (p === null ? "not measured" : p > 0.995 ? "more than 99 %" : p < 0.005 ? "less than 1 %" : `${Math.round(100 * p)} %`);
+const onFrontInWords = (clock, p, on = "on") => (p === null ? `probability of being on the front${clock}: not measured`
+  : `${on} the front${clock} with a probability of ${probabilityText(p)}`);
 
 // Runs that fall into two groups: "two modes: 0.9 and 1.8 (30 % of runs)".
 const modesInWords = ({ modes, slow_share: share }) => (modes.length ? `two modes: ${threeDigits(modes[0])} and ${threeDigits(modes[1])} (${Math.round(100 * share)} % of runs)` : "");

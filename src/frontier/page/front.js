@@ -14,7 +14,7 @@ function tipOf(point, { x, y, reference }) {
   if (settings) lines.push(make("p", { class: "quiet" }, settings));
   if (point.relative_time.modes.length) add(modesInWords(point.relative_time));
   if (point.relative_device_time.runs > 0) add(`By the devices' clocks ${intervalInWords(point.relative_device_time, "")} times, ${intervalInWords(point.device_ms, " ms")}`);
-  if (x.clock && y === frontQuantity(reference)) add(`On the front with a probability of ${probabilityText(frontOfPoint(point, reference, x.clock).probability)}`);
+  if (x.clock && y === frontQuantity(reference)) add(onFrontInWords("", frontOfPoint(point, reference, x.clock).probability, "On"));
   return lines;
 }
 

@@ -131,7 +131,7 @@ function randomInWords({ total, seeds, deviation_rmse_rel: noise, bias_rmse_rel:
   const [low, high] = seeds.bias_rmse_rel_ci95;
   const told = low > 0 ? `${errorNumber(bias)} (${errorNumber(low)} to ${errorNumber(high)})` : `not told from 0, at most ${errorNumber(high)}`;
   return `Of ${wholeNumber(seeds.pictures)} pictures with other random numbers errors are means: FLIP as displayed ${spread(total.displayed_flip.mean, seeds.deviation.displayed_flip.mean)}, `
-    + `relMSE, 99.9 % ${spread(total.rel_mse_trimmed, seeds.deviation.rel_mse_trimmed)}. Over the brightest channel: standard deviation of a frame ${errorNumber(noise ?? 0)}, bias ${told}.`;
+    + `relMSE, 99.9 % ${spread(total.rel_mse_trimmed, seeds.deviation.rel_mse_trimmed)}. Relative to the brightest channel: standard deviation of a frame ${errorNumber(noise ?? 0)}, bias ${told}.`;
 }
 
 const frontOfChoice = (point) => frontOfPoint(point, state.reference, state.clock);
@@ -141,14 +141,14 @@ function choosePoint(point) {
   const images = (point?.pictures ?? []).map((number, i) => [number, PICTURE_CAPTIONS[i]]).filter(([number]) => number >= 0);
   const error = point?.error, sampled = error?.in_double;
   const timed = point?.relative_time.runs > 0;
-  const summary = point && [externalInWords(point), timed && `${intervalInWords(point.relative_time, "")} times ${page.baseline}`, timed && `${intervalInWords(point.frame_ms, " ms")} a frame`,
+  const summary = point && [externalInWords(point), timed && `${intervalInWords(point.relative_time, "")} times ${page.baseline}`, timed && `${intervalInWords(point.frame_ms, " ms")} per frame`,
     point?.device_ms.runs > 0 && `on the devices ${intervalInWords(point.device_ms, " ms")}, hand-over ${threeDigits(point.hand_over_ms.median)} ms, copies ${threeDigits(point.copy_ms.median)} ms, read-back ${threeDigits(point.read_back_ms.median)} ms`,
     timed && point.frame_ms_within.p95 !== null && `95 % of frames within ${threeDigits(point.frame_ms_within.p95)} ms, 99 % within ${threeDigits(point.frame_ms_within.p99)} ms`,
     timed && modesInWords(point.relative_time), timed && point.relative_time.between_processes !== null && `${percentText(100 * point.relative_time.between_processes)} between ${point.relative_time.processes} processes`,
     `${point.views} view${point.views === 1 ? "" : "s"}`, timed && point.timed_views < point.views && `timed on ${point.timed_views} of them`, flipOverViews(point), point.pairs?.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
     quantity("leaked").value(point) !== null && `${percentText(point.leaked_percent)} of ${wholeNumber(point.pairs.shadow_pairs)} pairs leaked, ${percentText(point.acned_percent)} acned`,
     point.nan_pixels > 0 && `${wholeNumber(point.nan_pixels)} NaN pixels`,
-    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, state.clock.relative(point).runs > 0 && `on the front${state.clock.words} with a probability of ${probabilityText(frontOfChoice(point).probability)}`];
+    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, state.clock.relative(point).runs > 0 && onFrontInWords(state.clock.words, frontOfChoice(point).probability)];
   byId("chosen").replaceChildren(...(point ? [make("article", { class: "technique" }, make("h3", {}, nameElement(point.label)),
     make("p", { class: "summary quiet" }, summary.filter(Boolean).join(" \u00b7 ")),
     ...(images.length ? [make("div", { class: "pictures" }, ...images.map(([number, caption]) => pictureFigure(number, caption)))] : [make("p", { class: "quiet" }, "No pictures of this point were kept.")]),
@@ -167,7 +167,7 @@ const measured = (key) => page.points.some((point) => quantity(key).value(point)
 const column = (title, key) => ({ title, value: quantity(key).value, text: quantity(key).text });
 const FIGURE_COLUMNS = [
   { title: "Point", value: (point) => point.label, text: (label) => pointButton(state.points.find((point) => point.label === label), nameElement(label)) },
-  column("Time, over the baseline's", "relative"), column("Frame, ms", "ms"),
+  column("Time relative to the baseline's", "relative"), column("Frame, ms", "ms"),
   ...["relative_device", "device", "hand_over", "copy", "read_back"].filter(measured).map((key) => column(quantity(key).short ?? quantity(key).title, key)),
   ...(HAS_AUTHORED ? [column("FLIP, authored ranges", "authored.displayed_flip")] : []), column("RMSE", "total.rmse_rel"), column("Largest error", "total.max_rel"),
   column("FLIP as displayed", "total.displayed_flip"), column("relMSE, 99.9 %", "total.rel_mse_trimmed"),
