@@ -88,10 +88,10 @@ size_t resident_bytes() {
   return pages >> all >> resident ? resident * size_t(sysconf(_SC_PAGESIZE)) : 0;
 }
 
-uint64_t usable_memory(const fs::path& root) {
+uint64_t usable_memory(const fs::path& root, uint64_t promised) {
   const auto free_kib = number_after(root / "proc/meminfo", "MemAvailable:");
-  return std::min(
-      {free_kib ? *free_kib << 10 : unlimited, left_in_groups(root), left_of_address_space(root)});
+  const uint64_t free = std::min(free_kib ? *free_kib << 10 : unlimited, left_in_groups(root));
+  return std::min(free - std::min(free, promised), left_of_address_space(root));
 }
 
 std::string memory_text(uint64_t bytes) {
@@ -101,8 +101,8 @@ std::string memory_text(uint64_t bytes) {
   return fmt::format("{} bytes", bytes);
 }
 
-void require_memory(uint64_t bytes, const std::string& what, const std::string& help) {
-  const uint64_t usable = usable_memory();
+void require_memory(uint64_t bytes, const std::string& what, const std::string& help, uint64_t promised) {
+  const uint64_t usable = usable_memory("/", promised);
   if (bytes <= usable) return;
   throw machine_error("{}: needs at least {} of memory, but this process may use {} more; {}", what,
                       memory_text(bytes), memory_text(usable), help);

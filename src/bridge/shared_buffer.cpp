@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "cl/buffers.h"
 #include "cl/error.h"
 #include "cl/transfer.h"
 #include "gl/gl.h"
@@ -106,7 +107,7 @@ SharedBuffer::SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes)
   const size_t allocated = std::max<size_t>(bytes, 16);  // neither API allows empty buffers
   try {
     if (kind == BridgeKind::none) {
-      cl_buffer_ = cl::Buffer(cl.context(), CL_MEM_READ_WRITE, allocated);
+      cl_buffer_ = device_buffer(cl, allocated);
       return;
     }
     if (kind == BridgeKind::imported) {
@@ -129,7 +130,7 @@ SharedBuffer::SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes)
     if (kind == BridgeKind::mapped)
       cl_buffer_ = cl::Buffer(cl.context(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, allocated, mapped_);
     else
-      cl_buffer_ = cl::Buffer(cl.context(), CL_MEM_READ_WRITE, allocated);
+      cl_buffer_ = device_buffer(cl, allocated);
   } catch (const cl::Error& error) {
     release();
     throw cl_machine_error(error, fmt::format("a buffer of {} bytes", bytes));

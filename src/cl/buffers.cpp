@@ -3,18 +3,79 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <mutex>
 
+#include "base/resident.h"
 #include "cl/error.h"
 #include "cl/transfer.h"
 
 namespace lightgrid {
 
-cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
+namespace {
+
+constexpr size_t min_checked_bytes = 4 << 20;
+constexpr uint64_t spare_bytes = 64 << 20;  // for the driver's kernels and threads
+
+// Buffers in this process's memory. PoCL would map a buffer when a kernel first uses it, and end the program
+// where memory is short.
+class HostBuffers {
+ public:
+  static HostBuffers& all() {
+    static HostBuffers& buffers = *new HostBuffers;  // buffers may be released at exit
+    return buffers;
+  }
+
+  cl::Buffer make(ClDevice& device, cl_mem_flags flags, size_t bytes) {
+    check(bytes);
+    constexpr size_t page = 4096;
+    const size_t allocated = (bytes + page - 1) / page * page;
+    std::unique_ptr<void, void (*)(void*)> memory(std::aligned_alloc(page, allocated), std::free);
+    if (!memory) throw machine_error("a buffer of {}: no memory for it; {}", memory_text(bytes), help);
+    cl::Buffer buffer(device.context(), flags | CL_MEM_USE_HOST_PTR, bytes, memory.get());
+    buffer.setDestructorCallback([](cl_mem, void* unused) { all().release(unused); }, memory.get());
+    const std::lock_guard guard(lock_);
+    live_ += bytes_[memory.release()] = bytes;
+    return buffer;
+  }
+
+ private:
+  static constexpr const char* help = "a smaller --size or scene needs less";
+
+  void check(size_t bytes) {
+    const size_t resident = resident_bytes(), grown = resident - std::min(resident, resident_before_);
+    const std::lock_guard guard(lock_);
+    require_memory(bytes + spare_bytes, fmt::format("a buffer of {}", memory_text(bytes)), help,
+                   live_ - std::min(live_, grown));
+  }
+
+  void release(void* memory) {
+    const std::lock_guard guard(lock_);
+    live_ -= bytes_.extract(memory).mapped();
+    std::free(memory);
+  }
+
+  std::mutex lock_;
+  std::map<void*, size_t> bytes_;
+  size_t live_ = 0;
+  const size_t resident_before_ = resident_bytes();
+};
+
+cl::Buffer make_buffer(ClDevice& device, cl_mem_flags flags, size_t bytes) {
   try {
-    return {device.context(), CL_MEM_READ_WRITE, std::max<size_t>(bytes, 64)};
+    if (device.info().cpu && bytes >= min_checked_bytes) return HostBuffers::all().make(device, flags, bytes);
+    return {device.context(), flags, bytes};
   } catch (const cl::Error& error) {
     throw cl_machine_error(error, fmt::format("a buffer of {} bytes", bytes));
   }
+}
+
+}  // namespace
+
+cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
+  return make_buffer(device, CL_MEM_READ_WRITE, std::max<size_t>(bytes, 64));
 }
 
 // Frees the old buffer first, so that both need not fit at once.
@@ -32,12 +93,7 @@ void UploadedBuffer::make_room(ClDevice& device, size_t bytes) {
   const size_t size = std::max<size_t>(bytes, 16);  // OpenCL makes no empty buffer
   if (buffer_() && size <= bytes_ && size >= bytes_ / 4) return;
   buffer_ = cl::Buffer(), bytes_ = 0;
-  try {
-    buffer_ = cl::Buffer(device.context(), CL_MEM_READ_ONLY, size);
-  } catch (const cl::Error& error) {
-    throw cl_machine_error(error, fmt::format("a buffer of {} bytes", size));
-  }
-  bytes_ = size;
+  buffer_ = make_buffer(device, CL_MEM_READ_ONLY, size), bytes_ = size;
 }
 
 bool UploadedBuffer::Staged::is_read() const {

@@ -71,6 +71,17 @@ TEST(TooLarge, AnImageForTheMemoryIsTheMachinesError) {
   EXPECT_THAT(run.err, HasSubstr("a smaller --size needs less"));
 }
 
+// Close to what fits: a buffer is allocated where a failure can be reported, not by PoCL when a kernel first
+// uses it.
+TEST(TooLarge, ABufferForTheMemoryIsTheMachinesError) {
+  const TempFolder folder;
+  const ProgramRun run =
+      run_words({"prlimit", "--as=3000000000", std::string(lightgrid_program), "render", "rooms", "--size",
+                 "10240x10240", "--gl", "none", "-t", "visibility", "-o", folder.path / "x.png"});
+  EXPECT_EQ(run.status, 3) << run.signal << run.err;
+  EXPECT_THAT(run.err, HasSubstr("a smaller --size"));
+}
+
 TEST_P(WrongArguments, ExitWithTwoAndOneLineThatNamesThem) {
   const TempFolder folder;
   std::ofstream(folder.path / "one.json")

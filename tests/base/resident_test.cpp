@@ -64,6 +64,13 @@ TEST(UsableMemory, AddressSpaceLimitsIt) {
   setrlimit(RLIMIT_AS, &before);
 }
 
+// The system counts memory as free until it is written.
+TEST(UsableMemory, PromisedMemoryIsNotUsable) {
+  const FakeSystem system;
+  EXPECT_EQ(usable_memory(system.path, 1000 * 1024), 7000u * 1024);
+  EXPECT_EQ(usable_memory(system.path, 9000 * 1024), 0u);
+}
+
 TEST(UsableMemory, TooMuchIsAnErrorOfTheMachine) {
   EXPECT_NO_THROW(require_memory(1, "x", "y"));
   try {
