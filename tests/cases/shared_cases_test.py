@@ -122,6 +122,6 @@ if __name__ == "__main__":
     if not CASES.is_dir():
         print(f"skipped: no folder {CASES.name} of shared inputs next to the checkout")
         sys.exit(77)
-    PROGRAM, LIBRARY = sys.argv[1:3]
+    PROGRAM, LIBRARY = map(os.path.abspath, sys.argv[1:3])
     add_reported()
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

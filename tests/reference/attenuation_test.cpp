@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "reference/infinity.h"
+#include "support/one_spot.h"
 
 namespace lightgrid {
 namespace {
@@ -82,15 +83,6 @@ TEST(Attenuation, CountsARandomRangeByTheInverseOfItsProbability) {
   EXPECT_DOUBLE_EQ(attenuation(light, {0, 1, 0}, true), 1);  // p = 1
   EXPECT_EQ(attenuation(light, {0, 5, 0}, true), 0);
   EXPECT_DOUBLE_EQ(attenuation(light, {0, 4, 0}, false), 1.0 / 16);
-}
-
-Light spot_of(float inner, float outer) {
-  return {.type = LightType::spot, .radius_m = 5, .inner_cone_rad = inner, .outer_cone_rad = outer};
-}
-ViewLight seen(const Light& light) {
-  Scene scene;
-  scene.lights = {light};
-  return lights_in_view(scene, View())[0];
 }
 
 // Full light inside and none outside, however narrow the cone is.

@@ -119,6 +119,9 @@ TEST(GltfGeometry, sparse_elements_replace_those_of_the_base_or_zeros) {
     EXPECT_EQ(made.load().meshes.at(0).positions[1], with_base ? glm::vec3(1, 0, 0) : glm::vec3(0));
     accessor["sparse"]["count"] = 4;
     EXPECT_THAT(made.refusal(), HasSubstr("POSITION: sparse.count is 4 of 3"));
+    accessor["sparse"]["count"] = 3'000'000'000;  // above 2^31: was printed as -1294967296
+    EXPECT_THAT(made.refusal(),
+                HasSubstr("POSITION: sparse.count is not a number from 1 to the accessor's count"));
     accessor["sparse"]["count"] = 2;
     std::copy_n("\2\1", 2, made.bin.begin() + made.root["bufferViews"][where]["byteOffset"].get<int>());
     EXPECT_THAT(made.refusal(), HasSubstr("sparse indices do not increase"));

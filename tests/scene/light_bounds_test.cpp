@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/one_spot.h"
+
 namespace lightgrid {
 namespace {
 
@@ -42,15 +44,6 @@ TEST(LightBounds, AreTheSameOfTheWorldAndOfAView) {
   EXPECT_EQ(world.radius_m, seen.radius_m);
   EXPECT_EQ(world.direction, seen.direction);
   EXPECT_EQ(world.cos_outer, seen.cos_outer);
-}
-
-Light spot_of(float inner, float outer) {
-  return {.type = LightType::spot, .radius_m = 5, .inner_cone_rad = inner, .outer_cone_rad = outer};
-}
-ViewLight seen(const Light& light) {
-  Scene scene;
-  scene.lights = {light};
-  return lights_in_view(scene, View())[0];
 }
 
 TEST(ConeCosine, OfTheFloatsNextTo90And180DegreesIsExact) {

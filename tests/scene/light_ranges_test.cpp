@@ -69,10 +69,10 @@ TEST(LightRanges, AreIndependentBetweenLightsAndSeeds) {
   EXPECT_NEAR(double(seeds) / draws, expected, error);
 }
 
-// Lights ten metres from a triangle of a millimetre: 30 of irradiance 4, 270 of 1.5.
-TEST(LightRanges, HelpfulCutoffLeavesAnEighthOfTheLights) {
+// 300 lights ten metres from a triangle of a millimetre.
+template <typename Intensity>
+Scene lights_above_a_speck(Intensity intensity_of) {
   Scene scene;
-  EXPECT_TRUE(helpful_cutoffs(scene).empty()) << "no surface";
   Mesh& mesh = scene.meshes.emplace_back();
   mesh.positions = {{0, 0, 0}, {1e-3f, 0, 0}, {0, 1e-3f, 0}};
   mesh.indices = {0, 1, 2};
@@ -80,9 +80,16 @@ TEST(LightRanges, HelpfulCutoffLeavesAnEighthOfTheLights) {
   for (int i = 0; i < 300; ++i) {
     Light light;
     light.position = {0, 0, 10};
-    light.intensity = i % 10 ? 150 : 400;
+    light.intensity = intensity_of(i);
     scene.lights.push_back(light);
   }
+  return scene;
+}
+
+// 30 of irradiance 4, 270 of 1.5.
+TEST(LightRanges, HelpfulCutoffLeavesAnEighthOfTheLights) {
+  EXPECT_TRUE(helpful_cutoffs(Scene()).empty()) << "no surface";
+  Scene scene = lights_above_a_speck([](int i) { return i % 10 ? 150.0f : 400.0f; });
   const std::vector<CutoffEffect> effects = helpful_cutoffs(scene);
   ASSERT_EQ(effects.size(), 1) << "less would leave all 300";
   EXPECT_DOUBLE_EQ(effects[0].cutoff, 2);
@@ -92,19 +99,9 @@ TEST(LightRanges, HelpfulCutoffLeavesAnEighthOfTheLights) {
   EXPECT_NEAR(helpful_cutoffs(scene)[0].cutoff, 1e-4, 1e-12) << "eight lights are few";
 }
 
-// Ten metres from 300 lights: 30 of irradiance 10, 90 of 3 and 180 of 0.3, which are 300, 270 and 54 of 624.
+// 30 of irradiance 10, 90 of 3 and 180 of 0.3, which are 300, 270 and 54 of 624.
 TEST(LightRanges, HelpfulCutoffsThatKeepMoreLightComeAfterIt) {
-  Scene scene;
-  Mesh& mesh = scene.meshes.emplace_back();
-  mesh.positions = {{0, 0, 0}, {1e-3f, 0, 0}, {0, 1e-3f, 0}};
-  mesh.indices = {0, 1, 2};
-  scene.instances.push_back({"speck", 0, glm::dmat4(1)});
-  for (int i = 0; i < 300; ++i) {
-    Light light;
-    light.position = {0, 0, 10};
-    light.intensity = i < 30 ? 1000 : i < 120 ? 300 : 30;
-    scene.lights.push_back(light);
-  }
+  const Scene scene = lights_above_a_speck([](int i) { return i < 30 ? 1000.0f : i < 120 ? 300.0f : 30.0f; });
   const std::vector<CutoffEffect> effects = helpful_cutoffs(scene);
   ASSERT_EQ(effects.size(), 3);
   EXPECT_DOUBLE_EQ(effects[0].cutoff, 5);

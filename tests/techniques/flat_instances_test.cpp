@@ -3,6 +3,7 @@
 
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
+#include "techniques/tilted_normals.h"
 
 namespace lightgrid {
 namespace {
@@ -12,14 +13,7 @@ glm::dmat4 scaled(const glm::dvec3& scale) { return glm::scale(glm::dmat4(1), sc
 // A wall of one side, which a scale along z does not change, with a light and the eye before it.
 Scene wall_under(const glm::dmat4& turned, const glm::dvec3& scale, bool normal_map) {
   Scene scene;
-  scene.materials.push_back({});
-  scene.materials[0].metallic = 0;
-  if (normal_map) {
-    Bitmap bitmap;
-    bitmap.width = bitmap.height = 1;
-    bitmap.rgba = {170, 200, 230, 255};
-    scene.materials[0].normal_map.texture = add_texture(scene, std::move(bitmap), false);
-  }
+  add_tilted_material(scene, normal_map);
   const int wall = add_mesh(scene, wall_mesh({0, 0, 0}, 0.9f, 0, "wall"));
   add_instance(scene, "wall", wall, placed({0, 0, -3}) * turned * scaled(scale));
   add_point(scene, "lamp", {0.3f, 0.4f, -1}, {1, 1, 1}, 5, 20);

@@ -5,22 +5,15 @@
 
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
+#include "techniques/tilted_normals.h"
 
 namespace lightgrid {
 namespace {
 
-// A quad to the right and its mirror image to the left, lit from straight above the eye; its normal map, if
-// any, tilts every normal up and to the right.
+// A quad to the right and its mirror image to the left, lit from straight above the eye.
 Scene two_quads(bool normal_map) {
   Scene scene;
-  scene.materials.push_back({});
-  scene.materials[0].metallic = 0;
-  if (normal_map) {
-    Bitmap bitmap;
-    bitmap.width = bitmap.height = 1;
-    bitmap.rgba = {170, 200, 230, 255};
-    scene.materials[0].normal_map.texture = add_texture(scene, std::move(bitmap), false);
-  }
+  add_tilted_material(scene, normal_map);
   const int quad = add_mesh(scene, wall_mesh({1.2f, 0, -4}, 0.9f, 0, "quad"));
   add_instance(scene, "quad", quad);
   add_instance(scene, "mirrored", quad, glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1)));
