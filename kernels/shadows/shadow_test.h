@@ -1,6 +1,7 @@
 // How a light's shadow is found at LANES pixels: a ray each, with -DSHADOW_RAYS many to its sphere, with
 // -DSHADOW_PICK some for all lights together, or with -DSHADOW_MAP the texels of its map.
 //
+// -DSHADOW_GROUPS  with -DSHADOW_PICK: lights and surfaces have light groups
 // -DSHADOW_BYTES  of a light a share may be hidden (shared/shadow_bits.h)
 #pragma once
 
@@ -20,7 +21,14 @@ static inline whole hidden_by_test(ShadowTest* maps, const RayScene* scene, cons
 }
 #define rays_of_test(test) 0
 #else
+// triangle_groups  light groups of each triangle's surface, by the rays' numbers
+#if defined(SHADOW_PICK) && defined(SHADOW_GROUPS)
+#define SHADOW_TEST_ARGUMENTS global const uint *triangle_groups,
+#define PICK_GROUPS triangle_groups
+#else
 #define SHADOW_TEST_ARGUMENTS
+#define PICK_GROUPS 0
+#endif
 #define SHADOW_TEST \
   { .last_blocker = -1 }
 typedef struct ShadowTest {

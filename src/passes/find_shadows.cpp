@@ -59,7 +59,7 @@ class ShadowBits : public PassCache {
 
   size_t memory_bytes() const override {
     size_t bytes = lights_.bytes() + view_.bytes() + offsets_.bytes() + blended_offsets_.bytes() +
-                   rays_.bytes() + lists_.memory_bytes();
+                   groups_.bytes() + rays_.bytes() + lists_.memory_bytes();
     if (scene_) bytes += scene_->memory_bytes();
     if (maps_) bytes += maps_->memory_bytes();
     return bytes + first_entries_.bytes() + banded_.memory_bytes();
@@ -200,7 +200,9 @@ class ShadowBits : public PassCache {
     parts_ = lists_.tiles() * images.size() * groups_here;
     const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
     const cl::NDRange lanes(band.tiles), groups(band.tiles * SHADOW_TILE * SHADOW_TILE, groups_here);
-    const ClArguments before = (maps_ ? maps_->arguments() : ClArguments()) + scene_->arguments();
+    ClArguments before = maps_ ? maps_->arguments() : ClArguments();
+    if (picks_by_groups(work)) before = {{"triangle_groups", groups_.buffer()}};
+    before = before + scene_->arguments();
     ClArguments after;
     if (bands_.bands.size() > 1)
       after = {{"first_tile", cl_uint(band.first)}, {"first_entries", first_entries_.buffer()}};
@@ -279,6 +281,7 @@ class ShadowBits : public PassCache {
       if (!followed_) maps_->look(work, rays, work.plan.shadowed, shadow_reuse.of(settings));
     }
     if (followed_) return;
+    if (picks_by_groups(work)) put_groups(work, rays);
     ClDevice& device = *work.renderer.cl;
     const std::vector<CullLight> lights = shadowed_lights(work, shining_lights(work));
     lists_.look(work, lights);
@@ -288,6 +291,24 @@ class ShadowBits : public PassCache {
     view_.put(device, "uploading the view of shadows",
               std::vector<ShadowView>{shadow_view(work, rays.origin())});
     followed_ = true;
+  }
+
+  static bool picks_by_groups(const Work& work) {
+    return work.plan.settings.picks_shadows() && work.plan.groups;
+  }
+
+  // Instances keep their groups; their triangles' numbers change only where the tree is built anew.
+  void put_groups(Work& work, const RayScene& rays) {
+    if (grouped_builds_ == rays.builds()) return;
+    grouped_builds_ = rays.builds();
+    std::vector<uint32_t> groups(std::max(rays.triangles(), 1u));
+    for (size_t i = 0; i < work.scene.instances.size(); ++i) {
+      const auto first = groups.begin() + rays.first_triangle(i);
+      const bool last = i + 1 == work.scene.instances.size();
+      std::fill(first, last ? groups.end() : groups.begin() + rays.first_triangle(i + 1),
+                work.scene.instances[i].groups);
+    }
+    groups_.put(*work.renderer.cl, "uploading light groups of triangles", groups);
   }
 
   void put_offsets(Work& work, std::span<const int> instances, UploadedBuffer& to) {
@@ -306,6 +327,7 @@ class ShadowBits : public PassCache {
     for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
     if (settings.soft_shadows()) defines += fmt::format(" -DSHADOW_RAYS={}", settings.shadow_rays);
     if (settings.picks_shadows()) defines += fmt::format(" -DSHADOW_PICK={}", settings.shadow_pick);
+    if (picks_by_groups(work)) defines += " -DSHADOW_GROUPS";
     if (!visible) defines += " -DNUMBERED";
     if (shadow_light_count(work.plan) > 65536) defines += " -DINDEX_32";
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
@@ -324,15 +346,16 @@ class ShadowBits : public PassCache {
   std::optional<ViewShadowMaps> maps_;
   ShadowLists lists_;
   BlendedLayers layers_;
-  UploadedBuffer lights_, view_, offsets_, blended_offsets_, first_entries_;
+  UploadedBuffer lights_, view_, offsets_, blended_offsets_, first_entries_, groups_;
   GrowingBuffer rays_;
   ShadowRoom room_;
   ShadowBands bands_;                                    // of the frame
   size_t band_ = 0;                                      // that is shaded
   std::function<void(Work&, const ShadowBand&)> again_;  // finds one of several bands of the last frame
   BandedImage banded_;
-  size_t parts_ = 0;    // counts of rays
-  size_t cleared_ = 0;  // bytes of tiles in which nothing was found since they were cleared
+  int grouped_builds_ = -1;  // RayScene::builds of groups_
+  size_t parts_ = 0;         // counts of rays
+  size_t cleared_ = 0;       // bytes of tiles in which nothing was found since they were cleared
   std::optional<ShadowInputs> found_for_;  // what the bits were found for, with shadow-reuse
   bool followed_ = false, unchanged_ = false;
 };

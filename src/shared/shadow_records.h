@@ -19,7 +19,7 @@ typedef struct ShadowLight {
   float range;     // metres
   float source_m;  // the sphere's radius
   float luminance;
-  uint padding;
+  uint groups;  // light groups, a bit each
 } ShadowLight;
 
 typedef struct ShadowView {

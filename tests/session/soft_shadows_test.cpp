@@ -285,5 +285,32 @@ TEST(PickedShadows, MeanIsTheHiddenRatioAndNoiseFallsWithTheRays) {
   }
 }
 
+// Lamps of another group, which are ten times as bright and stand elsewhere, shine on nothing here.
+TEST(PickedShadows, LightsOfOtherGroupsTakeNoPart) {
+  Scene scene = soft_scene();
+  Shaded alone(scene, "visibility", {"shadow-rays=1", "shadow-pick=16"});
+  const std::vector<PickedPixel> pixels = picked_pixels(alone.run, scene, 4000, false);
+  for (Instance& instance : scene.instances) instance.groups = 1;
+  const size_t count = scene.lights.size();
+  for (size_t i = 0; i < count; ++i) {
+    scene.lights[i].groups = 1;
+    Light other = scene.lights[i];
+    other.groups = 2, other.intensity *= 10;
+    other.position = scene.lights[(i + 1) % count].position + glm::dvec3(0.3, 0.5, 0);
+    scene.lights.push_back(other);
+  }
+  for (const char* shape : {"kernel-shape=lanes", "kernel-shape=group"}) {
+    Shaded shaded(scene, "visibility", {"shadow-rays=1", "shadow-pick=16", shape});
+    Errors e;
+    for (const PickedPixel& p : pixels) {
+      const double error = hidden_share_at(shaded.shadows, p.x, p.y, p.brightest) - p.ratio;
+      e.mean += error, e.rms += error * error, ++e.count;
+    }
+    e.mean /= double(e.count), e.rms = std::sqrt(e.rms / double(e.count));
+    ASSERT_GT(e.count, 1000u);
+    EXPECT_LT(std::abs(e.mean), 3 * e.standard_error()) << shape;
+  }
+}
+
 }  // namespace
 }  // namespace lightgrid

@@ -101,7 +101,7 @@ kernel void find_shadows(SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
 #ifdef SHADOW_PICK
     for (uint left = used; left != 0; left &= left - 1) {
       const uint block = lowest_bit(left);
-      test.picked[block] = picked_share(&scene, receivers + block, lights, indices, range,
+      test.picked[block] = picked_share(&scene, receivers + block, PICK_GROUPS, lights, indices, range,
                                        tile_x * SHADOW_TILE + block % 4 * 4,
                                        tile_y * SHADOW_TILE + block / 4 * 4, &test.traced, &test.last_blocker);
     }
