@@ -17,6 +17,7 @@
 #include "results/flip.h"
 #include "results/metrics.h"
 #include "results/results.h"
+#include "scene/hidden.h"
 #include "session/contestants.h"
 #include "session/light_limits.h"
 #include "session/limit_words.h"
@@ -144,7 +145,7 @@ ordered_json check_json(const std::vector<LimitResult>& results, const CheckedSc
       {"scene", scene.name},
       {"size", {checked.chosen.view.width, checked.chosen.view.height}},
       {"frames", checked.path.size()},
-      {"lights", scene.lights.size()},
+      {"lights", shown_counts(scene).lights},
       {"lights_without_range", std::ranges::count_if(scene.lights, is_unlimited)},
       {"holds", std::ranges::all_of(results, [](const LimitResult& r) { return r.holds(); })},
       {"warnings", warnings_json(warnings)},
@@ -252,7 +253,7 @@ std::string page_of(const CheckOptions& o, const std::vector<LimitResult>& resul
   LimitsPage page;
   page.scene = scene.name;
   page.view = fmt::format("{} x {}, {} frames, {} lights", checked.chosen.view.width,
-                          checked.chosen.view.height, checked.path.size(), scene.lights.size());
+                          checked.chosen.view.height, checked.path.size(), shown_counts(scene).lights);
   const auto held = std::ranges::count_if(results, [](const LimitResult& r) { return r.holds(); });
   page.warnings = warnings;
   page.verdict = fmt::format("{} of {} limits hold.", held, results.size());

@@ -11,21 +11,26 @@
 #include "app/options.h"
 #include "scene/animation.h"
 #include "scene/builtin.h"
+#include "scene/hidden.h"
 #include "scene/load_gltf.h"
 
 namespace lightgrid {
 namespace {
 
 struct Contents {
-  size_t triangles = 0, point = 0, spot = 0, directional = 0, without_range = 0;
+  size_t instances = 0, triangles = 0, point = 0, spot = 0, directional = 0, without_range = 0;
   std::vector<std::string> cameras;
   size_t lights() const { return point + spot + directional; }
 };
 
 Contents contents_of(const Scene& scene) {
   Contents all;
-  for (const Instance& i : scene.instances) all.triangles += scene.meshes[i.mesh].indices.size() / 3;
+  for (const Instance& i : scene.instances) {
+    if (is_hidden(i)) continue;
+    ++all.instances, all.triangles += scene.meshes[i.mesh].indices.size() / 3;
+  }
   for (const Light& light : scene.lights) {
+    if (is_hidden(light)) continue;
     all.point += light.type == LightType::point;
     all.spot += light.type == LightType::spot;
     all.directional += light.type == LightType::directional;
@@ -77,7 +82,7 @@ nlohmann::ordered_json info_json(const Scene& scene, const InfoOptions& o,
   return {{"scene", o.scene},
           {"extent", extent},
           {"triangles", all.triangles},
-          {"instances", scene.instances.size()},
+          {"instances", all.instances},
           {"meshes", scene.meshes.size()},
           {"materials", scene.materials.size()},
           {"textures", scene.textures.size()},
@@ -98,9 +103,9 @@ void print_info(const Scene& scene, const InfoOptions& o, const std::vector<Gltf
          fmt::format("{:.4g} x {:.4g} x {:.4g} m, from {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g}", size.x,
                      size.y, size.z, a.x, a.y, a.z, b.x, b.y, b.z));
   }
-  line("triangles", fmt::format("{}, in {} instances of {} meshes; {} materials, {} textures", all.triangles,
-                                scene.instances.size(), scene.meshes.size(), scene.materials.size(),
-                                scene.textures.size()));
+  line("triangles",
+       fmt::format("{}, in {} instances of {} meshes; {} materials, {} textures", all.triangles,
+                   all.instances, scene.meshes.size(), scene.materials.size(), scene.textures.size()));
   line("cameras", all.cameras.empty()
                       ? "none: the eye stands in the room if there is one, else it sees the whole"
                       : fmt::format("{}: \"{}\"", all.cameras.size(), fmt::join(all.cameras, "\", \"")));

@@ -8,6 +8,7 @@
 #include "plan/dim_lights.h"
 #include "plan/light_plan.h"
 #include "plan/visibility.h"
+#include "scene/hidden.h"
 
 namespace lightgrid {
 namespace {
@@ -95,7 +96,8 @@ double plan_surfaces(const Scene& scene, const View& view, PlannedInstances inst
   const Frustum frustum = frustum_of(view);
   const auto planned = [&](int i, const glm::dmat4& to_view) {
     return instances == PlannedInstances::in_view
-               ? may_see_box(frustum, to_view, scene.meshes[scene.instances[i].mesh].bounds)
+               ? !is_hidden(scene.instances[i]) &&
+                     may_see_box(frustum, to_view, scene.meshes[scene.instances[i].mesh].bounds)
                : is_planned(scene, i, instances);
   };
   plan.features_of_instance.assign(scene.instances.size(), 0);
@@ -423,10 +425,10 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
 }
 
 std::string describe(const FramePlan& plan, const Scene& scene) {
-  std::string text =
-      fmt::format("{} of {} instances in view ({} opaque, {} blended), {} of {} lights\n",
-                  plan.opaque.size() + plan.blended.size(), scene.instances.size(), plan.opaque.size(),
-                  plan.blended.size(), plan.lights_in_view, scene.lights.size());
+  const ShownCounts all = shown_counts(scene);
+  std::string text = fmt::format("{} of {} instances in view ({} opaque, {} blended), {} of {} lights\n",
+                                 plan.opaque.size() + plan.blended.size(), all.instances, plan.opaque.size(),
+                                 plan.blended.size(), plan.lights_in_view, all.lights);
   for (const Decision& d : plan.decisions)
     text += fmt::format("  {} {}: {}\n", d.needed ? "yes" : " no", d.effect, d.why);
   return text + describe_shadows(plan.casting, scene, plan.shadows_by);

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "plan/visibility.h"
+#include "scene/hidden.h"
 #include "scene/light_groups.h"
 
 namespace lightgrid {
@@ -81,7 +82,7 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
     (directional ? plan.directional_lights : plan.local).push_back(i);
     const bool in_view = may_see_sphere(frustum, lights[i].position, lights[i].radius_m);
     const bool seen = directional || counts_as_seen(plan.planned_lights, lights[i], in_view);
-    plan.lights_in_view += seen;
+    plan.lights_in_view += seen && !is_hidden(scene.lights[size_t(i)]);
     if (seen && !directional) seen_local.push_back(plan.local.size() - 1);
     // A spot out of view still needs its cone: the cone makes its contribution zero in view.
     if (has_cone(lights[i]) && first_spot < 0) first_spot = i;

@@ -5,6 +5,7 @@
 
 #include "plan/instance_boxes.h"
 #include "plan/visibility.h"
+#include "scene/hidden.h"
 
 namespace lightgrid {
 namespace {
@@ -138,7 +139,7 @@ std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view
   const PixelErrors errors(view);
   for (int i = 0; i < int(scene.lights.size()); ++i) {
     const Light& light = scene.lights[size_t(i)];
-    if (!light.casts_shadow) continue;
+    if (!light.casts_shadow || is_hidden(light)) continue;
     plans.push_back(is_directional(light) ? plan_directional_light(i, boxes)
                                           : plan_light(bounds_of(light, range_of(light, size_t(i), ranges)),
                                                        i, view, boxes, errors, source_of(light, source_m)));

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "scene/camera.h"
+#include "scene/hidden.h"
 
 namespace lightgrid {
 namespace {
@@ -95,7 +96,7 @@ Camera overview_camera(const Scene& scene, double aspect) {
   std::vector<Placed> instances;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
-    if (mesh.indices.empty()) continue;
+    if (mesh.indices.empty() || is_hidden(instance)) continue;
     instances.push_back({&mesh, view_from_world * glm::dmat3(instance.world_from_object),
                          view_from_world * (glm::dvec3(instance.world_from_object[3]) - center)});
   }

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/facing.h"
+#include "scene/hidden.h"
 
 namespace lightgrid {
 namespace {
@@ -215,7 +216,7 @@ glm::dmat4 world_of_instance(const glm::dmat4& world_from_node) {
 }
 
 glm::dmat4 point_at(const glm::dvec3& position) {
-  glm::dmat4 point(glm::dmat3(0x1p-40));
+  glm::dmat4 point{glm::dmat3(hidden_scale)};
   point[3] = glm::dvec4(position, 1);
   return point;
 }

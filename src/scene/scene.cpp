@@ -1,4 +1,5 @@
 #include "scene/scene.h"
+#include "scene/hidden.h"
 
 #include <algorithm>
 
@@ -18,6 +19,13 @@ bool has_specular(const Material& m) {
 const char* name_of(LightType type) {
   static constexpr const char* names[] = {"point", "spot", "directional"};
   return names[int(type)];
+}
+
+ShownCounts shown_counts(const Scene& scene) {
+  const auto count = [](const auto& all) {
+    return size_t(std::ranges::count_if(all, [](const auto& one) { return !is_hidden(one); }));
+  };
+  return {count(scene.instances), count(scene.lights)};
 }
 
 bool intensity_overflows(const Light& light) {
@@ -49,6 +57,7 @@ WorldBox world_box(const Mesh& mesh, const glm::dmat4& world_from_object) {
 WorldBox world_box(const Scene& scene) {
   WorldBox all = no_box;
   for (const Instance& instance : scene.instances) {
+    if (is_hidden(instance)) continue;
     const WorldBox box = world_box(scene.meshes[size_t(instance.mesh)], instance.world_from_object);
     all.min = glm::min(all.min, box.min), all.max = glm::max(all.max, box.max);
   }

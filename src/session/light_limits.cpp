@@ -8,6 +8,7 @@
 #include <ranges>
 
 #include "plan/visibility.h"
+#include "scene/hidden.h"
 #include "scene/light_groups.h"
 #include "session/light_cells.h"
 
@@ -75,7 +76,9 @@ struct LimitFrame {
     for (int i = 0; i < int(firsts.size()); ++i) {
       const Instance& instance = scene.instances[size_t(i)];
       const Aabb& bounds = scene.meshes[size_t(instance.mesh)].bounds;
-      if (!may_see_box(frustum, view_from_object(view, instance.world_from_object), bounds)) continue;
+      if (is_hidden(instance) ||
+          !may_see_box(frustum, view_from_object(view, instance.world_from_object), bounds))
+        continue;
       view_boxes.push_back(box_of_instance(scene, i, view.view_from_world));
       found.try_emplace(firsts[size_t(i)], SeenObject{firsts[size_t(i)], {}});
     }

@@ -70,6 +70,8 @@ Scene to_move(Scene scene, Random& random) {
   return scene;
 }
 
+}  // namespace
+
 std::string difference(const SequenceFrame& a, const SequenceFrame& b) {
   const std::string in = difference(a.shadows, b.shadows);
   if (!in.empty()) return in;
@@ -78,8 +80,6 @@ std::string difference(const SequenceFrame& a, const SequenceFrame& b) {
                     std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof a.pixels[0]) == 0;
   return same ? "" : "pixels";
 }
-
-}  // namespace
 
 std::span<const SequenceKind> sequence_kinds() { return kinds; }
 

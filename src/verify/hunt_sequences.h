@@ -54,6 +54,9 @@ struct SequenceReport {
   ShadowPairs pairs;               // of the last frame, where the kind's shadows are exact
 };
 
+// Empty, or in which of surfaces, lists, bits, shares and pixels two frames differ.
+std::string difference(const SequenceFrame& a, const SequenceFrame& b);
+
 // Draws so many frames twice each: by one renderer for all, and by one that draws nothing else. Draws none
 // where the engine draws no sequences.
 SequenceReport compare_sequence(CullEngine& engine, HuntedScene made, const SequenceKind& kind,

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "support/exported_level.h"
+#include "support/gltf_pointers.h"
 #include "support/run_program.h"
 
 namespace lightgrid {
@@ -44,6 +45,37 @@ TEST(InfoCommand, TellsWhatALevelHolds) {
   EXPECT_THAT(text.out, HasSubstr("of point and spot lights 1 have a range, 1 none"));
   EXPECT_THAT(text.out, HasSubstr("KHR_lights_punctual: drawn, required"));
   EXPECT_THAT(text.out, HasSubstr("KHR_materials_iridescence: not drawn"));
+}
+
+// A second room, 100 m away, and one of two lights are hidden from the first second on, and at rest.
+TEST(InfoCommand, PlanAndCheckCountOnlyWhatIsOn) {
+  const ModelFolder folder;
+  GltfBuilder made = exported_level(2);
+  made.root["extensionsUsed"] = {"KHR_lights_punctual", "KHR_node_visibility", "KHR_animation_pointer"};
+  made.root["nodes"].push_back({{"mesh", 0}, {"translation", {100, 0, 0}}});
+  made.root["scenes"][0]["nodes"].push_back(3);
+  for (const int node : {2, 3}) {
+    made.root["nodes"][size_t(node)]["extensions"]["KHR_node_visibility"]["visible"] = false;
+    animate(made, visible_of(node), std::vector<uint8_t>{1, 0, 0}, "SCALAR", u8);
+  }
+  const std::string file = folder.write("level.gltf", made.text());
+  const auto json_of = [](const std::vector<std::string>& words) {
+    const ProgramRun run = run_program(words);
+    EXPECT_LE(run.status, 1) << run.err;
+    return nlohmann::json::parse(run.out, nullptr, false);
+  };
+  const auto info = json_of({"info", file, "--json", "-"});
+  EXPECT_EQ(info["triangles"], 12);
+  EXPECT_EQ(info["instances"], 1);
+  EXPECT_EQ(info["lights"]["total"], 1);
+  EXPECT_EQ(info["extent"]["max"][0], 10);
+  for (const auto& [time, in_all] : {std::pair("0", 2), {"1", 1}}) {
+    const ProgramRun plan = run_program({"plan", file, "--time", time, "--camera", "eye:9,2,5,target:0,1,0"});
+    EXPECT_THAT(plan.out,
+                HasSubstr(fmt::format("1 of {0} instances in view (1 opaque, 0 blended), {0} of {0} lights",
+                                      in_all)));
+    EXPECT_EQ(json_of({"check", file, "--time", time, "--json", "-"})["lights"], in_all);
+  }
 }
 
 TEST(InfoCommand, TellsABuiltInScene) {

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "support/gltf_pointers.h"
 #include "verify/hunt_sequences.h"
 #include "verify/hunt_shadows.h"
 
@@ -104,6 +105,52 @@ TEST(HuntOfSequences, WhatTheLibraryKeepsDoesNotShow) {
     EXPECT_EQ(report.stale, 0u) << report.why;
     EXPECT_EQ(report.pairs.wrong(), 0u) << report.pairs.why;
     EXPECT_EQ(report.pairs.decided() > 10'000, kind.exact);
+  }
+}
+
+// A floor, and three nodes with a triangle and a lamp each, of which an animation hides some.
+Scene flickering() {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.root["extensionsUsed"] = {"KHR_lights_punctual", "KHR_node_visibility", "KHR_animation_pointer"};
+  made.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "point"}, {"intensity", 4}, {"range", 5}}};
+  made.root["materials"] = {{{"doubleSided", true}}};
+  made.primitive()["material"] = 0;
+  made.root["nodes"][0]["translation"] = {-4, -4, 0}, made.root["nodes"][0]["scale"] = {8, 8, 1};
+  const std::vector<std::vector<uint8_t>> shown = {{1, 0, 1}, {0, 1, 1}, {0, 0, 1}};
+  for (int i = 0; i < 3; ++i) {
+    made.root["nodes"].push_back({{"mesh", 0},
+                                  {"translation", {-2.5 + i, -2.0, 0.5 + 0.3 * i}},
+                                  {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    made.root["nodes"].push_back({{"mesh", 0}, {"translation", {-2.6 + i, -2.5, 0.3}}});
+    for (const int node : {2 * i + 1, 2 * i + 2}) {
+      made.root["scenes"][0]["nodes"].push_back(node);
+      animate(made, visible_of(node), shown[size_t((i + node) % 3)], "SCALAR", u8);
+    }
+  }
+  animate(made, "/extensions/KHR_lights_punctual/lights/0/intensity", std::vector<float>{4, 2, 4}, "SCALAR",
+          f32);
+  Scene scene = made.load();
+  for (Light& light : scene.lights) light.casts_shadow = true;
+  return scene;
+}
+
+TEST(HuntOfSequences, AnimatedVisibilityDoesNotShowWhatWasKept) {
+  const auto engine = device_engine("");
+  const View view = shadow_view({-2, -3, 4}, {-1.5, -1.5, 0});
+  for (const SequenceKind& kind : sequence_kinds().first(2)) {
+    Scene scene = flickering();
+    Random random(7);
+    const auto keeping = engine->sequence(scene, kind.technique, view, settings_of(kind));
+    SceneChanges changes;
+    size_t changed = 0;
+    for (int i = 0; i < 16; ++i, changes = set_time(scene, double(random.next() % 4) - 0.5)) {
+      const SequenceFrame kept = keeping->draw(view, changes);
+      const auto fresh = engine->sequence(scene, kind.technique, view, settings_of(kind), kept.ray_origin);
+      EXPECT_EQ(difference(kept, fresh->draw(view, {})), "") << kind.settings << ", frame " << i;
+      changed += !changes.empty();
+    }
+    EXPECT_GT(changed, 6u);
   }
 }
 

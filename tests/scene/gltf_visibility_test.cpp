@@ -1,7 +1,8 @@
 // KHR_node_visibility, and KHR_animation_pointer to visibility, lights and nodes.
-#include "support/gltf_builder.h"
+#include "support/gltf_pointers.h"
 
 #include "scene/animation.h"
+#include "scene/hidden.h"
 
 namespace lightgrid {
 namespace {
@@ -27,22 +28,7 @@ GltfBuilder nested() {
 
 void hide(GltfBuilder& made, int node) { made.root["nodes"][node]["extensions"].update(hidden); }
 
-// Keys at 0, 1 and 2 seconds.
-template <typename T>
-void animate(GltfBuilder& made, const std::string& pointer, const std::vector<T>& values, const char* type,
-             ComponentType component, const char* interpolation = "STEP") {
-  const int times = made.accessor(made.view(bytes_of(std::vector<float>{0, 1, 2})), "SCALAR", f32, 3);
-  const int keys = made.accessor(made.view(bytes_of(values)), type, component,
-                                 interpolation == std::string("CUBICSPLINE") ? 9 : 3);
-  made.root["animations"].push_back(
-      {{"samplers", {{{"input", times}, {"output", keys}, {"interpolation", interpolation}}}},
-       {"channels",
-        {{{"sampler", 0},
-          {"target",
-           {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}}}}});
-}
-
-const char* visible_of_0 = "/nodes/0/extensions/KHR_node_visibility/visible";
+const std::string visible_of_0 = visible_of(0);
 const std::string light_0 = "/extensions/KHR_lights_punctual/lights/0/";
 
 // Of instance 0: a hidden one is a point.
@@ -94,6 +80,42 @@ TEST(GltfVisibility, follows_an_animation_there_and_back) {
   }
   hide(made, 1);
   EXPECT_EQ(made.load().instances.size(), 0u) << "node 1 is hidden at all times";
+}
+
+TEST(GltfVisibility, what_is_hidden_at_a_time_is_in_no_total_and_no_box) {
+  GltfBuilder made = nested();
+  made.root["nodes"].push_back({{"mesh", 0}, {"translation", {50, 0, 0}}});
+  made.root["scenes"][0]["nodes"].push_back(3);
+  animate(made, visible_of(3), std::vector<uint8_t>{1, 0, 1}, "SCALAR", u8);
+  animate(made, visible_of(2), std::vector<uint8_t>{0, 1, 1}, "SCALAR", u8);
+  Scene scene = made.load();
+  const auto expect = [&](size_t instances, size_t lights, double right_m) {
+    EXPECT_EQ(shown_counts(scene).instances, instances);
+    EXPECT_EQ(shown_counts(scene).lights, lights);
+    EXPECT_EQ(world_box(scene).max.x, right_m);
+  };
+  expect(2, 1, 51);
+  set_time(scene, 0);
+  expect(2, 0, 51);
+  set_time(scene, 1);
+  expect(1, 1, 1);
+  set_time(scene, 2);
+  expect(2, 1, 51);
+}
+
+// What the caller puts in place of a file's light has no node, and so stays as it is.
+TEST(GltfVisibility, a_light_that_the_caller_replaced_is_neither_hidden_nor_animated) {
+  GltfBuilder made = nested();
+  animate(made, visible_of_0, std::vector<uint8_t>{1, 0, 1}, "SCALAR", u8);
+  animate(made, light_0 + "intensity", std::vector<float>{1, 8, 2}, "SCALAR", f32);
+  Scene scene = made.load();
+  Light own = scene.lights.at(0);
+  own.intensity = 7, own.radius_m = 3, own.node = -1;
+  scene.lights = {own};
+  for (const double seconds : {0.0, 1.0, 2.0}) {
+    EXPECT_TRUE(set_time(scene, seconds).lights.empty());
+    EXPECT_EQ(scene.lights.at(0), own);
+  }
 }
 
 TEST(GltfVisibility, a_skinned_mesh_is_hidden_with_its_node) {
