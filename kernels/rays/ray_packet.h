@@ -8,8 +8,8 @@
 // edge, and with its own. The planes are made once for all lanes, in double; swapping the two ends of an edge
 // turns all signs, so that two triangles with a common edge never both miss a segment.
 //
-// What a box test rounds it covers itself: relative errors (less than 8 of 2^-24) by SLACK, that of the
-// light's position by moving the box's sides outwards (`reach`). A triangle counts as met only if its own box
+// What a box test rounds it covers itself: relative errors (less than 8 of 2^-24) by SLACK, that of where
+// segments begin by moving the box's sides outwards (`reach`). A triangle counts as met only if its own box
 // is met too. Box tests are monotonic in the box, so the boxes around it are then met as well, and no answer
 // depends on the tree.
 #pragma once
@@ -65,8 +65,7 @@ static inline real from_double(real to, double from) {
     p->enter_##axis = lane_min(low, high), p->leave_##axis = lane_max(low, high);            \
   }
 
-// `extent`: no coordinate of the scene's triangles is greater.
-static inline void set_packet(RayPacket* p, RaySource light, Real3 to, real gap, float extent) {
+static inline void set_packet(RayPacket* p, RaySource light, Real3 to, real gap) {
   const float x = (float)light.x, y = (float)light.y, z = (float)light.z;
   p->light = light;
   if (light.w != 0) {
@@ -78,8 +77,8 @@ static inline void set_packet(RayPacket* p, RaySource light, Real3 to, real gap,
     CROSSINGS(y, y)
     CROSSINGS(z, z)
   } else {
-    const float reach = 0x1p-20f * extent;
     p->x = fma(gap, REAL(x), to.x), p->y = fma(gap, REAL(y), to.y), p->z = fma(gap, REAL(z), to.z);
+    const real reach = 0x1p-20f * (fabs(p->x) + fabs(p->y) + fabs(p->z));
     p->end = 1.0f;
     p->inverse_x = inverse_step(REAL(x * FAR_AWAY)), p->inverse_y = inverse_step(REAL(y * FAR_AWAY));
     p->inverse_z = inverse_step(REAL(z * FAR_AWAY));
@@ -113,14 +112,15 @@ typedef struct RayPlane {
 // Through the light and two corners, which are relative to a light at a point.
 static inline RayPlane edge_plane(RaySource light, bool point, double bx, double by, double bz, double cx,
                                   double cy, double cz) {
-  const double x = by * cz - bz * cy, y = bz * cx - bx * cz, z = bx * cy - by * cx;
   if (point) {
-    const RayPlane p = {x, y, z, 0};
+    const RayPlane p = {by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx, 0};
     return p;
   }
   const double ux = bx - cx, uy = by - cy, uz = bz - cz;
-  const RayPlane p = {light.y * uz - light.z * uy, light.z * ux - light.x * uz, light.x * uy - light.y * ux,
-                      -(light.x * x + light.y * y + light.z * z)};
+  const double x = light.y * uz - light.z * uy, y = light.z * ux - light.x * uz,
+               z = light.x * uy - light.y * ux;
+  // Half way between both ends: b x c would cancel where they are far away.
+  const RayPlane p = {x, y, z, -0.5 * (x * (bx + cx) + y * (by + cy) + z * (bz + cz))};
   return p;
 }
 

@@ -19,7 +19,7 @@
 
 #define RAYS_ARGUMENTS                                                                                     \
   global const RayNode *ray_nodes, global const RayTriangle *ray_triangles, global const uint *ray_places, \
-      float ray_extent, global const uint4 *ray_masks, global const SurfaceVertex *ray_vertices,           \
+      global const uint4 *ray_masks, global const SurfaceVertex *ray_vertices,                             \
       global const SurfaceMaterial *ray_materials, global const uint *ray_alphas
 #ifdef RAYS_MASKS
 #define RAYS_MASK_SOURCE                                                   \
@@ -30,13 +30,12 @@
 #define RAYS_MASK_SOURCE
 #endif
 #define RAYS_SCENE \
-  { ray_nodes, ray_triangles, ray_places, ray_extent RAYS_MASK_SOURCE }
+  { ray_nodes, ray_triangles, ray_places RAYS_MASK_SOURCE }
 
 typedef struct RayScene {
   global const RayNode* nodes;
   global const RayTriangle* triangles;  // in the order of the tree, then those that cast nothing
   global const uint* places;            // a triangle's number to its place in `triangles`
-  float extent;                         // no coordinate is greater
 #ifdef RAYS_MASKS
   RayMasks masks;
 #endif
@@ -109,8 +108,10 @@ static inline __attribute__((always_inline)) bool leaf_blocked(const RayScene* s
 }
 
 static inline void fetch_child(const RayScene* scene, int child, int count) {
-  if (count == 0) FETCH(scene->nodes + child);
-  else FETCH(scene->triangles + child);
+  if (count == 0)
+    FETCH(scene->nodes + child);
+  else
+    FETCH(scene->triangles + child);
 }
 
 // Lanes with the bits `live`, whose segments go the same way along each axis.
@@ -196,7 +197,7 @@ static inline mask_t rays_veiled(const RayScene* scene, RaySource light, Real3 t
   uint left = lane_bits(active);
   if (left == 0) return hidden;
   RayPacket p;
-  set_packet(&p, light, to, gap, scene->extent);
+  set_packet(&p, light, to, gap);
 #ifdef RAYS_VEILS
   p.veil = (whole)(0);
 #endif

@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/options.h"
+#include "plan/coarse_shadows.h"
 #include "scene/lights_file.h"
 #include "session/contestants.h"
 #include "session/edge_share.h"
@@ -88,8 +89,15 @@ int plan(PlanOptions o) {
                                {"volume", by("shadow volumes")},
                                {"why", words_of(light, chosen.scene)}});
   }
+  const CoarseShadows coarse = coarse_shadows(chosen.scene, plan.settings.ranges);
+  if (coarse.lights + coarse.instances > 0)
+    json["coarse_shadows"] = {{"lights", coarse.lights},
+                              {"first_light", coarse.first_light},
+                              {"instances", coarse.instances},
+                              {"first_instance", coarse.first_instance},
+                              {"gap_m", coarse.gap_m}};
   if (edges)
-    json["edges"] = {{"samples", edges->samples}, {"pixels", edges->pixels}, {"edge_pixels", edges->edges},
+    json["edges"] = {{"samples", edges->samples}, {"pixels", edges->pixels},   {"edge_pixels", edges->edges},
                      {"covered", edges->covered}, {"shadings", edges->shaded}, {"saved", edges->saved()}};
   if (leaks) json["leaks"] = leaks_json(*leaks, proposal, chosen.scene);
   write_json(o.json, json.dump(1));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/median.h"
+
 namespace lightgrid {
 namespace {
 
@@ -26,27 +28,14 @@ double upload_rounding(const glm::dvec3& offset) {
   return half_ulp * sum_of(offset) * (1 + double(MAX_STRETCH));
 }
 
-// 0 if there are no values.
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 // Coordinates of actual lights: moving all lights by an exact amount moves the origin by that amount. Lights
 // parked far away, to switch them off, are ignored if there are others.
 glm::dvec3 median_position(std::span<const CullLight> lights) {
-  std::vector<const CullLight*> near, far;
+  std::vector<glm::dvec3> near, far;
   for (const CullLight& light : lights) {
-    if (is_light(light)) (largest(light.position) < farthest_light ? near : far).push_back(&light);
+    if (is_light(light)) (largest(light.position) < farthest_light ? near : far).push_back(light.position);
   }
-  glm::dvec3 middle;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> values;
-    for (const CullLight* light : near.empty() ? far : near) values.push_back(light->position[axis]);
-    middle[axis] = median(std::move(values));
-  }
-  return middle;
+  return median_of(std::span<const glm::dvec3>(near.empty() ? far : near));
 }
 
 // The difference may overflow; half of it cannot.
@@ -114,7 +103,7 @@ LightOrigin choose_origin(std::span<const CullLight> lights) {
     spot_radii.push_back(light.radius_m);
   }
   if (coarse > count / 64) return {};
-  if (!spot_radii.empty() && cone_slack > small_part * median(std::move(spot_radii))) return {};
+  if (!spot_radii.empty() && cone_slack > small_part * median_of(std::move(spot_radii))) return {};
   return {origin, cone_slack};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "plan/coarse_shadows.h"
 #include "plan/dim_lights.h"
 #include "plan/light_plan.h"
 #include "plan/visibility.h"
@@ -216,15 +217,14 @@ void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& ne
   // Shadows of directional lights are found by the pass.
   if (!plan.own_shadowed.empty()) plan.shadows_by = needs.shadows_by;
   const auto rays = std::ranges::find(plan.casting, ShadowNeed::rays, &LightShadow::need);
-  plan.decisions.push_back(
-      {"shadows", plan.shadows || !plan.own_shadowed.empty(),
-       plan.casting.empty() ? "no light casts one"
-       : !needs.shadows     ? needs.no_shadows
-       : rays != plan.casting.end()
-           ? fmt::format("{} reaches {}", light_witness(scene, rays->light),
-                         instance_witness(scene, rays->caster))
-                                  : fmt::format("{}: {}", light_witness(scene, plan.casting[0].light),
-                                                reason_of(plan.casting[0].need))});
+  plan.decisions.push_back({"shadows", plan.shadows || !plan.own_shadowed.empty(),
+                            plan.casting.empty() ? "no light casts one"
+                            : !needs.shadows     ? needs.no_shadows
+                            : rays != plan.casting.end()
+                                ? fmt::format("{} reaches {}", light_witness(scene, rays->light),
+                                              instance_witness(scene, rays->caster))
+                                : fmt::format("{}: {}", light_witness(scene, plan.casting[0].light),
+                                              reason_of(plan.casting[0].need))});
 }
 
 // From the near plane to the farthest surface in view.
@@ -431,7 +431,9 @@ std::string describe(const FramePlan& plan, const Scene& scene) {
                                  plan.blended.size(), plan.lights_in_view, all.lights);
   for (const Decision& d : plan.decisions)
     text += fmt::format("  {} {}: {}\n", d.needed ? "yes" : " no", d.effect, d.why);
-  return text + describe_shadows(plan.casting, scene, plan.shadows_by);
+  text += describe_shadows(plan.casting, scene, plan.shadows_by);
+  const std::string coarse = describe(coarse_shadows(scene, plan.settings.ranges), scene);
+  return coarse.empty() ? text : fmt::format("{}  {}\n", text, coarse);
 }
 
 }  // namespace lightgrid

@@ -89,10 +89,4 @@ bool all_are_valid(const RayBounds& bounds, const glm::dvec3& origin) {
   return bounds.finite && reach_of(bounds, origin) <= most_ray_extent;
 }
 
-float ray_extent(const RayBounds& bounds, const glm::dvec3& origin) {
-  const double reach = reach_of(bounds, origin);
-  return reach <= most_ray_extent ? float(std::exp2(std::ceil(std::log2(std::max(reach, 0x1p-60)))))
-                                  : most_ray_extent;
-}
-
 }  // namespace lightgrid

@@ -30,8 +30,6 @@ struct RayBounds {
 };
 RayBounds ray_bounds(std::span<const RayInstance> instances, std::span<const RayMeshData> meshes);
 
-// A power of two that no coordinate relative to the origin exceeds; at most the greatest that is allowed.
-float ray_extent(const RayBounds& bounds, const glm::dvec3& origin);
 // Whether every corner is certainly finite and within the greatest extent.
 bool all_are_valid(const RayBounds& bounds, const glm::dvec3& origin);
 

@@ -27,7 +27,6 @@ bool has_doubles(ClDevice& device) {
 void RayScene::State::build(std::span<const RayInstance> given, const RayBounds& bounds) {
   refit.reset();
   if (!options.origin) origin = glm::dvec3(glm::vec3(bounds.low * 0.5 + bounds.high * 0.5));
-  extent = ray_extent(bounds, origin);
   const RayArrays arrays = ray_arrays(given, meshes, origin);
   first_triangles.clear();
   triangle_count = 0;
@@ -69,13 +68,19 @@ RayScene::RayScene(ClDevice& device, ProgramCache& programs, const RayOptions& o
     throw machine_error("rays: {} has no doubles (cl_khr_fp64), which exact shadow rays need",
                         device.info().name);
   }
-  if (!options.origin) return;
-  const glm::dvec3 rounded(glm::vec3(*options.origin));
-  if (!(glm::dot(rounded, rounded) < HUGE_VAL)) throw input_error("rays: the origin is not finite");
-  state_->origin = rounded;
+  if (options.origin) set_origin(*options.origin);
 }
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
+
+void RayScene::set_origin(const glm::dvec3& origin) {
+  State& s = *state_;
+  const glm::dvec3 rounded{glm::vec3(origin)};
+  if (!(glm::dot(rounded, rounded) < HUGE_VAL)) throw input_error("rays: the origin is not finite");
+  if (s.options.origin && s.origin == rounded) return;
+  s.options.origin = s.origin = rounded;
+  s.refit.reset(), s.has_instances = false;
+}
 
 // Its tree can be kept if positions alone changed.
 void RayScene::set_meshes(std::span<const RayMesh> meshes) {
@@ -127,7 +132,6 @@ void RayScene::set_instances(std::span<const RayInstance> instances) {
       if (s.changed[instances[i].mesh] || instances[i].world_from_object != before[i].world_from_object)
         moved.push_back(i);
     }
-    s.extent = ray_extent(bounds, s.origin);
     s.refit->refit(moved, instances, s.meshes, s.first_triangles, s.origin, s.nodes.get(), s.triangles.get(),
                    s.places.get());
   }
@@ -146,10 +150,10 @@ int RayScene::builds() const { return state_->builds; }
 ClArguments RayScene::arguments() const {
   const State& s = *state_;
   s.check();
-  return {{"ray_nodes", s.nodes.get()},         {"ray_triangles", s.triangles.get()},
-          {"ray_places", s.places.get()},       {"ray_extent", s.extent},
-          {"ray_masks", s.mask_records.get()},  {"ray_vertices", s.masks.vertices},
-          {"ray_materials", s.masks.materials}, {"ray_alphas", s.masks.alphas}};
+  return {{"ray_nodes", s.nodes.get()},       {"ray_triangles", s.triangles.get()},
+          {"ray_places", s.places.get()},     {"ray_masks", s.mask_records.get()},
+          {"ray_vertices", s.masks.vertices}, {"ray_materials", s.masks.materials},
+          {"ray_alphas", s.masks.alphas}};
 }
 
 std::string RayScene::defines() const {

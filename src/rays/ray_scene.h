@@ -68,8 +68,8 @@ struct RayOptions {
 // Relative to the scene's origin, metres.
 struct RayPoint {
   glm::vec3 position{0};  // of the surface
-  float gap = 1e-3f;  // the last metres before it, in which nothing hides it
-  int own = -1;       // the triangle that it lies on, which does not hide it
+  float gap = 1e-3f;      // the last metres before it, in which nothing hides it
+  int own = -1;           // the triangle that it lies on, which does not hide it
 };
 
 // w 1: a point relative to the scene's origin. w 0: x y z is a unit direction, from points towards the light.
@@ -78,7 +78,7 @@ using RayLight = glm::dvec4;
 // 16 points, from 16 * block on, that share a light.
 struct RayPacket {
   uint32_t block = 0, light = 0;  // index of the points over 16; of the light
-  uint32_t lanes = 0xffff;  // a bit for each point that is meant
+  uint32_t lanes = 0xffff;        // a bit for each point that is meant
 };
 
 // Triangles that hide lights, and the tree over them.
@@ -90,6 +90,9 @@ class RayScene {
   ~RayScene();
   RayScene(RayScene&&) noexcept;
 
+  // Instances then have to come again where it is another one: the tree is built anew. Throws input: it is
+  // not finite.
+  void set_origin(const glm::dvec3& origin);
   // Instances then have to come again. Throws input: an index out of range, a number of indices that is no
   // multiple of 3.
   void set_meshes(std::span<const RayMesh> meshes);
@@ -108,7 +111,7 @@ class RayScene {
   std::vector<uint32_t> occlusion(std::span<const RayPoint> points, std::span<const RayLight> lights,
                                   std::span<const RayPacket> packets);
 
-  glm::dvec3 origin() const;  // each coordinate is a float
+  glm::dvec3 origin() const;                       // each coordinate is a float
   uint32_t triangles() const;                      // of all instances, also those left out
   uint32_t first_triangle(size_t instance) const;  // its number
   // Left out, since a corner is not finite or further than 1e15 m from the origin.

@@ -20,7 +20,6 @@ struct RayScene::State {
   uint32_t triangle_count = 0, invalid = 0;
   int builds = 0;
   glm::dvec3 origin{0};
-  float extent = 0;
   bool has_instances = false, masked = false;
   RayMasks masks{};
   GrowingBuffer nodes{}, triangles{}, places{}, mask_records{};

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "reference/position.h"
+#include "scene/ray_origin.h"
 
 namespace lightgrid {
 namespace {
@@ -29,13 +30,11 @@ double greatest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y),
 }  // namespace
 
 Occlusion::Occlusion(const Scene& scene, BlendedCasters by_blended)
-    : scene_(scene), by_blended_(by_blended), masks_(scene) {
+    : scene_(scene), by_blended_(by_blended), masks_(scene), origin_(ray_origin(scene)) {
   const WorldBox box = world_box(scene);
   if (box.empty()) return;
-  centre_ = (box.min + box.max) * 0.5, diagonal_m_ = glm::length(box.max - box.min);
-  // Three coordinates relative to an origin that is itself rounded.
-  const double extent = greatest(box.max - centre_) + float_rounding * greatest(centre_);
-  vertex_error_m_ = std::sqrt(3.0) * float_rounding * extent;
+  middle_ = (box.min + box.max) * 0.5, diagonal_m_ = glm::length(box.max - box.min);
+  vertex_error_m_ = std::max(rounded(box.min).error_m, rounded(box.max).error_m);
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
     const bool blended = scene.materials[mesh.material].alpha_mode == AlphaMode::blend;
@@ -49,6 +48,12 @@ Occlusion::Occlusion(const Scene& scene, BlendedCasters by_blended)
     }
   }
   tree_ = TriangleTree(corners_);
+}
+
+// Three coordinates relative to an origin that is itself rounded.
+RoundedPoint Occlusion::rounded(const dvec3& place) const {
+  const double size = greatest(place - origin_) + float_rounding * greatest(origin_);
+  return {place, std::sqrt(3.0) * float_rounding * size};
 }
 
 Corners Occlusion::corners_of(const CastingTriangle& t) const {
@@ -84,28 +89,32 @@ Receiver Occlusion::receiver(const View& view, int x, int y, double depth, const
   const double slope = std::max(tan_x, tan_y), away = view.orthographic ? 1 : std::abs(in_view.z);
   const double depth_m = view.orthographic ? std::max(std::abs(in_view.z), view.far_m) : std::abs(in_view.z);
   const double edges = glm::length(c[1] - c[0]) + glm::length(c[2] - c[0]);
-  const double tilt = squared > 0 ? 2 * vertex_error_m_ * edges / std::sqrt(squared) : 1;
+  const double of_vertices = std::max({rounded(c[0]).error_m, rounded(c[1]).error_m, rounded(c[2]).error_m});
+  const double tilt = squared > 0 ? 2 * of_vertices * edges / std::sqrt(squared) : 1;
   r.place.error_m = float_rounding * (17 * slope * away + 4 * depth_m + 7 * glm::length(in_view) +
-                                      glm::length(view.eye - centre_) + 2 * glm::length(shaded - centre_) +
+                                      glm::length(view.eye - origin_) + 2 * glm::length(shaded - origin_) +
                                       6 * glm::length(shaded - c[0])) +
-                    vertex_error_m_ +
+                    of_vertices +
                     std::min(tilt, 1.0) * (std::abs(off) * std::sqrt(squared) + to_edges(c, r.place.place));
-  r.gap_m = 1e-3 + 0x1p-20 * glm::length(shaded - centre_);
+  r.gap_m = 1e-3 + 0x1p-20 * glm::length(shaded - origin_);
   if (view.orthographic) {
-    const double far_m = 2 * (diagonal_m_ + glm::length(r.place.place - centre_));
+    const double far_m = beyond_all_m(r.place.place);
     r.eye = {r.place.place + world_from_view[2] * far_m, r.place.error_m};
   } else {
-    r.eye = {view.eye, float_rounding * std::sqrt(3.0) * greatest(view.eye - centre_)};
+    r.eye = rounded(view.eye);
   }
   return r;
 }
 
+double Occlusion::beyond_all_m(const dvec3& place) const {
+  return 2 * (diagonal_m_ + glm::length(place - middle_));
+}
+
 // A directional light is a point so far away that all triangles lie before it.
 RoundedPoint Occlusion::source_of(const Light& light, const Receiver& receiver) const {
-  if (!is_directional(light))
-    return {light.position, float_rounding * std::sqrt(3.0) * greatest(light.position - centre_)};
+  if (!is_directional(light)) return rounded(light.position);
   const dvec3& place = receiver.place.place;
-  const double far_m = 2 * (diagonal_m_ + glm::length(place - centre_));
+  const double far_m = beyond_all_m(place);
   return {place - glm::normalize(dvec3(light.direction)) * far_m,
           receiver.place.error_m + float_rounding * far_m};
 }
@@ -160,11 +169,13 @@ bool Occlusion::share_an_edge(int a, const Met& met_a, int b, const Met& met_b) 
   return a1 == b1 && a2 == b2 && met_a.light_side != met_b.light_side;
 }
 
-// It is a share of the way in float: three roundings of that, and two of the difference.
-RoundedPoint Occlusion::end_of(const RoundedPoint& source, const Receiver& r) const {
+// Of a light with a place it is a share of the way in float: three roundings of that, and two of the
+// difference. Towards a direction it is a step from the receiver.
+RoundedPoint Occlusion::end_of(const Light& light, const RoundedPoint& source, const Receiver& r) const {
   const dvec3 step = source.place - r.place.place;
-  const double length = glm::length(step);
-  return {r.place.place + step * (r.gap_m / length), r.place.error_m + 6 * float_rounding * length};
+  const double length = glm::length(step),
+               rounded_m = is_directional(light) ? glm::length(r.place.place - origin_) + r.gap_m : length;
+  return {r.place.place + step * (r.gap_m / length), r.place.error_m + 6 * float_rounding * rounded_m};
 }
 
 // How near a triangle's box must be to a segment. A float method may leave a triangle to its box, which it
@@ -172,7 +183,7 @@ RoundedPoint Occlusion::end_of(const RoundedPoint& source, const Receiver& r) co
 double Occlusion::reach_of(const RoundedPoint& source, const RoundedPoint& end) const {
   return vertex_error_m_ + source.error_m + end.error_m +
          float_rounding *
-             (32 * glm::length(source.place - end.place) + 8 * glm::length(source.place - centre_));
+             (32 * glm::length(source.place - end.place) + 8 * glm::length(source.place - origin_));
 }
 
 // near(source, end, reach, visit) calls visit for all triangles within reach, until it returns true.
@@ -192,7 +203,7 @@ SightAnswer Occlusion::sight_of(const Light& light, const Receiver& r, const Cor
   if (sides < 0) return {Sight::hidden, r.own, is_directional(light) ? 0 : length};
   const SightAnswer unhidden{sides > 0 ? Sight::seen : Sight::either, {}, 0};
   if (!(length > r.gap_m)) return unhidden;
-  const RoundedPoint end = end_of(source, r);
+  const RoundedPoint end = end_of(light, source, r);
   std::optional<SightAnswer> hidden;
   std::vector<std::pair<int, Met>> unsure;
   const auto meets = [&](int number) {
@@ -239,7 +250,7 @@ Veil Occlusion::veil(const Light& light, const Receiver& r) const {
   const RoundedPoint source = source_of(light, r);
   double least = 1, most = 1;  // let through
   if (!(glm::length(source.place - r.place.place) > r.gap_m)) return {};
-  const RoundedPoint end = end_of(source, r);
+  const RoundedPoint end = end_of(light, source, r);
   tree_.walk(source.place, end.place, reach_of(source, end), [&](int number) {
     const CastingTriangle& t = numbers_[size_t(number)];
     if (t == r.own || !is_veil(t)) return false;
@@ -264,7 +275,7 @@ void Occlusion::sights(const Light& light, std::span<const Receiver* const> rece
     for (const Receiver* r : receivers) {
       source = source_of(light, *r);
       if (!(glm::length(source.place - r->place.place) > r->gap_m)) continue;
-      ends.push_back(end_of(source, *r));
+      ends.push_back(end_of(light, source, *r));
       box.min = glm::min(box.min, ends.back().place), box.max = glm::max(box.max, ends.back().place);
       reach = std::max(reach, reach_of(source, ends.back()));
     }

@@ -68,7 +68,8 @@ class Occlusion {
   // own. With BlendedCasters::alpha; else nothing.
   Veil veil(const Light& light, const Receiver& receiver) const;
 
-  double vertex_error_m() const { return vertex_error_m_; }
+  // A vertex or light at `place`, as far off as floats relative to the rays' origin may put it.
+  RoundedPoint rounded(const glm::dvec3& place) const;
 
  private:
   enum class Meeting { none, crossed, unsure };
@@ -82,8 +83,8 @@ class Occlusion {
     glm::dvec3 weights{1.0 / 3}, errors{1};  // of the corners, where the segment meets it
   };
   Corners corners_of(const CastingTriangle& triangle) const;
-  RoundedPoint rounded(const glm::dvec3& vertex) const { return {vertex, vertex_error_m_}; }
-  RoundedPoint end_of(const RoundedPoint& source, const Receiver& receiver) const;
+  double beyond_all_m(const glm::dvec3& place) const;  // further from there than all triangles
+  RoundedPoint end_of(const Light& light, const RoundedPoint& source, const Receiver& receiver) const;
   double reach_of(const RoundedPoint& source, const RoundedPoint& end) const;
   template <typename Near>
   SightAnswer sight_of(const Light& light, const Receiver& receiver, const Corners& own, int* last,
@@ -99,8 +100,9 @@ class Occlusion {
   const Scene& scene_;
   BlendedCasters by_blended_;
   MaskCover masks_;
-  glm::dvec3 centre_{0};
-  double diagonal_m_ = 0, vertex_error_m_ = 0;
+  glm::dvec3 origin_;                           // of the rays
+  glm::dvec3 middle_{0};                        // of the box around the scene
+  double diagonal_m_ = 0, vertex_error_m_ = 0;  // of the box; the largest of a vertex
   std::vector<CastingTriangle> numbers_;
   std::vector<Corners> corners_;  // world, by number
   TriangleTree tree_;

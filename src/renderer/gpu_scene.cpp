@@ -4,6 +4,7 @@
 
 #include "cl/transfer.h"
 #include "renderer/upload/scene_surfaces.h"
+#include "scene/ray_origin.h"
 
 namespace lightgrid {
 namespace {
@@ -116,8 +117,11 @@ std::shared_ptr<RayScene> GpuScene::in_rays(TexelLayout layout, BlendedCasters b
   const bool made = !held;
   if (made) of.rays = held = std::make_shared<RayScene>(*renderer_.cl, *renderer_.kernels, ray_options_);
   const bool reshaped = made || of.shape != shape_version_;
+  const glm::dvec3 origin = ray_origin(scene_);
+  const bool moved = made || held->origin() != origin;
+  if (moved) held->set_origin(origin);
   if (reshaped) set_ray_meshes(scene_, *held);
-  if (reshaped || of.instances != instances_version_) set_ray_instances(scene_, by_blended, *held);
+  if (reshaped || moved || of.instances != instances_version_) set_ray_instances(scene_, by_blended, *held);
   of.shape = shape_version_, of.instances = instances_version_;
   if (reshaped && by_blended == BlendedCasters::alpha) {
     held->set_masks(masks_with_blended(*renderer_.cl, scene_, layout, in_cl(layout).vertices()));

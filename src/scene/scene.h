@@ -172,6 +172,7 @@ struct Scene {
   std::vector<Instance> instances;
   std::vector<Light> lights;
   std::vector<Camera> cameras;
+  bool has_own_lights = false;     // its file has some, if only hidden ones: it is given no default lights
   glm::vec3 ambient{0.02f};        // constant radiance from all sides; occlusion maps darken it
   glm::vec3 background{0};         // radiance without any surface
   int samples = 1;                 // a pixel, that it asks to be drawn with: 1, 2, 4 or 8 (docs/samples.md)

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/text.h"
+#include "plan/coarse_shadows.h"
 #include "scene/builtin.h"
 #include "scene/camera_path.h"
 #include "scene/light_motion.h"
@@ -317,7 +318,7 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
              eye.y, eye.z, target.x, target.y, target.z);
   }
   const View view = make_view(chosen, size.width, size.height);
-  if (scene.lights.empty() && choice.lights < 0 && choice.lights_file.empty()) {
+  if (scene.lights.empty() && !scene.has_own_lights && choice.lights < 0 && choice.lights_file.empty()) {
     log_info("{}: no lights; adding a key and a fill light fixed to the camera (lights 0: none)",
              choice.scene);
     DefaultLights added = default_lights(view);
@@ -328,6 +329,9 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
   place_virtual_lights(scene, choice);
   if (const auto casters = chosen_casters(choice.shadows)) choose_shadow_casters(scene, *casters);
   tell_endless_lights(scene, choice);
+  if (const std::string coarse = describe(coarse_shadows(scene, chosen_settings(choice).ranges), scene);
+      !coarse.empty())
+    log_warning("{}: {}", choice.scene, coarse);
   return view;
 }
 

@@ -1,5 +1,6 @@
 #include "world_grid/world_cell.h"
 
+#include "base/median.h"
 #include "shared/world_grid.h"
 
 namespace lightgrid {
@@ -13,10 +14,7 @@ double sampled_median(std::span<const CullLight> lights) {
   std::vector<double> radii;
   for (size_t i = 0; i < lights.size(); i += sample_step(lights.size()))
     if (is_local(lights[i]) && lights[i].radius_m > 0) radii.push_back(lights[i].radius_m);
-  if (radii.empty()) return 0;
-  const auto middle = radii.begin() + std::ptrdiff_t(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
-  return std::max(*middle, 1e-12);
+  return radii.empty() ? 0 : std::max(median_of(std::move(radii)), 1e-12);
 }
 
 void LitBox::add(const CullLight& light, double most_radius) {

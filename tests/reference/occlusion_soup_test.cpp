@@ -107,10 +107,11 @@ std::vector<size_t> first_alike(const std::vector<glm::vec3>& p) {
 Soup soup_of(Random& random, const Scene& scene, const Occlusion& occlusion, const Pair& pair,
              const std::vector<size_t>& first, double by) {
   const std::vector<glm::vec3>& p = scene.meshes[0].positions;
-  const double of_vertices = by * occlusion.vertex_error_m();
   std::vector<Point> points;
   for (size_t i = 0; i < p.size(); ++i)
-    points.push_back(first[i] < i ? points[first[i]] : moved(random, glm::dvec3(p[i]), of_vertices));
+    points.push_back(first[i] < i
+                         ? points[first[i]]
+                         : moved(random, glm::dvec3(p[i]), by * occlusion.rounded(glm::dvec3(p[i])).error_m));
   Soup soup;
   for (size_t i = 0; i < p.size(); i += 3)
     soup.triangles.push_back({points[i], points[i + 1], points[i + 2]});

@@ -18,12 +18,23 @@ Sight sight_of(const Occlusion& occlusion, const Light& light, const dvec3& plac
   return occlusion.sight(light, receiver_at(place)).sight;
 }
 
-// Coordinates reach 10 m from the middle, and each may be off by half a unit in the last place.
-TEST(Occlusion, VerticesAreOffByTheRoundingOfTheScenesExtent) {
-  EXPECT_NEAR(Occlusion(scene_of({ground_mesh()})).vertex_error_m(), std::sqrt(3.0) * 10 * 0x1p-24, 1e-12);
+// Each coordinate may be off by half a unit in the last place, relative to the rays' origin. Far away that is
+// 99,968 m along x, rounded itself.
+TEST(Occlusion, VerticesAreOffByTheirRoundingRelativeToTheOrigin) {
+  EXPECT_NEAR(Occlusion(scene_of({ground_mesh()})).rounded({10, 0, -10}).error_m,
+              std::sqrt(3.0) * 10 * 0x1p-24, 1e-12);
   Scene far = scene_of({ground_mesh()});
   far.instances[0].world_from_object[3] = {1e5, 0, 0, 1};
-  EXPECT_NEAR(Occlusion(far).vertex_error_m(), std::sqrt(3.0) * (10 + 1e5 * 0x1p-24) * 0x1p-24, 1e-12);
+  EXPECT_NEAR(Occlusion(far).rounded({1e5 + 10, 0, -10}).error_m,
+              std::sqrt(3.0) * (42 + 99968 * 0x1p-24) * 0x1p-24, 1e-12);
+}
+
+TEST(Occlusion, AFarInstanceLeavesTheOthersVerticesWhereTheyAre) {
+  Scene scene = scene_of({ground_mesh(), roof_mesh(), roof_mesh()});
+  const RoundedPoint near = Occlusion(scene).rounded({2, 2, 2});
+  scene.instances[2].world_from_object[3] = {1e7, 1e7, -1e7, 1};
+  EXPECT_EQ(Occlusion(scene).rounded({2, 2, 2}).error_m, near.error_m);
+  EXPECT_LT(near.error_m, 1e-6);
 }
 
 // Light at (1, 4, 0): the roof, half as high, throws a shadow twice as large, x -1 to 3 and z -4 to 4.
@@ -153,8 +164,8 @@ TEST(Occlusion, APixelsReceiverLiesInItsTrianglesPlane) {
   EXPECT_NEAR(r.place.place.y, 0, 1e-12);
   EXPECT_NEAR(r.place.place.z, -2.5 * (1 - wrong), 1e-9);
   EXPECT_LT(r.place.error_m, 3e-5);
-  EXPECT_NEAR(r.gap_m, 1e-3 + 0x1p-20 * glm::length(dvec3(2.5, 1, 2.5)), 1e-9)
-      << "the box's centre is at y 1";
+  EXPECT_NEAR(r.gap_m, 1e-3 + 0x1p-20 * glm::length(dvec3(2.5, 0, 2.5)), 1e-9)
+      << "from the origin, which is the median of the instances in steps of 64 m";
   EXPECT_EQ(r.eye.place, dvec3(0, 5, 0));
 }
 
