@@ -115,7 +115,7 @@ std::shared_ptr<RayScene> GpuScene::in_rays(TexelLayout layout, BlendedCasters b
   HeldRays& of = in_rays_[by_blended];
   std::shared_ptr<RayScene> held = of.rays.lock();
   const bool made = !held;
-  if (made) of.rays = held = std::make_shared<RayScene>(*renderer_.cl, *renderer_.kernels, ray_options_);
+  if (made) of.rays = held = std::make_shared<RayScene>(*renderer_.cl, *renderer_.kernels);
   const bool reshaped = made || of.shape != shape_version_;
   const glm::dvec3 origin = ray_origin(scene_);
   const bool moved = made || held->origin() != origin;

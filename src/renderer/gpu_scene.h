@@ -17,9 +17,8 @@ namespace lightgrid {
 
 class GpuScene {
  public:
-  // Both outlive it. rays: of in_rays().
-  GpuScene(const Renderer& renderer, const Scene& scene, const RayOptions& rays = {})
-      : renderer_(renderer), scene_(scene), ray_options_(rays) {}
+  // Both outlive it.
+  GpuScene(const Renderer& renderer, const Scene& scene) : renderer_(renderer), scene_(scene) {}
 
   // After the scene changed: uploads the vertices of meshes that deformed, and nothing else. Views read
   // instances, lights and cameras from the scene.
@@ -59,7 +58,6 @@ class GpuScene {
  private:
   const Renderer& renderer_;
   const Scene& scene_;
-  const RayOptions ray_options_;
   std::unique_ptr<GlScene> in_gl_;
   std::map<TexelLayout, std::unique_ptr<ClScene>> in_cl_;
   std::weak_ptr<RasterScene> in_raster_;

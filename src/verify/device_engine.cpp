@@ -73,9 +73,9 @@ ShadowImage shadow_image(RenderView& v, const Frame& frame) {
 class DeviceSequence : public FrameSequence {
  public:
   DeviceSequence(Renderer& renderer, const Scene& scene, const Technique& technique, const View& view,
-                 const Settings& settings, const std::optional<glm::dvec3>& ray_origin)
+                 const Settings& settings)
       : technique_(technique),
-        gpu_(renderer, scene, {.origin = ray_origin}),
+        gpu_(renderer, scene),
         view_(renderer, gpu_, view, settings, technique.needs) {}
 
   SequenceFrame draw(const View& view, const SceneChanges& changes) override {
@@ -86,9 +86,6 @@ class DeviceSequence : public FrameSequence {
     const Frame frame = draw_frame(technique_, view_);
     SequenceFrame drawn{.pixels = read_pixels(view_, frame.image)};
     drawn.shadows = shadow_image(view_, frame);
-    if (frame.shadow_figures && frame.shadow_figures().lights > 0)
-      drawn.ray_origin =
-          gpu_.in_rays(view_.plan.settings.texels, view_.plan.settings.blended_casters())->origin();
     if (view_.renderer.gl) check_gl(technique_.name);
     return drawn;
   }
@@ -190,12 +187,11 @@ class DeviceEngine : public CullEngine {
   }
 
   std::unique_ptr<FrameSequence> sequence(const Scene& scene, const std::string& name, const View& view,
-                                          const Settings& settings,
-                                          const std::optional<glm::dvec3>& ray_origin) override {
+                                          const Settings& settings) override {
     const Technique& technique = find_technique(name);
     Renderer* renderer = renderer_for(technique, settings);
     if (!renderer) return nullptr;
-    return std::make_unique<DeviceSequence>(*renderer, scene, technique, view, settings, ray_origin);
+    return std::make_unique<DeviceSequence>(*renderer, scene, technique, view, settings);
   }
 
   std::vector<ListImage> lists(const Scene& scene, const std::string& name, std::span<const View> views,

@@ -82,9 +82,8 @@ struct GroupImage {
 
 // A frame of a scene that moves.
 struct SequenceFrame {
-  ShadowImage shadows;                   // without surfaces where OpenGL draws them
-  std::vector<glm::vec4> pixels;         // linear
-  std::optional<glm::dvec3> ray_origin;  // RayScene::origin; none where it found no shadows
+  ShadowImage shadows;            // without surfaces where OpenGL draws them
+  std::vector<glm::vec4> pixels;  // linear
 };
 
 // The frames of a technique by one renderer, which keeps what it may from the frames before.
@@ -148,11 +147,9 @@ class CullEngine {
   }
 
   // Frames of a scene that outlives them and may change from one to the next, the first from `view`. Null
-  // from an engine that only culls, or without OpenGL where the technique draws with it. Shadows at the edges
-  // of triangles depend on ray_origin, which a scene that moves keeps; none: the scene's own.
+  // from an engine that only culls, or without OpenGL where the technique draws with it.
   virtual std::unique_ptr<FrameSequence> sequence(const Scene&, const std::string& /*technique*/,
-                                                  const View& /*view*/, const Settings&,
-                                                  const std::optional<glm::dvec3>& /*ray_origin*/ = {}) {
+                                                  const View& /*view*/, const Settings&) {
     return {};
   }
 

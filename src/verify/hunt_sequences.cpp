@@ -221,14 +221,14 @@ SequenceReport compare_sequence(CullEngine& engine, HuntedScene made, const Sequ
   // OpenGL's order of a mesh's triangles, which decides between two in one place, follows its first shape.
   const bool deforms = !draws_with_opengl(find_technique(kind.technique).needs, settings);
   MovingScene moving(std::move(made), deforms, random);
-  const auto started = [&](const std::optional<dvec3>& ray_origin) {
-    return engine.sequence(moving.scene(), kind.technique, moving.view(), settings, ray_origin);
+  const auto started = [&] {
+    return engine.sequence(moving.scene(), kind.technique, moving.view(), settings);
   };
-  const std::unique_ptr<FrameSequence> keeping = started({});
+  const std::unique_ptr<FrameSequence> keeping = started();
   for (int i = 0; keeping && i < frames; ++i) {
     const SceneChanges changes = i ? moving.move() : SceneChanges();
     const SequenceFrame kept = keeping->draw(moving.view(), changes),
-                        fresh = started(kept.ray_origin)->draw(moving.view(), {});
+                        fresh = started()->draw(moving.view(), {});
     ++report.frames;
     if (const std::string in = difference(kept, fresh); !in.empty() && report.stale++ == 0)
       report.why = fmt::format("frame {} of {} {}: the kept {} differ", i, kind.technique, kind.settings, in);

@@ -15,9 +15,9 @@ namespace {
 class OverlooksLights : public FrameSequence {
  public:
   OverlooksLights(CullEngine& library, const Scene& scene, const std::string& technique, const View& view,
-                  const Settings& settings, const std::optional<glm::dvec3>& ray_origin)
+                  const Settings& settings)
       : scene_(scene), shown_(scene) {
-    frames_ = library.sequence(shown_, technique, view, settings, ray_origin);
+    frames_ = library.sequence(shown_, technique, view, settings);
   }
 
   SequenceFrame draw(const View& view, const SceneChanges& changes) override {
@@ -74,12 +74,9 @@ struct Faulty : CullEngine {
     return library->shadows(scene, views, settings);
   }
   std::unique_ptr<FrameSequence> sequence(const Scene& scene, const std::string& technique, const View& view,
-                                          const Settings& settings,
-                                          const std::optional<glm::dvec3>& ray_origin) override {
-    if (!forgotten)
-      return std::make_unique<OverlooksLights>(*library, scene, technique, view, settings, ray_origin);
-    return std::make_unique<Forgets>(library->sequence(scene, technique, view, settings, ray_origin),
-                                     forgotten);
+                                          const Settings& settings) override {
+    if (!forgotten) return std::make_unique<OverlooksLights>(*library, scene, technique, view, settings);
+    return std::make_unique<Forgets>(library->sequence(scene, technique, view, settings), forgotten);
   }
 };
 
@@ -146,7 +143,7 @@ TEST(HuntOfSequences, AnimatedVisibilityDoesNotShowWhatWasKept) {
     size_t changed = 0;
     for (int i = 0; i < 16; ++i, changes = set_time(scene, double(random.next() % 4) - 0.5)) {
       const SequenceFrame kept = keeping->draw(view, changes);
-      const auto fresh = engine->sequence(scene, kind.technique, view, settings_of(kind), kept.ray_origin);
+      const auto fresh = engine->sequence(scene, kind.technique, view, settings_of(kind));
       EXPECT_EQ(difference(kept, fresh->draw(view, {})), "") << kind.settings << ", frame " << i;
       changed += !changes.empty();
     }
