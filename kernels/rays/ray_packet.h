@@ -8,8 +8,8 @@
 // edge, and with its own. The planes are made once for all lanes, in double; swapping the two ends of an edge
 // turns all signs, so that two triangles with a common edge never both miss a segment.
 //
-// What a box test rounds it covers itself: relative errors (less than 8 of 2^-24) by SLACK, that of where
-// segments begin by moving the box's sides outwards (`reach`). A triangle counts as met only if its own box
+// A box test covers its own rounding: relative errors (less than 8 of 2^-24) by SLACK, the error of a
+// segment's start by moving the box's sides outwards (`reach`). A triangle counts as met only if its own box
 // is met too. Box tests are monotonic in the box, so the boxes around it are then met as well, and no answer
 // depends on the tree.
 #pragma once

@@ -108,10 +108,8 @@ static inline __attribute__((always_inline)) bool leaf_blocked(const RayScene* s
 }
 
 static inline void fetch_child(const RayScene* scene, int child, int count) {
-  if (count == 0)
-    FETCH(scene->nodes + child);
-  else
-    FETCH(scene->triangles + child);
+  if (count == 0) FETCH(scene->nodes + child);
+  else FETCH(scene->triangles + child);
 }
 
 // Lanes with the bits `live`, whose segments go the same way along each axis.

@@ -26,7 +26,7 @@ static inline real estimated_light(const Receivers* r, whole groups, global cons
                                                                                    : REAL(0.0f);
 }
 
-// Of the lanes' surfaces. Null: there are no groups.
+// The light groups of each lane's surface: all of them if triangle_groups is null.
 static inline whole groups_of_lanes(const Receivers* r, global const uint* triangle_groups) {
   whole groups = (whole)(-1);
   if (!triangle_groups) return groups;

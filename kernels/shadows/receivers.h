@@ -114,7 +114,8 @@ static inline Receivers receivers_at(mask_t covered, real x, real y, real depth,
   r.at.y = fma(p.z, REAL(m[5]), fma(p.y, REAL(m[4]), p.x * m[3])) + v->from_y;
   r.at.z = fma(p.z, REAL(m[8]), fma(p.y, REAL(m[7]), p.x * m[6])) + v->from_z;
   r.shaded = r.at;
-  r.gap = fma(REAL(0x1p-20f), sqrt(fma(r.at.z, r.at.z, fma(r.at.y, r.at.y, r.at.x * r.at.x))), REAL(1e-3f));
+  r.gap = fma(REAL(SHADOW_GAP_SHARE), sqrt(fma(r.at.z, r.at.z, fma(r.at.y, r.at.y, r.at.x * r.at.x))),
+              REAL(SHADOW_GAP_M));
   r.own = (whole)(-1), r.normal = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f)), r.slack = REAL(0.0f);
   return r;
 }

@@ -97,7 +97,7 @@ int plan(PlanOptions o) {
                               {"first_instance", coarse.first_instance},
                               {"gap_m", coarse.gap_m}};
   if (edges)
-    json["edges"] = {{"samples", edges->samples}, {"pixels", edges->pixels},   {"edge_pixels", edges->edges},
+    json["edges"] = {{"samples", edges->samples}, {"pixels", edges->pixels}, {"edge_pixels", edges->edges},
                      {"covered", edges->covered}, {"shadings", edges->shaded}, {"saved", edges->saved()}};
   if (leaks) json["leaks"] = leaks_json(*leaks, proposal, chosen.scene);
   write_json(o.json, json.dump(1));

@@ -8,7 +8,7 @@
 
 namespace lightgrid {
 
-// Of an even number the upper one; 0 without values.
+// Returns the upper one of an even number of values, and 0 without values.
 inline double median_of(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);

@@ -297,7 +297,7 @@ class ShadowBits : public PassCache {
     return work.plan.settings.picks_shadows() && work.plan.groups;
   }
 
-  // Instances keep their groups; their triangles' numbers change only where the tree is built anew.
+  // Instances keep their groups; their triangles' numbers change only when the tree is rebuilt.
   void put_groups(Work& work, const RayScene& rays) {
     if (grouped_builds_ == rays.builds()) return;
     grouped_builds_ = rays.builds();

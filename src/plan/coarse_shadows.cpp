@@ -3,20 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "scene/hidden.h"
 #include "scene/ray_origin.h"
+#include "shared/shadow_records.h"
 
 namespace lightgrid {
 namespace {
 
-constexpr double usual_gap_m = 1e-3, gap_share = 0x1p-20;  // kernels/shadows/receivers.h
+double gap_at(double distance_m) { return double(SHADOW_GAP_M) + double(SHADOW_GAP_SHARE) * distance_m; }
 
-bool is_coarse(double gap_m, double size_m) { return gap_m > 10 * usual_gap_m && gap_m > 1e-3 * size_m; }
+bool is_coarse(double gap_m, double size_m) { return gap_m > 1e-2 && gap_m > 1e-3 * size_m; }
 
-void count(double gap_m, int index, int& number, int& first, double& most_m) {
+void count(double gap_m, int index, int& number, int& first, double& max_m) {
   if (number++ == 0) first = index;
-  most_m = std::max(most_m, gap_m);
+  max_m = std::max(max_m, gap_m);
 }
 
 }  // namespace
@@ -27,17 +28,20 @@ CoarseShadows coarse_shadows(const Scene& scene, const LightRanges& ranges) {
   bool sun = false;
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
-    sun |= light.casts_shadow && is_directional(light);
-    if (!light.casts_shadow || is_directional(light)) continue;
-    const double gap_m = usual_gap_m + gap_share * glm::length(light.position - origin);
+    if (!light.casts_shadow || is_hidden(light)) continue;
+    if (is_directional(light)) {
+      sun = true;
+      continue;
+    }
+    const double gap_m = gap_at(glm::length(light.position - origin));
     if (is_coarse(gap_m, range_of(light, i, ranges)))
       count(gap_m, int(i), coarse.lights, coarse.first_light, coarse.gap_m);
   }
   for (size_t i = 0; sun && i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const WorldBox box = world_box(scene.meshes[size_t(instance.mesh)], instance.world_from_object);
-    if (box.empty()) continue;
-    const double gap_m = usual_gap_m + gap_share * glm::length(glm::clamp(origin, box.min, box.max) - origin);
+    if (box.empty() || is_hidden(instance)) continue;
+    const double gap_m = gap_at(glm::length(glm::clamp(origin, box.min, box.max) - origin));
     if (is_coarse(gap_m, glm::length(box.max - box.min)))
       count(gap_m, int(i), coarse.instances, coarse.first_instance, coarse.gap_m);
   }

@@ -90,8 +90,7 @@ class RayScene {
   ~RayScene();
   RayScene(RayScene&&) noexcept;
 
-  // Instances then have to come again where it is another one: the tree is built anew. Throws input: it is
-  // not finite.
+  // A new origin discards the tree: instances then have to come again. Throws input: it is not finite.
   void set_origin(const glm::dvec3& origin);
   // Instances then have to come again. Throws input: an index out of range, a number of indices that is no
   // multiple of 3.

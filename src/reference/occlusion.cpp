@@ -169,8 +169,8 @@ bool Occlusion::share_an_edge(int a, const Met& met_a, int b, const Met& met_b) 
   return a1 == b1 && a2 == b2 && met_a.light_side != met_b.light_side;
 }
 
-// Of a light with a place it is a share of the way in float: three roundings of that, and two of the
-// difference. Towards a direction it is a step from the receiver.
+// For a light with a place the end is a share of the way in float: three roundings of the share, two of the
+// difference. For a directional light it is a step from the receiver.
 RoundedPoint Occlusion::end_of(const Light& light, const RoundedPoint& source, const Receiver& r) const {
   const dvec3 step = source.place - r.place.place;
   const double length = glm::length(step),

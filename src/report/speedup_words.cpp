@@ -53,8 +53,7 @@ std::string lists_in_opencl_in_words(const Speedup& speedup) {
   if (!speedup.lists || !speedup.lists_in_opencl) return "";
   const double times = *speedup.lists_in_opencl;
   if (std::abs(std::log(times / *speedup.lists)) <= std::log(worth_a_word)) return "";
-  return fmt::format("; within OpenCL, shorter lists give {} times",
-                     short_number(times));
+  return fmt::format("; within OpenCL, shorter lists give {} times", short_number(times));
 }
 
 // What differs from the reference where no rows tell how much each of it contributes.

@@ -15,8 +15,8 @@ struct Speedup {
   // OpenCL instead of OpenGL, between rows with equally long lists. Empty: no such rows were timed.
   std::optional<double> api;
   double other = 1;  // everything that no pair of rows isolates
-  // What shorter lists give where kernels draw every light too. Differs from `lists` if these were isolated
-  // in OpenGL, since a light at a pixel costs less in kernels. Empty: not timed.
+  // The factor of shorter lists relative to kernels that go through every light. It differs from `lists` if
+  // those were isolated in OpenGL, since kernels spend less time per light and pixel. Empty: not timed.
   std::optional<double> lists_in_opencl;
   // The row that isolates a factor, next to the reference or to the row itself. Null: the two themselves do.
   const RunResult* by = nullptr;

@@ -1,5 +1,5 @@
-// What is hidden at the scene's time (KHR_node_visibility): set_time shrinks an instance to a point, which
-// covers no pixel, and gives a light a radius of 0. Totals and boxes leave both out.
+// Instances and lights that are hidden at the scene's time (KHR_node_visibility): set_time shrinks an
+// instance to a point, which covers no pixel, and gives a light a radius of 0. Totals and boxes leave both out.
 #pragma once
 
 #include "scene/scene.h"

@@ -90,7 +90,7 @@ static std::vector<glm::dvec3> surface_points(const Scene& scene, size_t count) 
 
 namespace {
 
-// Of the lights that are sampled, at each of some points on surfaces.
+// Irradiance of the sampled lights at points on surfaces.
 struct SampledIrradiance {
   std::vector<std::vector<double>> at_points;
   double lights = 0;  // sampled

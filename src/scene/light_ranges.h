@@ -55,8 +55,8 @@ struct CutoffEffect {
   double cutoff = 0, lights = 0, share = 0;
 };
 
-// Of 0.0001, 0.0002, 0.0005, … 1000000 the least with which an eighth of the lights, or eight, reach a point
-// on average. If it keeps less than 0.9 of the light, then also the largest that keep 0.7 and 0.9, where they
+// Returns the smallest of the cutoffs 0.0001, 0.0002, 0.0005, … 1000000 with which at most an eighth of the
+// lights, or eight, reach a point on average. If it keeps less than 0.9 of the light, then also the largest that keep 0.7 and 0.9, where they
 // leave two thirds of the lights or fewer. Largest cutoff first; empty without surfaces, or if no such cutoff
 // is enough. Deterministic.
 std::vector<CutoffEffect> helpful_cutoffs(const Scene& scene);

@@ -7,12 +7,12 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t most_points = 1000;   // of each kind
+constexpr size_t max_points = 1000;   // of each kind
 constexpr double farthest_m = 0x1p50;  // parked there, to switch it off
 
 template <typename T, typename Place>
 void add_places(std::vector<glm::dvec3>& places, const std::vector<T>& of, const Place& place) {
-  const size_t step = of.size() / most_points + 1;
+  const size_t step = of.size() / max_points + 1;
   for (size_t i = 0; i < of.size(); i += step) {
     const glm::dvec3 p = place(of[i]);
     if (glm::length(p) < farthest_m) places.push_back(p);

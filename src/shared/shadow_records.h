@@ -8,6 +8,11 @@
 namespace lightgrid {
 #endif
 
+// A ray hides nothing in its last SHADOW_GAP_M metres and SHADOW_GAP_SHARE of its end's distance from the
+// origin.
+#define SHADOW_GAP_M 1e-3f
+#define SHADOW_GAP_SHARE 0x1p-20f
+
 // A light of FramePlan::local. Listed pairs out of its reach get no ray: `least_squared` is more than the
 // square of its range, and the cone wider than its own, by what shading may round
 // (passes/find_shadows.cpp).

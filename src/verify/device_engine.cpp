@@ -57,7 +57,7 @@ std::vector<glm::vec4> read_pixels(RenderView& v, const ShadedImage& image) {
   return pixels;
 }
 
-// What OpenCL's rasteriser left of a frame, and its shadows.
+// A frame's shadows, and its surfaces if OpenCL's rasteriser drew them.
 ShadowImage shadow_image(RenderView& v, const Frame& frame) {
   ShadowImage image{.lights = v.plan.local};
   if (frame.shadows) image.shadows = frame.shadows();

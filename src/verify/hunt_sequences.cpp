@@ -158,7 +158,7 @@ void MovingScene::move_light(SceneChanges& changes) {
   changes.lights.push_back(int(i));
 }
 
-// Of what a light may change without becoming another kind of light.
+// Swaps two lights of one type, both or neither of which cast shadows.
 void MovingScene::swap_lights(SceneChanges& changes) {
   const size_t i = any_of(scene_.lights.size()), k = any_of(scene_.lights.size());
   Light &a = scene_.lights[i], &b = scene_.lights[k];

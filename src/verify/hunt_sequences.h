@@ -24,7 +24,7 @@ class MovingScene {
   // A scene with a lamp that casts. Some get a sun or a blended surface. deforms: whether meshes change.
   MovingScene(HuntedScene made, bool deforms, Random& random);
 
-  // What changed, besides view(). Nothing in some frames.
+  // Returns the changes apart from view(). Some frames have none.
   SceneChanges move();
 
   const Scene& scene() const { return scene_; }

@@ -26,7 +26,7 @@ struct ShadowHuntClass {
 
 HuntedScene hunted_scene(const ShadowHuntClass& hunted, uint64_t seed);
 
-// Those whose name the regular expression finds; empty: all. Throws Error(input) where it finds none.
+// Classes whose name matches the regular expression; all if it is empty. Throws Error(input) if none matches.
 std::vector<ShadowHuntClass> chosen_shadow_classes(const std::string& filter);
 
 void move_eye(View& view, const glm::dvec3& by);

@@ -252,9 +252,9 @@ void one_far_off(Check& c) {
   add_triangles(scene, box_of({-1, -1, -1}, {1, 1, 1}));
   for (const double metres : {1e5, 1e6, 1e7}) {
     scene.instances.back().world_from_object[3] = {metres, -metres / 3, metres / 7, 1};
-    const std::vector<ShadowImage> beside = shadows(c, scene, views);
-    for (size_t i = 0; i < beside.size(); ++i) {
-      const std::string changed = difference(alone[i], beside[i]);
+    const std::vector<ShadowImage> with_far = shadows(c, scene, views);
+    for (size_t i = 0; i < with_far.size(); ++i) {
+      const std::string changed = difference(alone[i], with_far[i]);
       c.that(changed.empty(), "view {}: {} change with an instance {} m away", i, changed, metres);
     }
   }

@@ -78,6 +78,23 @@ TEST(InfoCommand, PlanAndCheckCountOnlyWhatIsOn) {
   }
 }
 
+// Default lights are for files without lights: whoever hides all of them wants it dark.
+TEST(InfoCommand, AFileWhoseLightsAreAllHiddenGetsNoDefaultLights) {
+  const ModelFolder folder;
+  GltfBuilder made = exported_level(2);
+  const auto lights = [&] {
+    return run_program({"plan", folder.write("level.gltf", made.text()), "--json", "-"}).err;
+  };
+  EXPECT_THAT(lights(), testing::Not(HasSubstr("no lights")));
+  made.root["extensionsUsed"] = {"KHR_lights_punctual", "KHR_node_visibility"};
+  for (auto& node : made.root["nodes"])
+    if (node.contains("extensions") && node["extensions"].contains("KHR_lights_punctual"))
+      node["extensions"]["KHR_node_visibility"]["visible"] = false;
+  EXPECT_THAT(lights(), testing::Not(HasSubstr("no lights")));
+  for (auto& node : made.root["nodes"]) node.erase("extensions");
+  EXPECT_THAT(lights(), HasSubstr("no lights; adding a key and a fill light"));
+}
+
 TEST(InfoCommand, TellsABuiltInScene) {
   const ProgramRun run = run_program({"info", "spheres"});
   EXPECT_EQ(run.status, 0) << run.err;

@@ -5,32 +5,18 @@
 #include <functional>
 
 #include "base/error.h"
+#include "hard_cases/library_engine.h"
 #include "verify/hunt_cases.h"
 
 namespace lightgrid::verify {
 namespace {
 
 // The library with what it returns altered as a fault would.
-struct AlteredLibrary : CullEngine {
-  std::unique_ptr<CullEngine> library = device_engine("");
+struct AlteredLibrary : LibraryEngine {
   std::function<void(RasterImage&, int samples)> of_images = [](RasterImage&, int) {};
   std::function<void(uint32_t& index)> of_indices = [](uint32_t&) {};
   bool lists_of_centres = false;
 
-  std::string name() const override { return "altered"; }
-  bool is_the_library() const override { return false; }
-  HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
-                std::span<const DepthInterval> bounds) override {
-    return library->cull(options, view, lights, bounds);
-  }
-  std::vector<DepthInterval> depth_bounds(const CullerOptions& options, const CullView& view,
-                                          const DepthImage& depth, bool blend) override {
-    return library->depth_bounds(options, view, depth, blend);
-  }
-  HostGrid cull_depth(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
-                      const DepthImage& depth, bool blend) override {
-    return library->cull_depth(options, view, lights, depth, blend);
-  }
   std::optional<RasterImage> rasterize(const RasterOptions& options, const RasterInput& input) override {
     std::optional<RasterImage> image = library->rasterize(options, input);
     of_images(*image, input.camera.grid.samples);

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "hard_cases/library_engine.h"
 #include "support/gltf_pointers.h"
 #include "verify/hunt_sequences.h"
 #include "verify/hunt_shadows.h"
@@ -49,26 +50,11 @@ class Forgets : public FrameSequence {
 };
 
 // The library, whose sequences are drawn with a fault.
-struct Faulty : CullEngine {
+struct Faulty : LibraryEngine {
   explicit Faulty(std::vector<int> SceneChanges::*of = nullptr) : forgotten(of) {}
 
-  std::unique_ptr<CullEngine> library = device_engine("");
   std::vector<int> SceneChanges::*forgotten;  // null: OverlooksLights
 
-  std::string name() const override { return "faulty"; }
-  bool is_the_library() const override { return false; }
-  HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
-                std::span<const DepthInterval> bounds) override {
-    return library->cull(options, view, lights, bounds);
-  }
-  std::vector<DepthInterval> depth_bounds(const CullerOptions& options, const CullView& view,
-                                          const DepthImage& depth, bool blend) override {
-    return library->depth_bounds(options, view, depth, blend);
-  }
-  HostGrid cull_depth(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
-                      const DepthImage& depth, bool blend) override {
-    return library->cull_depth(options, view, lights, depth, blend);
-  }
   std::vector<ShadowImage> shadows(const Scene& scene, std::span<const View> views,
                                    const Settings& settings) override {
     return library->shadows(scene, views, settings);

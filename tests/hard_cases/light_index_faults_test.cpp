@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "hard_cases/library_engine.h"
 #include "reference/position.h"
 #include "verify/run.h"
 
@@ -92,26 +93,12 @@ std::vector<LightIndexFault> light_index_faults() {
 }
 
 // The library's light indices, spoiled.
-class Spoiled : public CullEngine {
+class Spoiled : public LibraryEngine {
  public:
-  explicit Spoiled(Spoil spoil) : library_(device_engine("")), spoil_(spoil) {}
-  std::string name() const override { return "spoiled"; }
-  bool is_the_library() const override { return false; }
-  HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
-                std::span<const DepthInterval> bounds) override {
-    return library_->cull(options, view, lights, bounds);
-  }
-  std::vector<DepthInterval> depth_bounds(const CullerOptions& options, const CullView& view,
-                                          const DepthImage& depth, bool blend) override {
-    return library_->depth_bounds(options, view, depth, blend);
-  }
-  HostGrid cull_depth(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
-                      const DepthImage& depth, bool blend) override {
-    return library_->cull_depth(options, view, lights, depth, blend);
-  }
+  explicit Spoiled(Spoil spoil) : spoil_(spoil) {}
   std::vector<ListImage> lists(const Scene& scene, const std::string& technique, std::span<const View> views,
                                const Settings& settings) override {
-    std::vector<ListImage> images = library_->lists(scene, technique, views, settings);
+    std::vector<ListImage> images = library->lists(scene, technique, views, settings);
     for (size_t i = 0; i < images.size(); ++i) {
       const std::vector<ViewLight> lights = lights_in_view(scene, views[i]);
       const ListedLights before = std::move(images[i].lists);
@@ -128,7 +115,6 @@ class Spoiled : public CullEngine {
   }
 
  private:
-  std::unique_ptr<CullEngine> library_;
   Spoil spoil_;
 };
 

@@ -259,6 +259,16 @@ std::vector<PickedPixel> picked_pixels(TechniqueRun& run, const Scene& scene, si
   return found;
 }
 
+Errors errors_of(const Shaded& shaded, const std::vector<PickedPixel>& pixels) {
+  Errors e;
+  for (const PickedPixel& p : pixels) {
+    const double error = hidden_share_at(shaded.shadows, p.x, p.y, p.brightest) - p.ratio;
+    e.mean += error, e.rms += error * error, ++e.count;
+  }
+  e.mean /= double(e.count), e.rms = std::sqrt(e.rms / double(e.count));
+  return e;
+}
+
 // Each pixel draws by its own hash, so that the mean over pixels is that over many draws.
 TEST(PickedShadows, MeanIsTheHiddenRatioAndNoiseFallsWithTheRays) {
   const Scene scene = soft_scene();
@@ -269,12 +279,7 @@ TEST(PickedShadows, MeanIsTheHiddenRatioAndNoiseFallsWithTheRays) {
       Shaded shaded(scene, "visibility", {sphere, std::string("shadow-pick=") + rays});
       if (pixels.empty())
         pixels = picked_pixels(shaded.run, scene, 4000, sphere[12] == '1' && sphere[13] == '6');
-      Errors e;
-      for (const PickedPixel& p : pixels) {
-        const double error = hidden_share_at(shaded.shadows, p.x, p.y, p.brightest) - p.ratio;
-        e.mean += error, e.rms += error * error, ++e.count;
-      }
-      e.mean /= double(e.count), e.rms = std::sqrt(e.rms / double(e.count));
+      const Errors e = errors_of(shaded, pixels);
       ASSERT_GT(e.count, 1000u);
       std::printf("%s, %s rays a pixel: %zu pixels, mean %.5f (standard error %.5f), RMS %.5f\n", sphere,
                   rays, e.count, e.mean, e.standard_error(), e.rms);
@@ -301,12 +306,7 @@ TEST(PickedShadows, LightsOfOtherGroupsTakeNoPart) {
   }
   for (const char* shape : {"kernel-shape=lanes", "kernel-shape=group"}) {
     Shaded shaded(scene, "visibility", {"shadow-rays=1", "shadow-pick=16", shape});
-    Errors e;
-    for (const PickedPixel& p : pixels) {
-      const double error = hidden_share_at(shaded.shadows, p.x, p.y, p.brightest) - p.ratio;
-      e.mean += error, e.rms += error * error, ++e.count;
-    }
-    e.mean /= double(e.count), e.rms = std::sqrt(e.rms / double(e.count));
+    const Errors e = errors_of(shaded, pixels);
     ASSERT_GT(e.count, 1000u);
     EXPECT_LT(std::abs(e.mean), 3 * e.standard_error()) << shape;
   }

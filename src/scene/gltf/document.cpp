@@ -141,7 +141,7 @@ bool is_of_images(const std::string& extension) {
   return extension == basisu || extension == "EXT_texture_avif" || extension == "MSFT_texture_dds";
 }
 
-// Whether each texture names an image of another format too, which is used.
+// Returns true if each texture also names an image of another format, which is used.
 bool has_other_sources(const Document& doc) {
   for (size_t i = 0; i < doc.model.textures.size(); ++i)
     if (image_of_texture(doc, static_cast<int>(i)) < 0) return false;
