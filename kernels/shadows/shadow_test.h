@@ -3,6 +3,7 @@
 //
 // -DSHADOW_GROUPS  with -DSHADOW_PICK: lights and surfaces have light groups
 // -DSHADOW_BYTES  of a light a share may be hidden (shared/shadow_bits.h)
+// -DSHADOW_CELLS  lights may have light cells, which answer rays in place of the tree
 #pragma once
 
 #include "kernels/common/hash.h"  // here, since what is included below under a condition counts as there
@@ -26,14 +27,27 @@ static inline whole hidden_by_test(ShadowTest* maps, const RayScene* scene, cons
 #define SHADOW_TEST_ARGUMENTS global const uint *triangle_groups,
 #define PICK_GROUPS triangle_groups
 #else
+#ifdef SHADOW_CELLS
+#include "kernels/rays/light_cells.h"
+#define SHADOW_TEST_ARGUMENTS LIGHT_CELL_ARGUMENTS,
+#else
 #define SHADOW_TEST_ARGUMENTS
+#endif
 #define PICK_GROUPS 0
 #endif
+#ifdef SHADOW_CELLS
+#define SHADOW_TEST \
+  { .last_blocker = -1, .cells = LIGHT_CELLS }
+#else
 #define SHADOW_TEST \
   { .last_blocker = -1 }
+#endif
 typedef struct ShadowTest {
   uint traced;
   int last_blocker;
+#ifdef SHADOW_CELLS
+  LightCells cells;
+#endif
 #ifdef SHADOW_PICK
   whole picked[LANES];  // of each block of a tile: 255ths of its lights together
 #endif
@@ -43,6 +57,18 @@ static inline whole hidden_by_test(ShadowTest* rays, const RayScene* scene, cons
                                    global const ShadowLight* l, mask_t active) {
   const RaySource source = {l->x, l->y, l->z, l->w};
   rays->traced += popcount(lane_bits(active));
+#ifdef SHADOW_CELLS
+  const LightCellTable table = rays->cells.tables[light];
+  if (table.size != 0) {
+    const uint asked = lane_bits(active);
+    uint served = 0;
+    const uint hidden = hidden_by_cells(&rays->cells, scene, table, source, r->at, r->gap, asked, r->own, &served);
+    const whole share = lanes_of(hidden) ? (whole)(255) : (whole)(0);
+    if (served == asked) return share;
+    return share | rays_share(scene, source, r->at, r->gap, active & ~lanes_of(served), r->own,
+                              &rays->last_blocker);
+  }
+#endif
   return rays_share(scene, source, r->at, r->gap, active, r->own, &rays->last_blocker);
 }
 #define rays_of_test(test) ((test)->traced)

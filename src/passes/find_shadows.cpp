@@ -15,6 +15,7 @@
 #include "passes/shadows/shadow_lights.h"
 #include "passes/shadows/shadow_lists.h"
 #include "passes/shadows/triangle_numbers.h"
+#include "passes/shadows/view_light_cells.h"
 #include "passes/shadows/view_shadow_maps.h"
 #include "renderer/upload/lights.h"
 #include "shared/shadow_bits.h"
@@ -62,6 +63,7 @@ class ShadowBits : public PassCache {
                    groups_.bytes() + rays_.bytes() + lists_.memory_bytes();
     if (scene_) bytes += scene_->memory_bytes();
     if (maps_) bytes += maps_->memory_bytes();
+    if (cells_) bytes += cells_->memory_bytes();
     return bytes + first_entries_.bytes() + banded_.memory_bytes();
   }
 
@@ -85,6 +87,7 @@ class ShadowBits : public PassCache {
     if (band_ == 0) {
       cleared_ = 0;
       prepare(work, visible, blended);
+      if (cells_) cells_->make(work, *scene_);
     }
     std::vector<ReceiverImage> images{{numbers, visible ? visible->pixel_depth().values : depth.values,
                                        visible ? visible->raster.triangle_instance : cl::Buffer(),
@@ -200,7 +203,7 @@ class ShadowBits : public PassCache {
     parts_ = lists_.tiles() * images.size() * groups_here;
     const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
     const cl::NDRange lanes(band.tiles), groups(band.tiles * SHADOW_TILE * SHADOW_TILE, groups_here);
-    ClArguments before = maps_ ? maps_->arguments() : ClArguments();
+    ClArguments before = maps_ ? maps_->arguments() : cells_ ? cells_->arguments(device) : ClArguments();
     if (picks_by_groups(work)) before = {{"triangle_groups", groups_.buffer()}};
     before = before + scene_->arguments();
     ClArguments after;
@@ -284,6 +287,11 @@ class ShadowBits : public PassCache {
     if (picks_by_groups(work)) put_groups(work, rays);
     ClDevice& device = *work.renderer.cl;
     const std::vector<CullLight> lights = shadowed_lights(work, shining_lights(work));
+    if (!ViewLightCells::serve(work, rays, kernels_.lanes))
+      cells_.reset();
+    else if (!cells_)
+      cells_.emplace();
+    if (cells_) cells_->look(work, rays, lights);
     lists_.look(work, lights);
     if (visible) put_offsets(work, visible->instances, offsets_);
     if (blended) put_offsets(work, blended->instances, blended_offsets_);
@@ -333,6 +341,7 @@ class ShadowBits : public PassCache {
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
     if (kernels_.lanes && settings.portable) defines += " -DPORTABLE";
     if (maps_) defines += maps_->defines();
+    if (cells_) defines += " -DSHADOW_CELLS";
     return defines;
   }
 
@@ -344,6 +353,7 @@ class ShadowBits : public PassCache {
   PassKernels kernels_;
   std::shared_ptr<RayScene> scene_;
   std::optional<ViewShadowMaps> maps_;
+  std::optional<ViewLightCells> cells_;  // null: the tree has all rays
   ShadowLists lists_;
   BlendedLayers layers_;
   UploadedBuffer lights_, view_, offsets_, blended_offsets_, first_entries_, groups_;

@@ -334,8 +334,8 @@ std::vector<Setting>& all_settings() {
        "there",
        named(&Settings::shadow_threshold, {{"off", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}})},
       {"shadow-memory",
-       "most memory of a frame's shadows, and as much again of shadow maps: where bits take more, the frame "
-       "is shaded in bands; maps get smaller",
+       "most memory of a frame's shadows, and as much again of shadow maps or light cells: where bits take "
+       "more, the frame is shaded in bands; maps get smaller",
        named(&Settings::shadow_memory, {{"256M", size_t(256) << 20},
                                         {"1M", size_t(1) << 20},
                                         {"4M", size_t(4) << 20},

@@ -132,6 +132,13 @@ std::shared_ptr<RayScene> GpuScene::in_rays(TexelLayout layout, BlendedCasters b
   return held;
 }
 
+std::shared_ptr<SharedLightCells> GpuScene::light_cells(BlendedCasters by_blended) {
+  HeldRays& of = in_rays_[by_blended];
+  std::shared_ptr<SharedLightCells> held = of.cells.lock();
+  if (!held) of.cells = held = std::make_shared<SharedLightCells>(renderer_);
+  return held;
+}
+
 std::shared_ptr<SharedWorldGrid> GpuScene::world_grid(Renderer& renderer, const WorldGridKey& key) {
   std::erase_if(world_grids_, [](const auto& held) { return held.second.expired(); });
   for (const auto& [held_key, held] : world_grids_) {

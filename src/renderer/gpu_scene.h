@@ -12,6 +12,7 @@
 #include "renderer/cl_scene.h"
 #include "renderer/gl_scene.h"
 #include "renderer/shared_grids.h"
+#include "renderer/shared_light_cells.h"
 
 namespace lightgrid {
 
@@ -41,6 +42,9 @@ class GpuScene {
   // device has no doubles.
   std::shared_ptr<RayScene> in_rays(TexelLayout layout, BlendedCasters by_blended);
 
+  // The light cells of these rays, one for all views. Whoever holds them holds the rays too.
+  std::shared_ptr<SharedLightCells> light_cells(BlendedCasters by_blended);
+
   // The light lists of world_grid with these settings, shared by all views that hold them; not yet built.
   std::shared_ptr<SharedWorldGrid> world_grid(Renderer& renderer, const WorldGridKey& key);
 
@@ -65,6 +69,7 @@ class GpuScene {
   bool in_raster_has_masks_ = false;
   struct HeldRays {
     std::weak_ptr<RayScene> rays;
+    std::weak_ptr<SharedLightCells> cells;
     int shape = 0, instances = 0;  // shape_version() and instances_version() of what it holds
   };
   std::map<BlendedCasters, HeldRays> in_rays_;

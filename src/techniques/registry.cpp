@@ -52,7 +52,7 @@ bool has_effect(const Technique& technique, const Settings& settings, const std:
   if (key.starts_with("samples-")) return settings.samples > 1;
   if (key == "picture") return settings.picture == PictureFormat::bytes;
   if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
-  if (key == "shadow-memory" || key == "shadow-reuse" || key == "shadow-threshold")
+  if (key == "shadow-memory" || key == "shadow-reuse" || key == "shadow-threshold" || key == "shadow-cells")
     return settings.given.contains(key);
   return true;
 }
@@ -90,9 +90,9 @@ const std::vector<const char*>& common_settings() {
     for (const std::string& key : model_settings()) {
       if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
     }
-    for (const char* key :
-         {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays", "shadow-source",
-          "shadow-pick", "shadow-reuse", "shadow-threshold", "shadow-memory", "picture", "everything-on"})
+    for (const char* key : {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays",
+                            "shadow-source", "shadow-pick", "shadow-cells", "shadow-reuse",
+                            "shadow-threshold", "shadow-memory", "picture", "everything-on"})
       all.push_back(key);
     return all;
   }();

@@ -120,23 +120,26 @@ struct Case {
   const char *technique = "visibility", *shadows = "exact";
   dvec3 offset{0};
   int frames = 20, width = 200, height = 120;
-  bool still = false;  // the camera; there is a sun, too
+  bool still = false;                                       // the camera; there is a sun, too
+  std::vector<const char*> settings = {"shadow-reuse=on"};  // of what is kept
 };
 
 struct Sum {
   size_t rays = 0, rays_without = 0, kept = 0, hidden = 0, drawn = 0, maps = 0;
 };
 
-// Frame by frame against a run that keeps nothing.
+// Frame by frame against a run that keeps nothing, whose rays take the tree.
 Sum expect_same_bits(Renderer& devices, const Case& c) {
   MovingRoom room(c.offset);
   if (c.still) room.add_sun();
   GpuScene gpu(devices, room.scene);
   Settings settings;
   apply_setting(settings, std::string("shadows=") + c.shadows);
+  apply_setting(settings, "shadow-cells=off");
   const View start = room.view(0, c.width, c.height);
   TechniqueRun without(devices, gpu, start, settings, find_technique(c.technique));
-  apply_setting(settings, "shadow-reuse=on");
+  apply_setting(settings, "shadow-cells=on");
+  for (const char* setting : c.settings) apply_setting(settings, setting);
   TechniqueRun with(devices, gpu, start, settings, find_technique(c.technique));
   Sum sum;
   double turn = 0;
@@ -172,6 +175,14 @@ TEST(KeptShadows, AreThoseOfRaysWhateverMoves) {
 TEST(KeptShadows, AreThoseOfRaysFarFromTheOrigin) {
   const Sum sum = expect_same_bits(opencl_devices(), {.offset = {1e5, 300, -2e5}, .still = true});
   EXPECT_LT(sum.rays, sum.rays_without);
+}
+
+// Lists of lights at rest are kept, and others are made as lights and casters come to rest.
+TEST(KeptShadows, AreThoseOfTheTreeWhereLightsHaveCells) {
+  const int frames = long_tests() ? 300 : 40;
+  expect_same_bits(opencl_devices(), {.frames = frames, .settings = {}});
+  expect_same_bits(opencl_devices(), {.frames = frames, .settings = {"shadow-memory=1M"}});
+  expect_same_bits(opencl_devices(), {.offset = {1e5, 300, -2e5}, .frames = frames, .settings = {}});
 }
 
 TEST(KeptShadows, AreThoseOfMapsDrawnAnewInEachFrame) {

@@ -58,7 +58,7 @@ void ViewShadowMaps::look(const Work& work, const RayScene& rays, const std::vec
   atlas_.lights = std::move(by_number);
 
   keeps_ = keeps;
-  const auto moved = keeps_ ? moved_.since_last(work, rays) : std::nullopt;
+  const auto moved = keeps_ ? moved_.since_last(work.gpu, rays) : std::nullopt;
   if (!moved) kept_.clear();
   kept_.resize(std::min(kept_.size(), atlas_.faces.size()));
   for (size_t i = 0; i < kept_.size(); ++i) {

@@ -2,7 +2,7 @@
 // find_shadows (shadow_maps/shadow_maps.h). Each light whose shadows the plan calls for has its maps.
 #pragma once
 
-#include "passes/shadows/moved_instances.h"
+#include "renderer/moved_instances.h"
 #include "renderer/work.h"
 #include "shadow_maps/shadow_maps.h"
 

@@ -1,9 +1,12 @@
-#include "passes/shadows/moved_instances.h"
+#include "renderer/moved_instances.h"
+
+#include "renderer/gpu_scene.h"
+#include "scene/scene.h"
 
 namespace lightgrid {
 
-std::optional<std::vector<WorldBox>> MovedInstances::since_last(const Work& work, const RayScene& rays) {
-  const Scene& scene = work.scene;
+std::optional<std::vector<WorldBox>> MovedInstances::since_last(const GpuScene& gpu, const RayScene& rays) {
+  const Scene& scene = gpu.scene();
   const bool all = rays.builds() != builds_ || instances_.size() != scene.instances.size();
   builds_ = rays.builds();
   instances_.resize(scene.instances.size());
@@ -11,7 +14,7 @@ std::optional<std::vector<WorldBox>> MovedInstances::since_last(const Work& work
   for (size_t i = 0; i < instances_.size(); ++i) {
     const Instance& instance = scene.instances[i];
     Placed& before = instances_[i];
-    const int version = work.gpu.mesh_version(instance.mesh);
+    const int version = gpu.mesh_version(instance.mesh);
     if (before.world_from_object == instance.world_from_object && before.mesh_version == version) continue;
     const Placed after{instance.world_from_object, version,
                        world_box(scene.meshes[size_t(instance.mesh)], instance.world_from_object)};

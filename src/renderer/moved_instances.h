@@ -4,15 +4,18 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/work.h"
+#include "base/world_box.h"
+#include "rays/ray_scene.h"
 
 namespace lightgrid {
+
+class GpuScene;
 
 class MovedInstances {
  public:
   // Of instances that moved, or whose meshes deformed, since the last call: before and after. None: all may
   // have changed.
-  std::optional<std::vector<WorldBox>> since_last(const Work& work, const RayScene& rays);
+  std::optional<std::vector<WorldBox>> since_last(const GpuScene& gpu, const RayScene& rays);
 
  private:
   struct Placed {

@@ -1,0 +1,96 @@
+// Shadow rays answered from a light's cells in place of the tree: Haines and Greenberg, "The Light Buffer: A
+// Shadow-Testing Accelerator" (IEEE CG&A 1986), made exact. The same answers to the bit, since a cell lists
+// whatever its rays can meet, and the tests are those of rays/rays.h. For 16 lanes.
+#pragma once
+
+#include "kernels/rays/rays.h"
+#include "shared/light_cells.h"
+
+#define LIGHT_CELL_ARGUMENTS                                                      \
+  global const LightCellTable *light_cells, global const uint *light_cell_starts, \
+      global const LightCellEntry *light_cell_entries, global const LightCellTriangle *light_cell_triangles
+#define LIGHT_CELLS \
+  { light_cells, light_cell_starts, light_cell_entries, light_cell_triangles }
+
+typedef struct LightCells {
+  global const LightCellTable* tables;  // a light each
+  global const uint* starts;            // of a cell's entries; the next cell's is their end
+  global const LightCellEntry* entries;
+  global const LightCellTriangle* triangles;
+} LightCells;
+
+// Points relative to the light, the share of the way to them at which rays end, and their distances.
+typedef struct CellRays {
+  Real3 to;
+  real end, length;
+} CellRays;
+
+// Each lane's cell among the starts of its light.
+static inline whole cell_of(Real3 to, uint size) {
+  const real ax = fabs(to.x), ay = fabs(to.y), az = fabs(to.z);
+  const mask_t is_x = ax >= lane_max(ay, az), is_y = ~is_x & (ay >= az);
+  const real along = is_x ? to.x : is_y ? to.y : to.z, u = is_x ? to.y : to.x, v = is_x | is_y ? to.z : to.y;
+  const real scale = 0.5f * (float)size / fabs(along), half_size = REAL(0.5f * (float)size),
+             last = REAL((float)size - 1.0f);
+  const whole x = TO_WHOLE(lane_min(lane_max(fma(u, scale, half_size), REAL(0.0f)), last)),
+              y = TO_WHOLE(lane_min(lane_max(fma(v, scale, half_size), REAL(0.0f)), last));
+  const whole face = (is_x   ? (whole)(0)
+                      : is_y ? (whole)(2)
+                             : (whole)(4)) +
+                     (along < 0.0f ? (whole)(1) : (whole)(0));
+  return face * (int)(size * size + 1) + y * (int)size + x;
+}
+
+// As meets_from_point of rays/ray_packet.h, with planes that are made already.
+static inline mask_t meets_seen(global const LightCellTriangle* t, const CellRays* rays) {
+  const real past =
+      fma(rays->end, ray_side(rays->to, t->normal[0], t->normal[1], t->normal[2], 0.0f), REAL(t->offset));
+  const real u = ray_side(rays->to, t->edge_0[0], t->edge_0[1], t->edge_0[2], 0.0f),
+             v = ray_side(rays->to, t->edge_1[0], t->edge_1[1], t->edge_1[2], 0.0f),
+             w = ray_side(rays->to, t->edge_2[0], t->edge_2[1], t->edge_2[2], 0.0f);
+  return lane_min(lane_min(u, v), lane_min(w, lane_min(past, rays->end))) >= 0.0f;
+}
+
+// Of lanes that meet the triangle, those that it hides.
+RAYS_CALL uint hidden_by_met(const RayScene* scene, RaySource light, Real3 to, real gap, whole own, int place,
+                             uint met) {
+  RayPacket p;
+  set_packet(&p, light, to, gap, scene->extent);
+  const RayOctants octants = octants_of(&p);
+  uint hidden = 0;
+  while (met != 0) {  // mostly once
+    const uint live = take_octant(&p, &octants, met);
+    met &= ~live;
+    hidden |= lane_bits(ray_hides(scene, &p, place, own, lanes_of(live)));
+  }
+  return hidden;
+}
+
+// As rays_hidden, for a light with lists. *served: lanes that are answered; longer rays are not.
+static inline uint hidden_by_cells(const LightCells* cells, const RayScene* scene, LightCellTable table,
+                                   RaySource light, Real3 to, real gap, uint active, whole own,
+                                   uint* served) {
+  CellRays rays;
+  rays.to = real3(from_double(to.x, light.x), from_double(to.y, light.y), from_double(to.z, light.z));
+  const real squared = fma(rays.to.z, rays.to.z, fma(rays.to.y, rays.to.y, rays.to.x * rays.to.x));
+  rays.length = sqrt(squared), rays.end = 1.0f - gap / rays.length;
+  const whole cell = cell_of(rays.to, table.size);
+  *served = active & lane_bits(squared <= REAL(table.squared));
+  uint hidden = 0;
+  for (uint left = *served; left != 0;) {
+    const int one = ((const int*)&cell)[lowest_bit(left)];
+    uint here = left & lane_bits(cell == (whole)(one));
+    left &= ~here;
+    global const uint* starts = cells->starts + table.first_start + one;
+    for (uint i = starts[0], end = starts[1]; i < end && here != 0; ++i) {
+      const LightCellEntry entry = cells->entries[i];
+      if ((lane_bits(rays.length >= entry.near) & here) == 0) break;
+      global const LightCellTriangle* t = cells->triangles + entry.triangle;
+      const uint met = here & lane_bits(meets_seen(t, &rays));
+      if (met == 0) continue;
+      const uint hides = hidden_by_met(scene, light, to, gap, own, (int)t->place, met);
+      hidden |= hides, here &= ~hides;
+    }
+  }
+  return hidden;
+}

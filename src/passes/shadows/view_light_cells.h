@@ -1,0 +1,32 @@
+// The light cells of a view's lights (rays/light_cells.h), from which find_shadows takes exact hard shadows
+// on CPUs. The setting shadow-cells leaves them out.
+#pragma once
+
+#include "renderer/shared_light_cells.h"
+#include "renderer/work.h"
+
+namespace lightgrid {
+
+class ViewLightCells {
+ public:
+  // Whether any ray of the view may take them: a kernel for a CPU, and rays that begin at a light's centre
+  // and that no blended surface dims.
+  static bool serve(const Work& work, const RayScene& rays, bool lanes);
+
+  // When the view, lights or surfaces changed. lights: as shadowed_lights has them.
+  void look(Work& work, const RayScene& rays, const std::vector<CullLight>& lights);
+  // In each frame.
+  void make(Work& work, const RayScene& rays);
+
+  // LIGHT_CELL_ARGUMENTS of kernels/rays/light_cells.h, of all of the view's lights. Before each launch:
+  // other views may have made other lists since the last.
+  ClArguments arguments(ClDevice& device);
+  size_t memory_bytes() const { return shared_->cells().memory_bytes() + tables_.bytes(); }
+
+ private:
+  std::shared_ptr<SharedLightCells> shared_;
+  std::vector<CellLight> lights_;
+  UploadedBuffer tables_;
+};
+
+}  // namespace lightgrid

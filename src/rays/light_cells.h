@@ -1,0 +1,103 @@
+// Lists of the triangles around point lights, from which kernels answer shadow rays without the tree
+// (kernels/rays/light_cells.h), to the same bits. For CPUs.
+//
+//   cells.forget_near(low, high);                   // where something moved
+//   cells.make(rays, lights, limits);               // in each frame
+//   cells.tables(lights), cells.arguments();        // for its kernels
+//
+// A light has lists once it and all in its range rest. Before that, and where memory does not suffice, it has
+// none, and kernels take the tree. Errors as in rays/ray_scene.h.
+#pragma once
+
+#include <compare>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cl/buffers.h"
+#include "rays/ray_scene.h"
+#include "shared/light_cells.h"
+
+namespace lightgrid {
+
+// A light at a point, relative to the rays' origin, metres. A range below 0: it needs no lists.
+struct CellLight {
+  double x = 0, y = 0, z = 0, range_m = -1;
+  auto operator<=>(const CellLight&) const = default;
+};
+
+// A buffer that keeps its contents when it grows.
+class GrowingPool {
+ public:
+  // Returns the number of the first of these items, of which no other size is taken. They are there after
+  // grow().
+  uint32_t take(size_t items, size_t item_bytes) {
+    return uint32_t(std::exchange(used_, used_ + items * item_bytes) / item_bytes);
+  }
+  void grow(ClDevice& device);
+  void clear() { used_ = kept_ = 0; }
+  size_t used() const { return used_; }
+  const cl::Buffer& buffer() const { return buffer_; }
+  size_t bytes() const { return bytes_; }
+
+ private:
+  cl::Buffer buffer_;
+  size_t bytes_ = 0, used_ = 0, kept_ = 0;  // kept: used when it last grew
+};
+
+struct LightCellLimits {
+  size_t bytes = 0;      // of all lists
+  size_t triangles = 0;  // in the reach of lights that get lists in one call; one light may have more
+};
+
+class LightCells {
+ public:
+  // `device` and `programs` outlive it.
+  LightCells(ClDevice& device, ProgramCache& programs) : device_(device), programs_(programs) {}
+
+  // All triangles may have changed. The next make() gives lists to all lights, however many triangles they
+  // have.
+  void forget();
+  // Triangles in this box changed; relative to the rays' origin.
+  void forget_near(const glm::dvec3& low, const glm::dvec3& high);
+  // Lists for those of the lights that rest since the last call, within the limits.
+  void make(const RayScene& rays, std::span<const CellLight> lights, const LightCellLimits& limits);
+
+  // The lists that each light has now.
+  std::vector<LightCellTable> tables(std::span<const CellLight> lights) const;
+  // LIGHT_CELL_ARGUMENTS after the tables.
+  ClArguments arguments() const;
+  size_t memory_bytes() const;
+
+ private:
+  struct Lists {
+    LightCellTable table{};
+    bool is_listed = false, is_gathered = false;
+    uint32_t gathered = 0;
+    size_t bytes = 0, last_frame = 0;
+  };
+  using Waiting = std::vector<std::pair<const CellLight, Lists>*>;
+
+  Waiting waiting_lights(std::span<const CellLight> lights, bool also_new);
+  void gather(const RayScene& rays, Waiting& waiting);
+  void list(const RayScene& rays, Waiting& chosen);
+  bool has_room(size_t bytes) const;
+  std::vector<LightCellJob> take_triangles(Waiting& chosen);
+  void take_entries(std::vector<LightCellJob>& jobs, const Waiting& chosen);
+  void launch(const char* stem, const RayScene& rays, size_t jobs, const ClArguments& pools);
+  void read_jobs(std::vector<LightCellJob>& jobs);
+  void write_jobs(const std::vector<LightCellJob>& jobs);
+  size_t dead_bytes() const;
+
+  ClDevice& device_;
+  ProgramCache& programs_;
+  std::map<CellLight, Lists> lists_;
+  std::map<std::string, NamedKernel> kernels_;
+  GrowingPool starts_, entries_, triangles_;
+  GrowingBuffer jobs_;
+  size_t max_bytes_ = 0, frame_ = 0, erased_bytes_ = 0;
+  bool is_new_ = true, is_full_ = false;
+};
+
+}  // namespace lightgrid

@@ -1,0 +1,405 @@
+// Light cells: rays through them have the tree's answers to the bit, and each list holds every triangle that
+// a ray into its cell meets.
+#include "rays/light_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+#include <set>
+
+#include "base/embedded.h"
+#include "cl/transfer.h"
+#include "rays/ray_packets.h"
+#include "rays/ray_scenes.h"
+#include "shared/ray_records.h"
+#include "support/long_tests.h"
+
+namespace lightgrid {
+namespace {
+
+// As rays/cpu/occlusion.cl. A lane that lists do not serve keeps its bit in `hidden` and is reported.
+constexpr const char* cells_kernel = R"(
+kernel void cells_occlusion(RAYS_ARGUMENTS, LIGHT_CELL_ARGUMENTS, global const float* points, global const int* own,
+                            global const RaySource* lights, global const uint4* packets, global uint* hidden,
+                            global uint* unserved) {
+  const RayScene scene = RAYS_SCENE;
+  const LightCells cells = LIGHT_CELLS;
+  const uint i = (uint)get_global_id(0);
+  const uint4 packet = packets[i];
+  global const float* at = points + packet.x * (size_t)64;
+  const Real3 to = real3(vload16(0, at), vload16(1, at), vload16(2, at));
+  const LightCellTable table = light_cells[packet.y];
+  uint served = 0;
+  if (table.size != 0)
+    hidden[i] = hidden_by_cells(&cells, &scene, table, lights[packet.y], to, vload16(3, at),
+                                packet.z, vload16(packet.x, own), &served);
+  unserved[i] = packet.z & ~served;
+})";
+
+struct CellAnswers {
+  std::vector<uint32_t> hidden, unserved;
+};
+
+CellAnswers cell_answers(RayScene& scene, const LightCells& cells, const Queries& q,
+                         const std::vector<CellLight>& lights) {
+  ClDevice& device = rays_device();
+  const PackedRays packed = packed_rays(q.points, q.lights.size(), q.packets);
+  UploadedBuffer on_device[5];
+  on_device[0].put(device, "points", packed.points), on_device[1].put(device, "own", packed.own);
+  on_device[2].put(device, "lights", q.lights), on_device[3].put(device, "tables", cells.tables(lights));
+  on_device[4].put(device, "packets", packed.packets);
+  CellAnswers answers{std::vector<uint32_t>(q.packets.size()), std::vector<uint32_t>(q.packets.size())};
+  const size_t bytes = q.packets.size() * sizeof(uint32_t);
+  const cl::Buffer hidden = device_buffer(device, bytes), unserved = device_buffer(device, bytes);
+  const std::string source =
+      "#define LANES 16\n" + with_includes("kernels/rays/light_cells.h") + cells_kernel;
+  cl::Kernel kernel = rays_programs().kernel_of_source("cells_occlusion", source, scene.defines());
+  const ClArguments arguments = scene.arguments() + ClArguments{{"light_cells", on_device[3].buffer()}} +
+                                cells.arguments() +
+                                ClArguments{{"points", on_device[0].buffer()},
+                                            {"own", on_device[1].buffer()},
+                                            {"lights", on_device[2].buffer()},
+                                            {"packets", on_device[4].buffer()},
+                                            {"hidden", hidden},
+                                            {"unserved", unserved}};
+  for (size_t i = 0; i < arguments.size(); ++i)
+    kernel.setArg(cl_uint(i), arguments[i].bytes, arguments[i].value);
+  launch(device, "cells_occlusion", kernel, cl::NDRange(q.packets.size()), cl::NDRange(1));
+  read_buffer(device, "hidden", hidden, answers.hidden.data(), bytes);
+  read_buffer(device, "unserved", unserved, answers.unserved.data(), bytes);
+  return answers;
+}
+
+// Those at a point, of a range each.
+std::vector<CellLight> cell_lights(const Queries& q, RandomNumbers& random) {
+  std::vector<CellLight> lights;
+  for (const RayLight& light : q.lights) {
+    const double range_m = random.below(3) ? random.between(0.5, 4) : 40;
+    lights.push_back({light.x, light.y, light.z, light.w != 0 ? range_m : -1});
+  }
+  return lights;
+}
+
+// From a light through a corner or an edge of a triangle or a border or a corner of its cells, or up to 1e-6
+// of a radian past it.
+glm::dvec3 hard_direction(RandomNumbers& random, const std::vector<Corners>& triangles,
+                          const glm::dvec3& light, uint32_t cells) {
+  const Corners& c = triangles[size_t(random.below(int(triangles.size())))];
+  const int kind = random.below(4), first = random.below(3);
+  glm::dvec3 to = glm::dvec3(c[size_t(first)]) - light;
+  if (kind == 1) to += glm::dvec3(c[size_t(first + 1) % 3] - c[size_t(first)]) * random.unit();
+  if (kind >= 2) {
+    const auto border = [&] { return 2.0 * random.below(int(cells) + 1) / cells - 1; };
+    to[first] = random.below(2) ? 1 : -1, to[(first + 1) % 3] = border();
+    to[(first + 2) % 3] = kind == 2 ? border() : random.between(-1, 1);
+  }
+  if (random.below(2)) to += random.direction() * glm::length(to) * std::pow(10.0, random.between(-8, -6));
+  return glm::length(to) > 0 ? glm::normalize(to) : random.direction();
+}
+
+// Blocks of points along such directions, each for its light alone.
+void add_hard_points(Queries& q, const std::vector<Corners>& triangles, RandomNumbers& random) {
+  for (uint32_t light = 0; light < q.lights.size(); ++light) {
+    if (q.lights[light].w == 0) continue;
+    const glm::dvec3 at(q.lights[light]);
+    for (int block = 0; block < 12; ++block) {
+      q.packets.push_back({uint32_t(q.points.size() / 16), light});
+      for (int i = 0; i < 16; ++i) {
+        const glm::dvec3 to = hard_direction(random, triangles, at, 8) * random.between(0.1, 5);
+        q.points.push_back({glm::vec3(at + to), 1e-3f});
+      }
+    }
+  }
+}
+
+struct Compared {
+  size_t rays = 0, hidden = 0, unserved = 0, different = 0;
+  Compared& operator+=(const Compared& c) {
+    rays += c.rays, hidden += c.hidden, unserved += c.unserved, different += c.different;
+    return *this;
+  }
+};
+
+Compared compared_with_tree(RayScene& scene, const LightCells& cells, const Queries& q,
+                            const std::vector<CellLight>& lights) {
+  const std::vector<uint32_t> tree = scene.occlusion(q.points, q.lights, q.packets);
+  const CellAnswers answers = cell_answers(scene, cells, q, lights);
+  Compared c;
+  for (size_t i = 0; i < tree.size(); ++i) {
+    const uint32_t served = q.packets[i].lanes & ~answers.unserved[i];
+    c.rays += size_t(std::popcount(served)), c.unserved += size_t(std::popcount(answers.unserved[i]));
+    c.hidden += size_t(std::popcount(tree[i] & served));
+    c.different += size_t(std::popcount((tree[i] ^ answers.hidden[i]) & served));
+  }
+  return c;
+}
+
+constexpr LightCellLimits enough{.bytes = size_t(1) << 28, .triangles = size_t(1) << 28};
+
+// offset: of a soup's triangles from the origin of its rays.
+Compared compared_in_soup(int number, uint32_t seed, const glm::vec3& offset = {},
+                          ProgramCache& programs = rays_programs()) {
+  std::vector<Corners> triangles = hard_soups(5 + seed)[size_t(number)].triangles;
+  RandomNumbers random(seed + 31);
+  Queries q = queries_of(triangles, 24, 30, 17 + seed);
+  add_hard_points(q, triangles, random);
+  for (Corners& c : triangles)
+    for (glm::vec3& p : c) p += offset;
+  for (RayPoint& point : q.points) point.position += offset;
+  for (RayLight& light : q.lights) light += light.w * glm::dvec4(offset, 0);
+  RayScene scene = scene_of(placed(triangles), {.shape = KernelShape::lanes, .origin = glm::dvec3(0)});
+  const std::vector<CellLight> lights = cell_lights(q, random);
+  LightCells cells(rays_device(), programs);
+  cells.make(scene, lights, enough);
+  return compared_with_tree(scene, cells, q, lights);
+}
+
+class LightCellsInSoups : public testing::TestWithParam<int> {};
+
+TEST_P(LightCellsInSoups, HaveTheTreesAnswers) {
+  Compared sum;
+  for (uint32_t seed = 0; seed < (long_tests() ? 200 : 3); ++seed) sum += compared_in_soup(GetParam(), seed);
+  EXPECT_EQ(sum.different, 0u);
+  EXPECT_GT(sum.rays, 15000u);
+  EXPECT_GT(sum.hidden, sum.rays / 200);
+  EXPECT_GT(sum.unserved, 1000u) << "of directions, and longer than a range";
+}
+
+// Where floats are half a millimetre apart.
+TEST_P(LightCellsInSoups, HaveTheTreesAnswersFarFromTheOrigin) {
+  const Compared c = compared_in_soup(GetParam(), 7, {8192, -8192, 8192});
+  EXPECT_EQ(c.different, 0u);
+  EXPECT_GT(c.hidden, 100u);
+}
+
+template <typename T>
+std::vector<T> read_pool(const ClArgument& argument) {
+  cl_mem memory;
+  std::memcpy(&memory, argument.value, sizeof memory);
+  const cl::Buffer buffer(memory, true);
+  std::vector<T> values(bytes_of(buffer) / sizeof(T));
+  read_buffer(rays_device(), "cells", buffer, values.data(), values.size() * sizeof(T));
+  return values;
+}
+
+struct HostCells {
+  std::vector<LightCellTable> tables;
+  std::vector<uint32_t> starts;
+  std::vector<LightCellEntry> entries;
+  std::vector<LightCellTriangle> triangles;
+
+  HostCells(const LightCells& cells, const std::vector<CellLight>& lights)
+      : tables(cells.tables(lights)),
+        starts(read_pool<uint32_t>(cells.arguments()[0])),
+        entries(read_pool<LightCellEntry>(cells.arguments()[1])),
+        triangles(read_pool<LightCellTriangle>(cells.arguments()[2])) {}
+
+  std::span<const LightCellEntry> list(const LightCellTable& table, const glm::dvec3& to) const {
+    const glm::dvec3 size = glm::abs(to);
+    const int along = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
+    const auto cell = [&](int k) {
+      return uint32_t(std::clamp((to[k] / size[along] + 1) * 0.5 * table.size, 0.0, table.size - 1.0));
+    };
+    const uint32_t face = uint32_t(2 * along + (to[along] < 0));
+    const uint32_t* start = &starts[table.first_start + face * (table.size * table.size + 1) +
+                                    cell(along == 2 ? 1 : 2) * table.size + cell(along == 0 ? 1 : 0)];
+    return std::span(entries).subspan(start[0], start[1] - start[0]);
+  }
+};
+
+// Each triangle that the oracle says is met is listed, with a bound that is no longer than the ray.
+TEST_P(LightCellsInSoups, ListWhateverARayMeets) {
+  const std::vector<Corners> triangles = hard_soups()[size_t(GetParam())].triangles;
+  RandomNumbers random(4);
+  Queries q = queries_of(triangles, 12, 1, 21);
+  add_hard_points(q, triangles, random);
+  const RayScene scene = scene_of(placed(triangles), {.origin = glm::dvec3(0)});
+  const std::vector<CellLight> lights = cell_lights(q, random);
+  LightCells cells(rays_device(), rays_programs());
+  cells.make(scene, lights, enough);
+  const HostCells host(cells, lights);
+  const std::vector<RayTriangle> placed_triangles = read_pool<RayTriangle>(scene.arguments()[1]);
+  size_t met = 0, missing = 0, unsorted = 0;
+  for (const RayPacket& packet : q.packets) {
+    const LightCellTable& table = host.tables[packet.light];
+    if (table.size == 0) continue;
+    for (int lane = 0; lane < 16; ++lane) {
+      const RayPoint& point = q.points[packet.block * 16 + uint32_t(lane)];
+      const glm::dvec3 to = glm::dvec3(point.position) - glm::dvec3(q.lights[packet.light]);
+      if (glm::dot(to, to) > double(table.squared)) continue;
+      const std::span<const LightCellEntry> list = host.list(table, to);
+      std::set<uint32_t> near;
+      float last = 0;
+      for (const LightCellEntry& entry : list) {
+        unsorted += entry.near < last, last = entry.near;
+        if (double(entry.near) <= glm::length(to))
+          near.insert(placed_triangles[host.triangles[entry.triangle].place].number);
+      }
+      const RayOracle::Line line(q.lights[packet.light], point);
+      for (uint32_t i = 0; i < triangles.size(); ++i) {
+        if (line.is_far(triangles[i]) ||
+            RayOracle::one(triangles[i], q.lights[packet.light], point) != Answer::yes)
+          continue;
+        ++met, missing += !near.contains(i);
+      }
+    }
+  }
+  EXPECT_EQ(missing, 0u);
+  EXPECT_EQ(unsorted, 0u);
+  EXPECT_GT(met, 10u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Soups, LightCellsInSoups, testing::Range(0, 6),
+                         [](const auto& info) { return hard_soups()[size_t(info.param)].name; });
+
+// A mesh of its own for each instance, and lights, all of which move, come and go.
+class LightCellSequence {
+ public:
+  explicit LightCellSequence(uint32_t seed) : random_(seed) {
+    for (int i = 0; i < 12; ++i) {
+      meshes_.push_back(placed({hard_soups()[size_t(i % 6)].triangles}));
+      instances_.push_back({i, somewhere()});
+    }
+    for (int i = 0; i < 10; ++i) lights_.push_back(any_light());
+    set_meshes();
+    scene_.set_instances(instances_);
+    for (int i = 0; i < 16 * 20; ++i) points_.push_back({glm::vec3(random_.in_cube(3))});
+  }
+
+  // Changes one thing, or nothing; then compares all rays with the tree's.
+  Compared step(const LightCellLimits& limits) {
+    moved_ = 10;
+    const int change = random_.below(10), one = random_.below(int(lights_.size()));
+    if (change == 0) lights_[size_t(one)] = any_light(), moved_ = one;
+    if (change == 1) lights_[size_t(one)].range_m = random_.between(0.3, 3), moved_ = one;
+    if (change == 2) std::swap(lights_[0], lights_[size_t(one)]);
+    if (change == 3) lights_[size_t(one)].range_m = -1;
+    if (change == 4) move_instance(random_.below(12));
+    if (change == 5) deform(random_.below(12));
+    cells_.make(scene_, lights_, limits);
+    Queries q{.points = points_};
+    for (const CellLight& light : lights_) q.lights.push_back({light.x, light.y, light.z, 1});
+    for (uint32_t light = 0; light < q.lights.size(); ++light)
+      for (uint32_t block = 0; block < 20; ++block) q.packets.push_back({block, light});
+    return compared_with_tree(scene_, cells_, q, lights_);
+  }
+
+  // Of the last step: whether a light that moved has lists, and how many lights have some.
+  bool moved_has_lists() const { return moved_ < 10 && cells_.tables(lights_)[size_t(moved_)].size != 0; }
+  size_t listed() const {
+    return size_t(std::ranges::count_if(cells_.tables(lights_), [](const auto& t) { return t.size != 0; }));
+  }
+  size_t lights() const {
+    return size_t(std::ranges::count_if(lights_, [](const CellLight& l) { return l.range_m >= 0; }));
+  }
+  size_t memory_bytes() const { return cells_.memory_bytes(); }
+
+ private:
+  CellLight any_light() {
+    const glm::dvec3 at = random_.in_cube(2);
+    return {at.x, at.y, at.z, random_.between(0.5, 3)};
+  }
+  glm::dmat4 somewhere() {
+    glm::dmat4 m(0.3);
+    m[3] = glm::dvec4(random_.in_cube(2), 1);
+    return m;
+  }
+  void forget(int instance) {
+    glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
+    for (const glm::vec3& p : meshes_[size_t(instance)].positions) {
+      const glm::dvec3 at(instances_[size_t(instance)].world_from_object * glm::dvec4(glm::dvec3(p), 1));
+      low = glm::min(low, at), high = glm::max(high, at);
+    }
+    cells_.forget_near(low, high);
+  }
+  void move_instance(int i) {
+    forget(i);
+    instances_[size_t(i)].world_from_object = somewhere();
+    forget(i);
+    scene_.set_instances(instances_);
+  }
+  void deform(int i) {
+    forget(i);
+    for (glm::vec3& p : meshes_[size_t(i)].positions) p += glm::vec3(random_.in_cube(0.2));
+    forget(i);
+    set_meshes();
+    scene_.set_instances(instances_);
+  }
+  void set_meshes() {
+    std::vector<RayMesh> spans;
+    for (const Placed& m : meshes_) spans.push_back({m.positions, m.indices});
+    scene_.set_meshes(spans);
+  }
+
+  RandomNumbers random_;
+  std::vector<Placed> meshes_;
+  std::vector<RayInstance> instances_;
+  std::vector<CellLight> lights_;
+  std::vector<RayPoint> points_;
+  RayScene scene_{rays_device(), rays_programs(), {.shape = KernelShape::lanes, .origin = glm::dvec3(0)}};
+  LightCells cells_{rays_device(), rays_programs()};
+  int moved_ = 10;
+};
+
+TEST(LightCells, FollowWhateverChanges) {
+  LightCellSequence sequence(3);
+  sequence.step({.bytes = size_t(1) << 28});
+  EXPECT_EQ(sequence.listed(), sequence.lights()) << "of a new scene all at once, whatever that takes";
+  size_t served = 0, listed = 0;
+  const int steps = long_tests() ? 2000 : 60;
+  for (int step = 0; step < steps; ++step) {
+    const Compared c = sequence.step({.bytes = size_t(1) << 28, .triangles = 3000});
+    ASSERT_EQ(c.different, 0u) << "step " << step;
+    EXPECT_FALSE(sequence.moved_has_lists()) << "step " << step;
+    served += c.rays, listed += sequence.listed() == sequence.lights();
+  }
+  EXPECT_GT(served, size_t(steps) * 300);
+  EXPECT_GT(listed, size_t(steps) / 4) << "steps in which all lights have lists";
+}
+
+// Lists come back, since those of lights that are gone make room.
+TEST(LightCells, StayWithinTheirMemory) {
+  LightCellSequence sequence(4);
+  size_t some = 0, all = 0;
+  constexpr size_t bytes = 500'000;
+  for (int step = 0; step < (long_tests() ? 2000 : 60); ++step) {
+    const Compared c = sequence.step({.bytes = bytes, .triangles = 3000});
+    ASSERT_EQ(c.different, 0u) << "step " << step;
+    some += sequence.listed() != 0, all += sequence.listed() == sequence.lights();
+    EXPECT_LE(sequence.memory_bytes(), bytes + 10 * sizeof(LightCellJob));
+  }
+  EXPECT_GT(some, 40u);
+  EXPECT_LT(all, 20u) << "the bound is too wide for this test";
+}
+
+struct PlantedFault {
+  const char *right, *wrong;
+};
+
+// That the comparison can fail.
+TEST(LightCellFaults, EachIsFound) {
+  constexpr PlantedFault faults[] = {
+      {"PLANE_SLACK 1e-5f", "PLANE_SLACK -1e-4f"},
+      {"CELL_SLACK 1e-3f", "CELL_SLACK -1e-2f"},
+      {"-t->offset * 0.999f", "-t->offset * 1.02f"},
+      {"number % 2 ? -1.0f : 1.0f", "number % 2 ? 1.0f : -1.0f"},
+      {"entries[to - 1].near > entry.near", "entries[to - 1].near < entry.near"},
+  };
+  for (const PlantedFault& fault : faults) {
+    ProgramCache faulty(rays_device());
+    bool is_planted = false;
+    faulty.alter([&](std::string text) {
+      const size_t at = text.find(fault.right);
+      is_planted |= at != std::string::npos;
+      return at == std::string::npos ? text : text.replace(at, strlen(fault.right), fault.wrong);
+    });
+    Compared sum;
+    for (int soup = 0; soup < 6; ++soup) sum += compared_in_soup(soup, 0, {}, faulty);
+    EXPECT_TRUE(is_planted) << fault.right;
+    EXPECT_GT(sum.different, 0u) << fault.wrong;
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid
