@@ -55,7 +55,7 @@ static inline mask_t meets_seen(global const LightCellTriangle* t, const CellRay
 RAYS_CALL uint hidden_by_met(const RayScene* scene, RaySource light, Real3 to, real gap, whole own, int place,
                              uint met) {
   RayPacket p;
-  set_packet(&p, light, to, gap, scene->extent);
+  set_packet(&p, light, to, gap);
   const RayOctants octants = octants_of(&p);
   uint hidden = 0;
   while (met != 0) {  // mostly once

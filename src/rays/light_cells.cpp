@@ -27,43 +27,72 @@ LightCellTable table_of(const LightCellJob& job) {
   return {job.first_start, job.size, std::min(0.999f * job.reach_m * job.reach_m, longest)};
 }
 
-size_t start_count(uint32_t size) { return 6 * (size_t(size) * size + 1); }
+// Of a light's triangles and its cells' starts.
+size_t fixed_bytes(uint32_t triangles) {
+  const size_t size = cells_across(triangles);
+  return triangles * sizeof(LightCellTriangle) + 6 * (size * size + 1) * sizeof(uint32_t);
+}
+
+size_t entry_bytes(uint32_t entries) { return std::max<size_t>(entries, 1) * sizeof(LightCellEntry); }
+
+// Whether the box has any part in the light's reach: with more room for rounding than the builder's box tests.
+bool is_near(const CellLight& light, const glm::dvec3& low, const glm::dvec3& high) {
+  const glm::dvec3 at(light.x, light.y, light.z), far = glm::abs(at) + glm::max(glm::abs(low), glm::abs(high));
+  const double away = glm::length(at - glm::clamp(at, low, high));
+  return !(away > 1.01 * double(reach_of(light)) + 1e-4 * (far.x + far.y + far.z));
+}
+
+template <typename T>
+uint32_t first_item(size_t unit) {
+  return uint32_t(unit * BlockPool::unit_bytes / sizeof(T));
+}
 
 }  // namespace
 
-void GrowingPool::grow(ClDevice& device) {
-  const size_t kept = std::exchange(kept_, used_);
-  if (buffer_() && used_ <= bytes_) return;
-  const size_t room = kept == 0 ? used_ : used_ + used_ / 4;
-  const cl::Buffer grown = device_buffer(device, room);
-  copy_buffer(device, "light cells: growing", buffer_, grown, kept);
-  buffer_ = grown, bytes_ = room;
+void LightCells::shrink(Block& block, size_t bytes) {
+  pool_.shrink(block.unit, block.bytes, bytes);
+  block.bytes = bytes, ++frees_;
+}
+
+void LightCells::free(Lists& lists) {
+  for (Block* block : {&lists.fixed, &lists.entries}) shrink(*block, 0);
 }
 
 void LightCells::forget() {
-  lists_.clear();
-  for (GrowingPool* pool : {&starts_, &entries_, &triangles_}) pool->clear();
-  is_new_ = true, is_full_ = false, erased_bytes_ = 0;
+  lists_.clear(), pool_.give_back_all(), ++frees_;
 }
 
 void LightCells::forget_near(const glm::dvec3& low, const glm::dvec3& high) {
-  std::erase_if(lists_, [&](const auto& item) {
-    const glm::dvec3 at(item.first.x, item.first.y, item.first.z);
-    const double away = glm::length(at - glm::clamp(at, low, high));
-    const glm::dvec3 farthest = glm::abs(at) + glm::max(glm::abs(low), glm::abs(high));
-    // More than the builder's box tests allow for rounding.
-    const double slack = 1e-4 * (farthest.x + farthest.y + farthest.z);
-    const bool is_near = !(away > 1.01 * double(reach_of(item.first)) + slack);
-    if (is_near) erased_bytes_ += item.second.bytes;
-    return is_near;
-  });
+  for (auto at = lists_.begin(); at != lists_.end();) {
+    if (is_near(at->first, low, high))
+      free(at->second), at = lists_.erase(at);
+    else
+      ++at;
+  }
 }
 
 // Of lists that no light of this frame has.
-size_t LightCells::dead_bytes() const {
-  size_t bytes = erased_bytes_;
-  for (const auto& [light, lists] : lists_) bytes += lists.last_frame == frame_ ? 0 : lists.bytes;
-  return bytes;
+bool LightCells::evict_oldest() {
+  const auto oldest = std::ranges::min_element(
+      lists_, {}, [](const auto& item) { return item.second.is_listed ? item.second.last_frame : SIZE_MAX; });
+  if (oldest == lists_.end() || !oldest->second.is_listed || oldest->second.last_frame == frame_) return false;
+  free(oldest->second), lists_.erase(oldest);
+  return true;
+}
+
+bool LightCells::take(Block& block, size_t bytes) {
+  for (;;) {
+    if (const auto unit = pool_.take(bytes)) return block = {*unit, bytes}, true;
+    if (bytes > max_bytes_ || (!pool_.grow(device_, bytes, max_bytes_) && !evict_oldest())) return false;
+  }
+}
+
+// So that the pool need not grow again and again.
+void LightCells::reserve(const Waiting& chosen) {
+  size_t bytes = 0;
+  for (const auto* item : chosen)
+    bytes += fixed_bytes(item->second.gathered) + entry_bytes(item->second.entry_count);
+  if (bytes) pool_.grow(device_, bytes, max_bytes_);
 }
 
 // Those without lists that were there before, or all.
@@ -72,36 +101,33 @@ LightCells::Waiting LightCells::waiting_lights(std::span<const CellLight> lights
   for (const CellLight& light : lights) {
     if (!(light.range_m >= 0)) continue;
     const auto [at, is_new] = lists_.try_emplace(light);
-    const bool is_seen = at->second.last_frame == frame_;
-    at->second.last_frame = frame_;
-    if (!at->second.is_listed && !is_seen && (also_new || !is_new)) waiting.push_back(&*at);
+    Lists& lists = at->second;
+    const bool is_seen = std::exchange(lists.last_frame, frame_) == frame_;
+    if (!lists.is_listed && !is_seen && (also_new || !is_new) && lists.refused != frees_)
+      waiting.push_back(&*at);
   }
   return waiting;
 }
 
 void LightCells::make(const RayScene& rays, std::span<const CellLight> lights,
                       const LightCellLimits& limits) {
-  ++frame_, max_bytes_ = limits.bytes / 5 * 4;  // pools grow by a quarter more
-  const bool all = std::exchange(is_new_, false);
-  Waiting waiting = waiting_lights(lights, all);
+  const bool is_first = frame_++ == 0;
+  max_bytes_ = limits.bytes;
+  Waiting waiting = waiting_lights(lights, is_first);
   std::erase_if(lists_,
                 [&](const auto& item) { return !item.second.is_listed && item.second.last_frame != frame_; });
-  // Room of lists that are gone is not used again: once half of all room is theirs, all lists begin again.
-  if (is_full_ && dead_bytes() > max_bytes_ / 2) {
-    forget(), is_new_ = false;
-    waiting = waiting_lights(lights, true);
-  }
-  if (!waiting.empty() && !is_full_) {
-    gather(rays, waiting);
-    std::erase_if(waiting, [](const auto* item) { return item->second.gathered > max_triangles; });
-    // The heaviest first, so that no core waits for the last one.
-    std::ranges::stable_sort(waiting, std::greater(), [](const auto* item) { return item->second.gathered; });
-    size_t sum = 0;
-    const auto fits = [&](const auto* item) { return (sum += item->second.gathered) <= limits.triangles; };
-    if (!all && !waiting.empty())
-      waiting.erase(std::find_if_not(waiting.begin() + 1, waiting.end(), fits), waiting.end());
-    list(rays, waiting);
-  }
+  if (waiting.empty()) return;
+  gather(rays, waiting);
+  std::erase_if(waiting, [](const auto* item) { return item->second.gathered > max_triangles; });
+  // The heaviest first, so that no core waits for the last one.
+  std::ranges::stable_sort(waiting, std::greater(), [](const auto* item) { return item->second.gathered; });
+  size_t sum = 0;
+  const auto fits = [&](const auto* item) { return (sum += item->second.gathered) <= limits.triangles; };
+  if (is_first)
+    reserve(waiting);
+  else if (!waiting.empty())
+    waiting.erase(std::find_if_not(waiting.begin() + 1, waiting.end(), fits), waiting.end());
+  list(rays, waiting);
 }
 
 std::vector<LightCellTable> LightCells::tables(std::span<const CellLight> lights) const {
@@ -140,35 +166,36 @@ void LightCells::gather(const RayScene& rays, Waiting& waiting) {
   write_jobs(jobs);
   launch("gather_light_cells", rays, jobs.size(), {});
   read_jobs(jobs);
+  constexpr uint32_t entries_per_triangle = 5;  // 4.4 in the scenes that were measured
   size_t next = 0;
-  for (auto* item : waiting)
-    if (!std::exchange(item->second.is_gathered, true)) item->second.gathered = jobs[next++].gathered;
+  for (auto* item : waiting) {
+    Lists& lists = item->second;
+    if (std::exchange(lists.is_gathered, true)) continue;
+    lists.gathered = jobs[next++].gathered;
+    lists.entry_count = std::min(lists.gathered, max_triangles) * entries_per_triangle;
+  }
 }
 
-bool LightCells::has_room(size_t bytes) const {
-  return starts_.used() + entries_.used() + triangles_.used() + bytes <= max_bytes_;
+// Room for all of a light's lists, as far as is known.
+bool LightCells::has_taken(Lists& lists) {
+  if (lists.refused == frees_) return false;
+  if (take(lists.fixed, fixed_bytes(lists.gathered)) && take(lists.entries, entry_bytes(lists.entry_count)))
+    return true;
+  free(lists), lists.refused = frees_;
+  return false;
 }
 
-// For those of the lights whose lists will probably fit; the others leave `chosen`.
+// For those of the lights that there is room for; the others leave `chosen`.
 std::vector<LightCellJob> LightCells::take_triangles(Waiting& chosen) {
-  constexpr size_t entries_per_triangle = 5;  // 4.4 in the scenes that were measured
+  std::erase_if(chosen, [&](auto* item) { return !has_taken(item->second); });
   std::vector<LightCellJob> jobs;
-  size_t expected = 0;
-  std::erase_if(chosen, [&](const auto* item) {
-    const CellLight& light = item->first;
-    LightCellJob job{light.x, light.y, light.z, reach_of(light), item->second.gathered};
-    job.size = cells_across(job.gathered);
-    const size_t starts = start_count(job.size), entries = job.gathered * entries_per_triangle;
-    if (!has_room(expected + job.gathered * sizeof(LightCellTriangle) + starts * sizeof(uint32_t) +
-                  entries * sizeof(LightCellEntry)))
-      return is_full_ = true;
-    expected += entries * sizeof(LightCellEntry);
-    job.first_triangle = triangles_.take(job.gathered, sizeof(LightCellTriangle));
-    job.first_start = starts_.take(starts, sizeof(uint32_t));
+  for (const auto* item : chosen) {
+    const auto& [light, lists] = *item;
+    LightCellJob job{light.x, light.y, light.z, reach_of(light), lists.gathered, cells_across(lists.gathered)};
+    job.first_triangle = lists.fixed.unit;
+    job.first_start = first_item<uint32_t>(lists.fixed.unit + lists.gathered);
     jobs.push_back(job);
-    return false;
-  });
-  triangles_.grow(device_), starts_.grow(device_);
+  }
   return jobs;
 }
 
@@ -178,18 +205,19 @@ void LightCells::take_entries(std::vector<LightCellJob>& jobs, const Waiting& ch
   for (size_t i = 0; i < jobs.size(); ++i) {
     LightCellJob job = jobs[i];
     Lists& lists = chosen[i]->second;
-    lists.bytes = job.gathered * sizeof(LightCellTriangle) + start_count(job.size) * sizeof(uint32_t);
-    if (!has_room(job.entries * sizeof(LightCellEntry))) {
-      is_full_ = true;
-      continue;
+    if (job.entries > std::exchange(lists.entry_count, job.entries)) {
+      shrink(lists.entries, 0);
+      if (!take(lists.entries, entry_bytes(job.entries))) {
+        free(lists), lists.refused = frees_;
+        continue;
+      }
     }
-    lists.bytes += job.entries * sizeof(LightCellEntry);
-    job.first_entry = entries_.take(job.entries, sizeof(LightCellEntry));
+    shrink(lists.entries, entry_bytes(job.entries));
+    job.first_entry = first_item<LightCellEntry>(lists.entries.unit);
     lists.table = table_of(job), lists.is_listed = true;
     jobs[kept++] = job;
   }
   jobs.resize(kept);
-  entries_.grow(device_);
 }
 
 void LightCells::list(const RayScene& rays, Waiting& chosen) {
@@ -197,24 +225,22 @@ void LightCells::list(const RayScene& rays, Waiting& chosen) {
   if (!jobs.empty()) {
     write_jobs(jobs);
     launch("count_light_cells", rays, jobs.size(),
-           {{"seen", triangles_.buffer()}, {"starts", starts_.buffer()}});
+           {{"seen", pool_.buffer()}, {"starts", pool_.buffer()}});
     read_jobs(jobs);
   }
   take_entries(jobs, chosen);
   if (jobs.empty()) return;
   write_jobs(jobs);
   launch("fill_light_cells", rays, jobs.size(),
-         {{"seen", triangles_.buffer()}, {"starts", starts_.buffer()}, {"entries", entries_.buffer()}});
+         {{"seen", pool_.buffer()}, {"starts", pool_.buffer()}, {"entries", pool_.buffer()}});
 }
 
 ClArguments LightCells::arguments() const {
-  return {{"light_cell_starts", starts_.buffer()},
-          {"light_cell_entries", entries_.buffer()},
-          {"light_cell_triangles", triangles_.buffer()}};
+  return {{"light_cell_starts", pool_.buffer()},
+          {"light_cell_entries", pool_.buffer()},
+          {"light_cell_triangles", pool_.buffer()}};
 }
 
-size_t LightCells::memory_bytes() const {
-  return starts_.bytes() + entries_.bytes() + triangles_.bytes() + jobs_.bytes();
-}
+size_t LightCells::memory_bytes() const { return pool_.bytes() + jobs_.bytes(); }
 
 }  // namespace lightgrid

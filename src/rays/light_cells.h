@@ -6,16 +6,16 @@
 //   cells.tables(lights), cells.arguments();        // for its kernels
 //
 // A light has lists once it and all in its range rest. Before that, and where memory does not suffice, it has
-// none, and kernels take the tree. Errors as in rays/ray_scene.h.
+// none, and kernels take the tree. Lists of lights that are gone stay while there is room for others. Errors as
+// in rays/ray_scene.h, except that a device without memory for lists leaves lights without any.
 #pragma once
 
 #include <compare>
 #include <map>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "cl/buffers.h"
+#include "rays/block_pool.h"
 #include "rays/ray_scene.h"
 #include "shared/light_cells.h"
 
@@ -25,25 +25,6 @@ namespace lightgrid {
 struct CellLight {
   double x = 0, y = 0, z = 0, range_m = -1;
   auto operator<=>(const CellLight&) const = default;
-};
-
-// A buffer that keeps its contents when it grows.
-class GrowingPool {
- public:
-  // Returns the number of the first of these items, of which no other size is taken. They are there after
-  // grow().
-  uint32_t take(size_t items, size_t item_bytes) {
-    return uint32_t(std::exchange(used_, used_ + items * item_bytes) / item_bytes);
-  }
-  void grow(ClDevice& device);
-  void clear() { used_ = kept_ = 0; }
-  size_t used() const { return used_; }
-  const cl::Buffer& buffer() const { return buffer_; }
-  size_t bytes() const { return bytes_; }
-
- private:
-  cl::Buffer buffer_;
-  size_t bytes_ = 0, used_ = 0, kept_ = 0;  // kept: used when it last grew
 };
 
 struct LightCellLimits {
@@ -56,12 +37,12 @@ class LightCells {
   // `device` and `programs` outlive it.
   LightCells(ClDevice& device, ProgramCache& programs) : device_(device), programs_(programs) {}
 
-  // All triangles may have changed. The next make() gives lists to all lights, however many triangles they
-  // have.
+  // All triangles may have changed.
   void forget();
   // Triangles in this box changed; relative to the rays' origin.
   void forget_near(const glm::dvec3& low, const glm::dvec3& high);
-  // Lists for those of the lights that rest since the last call, within the limits.
+  // Lists for those of the lights that rest since the last call, within the limits. The first call gives all
+  // of them lists, however many triangles they have.
   void make(const RayScene& rays, std::span<const CellLight> lights, const LightCellLimits& limits);
 
   // The lists that each light has now.
@@ -71,33 +52,41 @@ class LightCells {
   size_t memory_bytes() const;
 
  private:
+  struct Block {
+    uint32_t unit = 0;
+    size_t bytes = 0;
+  };
   struct Lists {
     LightCellTable table{};
     bool is_listed = false, is_gathered = false;
-    uint32_t gathered = 0;
-    size_t bytes = 0, last_frame = 0;
+    uint32_t gathered = 0, entry_count = 0;  // entry_count: at first a guess
+    Block fixed{}, entries{};
+    size_t last_frame = 0, refused = 0;  // refused: value of frees_ when there was no room
   };
   using Waiting = std::vector<std::pair<const CellLight, Lists>*>;
 
   Waiting waiting_lights(std::span<const CellLight> lights, bool also_new);
   void gather(const RayScene& rays, Waiting& waiting);
   void list(const RayScene& rays, Waiting& chosen);
-  bool has_room(size_t bytes) const;
+  bool take(Block& block, size_t bytes);
+  void shrink(Block& block, size_t bytes);
+  void free(Lists& lists);
+  bool has_taken(Lists& lists);
+  void reserve(const Waiting& chosen);
+  bool evict_oldest();
   std::vector<LightCellJob> take_triangles(Waiting& chosen);
   void take_entries(std::vector<LightCellJob>& jobs, const Waiting& chosen);
   void launch(const char* stem, const RayScene& rays, size_t jobs, const ClArguments& pools);
   void read_jobs(std::vector<LightCellJob>& jobs);
   void write_jobs(const std::vector<LightCellJob>& jobs);
-  size_t dead_bytes() const;
 
   ClDevice& device_;
   ProgramCache& programs_;
   std::map<CellLight, Lists> lists_;
   std::map<std::string, NamedKernel> kernels_;
-  GrowingPool starts_, entries_, triangles_;
+  BlockPool pool_;
   GrowingBuffer jobs_;
-  size_t max_bytes_ = 0, frame_ = 0, erased_bytes_ = 0;
-  bool is_new_ = true, is_full_ = false;
+  size_t max_bytes_ = 0, frame_ = 0, frees_ = 1;
 };
 
 }  // namespace lightgrid

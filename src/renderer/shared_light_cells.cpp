@@ -4,8 +4,8 @@
 
 namespace lightgrid {
 
-// About 3 ms: a core takes 0.3 microseconds for a triangle.
-constexpr size_t triangles_per_core = 8192;
+// About 3 ms: a core takes 0.7 microseconds for a triangle.
+constexpr size_t triangles_per_core = 4096;
 
 SharedLightCells::SharedLightCells(const Renderer& renderer)
     : device_(*renderer.cl), cells_(*renderer.cl, *renderer.kernels) {}

@@ -26,6 +26,8 @@ constexpr SequenceKind kinds[] = {
     {"visibility", "shadow-reuse=on shadow-threshold=8", false},
     {"visibility", "shadow-reuse=on shadow-blended=alpha", false},
     {"visibility", "shadow-reuse=on shadow-memory=1M samples=4"},
+    {"visibility", "shadow-cells=on"},
+    {"visibility", "shadow-cells=on shadow-memory=1M"},
     {"visibility", "shadow-reuse=on far-light=512 range=cutoff cutoff=0.1", false},
     {"visibility", "shadow-reuse=on list-cap=4 list-cap-order=tree", false},
     {"visibility", "shadow-reuse=on list-cap=4 list-cap-order=brightest", false},
@@ -221,14 +223,15 @@ SequenceReport compare_sequence(CullEngine& engine, HuntedScene made, const Sequ
   // OpenGL's order of a mesh's triangles, which decides between two in one place, follows its first shape.
   const bool deforms = !draws_with_opengl(find_technique(kind.technique).needs, settings);
   MovingScene moving(std::move(made), deforms, random);
-  const auto started = [&] {
-    return engine.sequence(moving.scene(), kind.technique, moving.view(), settings);
-  };
-  const std::unique_ptr<FrameSequence> keeping = started();
+  Settings of_tree = settings;
+  apply_setting(of_tree, "shadow-cells=off");
+  const std::unique_ptr<FrameSequence> keeping =
+      engine.sequence(moving.scene(), kind.technique, moving.view(), settings);
   for (int i = 0; keeping && i < frames; ++i) {
     const SceneChanges changes = i ? moving.move() : SceneChanges();
-    const SequenceFrame kept = keeping->draw(moving.view(), changes),
-                        fresh = started()->draw(moving.view(), {});
+    const SequenceFrame kept = keeping->draw(moving.view(), changes);
+    const SequenceFrame fresh =
+        engine.sequence(moving.scene(), kind.technique, moving.view(), of_tree)->draw(moving.view(), {});
     ++report.frames;
     if (const std::string in = difference(kept, fresh); !in.empty() && report.stale++ == 0)
       report.why = fmt::format("frame {} of {} {}: the kept {} differ", i, kind.technique, kind.settings, in);

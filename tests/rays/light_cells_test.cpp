@@ -373,6 +373,25 @@ TEST(LightCells, StayWithinTheirMemory) {
   EXPECT_LT(all, 20u) << "the bound is too wide for this test";
 }
 
+// A light that comes to rest gets lists in a full pool: those of lights that are gone make room at once.
+TEST(LightCells, OfLightsThatAreGoneMakeRoomForOthers) {
+  const std::vector<Corners> triangles = hard_soups()[0].triangles;
+  const RayScene scene = scene_of(placed(triangles), {.shape = KernelShape::lanes, .origin = glm::dvec3(0)});
+  LightCells cells(rays_device(), rays_programs());
+  std::vector<CellLight> lights = {{0.1, 0.2, 0.3, 100}};
+  cells.make(scene, lights, enough);
+  const LightCellLimits limits{.bytes = cells.memory_bytes() * 3, .triangles = size_t(1) << 28};
+  for (int step = 0; step < 20; ++step) {
+    lights[0].x += 0.01;
+    for (int frame = 0; frame < 2; ++frame) cells.make(scene, lights, limits);
+    EXPECT_GT(cells.tables(lights)[0].size, 0u) << "step " << step;
+    EXPECT_LE(cells.memory_bytes(), limits.bytes + sizeof(LightCellJob));
+  }
+  lights[0].x = 0.1;
+  cells.make(scene, lights, {.bytes = 0}), cells.make(scene, lights, {.bytes = 0});
+  EXPECT_EQ(cells.tables(lights)[0].size, 0u) << "there is no room";
+}
+
 struct PlantedFault {
   const char *right, *wrong;
 };
