@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cassert>
+#include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "cl/transfer.h"
@@ -79,11 +81,15 @@ class FragmentLayers : public PassCache {
                  tiles = blended.lists.tiles_x * blended.lists.tiles_y;
     const cl::Buffer& room = room_for(work, capacity_);
     const cl::Buffer& most = most_.at_least(device, tiles * sizeof(cl_uint));
-    // All through the buffer itself. NVIDIA's driver loses what is written through a part of a buffer that
-    // was not in use before: in a view's first frame.
-    fill_buffer(device, "clearing layers", room, 0, 2 * bytes);
-    fill_buffer(device, "clearing layers", room, SHADOW_NO_TRIANGLE, bytes);
-    fill_buffer(device, "clearing layers", most, 0, tiles * sizeof(cl_uint));
+    const Layout layout{work.grid().width, work.grid().height, capacity_};
+    const bool cleared = std::exchange(layout_, std::nullopt) == layout;
+    if (!cleared) {
+      // All through the buffer itself. NVIDIA's driver loses what is written through a part of a buffer that
+      // was not in use before: in a view's first frame.
+      fill_buffer(device, "clearing layers", room, 0, 2 * bytes);
+      fill_buffer(device, "clearing layers", room, SHADOW_NO_TRIANGLE, bytes);
+    }
+    if (!cleared || !kernels_.lanes) fill_buffer(device, "clearing layers", most, 0, tiles * sizeof(cl_uint));
     kernels_.use(sample_defines(work.grid().samples) +
                  (kernels_.lanes && work.plan.settings.portable ? " -DPORTABLE" : ""));
     const PixelRange pixels = over_pixels(work, kernels_.lanes, 8, 16);
@@ -101,12 +107,14 @@ class FragmentLayers : public PassCache {
                  {"most", most}});
     std::vector<cl_uint> found(tiles);
     read_buffer(device, "counting layers", most, found.data(), found.size() * sizeof found[0]);
+    layout_ = layout;
     return std::ranges::max(found);
   }
 
   // The same by OpenGL, over its depth image.
   size_t draw(Work& work) {
     const size_t stride = stride_of(work), bytes = bytes_of_layers(work, capacity_);
+    layout_.reset();
     room_for(work, capacity_);
     SharedTexture& layers = work.shadows.layers;
     const GLuint buffer = layers.buffer->gl_buffer(), none = SHADOW_NO_TRIANGLE, zero = 0;
@@ -160,8 +168,17 @@ class FragmentLayers : public PassCache {
     return found;
   }
 
+  // The kernel's last frame, which holds no fragments where `most_` counts none. A buffer that grew has
+  // another.
+  struct Layout {
+    int width, height;
+    size_t layers;
+    bool operator==(const Layout&) const = default;
+  };
+
   PassKernels kernels_;
   GrowingBuffer most_;
+  std::optional<Layout> layout_;
   size_t capacity_ = 1;  // layers
 };
 

@@ -110,6 +110,39 @@ TEST(BlendedShadowBits, FollowTheSceneAndTheCamera) {
   }
 }
 
+// Layers are cleared only where the last frame wrote to them: cameras that see the glass elsewhere,
+// everywhere and not at all, with a size that changes between.
+TEST(BlendedShadowBits, HoldNothingOfEarlierFrames) {
+  Glazed& stage = glazed();
+  for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
+    SCOPED_TRACE(int(shape));
+    const Settings settings{.kernel_shape = shape};
+    TechniqueRun run(test_devices(), stage.gpu, stage.view, settings, find_technique("visibility"));
+    size_t fragments = 0;
+    for (const auto& [eye, target, width] :
+         std::initializer_list<std::tuple<glm::dvec3, glm::dvec3, int>>{{{0, 0, 0}, {0, 0, -4}, 150},
+                                                                        {{0.8, 0, 0}, {1.6, 0, -4}, 150},
+                                                                        {{-0.8, 0, -1}, {-0.4, 0, -4}, 150},
+                                                                        {{0, 0, 0}, {0, 3, -1}, 150},
+                                                                        {{0, 0, 0}, {0, 0, -4}, 70},
+                                                                        {{0.8, 0, 0}, {1.6, 0, -4}, 70},
+                                                                        {{0, 0, 2}, {0, 0, -4}, 150}}) {
+      run.look(make_view(look_at(eye, target), width, 90), {});
+      run.run_frame();
+      TechniqueRun own(test_devices(), stage.gpu, run.view().view, settings, find_technique("visibility"));
+      own.run_frame();
+      EXPECT_TRUE(identical(run.image(), own.image()));
+      const auto layers = run.frame().blended_shadows(), others = own.frame().blended_shadows();
+      for (size_t i = 0; i < others.size(); ++i) {
+        ASSERT_LT(i, layers.size());
+        EXPECT_EQ(layers[i].depth, others[i].depth) << i;
+        fragments += size_t(std::ranges::count_if(others[i].depth, [](float d) { return d > 0; }));
+      }
+    }
+    EXPECT_GT(fragments, 10000u);
+  }
+}
+
 // Without a blended surface in view no layer is looked for, and nothing is kept for one.
 TEST(BlendedShadowBits, CostNothingWithoutBlendedSurfacesInView) {
   for (const char* technique : {"forward_plus", "visibility"}) {

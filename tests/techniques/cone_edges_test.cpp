@@ -65,7 +65,6 @@ TEST(ConeEdges, AreWhereTheOracleDoesNotDecide) {
   const std::vector<uint32_t> pixels = covered_pixels(depth);
   const uint32_t pixel = pixels[pixels.size() / 2];
   const auto at = position_from_depth(view, int(pixel) % 61, int(pixel) / 61, depth[pixel]);
-  const ViewLight light = lights_in_view(s.scene, view)[1];
   EXPECT_EQ(SurfaceOracle(run.view(), depth).decided(pixels).size(), pixels.size());
   const glm::dvec3 world = glm::inverse(view.view_from_world) * glm::dvec4(at, 1);
   Light& edge = s.scene.lights[1];

@@ -4,9 +4,9 @@
 //
 // records, tile_begin, lists, tiles_x, depths  as blend.cl has them
 // capacity  layers that there is room for; fragments past them are only counted
-// layers    in and out: of each layer LAYER_STRIDE values (shared/shadow_bits.h), which hold none before:
-//           triangles by the rasteriser's numbers, then of each as many reversed depths
-// most      out: the most fragments of a pixel, a tile
+// layers    in and out: of each layer LAYER_STRIDE values (shared/shadow_bits.h): triangles by the
+//           rasteriser's numbers, then of each as many reversed depths. Before, the last frame's
+// most      in and out: the most fragments of a pixel, a tile. Before, those of the last frame
 #define LANES 16
 #include "kernels/common/image_blocks.h"
 #include "kernels/common/pack.h"
@@ -14,12 +14,23 @@
 #include "shared/shadow_bits.h"
 #include "shared/view_params.h"
 
+// Most tiles have no fragments: only the layers that the last frame wrote to are cleared.
+static inline void clear_tile(global uint* numbers, global uint* depths, uint x0, uint y0, uint width,
+                              uint height) {
+  const uint x1 = min(x0 + RASTER_TILE, width);
+  for (uint y = y0; y < min(y0 + RASTER_TILE, height); ++y)
+    for (uint x = x0; x < x1; ++x)
+      numbers[(size_t)y * width + x] = SHADOW_NO_TRIANGLE, depths[(size_t)y * width + x] = 0;
+}
+
 kernel void blended_layers(global const RasterRecord* records, global const uint* tile_begin,
                            global const uint* lists, uint tiles_x, global const float* depths, uint capacity,
                            constant ViewParams* view, global uint* layers, global uint* most) {
   const uint number = get_global_id(0), width = view->width, height = view->height;
   const uint tile_x = number % tiles_x * RASTER_TILE, tile_y = number / tiles_x * RASTER_TILE;
   const size_t stride = LAYER_STRIDE((size_t)width * height);
+  for (uint layer = 0; layer < min(most[number], capacity); ++layer)
+    clear_tile(layers + layer * stride, layers + (capacity + layer) * stride, tile_x, tile_y, width, height);
   FragmentCounts counts = {0};
   uint greatest = 0;
   for (uint i = tile_begin[number]; i < tile_begin[number + 1]; ++i) {

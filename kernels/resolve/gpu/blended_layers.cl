@@ -1,5 +1,6 @@
 // The fragments of blended surfaces in layers, for GPUs: a work-item a pixel. As
-// resolve/cpu/blended_layers.cl, with the same arguments; `most` is 0 before.
+// resolve/cpu/blended_layers.cl, with the same arguments, but `most` is 0 before: each pixel clears the rest
+// of its layers.
 #define LANES 1
 #include "kernels/resolve/blended_fragments.h"
 #include "shared/shadow_bits.h"
@@ -30,4 +31,8 @@ kernel void blended_layers(global const RasterRecord* records, global const uint
     ++layer;
   }
   if (layer != 0) atomic_max(most + number, layer);
+  for (; layer < capacity; ++layer) {
+    layers[layer * stride + pixel] = SHADOW_NO_TRIANGLE;
+    layers[(capacity + layer) * stride + pixel] = 0;
+  }
 }
