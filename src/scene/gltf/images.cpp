@@ -79,7 +79,7 @@ void read_header(const Document& doc, Encoded& image) {
 
 size_t pixels_of(const Encoded& image) { return size_t(image.width) * size_t(image.height); }
 
-void fetch(Document& doc, int index, Encoded& out) {
+void fetch(Document& doc, int index, uint64_t usable, Encoded& out) {
   const ImageEntry& entry = doc.images[index];
   if (entry.fault) throw *entry.fault;
   if (entry.roughness) out.glossiness = entry.roughness->glossiness, index = entry.roughness->image;
@@ -92,9 +92,9 @@ void fetch(Document& doc, int index, Encoded& out) {
     out.bytes = out.owned;
   }
   read_header(doc, out);
-  if (pixels_of(out) * decoder_bytes_a_pixel > usable_memory())
+  if (pixels_of(out) * decoder_bytes_a_pixel > usable)
     throw doc.error("{}: is {} x {}: too large to decode in {}", out.place, out.width, out.height,
-                    memory_text(usable_memory()));
+                    memory_text(usable));
 }
 
 // A PNG's compressed data can inflate to a thousand times its size, whatever the header says, and stb_image
@@ -223,6 +223,7 @@ ImageSet fetch_images(Document& doc, const std::vector<ImageUse>& uses) {
   std::vector<char> colors;  // matters only for images that are averaged down
   std::map<std::tuple<std::string_view, bool, std::optional<float>>, size_t> known;  // by their bytes
   std::map<int, size_t> broken;                                                      // by index
+  const uint64_t usable = usable_memory();
   for (const ImageUse& use : uses) {
     if (const auto found = broken.find(use.image); found != broken.end()) {
       out.bitmap_of_use.push_back(found->second);
@@ -230,7 +231,7 @@ ImageSet fetch_images(Document& doc, const std::vector<ImageUse>& uses) {
     }
     Encoded image;
     std::optional<Error> fault;
-    keep_fault(fault, [&] { fetch(doc, use.image, image); });
+    keep_fault(fault, [&] { fetch(doc, use.image, usable, image); });
     const bool as_colors = use.colors && std::max(image.width, image.height) > doc.limits.texture_side;
     const std::string_view bytes(reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size());
     const size_t next = encoded.size();
