@@ -20,6 +20,8 @@
 namespace lightgrid {
 namespace {
 
+constexpr int exr_encoder_bytes = 72;  // per pixel that does not compress: planes, blocks and the file
+
 struct RenderOptions {
   SceneChoice scene;
   DeviceOptions devices;
@@ -75,12 +77,14 @@ int render(RenderOptions o) {
   const SceneMotion advance = chosen_motion(chosen.scene, o.scene);
   if (path.empty() && o.scene.light_motion != "none") advance(0);
   GpuScene gpu(renderer, chosen.scene);
-  TechniqueRun run(renderer, gpu, chosen.view, settings, technique);
+  const int file_bytes = std::filesystem::path(o.output).extension() == ".exr" ? exr_encoder_bytes : 0;
+  TechniqueRun run(renderer, gpu, chosen.view, settings, technique, nullptr, file_bytes);
   if (!path.empty()) return render_path(o, run, gpu, path, advance);
   for (int i = 0; i < o.timing.warmup; ++i) run.run_frame(true);
   for (int i = 0; i < o.timing.frames; ++i) run.run_frame();
   const Exposure exposure = chosen_exposure(o.scene, run.image());
   tell_exposure(exposure);
+  run.release();  // for the file's encoder
   save_image(o.output, run.image(), exposure);
   if (o.timing.frames > 1) {
     const double ms = spread_of(run.frame_ms()).median;

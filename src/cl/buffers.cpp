@@ -78,6 +78,12 @@ cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
   return make_buffer(device, CL_MEM_READ_WRITE, std::max<size_t>(bytes, 64));
 }
 
+cl::Buffer filled_buffer(ClDevice& device, const char* what, const void* values, size_t bytes) {
+  cl::Buffer buffer = make_buffer(device, CL_MEM_READ_ONLY, std::max<size_t>(bytes, 64));
+  write_buffer(device, what, buffer, values, bytes);
+  return buffer;
+}
+
 // Frees the old buffer first, so that both need not fit at once.
 cl::Buffer& GrowingBuffer::at_least(ClDevice& device, size_t bytes) {
   if (bytes <= bytes_ && buffer_()) return buffer_;

@@ -11,6 +11,8 @@ namespace lightgrid {
 
 // At least 64 bytes. Throws Error(machine) if the device lacks the memory.
 cl::Buffer device_buffer(ClDevice& device, size_t bytes);
+// The same, read-only, with these values.
+cl::Buffer filled_buffer(ClDevice& device, const char* what, const void* values, size_t bytes);
 
 // 0: there is none.
 inline size_t bytes_of(const cl::Buffer& buffer) {

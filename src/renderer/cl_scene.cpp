@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "cl/buffers.h"
 #include "cl/error.h"
 #include "cl/transfer.h"
 #include "plan/frame_plan.h"
@@ -27,15 +28,7 @@ SurfaceVertex surface_vertex(const Mesh& mesh, size_t i) {
 
 template <typename Values>
 cl::Buffer filled_buffer(ClDevice& device, const char* what, const Values& values) {
-  const size_t bytes = values.size() * sizeof values[0],
-               size = std::max<size_t>(bytes, 16);  // OpenCL makes no empty buffer
-  try {
-    cl::Buffer buffer(device.context(), CL_MEM_READ_ONLY, size);
-    write_buffer(device, what, buffer, values.data(), bytes);
-    return buffer;
-  } catch (const cl::Error& error) {
-    throw cl_machine_error(error, fmt::format("{}: a buffer of {} bytes", what, size));
-  }
+  return filled_buffer(device, what, values.data(), values.size() * sizeof values[0]);
 }
 
 // The same, on a CPU without a copy: the buffer keeps the values, whose texels may take gigabytes.

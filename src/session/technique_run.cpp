@@ -1,6 +1,7 @@
 #include "session/technique_run.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/resident.h"
 #include "gl/bindings.h"
@@ -16,25 +17,84 @@ static const TechniqueNeeds& checked_needs(const Technique& technique, const Set
   return technique.needs;
 }
 
-// The least that every technique takes: the shaded image in float, and surfaces where OpenCL draws on a CPU.
-// A driver may not check its own allocations: PoCL ends the program.
-static const View& fitting(const Renderer& renderer, const View& view) {
-  const bool shared = renderer.cl && renderer.cl->info().cpu;
-  const uint64_t bytes = uint64_t(view.width) * uint64_t(view.height) * (shared ? 24 : 16);
-  require_memory(bytes, fmt::format("size {}x{}", view.width, view.height), "a smaller --size needs less");
+static Frame draw(const Technique& technique, RenderView& view) {
+  const bool opengl = view.renderer.gl != nullptr;
+  if (opengl) reset_gl_state();
+  Frame frame = draw_frame(technique, view);
+  if (view.plan.settings.picture == PictureFormat::bytes)
+    frame.displayed = tone_map(view, view.caches.tone_map, frame.image);
+  if (opengl) check_gl(technique.name);
+  return frame;
+}
+
+// Of this shape, with this longest side.
+static View reduced(View view, int side) {
+  const int longest = std::max(view.width, view.height);
+  for (int* length : {&view.width, &view.height})
+    *length = std::max(1, int(int64_t(*length) * side / longest));
+  return view;
+}
+
+constexpr int counted_side = 512;
+
+// What a frame's passes keep, by drawing two small ones.
+static double kept_per_pixel(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
+                             const Technique& technique) {
+  RenderView drawn(renderer, gpu, reduced(view, counted_side / 2), settings,
+                   checked_needs(technique, settings));
+  Image image;
+  const auto kept = [&] {
+    read_back(drawn, draw(technique, drawn).image, image);
+    return double(drawn.memory_bytes());
+  };
+  const double before = kept(), pixels_before = double(drawn.view.grid().pixels());
+  drawn.look(reduced(view, counted_side));
+  return std::max(0.0, (kept() - before) / (double(drawn.view.grid().pixels()) - pixels_before));
+}
+
+// Throws Error(machine), with a size that fits, if a frame needs more memory than there is: a driver may not
+// check its own allocations. PoCL ends the program.
+static const View& fitting(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
+                           const Technique& technique, int file_bytes = 0) {
+  // The image for the host, and an 8-bit picture; more than any technique's frame keeps.
+  constexpr double image_bytes = 16, picture_bytes = 4, most_bytes = 256;
+  constexpr uint64_t spare_bytes = 128 << 20;
+  const double pixels = double(view.grid().pixels()), usable = double(usable_memory());
+  const bool in_host = renderer.cl->info().cpu || (renderer.gl && renderer.gl->software);
+  if (std::max(view.width, view.height) <= counted_side ||
+      pixels * most_bytes * (1 + settings.samples) + spare_bytes < usable)
+    return view;
+  const std::string size = fmt::format("size {}x{}", view.width, view.height);
+  double per_pixel = image_bytes + picture_bytes;
+  try {
+    if (in_host) per_pixel += kept_per_pixel(renderer, gpu, view, settings, technique);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::input) throw;
+    throw machine_error("{}: the scene cannot be drawn at a side of {} pixels either: {}", size, counted_side,
+                        error.what());
+  }
+  per_pixel = std::max(per_pixel, image_bytes + file_bytes);
+  constexpr double margin = 1.04;  // so that the size that is named fits
+  const double room = std::max(0.0, double(usable_memory()) - double(spare_bytes)) / (per_pixel * margin);
+  const double side = std::max(view.width, view.height) * std::sqrt(std::min(1.0, room / pixels));
+  const View fits = reduced(view, std::max(counted_side, int(side)));
+  require_memory(uint64_t(pixels * per_pixel) + spare_bytes, size,
+                 fmt::format("--size {}x{} fits", fits.width, fits.height));
   return view;
 }
 
 TechniqueRun::TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
-                           const Technique& technique, std::shared_ptr<TargetPool> pool)
+                           const Technique& technique, std::shared_ptr<TargetPool> pool, int file_bytes)
     : technique_(technique),
-      view_(renderer, gpu, fitting(renderer, view), settings, checked_needs(technique, settings), std::move(pool)) {}
+      view_(renderer, gpu, fitting(renderer, gpu, view, settings, technique, file_bytes), settings,
+            checked_needs(technique, settings), std::move(pool)) {}
 
 TechniqueRun::TechniqueRun(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
                            const Technique& technique)
     : technique_(technique),
       own_scene_(std::make_unique<GpuScene>(renderer, scene)),
-      view_(renderer, *own_scene_, fitting(renderer, view), settings, checked_needs(technique, settings)) {}
+      view_(renderer, *own_scene_, fitting(renderer, *own_scene_, view, settings, technique), settings,
+            checked_needs(technique, settings)) {}
 
 void TechniqueRun::prepare() {
   hide();
@@ -50,11 +110,7 @@ void TechniqueRun::release() {
 
 void TechniqueRun::draw_frame() {
   hide();
-  const bool opengl = view_.renderer.gl != nullptr;
-  if (opengl) reset_gl_state();
-  frame_ = lightgrid::draw_frame(technique_, view_);
-  if (draws_bytes()) frame_.displayed = tone_map(view_, view_.caches.tone_map, frame_.image);
-  if (opengl) check_gl(technique_.name);
+  frame_ = draw(technique_, view_);
 }
 
 double TechniqueRun::time_frame(const std::function<void()>& read) {
