@@ -48,7 +48,8 @@ void BlockPool::give_back_all() {
 bool BlockPool::grow(ClDevice& device, size_t bytes, size_t max_bytes) {
   const size_t most = std::min(max_bytes, size_t(UINT32_MAX / 16) * unit_bytes) / unit_bytes;
   if (is_refused_ || most <= units_) return false;
-  const uint32_t units = uint32_t(std::min(most, std::max(size_t(units_) * 2, units_ + size_t(units_of(bytes)))));
+  const uint32_t units =
+      uint32_t(std::min(most, std::max(size_t(units_) * 2, units_ + size_t(units_of(bytes)))));
   cl::Buffer grown;
   try {
     grown = device_buffer(device, units * unit_bytes);

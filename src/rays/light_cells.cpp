@@ -27,7 +27,7 @@ LightCellTable table_of(const LightCellJob& job) {
   return {job.first_start, job.size, std::min(0.999f * job.reach_m * job.reach_m, longest)};
 }
 
-// Of a light's triangles and its cells' starts.
+// Bytes for a light's triangles and the starts of its cells.
 size_t fixed_bytes(uint32_t triangles) {
   const size_t size = cells_across(triangles);
   return triangles * sizeof(LightCellTriangle) + 6 * (size * size + 1) * sizeof(uint32_t);
@@ -35,7 +35,7 @@ size_t fixed_bytes(uint32_t triangles) {
 
 size_t entry_bytes(uint32_t entries) { return std::max<size_t>(entries, 1) * sizeof(LightCellEntry); }
 
-// Whether the box has any part in the light's reach: with more room for rounding than the builder's box tests.
+// Allows for more rounding than the builder's box tests do.
 bool is_near(const CellLight& light, const glm::dvec3& low, const glm::dvec3& high) {
   const glm::dvec3 at(light.x, light.y, light.z), far = glm::abs(at) + glm::max(glm::abs(low), glm::abs(high));
   const double away = glm::length(at - glm::clamp(at, low, high));
@@ -71,7 +71,7 @@ void LightCells::forget_near(const glm::dvec3& low, const glm::dvec3& high) {
   }
 }
 
-// Of lists that no light of this frame has.
+// Drops the lists that have been unused for longest. False: this frame uses all of them.
 bool LightCells::evict_oldest() {
   const auto oldest = std::ranges::min_element(
       lists_, {}, [](const auto& item) { return item.second.is_listed ? item.second.last_frame : SIZE_MAX; });
@@ -95,7 +95,7 @@ void LightCells::reserve(const Waiting& chosen) {
   if (bytes) pool_.grow(device_, bytes, max_bytes_);
 }
 
-// Those without lists that were there before, or all.
+// The lights without lists; new lights only if also_new.
 LightCells::Waiting LightCells::waiting_lights(std::span<const CellLight> lights, bool also_new) {
   Waiting waiting;
   for (const CellLight& light : lights) {
@@ -155,7 +155,7 @@ void LightCells::launch(const char* stem, const RayScene& rays, size_t jobs, con
                 rays.arguments() + ClArguments{{"jobs", jobs_.get()}} + pools);
 }
 
-// How many triangles each has in reach, where that is unknown.
+// Counts the triangles in reach of each light, once per light.
 void LightCells::gather(const RayScene& rays, Waiting& waiting) {
   std::vector<LightCellJob> jobs;
   for (const auto* item : waiting) {

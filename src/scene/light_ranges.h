@@ -56,9 +56,9 @@ struct CutoffEffect {
 };
 
 // Returns the smallest of the cutoffs 0.0001, 0.0002, 0.0005, … 1000000 with which at most an eighth of the
-// lights, or eight, reach a point on average. If it keeps less than 0.9 of the light, then also the largest that keep 0.7 and 0.9, where they
-// leave two thirds of the lights or fewer. Largest cutoff first; empty without surfaces, or if no such cutoff
-// is enough. Deterministic.
+// lights, or eight, reach a point on average. If it keeps less than 0.9 of the light, the largest cutoffs that
+// keep 0.7 and 0.9 follow, provided that they leave two thirds of the lights or fewer. Largest cutoff first;
+// empty without surfaces, or if no such cutoff is enough. Deterministic.
 std::vector<CutoffEffect> helpful_cutoffs(const Scene& scene);
 
 // The window that shading uses.

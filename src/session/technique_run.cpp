@@ -27,7 +27,7 @@ static Frame draw(const Technique& technique, RenderView& view) {
   return frame;
 }
 
-// Of this shape, with this longest side.
+// A view of the same shape whose longest side is `side`.
 static View reduced(View view, int side) {
   const int longest = std::max(view.width, view.height);
   for (int* length : {&view.width, &view.height})
@@ -37,7 +37,7 @@ static View reduced(View view, int side) {
 
 constexpr int counted_side = 512;
 
-// What a frame's passes keep, by drawing two small ones.
+// Bytes that a frame's passes keep, measured on two small frames.
 static double kept_per_pixel(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
                              const Technique& technique) {
   RenderView drawn(renderer, gpu, reduced(view, counted_side / 2), settings,

@@ -3,8 +3,8 @@
 
 #include "kernels/rays/cpu/light_cell_builder.h"
 
-// starts[1 + cell]  how many entries the cell has, or where its next one goes
-// entries           null: they are counted
+// starts[1 + cell]  in and out: the cell's number of entries, or the place of its next one
+// entries           out; null: entries are only counted
 static inline __attribute__((always_inline)) void add_to_face(const CubeFace* f, uint size,
                                                               global const LightCellTriangle* t,
                                                               const SeenBox* box, uint number, float reach,

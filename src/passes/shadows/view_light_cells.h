@@ -9,8 +9,8 @@ namespace lightgrid {
 
 class ViewLightCells {
  public:
-  // Whether any ray of the view may take them: a kernel for a CPU, and rays that begin at a light's centre
-  // and that no blended surface dims.
+  // True if rays of the view may use them: the kernel is for a CPU, and rays begin at a light's centre and
+  // are not dimmed by blended surfaces.
   static bool serve(const Work& work, const RayScene& rays, bool lanes);
 
   // When the view, lights or surfaces changed. lights: as shadowed_lights has them.
