@@ -1,43 +1,87 @@
 #include "base/embedded.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
-#include <set>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace lightgrid {
 namespace {
 
-void append(std::string_view path, std::set<std::string, std::less<>>& seen, std::string& text) {
-  if (!seen.insert(std::string(path)).second) return;
-  std::istringstream lines(embedded_file(path));
-  for (std::string line; std::getline(lines, line);) {
-    constexpr std::string_view directive = "#include \"";
-    if (line.starts_with(directive)) {
-      append(std::string_view(line).substr(directive.size(), line.rfind('"') - directive.size()), seen, text);
-    } else if (line != "#pragma once") {
-      text += line;
-      text += '\n';
+// A branch of an #if: a number of its own. An #include stands in the branches that enclose it, outermost
+// first.
+using Branches = std::vector<int>;
+
+class Expansion {
+ public:
+  explicit Expansion(const EmbeddedFiles& files) : files_(files) {}
+
+  // Leaves a file out where an earlier expansion is certainly read before this one: its branches enclose this
+  // one's. The preprocessor decides by a macro if the branches of one of the expansions may not be taken.
+  void include(const std::string& path) {
+    std::vector<Branches>& earlier = expanded_[path];
+    const auto encloses = [&](const Branches& b) {
+      return std::ranges::mismatch(b, branches_).in1 == b.end();
+    };
+    if (std::ranges::any_of(earlier, encloses)) return;
+    const bool guarded = !earlier.empty() || !branches_.empty();
+    earlier.push_back(branches_);
+    std::string macro = "EXPANDED_" + path;
+    std::ranges::replace_if(
+        macro, [](char c) { return !std::isalnum(uint8_t(c)); }, '_');
+    if (guarded) text += "#ifndef " + macro + "\n#define " + macro + '\n';
+    append(path);
+    if (guarded) text += "#endif\n";
+  }
+
+  std::string text;
+
+ private:
+  void append(std::string_view path) {
+    std::istringstream lines(embedded_file(path, files_));
+    for (std::string line; std::getline(lines, line);) {
+      constexpr std::string_view directive = "#include \"";
+      if (line.starts_with(directive)) {
+        include(line.substr(directive.size(), line.rfind('"') - directive.size()));
+      } else if (line != "#pragma once") {
+        follow_branches(line);
+        text += line + '\n';
+      }
     }
   }
-}
+
+  void follow_branches(std::string_view line) {
+    const size_t hash = line.find_first_not_of(' ');
+    if (hash == line.npos || line[hash] != '#') return;
+    line.remove_prefix(std::min(line.find_first_not_of(' ', hash + 1), line.size()));
+    if (line.starts_with("el") || line.starts_with("endif")) branches_.pop_back();
+    if (line.starts_with("el") || line.starts_with("if")) branches_.push_back(++count_);
+  }
+
+  const EmbeddedFiles& files_;
+  std::map<std::string, std::vector<Branches>> expanded_;
+  Branches branches_;
+  int count_ = 0;
+};
 
 }  // namespace
 
-const std::string& embedded_file(std::string_view path) {
-  const auto found = embedded_files().find(path);
-  if (found == embedded_files().end()) {
+const std::string& embedded_file(std::string_view path, const EmbeddedFiles& files) {
+  const auto found = files.find(path);
+  if (found == files.end()) {
     std::fprintf(stderr, "no embedded file \"%.*s\"\n", int(path.size()), path.data());
     std::abort();
   }
   return found->second;
 }
 
-std::string with_includes(std::string_view path) {
-  std::set<std::string, std::less<>> seen;
-  std::string text;
-  append(path, seen, text);
-  return text;
+std::string with_includes(std::string_view path, const EmbeddedFiles& files) {
+  Expansion expansion(files);
+  expansion.include(std::string(path));
+  return std::move(expansion.text);
 }
 
 }  // namespace lightgrid

@@ -8,12 +8,14 @@
 namespace lightgrid {
 
 // Text by path: "kernels/culling/cpu/depth_bounds.cl", "shaders/forward.frag", "shared/light_grid.h".
-const std::map<std::string, std::string, std::less<>>& embedded_files();
+using EmbeddedFiles = std::map<std::string, std::string, std::less<>>;
+const EmbeddedFiles& embedded_files();
 
 // One file's text; asserts that it is there.
-const std::string& embedded_file(std::string_view path);
+const std::string& embedded_file(std::string_view path, const EmbeddedFiles& files = embedded_files());
 
-// The text with each #include "path" replaced by the file of that path, each file once.
-std::string with_includes(std::string_view path);
+// The text with each #include "path" replaced by the file of that path. The preprocessor reads each file at
+// most once, at the first #include whose #if branches are all taken.
+std::string with_includes(std::string_view path, const EmbeddedFiles& files = embedded_files());
 
 }  // namespace lightgrid

@@ -1,0 +1,82 @@
+// Texts of kernels and shaders: each #include is replaced by its file, whatever the #if around it says.
+#include "base/embedded.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+
+namespace lightgrid {
+namespace {
+
+// The lines that a preprocessor leaves of `text`, joined by spaces: #ifdef, #ifndef, #else, #endif, #define.
+std::string preprocessed(const std::string& text, std::set<std::string> defined) {
+  std::string kept;
+  std::vector<bool> taken;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string directive, name;
+    words >> directive >> name;
+    const bool read = std::ranges::count(taken, false) == 0;
+    if (directive == "#ifdef" || directive == "#ifndef") {
+      taken.push_back(defined.contains(name) == (directive == "#ifdef"));
+    } else if (directive == "#else") {
+      taken.back() = !taken.back();
+    } else if (directive == "#endif") {
+      taken.pop_back();
+    } else if (read && directive == "#define") {
+      defined.insert(name);
+    } else if (read) {
+      kept += (kept.empty() ? "" : " ") + line;
+    }
+  }
+  return kept;
+}
+
+TEST(WithIncludes, EachFileStandsOnce) {
+  const EmbeddedFiles files = {{"main", "#include \"a\"\n#include \"b\"\nmain\n"},
+                               {"a", "#pragma once\n#include \"b\"\na\n"},
+                               {"b", "#pragma once\n#include \"a\"\nb\n"}};
+  EXPECT_EQ(with_includes("main", files), "b\na\nmain\n");
+}
+
+TEST(WithIncludes, AFileOfABranchThatIsNotTakenIsReadLater) {
+  const EmbeddedFiles files = {{"main", "#ifdef X\n#include \"a\"\n#endif\n#include \"b\"\nmain\n"},
+                               {"a", "#include \"b\"\na\n"},
+                               {"b", "b\n"}};
+  const std::string text = with_includes("main", files);
+  EXPECT_EQ(preprocessed(text, {}), "b main");
+  EXPECT_EQ(preprocessed(text, {"X"}), "b a main");
+}
+
+TEST(WithIncludes, BothBranchesOfAConditionMayReadTheSameFile) {
+  const EmbeddedFiles files = {
+      {"main", "#ifdef X\n#include \"a\"\n# else\nno x\n#include \"a\"\n#endif\n#include \"a\"\n"},
+      {"a", "a\n"}};
+  std::string text = with_includes("main", files);
+  text.replace(text.find("# else"), 6, "#else");
+  EXPECT_EQ(preprocessed(text, {}), "no x a");
+  EXPECT_EQ(preprocessed(text, {"X"}), "a");
+}
+
+TEST(WithIncludes, AFileInsideAFileThatIsReadTwiceIsReadOnce) {
+  const EmbeddedFiles files = {{"main",
+                                "#ifdef X\n#include \"a\"\n#endif\n#ifdef Y\n#include \"a\"\n#include "
+                                "\"b\"\n#endif\n#include \"b\"\n"},
+                               {"a", "#ifdef Z\n#include \"b\"\n#endif\na\n"},
+                               {"b", "b\n"}};
+  const std::string text = with_includes("main", files);
+  EXPECT_EQ(preprocessed(text, {}), "b");
+  EXPECT_EQ(preprocessed(text, {"X"}), "a b");
+  EXPECT_EQ(preprocessed(text, {"X", "Y"}), "a b");
+  EXPECT_EQ(preprocessed(text, {"Y", "Z"}), "b a");
+}
+
+TEST(WithIncludes, AFileReadBeforeTheConditionIsNotRepeated) {
+  const EmbeddedFiles files = {{"main", "#include \"a\"\n#ifdef X\n#include \"a\"\n#endif\n"}, {"a", "a\n"}};
+  EXPECT_EQ(with_includes("main", files), "a\n#ifdef X\n#endif\n");
+}
+
+}  // namespace
+}  // namespace lightgrid
