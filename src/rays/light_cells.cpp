@@ -27,13 +27,17 @@ LightCellTable table_of(const LightCellJob& job) {
   return {job.first_start, job.size, std::min(0.999f * job.reach_m * job.reach_m, longest)};
 }
 
-// Bytes for a light's triangles and the starts of its cells.
-size_t fixed_bytes(uint32_t triangles) {
-  const size_t size = cells_across(triangles);
-  return triangles * sizeof(LightCellTriangle) + 6 * (size * size + 1) * sizeof(uint32_t);
+size_t start_units(size_t size) {
+  return (6 * (size * size + 1) * sizeof(uint32_t) + BlockPool::unit_bytes - 1) / BlockPool::unit_bytes;
 }
 
-size_t entry_bytes(uint32_t entries) { return std::max<size_t>(entries, 1) * sizeof(LightCellEntry); }
+// Bytes for the starts of a light's cells and for its triangles.
+size_t fixed_bytes(uint32_t triangles) {
+  return start_units(cells_across(triangles)) * BlockPool::unit_bytes + triangles * sizeof(LightCellTriangle);
+}
+
+uint32_t entry_room(uint32_t entries) { return entries + 16; }
+size_t entry_bytes(uint32_t entries) { return entry_room(entries) * sizeof(LightCellEntry); }
 
 // Allows for more rounding than the builder's box tests do.
 bool is_near(const CellLight& light, const glm::dvec3& low, const glm::dvec3& high) {
@@ -166,7 +170,7 @@ void LightCells::gather(const RayScene& rays, Waiting& waiting) {
   write_jobs(jobs);
   launch("gather_light_cells", rays, jobs.size(), {});
   read_jobs(jobs);
-  constexpr uint32_t entries_per_triangle = 5;  // 4.4 in the scenes that were measured
+  constexpr uint32_t entries_per_triangle = 6;  // 4.4 in the scenes that were measured
   size_t next = 0;
   for (auto* item : waiting) {
     Lists& lists = item->second;
@@ -186,53 +190,51 @@ bool LightCells::has_taken(Lists& lists) {
 }
 
 // For those of the lights that there is room for; the others leave `chosen`.
-std::vector<LightCellJob> LightCells::take_triangles(Waiting& chosen) {
+std::vector<LightCellJob> LightCells::jobs_of(Waiting& chosen) {
   std::erase_if(chosen, [&](auto* item) { return !has_taken(item->second); });
   std::vector<LightCellJob> jobs;
   for (const auto* item : chosen) {
     const auto& [light, lists] = *item;
     LightCellJob job{light.x, light.y, light.z, reach_of(light), lists.gathered, cells_across(lists.gathered)};
-    job.first_triangle = lists.fixed.unit;
-    job.first_start = first_item<uint32_t>(lists.fixed.unit + lists.gathered);
+    job.first_start = first_item<uint32_t>(lists.fixed.unit);
+    job.first_triangle = lists.fixed.unit + uint32_t(start_units(job.size));
+    job.first_entry = first_item<LightCellEntry>(lists.entries.unit);
+    job.entry_room = entry_room(lists.entry_count);
     jobs.push_back(job);
   }
   return jobs;
 }
 
-// For as many of the jobs as there is room for; the others leave them.
-void LightCells::take_entries(std::vector<LightCellJob>& jobs, const Waiting& chosen) {
-  size_t kept = 0;
-  for (size_t i = 0; i < jobs.size(); ++i) {
-    LightCellJob job = jobs[i];
-    Lists& lists = chosen[i]->second;
-    if (job.entries > std::exchange(lists.entry_count, job.entries)) {
-      shrink(lists.entries, 0);
-      if (!take(lists.entries, entry_bytes(job.entries))) {
-        free(lists), lists.refused = frees_;
-        continue;
-      }
-    }
-    shrink(lists.entries, entry_bytes(job.entries));
-    job.first_entry = first_item<LightCellEntry>(lists.entries.unit);
-    lists.table = table_of(job), lists.is_listed = true;
-    jobs[kept++] = job;
-  }
-  jobs.resize(kept);
+// Room that was too much comes back. False: there was too little.
+bool LightCells::settle(const LightCellJob& job, Lists& lists) {
+  lists.entry_count = job.entries;
+  if (entry_room(job.entries) > job.entry_room) return free(lists), false;
+  shrink(lists.fixed, start_units(job.size) * BlockPool::unit_bytes + job.triangles * sizeof(LightCellTriangle));
+  shrink(lists.entries, job.entries * sizeof(LightCellEntry));
+  lists.table = table_of(job), lists.is_listed = true;
+  return true;
 }
 
-void LightCells::list(const RayScene& rays, Waiting& chosen) {
-  std::vector<LightCellJob> jobs = take_triangles(chosen);
-  if (!jobs.empty()) {
-    write_jobs(jobs);
-    launch("count_light_cells", rays, jobs.size(),
-           {{"seen", pool_.buffer()}, {"starts", pool_.buffer()}});
-    read_jobs(jobs);
-  }
-  take_entries(jobs, chosen);
+void LightCells::list(const RayScene& rays, Waiting chosen) {
+  std::vector<LightCellJob> jobs = jobs_of(chosen);
   if (jobs.empty()) return;
+  const uint32_t most = std::ranges::max_element(jobs, {}, &LightCellJob::entry_room)->entry_room;
+  const size_t workers = std::min<size_t>(jobs.size(), device_.info().compute_units);
   write_jobs(jobs);
-  launch("fill_light_cells", rays, jobs.size(),
-         {{"seen", pool_.buffer()}, {"starts", pool_.buffer()}, {"entries", pool_.buffer()}});
+  const cl::Buffer scratch = device_buffer(device_, workers * most * sizeof(uint64_t)),
+                   next = device_buffer(device_, sizeof(uint32_t));
+  fill_buffer(device_, "light cells: jobs", next, 0, sizeof(uint32_t));
+  launch("list_light_cells", rays, workers,
+         {{"job_count", cl_uint(jobs.size())},
+          {"next_job", next},
+          {"scratch", scratch},
+          {"scratch_items", cl_ulong(most)},
+          {"pool", pool_.buffer()}});
+  read_jobs(jobs);
+  Waiting again;
+  for (size_t i = 0; i < jobs.size(); ++i)
+    if (!settle(jobs[i], chosen[i]->second)) again.push_back(chosen[i]);
+  list(rays, std::move(again));
 }
 
 ClArguments LightCells::arguments() const {

@@ -67,15 +67,15 @@ class LightCells {
 
   Waiting waiting_lights(std::span<const CellLight> lights, bool also_new);
   void gather(const RayScene& rays, Waiting& waiting);
-  void list(const RayScene& rays, Waiting& chosen);
+  void list(const RayScene& rays, Waiting chosen);
   bool take(Block& block, size_t bytes);
   void shrink(Block& block, size_t bytes);
   void free(Lists& lists);
   bool has_taken(Lists& lists);
   void reserve(const Waiting& chosen);
   bool evict_oldest();
-  std::vector<LightCellJob> take_triangles(Waiting& chosen);
-  void take_entries(std::vector<LightCellJob>& jobs, const Waiting& chosen);
+  std::vector<LightCellJob> jobs_of(Waiting& chosen);
+  bool settle(const LightCellJob& job, Lists& lists);
   void launch(const char* stem, const RayScene& rays, size_t jobs, const ClArguments& pools);
   void read_jobs(std::vector<LightCellJob>& jobs);
   void write_jobs(const std::vector<LightCellJob>& jobs);

@@ -4,7 +4,7 @@
 
 namespace lightgrid {
 
-// About 3 ms: a core takes 0.7 microseconds for a triangle.
+// Below 3 ms: a core takes less than 0.7 microseconds for a triangle.
 constexpr size_t triangles_per_core = 4096;
 
 SharedLightCells::SharedLightCells(const Renderer& renderer)

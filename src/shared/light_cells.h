@@ -38,10 +38,12 @@ typedef struct LightCellJob {
   float reach_m;   // no ray is longer
   uint gathered;   // out of the first step: triangles in leaves within reach
   uint size, first_start, first_triangle, first_entry;
+  uint entry_room;          // for 16 entries more than there are, or they are only counted
+  uint padding;
   uint triangles, entries;  // out of the second
 } LightCellJob;
 
 #if !defined(__OPENCL_VERSION__)
-static_assert(sizeof(LightCellTriangle) == 64 && sizeof(LightCellEntry) == 8 && sizeof(LightCellJob) == 56);
+static_assert(sizeof(LightCellTriangle) == 64 && sizeof(LightCellEntry) == 8 && sizeof(LightCellJob) == 64);
 }  // namespace lightgrid
 #endif

@@ -403,9 +403,10 @@ TEST(LightCellFaults, EachIsFound) {
   constexpr PlantedFault faults[] = {
       {"PLANE_SLACK 1e-5f", "PLANE_SLACK -1e-4f"},
       {"CELL_SLACK 1e-3f", "CELL_SLACK -1e-2f"},
-      {"-t->offset * 0.999f", "-t->offset * 1.02f"},
+      {"-offset * 0.999f", "-offset * 1.02f"},
       {"number % 2 ? -1.0f : 1.0f", "number % 2 ? 1.0f : -1.0f"},
-      {"entries[to - 1].near > entry.near", "entries[to - 1].near < entry.near"},
+      {"ROW_SLACK 1e-3f", "ROW_SLACK -1.0f"},
+      {"TO_WHOLE(near * items->steps_per_m)", "TO_WHOLE(near * items->steps_per_m) ^ 2046"},
   };
   for (const PlantedFault& fault : faults) {
     ProgramCache faulty(rays_device());

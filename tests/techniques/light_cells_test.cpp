@@ -31,7 +31,7 @@ Found found(const Scene& scene, const View& view, const std::vector<std::string>
 
 bool makes_cells(const Found& f) {
   const auto is_builder = [](const std::string& kernel) {
-    return kernel.find("fill_light_cells") != std::string::npos;
+    return kernel.find("list_light_cells") != std::string::npos;
   };
   return std::ranges::any_of(f.kernels, is_builder);
 }

@@ -1,61 +1,168 @@
-// The cells of a face that a triangle takes part in, 4 x 4 at a time: counted, or given an entry each.
+// The cells that triangles take part in: of small triangles in 16 lanes a triangle each, of large ones 4 x 4
+// cells at a time.
 #pragma once
 
-#include "kernels/rays/cpu/light_cell_builder.h"
+#include "kernels/rays/cpu/light_cell_triangles.h"
 
-// starts[1 + cell]  in and out: the cell's number of entries, or the place of its next one
-// entries           out; null: entries are only counted
-static inline __attribute__((always_inline)) void add_to_face(const CubeFace* f, uint size,
-                                                              global const LightCellTriangle* t,
-                                                              const SeenBox* box, uint number, float reach,
-                                                              global LightCellEntry* entries) {
-  const float along_low = f->sign > 0 ? box->low[f->along] : -box->high[f->along],
-              along_high = f->sign > 0 ? box->high[f->along] : -box->low[f->along];
-  if (!(along_high > 0.0f)) return;
-  int first_x, last_x, first_y, last_y;
-  if (!cells_of_box(box->low[f->u], box->high[f->u], along_low, along_high, (float)size, &first_x, &last_x) ||
-      !cells_of_box(box->low[f->v], box->high[f->v], along_low, along_high, (float)size, &first_y, &last_y))
-    return;
-  const float h = 2.0f / (float)size;
-  const CellPlane edge_0 = greatest_in_cells(t->edge_0, f, h), edge_1 = greatest_in_cells(t->edge_1, f, h),
-                  edge_2 = greatest_in_cells(t->edge_2, f, h), plane = greatest_in_cells(t->normal, f, h);
-  for (int y0 = first_y & ~3; y0 <= last_y; y0 += 4) {
-    for (int x0 = first_x & ~3; x0 <= last_x; x0 += 4) {
-      const whole column = (LANE_INDEX & 3) + x0, row = (LANE_INDEX >> 2) + y0;
-      const real x = TO_REAL(column), y = TO_REAL(row);
-      const real rising = plane_in_cells(plane, x, y);
-      const real sides = lane_min(lane_min(plane_in_cells(edge_0, x, y), plane_in_cells(edge_1, x, y)),
-                                  lane_min(plane_in_cells(edge_2, x, y), rising));
-      const mask_t in_box = (column >= first_x) & (column <= last_x) & (row >= first_y) & (row <= last_y);
-      uint left = mask_bits((sides >= 0.0f) & in_box);
-      if (left == 0) continue;
-      // A ray along d reaches the plane at -offset |d| / (normal . d): d is taken where it is shortest in the
-      // cell, and the product where it is greatest.
-      const real u = lane_max(fabs(fma(x, REAL(h), REAL(0.5f * h - 1.0f))) - 0.5f * h, REAL(0.0f)),
-                 v = lane_max(fabs(fma(y, REAL(h), REAL(0.5f * h - 1.0f))) - 0.5f * h, REAL(0.0f));
-      const real near =
-          lane_max(-t->offset * 0.999f * sqrt(fma(u, u, fma(v, v, REAL(1.0f)))) / rising, REAL(box->near));
-      left &= mask_bits(near <= reach);
-      global uint* counts = f->starts + 1 + y0 * (int)size + x0;
-      for (; left != 0; left &= left - 1) {
-        const uint lane = lowest_bit(left);
-        global uint* count = counts + (lane >> 2) * size + (lane & 3);
-        if (entries) {
-          const LightCellEntry entry = {number, ((const float*)&near)[lane]};
-          entries[*count] = entry;
-        }
-        ++*count;
-      }
+#define LARGE 12.0f      // cells along both sides of the box
+#define NEAR_STEPS 2048  // within the reach
+#define ROW_SLACK 1e-3f  // of a cell: rounding of where a plane leaves a row
+
+// What is listed so far: of each entry its cell and the distance of its triangle, and the triangle's number.
+typedef struct LightCellItems {
+  global uint *keys, *numbers;
+  uint count, room;   // where there is no room, they are counted
+  float steps_per_m;  // near, as steps of the reach
+} LightCellItems;
+
+static inline __attribute__((always_inline)) void add_items(LightCellItems* items, uint bits, whole cell,
+                                                            real near, whole number) {
+  if (items->count + LANES <= items->room) {
+    const whole steps = TO_WHOLE(near * items->steps_per_m);
+    append_uints(items->keys + items->count, cell * NEAR_STEPS + steps, bits);
+    append_uints(items->numbers + items->count, number, bits);
+  }
+  items->count += popcount(bits);
+}
+
+// One face of the cube: which coordinates are along it and across it, and the first of its cells.
+typedef struct CubeFace {
+  int along, u, v;
+  float sign;
+  int size, first_cell;
+  float reach;
+} CubeFace;
+
+static inline CubeFace cube_face(global const LightCellJob* job, int number) {
+  const int along = number / 2, size = (int)job->size;
+  const CubeFace face = {along, along == 0 ? 1 : 0, along == 2 ? 1 : 2, number % 2 ? -1.0f : 1.0f,
+                         size,  number * (size * size + 1), job->reach_m};
+  return face;
+}
+
+// The greatest value that a plane has in a cell: x, y and 1 times these. h: a cell's width.
+typedef struct CellPlanes {
+  real x, y, at;
+} CellPlanes;
+
+static inline CellPlanes greatest_in_cells(const real plane[3], const CubeFace* f) {
+  const float h = 2.0f / (float)f->size;
+  const real a = plane[f->u], b = plane[f->v], c = plane[f->along] * f->sign;
+  const CellPlanes p = {a * h, b * h,
+                        c - a - b + (lane_max(a, REAL(0.0f)) + lane_max(b, REAL(0.0f))) * h +
+                            PLANE_SLACK * (fabs(a) + fabs(b) + fabs(c)) + 1e-37f};
+  return p;
+}
+
+static inline real plane_in_cells(const CellPlanes* p, real x, real y) { return fma(x, p->x, fma(y, p->y, p->at)); }
+
+// The cells from *first to *last in which boxes may be seen along one coordinate.
+static inline mask_t cells_of_boxes(real low, real high, real along_low, real along_high, float size, real* first,
+                                    real* last) {
+  const real nearest = lane_max(along_low, REAL(1e-30f));
+  const real from = low / (low < 0.0f ? nearest : along_high), to = high / (high > 0.0f ? nearest : along_high);
+  const real half_size = REAL(0.5f * size);
+  const real begin = fma(from, half_size, half_size) - CELL_SLACK, end = fma(to, half_size, half_size) + CELL_SLACK;
+  *first = lane_floor(lane_max(begin, REAL(0.0f))), *last = lane_floor(lane_min(end, REAL(size - 1.0f)));
+  return (begin < size) & (end >= 0.0f);
+}
+
+// No shorter ray into the cell meets the triangle. A ray along d reaches the plane at -offset |d| / (normal . d):
+// d is taken where it is shortest in the cell, and the product, `rising`, where it is greatest.
+static inline real near_in_cells(const CubeFace* f, real x, real y, real offset, real rising, real box_near) {
+  const float h = 2.0f / (float)f->size;
+  const real u = lane_max(fabs(fma(x, REAL(h), REAL(0.5f * h - 1.0f))) - 0.5f * h, REAL(0.0f)),
+             v = lane_max(fabs(fma(y, REAL(h), REAL(0.5f * h - 1.0f))) - 0.5f * h, REAL(0.0f));
+  return lane_max(-offset * 0.999f * sqrt(fma(u, u, fma(v, v, REAL(1.0f)))) / rising, box_near);
+}
+
+// The four planes in a face's cells, and the box's cells.
+typedef struct FaceTriangles {
+  CellPlanes edges[3], plane;
+  real first_x, last_x, first_y, last_y;
+} FaceTriangles;
+
+// A row's cells from *first to *last in which no edge has all on its wrong side.
+static inline void cells_of_row(const FaceTriangles* t, const real inverse[3], real y, real* first, real* last) {
+  for (int e = 0; e < 3; ++e) {
+    const real row = fma(y, t->edges[e].y, t->edges[e].at), end = row * inverse[e];
+    const mask_t up = t->edges[e].x >= 0.0f;
+    *first = up ? lane_max(-end - ROW_SLACK, *first) : *first;
+    *last = up ? *last : lane_min(end + ROW_SLACK, *last);
+  }
+  *first = -lane_floor(-*first), *last = lane_floor(*last);
+}
+
+static inline __attribute__((always_inline)) void add_small(const CubeFace* f, const SeenTriangles* s,
+                                                            const FaceTriangles* t, mask_t small, whole numbers,
+                                                            LightCellItems* items) {
+  real inverse[3];
+  for (int e = 0; e < 3; ++e) inverse[e] = 1.0f / fabs(t->edges[e].x);
+  for (real y = t->first_y;; y += 1.0f) {
+    const mask_t rows = small & (y <= t->last_y);
+    if (!any_lane(rows)) return;
+    real first = t->first_x, last = t->last_x;
+    cells_of_row(t, inverse, y, &first, &last);
+    for (real x = first;; x += 1.0f) {
+      const mask_t here = rows & (x <= last);
+      if (!any_lane(here)) break;
+      const real rising = plane_in_cells(&t->plane, x, y),
+                 near = near_in_cells(f, x, y, s->offset, rising, s->near);
+      const uint bits = mask_bits(here & (rising >= 0.0f) & (near <= f->reach));
+      const whole cell = f->first_cell + TO_WHOLE(here ? y : REAL(0.0f)) * f->size + TO_WHOLE(here ? x : REAL(0.0f));
+      if (bits != 0) add_items(items, bits, cell, near, numbers);
     }
   }
 }
 
-static inline __attribute__((always_inline)) void add_to_cells(global const LightCellJob* job,
-                                                               global uint* starts, const SeenBox* box,
-                                                               global const LightCellTriangle* t, uint number,
-                                                               global LightCellEntry* entries) {
-  for (int number_of_face = 0; number_of_face < 6; ++number_of_face) {
-    const CubeFace face = cube_face(starts, job->size, number_of_face);
-    add_to_face(&face, job->size, t, box, number, job->reach_m, entries);
+#define LANE_OF(x) REAL(((const float*)&(x))[lane])
+static inline CellPlanes planes_of_lane(const CellPlanes* p, uint lane) {
+  const CellPlanes one = {LANE_OF(p->x), LANE_OF(p->y), LANE_OF(p->at)};
+  return one;
+}
+
+static inline __attribute__((always_inline)) void add_large(const CubeFace* f, const SeenTriangles* s,
+                                                            const FaceTriangles* t, uint lane, int number,
+                                                            LightCellItems* items) {
+  const CellPlanes edge_0 = planes_of_lane(&t->edges[0], lane), edge_1 = planes_of_lane(&t->edges[1], lane),
+                   edge_2 = planes_of_lane(&t->edges[2], lane), plane = planes_of_lane(&t->plane, lane);
+  const real first_x = LANE_OF(t->first_x), last_x = LANE_OF(t->last_x), first_y = LANE_OF(t->first_y),
+             last_y = LANE_OF(t->last_y), offset = LANE_OF(s->offset), box_near = LANE_OF(s->near);
+  for (int y0 = (int)first_y.s0 & ~3; y0 <= (int)last_y.s0; y0 += 4) {
+    for (int x0 = (int)first_x.s0 & ~3; x0 <= (int)last_x.s0; x0 += 4) {
+      const whole column = (LANE_INDEX & 3) + x0, row = (LANE_INDEX >> 2) + y0;
+      const real x = TO_REAL(column), y = TO_REAL(row);
+      const real rising = plane_in_cells(&plane, x, y);
+      const real sides = lane_min(lane_min(plane_in_cells(&edge_0, x, y), plane_in_cells(&edge_1, x, y)),
+                                  lane_min(plane_in_cells(&edge_2, x, y), rising));
+      const mask_t here = (sides >= 0.0f) & (x >= first_x) & (x <= last_x) & (y >= first_y) & (y <= last_y);
+      if (!any_lane(here)) continue;
+      const real near = near_in_cells(f, x, y, offset, rising, box_near);
+      const uint bits = mask_bits(here & (near <= f->reach));
+      if (bits != 0) add_items(items, bits, f->first_cell + row * f->size + column, near, (whole)(number));
+    }
+  }
+}
+
+// Of the lanes `seen`. numbers: of their triangles.
+static inline __attribute__((always_inline)) void add_to_face(const CubeFace* f, const SeenTriangles* s, mask_t seen,
+                                                              whole numbers, LightCellItems* items) {
+  const real along_low = f->sign > 0 ? s->low[f->along] : -s->high[f->along],
+             along_high = f->sign > 0 ? s->high[f->along] : -s->low[f->along];
+  const real low_u = s->low[f->u], high_u = s->high[f->u], low_v = s->low[f->v], high_v = s->high[f->v];
+  const real side = 1.01f * along_high;  // most triangles, without a division
+  seen &= (along_high > 0.0f) & (low_u <= side) & (-high_u <= side) & (low_v <= side) & (-high_v <= side);
+  if (!any_lane(seen)) return;
+  FaceTriangles t;
+  seen &= cells_of_boxes(low_u, high_u, along_low, along_high, (float)f->size, &t.first_x, &t.last_x);
+  seen &= cells_of_boxes(low_v, high_v, along_low, along_high, (float)f->size, &t.first_y, &t.last_y);
+  if (!any_lane(seen)) return;
+  for (int e = 0; e < 3; ++e) t.edges[e] = greatest_in_cells(s->edges[e], f);
+  t.plane = greatest_in_cells(s->normal, f);
+  const mask_t large = seen & ((t.last_x - t.first_x) + (t.last_y - t.first_y) > LARGE);
+  if (any_lane(seen & ~large)) add_small(f, s, &t, seen & ~large, numbers, items);
+  for (uint left = mask_bits(large); left != 0; left &= left - 1) {
+    const uint lane = lowest_bit(left);
+    add_large(f, s, &t, lane, ((const int*)&numbers)[lane], items);
   }
 }

@@ -1,0 +1,96 @@
+// Light cells: the triangles of each light, and its cells' lists of them, the nearest first. Each work-item takes
+// light after light.
+//
+// RAYS_ARGUMENTS  the scene
+// jobs            in and out: LightCellJob
+// next_job        in: 0
+// scratch         each work-item's room for the entries of one light
+// pool            out: starts, LightCellTriangle and LightCellEntry where the jobs say
+#include "kernels/rays/cpu/light_cell_lists.h"
+
+// Adds up to 16 triangles.
+static void add_triangles(global const LightCellJob* job, global const RayTriangle* triangles, const int* places,
+                          uint count, global LightCellTriangle* to, uint* used, LightCellItems* items) {
+  SeenTriangles s;
+  const uint seen = see_triangles(&s, job, triangles, places, count);
+  if (seen == 0) return;
+  store_triangles(to + *used, &s, seen);
+  int numbers[LANES] ALIGNED;
+  uint number = *used;
+  for (uint lane = 0; lane < LANES; ++lane) numbers[lane] = (int)number, number += seen >> lane & 1;
+  *used = number;
+  for (int i = 0; i < 6; ++i) {
+    const CubeFace face = cube_face(job, i);
+    add_to_face(&face, &s, lanes_of(seen), *(const whole*)numbers, items);
+  }
+}
+
+static uint add_all(global const LightCellJob* job, global const RayNode* nodes,
+                    global const RayTriangle* triangles, global LightCellTriangle* to, LightCellItems* items) {
+  LeafWalk walk = {{0}, {0}, 1};
+  int places[LANES] ALIGNED;
+  int first, count;
+  uint used = 0, waiting = 0;
+  while (next_leaf(&walk, nodes, job, &first, &count)) {
+    for (int place = first; place < first + count; ++place) {
+      places[waiting++] = place;
+      if (waiting == LANES) add_triangles(job, triangles, places, LANES, to, &used, items), waiting = 0;
+    }
+  }
+  if (waiting != 0) add_triangles(job, triangles, places, waiting, to, &used, items);
+  return used;
+}
+
+// Where each value's items begin.
+static inline void sum_counts(uint* counts, uint values) {
+  uint sum = 0;
+  for (uint i = 0; i < values; ++i) {
+    const uint here = counts[i];
+    counts[i] = sum, sum += here;
+  }
+}
+
+// Sorted by distance, then by cell: the second step keeps the order of the first.
+static void sort_items(global const LightCellJob* job, const LightCellItems* items, global ulong* by_distance,
+                       global uint* starts, global LightCellEntry* entries) {
+  uint steps[NEAR_STEPS] = {0};
+  const uint all = 6 * (job->size * job->size + 1);
+  for (uint i = 0; i < all; ++i) starts[i] = 0;
+  for (uint i = 0; i < items->count; ++i)
+    ++steps[items->keys[i] % NEAR_STEPS], ++starts[1 + items->keys[i] / NEAR_STEPS];
+  sum_counts(steps, NEAR_STEPS);
+  uint sum = job->first_entry;
+  for (uint i = 0; i < all; ++i) {
+    const uint here = starts[i];
+    starts[i] = sum, sum += here;
+  }
+  for (uint i = 0; i < items->count; ++i)
+    by_distance[steps[items->keys[i] % NEAR_STEPS]++] = (ulong)items->keys[i] << 32 | items->numbers[i];
+  // Where a cell's entries began, the next one's begin now; a face's first cell begins at its own 0.
+  const float metres = 0.9999f / items->steps_per_m;
+  for (uint i = 0; i < items->count; ++i) {
+    const uint key = (uint)(by_distance[i] >> 32);
+    const LightCellEntry entry = {job->first_triangle + (uint)by_distance[i],
+                                  metres * (float)(key % NEAR_STEPS)};
+    entries[starts[1 + key / NEAR_STEPS]++] = entry;
+  }
+}
+
+kernel void list_light_cells(RAYS_ARGUMENTS, global LightCellJob* jobs, uint job_count,
+                             volatile global uint* next_job, global ulong* scratch, ulong scratch_items,
+                             global uint* pool) {
+  global ulong* by_distance = scratch + get_global_id(0) * scratch_items;
+  for (uint i = atomic_inc(next_job); i < job_count; i = atomic_inc(next_job)) {
+    global LightCellJob* job = jobs + i;
+    global LightCellEntry* entries = (global LightCellEntry*)pool;
+    LightCellItems items;
+    items.keys = (global uint*)(entries + job->first_entry), items.numbers = items.keys + job->entry_room;
+    items.count = 0, items.room = job->entry_room;
+    items.steps_per_m = (float)(NEAR_STEPS - 1) / job->reach_m;
+    job->triangles = add_all(job, ray_nodes, ray_triangles, (global LightCellTriangle*)pool + job->first_triangle,
+                             &items);
+    job->entries = items.count;
+    if (items.count + LANES > items.room) continue;
+    sort_items(job, &items, by_distance, pool + job->first_start, entries);
+  }
+}
