@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "cl/transfer.h"
 
 namespace lightgrid {
@@ -221,8 +222,15 @@ void LightCells::list(const RayScene& rays, Waiting chosen) {
   const uint32_t most = std::ranges::max_element(jobs, {}, &LightCellJob::entry_room)->entry_room;
   const size_t workers = std::min<size_t>(jobs.size(), device_.info().compute_units);
   write_jobs(jobs);
-  const cl::Buffer scratch = device_buffer(device_, workers * most * sizeof(uint64_t)),
-                   next = device_buffer(device_, sizeof(uint32_t));
+  cl::Buffer scratch;
+  try {
+    scratch = device_buffer(device_, workers * most * sizeof(uint64_t));
+  } catch (const Error&) {  // these lights keep the tree
+    for (auto* item : chosen) free(item->second);
+    for (auto* item : chosen) item->second.refused = frees_;
+    return;
+  }
+  const cl::Buffer next = device_buffer(device_, sizeof(uint32_t));
   fill_buffer(device_, "light cells: jobs", next, 0, sizeof(uint32_t));
   launch("list_light_cells", rays, workers,
          {{"job_count", cl_uint(jobs.size())},
