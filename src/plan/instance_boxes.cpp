@@ -9,16 +9,28 @@ using glm::dvec3;
 
 // The world's axis along which an instance has no extent: its mesh's box has none along an object's axis,
 // which alone moves a point along the world's. Rounding then moves all points alike, so that even slivers
-// stay in the plane. -1: none.
-static int flat_axis_of(const glm::dmat4& world_from_object, const Aabb& bounds) {
+// stay in the plane.
+struct FlatAxes {
+  int object = -1, world = -1;  // -1: none
+};
+
+static FlatAxes flat_axes_of(const glm::dmat3& world_from_object, const Aabb& bounds) {
   for (int object = 0; object < 3; ++object) {
     if (bounds.min[object] != bounds.max[object]) continue;
     for (int world = 0; world < 3; ++world) {
       if (world_from_object[(object + 1) % 3][world] == 0 && world_from_object[(object + 2) % 3][world] == 0)
-        return world;
+        return {object, world};
     }
   }
-  return -1;
+  return {};
+}
+
+// By how much a matrix stretches at most: a bound, exact for axes at right angles.
+static double most_stretch(const glm::dmat3& m) {
+  const glm::dmat3 squares = glm::transpose(m) * m;
+  double most = 0;
+  for (int i = 0; i < 3; ++i) most = std::max(most, glm::dot(glm::abs(squares[i]), dvec3(1)));
+  return std::sqrt(most);
 }
 
 bool is_blended(const Scene& scene, int instance) {
@@ -28,9 +40,22 @@ bool is_blended(const Scene& scene, int instance) {
 
 static dvec3 ahead_of(const View& view) { return -glm::transpose(glm::dmat3(view.view_from_world))[2]; }
 
+static void measure_triangles(const Mesh& mesh, const glm::dmat3& world_from_object, InstanceBox& box) {
+  const double stretch = most_stretch(world_from_object);
+  box.longest_m = std::min(box.farthest_m - box.nearest_m, stretch * double(mesh.longest_edge));
+  box.sliver_m = stretch * double(mesh.longest_sliver);
+  const FlatAxes flat = flat_axes_of(world_from_object, mesh.bounds);
+  box.flat_axis = flat.world;
+  if (flat.world < 0) return;
+  const double area = glm::length(
+      glm::cross(world_from_object[(flat.object + 1) % 3], world_from_object[(flat.object + 2) % 3]));
+  box.thinness *= stretch * stretch / area;
+}
+
 InstanceBox box_of(const Scene& scene, int instance, const View& view) {
   const glm::dmat4& world_from_object = scene.instances[size_t(instance)].world_from_object;
-  const Aabb& bounds = scene.meshes[size_t(scene.instances[size_t(instance)].mesh)].bounds;
+  const Mesh& mesh = scene.meshes[size_t(scene.instances[size_t(instance)].mesh)];
+  const Aabb& bounds = mesh.bounds;
   InstanceBox box;
   box.nearest_m = HUGE_VAL, box.farthest_m = -HUGE_VAL;
   box.instance = instance;
@@ -43,7 +68,7 @@ InstanceBox box_of(const Scene& scene, int instance, const View& view) {
     const double away_m = glm::dot(ahead_of(view), at - view.eye);
     box.nearest_m = std::min(box.nearest_m, away_m), box.farthest_m = std::max(box.farthest_m, away_m);
   }
-  box.flat_axis = flat_axis_of(world_from_object, bounds);
+  measure_triangles(mesh, glm::dmat3(world_from_object), box);
   return box;
 }
 
@@ -80,14 +105,20 @@ PixelErrors::PixelErrors(const View& view)
   along_ = 0x1p-19 * widest_;
 }
 
-// Of the least angle at which the view meets the triangles of the box, at distances along the view up to z.
+// Of the least angle at which a pixel's ray meets the plane of a flat box, at distances along the view up to
+// z. Rays through centres are up to across_ beside the triangle.
 double PixelErrors::sine_at(const InstanceBox& box, double z) const {
-  constexpr double least = 1.0 / 16;
   const int axis = box.flat_axis;
-  if (axis < 0) return least;
-  const double sine =
-      orthographic_ ? std::abs(ahead_[axis]) : std::abs(eye_[axis] - box.min[axis]) / (z * widest_);
-  return std::clamp(sine, least, 1.0);
+  if (orthographic_) return std::abs(ahead_[axis]);
+  return std::max(std::abs(eye_[axis] - box.min[axis]) / (z * widest_) - across_, 0.0);
+}
+
+// Between P and Q along the ray. Corners, floats in clip space, err by less than a quarter of rounding_m.
+double PixelErrors::along_m(const InstanceBox& box, double z, double across_m, double rounding_m) const {
+  const double longest_m = widest_ * box.longest_m;
+  if (box.flat_axis < 0) return longest_m;
+  const double in_plane_m = (across_m + box.thinness * rounding_m) / sine_at(box, z);
+  return std::min(longest_m, std::max(in_plane_m, widest_ * box.sliver_m));
 }
 
 double PixelErrors::displaced_m(const GrownLightBounds& reach, const InstanceBox& box) const {
@@ -95,8 +126,9 @@ double PixelErrors::displaced_m(const GrownLightBounds& reach, const InstanceBox
                nearest_m = std::max(box.nearest_m, near_m_),
                z = std::max(nearest_m,
                             std::min(light_m + reach.light.radius_m + reach.slack_m, box.farthest_m));
-  const double across_m = (orthographic_ ? 1 : z) * across_ / sine_at(box, z);
-  return fixed_m_ + across_m + z * z / nearest_m * along_;
+  const double across_m = (orthographic_ ? 1 : z) * across_;
+  return fixed_m_ + across_m + along_m(box, z, across_m, reach.slack_m - reach.source_m) +
+         z * z / nearest_m * along_;
 }
 
 }  // namespace lightgrid

@@ -195,8 +195,27 @@ void complete_mesh(TangentNeed tangents, Mesh& mesh) {
     make_tangents(mesh, tangents == TangentNeed::along_uv0 ? mesh.uv0 : mesh.uv1);
   }
   for (glm::vec4& tangent : mesh.tangents) tangent.w = tangent.w < 0 ? -1.0f : 1.0f;
+  measure(mesh);
+}
+
+// A height below 1/16 of the longest edge: twice the area below 1/16 of its square.
+static void measure_edges(Mesh& mesh) {
+  double longest = 0, sliver = 0;  // squared
+  for (size_t triangle = 0; triangle * 3 < mesh.indices.size(); ++triangle) {
+    const auto at = [&](size_t i) { return glm::dvec3(mesh.positions[mesh.indices[triangle * 3 + i % 3]]); };
+    double edge = 0;
+    for (size_t i = 0; i < 3; ++i) edge = std::max(edge, glm::dot(at(i + 1) - at(i), at(i + 1) - at(i)));
+    longest = std::max(longest, edge);
+    if (!(16 * glm::length(area_normal(mesh, triangle)) >= edge)) sliver = std::max(sliver, edge);
+  }
+  mesh.longest_edge = float(std::sqrt(longest) * (1 + 0x1p-20));
+  mesh.longest_sliver = float(std::sqrt(sliver) * (1 + 0x1p-20));
+}
+
+void measure(Mesh& mesh) {
   mesh.bounds = {};
   for (const glm::vec3& position : mesh.positions) mesh.bounds.add(position);
+  measure_edges(mesh);
 }
 
 void deform(const DeformingMesh& shape, std::span<const double> weights, std::span<const glm::dmat4> joints,

@@ -24,7 +24,10 @@ void apply_skin(std::span<const glm::dmat4> joints, const SkinWeights& skin, boo
 // The tangents that a mesh of this material needs.
 TangentNeed tangent_need(const Material& material);
 
-// Computes normals and tangents that are missing and needed, drops unused tangents, sets bounds.
+// Sets bounds, longest_edge and longest_sliver.
+void measure(Mesh& mesh);
+
+// Computes normals and tangents that are missing and needed, drops unused tangents, measures the mesh.
 void complete_mesh(TangentNeed tangents, Mesh& mesh);
 
 // Runs all three, from shape.base into `mesh`, whose name and material stay.

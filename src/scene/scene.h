@@ -35,6 +35,8 @@ struct Mesh {
   std::vector<uint32_t> indices;  // three a triangle, counter-clockwise front
   int material = 0;               // always valid: a default material is added if the file has none
   Aabb bounds;                    // of positions
+  // Bounds on the longest edge of a triangle, and of one whose height over it is less than 1/16 of it.
+  float longest_edge = std::numeric_limits<float>::infinity(), longest_sliver = longest_edge;
 };
 
 enum class Wrap { repeat, clamp, mirror };

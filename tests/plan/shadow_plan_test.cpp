@@ -93,9 +93,8 @@ TEST(ShadowPlan, LightsAreMarkedByTheirPlaceAmongPointAndSpotLightsThenDirection
   EXPECT_THAT(plan.shadowed, ElementsAre(0, 0, 1, 1, 1));
   std::vector<std::pair<int, ShadowNeed>> casting;
   for (const LightShadow& light : plan.casting) casting.emplace_back(light.light, light.need);
-  EXPECT_THAT(casting,
-              ElementsAre(std::pair(0, ShadowNeed::rays), std::pair(2, ShadowNeed::no_receiver),
-                          std::pair(3, ShadowNeed::rays), std::pair(4, ShadowNeed::rays)));
+  EXPECT_THAT(casting, ElementsAre(std::pair(0, ShadowNeed::rays), std::pair(2, ShadowNeed::no_receiver),
+                                   std::pair(3, ShadowNeed::rays), std::pair(4, ShadowNeed::rays)));
 }
 
 // Programs are for every view of a scene: what this view needs must not decide what is compiled.
@@ -155,8 +154,12 @@ TEST(ShadowPlan, MaskedSurfacesCast) {
   EXPECT_EQ(room.need(), ShadowNeed::rays);
 }
 
+// The ball is behind the eye: no pixel shows a point beside it, by up to an edge.
+const View before_pane = make_view(look_at({0, 1.5, 1.2}, {0, 1, 0}), 64, 64);
+
 TEST(ShadowPlan, CastersOutOfRangeDoNotCount) {
   Room room;
+  room.view = before_pane;
   room.put(room.pane, {0, 0, 0});
   room.put(room.ball, {0, 1, 3.4});  // its box begins 2.9 m from the lamp
   EXPECT_EQ(room.need(), ShadowNeed::rays);
@@ -187,6 +190,7 @@ TEST(ShadowPlan, RoundingMayMoveACasterIntoRange) {
 
 TEST(ShadowPlan, CastersOutOfTheConeDoNotCount) {
   Room room;
+  room.view = before_pane;
   room.put(room.pane, {0, 0, 0});
   room.put(room.ball, {0, 1, 2});
   Light& spot = room.scene.lights[0];

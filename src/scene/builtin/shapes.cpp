@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "scene/deform.h"
+
 namespace lightgrid::shapes {
 namespace {
 
@@ -188,7 +190,7 @@ std::vector<glm::vec3> arc(glm::vec3 center, glm::vec3 right, glm::vec3 up, floa
 Mesh finished(Mesh mesh, std::string name, int material) {
   mesh.name = std::move(name);
   mesh.material = material;
-  for (const glm::vec3& p : mesh.positions) mesh.bounds.add(p);
+  measure(mesh);
   return mesh;
 }
 
