@@ -50,19 +50,11 @@ static inline mask_t hides_by_mask(const RayMasks* masks, int place, real first,
 // its binary logarithms in whole numbers, 2^-16 each, negated: no order of the triangles changes a bit.
 #define MOST_VEIL (24 << 16)
 
-#if LANES == 1
-#define AS_WHOLE as_int
-#define AS_REAL as_float
-#else
-#define AS_WHOLE as_int16
-#define AS_REAL as_float16
-#endif
-
 // Within 2^-16: ln m = 2 atanh((m - 1) / (m + 1)), m from 0.7 to 1.42.
 static inline whole veil_of(real alpha) {
   const real through = 1.0f - lane_min(lane_max(alpha, REAL(0.0f)), REAL(1.0f));
-  const whole bits = AS_WHOLE(through);
-  const real mantissa = AS_REAL((bits & 0x7fffff) | 0x3f800000);
+  const whole bits = bits_of_real(through);
+  const real mantissa = real_of_bits((bits & 0x7fffff) | 0x3f800000);
   const mask_t high = mantissa > 1.41421356f;
   const real m = high ? mantissa * 0.5f : mantissa,
              power = TO_REAL((bits >> 23) - 127) + (high ? REAL(1.0f) : REAL(0.0f));
@@ -81,7 +73,7 @@ static inline whole share_of_veil(whole veil) {
   power = fma(power, x, REAL(1.0f / 120)), power = fma(power, x, REAL(1.0f / 24));
   power = fma(power, x, REAL(1.0f / 6)), power = fma(power, x, REAL(0.5f));
   power = fma(fma(power, x, REAL(1.0f)), x, REAL(1.0f));
-  const real through = power * AS_REAL((127 - (veil >> 16)) << 23);
+  const real through = power * real_of_bits((127 - (veil >> 16)) << 23);
   return TO_WHOLE(fma(-through, REAL(255.0f), REAL(255.0f)) + 0.5f);
 }
 #endif

@@ -75,7 +75,8 @@ CellAnswers cell_answers(RayScene& scene, const LightCells& cells, const Queries
 std::vector<CellLight> cell_lights(const Queries& q, RandomNumbers& random) {
   std::vector<CellLight> lights;
   for (const RayLight& light : q.lights) {
-    const double range_m = random.below(3) ? random.between(0.5, 4) : 40;
+    const double far_m = random.below(2) ? 40 : HUGE_VAL,
+                 range_m = random.below(3) ? random.between(0.5, 4) : far_m;
     lights.push_back({light.x, light.y, light.z, light.w != 0 ? range_m : -1});
   }
   return lights;
@@ -403,10 +404,10 @@ TEST(LightCellFaults, EachIsFound) {
   constexpr PlantedFault faults[] = {
       {"PLANE_SLACK 1e-5f", "PLANE_SLACK -1e-4f"},
       {"CELL_SLACK 1e-3f", "CELL_SLACK -1e-2f"},
-      {"-offset * 0.999f", "-offset * 1.02f"},
+      {"-offset * 0.999f", "-offset * 1.05f"},
       {"number % 2 ? -1.0f : 1.0f", "number % 2 ? 1.0f : -1.0f"},
       {"ROW_SLACK 1e-3f", "ROW_SLACK -1.0f"},
-      {"TO_WHOLE(near * items->steps_per_m)", "TO_WHOLE(near * items->steps_per_m) ^ 2046"},
+      {"near_steps(near)", "near_steps(near) ^ 2047"},
   };
   for (const PlantedFault& fault : faults) {
     ProgramCache faulty(rays_device());

@@ -140,7 +140,7 @@ TEST(ShadowMemory, HoldsTenThousandLights) {
   for (Light& light : s.scene.lights) light.casts_shadow = true;
   ShadowStage stage{s.scene, small_view(160, 90), GpuScene(test_devices(), s.scene)};
   Settings settings;
-  settings.shadow_memory = 160 << 10;
+  settings.shadow_memory = 176 << 10;  // one tile alone needs 162 KiB
   TechniqueRun whole(test_devices(), stage.gpu, stage.view, {}, find_technique("visibility")),
       banded(test_devices(), stage.gpu, stage.view, settings, find_technique("visibility"));
   whole.run_frame(), banded.run_frame();

@@ -5,21 +5,33 @@
 #include "kernels/rays/cpu/light_cell_triangles.h"
 
 #define LARGE 12.0f      // cells along both sides of the box
-#define NEAR_STEPS 2048  // within the reach
 #define ROW_SLACK 1e-3f  // of a cell: rounding of where a plane leaves a row
+
+// Distances rounded down to steps of 1/64 octave from 2^-10 to 2^22 m: the upper bits of a float. Nearer ones
+// become 0, farther ones the last step.
+#define NEAR_STEPS 2048
+#define NEAR_SHIFT 17
+#define FIRST_NEAR_STEP ((127 - 10) << 6)
+
+static inline whole near_steps(real near) {
+  const whole steps = (bits_of_real(near) >> NEAR_SHIFT) - FIRST_NEAR_STEP;
+  return min(max(steps, (whole)(0)), (whole)(NEAR_STEPS - 1));
+}
+
+static inline float metres_of_steps(uint steps) {
+  return steps == 0 ? 0.0f : as_float((steps + FIRST_NEAR_STEP) << NEAR_SHIFT);
+}
 
 // What is listed so far: of each entry its cell and the distance of its triangle, and the triangle's number.
 typedef struct LightCellItems {
   global uint *keys, *numbers;
-  uint count, room;   // where there is no room, they are counted
-  float steps_per_m;  // near, as steps of the reach
+  uint count, room;  // where there is no room, they are counted
 } LightCellItems;
 
 static inline __attribute__((always_inline)) void add_items(LightCellItems* items, uint bits, whole cell,
                                                             real near, whole number) {
   if (items->count + LANES <= items->room) {
-    const whole steps = TO_WHOLE(near * items->steps_per_m);
-    append_uints(items->keys + items->count, cell * NEAR_STEPS + steps, bits);
+    append_uints(items->keys + items->count, cell * NEAR_STEPS + near_steps(near), bits);
     append_uints(items->numbers + items->count, number, bits);
   }
   items->count += popcount(bits);
@@ -35,7 +47,7 @@ typedef struct CubeFace {
 
 static inline CubeFace cube_face(global const LightCellJob* job, int number) {
   const int along = number / 2, size = (int)job->size;
-  const CubeFace face = {along, along == 0 ? 1 : 0, along == 2 ? 1 : 2, number % 2 ? -1.0f : 1.0f,
+  const CubeFace face = {along, along == 0 ? 1 : 0,         along == 2 ? 1 : 2, number % 2 ? -1.0f : 1.0f,
                          size,  number * (size * size + 1), job->reach_m};
   return face;
 }
@@ -54,21 +66,25 @@ static inline CellPlanes greatest_in_cells(const real plane[3], const CubeFace* 
   return p;
 }
 
-static inline real plane_in_cells(const CellPlanes* p, real x, real y) { return fma(x, p->x, fma(y, p->y, p->at)); }
+static inline real plane_in_cells(const CellPlanes* p, real x, real y) {
+  return fma(x, p->x, fma(y, p->y, p->at));
+}
 
 // The cells from *first to *last in which boxes may be seen along one coordinate.
-static inline mask_t cells_of_boxes(real low, real high, real along_low, real along_high, float size, real* first,
-                                    real* last) {
+static inline mask_t cells_of_boxes(real low, real high, real along_low, real along_high, float size,
+                                    real* first, real* last) {
   const real nearest = lane_max(along_low, REAL(1e-30f));
-  const real from = low / (low < 0.0f ? nearest : along_high), to = high / (high > 0.0f ? nearest : along_high);
+  const real from = low / (low < 0.0f ? nearest : along_high),
+             to = high / (high > 0.0f ? nearest : along_high);
   const real half_size = REAL(0.5f * size);
-  const real begin = fma(from, half_size, half_size) - CELL_SLACK, end = fma(to, half_size, half_size) + CELL_SLACK;
+  const real begin = fma(from, half_size, half_size) - CELL_SLACK,
+             end = fma(to, half_size, half_size) + CELL_SLACK;
   *first = lane_floor(lane_max(begin, REAL(0.0f))), *last = lane_floor(lane_min(end, REAL(size - 1.0f)));
   return (begin < size) & (end >= 0.0f);
 }
 
-// No shorter ray into the cell meets the triangle. A ray along d reaches the plane at -offset |d| / (normal . d):
-// d is taken where it is shortest in the cell, and the product, `rising`, where it is greatest.
+// No shorter ray into the cell meets the triangle. A ray along d reaches the plane at -offset |d| / (normal .
+// d): d is taken where it is shortest in the cell, and the product, `rising`, where it is greatest.
 static inline real near_in_cells(const CubeFace* f, real x, real y, real offset, real rising, real box_near) {
   const float h = 2.0f / (float)f->size;
   const real u = lane_max(fabs(fma(x, REAL(h), REAL(0.5f * h - 1.0f))) - 0.5f * h, REAL(0.0f)),
@@ -83,7 +99,8 @@ typedef struct FaceTriangles {
 } FaceTriangles;
 
 // A row's cells from *first to *last in which no edge has all on its wrong side.
-static inline void cells_of_row(const FaceTriangles* t, const real inverse[3], real y, real* first, real* last) {
+static inline void cells_of_row(const FaceTriangles* t, const real inverse[3], real y, real* first,
+                                real* last) {
   for (int e = 0; e < 3; ++e) {
     const real row = fma(y, t->edges[e].y, t->edges[e].at), end = row * inverse[e];
     const mask_t up = t->edges[e].x >= 0.0f;
@@ -94,8 +111,8 @@ static inline void cells_of_row(const FaceTriangles* t, const real inverse[3], r
 }
 
 static inline __attribute__((always_inline)) void add_small(const CubeFace* f, const SeenTriangles* s,
-                                                            const FaceTriangles* t, mask_t small, whole numbers,
-                                                            LightCellItems* items) {
+                                                            const FaceTriangles* t, mask_t small,
+                                                            whole numbers, LightCellItems* items) {
   real inverse[3];
   for (int e = 0; e < 3; ++e) inverse[e] = 1.0f / fabs(t->edges[e].x);
   for (real y = t->first_y;; y += 1.0f) {
@@ -109,7 +126,8 @@ static inline __attribute__((always_inline)) void add_small(const CubeFace* f, c
       const real rising = plane_in_cells(&t->plane, x, y),
                  near = near_in_cells(f, x, y, s->offset, rising, s->near);
       const uint bits = mask_bits(here & (rising >= 0.0f) & (near <= f->reach));
-      const whole cell = f->first_cell + TO_WHOLE(here ? y : REAL(0.0f)) * f->size + TO_WHOLE(here ? x : REAL(0.0f));
+      const whole cell =
+          f->first_cell + TO_WHOLE(here ? y : REAL(0.0f)) * f->size + TO_WHOLE(here ? x : REAL(0.0f));
       if (bits != 0) add_items(items, bits, cell, near, numbers);
     }
   }
@@ -145,8 +163,9 @@ static inline __attribute__((always_inline)) void add_large(const CubeFace* f, c
 }
 
 // Of the lanes `seen`. numbers: of their triangles.
-static inline __attribute__((always_inline)) void add_to_face(const CubeFace* f, const SeenTriangles* s, mask_t seen,
-                                                              whole numbers, LightCellItems* items) {
+static inline __attribute__((always_inline)) void add_to_face(const CubeFace* f, const SeenTriangles* s,
+                                                              mask_t seen, whole numbers,
+                                                              LightCellItems* items) {
   const real along_low = f->sign > 0 ? s->low[f->along] : -s->high[f->along],
              along_high = f->sign > 0 ? s->high[f->along] : -s->low[f->along];
   const real low_u = s->low[f->u], high_u = s->high[f->u], low_v = s->low[f->v], high_v = s->high[f->v];

@@ -1,5 +1,5 @@
-// Light cells: the triangles of each light, and its cells' lists of them, the nearest first. Each work-item takes
-// light after light.
+// Light cells: the triangles of each light, and its cells' lists of them, the nearest first. Each work-item
+// takes light after light.
 //
 // RAYS_ARGUMENTS  the scene
 // jobs            in and out: LightCellJob
@@ -9,8 +9,9 @@
 #include "kernels/rays/cpu/light_cell_lists.h"
 
 // Adds up to 16 triangles.
-static void add_triangles(global const LightCellJob* job, global const RayTriangle* triangles, const int* places,
-                          uint count, global LightCellTriangle* to, uint* used, LightCellItems* items) {
+static void add_triangles(global const LightCellJob* job, global const RayTriangle* triangles,
+                          const int* places, uint count, global LightCellTriangle* to, uint* used,
+                          LightCellItems* items) {
   SeenTriangles s;
   const uint seen = see_triangles(&s, job, triangles, places, count);
   if (seen == 0) return;
@@ -26,7 +27,8 @@ static void add_triangles(global const LightCellJob* job, global const RayTriang
 }
 
 static uint add_all(global const LightCellJob* job, global const RayNode* nodes,
-                    global const RayTriangle* triangles, global LightCellTriangle* to, LightCellItems* items) {
+                    global const RayTriangle* triangles, global LightCellTriangle* to,
+                    LightCellItems* items) {
   LeafWalk walk = {{0}, {0}, 1};
   int places[LANES] ALIGNED;
   int first, count;
@@ -67,11 +69,10 @@ static void sort_items(global const LightCellJob* job, const LightCellItems* ite
   for (uint i = 0; i < items->count; ++i)
     by_distance[steps[items->keys[i] % NEAR_STEPS]++] = (ulong)items->keys[i] << 32 | items->numbers[i];
   // Where a cell's entries began, the next one's begin now; a face's first cell begins at its own 0.
-  const float metres = 0.9999f / items->steps_per_m;
   for (uint i = 0; i < items->count; ++i) {
     const uint key = (uint)(by_distance[i] >> 32);
     const LightCellEntry entry = {job->first_triangle + (uint)by_distance[i],
-                                  metres * (float)(key % NEAR_STEPS)};
+                                  metres_of_steps(key % NEAR_STEPS)};
     entries[starts[1 + key / NEAR_STEPS]++] = entry;
   }
 }
@@ -86,9 +87,8 @@ kernel void list_light_cells(RAYS_ARGUMENTS, global LightCellJob* jobs, uint job
     LightCellItems items;
     items.keys = (global uint*)(entries + job->first_entry), items.numbers = items.keys + job->entry_room;
     items.count = 0, items.room = job->entry_room;
-    items.steps_per_m = (float)(NEAR_STEPS - 1) / job->reach_m;
-    job->triangles = add_all(job, ray_nodes, ray_triangles, (global LightCellTriangle*)pool + job->first_triangle,
-                             &items);
+    job->triangles =
+        add_all(job, ray_nodes, ray_triangles, (global LightCellTriangle*)pool + job->first_triangle, &items);
     job->entries = items.count;
     if (items.count + LANES > items.room) continue;
     sort_items(job, &items, by_distance, pool + job->first_start, entries);
