@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/image.h"
+#include "base/resident.h"
 #include "support/gltf_builder.h"
 
 namespace lightgrid {
@@ -230,6 +231,13 @@ TEST(GltfImage, too_much_memory_is_refused_before_decoding_with_the_size_that_fi
   EXPECT_THAT(refusal, HasSubstr("made.gltf: 2 images take 96.0 MiB decoded, but may take 40.0 MiB"));
   EXPECT_THAT(refusal, HasSubstr("--texture-size 2048 fits (24.0 MiB)"));
   EXPECT_THAT(refusal, HasSubstr("--image-memory 97M allows them"));
+}
+
+TEST(GltfImage, more_memory_than_there_is_is_not_offered) {
+  if (usable_memory() > uint64_t(90) << 30) GTEST_SKIP() << "the machine could hold these images";
+  const std::string refusal = with_two_files(png_header(65000, 65000), png_header(65000, 64000)).refusal();
+  EXPECT_THAT(refusal, HasSubstr("--texture-size"));
+  EXPECT_THAT(refusal, Not(HasSubstr("--image-memory")));
 }
 
 TEST(GltfImage, sixteen_bits_become_eight_with_a_warning) {

@@ -68,11 +68,16 @@ ShadowRoom shadow_room(size_t tiles, size_t words, size_t lights, size_t entry_b
                        size_t most_table, size_t most_bits) {
   const size_t least_bits = lights * entry_bytes,
                needed = std::max(shadow_table_bytes(1, words) + least_bits, 2 * shadow_table_bytes(1, words));
-  if (needed > most_bytes || shadow_table_bytes(1, words) > most_table || least_bits > most_bits)
+  if (needed > most_bytes)
     throw input_error(
-        "shadows: a tile with {} lights that cast needs {} bytes, more than shadow-memory allows ({}), or "
-        "the device (a table of {}, bits of {}); raise shadow-memory, or let fewer lights cast",
-        lights, needed, most_bytes, most_table, most_bits);
+        "shadows: a tile with {} lights that cast needs {} bytes, more than shadow-memory allows ({}); raise "
+        "shadow-memory, or let fewer lights cast",
+        lights, needed, most_bytes);
+  if (shadow_table_bytes(1, words) > most_table || least_bits > most_bits)
+    throw input_error(
+        "shadows: a tile with {} lights that cast needs a table of {} bytes and bits of {}, more than the "
+        "device allows ({} and {}); let fewer lights cast",
+        lights, shadow_table_bytes(1, words), least_bits, most_table, most_bits);
   ShadowRoom room;
   const size_t whole = shadow_table_bytes(tiles, words), half = std::min(most_bytes / 2, most_table);
   room.tiles = whole <= half ? tiles : tiles_in(half, words);

@@ -185,12 +185,14 @@ void check_image_memory(const Document& doc, const std::vector<Encoded>& images)
   if (needed <= allowed) return;
   int side = doc.limits.texture_side / 2;
   while (side > 1 && bytes_at(images, side) > allowed) side /= 2;
-  throw doc.error(
-      "{} images take {} decoded, but may take {}{}: --texture-size {} fits ({}), --image-memory {}M "
-      "allows them",
-      images.size(), memory_text(needed), memory_text(allowed),
-      doc.limits.max_image_bytes ? "" : " of the memory that this process may use", side,
-      memory_text(bytes_at(images, side)), (needed >> 20) + 1);
+  // The devices' copies take at least twice as much again.
+  const std::string more = needed <= usable_memory() / 3
+                               ? fmt::format(", --image-memory {}M allows them", (needed >> 20) + 1)
+                               : "";
+  throw doc.error("{} images take {} decoded, but may take {}{}: --texture-size {} fits ({}){}",
+                  images.size(), memory_text(needed), memory_text(allowed),
+                  doc.limits.max_image_bytes ? "" : " of the memory that this process may use", side,
+                  memory_text(bytes_at(images, side)), more);
 }
 
 // Decodes and averages down in parallel, as many at a time as their memory allows.
