@@ -234,8 +234,18 @@ TEST(GltfImage, too_much_memory_is_refused_before_decoding_with_the_size_that_fi
 }
 
 TEST(GltfImage, more_memory_than_there_is_is_not_offered) {
-  if (usable_memory() > uint64_t(90) << 30) GTEST_SKIP() << "the machine could hold these images";
-  const std::string refusal = with_two_files(png_header(65000, 65000), png_header(65000, 64000)).refusal();
+  if (usable_memory() > uint64_t(74) << 30) GTEST_SKIP() << "the machine could hold these images (25 GiB)";
+  GltfBuilder made = with_image({});
+  for (int i = 0; i < 25; ++i) {
+    made.root["images"][i] = {{"bufferView", made.view(png_header(32768, 8192 - i))},
+                              {"mimeType", "image/png"}};
+    made.root["textures"][i] = {{"source", i}};
+    made.root["materials"][i] = {{"normalTexture", {{"index", i}}}};
+    nlohmann::json& primitives = made.root["meshes"][0]["primitives"];
+    primitives[i] = made.primitive(), primitives[i]["material"] = i;
+  }
+  const std::string refusal = made.refusal({.texture_side = 32768, .max_image_bytes = 1 << 30});
+  EXPECT_THAT(refusal, HasSubstr("25 images take 25.0 GiB decoded"));
   EXPECT_THAT(refusal, HasSubstr("--texture-size"));
   EXPECT_THAT(refusal, Not(HasSubstr("--image-memory")));
 }
