@@ -61,12 +61,10 @@ void BruteForce::look(const View& view) {
 }
 
 Settings BruteForce::meaning(const Settings& settings, double source_m) const {
-  Settings meaning = with_exact_shadows(with_model(common_, settings));
+  Settings meaning = meant_by(with_model(common_, settings));
   meaning = with_samples(std::move(meaning), truth_.places ? settings.samples : 1);
   meaning.samples_masks = settings.samples_masks, meaning.samples_resolve = settings.samples_resolve;
   meaning.lights = ShadedLights::all;
-  meaning.ranges = meant_ranges(meaning), meaning.far_light = 0;
-  meaning.shadow_pick = 0;
   meaning.shadow_rays = source_m > 0 ? rays_of_truth : 1, meaning.shadow_source_m = source_m;
   return meaning;
 }

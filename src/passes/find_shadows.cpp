@@ -33,7 +33,8 @@ const OwnSetting<bool> shadow_reuse{
     "shadow-reuse",
     "portable",
     "shadows are found in each frame, or only where the camera, a light or a surface changed",
-    {{"off", false}, {"on", true}}};
+    {{"off", false}, {"on", true}},
+    {.common = true, .shown_if_given = true}};
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 // (docs/command_line.md#settings).
 #pragma once
 
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -87,8 +88,8 @@ struct Settings {
   int list_cap = 0;  // most lights of a tile's, a cell's or an object's list; 0: no limit
   ListCapOrder list_cap_order = ListCapOrder::index;
   uint32_t list_seed = 1;  // of ListCapOrder::sampled and tree
-  int view_cap = 0;      // most lights of a view; 0: no limit
-  int buffer_bits = 32;  // a channel of geometry buffers and of light buffers: 8, 16 or 32
+  int view_cap = 0;        // most lights of a view; 0: no limit
+  int buffer_bits = 32;    // a channel of geometry buffers and of light buffers: 8, 16 or 32
   VolumeCulling volume_culling = VolumeCulling::back_faces;
   KernelShape kernel_shape = KernelShape::automatic;
   LidrPacking lidr_packing = LidrPacking::bitshift;
@@ -166,8 +167,22 @@ struct Settings {
   std::map<std::string, size_t> own{};  // by key, of OwnSettings: the number of the value; missing: the first
 };
 
+// What a setting does to pictures and to other settings. The conditions are evaluated for techniques that
+// read the setting, with every setting that they do not read at its default.
+struct SettingFlags {
+  using Condition = std::function<bool(const Settings&)>;
+  bool model = false;           // says which picture is meant: images with other values cannot be compared
+  bool common = false;          // every technique reads it
+  bool tunable = false;         // changes no result, only times: `lightgrid bench --tune` tries its values
+  bool shown_if_given = false;  // shown only where apply_setting has set it
+  Condition shown{};            // without effect, and not shown, where this is false
+  Condition approximate{};      // images are not meant to be exact
+  Condition random{};           // images differ by a seed
+  std::function<void(Settings&)> mean{};  // sets what the picture that is meant has in its place
+};
+
 void add_own_setting(const char* key, const char* before, const char* meaning,
-                     const std::vector<std::string>& values);
+                     const std::vector<std::string>& names, const SettingFlags& flags);
 
 // A setting that one technique reads, in the technique's own file: a static object, after whose construction
 // the functions below include it, listed before the setting `before`. Its values are given with their names,
@@ -176,11 +191,11 @@ template <typename T>
 class OwnSetting {
  public:
   OwnSetting(const char* key, const char* before, const char* meaning,
-             std::initializer_list<std::pair<const char*, T>> values)
+             std::initializer_list<std::pair<const char*, T>> values, const SettingFlags& flags = {})
       : key_(key) {
     std::vector<std::string> names;
     for (const auto& [name, value] : values) names.emplace_back(name), values_.push_back(value);
-    add_own_setting(key, before, meaning, names);
+    add_own_setting(key, before, meaning, names, flags);
   }
 
   T of(const Settings& settings) const {
@@ -193,14 +208,18 @@ class OwnSetting {
   std::vector<T> values_;
 };
 
-// The ranges that the picture means: with far light, which gives back what they take away, none.
-LightRanges meant_ranges(const Settings& settings);
-
 // Keys of the settings that say which picture is meant: images with other values cannot be compared.
 const std::vector<std::string>& model_settings();
 bool same_model(const Settings& a, const Settings& b);
 // `settings` with the values that `model` has for those.
 Settings with_model(Settings settings, const Settings& model);
+
+// The settings of the picture that `settings` mean, without what they approximate: with far light, ranges
+// without end; with shadow maps, exact shadows.
+Settings meant_by(Settings settings);
+
+// `settings`, with the default of every key for which `keeps` is false.
+Settings only_with(Settings settings, const std::function<bool(const std::string& key)>& keeps);
 
 // The most bits that group-stencil may use: counting faces needs one of the 8.
 int most_stencil_groups(VolumeCulling culling);
@@ -211,7 +230,7 @@ Settings with_samples(Settings settings, int samples);
 // With shadows found exactly: of a reference.
 Settings with_exact_shadows(Settings settings);
 
-// Settings that change no result; `lightgrid bench --tune` tries them.
+// Keys of the settings that change no result, only times.
 const std::vector<std::string>& tunable_settings();
 
 // `settings` with the fastest values found for tunable settings (cl/tuned_sizes.h), except for keys that
@@ -230,6 +249,7 @@ struct SettingHelp {
   std::vector<std::string> values;  // the first is the default
   std::string meaning;
   bool any_number = false;  // from 1e-9 to 1e9 besides; `values` are then those that sweeps and lists show
+  SettingFlags flags{};
 };
 const std::vector<SettingHelp>& setting_help();
 

@@ -13,7 +13,7 @@ AreaTruth area_truth(const Seen& v, SceneOcclusion& occlusion, size_t most_at_ed
   constexpr int places_to_classify = 16;
   const bool casts = std::ranges::any_of(v.scene.lights, &Light::casts_shadow) &&
                      v.plan.settings.shadows != ShadowMethod::none;
-  const AreaOracle oracle(v.scene, v.view, meant_ranges(v.plan.settings),
+  const AreaOracle oracle(v.scene, v.view, meant_by(v.plan.settings).ranges,
                           {.brdf = v.plan.settings.brdf, .ambient = v.scene.ambient},
                           casts ? &occlusion.get(v.plan.settings.shadow_blended) : nullptr);
   std::vector<uint32_t> all(v.view.grid().values());

@@ -35,7 +35,7 @@ SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth, Sha
     : v_(v),
       depth_(depth),
       surfaces_(read_surfaces(v)),
-      lights_(lights_in_view(v.scene, v.view, meant_ranges(v.plan.settings))),
+      lights_(lights_in_view(v.scene, v.view, meant_by(v.plan.settings).ranges)),
       own_shadows_(shadows ? nullptr : std::make_unique<ShadowTruth>(v.scene, 0)),
       shadows_(shadows ? shadows : own_shadows_.get()) {
   if (shadows_->casts() || v.plan.groups) {

@@ -40,7 +40,7 @@ SurfacesInDouble surfaces_in_double(const RenderView& v, const std::vector<Scene
   }
   found.radiance = shade_pixels(
       v.view, depth, [&](uint32_t pixel) { return surfaces[place[pixel]]; },
-      lights_in_view(v.scene, v.view, meant_ranges(v.plan.settings)), settings, found.pixels);
+      lights_in_view(v.scene, v.view, meant_by(v.plan.settings).ranges), settings, found.pixels);
   return found;
 }
 

@@ -25,36 +25,18 @@ TechniqueNeeds adapted_needs(const Technique& technique, Settings settings) {
   return needs;
 }
 
-// How the technique finds shadows itself; pass: it does not.
-LidrShadows own_shadows(const Technique& technique, const Settings& settings) {
-  return adapted_needs(technique, settings).own_shadows ? settings.lidr_shadows : LidrShadows::pass;
+// `settings` as the technique reads them.
+Settings read_by(const Technique& technique, const Settings& settings) {
+  return only_with(settings, [&](const std::string& key) { return reads_setting(technique, key); });
 }
 
-// prepass: one texel decides.
-bool filters_maps(LidrShadows way) {
-  return way == LidrShadows::prepass_soft || way == LidrShadows::final_pass;
-}
-
-// Settings are shown only with others that read them, and one that changes no bit where it is given.
-bool has_effect(const Technique& technique, const Settings& settings, const std::string& key) {
-  const LightRange range = settings.ranges.range;
-  if (key == "cutoff") return range == LightRange::cutoff;
-  if (key == "alpha" || key == "light-seed") return range == LightRange::stochastic;
-  if (key == "window") return range == LightRange::scene || range == LightRange::cutoff;
-  if (key == "far-light") return settings.far_light > 0;
-  const LidrShadows own = own_shadows(technique, settings);
-  if (key.ends_with("-maps")) return own == LidrShadows::final_pass;
-  if (key == "shadow-size" || key == "shadow-bits" || key == "shadow-filter")
-    return settings.shadows == ShadowMethod::map || filters_maps(own) ||
-           (own == LidrShadows::prepass && key != "shadow-filter");
-  if (key == "list-cap-order") return settings.list_cap > 0;
-  if (key == "list-seed") return settings.samples_lists();
-  if (key.starts_with("samples-")) return settings.samples > 1;
-  if (key == "picture") return settings.picture == PictureFormat::bytes;
-  if (key == "shadow-source") return settings.shadows == ShadowMethod::exact && settings.shadow_rays > 1;
-  if (key == "shadow-memory" || key == "shadow-reuse" || key == "shadow-threshold" || key == "shadow-cells")
-    return settings.given.contains(key);
-  return true;
+// Whether a setting that the technique reads meets its condition.
+bool meets(const Technique& technique, const Settings& settings,
+           SettingFlags::Condition SettingFlags::*condition) {
+  const Settings read = read_by(technique, settings);
+  return std::ranges::any_of(setting_help(), [&](const SettingHelp& row) {
+    return row.flags.*condition && reads_setting(technique, row.key) && (row.flags.*condition)(read);
+  });
 }
 
 }  // namespace
@@ -87,25 +69,18 @@ const Technique& find_technique(const std::string& name) {
 const std::vector<const char*>& common_settings() {
   static const std::vector<const char*> keys = [] {
     std::vector<const char*> all;
-    for (const std::string& key : model_settings()) {
-      if (key != "brdf") all.push_back(key.c_str());  // techniques list brdf themselves
+    for (const SettingHelp& row : setting_help()) {
+      if (row.flags.common) all.push_back(row.key.c_str());
     }
-    for (const char* key : {"shadows", "shadow-size", "shadow-bits", "shadow-filter", "shadow-rays",
-                            "shadow-source", "shadow-pick", "shadow-cells", "shadow-reuse",
-                            "shadow-threshold", "shadow-memory", "picture", "everything-on"})
-      all.push_back(key);
     return all;
   }();
   return keys;
 }
 
-// Of kernels, which find_shadows reads where lights cast: every technique takes them.
-static bool is_of_kernels(const std::string& key) {
-  return key == "kernel-shape" || key == "portable" || key == "group-size";
-}
-
+// Tunable settings are those of kernels, find_shadows' among them, which every technique may run.
 bool reads_setting(const Technique& technique, const std::string& key) {
-  return holds(common_settings(), key) || holds(technique.settings, key) || is_of_kernels(key);
+  return holds(common_settings(), key) || holds(technique.settings, key) ||
+         std::ranges::count(tunable_settings(), key) > 0;
 }
 
 bool limits_lists(const Technique& technique, const Settings& settings) {
@@ -113,18 +88,12 @@ bool limits_lists(const Technique& technique, const Settings& settings) {
                                      adapted_needs(technique, settings).capped_lists);
 }
 
-bool samples_lists(const Technique& technique, const Settings& settings) {
-  return settings.samples_lists() && adapted_needs(technique, settings).sampled_lists;
-}
-
 bool is_random(const Technique& technique, const Settings& settings) {
-  return settings.ranges.range == LightRange::stochastic || samples_lists(technique, settings);
+  return meets(technique, settings, &SettingFlags::random);
 }
 
 bool is_approximate(const Technique& technique, const Settings& settings) {
-  return technique.approximate || settings.shadows != ShadowMethod::exact || settings.soft_shadows() ||
-         settings.picks_shadows() || settings.shadow_threshold > 0 || samples_lists(technique, settings) ||
-         own_shadows(technique, settings) != LidrShadows::pass;
+  return technique.approximate || meets(technique, settings, &SettingFlags::approximate);
 }
 
 Frame draw_frame(const Technique& technique, RenderView& v) {
@@ -158,10 +127,12 @@ void check_samples(const Technique& technique, const Settings& settings) {
 
 std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings) {
   std::map<std::string, std::string> all = to_strings(settings), own;
-  for (const SettingHelp& help : setting_help()) {
-    const std::string key = json_key(help.key);
-    const bool shown = holds(common_settings(), help.key) || holds(technique.settings, help.key);
-    if (shown && has_effect(technique, settings, help.key)) own[key] = all.at(key);
+  const Settings read = read_by(technique, settings);
+  for (const SettingHelp& row : setting_help()) {
+    const bool listed = row.flags.common || holds(technique.settings, row.key);
+    const bool shown = !row.flags.shown || row.flags.shown(read);
+    if (listed && shown && (!row.flags.shown_if_given || settings.given.contains(row.key)))
+      own[json_key(row.key)] = all.at(json_key(row.key));
   }
   return own;
 }

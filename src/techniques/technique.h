@@ -42,9 +42,7 @@ bool reads_setting(const Technique& technique, const std::string& key);
 // Whether with these settings lists may lack lights by design.
 bool limits_lists(const Technique& technique, const Settings& settings);
 
-// Whether with these settings its lists may be samples, others for each list-seed; whether its pictures are
-// random, by that or by the ranges of lights.
-bool samples_lists(const Technique& technique, const Settings& settings);
+// Whether with these settings its pictures are random: by the ranges of lights, or as its lists are samples.
 bool is_random(const Technique& technique, const Settings& settings);
 
 // Whether with these settings its picture is not forward's, by nature, or its shadows are no exact ones.

@@ -69,6 +69,34 @@ TEST(Settings, TheModelIsMadeOfTheSettingsThatItNames) {
   }
 }
 
+TEST(Settings, TheseSayWhichPictureIsMeant) {
+  EXPECT_THAT(model_settings(), testing::ElementsAre("brdf", "range", "cutoff", "window", "alpha",
+                                                     "light-seed", "far-light", "shadow-blended"));
+  EXPECT_THAT(tunable_settings(), testing::ElementsAre("kernel-shape", "portable", "group-size"));
+}
+
+TEST(Settings, ThePictureThatIsMeantHasNoApproximations) {
+  Settings settings;
+  EXPECT_EQ(to_strings(meant_by(settings)), to_strings(settings));
+  for (const char* assignment : {"far-light=512", "range=cutoff", "cutoff=0.2", "shadows=map",
+                                 "shadow-threshold=4", "shadow-pick=4", "brdf=lambert", "tile=32"})
+    apply_setting(settings, assignment);
+  auto expected = to_strings(settings);
+  expected["far_light"] = "off", expected["range"] = "infinite", expected["shadows"] = "exact";
+  expected["shadow_threshold"] = "off", expected["shadow_pick"] = "off";
+  EXPECT_EQ(to_strings(meant_by(settings)), expected);
+}
+
+TEST(Settings, OnlyTheKeysThatAreKeptKeepTheirValues) {
+  Settings settings;
+  for (const SettingHelp& help : setting_help()) apply_setting(settings, help.key + "=" + help.values.back());
+  auto expected = to_strings(Settings{});
+  expected["tile"] = "64", expected["cutoff"] = "0.0001";
+  EXPECT_EQ(
+      to_strings(only_with(settings, [](const std::string& k) { return k == "tile" || k == "cutoff"; })),
+      expected);
+}
+
 TEST(Settings, ValuesMeanWhatTheySay) {
   Settings settings;
   apply_setting(settings, "tile=64");

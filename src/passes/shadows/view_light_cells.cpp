@@ -8,7 +8,8 @@ const OwnSetting<bool> shadow_cells{"shadow-cells",
                                     "on CPUs exact hard shadows of point and spot lights at rest come from "
                                     "lists of triangles around each light, "
                                     "or all from the tree",
-                                    {{"on", true}, {"off", false}}};
+                                    {{"on", true}, {"off", false}},
+                                    {.common = true, .shown_if_given = true}};
 
 }  // namespace
 
