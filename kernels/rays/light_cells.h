@@ -25,8 +25,8 @@ typedef struct CellRays {
   real end, length;
 } CellRays;
 
-// Each lane's cell among the starts of its light.
-static inline whole cell_of(Real3 to, uint size) {
+// Each lane's cell among the starts of its light: of a point light's cube.
+static inline whole cell_of_cube(Real3 to, uint size) {
   const real ax = fabs(to.x), ay = fabs(to.y), az = fabs(to.z);
   const mask_t is_x = ax >= lane_max(ay, az), is_y = ~is_x & (ay >= az);
   const real along = is_x ? to.x : is_y ? to.y : to.z, u = is_x ? to.y : to.x, v = is_x | is_y ? to.z : to.y;
@@ -41,13 +41,24 @@ static inline whole cell_of(Real3 to, uint size) {
   return face * (int)(size * size + 1) + y * (int)size + x;
 }
 
-// As meets_from_point of rays/ray_packet.h, with planes that are made already.
-static inline mask_t meets_seen(global const LightCellTriangle* t, const CellRays* rays) {
+static inline whole cell_of_grid(Real3 to, uint size, global const LightCellGrid* g) {
+  const real last = REAL((float)size - 1.0f), x = ray_side(to, g->u[0], g->u[1], g->u[2], g->u[3]),
+             y = ray_side(to, g->v[0], g->v[1], g->v[2], g->v[3]);
+  return TO_WHOLE(lane_min(lane_max(y, REAL(0.0f)), last)) * (int)size +
+         TO_WHOLE(lane_min(lane_max(x, REAL(0.0f)), last));
+}
+
+static inline real edge_side(Real3 at, global const float edge[4], const bool point) {
+  return ray_side(at, edge[0], edge[1], edge[2], point ? 0.0f : edge[3]);
+}
+
+// As meets_triangle of rays/ray_packet.h, with planes that are made already.
+static inline __attribute__((always_inline)) mask_t meets_seen(global const LightCellTriangle* t,
+                                                               const CellRays* rays, const bool point) {
   const real past =
-      fma(rays->end, ray_side(rays->to, t->normal[0], t->normal[1], t->normal[2], 0.0f), REAL(t->offset));
-  const real u = ray_side(rays->to, t->edge_0[0], t->edge_0[1], t->edge_0[2], 0.0f),
-             v = ray_side(rays->to, t->edge_1[0], t->edge_1[1], t->edge_1[2], 0.0f),
-             w = ray_side(rays->to, t->edge_2[0], t->edge_2[1], t->edge_2[2], 0.0f);
+      fma(rays->end, ray_side(rays->to, t->normal[0], t->normal[1], t->normal[2], 0.0f), REAL(t->normal[3]));
+  const real u = edge_side(rays->to, t->edge_0, point), v = edge_side(rays->to, t->edge_1, point),
+             w = edge_side(rays->to, t->edge_2, point);
   return lane_min(lane_min(u, v), lane_min(w, lane_min(past, rays->end))) >= 0.0f;
 }
 
@@ -66,31 +77,60 @@ RAYS_CALL uint hidden_by_met(const RayScene* scene, RaySource light, Real3 to, r
   return hidden;
 }
 
-// As rays_hidden, for a light with lists. *served: lanes that are answered; longer rays are not.
-static inline uint hidden_by_cells(const LightCells* cells, const RayScene* scene, LightCellTable table,
-                                   RaySource light, Real3 to, real gap, uint active, whole own,
-                                   uint* served) {
+// Rays as set_packet of rays/ray_packet.h has them. *squared: of their lengths, or of their points' distances
+// from the origin.
+static inline __attribute__((always_inline)) CellRays cell_rays(global const LightCellTable* table,
+                                                                RaySource light, Real3 to, real gap,
+                                                                const bool point, real* squared) {
   CellRays rays;
-  rays.to = real3(from_double(to.x, light.x), from_double(to.y, light.y), from_double(to.z, light.z));
-  const real squared = fma(rays.to.z, rays.to.z, fma(rays.to.y, rays.to.y, rays.to.x * rays.to.x));
-  rays.length = sqrt(squared), rays.end = 1.0f - gap / rays.length;
-  const whole cell = cell_of(rays.to, table.size);
-  *served = active & lane_bits(squared <= REAL(table.squared));
+  if (point) {
+    rays.to = real3(from_double(to.x, light.x), from_double(to.y, light.y), from_double(to.z, light.z));
+  } else {
+    rays.to = real3(fma(gap, REAL((float)light.x), to.x), fma(gap, REAL((float)light.y), to.y),
+                    fma(gap, REAL((float)light.z), to.z));
+  }
+  *squared = fma(rays.to.z, rays.to.z, fma(rays.to.y, rays.to.y, rays.to.x * rays.to.x));
+  if (point) {
+    rays.length = sqrt(*squared), rays.end = 1.0f - gap / rays.length;
+  } else {
+    global const float* d = table->grid.toward;
+    rays.length = table->grid.top - ray_side(rays.to, d[0], d[1], d[2], 0.0f), rays.end = REAL(1.0f);
+  }
+  return rays;
+}
+
+static inline __attribute__((always_inline)) uint hidden_by_lists(
+    const LightCells* cells, const RayScene* scene, global const LightCellTable* table, RaySource light,
+    Real3 to, real gap, uint active, whole own, uint* served, const bool point) {
+  real squared;
+  const CellRays rays = cell_rays(table, light, to, gap, point, &squared);
+  const whole cell =
+      point ? cell_of_cube(rays.to, table->size) : cell_of_grid(rays.to, table->size, &table->grid);
+  *served = active & lane_bits(squared <= REAL(table->squared));
   uint hidden = 0;
   for (uint left = *served; left != 0;) {
     const int one = ((const int*)&cell)[lowest_bit(left)];
     uint here = left & lane_bits(cell == (whole)(one));
     left &= ~here;
-    global const uint* starts = cells->starts + table.first_start + one;
+    global const uint* starts = cells->starts + table->first_start + one;
     for (uint i = starts[0], end = starts[1]; i < end && here != 0; ++i) {
       const LightCellEntry entry = cells->entries[i];
       if ((lane_bits(rays.length >= entry.near) & here) == 0) break;
       global const LightCellTriangle* t = cells->triangles + entry.triangle;
-      const uint met = here & lane_bits(meets_seen(t, &rays));
+      const uint met = here & lane_bits(meets_seen(t, &rays, point));
       if (met == 0) continue;
-      const uint hides = hidden_by_met(scene, light, to, gap, own, (int)t->place, met);
+      const int place = point ? as_int(t->edge_0[3]) : (int)(entry.triangle - table->first_triangle);
+      const uint hides = hidden_by_met(scene, light, to, gap, own, place, met);
       hidden |= hides, here &= ~hides;
     }
   }
   return hidden;
+}
+
+// As rays_hidden, for a light with lists. *served: lanes that are answered; longer rays are not.
+static inline uint hidden_by_cells(const LightCells* cells, const RayScene* scene,
+                                   global const LightCellTable* table, RaySource light, Real3 to, real gap,
+                                   uint active, whole own, uint* served) {
+  return light.w != 0 ? hidden_by_lists(cells, scene, table, light, to, gap, active, own, served, true)
+                      : hidden_by_lists(cells, scene, table, light, to, gap, active, own, served, false);
 }

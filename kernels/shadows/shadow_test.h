@@ -58,15 +58,16 @@ static inline whole hidden_by_test(ShadowTest* rays, const RayScene* scene, cons
   const RaySource source = {l->x, l->y, l->z, l->w};
   rays->traced += popcount(lane_bits(active));
 #ifdef SHADOW_CELLS
-  const LightCellTable table = rays->cells.tables[light];
-  if (table.size != 0) {
+  global const LightCellTable* table = rays->cells.tables + light;
+  if (table->size != 0) {
     const uint asked = lane_bits(active);
     uint served = 0;
-    const uint hidden = hidden_by_cells(&rays->cells, scene, table, source, r->at, r->gap, asked, r->own, &served);
+    const uint hidden =
+        hidden_by_cells(&rays->cells, scene, table, source, r->at, r->gap, asked, r->own, &served);
     const whole share = lanes_of(hidden) ? (whole)(255) : (whole)(0);
     if (served == asked) return share;
-    return share | rays_share(scene, source, r->at, r->gap, active & ~lanes_of(served), r->own,
-                              &rays->last_blocker);
+    return share |
+           rays_share(scene, source, r->at, r->gap, active & ~lanes_of(served), r->own, &rays->last_blocker);
   }
 #endif
   return rays_share(scene, source, r->at, r->gap, active, r->own, &rays->last_blocker);
@@ -83,8 +84,9 @@ static inline whole hidden_by_test(ShadowTest* rays, const RayScene* scene, cons
 // The share of each light that is hidden from the lanes, times 255: 0 or 255 without SHADOW_BYTES. block: of
 // the lanes in their tile, 0 for a single one. x, y: the first lane's pixel. Directional lights take one ray
 // each.
-static inline whole hidden_share(ShadowTest* test, const RayScene* scene, const Receivers* r, uint block, uint light,
-                                 global const ShadowLight* lights, constant ShadowView* v, uint x, uint y) {
+static inline whole hidden_share(ShadowTest* test, const RayScene* scene, const Receivers* r, uint block,
+                                 uint light, global const ShadowLight* lights, constant ShadowView* v, uint x,
+                                 uint y) {
   global const ShadowLight* l = lights + light;
 #if defined(SHADOW_PICK)
   if (l->w != 0) return picked_or_away(scene, r, l, test->picked[block], v);

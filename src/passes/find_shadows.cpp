@@ -292,11 +292,12 @@ class ShadowBits : public PassCache {
       cells_.reset();
     else if (!cells_)
       cells_.emplace();
-    if (cells_) cells_->look(work, rays, lights);
+    const std::vector<ShadowLight> records = shadow_light_records(work, lights, rays.origin());
+    if (cells_) cells_->look(work, records, lights);
     lists_.look(work, lights);
     if (visible) put_offsets(work, visible->instances, offsets_);
     if (blended) put_offsets(work, blended->instances, blended_offsets_);
-    lights_.put(device, "uploading lights of shadows", shadow_light_records(work, lights, rays.origin()));
+    lights_.put(device, "uploading lights of shadows", records);
     view_.put(device, "uploading the view of shadows",
               std::vector<ShadowView>{shadow_view(work, rays.origin())});
     followed_ = true;

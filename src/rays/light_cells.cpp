@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "cl/transfer.h"
@@ -11,30 +12,69 @@ namespace {
 
 constexpr uint32_t max_triangles = 1 << 18;  // in reach of a light with lists
 
+// The tree is faster where the entry of a directional light's list has more beside it than this on average.
+constexpr float longest_list = 256;
+
 // About 0.7 cells per triangle: the fastest frames in five scenes, or within their noise (docs/rays.md).
-uint32_t cells_across(uint32_t triangles) {
-  const long eighths = std::lround(std::sqrt(0.12 * triangles) / 8);
-  return uint32_t(std::clamp(8 * eighths, 8L, 96L));
+uint32_t cells_across(const CellLight& light, uint32_t triangles) {
+  const long eighths = std::lround(std::sqrt((light.directional ? 0.72 : 0.12) * triangles) / 8);
+  return uint32_t(std::clamp(8 * eighths, 8L, light.directional ? 256L : 96L));
 }
 
 // Longer than the range by more than shading rounds, unless the eye is very far away: the tree then serves
 // rays at the range's end.
 float reach_of(const CellLight& light) {
+  if (light.directional) return std::numeric_limits<float>::infinity();
   return float(1.002 * light.range_m + 1e-5 * (std::abs(light.x) + std::abs(light.y) + std::abs(light.z)));
+}
+
+LightCellJob job_of(const CellLight& light) {
+  constexpr float most = std::numeric_limits<float>::max();
+  LightCellJob job{light.x, light.y, light.z, light.directional ? 0.0 : 1.0, reach_of(light)};
+  std::ranges::fill(job.low, most), std::ranges::fill(job.high, -most);
+  return job;
 }
 
 LightCellTable table_of(const LightCellJob& job) {
   constexpr float longest = 0x1p46f;  // squared: dot products with edges' planes stay finite
-  return {job.first_start, job.size, std::min(0.999f * job.reach_m * job.reach_m, longest)};
+  const float most = job.w != 0 ? job.reach_m : job.extent_m / 2;
+  return {job.first_start, job.size, std::min(0.999f * most * most, longest), job.first_triangle, job.grid};
 }
 
-size_t start_units(size_t size) {
-  return (6 * (size * size + 1) * sizeof(uint32_t) + BlockPool::unit_bytes - 1) / BlockPool::unit_bytes;
+// An axis of the grid over the box.
+void lay_axis(const glm::dvec3& axis, const glm::dvec3& center, const glm::dvec3& half,
+              const LightCellJob& job, float cells[4], float metres[3]) {
+  const double width_m = std::max(2 * glm::dot(glm::abs(axis), half), 1e-6 * job.extent_m),
+               per_m = job.size / width_m;
+  const glm::vec3 across(axis * per_m);
+  const glm::dvec3 back = glm::dvec3(across) / glm::dot(glm::dvec3(across), glm::dvec3(across));
+  for (int k = 0; k < 3; ++k) cells[k] = across[k], metres[k] = float(back[k]);
+  cells[3] = float(-per_m * glm::dot(axis, center) + 0.5 * job.size);
+}
+
+void lay_grid(LightCellJob& job) {
+  const glm::dvec3 low(job.low[0], job.low[1], job.low[2]), high(job.high[0], job.high[1], job.high[2]),
+      center = 0.5 * (low + high), half = high - center, toward(job.x, job.y, job.z),
+      most = glm::max(glm::abs(low), glm::abs(high)), size = glm::abs(toward);
+  job.extent_m = float(4 * (most.x + most.y + most.z) + 1e-30);
+  glm::dvec3 other(0);
+  other[size.x <= std::min(size.y, size.z) ? 0 : size.y <= size.z ? 1 : 2] = 1;
+  const glm::dvec3 u = glm::normalize(glm::cross(toward, other)), v = glm::cross(toward, u);
+  lay_axis(u, center, half, job, job.grid.u, job.metres_u);
+  lay_axis(v, center, half, job, job.grid.v, job.metres_v);
+  for (int k = 0; k < 3; ++k) job.grid.toward[k] = float(toward[k]);
+  job.grid.top = float(glm::dot(toward, center) + glm::dot(size, half) + 0x1p-16 * job.extent_m);
+}
+
+size_t start_units(const CellLight& light, size_t size) {
+  const size_t starts = (light.directional ? 1 : 6) * (size * size + 1);
+  return (starts * sizeof(uint32_t) + BlockPool::unit_bytes - 1) / BlockPool::unit_bytes;
 }
 
 // Bytes for the starts of a light's cells and for its triangles.
-size_t fixed_bytes(uint32_t triangles) {
-  return start_units(cells_across(triangles)) * BlockPool::unit_bytes + triangles * sizeof(LightCellTriangle);
+size_t fixed_bytes(const CellLight& light, uint32_t triangles) {
+  return start_units(light, cells_across(light, triangles)) * BlockPool::unit_bytes +
+         triangles * sizeof(LightCellTriangle);
 }
 
 uint32_t entry_room(uint32_t entries) { return entries + 16; }
@@ -42,7 +82,9 @@ size_t entry_bytes(uint32_t entries) { return entry_room(entries) * sizeof(Light
 
 // Allows for more rounding than the builder's box tests do.
 bool is_near(const CellLight& light, const glm::dvec3& low, const glm::dvec3& high) {
-  const glm::dvec3 at(light.x, light.y, light.z), far = glm::abs(at) + glm::max(glm::abs(low), glm::abs(high));
+  if (light.directional) return true;
+  const glm::dvec3 at(light.x, light.y, light.z),
+      far = glm::abs(at) + glm::max(glm::abs(low), glm::abs(high));
   const double away = glm::length(at - glm::clamp(at, low, high));
   return !(away > 1.01 * double(reach_of(light)) + 1e-4 * (far.x + far.y + far.z));
 }
@@ -63,9 +105,7 @@ void LightCells::free(Lists& lists) {
   for (Block* block : {&lists.fixed, &lists.entries}) shrink(*block, 0);
 }
 
-void LightCells::forget() {
-  lists_.clear(), pool_.give_back_all(), ++frees_;
-}
+void LightCells::forget() { lists_.clear(), pool_.give_back_all(), ++frees_; }
 
 void LightCells::forget_near(const glm::dvec3& low, const glm::dvec3& high) {
   for (auto at = lists_.begin(); at != lists_.end();) {
@@ -80,7 +120,8 @@ void LightCells::forget_near(const glm::dvec3& low, const glm::dvec3& high) {
 bool LightCells::evict_oldest() {
   const auto oldest = std::ranges::min_element(
       lists_, {}, [](const auto& item) { return item.second.is_listed ? item.second.last_frame : SIZE_MAX; });
-  if (oldest == lists_.end() || !oldest->second.is_listed || oldest->second.last_frame == frame_) return false;
+  if (oldest == lists_.end() || !oldest->second.is_listed || oldest->second.last_frame == frame_)
+    return false;
   free(oldest->second), lists_.erase(oldest);
   return true;
 }
@@ -96,7 +137,7 @@ bool LightCells::take(Block& block, size_t bytes) {
 void LightCells::reserve(const Waiting& chosen) {
   size_t bytes = 0;
   for (const auto* item : chosen)
-    bytes += fixed_bytes(item->second.gathered) + entry_bytes(item->second.entry_count);
+    bytes += fixed_bytes(item->first, item->second.gathered) + entry_bytes(item->second.entry_count);
   if (bytes) pool_.grow(device_, bytes, max_bytes_);
 }
 
@@ -107,6 +148,7 @@ LightCells::Waiting LightCells::waiting_lights(std::span<const CellLight> lights
     if (!(light.range_m >= 0)) continue;
     const auto [at, is_new] = lists_.try_emplace(light);
     Lists& lists = at->second;
+    if (is_new) lists.first_frame = frame_;
     const bool is_seen = std::exchange(lists.last_frame, frame_) == frame_;
     if (!lists.is_listed && !is_seen && (also_new || !is_new) && lists.refused != frees_)
       waiting.push_back(&*at);
@@ -128,9 +170,12 @@ void LightCells::make(const RayScene& rays, std::span<const CellLight> lights,
   std::ranges::stable_sort(waiting, std::greater(), [](const auto* item) { return item->second.gathered; });
   size_t sum = 0;
   const auto fits = [&](const auto* item) { return (sum += item->second.gathered) <= limits.triangles; };
+  const auto is_early = [&](const auto* item) {
+    return (frame_ - item->second.first_frame) * limits.triangles < item->second.gathered;
+  };
   if (is_first)
     reserve(waiting);
-  else if (!waiting.empty())
+  else if (std::erase_if(waiting, is_early); !waiting.empty())
     waiting.erase(std::find_if_not(waiting.begin() + 1, waiting.end(), fits), waiting.end());
   list(rays, waiting);
 }
@@ -164,8 +209,7 @@ void LightCells::launch(const char* stem, const RayScene& rays, size_t jobs, con
 void LightCells::gather(const RayScene& rays, Waiting& waiting) {
   std::vector<LightCellJob> jobs;
   for (const auto* item : waiting) {
-    const CellLight& light = item->first;
-    if (!item->second.is_gathered) jobs.push_back({light.x, light.y, light.z, reach_of(light)});
+    if (!item->second.is_gathered) jobs.push_back(job_of(item->first));
   }
   if (jobs.empty()) return;
   write_jobs(jobs);
@@ -176,15 +220,17 @@ void LightCells::gather(const RayScene& rays, Waiting& waiting) {
   for (auto* item : waiting) {
     Lists& lists = item->second;
     if (std::exchange(lists.is_gathered, true)) continue;
-    lists.gathered = jobs[next++].gathered;
+    lists.job = jobs[next++];
+    lists.gathered = item->first.directional ? rays.triangles() : lists.job.gathered;
     lists.entry_count = std::min(lists.gathered, max_triangles) * entries_per_triangle;
   }
 }
 
 // Room for all of a light's lists, as far as is known.
-bool LightCells::has_taken(Lists& lists) {
+bool LightCells::has_taken(const CellLight& light, Lists& lists) {
   if (lists.refused == frees_) return false;
-  if (take(lists.fixed, fixed_bytes(lists.gathered)) && take(lists.entries, entry_bytes(lists.entry_count)))
+  if (take(lists.fixed, fixed_bytes(light, lists.gathered)) &&
+      take(lists.entries, entry_bytes(lists.entry_count)))
     return true;
   free(lists), lists.refused = frees_;
   return false;
@@ -192,13 +238,15 @@ bool LightCells::has_taken(Lists& lists) {
 
 // For those of the lights that there is room for; the others leave `chosen`.
 std::vector<LightCellJob> LightCells::jobs_of(Waiting& chosen) {
-  std::erase_if(chosen, [&](auto* item) { return !has_taken(item->second); });
+  std::erase_if(chosen, [&](auto* item) { return !has_taken(item->first, item->second); });
   std::vector<LightCellJob> jobs;
   for (const auto* item : chosen) {
     const auto& [light, lists] = *item;
-    LightCellJob job{light.x, light.y, light.z, reach_of(light), lists.gathered, cells_across(lists.gathered)};
+    LightCellJob job = lists.job;
+    job.gathered = lists.gathered, job.size = cells_across(light, lists.gathered);
+    if (light.directional) lay_grid(job);
     job.first_start = first_item<uint32_t>(lists.fixed.unit);
-    job.first_triangle = lists.fixed.unit + uint32_t(start_units(job.size));
+    job.first_triangle = lists.fixed.unit + uint32_t(start_units(light, job.size));
     job.first_entry = first_item<LightCellEntry>(lists.entries.unit);
     job.entry_room = entry_room(lists.entry_count);
     jobs.push_back(job);
@@ -207,10 +255,13 @@ std::vector<LightCellJob> LightCells::jobs_of(Waiting& chosen) {
 }
 
 // Room that was too much comes back. False: there was too little.
-bool LightCells::settle(const LightCellJob& job, Lists& lists) {
+bool LightCells::settle(const CellLight& light, const LightCellJob& job, Lists& lists) {
   lists.entry_count = job.entries;
   if (entry_room(job.entries) > job.entry_room) return free(lists), false;
-  shrink(lists.fixed, start_units(job.size) * BlockPool::unit_bytes + job.triangles * sizeof(LightCellTriangle));
+  if (light.directional && job.list_length > longest_list)
+    return free(lists), lists.gathered = UINT32_MAX, true;
+  shrink(lists.fixed,
+         start_units(light, job.size) * BlockPool::unit_bytes + job.triangles * sizeof(LightCellTriangle));
   shrink(lists.entries, job.entries * sizeof(LightCellEntry));
   lists.table = table_of(job), lists.is_listed = true;
   return true;
@@ -241,7 +292,7 @@ void LightCells::list(const RayScene& rays, Waiting chosen) {
   read_jobs(jobs);
   Waiting again;
   for (size_t i = 0; i < jobs.size(); ++i)
-    if (!settle(jobs[i], chosen[i]->second)) again.push_back(chosen[i]);
+    if (!settle(chosen[i]->first, jobs[i], chosen[i]->second)) again.push_back(chosen[i]);
   list(rays, std::move(again));
 }
 

@@ -1,13 +1,14 @@
-// Lists of the triangles around point lights, from which kernels answer shadow rays without the tree
-// (kernels/rays/light_cells.h), to the same bits. For CPUs.
+// Lists of the triangles around point lights and in the way of directional ones, from which kernels answer
+// shadow rays without the tree (kernels/rays/light_cells.h), to the same bits. For CPUs.
 //
 //   cells.forget_near(low, high);                   // where something moved
 //   cells.make(rays, lights, limits);               // in each frame
 //   cells.tables(lights), cells.arguments();        // for its kernels
 //
-// A light has lists once it and all in its range rest. Before that, and where memory does not suffice, it has
-// none, and kernels take the tree. Lists of lights that are gone stay while there is room for others. Errors as
-// in rays/ray_scene.h, except that a device without memory for lists leaves lights without any.
+// A light has lists once it and all in its range have rested for as many frames as the limits need. Before
+// that, and where memory does not suffice, it has none, and kernels take the tree. Lists of lights that are
+// gone stay while there is room for others. Errors as in rays/ray_scene.h, except that a device without
+// memory for lists leaves lights without any.
 #pragma once
 
 #include <compare>
@@ -21,15 +22,17 @@
 
 namespace lightgrid {
 
-// A light at a point, relative to the rays' origin, metres. A range below 0: it needs no lists.
+// A light at a point, relative to the rays' origin, metres, or a unit direction towards the light. A range
+// below 0: it needs no lists.
 struct CellLight {
   double x = 0, y = 0, z = 0, range_m = -1;
+  bool directional = false;
   auto operator<=>(const CellLight&) const = default;
 };
 
 struct LightCellLimits {
   size_t bytes = 0;      // of all lists
-  size_t triangles = 0;  // in the reach of lights that get lists in one call; one light may have more
+  size_t triangles = 0;  // in the reach of lights that get lists, on average over the calls
 };
 
 class LightCells {
@@ -58,10 +61,11 @@ class LightCells {
   };
   struct Lists {
     LightCellTable table{};
+    LightCellJob job{};
     bool is_listed = false, is_gathered = false;
     uint32_t gathered = 0, entry_count = 0;  // entry_count: at first a guess
     Block fixed{}, entries{};
-    size_t last_frame = 0, refused = 0;  // refused: value of frees_ when there was no room
+    size_t first_frame = 0, last_frame = 0, refused = 0;  // refused: value of frees_ when there was no room
   };
   using Waiting = std::vector<std::pair<const CellLight, Lists>*>;
 
@@ -71,11 +75,11 @@ class LightCells {
   bool take(Block& block, size_t bytes);
   void shrink(Block& block, size_t bytes);
   void free(Lists& lists);
-  bool has_taken(Lists& lists);
+  bool has_taken(const CellLight& light, Lists& lists);
   void reserve(const Waiting& chosen);
   bool evict_oldest();
   std::vector<LightCellJob> jobs_of(Waiting& chosen);
-  bool settle(const LightCellJob& job, Lists& lists);
+  bool settle(const CellLight& light, const LightCellJob& job, Lists& lists);
   void launch(const char* stem, const RayScene& rays, size_t jobs, const ClArguments& pools);
   void read_jobs(std::vector<LightCellJob>& jobs);
   void write_jobs(const std::vector<LightCellJob>& jobs);

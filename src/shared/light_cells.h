@@ -1,6 +1,7 @@
-// Light cells: a cube around a point light, each of whose six faces has size x size cells. A cell lists the
-// triangles that a shadow ray into it may meet, nearest first. The host and the kernels of kernels/rays share
-// these structs. docs/rays.md has the method.
+// Light cells: a cube around a point light, each of whose six faces has size x size cells, or for a
+// directional light one grid across its direction. A cell lists the triangles that a shadow ray through it
+// may meet, those next to the light first. The host and the kernels of kernels/rays share these structs.
+// docs/rays.md has the method.
 #pragma once
 
 #include "shared/language.h"
@@ -9,16 +10,12 @@
 namespace lightgrid {
 #endif
 
-// A triangle as a light sees it: the planes that the test of rays/ray_packet.h makes, with the same bits.
-// Relative to the light, turned so that the triangle is on their positive side.
+// A triangle as a light sees it: the planes that the test of rays/ray_packet.h makes, with the same bits, and
+// their offsets, turned so that the triangle is on their positive side. For a point light they are relative
+// to it, and edges have no offsets: edge_0[3] has the bits of the triangle's place in RayScene::triangles. A
+// directional light's triangles lie in the order of their places.
 typedef struct LightCellTriangle {
-  float normal[3], offset;
-  float edge_0[3];
-  uint place;  // in RayScene::triangles
-  float edge_1[3];
-  float near;  // metres; no shorter ray meets the triangle
-  float edge_2[3];
-  uint padding;
+  float normal[4], edge_0[4], edge_1[4], edge_2[4];
 } LightCellTriangle;
 
 typedef struct LightCellEntry {
@@ -26,24 +23,37 @@ typedef struct LightCellEntry {
   float near;     // metres; no shorter ray into the cell meets the triangle
 } LightCellEntry;
 
+// The cells of a directional light: x = u . p + u[3], y = v . p + v[3] of a point p, cut off to whole numbers
+// from 0 to size - 1. The point's ray is as long as it lies below the plane toward . p = top.
+typedef struct LightCellGrid {
+  float u[4], v[4], toward[3], top;
+} LightCellGrid;
+
 // A light's cells: `size` squared and one starts for each face. Size 0: it has no lists.
 typedef struct LightCellTable {
   uint first_start, size;
-  float squared;  // of the longest rays that lists serve, metres
+  float squared;        // of the longest rays that lists serve, or of the farthest point: metres
+  uint first_triangle;  // of a directional light
+  LightCellGrid grid;
 } LightCellTable;
 
 // A light whose lists are made.
 typedef struct LightCellJob {
-  double x, y, z;  // relative to the origin of the rays' scene, metres
-  float reach_m;   // no ray is longer
-  uint gathered;   // out of the first step: triangles in leaves within reach
+  double x, y, z, w;  // RaySource of kernels/rays/ray_packet.h
+  float reach_m;      // no ray is longer
+  uint gathered;      // out of the first step: triangles in leaves within reach
   uint size, first_start, first_triangle, first_entry;
-  uint entry_room;          // for 16 entries more than there are, or they are only counted
+  uint entry_room;  // for 16 entries more than there are, or they are only counted
   uint padding;
-  uint triangles, entries;  // out of the second
+  uint triangles, entries;         // out of the second
+  float low[3], high[3];           // out of the first, of a directional light: a box of all triangles
+  LightCellGrid grid;              // and for the second
+  float metres_u[3], metres_v[3];  // u and v over their squares
+  float extent_m;     // 4 times the greatest sum of magnitudes of a corner's coordinates, or more
+  float list_length;  // out of the second: entries of a cell, on average over entries
 } LightCellJob;
 
 #if !defined(__OPENCL_VERSION__)
-static_assert(sizeof(LightCellTriangle) == 64 && sizeof(LightCellEntry) == 8 && sizeof(LightCellJob) == 64);
+static_assert(sizeof(LightCellTriangle) == 64 && sizeof(LightCellEntry) == 8 && sizeof(LightCellJob) == 176);
 }  // namespace lightgrid
 #endif

@@ -29,9 +29,9 @@ kernel void cells_occlusion(RAYS_ARGUMENTS, LIGHT_CELL_ARGUMENTS, global const f
   const uint4 packet = packets[i];
   global const float* at = points + packet.x * (size_t)64;
   const Real3 to = real3(vload16(0, at), vload16(1, at), vload16(2, at));
-  const LightCellTable table = light_cells[packet.y];
+  global const LightCellTable* table = light_cells + packet.y;
   uint served = 0;
-  if (table.size != 0)
+  if (table->size != 0)
     hidden[i] = hidden_by_cells(&cells, &scene, table, lights[packet.y], to, vload16(3, at),
                                 packet.z, vload16(packet.x, own), &served);
   unserved[i] = packet.z & ~served;
@@ -71,13 +71,13 @@ CellAnswers cell_answers(RayScene& scene, const LightCells& cells, const Queries
   return answers;
 }
 
-// Those at a point, of a range each.
+// Those at a point of a range each.
 std::vector<CellLight> cell_lights(const Queries& q, RandomNumbers& random) {
   std::vector<CellLight> lights;
   for (const RayLight& light : q.lights) {
     const double far_m = random.below(2) ? 40 : HUGE_VAL,
                  range_m = random.below(3) ? random.between(0.5, 4) : far_m;
-    lights.push_back({light.x, light.y, light.z, light.w != 0 ? range_m : -1});
+    lights.push_back({light.x, light.y, light.z, light.w != 0 ? range_m : HUGE_VAL, light.w == 0});
   }
   return lights;
 }
@@ -99,16 +99,29 @@ glm::dvec3 hard_direction(RandomNumbers& random, const std::vector<Corners>& tri
   return glm::length(to) > 0 ? glm::normalize(to) : random.direction();
 }
 
-// Blocks of points along such directions, each for its light alone.
+// Behind an edge or a corner of a triangle, as seen along a direction, or before it, or up to 1e-6 m past it.
+glm::dvec3 hard_place(RandomNumbers& random, const std::vector<Corners>& triangles,
+                      const glm::dvec3& toward) {
+  const Corners& c = triangles[size_t(random.below(int(triangles.size())))];
+  const int first = random.below(3);
+  glm::dvec3 at(c[size_t(first)]);
+  if (random.below(2)) at += glm::dvec3(c[size_t(first + 1) % 3] - c[size_t(first)]) * random.unit();
+  if (random.below(2)) at += random.direction() * std::pow(10.0, random.between(-8, -6));
+  return at - toward * (random.below(4) ? random.between(-0.5, 3) : std::pow(10.0, random.between(-6, -3)));
+}
+
+// Blocks of points along such directions and at such places, each for its light alone.
 void add_hard_points(Queries& q, const std::vector<Corners>& triangles, RandomNumbers& random) {
   for (uint32_t light = 0; light < q.lights.size(); ++light) {
-    if (q.lights[light].w == 0) continue;
     const glm::dvec3 at(q.lights[light]);
+    const bool is_point = q.lights[light].w != 0;
     for (int block = 0; block < 12; ++block) {
       q.packets.push_back({uint32_t(q.points.size() / 16), light});
       for (int i = 0; i < 16; ++i) {
-        const glm::dvec3 to = hard_direction(random, triangles, at, 8) * random.between(0.1, 5);
-        q.points.push_back({glm::vec3(at + to), 1e-3f});
+        const glm::dvec3 point = is_point
+                                     ? at + hard_direction(random, triangles, at, 8) * random.between(0.1, 5)
+                                     : hard_place(random, triangles, at);
+        q.points.push_back({glm::vec3(point), 1e-3f});
       }
     }
   }
@@ -164,7 +177,7 @@ TEST_P(LightCellsInSoups, HaveTheTreesAnswers) {
   EXPECT_EQ(sum.different, 0u);
   EXPECT_GT(sum.rays, 15000u);
   EXPECT_GT(sum.hidden, sum.rays / 200);
-  EXPECT_GT(sum.unserved, 1000u) << "of directions, and longer than a range";
+  EXPECT_GT(sum.unserved, 100u) << "longer than a range";
 }
 
 // Where floats are half a millimetre and 8 mm apart.
@@ -186,29 +199,64 @@ std::vector<T> read_pool(const ClArgument& argument) {
   return values;
 }
 
-struct HostCells {
-  std::vector<LightCellTable> tables;
-  std::vector<uint32_t> starts;
-  std::vector<LightCellEntry> entries;
-  std::vector<LightCellTriangle> triangles;
-
+class HostCells {
+ public:
   HostCells(const LightCells& cells, const std::vector<CellLight>& lights)
-      : tables(cells.tables(lights)),
-        starts(read_pool<uint32_t>(cells.arguments()[0])),
-        entries(read_pool<LightCellEntry>(cells.arguments()[1])),
-        triangles(read_pool<LightCellTriangle>(cells.arguments()[2])) {}
+      : lights_(lights),
+        tables_(cells.tables(lights)),
+        starts_(read_pool<uint32_t>(cells.arguments()[0])),
+        entries_(read_pool<LightCellEntry>(cells.arguments()[1])),
+        triangles_(read_pool<LightCellTriangle>(cells.arguments()[2])) {}
 
-  std::span<const LightCellEntry> list(const LightCellTable& table, const glm::dvec3& to) const {
+  // A light, and for a point light the way to a point, else where the ray begins.
+  bool serve(size_t light, const glm::dvec3& to) const {
+    return tables_[light].size != 0 && glm::dot(to, to) <= double(tables_[light].squared);
+  }
+
+  double length(size_t light, const glm::dvec3& to) const {
+    const LightCellGrid& g = tables_[light].grid;
+    return lights_[light].directional ? g.top - (g.toward[0] * to.x + g.toward[1] * to.y + g.toward[2] * to.z)
+                                      : glm::length(to);
+  }
+
+  std::span<const LightCellEntry> list(size_t light, const glm::dvec3& to) const {
+    const LightCellTable& table = tables_[light];
+    const uint32_t cell = lights_[light].directional ? of_grid(table, to) : of_cube(table, to);
+    const uint32_t* start = &starts_[table.first_start + cell];
+    return std::span(entries_).subspan(start[0], start[1] - start[0]);
+  }
+
+  // The place of an entry's triangle among the scene's.
+  uint32_t place(size_t light, const LightCellEntry& entry) const {
+    return lights_[light].directional ? entry.triangle - tables_[light].first_triangle
+                                      : std::bit_cast<uint32_t>(triangles_[entry.triangle].edge_0[3]);
+  }
+
+ private:
+  static uint32_t of_grid(const LightCellTable& table, const glm::dvec3& at) {
+    const auto cell = [&](const float* axis) {
+      const double x = axis[0] * at.x + axis[1] * at.y + axis[2] * at.z + axis[3];
+      return uint32_t(std::clamp(x, 0.0, table.size - 1.0));
+    };
+    return cell(table.grid.v) * table.size + cell(table.grid.u);
+  }
+
+  static uint32_t of_cube(const LightCellTable& table, const glm::dvec3& to) {
     const glm::dvec3 size = glm::abs(to);
     const int along = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
     const auto cell = [&](int k) {
       return uint32_t(std::clamp((to[k] / size[along] + 1) * 0.5 * table.size, 0.0, table.size - 1.0));
     };
     const uint32_t face = uint32_t(2 * along + (to[along] < 0));
-    const uint32_t* start = &starts[table.first_start + face * (table.size * table.size + 1) +
-                                    cell(along == 2 ? 1 : 2) * table.size + cell(along == 0 ? 1 : 0)];
-    return std::span(entries).subspan(start[0], start[1] - start[0]);
+    return face * (table.size * table.size + 1) + cell(along == 2 ? 1 : 2) * table.size +
+           cell(along == 0 ? 1 : 0);
   }
+
+  std::vector<CellLight> lights_;
+  std::vector<LightCellTable> tables_;
+  std::vector<uint32_t> starts_;
+  std::vector<LightCellEntry> entries_;
+  std::vector<LightCellTriangle> triangles_;
 };
 
 // Each triangle that the oracle says is met is listed, with a bound that is no longer than the ray.
@@ -225,19 +273,18 @@ TEST_P(LightCellsInSoups, ListWhateverARayMeets) {
   const std::vector<RayTriangle> placed_triangles = read_pool<RayTriangle>(scene.arguments()[1]);
   size_t met = 0, missing = 0, unsorted = 0;
   for (const RayPacket& packet : q.packets) {
-    const LightCellTable& table = host.tables[packet.light];
-    if (table.size == 0) continue;
     for (int lane = 0; lane < 16; ++lane) {
       const RayPoint& point = q.points[packet.block * 16 + uint32_t(lane)];
-      const glm::dvec3 to = glm::dvec3(point.position) - glm::dvec3(q.lights[packet.light]);
-      if (glm::dot(to, to) > double(table.squared)) continue;
-      const std::span<const LightCellEntry> list = host.list(table, to);
+      const glm::dvec3 light(q.lights[packet.light]), at(point.position),
+          to = lights[packet.light].directional ? at + double(point.gap) * light : at - light;
+      if (!host.serve(packet.light, to)) continue;
+      const std::span<const LightCellEntry> list = host.list(packet.light, to);
       std::set<uint32_t> near;
       float last = 0;
       for (const LightCellEntry& entry : list) {
         unsorted += entry.near < last, last = entry.near;
-        if (double(entry.near) <= glm::length(to))
-          near.insert(placed_triangles[host.triangles[entry.triangle].place].number);
+        if (double(entry.near) <= host.length(packet.light, to))
+          near.insert(placed_triangles[host.place(packet.light, entry)].number);
       }
       const RayOracle::Line line(q.lights[packet.light], point);
       for (uint32_t i = 0; i < triangles.size(); ++i) {
@@ -282,7 +329,8 @@ class LightCellSequence {
     if (change == 5) deform(random_.below(12));
     cells_.make(scene_, lights_, limits);
     Queries q{.points = points_};
-    for (const CellLight& light : lights_) q.lights.push_back({light.x, light.y, light.z, 1});
+    for (const CellLight& light : lights_)
+      q.lights.push_back({light.x, light.y, light.z, light.directional ? 0 : 1});
     for (uint32_t light = 0; light < q.lights.size(); ++light)
       for (uint32_t block = 0; block < 20; ++block) q.packets.push_back({block, light});
     return compared_with_tree(scene_, cells_, q, lights_);
@@ -300,8 +348,9 @@ class LightCellSequence {
 
  private:
   CellLight any_light() {
-    const glm::dvec3 at = random_.in_cube(2);
-    return {at.x, at.y, at.z, random_.between(0.5, 3)};
+    const bool directional = random_.below(4) == 0;
+    const glm::dvec3 at = directional ? random_.direction() : random_.in_cube(2);
+    return {at.x, at.y, at.z, random_.between(0.5, 3), directional};
   }
   glm::dmat4 somewhere() {
     glm::dmat4 m(0.3);
@@ -365,15 +414,16 @@ TEST(LightCells, FollowWhateverChanges) {
 TEST(LightCells, StayWithinTheirMemory) {
   LightCellSequence sequence(4);
   size_t some = 0, all = 0;
+  const size_t steps = long_tests() ? 2000 : 60;
   constexpr size_t bytes = 500'000;
-  for (int step = 0; step < (long_tests() ? 2000 : 60); ++step) {
+  for (size_t step = 0; step < steps; ++step) {
     const Compared c = sequence.step({.bytes = bytes, .triangles = 3000});
     ASSERT_EQ(c.different, 0u) << "step " << step;
     some += sequence.listed() != 0, all += sequence.listed() == sequence.lights();
     EXPECT_LE(sequence.memory_bytes(), bytes + 10 * sizeof(LightCellJob));
   }
-  EXPECT_GT(some, 40u);
-  EXPECT_LT(all, 20u) << "the bound is too wide for this test";
+  EXPECT_GT(some, steps * 2 / 3);
+  EXPECT_LT(all, steps / 3) << "the bound is too wide for this test";
 }
 
 // A light that comes to rest gets lists in a full pool: those of lights that are gone make room at once.
@@ -402,12 +452,15 @@ struct PlantedFault {
 // That the comparison can fail.
 TEST(LightCellFaults, EachIsFound) {
   constexpr PlantedFault faults[] = {
-      {"PLANE_SLACK 1e-5f", "PLANE_SLACK -1e-4f"},
+      {"PLANE_SLACK 1e-5f", "PLANE_SLACK -1e-3f"},
       {"CELL_SLACK 1e-3f", "CELL_SLACK -1e-2f"},
       {"-offset * 0.999f", "-offset * 1.05f"},
       {"number % 2 ? -1.0f : 1.0f", "number % 2 ? 1.0f : -1.0f"},
       {"ROW_SLACK 1e-3f", "ROW_SLACK -1.0f"},
       {"near_steps(near)", "near_steps(near) ^ 2047"},
+      {"GRID_SLACK 0x1p-17f", "GRID_SLACK -0x1p-8f"},
+      {"REAL(f.height) : plane.at / down + extent", "REAL(f.height) : plane.at / down - extent"},
+      {"- a * job->grid.u[3]", "+ a * job->grid.u[3]"},
   };
   for (const PlantedFault& fault : faults) {
     ProgramCache faulty(rays_device());

@@ -1,8 +1,14 @@
-// The first step to a light's cells: how many triangles the leaves in its reach have. A work-item per light.
+// The first step to a light's cells: how many triangles the leaves in its reach have, and of a directional
+// light the box of all. A work-item per light.
 //
 // RAYS_ARGUMENTS  the scene
 // jobs            in and out: LightCellJob
 #include "kernels/rays/cpu/light_cell_builder.h"
+
+static void add_to_box(global LightCellJob* job, global const float* low, global const float* high) {
+  for (int k = 0; k < 3; ++k)
+    job->low[k] = smaller(job->low[k], low[k]), job->high[k] = larger(job->high[k], high[k]);
+}
 
 kernel void gather_light_cells(RAYS_ARGUMENTS, global LightCellJob* jobs) {
   global LightCellJob* job = jobs + get_global_id(0);
@@ -11,4 +17,7 @@ kernel void gather_light_cells(RAYS_ARGUMENTS, global LightCellJob* jobs) {
   uint gathered = 0;
   while (next_leaf(&walk, ray_nodes, job, &first, &count)) gathered += (uint)count;
   job->gathered = gathered;
+  if (job->w != 0) return;
+  if (ray_nodes->count_0 != RAY_NOTHING) add_to_box(job, ray_nodes->low_0, ray_nodes->high_0);
+  if (ray_nodes->count_1 != RAY_NOTHING) add_to_box(job, ray_nodes->low_1, ray_nodes->high_1);
 }

@@ -37,18 +37,25 @@ static inline __attribute__((always_inline)) void add_items(LightCellItems* item
   items->count += popcount(bits);
 }
 
-// One face of the cube: which coordinates are along it and across it, and the first of its cells.
-typedef struct CubeFace {
-  int along, u, v;
-  float sign;
+// One face of the cube, or the grid: its size, the first of its cells, and no ray is longer than `reach`. Of
+// the cube: which coordinates are along a face and across it. Of the grid: its top's height above its base.
+typedef struct CellFace {
   int size, first_cell;
   float reach;
-} CubeFace;
+  int along, u, v;
+  float sign;
+  float height;
+} CellFace;
 
-static inline CubeFace cube_face(global const LightCellJob* job, int number) {
+static inline CellFace cube_face(global const LightCellJob* job, int number) {
   const int along = number / 2, size = (int)job->size;
-  const CubeFace face = {along, along == 0 ? 1 : 0,         along == 2 ? 1 : 2, number % 2 ? -1.0f : 1.0f,
-                         size,  number * (size * size + 1), job->reach_m};
+  const CellFace face = {.size = size,
+                         .first_cell = number * (size * size + 1),
+                         .reach = job->reach_m,
+                         .along = along,
+                         .u = along == 0 ? 1 : 0,
+                         .v = along == 2 ? 1 : 2,
+                         .sign = number % 2 ? -1.0f : 1.0f};
   return face;
 }
 
@@ -57,7 +64,7 @@ typedef struct CellPlanes {
   real x, y, at;
 } CellPlanes;
 
-static inline CellPlanes greatest_in_cells(const real plane[3], const CubeFace* f) {
+static inline CellPlanes greatest_in_cells(const real plane[3], const CellFace* f) {
   const float h = 2.0f / (float)f->size;
   const real a = plane[f->u], b = plane[f->v], c = plane[f->along] * f->sign;
   const CellPlanes p = {a * h, b * h,
@@ -85,7 +92,9 @@ static inline mask_t cells_of_boxes(real low, real high, real along_low, real al
 
 // No shorter ray into the cell meets the triangle. A ray along d reaches the plane at -offset |d| / (normal .
 // d): d is taken where it is shortest in the cell, and the product, `rising`, where it is greatest.
-static inline real near_in_cells(const CubeFace* f, real x, real y, real offset, real rising, real box_near) {
+// Of the grid: `rising` is how high above its base the plane is at most.
+static inline real near_in_cells(const CellFace* f, real x, real y, real offset, real rising, real box_near) {
+  if (f->height != 0.0f) return lane_max(f->height - rising, box_near);
   const float h = 2.0f / (float)f->size;
   const real u = lane_max(fabs(fma(x, REAL(h), REAL(0.5f * h - 1.0f))) - 0.5f * h, REAL(0.0f)),
              v = lane_max(fabs(fma(y, REAL(h), REAL(0.5f * h - 1.0f))) - 0.5f * h, REAL(0.0f));
@@ -110,7 +119,7 @@ static inline void cells_of_row(const FaceTriangles* t, const real inverse[3], r
   *first = -lane_floor(-*first), *last = lane_floor(*last);
 }
 
-static inline __attribute__((always_inline)) void add_small(const CubeFace* f, const SeenTriangles* s,
+static inline __attribute__((always_inline)) void add_small(const CellFace* f, const SeenTriangles* s,
                                                             const FaceTriangles* t, mask_t small,
                                                             whole numbers, LightCellItems* items) {
   real inverse[3];
@@ -139,7 +148,7 @@ static inline CellPlanes planes_of_lane(const CellPlanes* p, uint lane) {
   return one;
 }
 
-static inline __attribute__((always_inline)) void add_large(const CubeFace* f, const SeenTriangles* s,
+static inline __attribute__((always_inline)) void add_large(const CellFace* f, const SeenTriangles* s,
                                                             const FaceTriangles* t, uint lane, int number,
                                                             LightCellItems* items) {
   const CellPlanes edge_0 = planes_of_lane(&t->edges[0], lane), edge_1 = planes_of_lane(&t->edges[1], lane),
@@ -163,7 +172,18 @@ static inline __attribute__((always_inline)) void add_large(const CubeFace* f, c
 }
 
 // Of the lanes `seen`. numbers: of their triangles.
-static inline __attribute__((always_inline)) void add_to_face(const CubeFace* f, const SeenTriangles* s,
+static inline __attribute__((always_inline)) void add_to_cells(const CellFace* f, const SeenTriangles* s,
+                                                               const FaceTriangles* t, mask_t seen,
+                                                               whole numbers, LightCellItems* items) {
+  const mask_t large = seen & ((t->last_x - t->first_x) + (t->last_y - t->first_y) > LARGE);
+  if (any_lane(seen & ~large)) add_small(f, s, t, seen & ~large, numbers, items);
+  for (uint left = mask_bits(large); left != 0; left &= left - 1) {
+    const uint lane = lowest_bit(left);
+    add_large(f, s, t, lane, ((const int*)&numbers)[lane], items);
+  }
+}
+
+static inline __attribute__((always_inline)) void add_to_face(const CellFace* f, const SeenTriangles* s,
                                                               mask_t seen, whole numbers,
                                                               LightCellItems* items) {
   const real along_low = f->sign > 0 ? s->low[f->along] : -s->high[f->along],
@@ -178,10 +198,61 @@ static inline __attribute__((always_inline)) void add_to_face(const CubeFace* f,
   if (!any_lane(seen)) return;
   for (int e = 0; e < 3; ++e) t.edges[e] = greatest_in_cells(s->edges[e], f);
   t.plane = greatest_in_cells(s->normal, f);
-  const mask_t large = seen & ((t.last_x - t.first_x) + (t.last_y - t.first_y) > LARGE);
-  if (any_lane(seen & ~large)) add_small(f, s, &t, seen & ~large, numbers, items);
-  for (uint left = mask_bits(large); left != 0; left &= left - 1) {
-    const uint lane = lowest_bit(left);
-    add_large(f, s, &t, lane, ((const int*)&numbers)[lane], items);
+  add_to_cells(f, s, &t, seen, numbers, items);
+}
+
+// What of the grid's extent bounds all rounding: of planes, of boxes and of a point's place among the cells.
+#define GRID_SLACK 0x1p-17f
+
+static inline real along_axis(const real v[3], global const float* axis) {
+  return fma(v[2], REAL(axis[2]), fma(v[1], REAL(axis[1]), v[0] * axis[0]));
+}
+
+// The greatest value that a plane has in a cell, for points at height 0.
+static inline CellPlanes greatest_in_grid(const real plane[3], real offset, global const LightCellJob* job) {
+  const real a = along_axis(plane, job->metres_u), b = along_axis(plane, job->metres_v);
+  const real rounding = GRID_SLACK * job->extent_m * (fabs(plane[0]) + fabs(plane[1]) + fabs(plane[2]));
+  const CellPlanes p = {a, b,
+                        offset - a * job->grid.u[3] - b * job->grid.v[3] + lane_max(a, REAL(0.0f)) +
+                            lane_max(b, REAL(0.0f)) + CELL_SLACK * (fabs(a) + fabs(b)) + rounding + 1e-37f};
+  return p;
+}
+
+// The cells along an axis in which boxes are seen.
+static inline void cells_across(const SeenTriangles* s, global const float* axis, float pad, float size,
+                                real* first, real* last) {
+  real at = REAL(axis[3]), spread = REAL(CELL_SLACK);
+  for (int k = 0; k < 3; ++k) {
+    at = fma(0.5f * (s->low[k] + s->high[k]), REAL(axis[k]), at);
+    spread = fma(0.5f * (s->high[k] - s->low[k]) + pad, REAL(fabs(axis[k])), spread);
   }
+  *first = lane_floor(lane_min(lane_max(at - spread, REAL(0.0f)), REAL(size - 1.0f)));
+  *last = lane_floor(lane_max(lane_min(at + spread, REAL(size - 1.0f)), REAL(0.0f)));
+}
+
+// A ray meets a triangle only if it begins below its box's top and below its plane: where the plane falls by
+// 1 for each `down` metres of height. Planes that are almost along the direction bound nothing.
+static inline __attribute__((always_inline)) void add_to_grid(global const LightCellJob* job,
+                                                              SeenTriangles* s, mask_t seen, whole numbers,
+                                                              LightCellItems* items) {
+  global const LightCellGrid* g = &job->grid;
+  const float extent = job->extent_m, pad = GRID_SLACK * extent;
+  const CellFace f = {.size = (int)job->size, .reach = INFINITY, .height = g->top + extent};
+  FaceTriangles t;
+  cells_across(s, g->u, pad, (float)f.size, &t.first_x, &t.last_x);
+  cells_across(s, g->v, pad, (float)f.size, &t.first_y, &t.last_y);
+  for (int e = 0; e < 3; ++e) t.edges[e] = greatest_in_grid(s->edges[e], s->edge_offsets[e], job);
+  const CellPlanes plane = greatest_in_grid(s->normal, s->offset, job);
+  const real down = -along_axis(s->normal, g->toward),
+             least = 1e-4f * (fabs(s->normal[0]) + fabs(s->normal[1]) + fabs(s->normal[2]));
+  const mask_t steep = down < least;
+  t.plane.x = steep ? REAL(0.0f) : plane.x / down, t.plane.y = steep ? REAL(0.0f) : plane.y / down;
+  t.plane.at = steep ? REAL(f.height) : plane.at / down + extent;
+  real top = REAL(pad);
+  for (int k = 0; k < 3; ++k) {
+    top = fma(0.5f * (s->low[k] + s->high[k]), REAL(g->toward[k]), top);
+    top = fma(0.5f * (s->high[k] - s->low[k]) + pad, REAL(fabs(g->toward[k])), top);
+  }
+  s->near = g->top - top;
+  add_to_cells(&f, s, &t, seen, numbers, items);
 }

@@ -13,16 +13,18 @@ static void add_triangles(global const LightCellJob* job, global const RayTriang
                           const int* places, uint count, global LightCellTriangle* to, uint* used,
                           LightCellItems* items) {
   SeenTriangles s;
-  const uint seen = see_triangles(&s, job, triangles, places, count);
+  const bool point = job->w != 0;
+  const uint seen = point ? see_from_point(&s, job, triangles, places, count)
+                          : see_along(&s, job, triangles, places, count);
   if (seen == 0) return;
-  store_triangles(to + *used, &s, seen);
-  int numbers[LANES] ALIGNED;
-  uint number = *used;
-  for (uint lane = 0; lane < LANES; ++lane) numbers[lane] = (int)number, number += seen >> lane & 1;
-  *used = number;
+  const whole numbers = store_triangles(to, &s, seen, point, used);
+  if (!point) {
+    add_to_grid(job, &s, lanes_of(seen), numbers, items);
+    return;
+  }
   for (int i = 0; i < 6; ++i) {
-    const CubeFace face = cube_face(job, i);
-    add_to_face(&face, &s, lanes_of(seen), *(const whole*)numbers, items);
+    const CellFace face = cube_face(job, i);
+    add_to_face(&face, &s, lanes_of(seen), numbers, items);
   }
 }
 
@@ -53,19 +55,21 @@ static inline void sum_counts(uint* counts, uint values) {
 }
 
 // Sorted by distance, then by cell: the second step keeps the order of the first.
-static void sort_items(global const LightCellJob* job, const LightCellItems* items, global ulong* by_distance,
+static void sort_items(global LightCellJob* job, const LightCellItems* items, global ulong* by_distance,
                        global uint* starts, global LightCellEntry* entries) {
   uint steps[NEAR_STEPS] = {0};
-  const uint all = 6 * (job->size * job->size + 1);
+  const uint all = (job->w != 0 ? 6 : 1) * (job->size * job->size + 1);
   for (uint i = 0; i < all; ++i) starts[i] = 0;
   for (uint i = 0; i < items->count; ++i)
     ++steps[items->keys[i] % NEAR_STEPS], ++starts[1 + items->keys[i] / NEAR_STEPS];
   sum_counts(steps, NEAR_STEPS);
   uint sum = job->first_entry;
+  float squares = 0;
   for (uint i = 0; i < all; ++i) {
     const uint here = starts[i];
-    starts[i] = sum, sum += here;
+    starts[i] = sum, sum += here, squares += (float)here * (float)here;
   }
+  job->list_length = squares / (float)max(items->count, 1u);
   for (uint i = 0; i < items->count; ++i)
     by_distance[steps[items->keys[i] % NEAR_STEPS]++] = (ulong)items->keys[i] << 32 | items->numbers[i];
   // Where a cell's entries began, the next one's begin now; a face's first cell begins at its own 0.
@@ -87,8 +91,9 @@ kernel void list_light_cells(RAYS_ARGUMENTS, global LightCellJob* jobs, uint job
     LightCellItems items;
     items.keys = (global uint*)(entries + job->first_entry), items.numbers = items.keys + job->entry_room;
     items.count = 0, items.room = job->entry_room;
-    job->triangles =
+    const uint used =
         add_all(job, ray_nodes, ray_triangles, (global LightCellTriangle*)pool + job->first_triangle, &items);
+    job->triangles = job->w != 0 ? used : job->gathered;
     job->entries = items.count;
     if (items.count + LANES > items.room) continue;
     sort_items(job, &items, by_distance, pool + job->first_start, entries);

@@ -5,8 +5,8 @@ namespace {
 
 const OwnSetting<bool> shadow_cells{"shadow-cells",
                                     "portable",
-                                    "on CPUs exact hard shadows of point and spot lights at rest come from "
-                                    "lists of triangles around each light, "
+                                    "on CPUs exact hard shadows of lights at rest come from lists of the "
+                                    "triangles around each light, "
                                     "or all from the tree",
                                     {{"on", true}, {"off", false}},
                                     {.common = true, .shown_if_given = true}};
@@ -21,12 +21,13 @@ bool ViewLightCells::serve(const Work& work, const RayScene& rays, bool lanes) {
 }
 
 // With a light's own range, and not with what a view's rounding adds to it: lists then serve all views.
-void ViewLightCells::look(Work& work, const RayScene& rays, const std::vector<CullLight>& lights) {
+void ViewLightCells::look(Work& work, const std::vector<ShadowLight>& records,
+                          const std::vector<CullLight>& lights) {
   shared_ = work.gpu.light_cells(work.plan.settings.blended_casters());
-  lights_.assign(lights.size(), {});
-  for (size_t i = 0; i < work.plan.local.size(); ++i) {
-    const glm::dvec3 at = lights[i].position - rays.origin();
-    lights_[i] = {at.x, at.y, at.z, lights[i].radius_m};
+  lights_.clear();
+  for (size_t i = 0; i < records.size(); ++i) {
+    const ShadowLight& r = records[i];
+    lights_.push_back({r.x, r.y, r.z, lights[i].radius_m, r.w == 0});
   }
 }
 

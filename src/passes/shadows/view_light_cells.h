@@ -2,6 +2,7 @@
 // on CPUs. The setting shadow-cells leaves them out.
 #pragma once
 
+#include "passes/shadows/shadow_lights.h"
 #include "renderer/shared_light_cells.h"
 #include "renderer/work.h"
 
@@ -13,8 +14,8 @@ class ViewLightCells {
   // are not dimmed by blended surfaces.
   static bool serve(const Work& work, const RayScene& rays, bool lanes);
 
-  // When the view, lights or surfaces changed. lights: as shadowed_lights has them.
-  void look(Work& work, const RayScene& rays, const std::vector<CullLight>& lights);
+  // When the view, lights or surfaces changed. records: as shadow_light_records has them, of `lights`.
+  void look(Work& work, const std::vector<ShadowLight>& records, const std::vector<CullLight>& lights);
   // In each frame.
   void make(Work& work, const RayScene& rays);
 
