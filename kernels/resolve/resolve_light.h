@@ -3,7 +3,7 @@
 //
 // -DDIRECTIONAL  there are directional lights
 // -DDIRECTIONAL_SHADOWS  some of them casts a shadow
-// -DFAR_LIGHT    light past the lights' ranges is added (shared/far_light.h)
+// -DEFFECT_NAME  of each effect in src/effects: its light is added (shared/effects/NAME.h)
 // -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
 // -DLIGHTS_VOXELS  point and spot lights come from a voxel light buffer
 //                  (kernels/voxels/voxel_lookup.h), not from lists
@@ -17,6 +17,7 @@
 
 #include "kernels/resolve/resolve.h"
 #include "kernels/resolve/shade_pixels.h"
+#include "shared/effects.h"
 #include "shared/light_grid.h"
 #include "shared/volume_place.h"
 #ifdef LIGHTS_VOXELS
@@ -39,15 +40,6 @@
 #define SOURCE_LIST(X)
 #endif
 
-#ifdef FAR_LIGHT
-#include "kernels/far_light/far_lookup.h"
-#define FAR_ARGUMENTS global const float4 *far_moments, constant FarLookup *far,
-#define GIVEN_FAR_LIGHT .far_moments = far_moments, .far = far,
-#else
-#define FAR_ARGUMENTS
-#define GIVEN_FAR_LIGHT
-#endif
-
 // What all kernels that resolve triangles take, and the values of ResolveScene and ResolveLights.
 // What a triangle number leads to (raster/raster_view.h); surfaces, vertices and materials
 // (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/light_table.h),
@@ -57,9 +49,9 @@
 // z-bins; with -DSLICES those between slices.
 #define RESOLVE_ARGUMENTS                                                                    \
   RESOLVE_SCENE_LIST(PARAMETER)                                                              \
-  LIGHT_ARGUMENTS global const float4 *directional, FAR_ARGUMENTS global const uint2 *cells, \
-      global const index_t *light_indices, global const uint *light_bins,                    \
-      FACTOR_ARGUMENTS SOURCE_LIST(PARAMETER)                                                \
+  LIGHT_ARGUMENTS global const float4 *directional, EFFECTS(EFFECT_PARAMETERS)               \
+  global const uint2 *cells, global const index_t *light_indices,                            \
+      global const uint *light_bins, FACTOR_ARGUMENTS SOURCE_LIST(PARAMETER)                 \
   constant float *bin_edges, constant float *slice_edges, constant ViewParams *view
 #ifdef GROUPS
 #define GIVEN_GROUP_MASKS .group_masks = light_group_masks + view->light_count + view->directional_count,
@@ -75,16 +67,13 @@
   {                                                                                                \
     .lights = {GIVEN_LIGHTS light_bins GIVEN_FACTORS(light_indices) GIVEN_SHADOWS},                \
     .directional = directional, .list = light_indices, .cells = cells, .slice_edges = slice_edges, \
-    SOURCE_LIST(GIVEN) GIVEN_FAR_LIGHT                                                             \
+    SOURCE_LIST(GIVEN) EFFECTS(EFFECT_VALUES)                                                      \
   }
 
 typedef struct ResolveLights {
   Lights lights;
   global const float4* directional;  // two each: direction to the light, and illuminance
-#ifdef FAR_LIGHT
-  global const float4* far_moments;
-  constant FarLookup* far;
-#endif
+  EFFECTS(EFFECT_MEMBERS)
   global const index_t* list;  // null: all of them; with -DSLICES and -DWORLD_GRID where all lists begin
   uint count;
   global const uint2* cells;  // with -DSLICES: of all tiles
@@ -228,6 +217,9 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
 #endif
 #endif
 
+#define INPUT_OF_LIGHTS(kind, type, name, resource) , l->name
+#define ADD_BASE(inputs, base) sum = add3(sum, base(*p, lit inputs(INPUT_OF_LIGHTS)));
+
 // lit: lanes with a surface.
 static inline Real3 own_light(const ShadingPoint* p, const Surface* s, mask_t lit, const ResolveLights* l,
                               constant ViewParams* view) {
@@ -249,9 +241,7 @@ static inline Real3 own_light(const ShadingPoint* p, const Surface* s, mask_t li
     sum = add3(sum, real3(back.x * light.x, back.y * light.y, back.z * light.z));
   }
 #endif
-#ifdef FAR_LIGHT
-  sum = add3(sum, radiance_of_far_light(*p, far_light_at(p->position, lit, l->far_moments, l->far), l->far));
-#endif
+  EFFECTS(ADD_BASE)
   return sum;
 }
 

@@ -3,9 +3,8 @@
 #ifdef DIRECTIONAL
 #include "shaders/lights/directional.glsl"
 #endif
-#ifdef FAR_LIGHT
-#include "shaders/common/far_light.glsl"
-#endif
+#include "shared/effects.h"
+#define ADD_BASE(inputs, base) color += base(p, true);
 
 vec3 base_lighting(Surface s, ShadingPoint p) {
   vec3 ambient = vec3(view.ambient_r, view.ambient_g, view.ambient_b);
@@ -15,8 +14,6 @@ vec3 base_lighting(Surface s, ShadingPoint p) {
 #ifdef DIRECTIONAL
   color += directional_light_sum(p);
 #endif
-#ifdef FAR_LIGHT
-  color += radiance_of_far_light(p, far_light_at(p.position));
-#endif
+  EFFECTS(ADD_BASE)
   return color;
 }

@@ -11,6 +11,23 @@
 namespace lightgrid {
 namespace {
 
+// The text of "shared/effects.h": each file NAME.h in shared/effects, in the order of their names, where
+// EFFECT_NAME is defined, and EFFECTS(X) with X(NAME_INPUTS, NAME_base) for each of them.
+std::string effects_text(const EmbeddedFiles& files) {
+  constexpr std::string_view folder = "shared/effects/";
+  std::string text = "#include \"shared/inputs.h\"\n", all = "#define EFFECTS(X)";
+  for (auto file = files.lower_bound(folder); file != files.end() && file->first.starts_with(folder);
+       ++file) {
+    const std::string path = file->first, name = path.substr(folder.size(), path.rfind('.') - folder.size());
+    std::string upper = name;
+    std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return char(std::toupper(c)); });
+    text += "#ifdef EFFECT_" + upper + "\n#include \"" + path + "\"\n#define IF_" + upper + "(X) X(" + upper +
+            "_INPUTS, " + name + "_base)\n#else\n#define IF_" + upper + "(X)\n#endif\n";
+    all += " IF_" + upper + "(X)";
+  }
+  return text + all + '\n';
+}
+
 // A branch of an #if: a number of its own. An #include stands in the branches that enclose it, outermost
 // first.
 using Branches = std::vector<int>;
@@ -41,7 +58,7 @@ class Expansion {
 
  private:
   void append(std::string_view path) {
-    std::istringstream lines(embedded_file(path, files_));
+    std::istringstream lines(path == "shared/effects.h" ? effects_text(files_) : embedded_file(path, files_));
     for (std::string line; std::getline(lines, line);) {
       constexpr std::string_view directive = "#include \"";
       if (line.starts_with(directive)) {

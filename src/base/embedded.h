@@ -15,7 +15,8 @@ const EmbeddedFiles& embedded_files();
 const std::string& embedded_file(std::string_view path, const EmbeddedFiles& files = embedded_files());
 
 // The text with each #include "path" replaced by the file of that path. The preprocessor reads each file at
-// most once, at the first #include whose #if branches are all taken.
+// most once, at the first #include whose #if branches are all taken. "shared/effects.h" is made from the
+// files of shared/effects (shared/inputs.h says what it defines).
 std::string with_includes(std::string_view path, const EmbeddedFiles& files = embedded_files());
 
 }  // namespace lightgrid

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <initializer_list>
 #include <map>
+#include <mutex>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,13 +35,34 @@ constexpr GLuint units() {
 static_assert(units() <= 80, "OpenGL 4.5 guarantees 80 texture units");
 static_assert(std::size(listed_blocks) <= 84, "OpenGL 4.5 guarantees 84 uniform blocks");
 
-GLuint number_of(std::span<const Binding> list, const std::string& files, const char* kind,
-                 const std::string& name) {
+// The names of inputs, numbered from `first` on.
+class InputNumbers {
+ public:
+  explicit InputNumbers(GLuint first) : first_(first) {}
+  GLuint of(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    return numbers_.try_emplace(name, first_ + GLuint(numbers_.size())).first->second;
+  }
+  std::optional<GLuint> find(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    const auto found = numbers_.find(name);
+    return found == numbers_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+ private:
+  const GLuint first_;
+  std::mutex mutex_;
+  std::map<std::string, GLuint> numbers_;
+};
+InputNumbers input_units(units()), input_points(GLuint(std::size(listed_blocks)));
+
+GLuint number_of(std::span<const Binding> list, InputNumbers& inputs, const std::string& files,
+                 const char* kind, const std::string& name) {
   const auto found = std::find_if(list.begin(), list.end(), [&](const Binding& b) { return name == b.name; });
-  if (found == list.end())
-    throw machine_error("OpenGL: {} declares the {} \"{}\", which gl/bindings.h does not list", files, kind,
-                        name);
-  return found->number;
+  if (found != list.end()) return found->number;
+  if (const std::optional<GLuint> input = inputs.find(name)) return *input;
+  throw machine_error("OpenGL: {} declares the {} \"{}\", which gl/bindings.h does not list", files, kind,
+                      name);
 }
 
 // Neither a number, a vector or a matrix, nor an image.
@@ -60,6 +83,9 @@ GLint parameter(GLuint program, GLenum name) {
 
 }  // namespace
 
+GLuint unit_of_input(const std::string& sampler) { return input_units.of(sampler); }
+GLuint point_of_input(const std::string& block) { return input_points.of(block); }
+
 void unbind_sampler_objects() {
   for (GLuint unit = 0; unit < units(); ++unit) glBindSampler(unit, 0);
 }
@@ -73,7 +99,8 @@ void assign_bindings(GLuint program, const std::string& files) {
     glGetActiveUniform(program, i, longest_name, nullptr, &count, &type, text);
     if (!is_sampler(type)) continue;
     const std::string name = std::string(text).substr(0, std::string_view(text).find('['));  // of an array
-    std::vector<GLint> taken(size_t(count), GLint(number_of(listed_samplers, files, "sampler", name)));
+    std::vector<GLint> taken(size_t(count),
+                             GLint(number_of(listed_samplers, input_units, files, "sampler", name)));
     std::iota(taken.begin(), taken.end(), taken[0]);
     for (const GLint unit : taken) {
       const auto [user, added] = users.try_emplace(unit, name);
@@ -90,7 +117,7 @@ void assign_bindings(GLuint program, const std::string& files) {
                         users.size(), most);
   for (GLuint i = 0; i < GLuint(parameter(program, GL_ACTIVE_UNIFORM_BLOCKS)); ++i) {
     glGetActiveUniformBlockName(program, i, longest_name, nullptr, text);
-    glUniformBlockBinding(program, i, number_of(listed_blocks, files, "uniform block", text));
+    glUniformBlockBinding(program, i, number_of(listed_blocks, input_points, files, "uniform block", text));
   }
 }
 

@@ -30,7 +30,6 @@ namespace lightgrid {
   /* which lights a pixel reads: one source a program */ \
   UNIT(grid_cells) UNIT(grid_indices) UNIT(grid_masks) UNIT(light_z_bins) UNIT(list_factors) \
   UNIT(voxel_irradiance) UNIT(voxel_directions) \
-  UNIT(far_moments) \
   SHARE(world_cells, grid_cells) UNIT(world_indices) UNIT(world_buckets) UNIT(world_keys) \
   SHARE(light_buffer, grid_cells) UNIT(light_buffer_second) \
   SHARE(object_lights, grid_cells) \
@@ -46,7 +45,7 @@ namespace lightgrid {
 #define LIGHTGRID_UNIFORM_BLOCKS(BLOCK) \
   BLOCK(ViewParamsBlock) BLOCK(MaterialParamsBlock) BLOCK(MaterialModelsBlock) BLOCK(SliceEdgesBlock) \
   BLOCK(ZBinEdgesBlock) BLOCK(VoxelLookupBlock) BLOCK(WorldGridBlock) BLOCK(WorldViewBlock) \
-  BLOCK(ReceiverBlock) BLOCK(FarLookupBlock)
+  BLOCK(ReceiverBlock)
 // clang-format on
 
 #define LIGHTGRID_NEXT(name) name,
@@ -70,6 +69,11 @@ inline void bind_texture(Sampler sampler, GLuint texture, size_t element = 0) {
 }
 inline void bind_sampler_object(Sampler sampler, GLuint object) { glBindSampler(GLuint(sampler), object); }
 void unbind_sampler_objects();
+
+// Of an effect's inputs (shared/inputs.h): numbers after those of the lists, given out at the first call with
+// a name, which must come before a program that reads it is linked.
+GLuint unit_of_input(const std::string& sampler);
+GLuint point_of_input(const std::string& block);
 
 inline void bind_block(UniformBlock block, GLuint buffer) {
   glBindBufferBase(GL_UNIFORM_BUFFER, GLuint(block), buffer);

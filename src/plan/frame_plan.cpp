@@ -66,15 +66,25 @@ bool is_planned(const Scene& scene, int instance, PlannedInstances instances) {
          !shows_base_lighting(scene, instance);
 }
 
-// After surfaces and lights.
+// After lights.
+void plan_effects(const Scene& scene, Effects effects, FramePlan& plan) {
+  for (const Effect* effect : effects) {
+    const std::optional<EffectNeed> need = effect->decide(scene, plan);
+    if (!need) continue;
+    if (need->needed) plan.effects.push_back(effect);
+    plan.decisions.push_back({words_of(*effect), need->needed, need->why});
+  }
+}
+
+// After surfaces, lights and effects.
 void plan_base_lighting(const Scene& scene, FramePlan& plan) {
   const auto first = std::find_if(plan.opaque.begin(), plan.opaque.end(),
                                   [&](int i) { return shows_base_lighting(scene, i); });
-  plan.base_lighting = plan.directional || plan.far_light || first != plan.opaque.end();
+  plan.base_lighting = plan.directional || !plan.effects.empty() || first != plan.opaque.end();
   plan.decisions.push_back(
       {"base lighting", plan.base_lighting,
-       plan.directional ? light_witness(scene, plan.directional_lights[0])
-       : plan.far_light ? "far light"
+       plan.directional        ? light_witness(scene, plan.directional_lights[0])
+       : !plan.effects.empty() ? words_of(*plan.effects.front())
        : plan.base_lighting
            ? instance_witness(scene, *first)
            : "no opaque surface is emissive, unlit or has an occlusion map; no light is directional"});
@@ -391,7 +401,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   const double farthest_m = plan_surfaces(scene, view, instances, plan);
   plan_models(scene, plan);
   plan_lights(scene, view, plan);
-  plan_far_light(scene, plan);
+  plan_effects(scene, needs.effects, plan);
   plan_base_lighting(scene, plan);
   plan.light_grid = needs.light_grid && plan.local_lights;
   const bool bounded = settings.depth_bounds != DepthBoundsMode::none;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "plan/effect.h"
 #include "plan/settings.h"
 #include "plan/shadow_plan.h"
 #include "scene/camera.h"
@@ -58,6 +59,7 @@ struct Decision {
 
 // What a technique requires of the plan.
 struct TechniqueNeeds {
+  Effects effects{};  // that its base lighting can have
   bool light_grid = false;
   bool slices = false;              // tiles are cut into depth slices
   bool stencil = false;             // beside the depth buffer
@@ -104,12 +106,12 @@ struct FramePlan {
   std::vector<int> opaque, blended;
   std::vector<uint32_t> features_of_instance;  // one for each of the scene's instances; 0 if not in view
 
-  bool light_grid = false;    // culling kernels and the grid's buffers
-  bool light_tree = false;     // samples from a tree of all lights, in place of culling
-  bool sampled_lists = false;  // longer lists than list-cap become samples
-  bool world_grid = false;    // lists in cells of the world
-  bool local_lights = false;  // at least one point or spot light
-  bool spots = false;         // compile cone code
+  bool light_grid = false;      // culling kernels and the grid's buffers
+  bool light_tree = false;      // samples from a tree of all lights, in place of culling
+  bool sampled_lists = false;   // longer lists than list-cap become samples
+  bool world_grid = false;      // lists in cells of the world
+  bool local_lights = false;    // at least one point or spot light
+  bool spots = false;           // compile cone code
   bool virtual_lights = false;  // at least one light is a virtual point light
   // Some light of the scene casts a shadow: light loops ask whether it reaches a point
   // (shared/light_table.h). The same for every view and time, so that a camera that moves compiles nothing.
@@ -121,24 +123,24 @@ struct FramePlan {
   std::vector<uint32_t> group_of_instance;  // of each of the scene's instances the index of its own
   bool group_tiles = false;                 // tiles of the light grid have the groups of their surfaces
   int group_stencil = 0;                    // bits of the stencil that have groups; 0: shaders test them
-  bool shadows = false;              // shadows of some light must be found in this frame
-  std::vector<LightShadow> casting;  // all lights that cast, in scene order
+  bool shadows = false;                     // shadows of some light must be found in this frame
+  std::vector<LightShadow> casting;         // all lights that cast, in scene order
   // By index into `local` and then into `directional_lights`, 1: of this light. Empty if `shadows` is false.
   std::vector<uint8_t> shadowed;
   // Point and spot lights whose shadows the technique finds itself, likewise by index into `local`; empty if
   // there are none. own_shadows: some light of the scene may be one, as light_reaches.
   std::vector<uint8_t> own_shadowed;
   bool own_shadows = false;
-  const char* shadows_by = "rays";   // what finds shadows, in words
+  const char* shadows_by = "rays";  // what finds shadows, in words
   // What the lights that are too dim for a shadow (shadow-threshold) add to any pixel, at most, in steps of
   // the 8-bit display.
   double dim_steps = 0;
   bool directional_shadows = false;  // as light_reaches, of directional lights alone
   bool shadow_bytes = false;         // a share of a light may be hidden: a byte a pixel and light, not a bit
   bool directional = false;
-  bool far_light = false;      // light past the lights' ranges (shared/far_light.h)
-  bool blend = false;          // the blended pass
-  bool blend_grid = false;     // a light grid for blended surfaces
+  std::vector<const Effect*> effects;  // of base lighting
+  bool blend = false;                  // the blended pass
+  bool blend_grid = false;             // a light grid for blended surfaces
   bool base_lighting = false;  // an opaque surface shows more than point, spot and plain ambient light
   bool mask = false;
   bool clearcoat = false;  // an opaque surface has a coat
@@ -157,7 +159,7 @@ struct FramePlan {
   std::vector<int> local, directional_lights;  // light indices by kind, in scene order
   int virtual_count = 0;                       // of the scene's lights: virtual point lights
   PlannedLights planned_lights = PlannedLights::in_view;
-  int lights_in_view = 0;                      // lights whose range touches the view's frustum
+  int lights_in_view = 0;  // lights whose range touches the view's frustum
   // By index into `local`, 1: left out, since the view has more than view-cap. Empty: none is.
   std::vector<uint8_t> left_out;
 

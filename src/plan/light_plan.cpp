@@ -112,21 +112,6 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   cap_view(lights, std::move(seen_local), plan);
 }
 
-void plan_far_light(const Scene& scene, FramePlan& plan) {
-  if (plan.settings.far_light == 0) return;
-  const LightRanges& ranges = plan.settings.ranges;
-  const auto ends = [&](int i) {
-    return std::isfinite(range_of(scene.lights[size_t(i)], size_t(i), ranges));
-  };
-  const auto first = std::ranges::find_if(plan.local, ends);
-  plan.far_light = ranges.range != LightRange::stochastic && first != plan.local.end();
-  plan.decisions.push_back({"far light", plan.far_light,
-                            plan.far_light ? light_witness(scene, *first) + " has a range"
-                            : ranges.range == LightRange::stochastic
-                                ? "the mean of random ranges is that of none"
-                                : "no light ends"});
-}
-
 void check_capped_lists(const TechniqueNeeds& needs, const Settings& s) {
   if (needs.light_grid && s.list_cap > 0 && s.grid_lists == GridLists::masks)
     throw input_error(

@@ -14,8 +14,7 @@ void check_capped_lists(const TechniqueNeeds& needs, const Settings& settings);
 
 // Lights by kind, those that view-cap leaves out, and the size of indices.
 void plan_lights(const Scene& scene, const View& view, FramePlan& plan);
-void plan_far_light(const Scene& scene, FramePlan& plan);  // after lights
-void plan_sampled_lists(FramePlan& plan);                  // after the light grid
+void plan_sampled_lists(FramePlan& plan);  // after the light grid
 
 // After the light grid.
 void plan_groups(const Scene& scene, const TechniqueNeeds& needs, FramePlan& plan);

@@ -80,11 +80,6 @@ bool filters_maps(const Settings& s) {
 }
 bool has_maps(const Settings& s) { return filters_maps(s) || s.lidr_shadows == LidrShadows::prepass; }
 
-// Far light gives back what ranges take away.
-void mean_ranges_without_end(Settings& s) {
-  if (s.far_light > 0) s.ranges.range = LightRange::infinite, s.far_light = 0;
-}
-
 }  // namespace
 
 std::vector<SettingRow>& all_settings() {
@@ -121,14 +116,6 @@ std::vector<SettingRow>& all_settings() {
        numbers(&LightRanges::seed,
                {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15", "16"}),
        {.model = true, .common = true, .shown = ranges_are_random}},
-      {"far-light",
-       "samples of a coarse volume that adds what lights send beyond their ranges",
-       named(&Settings::far_light,
-             {{"off", 0}, {"512", 512}, {"4096", 4096}, {"32768", 32768}, {"262144", 262144}}),
-       {.model = true,
-        .common = true,
-        .shown = [](const Settings& s) { return s.far_light > 0; },
-        .mean = mean_ranges_without_end}},
       {"cull-test", "the test that decides whether a light may touch a cell",
        choices_of(cull_tests, &Settings::cull_test, &CullTestRow::test)},
       {"depth-bounds", "the interval of distances that a cell spans",

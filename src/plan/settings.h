@@ -121,7 +121,6 @@ struct Settings {
   int voxel_bits = 32;         // of a stored value: 16 or 32
   int voxel_lights_exact = 0;  // lights a pixel that are shaded by themselves: 0, 1, 2, 4 or 8
   bool voxel_reuse = false;    // a volume in which nothing changed is not filled again
-  int far_light = 0;  // samples of the volume of far light: 512, 4096, 32768 or 262144; 0: there is none
   WorldGridShape world_grid = WorldGridShape::cubes;
   std::optional<double> world_cell;  // a cell's edge over the radius of lights; none: what suits the lights
   ShadowMethod shadows = ShadowMethod::exact;
@@ -184,9 +183,9 @@ struct SettingFlags {
 void add_own_setting(const char* key, const char* before, const char* meaning,
                      const std::vector<std::string>& names, const SettingFlags& flags);
 
-// A setting that one technique reads, in the technique's own file: a static object, after whose construction
-// the functions below include it, listed before the setting `before`. Its values are given with their names,
-// the default first.
+// A setting in the file of the technique, the pass or the effect that reads it: a static object, after whose
+// construction the functions below include it, listed before the setting `before`. Its values are given with
+// their names, the default first.
 template <typename T>
 class OwnSetting {
  public:
@@ -202,6 +201,7 @@ class OwnSetting {
     const auto chosen = settings.own.find(key_);
     return values_[chosen == settings.own.end() ? 0 : chosen->second];
   }
+  void set_default(Settings& settings) const { settings.own.erase(key_); }
 
  private:
   const char* key_;

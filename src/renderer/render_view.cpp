@@ -110,7 +110,7 @@ void RenderView::drop_caches() {
   caches.clear();
   cl_lights_.reset();
   shadows = {};
-  far_light.reset();
+  effects.clear();
   culler_.reset();
   for (auto& grid : grids_) grid.reset();
 }
@@ -158,6 +158,7 @@ void RenderView::follow_plan(const FramePlan& before) {
   if (before.left_out != plan.left_out) lights_changed();
   if (culler_) culler_->set_view(cull_view(view, plan));
   caches.follow(*this);
+  effects.follow(*this);
 }
 
 LightCuller& RenderView::culler() {
@@ -175,7 +176,8 @@ SharedGridStorage& RenderView::grid_storage(bool blended) {
 }
 
 size_t RenderView::memory_bytes() const {
-  size_t bytes = targets.bytes() + lights.light_bytes() + shadows.bytes() + caches.memory_bytes();
+  size_t bytes = targets.bytes() + lights.light_bytes() + shadows.bytes() + caches.memory_bytes() +
+                 effects.memory_bytes();
   bytes += cl_lights_ ? cl_lights_->memory_bytes() : 0;
   if (plan.opengl) bytes += gpu.in_gl().geometry_bytes() + gpu.in_gl().texture_bytes();
   if (plan.opengl && plan.reversed_triangles) bytes += gpu.in_gl().reversed_triangle_bytes();

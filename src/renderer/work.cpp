@@ -111,14 +111,14 @@ ClArguments Work::light_arguments() {
   return plan.light_reaches ? cl_lights().columns() + shadows.arguments() : cl_lights().columns();
 }
 
-std::array<std::unique_ptr<PassCache>*, 20> PassCaches::all() {
+std::array<std::unique_ptr<PassCache>*, 19> PassCaches::all() {
   return {&opaque_triangles.made_, &blended_triangles.made_, &resolver.made_,
           &tile_shading.made_,     &light_sums.made_,        &light_volumes.made_,
           &light_index.made_,      &object_lights.made_,     &blended_object_lights.made_,
           &voxels.made_,           &world_grid.made_,        &shadow_bits.made_,
           &fragment_layers.made_,  &index_shadows.made_,     &pixel_edges.made_,
-          &tile_groups.made_,      &sample_edges.made_,      &far_light.made_,
-          &list_caps.made_,        &tone_map.made_};
+          &tile_groups.made_,      &sample_edges.made_,      &list_caps.made_,
+          &tone_map.made_};
 }
 
 void PassCaches::follow(Work& work) {

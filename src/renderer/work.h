@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/drawing/draw_list.h"
+#include "renderer/effect_state.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/pass_programs.h"
 #include "renderer/pass_timer.h"
@@ -54,17 +55,14 @@ struct Work : Seen {
 
   // Binds the view's uniform blocks, and point, spot and directional lights as the shaders read them
   // (shared/punctual_light.h).
-  void bind_lights() const {
-    lights.bind(), shadows.bind();
-    if (far_light) far_light->bind();
-  }
+  void bind_lights() const { lights.bind(), shadows.bind(), effects.bind(); }
   GlLights lights;
   // The same for kernels: uploaded by the first call after look().
   const ClLights& cl_lights();
   // LIGHT_ARGUMENTS (shared/light_table.h).
   ClArguments light_arguments();
   ShadowMemory shadows;
-  std::optional<FarLightMemory> far_light;
+  EffectStates effects;  // of the plan
 
   // Memory that OpenCL and OpenGL share, for `bytes` a pixel or a sample and spare ones, by name
   // (Targets::buffer).
@@ -80,20 +78,6 @@ struct Work : Seen {
  private:
   std::vector<std::string> view_defines(std::vector<std::string> defines);
   std::vector<glm::ivec2> sample_places_;  // once they are known
-};
-
-// A pass keeps this from frame to frame, beyond targets and programs.
-class PassCache {
- public:
-  virtual ~PassCache() = default;
-  virtual size_t memory_bytes() const { return 0; }
-  // Called after the camera, the lights or the plan changed. Returns false if the cache no longer fits; it is
-  // then made again at its next use.
-  virtual bool follow(Work&) { return false; }
-  // Uploads that follow() may leave for later, as the rasteriser does not read them. PassCaches::upload calls
-  // it while the device draws triangles; the pass calls it too, before it reads them. Only the first call
-  // after follow() does anything.
-  virtual void upload(Work&) {}
 };
 
 // One cache; T(Work&) makes it at first use.
@@ -127,7 +111,6 @@ struct PassCaches {
   Cached<class ObjectLights> object_lights, blended_object_lights;  // passes/find_object_lights.h
   Cached<class VoxelBuffers> voxels;                                // passes/build_voxels.cpp
   Cached<class ViewOfWorldGrid> world_grid;                         // passes/build_world_grid.cpp
-  Cached<class FarLightVolume> far_light;                           // passes/fill_far_light.cpp
   Cached<class ShadowBits> shadow_bits;                             // passes/find_shadows.cpp
   Cached<class FragmentLayers> fragment_layers;                     // passes/blended_layers.cpp
   Cached<class ToneMap> tone_map;                                   // passes/tone_map.cpp
@@ -138,7 +121,7 @@ struct PassCaches {
   size_t memory_bytes() const;
 
  private:
-  std::array<std::unique_ptr<PassCache>*, 20> all();
+  std::array<std::unique_ptr<PassCache>*, 19> all();
 };
 
 }  // namespace lightgrid

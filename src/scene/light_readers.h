@@ -26,6 +26,7 @@ inline constexpr const char* only_order =
     "it changes which lights come first or are drawn, not what they add";
 inline constexpr const char* upper_bound = "without it the bound is larger, and still a bound";
 
+// Effects name their own (plan/effect.h).
 inline constexpr LightReader light_readers[] = {
     {.name = "light loops",
      .files =
@@ -45,14 +46,6 @@ inline constexpr LightReader light_readers[] = {
      .most_falloff = reads,
      .groups = reads,
      .shadows = "SeenPairs decides them for each pair, and ShadeSettings::hidden leaves lights out"},
-    {.name = "far light",
-     .files = "src/passes/fill_far_light.cpp kernels/far_light/far_sums.h",
-     .position = reads,
-     .color = reads,
-     .cone = reads,
-     .most_falloff = reads,
-     .groups = reads,  // a light that lacks a group has no far light
-     .shadows = "far light is not hidden: docs/far_light.md#errors"},
     {.name = "voxel volumes",
      .files =
          "src/passes/voxels/voxel_inputs.cpp kernels/voxels/voxel_light.h kernels/voxels/gpu/build_voxels.cl "
@@ -153,12 +146,13 @@ inline constexpr LightReader light_readers[] = {
      .shadows = "engines limit lights before they find shadows"},
 };
 
-static_assert(std::ranges::all_of(light_readers, [](const LightReader& reader) {
+constexpr bool says_all(const LightReader& reader) {
   bool all = reader.shadows != nullptr;
 #define LIGHT_FACTOR(condition, type, member, array, texels) all = all && reader.member;
   LIGHT_TABLE(LIGHT_FACTOR)
 #undef LIGHT_FACTOR
   return all;
-}));
+}
+static_assert(std::ranges::all_of(light_readers, says_all));
 
 }  // namespace lightgrid

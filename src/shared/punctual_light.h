@@ -66,7 +66,7 @@ SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
   return arrival;
 }
 
-// The part of a light that its window takes away: all of it past its range (shared/far_light.h).
+// The part of a light that its window takes away: all of it past its range (shared/effects/far_light.h).
 SHARED_FUNCTION Arrival arrival_beyond(Real3 position, PunctualLight light) {
   PunctualLight endless = light;
   endless.position.w = 0.0f;

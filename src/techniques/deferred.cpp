@@ -23,7 +23,7 @@ extern const Technique deferred{
     .name = "deferred",
     .summary = "geometry buffer, then light volumes",
     .source = "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009",
-    .needs = {.group_stencil = true, .most_samples = 8, .adapt = adapt},
+    .needs = {.effects = all_effects, .group_stencil = true, .most_samples = 8, .adapt = adapt},
     .settings = {"brdf", "buffer-bits", "volume-culling", "group-ids", "group-stencil", "volume-mesh",
                  "samples", "samples-masks", "samples-resolve"},
     .render = render,

@@ -9,7 +9,7 @@ extern const Technique forward_multipass{
     .name = "forward_multipass",
     .summary = "an additive pass for each object and light",
     .source = "the baseline of Trebilco: Light Indexed Deferred Rendering, ShaderX7, 2009",
-    .needs = {.reversed_triangles = true, .capped_lists = true, .most_samples = 8},
+    .needs = {.effects = all_effects, .reversed_triangles = true, .capped_lists = true, .most_samples = 8},
     .settings = {"brdf", "depth-bounds", "tile", "list-cap", "list-cap-order", "view-cap", "samples",
                  "samples-masks", "samples-resolve", "kernel-shape"},
     .render = render,

@@ -75,7 +75,7 @@ extern const Technique lidr{
     .name = "lidr",
     .summary = "light volumes drawn into images of light indices",
     .source = "Trebilco: Light-Indexed Deferred Rendering, ShaderX7 2.9, 2009",
-    .needs = {.stencil = true, .most_samples = 8, .adapt = adapt},
+    .needs = {.effects = all_effects, .stencil = true, .most_samples = 8, .adapt = adapt},
     .settings = {"brdf", "lidr-packing", "lidr-overlap", "lidr-lights", "lidr-volumes", "lidr-unpack",
                  "lidr-types", "lidr-sort", "lidr-passes", "lidr-order", "lidr-shadows", "lidr-maps",
                  "volume-mesh", "depth-bounds", "tile", "samples", "samples-masks", "samples-resolve",

@@ -21,8 +21,8 @@ Frame shade_every_light(RenderView& v, const Surfaces& surfaces);
 // lists become the frame's.
 void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaque, Frame& frame);
 
-// The geometry buffer, and the surfaces if there are none yet: OpenGL then finds their depth while it fills the
-// buffer, unless directional lights, which fill its image, need their shadows first.
+// The geometry buffer, and the surfaces if there are none yet: OpenGL then finds their depth while it fills
+// the buffer, unless directional lights, which fill its image, need their shadows first.
 GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces);
 
 // deferred_tiled and forward_plus_compute, which with OpenGL find depth differently, share these: surfaces
@@ -30,16 +30,17 @@ GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces);
 // are laid over it. Without `surfaces`, OpenGL finds depth while it fills the geometry buffer.
 Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces);
 void adapt_shade_tiled(TechniqueNeeds& needs, Settings& settings);  // samples' light is averaged as it is
-inline constexpr TechniqueNeeds needs_of_shade_tiled{.light_grid = true,
-                                                     .lists = true,
-                                                     .z_bins = true,
-                                                     .chosen_raster = true,
-                                                     .group_tiles = true,
-                                                     .capped_lists = true,
-                                                     .sampled_lists = true,
-                                                     .most_samples = 8,
-                                                     .stored_surfaces = true,
-                                                     .adapt = adapt_shade_tiled};
+inline const TechniqueNeeds needs_of_shade_tiled{.effects = all_effects,
+                                                 .light_grid = true,
+                                                 .lists = true,
+                                                 .z_bins = true,
+                                                 .chosen_raster = true,
+                                                 .group_tiles = true,
+                                                 .capped_lists = true,
+                                                 .sampled_lists = true,
+                                                 .most_samples = 8,
+                                                 .stored_surfaces = true,
+                                                 .adapt = adapt_shade_tiled};
 inline const std::vector<const char*> settings_of_shade_tiled = {
     "brdf",         "buffer-bits",   "group-ids", "group-tiles",   "cull-test",       "depth-bounds",
     "tile",         "slice-spacing", "z-bins",    "list-cap",      "list-cap-order",  "list-seed",

@@ -3,7 +3,6 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "passes/fill_far_light.h"
 #include "passes/find_shadows.h"
 #include "passes/resolve_samples.h"
 #include "techniques/technique.h"
@@ -100,7 +99,7 @@ Frame draw_frame(const Technique& technique, RenderView& v) {
   Frame frame;
   begin_shadow_bands(v, v.caches.shadow_bits);
   do {
-    fill_far_light(v, v.caches.far_light);
+    v.effects.before_lights(v);
     frame = technique.render(v);
     frame.image = resolve_samples(v, frame.image);
   } while (next_shadow_band(v, v.caches.shadow_bits, frame.image));

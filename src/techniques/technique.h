@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "effects/effects.h"
 #include "passes/surfaces.h"
 
 namespace lightgrid {

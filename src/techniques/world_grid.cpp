@@ -25,7 +25,7 @@ extern const Technique world_grid{
     .source =
         "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009; "
         "Tegelaers: Forward and Deferred Hashed Shading",
-    .needs = {.chosen_raster = true, .world_grid = true, .most_samples = 8},
+    .needs = {.effects = all_effects, .chosen_raster = true, .world_grid = true, .most_samples = 8},
     .settings = {"brdf", "world-grid", "world-cell", "depth-bounds", "tile", "raster", "samples",
                  "samples-masks", "samples-resolve", "texels", "kernel-shape", "portable"},
     .render = render};

@@ -1,5 +1,5 @@
-// The places that a technique, its setting, a light source, a cull test, an error measure, a column of the
-// light table and an answer of light_reaches need: the source files that name them are counted
+// The places that an effect, a technique, its setting, a light source, a cull test, an error measure, a
+// column of the light table and an answer of light_reaches need: the source files that name them are counted
 // (docs/overview.md#how-to-add).
 #include <gmock/gmock.h>
 
@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "effects/effects.h"
 #include "results/error_measures.h"
 #include "scene/light_readers.h"
 #include "shared/cull_tests.h"
@@ -120,6 +121,46 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
     EXPECT_EQ(mentions(registry, name).size(), 2u) << name;
   }
   EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
+}
+
+std::string without_underscores(std::string name, const std::string& instead) {
+  return std::regex_replace(name, std::regex("_"), instead);
+}
+
+// Its own files, at most five, and a declaration and a row in effects.cpp.
+TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
+  std::map<std::string, std::vector<std::string>> texts;
+  std::map<std::string, size_t> own;
+  Naming expected = {
+      // Points and sequences that have it by choice.
+      {"src/frontier/points.cpp", {"far_light"}},
+      {"src/verify/hunt_sequences.cpp", {"far_light"}},
+  };
+  const std::string table = code_of(text_at("src/effects/effects.cpp"));
+  for (const Effect* effect : all_effects) {
+    const std::string name = effect->name, key = without_underscores(name, "-");
+    texts[name] = {'"' + key, key + "=", '"' + without_underscores(name, " "), define_of(*effect)};
+    for (const char* after : {" ", ",", ";", ".", "(", ")", "/", "_", "->", "\""})
+      texts[name].push_back(name + after);
+    expected["src/effects/effects.cpp"].insert(name);
+    EXPECT_EQ(mentions(table, name).size(), 2u) << name;
+  }
+  ASSERT_FALSE(texts.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(all_effects, {}, [](const Effect* e) { return std::string(e->name); }));
+  Naming others;
+  for (const auto& [file, names] : files_that_name({"src", "shaders", "kernels"}, texts)) {
+    for (const std::string& name : names) {
+      const bool is_own = file.starts_with("src/effects/" + name + ".") ||
+                          file == "src/shared/effects/" + name + ".h" ||
+                          file.starts_with("kernels/" + name + "/");
+      if (is_own)
+        ++own[name];
+      else
+        others[file].insert(name);
+    }
+  }
+  EXPECT_THAT(differences(others, expected), IsEmpty());
+  for (const auto& [name, files] : own) EXPECT_LE(files, 5u) << name;
 }
 
 // Its key, its values and its effect on the plan stand in the technique's own file, which `lightgrid
@@ -290,22 +331,38 @@ bool names_one(const std::string& code, const std::vector<std::string>& texts) {
 }
 
 // Computing what arrives, or how bright a light is.
-const std::vector<std::string> reading = {
-    " arrival_at(",     "(arrival_at(",      " voxel_arrival(", " attenuation(light",   " arrival_at_sample(",
-    "arrival_beyond(",  "radiant_intensity", "influence_of(",   "brightest_intensity(", "light_importance(",
-    "most_irradiance(", "->luminance",       "record.luminance", "double(light.intensity)",
-    "= light.intensity * ", "= n.intensity"};
+const std::vector<std::string> reading = {" arrival_at(",         "(arrival_at(",
+                                          " voxel_arrival(",      " attenuation(light",
+                                          " arrival_at_sample(",  "arrival_beyond(",
+                                          "radiant_intensity",    "influence_of(",
+                                          "brightest_intensity(", "light_importance(",
+                                          "most_irradiance(",     "->luminance",
+                                          "record.luminance",     "double(light.intensity)",
+                                          "= light.intensity * ", "= n.intensity"};
+
+std::vector<LightReader> all_readers() {
+  std::vector<LightReader> all(std::begin(light_readers), std::end(light_readers));
+  for (const Effect* effect : all_effects) {
+    if (effect->reader) all.push_back(*effect->reader);
+  }
+  return all;
+}
 
 // A new reader of lights is listed with what it reads, or fails here.
 TEST(Adding, EveryReaderOfLightsIsListedInLightReaders) {
   std::set<std::string> listed, found;
-  for (const LightReader& reader : light_readers) listed.merge(words_of(reader.files));
+  for (const LightReader& reader : all_readers()) listed.merge(words_of(reader.files));
   // Declarations, the table's values, and checks of others' orders.
-  const std::set<std::string> no_readers = {
-      "src/scene/scene.cpp",
-      "src/plan/dim_lights.h",     "src/renderer/upload/lights.cpp", "src/scene/light_ranges.h",
-      "src/scene/light_readers.h", "src/scene/shadow_casters.h",     "src/scene/view_lights.cpp",
-      "src/scene/view_lights.h",   "src/verify/cap_cases.cpp",       "src/verify/light_index_cases.cpp"};
+  const std::set<std::string> no_readers = {"src/scene/scene.cpp",
+                                            "src/plan/dim_lights.h",
+                                            "src/renderer/upload/lights.cpp",
+                                            "src/scene/light_ranges.h",
+                                            "src/scene/light_readers.h",
+                                            "src/scene/shadow_casters.h",
+                                            "src/scene/view_lights.cpp",
+                                            "src/scene/view_lights.h",
+                                            "src/verify/cap_cases.cpp",
+                                            "src/verify/light_index_cases.cpp"};
   for (const auto& [file, items] : files_that_name({"src", "kernels", "shaders"}, {{"reads", reading}})) {
     if (!no_readers.contains(file)) found.insert(file);
   }
@@ -330,8 +387,9 @@ std::vector<std::string> marks_of(const std::string& factor) {
 }
 
 TEST(Adding, AReaderOfLightsReadsTheFactorsThatItClaims) {
-  for (const LightReader& reader : light_readers) {
+  for (const LightReader& reader : all_readers()) {
     SCOPED_TRACE(reader.name);
+    EXPECT_TRUE(says_all(reader));
     std::string code;
     for (const std::string& file : words_of(reader.files)) {
       code += code_of(text_at(file));

@@ -1,7 +1,7 @@
 // Texts of kernels and shaders: each #include is replaced by its file, whatever the #if around it says.
 #include "base/embedded.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <set>
 #include <sstream>
@@ -76,6 +76,22 @@ TEST(WithIncludes, AFileInsideAFileThatIsReadTwiceIsReadOnce) {
 TEST(WithIncludes, AFileReadBeforeTheConditionIsNotRepeated) {
   const EmbeddedFiles files = {{"main", "#include \"a\"\n#ifdef X\n#include \"a\"\n#endif\n"}, {"a", "a\n"}};
   EXPECT_EQ(with_includes("main", files), "a\n#ifdef X\n#endif\n");
+}
+
+TEST(WithIncludes, EffectsAreTheFilesOfTheirFolder) {
+  const EmbeddedFiles files = {{"main", "#include \"shared/effects.h\"\nEFFECTS(X)\n"},
+                               {"shared/effects/fog.h", "fog\n"},
+                               {"shared/effects/sky_light.h", "sky\n"},
+                               {"shared/effects_of_another.h", "no\n"},
+                               {"shared/inputs.h", "inputs\n"}};
+  const std::string text = with_includes("main", files);
+  EXPECT_EQ(preprocessed(text, {}), "inputs EFFECTS(X)");
+  EXPECT_EQ(preprocessed(text, {"EFFECT_SKY_LIGHT"}), "inputs sky EFFECTS(X)");
+  EXPECT_EQ(preprocessed(text, {"EFFECT_FOG", "EFFECT_SKY_LIGHT"}), "inputs fog sky EFFECTS(X)");
+  EXPECT_THAT(text, testing::HasSubstr("#define EFFECTS(X) IF_FOG(X) IF_SKY_LIGHT(X)\n"));
+  EXPECT_THAT(text,
+              testing::HasSubstr("\n#define IF_SKY_LIGHT(X) X(SKY_LIGHT_INPUTS, sky_light_base)\n#else\n"
+                                 "#define IF_SKY_LIGHT(X)\n#endif\n"));
 }
 
 }  // namespace

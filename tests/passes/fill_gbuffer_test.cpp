@@ -143,7 +143,7 @@ TEST(FillGbuffer, KeepsTheNumbersOfModels) {
 // rounding of texture coordinates, times the texture's slope, if the two programs compute them differently.
 TEST(FillGbuffer, KeepsMaterialsWithinHalfAStep) {
   SmallScene s = small_scene();
-  for (const Effect& effect : effects()) {
+  for (const SceneEffect& effect : effects()) {
     if (effect.name != "blend" && effect.name != "mask") effect.add(s);
   }
   for (const auto& [bits, color_bound, bound] :
@@ -189,7 +189,7 @@ TEST(FillGbuffer, KeepsMaterialsWithinHalfAStep) {
 
 TEST(FillGbuffer, IsTheSameAfterADepthPrepass) {
   SmallScene s = small_scene();
-  for (const Effect& effect : effects()) effect.add(s);
+  for (const SceneEffect& effect : effects()) effect.add(s);
   const Surfaces alone = surfaces_of(s.scene, wide_view(127, 73), 32);
   const Surfaces after = surfaces_of(s.scene, wide_view(127, 73), 32, true);
   EXPECT_EQ(alone.kept.normal_roughness.pixels, after.kept.normal_roughness.pixels);

@@ -53,7 +53,7 @@ Filled filled(const Scene& scene, const View& view, const Settings& settings) {
 // Every effect at once; tiles and blocks cut by the image's edges.
 Scene scene_of_all_effects() {
   SmallScene s = small_scene();
-  for (const Effect& effect : effects()) effect.add(s);
+  for (const SceneEffect& effect : effects()) effect.add(s);
   return s.scene;
 }
 const View& odd_view() {

@@ -38,7 +38,7 @@ TEST(FramePlan, ThePlainSceneNeedsItsPointLightsAndNothingElse) {
 }
 
 TEST(FramePlan, EachEffectComesWithItsWitness) {
-  for (const Effect& effect : effects()) {
+  for (const SceneEffect& effect : effects()) {
     SmallScene s = small_scene();
     effect.add(s);
     const FramePlan plan = plan_of(s.scene);
@@ -61,7 +61,7 @@ TEST(FramePlan, EachEffectComesWithItsWitness) {
 TEST(FramePlan, OfEveryInstanceAndOfPlainOnes) {
   SmallScene s = small_scene();
   for (const char* name : {"blend", "mask", "emissive_map"}) {
-    for (const Effect& effect : effects()) {
+    for (const SceneEffect& effect : effects()) {
       if (effect.name == name) effect.add(s);
     }
   }
@@ -86,7 +86,7 @@ TEST(FramePlan, OfEveryInstanceAndOfPlainOnes) {
 TEST(FramePlan, WhatIsAddedTakesNothingAway) {
   SmallScene s = small_scene();
   std::vector<std::string> needed;
-  for (const Effect& effect : effects()) {
+  for (const SceneEffect& effect : effects()) {
     if (effect.name == "unlit") continue;  // an unlit ball no longer uses its vertex colours
     effect.add(s);
     const FramePlan plan = plan_of(s.scene);
@@ -127,7 +127,7 @@ TEST(FramePlan, TakesTheSamplesThatTheSceneAsksForOrSaysWhyNot) {
 }
 
 TEST(FramePlan, WhatIsOutOfViewDoesNotCount) {
-  for (const Effect& effect : effects()) {
+  for (const SceneEffect& effect : effects()) {
     SmallScene s = small_scene();
     effect.add(s);
     for (Instance& instance : s.scene.instances)

@@ -71,18 +71,18 @@ TEST(Settings, TheModelIsMadeOfTheSettingsThatItNames) {
 
 TEST(Settings, TheseSayWhichPictureIsMeant) {
   EXPECT_THAT(model_settings(), testing::ElementsAre("brdf", "range", "cutoff", "window", "alpha",
-                                                     "light-seed", "far-light", "shadow-blended"));
+                                                     "light-seed", "shadow-blended"));
   EXPECT_THAT(tunable_settings(), testing::ElementsAre("kernel-shape", "portable", "group-size"));
 }
 
 TEST(Settings, ThePictureThatIsMeantHasNoApproximations) {
   Settings settings;
   EXPECT_EQ(to_strings(meant_by(settings)), to_strings(settings));
-  for (const char* assignment : {"far-light=512", "range=cutoff", "cutoff=0.2", "shadows=map",
-                                 "shadow-threshold=4", "shadow-pick=4", "brdf=lambert", "tile=32"})
+  for (const char* assignment : {"range=cutoff", "cutoff=0.2", "shadows=map", "shadow-threshold=4",
+                                 "shadow-pick=4", "brdf=lambert", "tile=32"})
     apply_setting(settings, assignment);
   auto expected = to_strings(settings);
-  expected["far_light"] = "off", expected["range"] = "infinite", expected["shadows"] = "exact";
+  expected["shadows"] = "exact";
   expected["shadow_threshold"] = "off", expected["shadow_pick"] = "off";
   EXPECT_EQ(to_strings(meant_by(settings)), expected);
 }

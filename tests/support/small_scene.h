@@ -85,7 +85,7 @@ inline void add_groups(Scene& scene) {
   for (size_t i = 0; i < scene.instances.size(); ++i) scene.instances[i].groups = of_instances[i % 3];
 }
 
-struct Effect {
+struct SceneEffect {
   std::string name;
   std::string decision;  // as in FramePlan::decisions; empty if the effect is the absence of all
   std::string define;    // of shaders; empty if no material sets it
@@ -94,7 +94,7 @@ struct Effect {
 };
 
 // One effect each on the small scene. Only the first two bring another with them, except for textures.
-inline const std::vector<Effect>& effects() {
+inline const std::vector<SceneEffect>& effects() {
   const auto map = [](TextureSlot Material::*slot, bool srgb) {
     return [=](SmallScene& s) {
       TextureSlot& used = s.scene.materials[s.wall_material].*slot;
@@ -103,7 +103,7 @@ inline const std::vector<Effect>& effects() {
   };
   const std::string on_wall = "material 0 \"plaster\" on node 0 \"wall\"",
                     on_ball = "material 1 \"steel\" on node 1 \"ball\"";
-  static const std::vector<Effect> all = {
+  static const std::vector<SceneEffect> all = {
       {"blend", "blend", "", "material 2 \"glass\" on node 2 \"pane\"",
        [](SmallScene& s) {
          const int glass = add_material(s.scene, "glass", {0.5f, 0.8f, 0.9f}, 0, 0.1f);
@@ -197,8 +197,8 @@ inline const std::vector<Effect>& effects() {
   return all;
 }
 
-inline const Effect& effect(const std::string& name) {
-  for (const Effect& candidate : effects()) {
+inline const SceneEffect& effect(const std::string& name) {
+  for (const SceneEffect& candidate : effects()) {
     if (candidate.name == name) return candidate;
   }
   throw std::runtime_error("no effect " + name);
@@ -206,7 +206,7 @@ inline const Effect& effect(const std::string& name) {
 
 inline std::vector<std::string> effect_names() {
   std::vector<std::string> names;
-  for (const Effect& each : effects()) names.push_back(each.name);
+  for (const SceneEffect& each : effects()) names.push_back(each.name);
   return names;
 }
 

@@ -53,7 +53,7 @@ const Settings some_of_each[] = {
 // The small scene with glass, a spot and many lamps.
 Scene crowded_scene() {
   SmallScene s = small_scene();
-  for (const Effect& effect : effects()) {
+  for (const SceneEffect& effect : effects()) {
     if (effect.name == "blend" || effect.name == "spot") effect.add(s);
   }
   for (int i = 0; i < 60; ++i) {

@@ -31,7 +31,7 @@ TEST_P(EveryTechnique, DrawsForwardsPictureOfABuiltinScene) {
 // Point, spot and directional lights, glass and every other effect at once.
 TEST_P(EveryTechnique, DrawsForwardsPictureWithAllEffects) {
   SmallScene s = small_scene();
-  for (const Effect& effect : effects()) effect.add(s);
+  for (const SceneEffect& effect : effects()) effect.add(s);
   expect_forwards_picture(s.scene, small_view(47, 31), *GetParam());
 }
 

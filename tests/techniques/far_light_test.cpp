@@ -1,6 +1,7 @@
 // far-light: the volume against sums in double, the picture against that of lights without ranges, every
 // technique against forward, and when the volume is filled.
-#include "passes/fill_far_light.h"
+#include "effects/far_light.h"
+
 #include "plan/frame_plan.h"
 #include "scene/random.h"
 #include "support/small_scene.h"
@@ -15,7 +16,7 @@ constexpr double far_pi = 3.14159265358979323846;
 Settings with_far_light(int samples, double cutoff = 0.5) {
   Settings settings;
   settings.ranges = {.range = LightRange::cutoff, .cutoff = cutoff};
-  settings.far_light = samples;
+  apply_setting(settings, samples > 0 ? "far-light=" + std::to_string(samples) : "far-light=off");
   return settings;
 }
 
@@ -63,7 +64,7 @@ TEST_P(FarLightWindows, FillTheVolumeWithWhatTheyTakeAway) {
   settings.ranges.window = GetParam();
   TechniqueRun run(test_devices(), scene, small_view(31, 23), settings, find_technique("visibility"));
   run.run_frame();
-  const ReadFarLight read = read_far_light(run.view(), run.view().caches.far_light);
+  const ReadFarLight read = read_far_light(run.view());
   const size_t samples = size_t(read.grid.size_x) * read.grid.size_y * read.grid.size_z;
   ASSERT_GT(samples, 256u);
   ASSERT_LE(samples, 512u);
@@ -112,7 +113,7 @@ TEST(FarLight, BothShapesFillTheSameBytes) {
     settings.kernel_shape = shape;
     TechniqueRun run(test_devices(), scene, small_view(31, 23), settings, find_technique("visibility"));
     run.run_frame();
-    return std::pair(read_far_light(run.view(), run.view().caches.far_light).moments, run.image());
+    return std::pair(read_far_light(run.view()).moments, run.image());
   };
   const auto [lanes, lane_image] = volume(KernelShape::lanes);
   const auto [group, group_image] = volume(KernelShape::group);
@@ -218,6 +219,25 @@ TEST(FarLight, IsKeptWhileLightsRest) {
     EXPECT_EQ(fills(run), 1);
     EXPECT_TRUE(identical(run.image(), render(scene, moved, technique, settings)));
   }
+}
+
+TEST(FarLight, MeansThePictureWithoutRanges) {
+  Settings meant = meant_by(with_far_light(512));
+  EXPECT_EQ(meant.ranges.range, LightRange::infinite);
+  EXPECT_EQ(to_strings(meant).at("far_light"), "off");
+  EXPECT_EQ(meant_by(with_far_light(0)).ranges.range, LightRange::cutoff);
+  EXPECT_TRUE(std::ranges::count(model_settings(), "far-light"));
+}
+
+// Views without the technique's passes (session/virtual_lights.h) do not have it.
+TEST(FarLight, IsPlannedForTechniquesThatHaveIt) {
+  const Scene scene = many_lights(11);
+  const View view = small_view(17, 9);
+  const auto effects_with = [&](const TechniqueNeeds& needs) {
+    return plan_frame(scene, view, with_far_light(512), needs).effects.size();
+  };
+  EXPECT_EQ(effects_with(find_technique("visibility").needs), 1u);
+  EXPECT_EQ(effects_with({.opengl = false, .shadows = false}), 0u);
 }
 
 TEST(FarLight, IsNothingWhereNoLightEnds) {

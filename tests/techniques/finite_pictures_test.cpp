@@ -72,7 +72,7 @@ Scene sliver_scene(uint64_t seed, Dress dress) {
 void colours_alone(SmallScene& s) { s.ball_material = s.wall_material; }
 
 void every_effect(SmallScene& s) {
-  for (const Effect& each : effects()) each.add(s);
+  for (const SceneEffect& each : effects()) each.add(s);
 }
 
 // An image's pixels that no light makes.

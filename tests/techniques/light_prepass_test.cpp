@@ -105,7 +105,7 @@ TEST(LightPrepass, OfLambertIsForwardsImage) {
 
 TEST(LightPrepass, OfLambertIsForwardsImageWithEveryEffect) {
   const View view = small_view(47, 31);
-  for (const Effect& effect : effects()) {
+  for (const SceneEffect& effect : effects()) {
     SCOPED_TRACE(effect.name);
     SmallScene s = small_scene();
     effect.add(s);

@@ -50,7 +50,7 @@ void expect_visibilitys_picture(const Scene& scene, const View& view) {
 
 Scene every_effect() {
   SmallScene s = small_scene();
-  for (const Effect& effect : effects()) effect.add(s);
+  for (const SceneEffect& effect : effects()) effect.add(s);
   return s.scene;
 }
 

@@ -22,7 +22,7 @@ TEST_P(PictureBytes, AreThoseOfTheImage) {
   const std::string label = GetParam(), name = label.substr(0, label.find(' '));
   Settings settings = assigned(label.substr(name.size()));
   SmallScene small = small_scene();
-  for (const Effect& effect : effects()) effect.add(small);
+  for (const SceneEffect& effect : effects()) effect.add(small);
   const View view = small_view(71, 37);
   const Image image = render(small.scene, view, name, settings);
   settings.picture = PictureFormat::bytes, settings.display_ev = -1.5;

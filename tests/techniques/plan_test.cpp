@@ -8,7 +8,7 @@ namespace lightgrid {
 namespace {
 
 struct EachEffect : testing::TestWithParam<std::string> {
-  const Effect& effect = lightgrid::effect(GetParam());
+  const SceneEffect& effect = lightgrid::effect(GetParam());
   SmallScene with() const {
     SmallScene s = small_scene();
     effect.add(s);
@@ -142,7 +142,7 @@ TEST(PlannedWork, AnEffectOutOfViewCostsNothing) {
 TEST(PlannedWork, EverythingIsGivenBack) {
   const auto live = [] { return std::vector<int>(gl_counts().live, gl_counts().live + 6); };
   SmallScene s = small_scene();
-  for (const Effect& effect : effects()) effect.add(s);
+  for (const SceneEffect& effect : effects()) effect.add(s);
   work_of(s.scene);
   const auto before = live();
   work_of(s.scene);

@@ -30,7 +30,7 @@ double apart(const Image& a, const Image& b, size_t pixel) {
 
 Scene scene_with_every_effect() {
   SmallScene s = small_scene();
-  for (const Effect& effect : effects()) effect.add(s);
+  for (const SceneEffect& effect : effects()) effect.add(s);
   return s.scene;
 }
 

@@ -19,7 +19,7 @@ int builds_of(const TechniqueRun& run) {
 
 TEST(WorldGridTechnique, IsForwardsPictureToTheBit) {
   SmallScene s = small_scene();
-  for (const Effect& effect : effects()) effect.add(s);
+  for (const SceneEffect& effect : effects()) effect.add(s);
   add_point(s.scene, "everywhere", {0, 1, 30}, {1, 0.5f, 0.2f}, 40, std::numeric_limits<float>::infinity());
   const View view = small_view(47, 31);
   const Image forward = render(s.scene, view, "forward");

@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinZBins, testing::Values("hall", "spheres"
 
 SmallScene scene_with_glass() {
   SmallScene s = small_scene();
-  for (const Effect& effect : effects()) {
+  for (const SceneEffect& effect : effects()) {
     if (effect.name == "blend" || effect.name == "spot") effect.add(s);
   }
   for (int i = 0; i < 60; ++i) {

@@ -1,13 +1,14 @@
 // Fills the volume of far light, for CPUs: a work-item takes 16 samples, one after the other in memory.
 //
 // LIGHT_ARGUMENTS  shared/light_table.h; positions along the world's axes from the volume's origin
-// grid             where samples lie, and the number of lights (shared/far_light.h)
+// grid             where samples lie, and the number of lights (shared/effects/far_light.h)
 // moments          out: FAR_PLANES vectors a sample, plane after plane, x fastest
-// -D names of kernels/far_light/far_sums.h
+// -DSPOTS, -DVIRTUAL_LIGHTS, -DWINDOW_SMOOTH, -DWINDOW_NONE  shared/light_table.h, shared/punctual_light.h
 #define FUSED  // shared/real.h
 #define LANES 16
 #include "kernels/common/pack.h"
-#include "kernels/far_light/far_sums.h"
+#include "kernels/common/light_columns.h"
+#include "shared/effects/far_light.h"
 
 kernel void fill_far_light(LIGHT_ARGUMENTS constant FarGrid* grid, global float4* moments) {
   const LightColumns lights = {GIVEN_LIGHTS};

@@ -2,7 +2,8 @@
 // with the same arguments.
 #define FUSED  // shared/real.h
 #define LANES 1
-#include "kernels/far_light/far_sums.h"
+#include "kernels/common/light_columns.h"
+#include "shared/effects/far_light.h"
 
 kernel void fill_far_light(LIGHT_ARGUMENTS constant FarGrid* grid, global float4* moments) {
   const LightColumns lights = {GIVEN_LIGHTS};

@@ -20,7 +20,7 @@ GlLightLoop base_lighting(const Seen& seen) {
   if (seen.plan.settings.brdf == Brdf::lambert) loop.defines.emplace_back("LAMBERT");
   if (seen.plan.directional) loop.defines.emplace_back("DIRECTIONAL");
   for (const char* define : reach_defines(seen.plan)) loop.defines.emplace_back(define);
-  if (seen.plan.far_light) loop.defines.emplace_back("FAR_LIGHT");
+  for (const Effect* effect : seen.plan.effects) loop.defines.push_back(define_of(*effect));
   return loop;
 }
 

@@ -248,15 +248,6 @@ void ShadowMemory::bind() const {
   if (layers.texture) bind_texture(Sampler::shadow_layers, layers.texture.name());
 }
 
-void FarLightMemory::bind() const {
-  if (texture) bind_texture(Sampler::far_moments, texture.name());
-  if (block) bind_block(UniformBlock::FarLookupBlock, block.name());
-}
-
-ClArguments FarLightMemory::arguments() {
-  return {{"far_moments", moments->cl_buffer()}, {"far", lookup.buffer()}};
-}
-
 ClArguments ShadowMemory::arguments() {
   return {{"shadow_tiles", tiles.buffer ? tiles.buffer->cl_buffer() : cl::Buffer()},
           {"shadow_bits", bits.buffer ? bits.buffer->cl_buffer() : cl::Buffer()}};

@@ -81,19 +81,6 @@ class ClLights : public ClLightColumns {
   UploadedBuffer directional, view, bin_edges, slice_edges;  // shared/slices.h
 };
 
-// The volume of far light, which passes/fill_far_light.h fills, as base lighting reads it
-// (shared/far_light.h). Only where the plan's `far_light` is set.
-struct FarLightMemory {
-  std::optional<SharedBuffer> moments;
-  UploadedBuffer lookup;
-  GlTexture texture;  // where OpenGL draws
-  GlBuffer block;
-
-  void bind() const;
-  // FAR_ARGUMENTS of kernels/resolve/resolve_light.h.
-  ClArguments arguments();
-};
-
 // A frame's shadows, which passes/find_shadows.h fills. Only where the plan's `light_reaches` is set.
 struct ShadowMemory {
   SharedTexture tiles, bits;  // shared/shadow_bits.h

@@ -1,0 +1,55 @@
+// What passes and effects keep of a view from frame to frame, beyond targets and programs.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cl/launch.h"
+#include "plan/effect.h"
+
+namespace lightgrid {
+
+struct Work;
+
+class PassCache {
+ public:
+  virtual ~PassCache() = default;
+  virtual size_t memory_bytes() const { return 0; }
+  // Called after the camera, the lights or the plan changed. Returns false if the cache no longer fits; it is
+  // then made again at its next use.
+  virtual bool follow(Work&) { return false; }
+  // Uploads that follow() may leave for later, as the rasteriser does not read them. PassCaches::upload calls
+  // it while the device draws triangles; the pass calls it too, before it reads them. Only the first call
+  // after follow() does anything.
+  virtual void upload(Work&) {}
+};
+
+// An effect's memory. It fills its inputs (renderer/loop_inputs.h), which light loops then read.
+class EffectState : public PassCache {
+ public:
+  virtual void before_lights(Work& work) = 0;  // at the beginning of each frame
+  virtual void bind() const = 0;               // the inputs of shaders
+  virtual ClArguments arguments() = 0;         // EFFECT_PARAMETERS of kernels
+};
+
+// Those of a view, in the order of its plan's effects.
+class EffectStates {
+ public:
+  void before_lights(Work& work);  // makes those that the plan has and that are not there
+  void bind() const;
+  ClArguments arguments();
+  EffectState* find(const Effect& effect) const;  // null: none
+
+  void follow(Work& work);  // drops those that the plan no longer has, or that no longer fit
+  void clear() { states_.clear(); }
+  size_t memory_bytes() const;
+
+ private:
+  struct State {
+    const Effect* effect;
+    std::unique_ptr<EffectState> state;
+  };
+  std::vector<State> states_;
+};
+
+}  // namespace lightgrid
