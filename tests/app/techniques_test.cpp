@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -107,14 +108,59 @@ TEST(Techniques, AreNamedByTheHelpOfWhatTakesThem) {
   }
 }
 
+// "| `tile` | `16` `8` `32` `64` |": what a setting's row begins with.
+std::string row_of(const SettingHelp& s) {
+  std::string row = "| `" + s.key + "` |";
+  for (const std::string& value : s.values) row += " `" + value + "`";
+  return row + " |";
+}
+
+// The page with the rows of all settings: a row keeps its words, a new one has those of --help and stands
+// after the setting that is listed before it.
+std::string with_settings_rows(std::string page) {
+  const size_t begin = page.find("| setting | values | |");
+  size_t after = page.find("| --- |", begin);
+  for (const SettingHelp& s : setting_help()) {
+    const std::string key = "\n| `" + s.key + "` |";
+    const size_t found = page.find(key, begin);
+    if (found == page.npos) {
+      after = page.find('\n', after) + 1;
+      page.insert(after, row_of(s) + ' ' + s.meaning + " |\n");
+    } else {
+      const size_t values = found + key.size();
+      page.replace(found + 1, page.find('|', values) - found, row_of(s));
+      after = found + 1;
+    }
+  }
+  return page;
+}
+
+// UPDATE_SETTINGS=1 writes the rows.
 TEST(Settings, StandInTheCommandLinesTableWithTheirValuesTheDefaultFirst) {
   const std::string page = text_of(docs / "command_line.md");
+  if (std::getenv("UPDATE_SETTINGS"))
+    std::ofstream(docs / "command_line.md", std::ios::binary) << with_settings_rows(page);
   for (const SettingHelp& s : setting_help()) {
-    std::string line = "| `" + s.key + "` |";
-    for (const std::string& value : s.values) line += " `" + value + "`";
-    EXPECT_NE(page.find(line + " |"), page.npos)
-        << "docs/command_line.md wants a row that begins: " << line << " |";
+    EXPECT_NE(text_of(docs / "command_line.md").find('\n' + row_of(s)), page.npos)
+        << "docs/command_line.md: no row begins with " << row_of(s)
+        << "; UPDATE_SETTINGS=1 with this test writes it";
   }
+}
+
+TEST(Settings, RowsOfTheTableAreWrittenWhereTheyAreMissing) {
+  const std::string page = text_of(docs / "command_line.md");
+  EXPECT_TRUE(with_settings_rows(page) == page);
+  const SettingHelp* tile = nullptr;
+  for (const SettingHelp& s : setting_help()) tile = s.key == "tile" ? &s : tile;
+  const size_t row = page.find("| `tile` |", page.find("| setting |")), end = page.find('\n', row) + 1;
+  std::string changed = page;
+  changed.replace(row, row_of(*tile).size(), "| `tile` | `1` |");
+  EXPECT_TRUE(with_settings_rows(changed) == page);
+  std::string without = page;
+  without.erase(row, end - row);
+  std::string expected = page;
+  expected.replace(row, end - row, row_of(*tile) + ' ' + tile->meaning + " |\n");
+  EXPECT_TRUE(with_settings_rows(without) == expected);
 }
 
 TEST(Settings, StartWithTheDefault) {
