@@ -91,6 +91,22 @@ TEST(PlacedVirtualLights, HaveTheFluxThatSurfacesReflect) {
   }
 }
 
+// The views that place them have no effects of base lighting.
+TEST(PlacedVirtualLights, AreTheSameWithFarLight) {
+  Settings settings = lambert("range=cutoff");
+  Scene without = closed_room(box_mesh(), lamp(10)), with = without;
+  place(without, {.count = 50}, settings);
+  apply_setting(settings, "far-light=512");
+  place(with, {.count = 50}, settings);
+  const std::vector<Light> expected = virtual_ones(without), found = virtual_ones(with);
+  ASSERT_EQ(found.size(), expected.size());
+  ASSERT_EQ(found.size(), 50u);
+  for (size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].position, expected[i].position) << i;
+    EXPECT_EQ(found[i].intensity, expected[i].intensity) << i;
+  }
+}
+
 TEST(PlacedVirtualLights, StandOnSurfacesAndFaceTheLight) {
   Scene scene = closed_room(box_mesh(), lamp(10));
   place(scene, {.count = 500});
