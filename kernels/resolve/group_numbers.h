@@ -36,10 +36,14 @@ static inline whole groups_of_numbers(uint number, global const uint* masks, uin
 // Of kernels that write them: after all other arguments. With -DGROUP_NUMBERS alone.
 #ifdef GROUP_NUMBERS
 #define GROUP_NUMBERS_OUT , global group_number_t* group_numbers
+#define GROUP_NUMBERS_MEMBER global group_number_t* group_numbers;
+#define GIVEN_GROUP_NUMBERS_OUT , group_numbers
 #endif
 #else
 #define GROUP_NUMBER_ARGUMENTS
 #endif
 #ifndef GROUP_NUMBERS_OUT
 #define GROUP_NUMBERS_OUT
+#define GROUP_NUMBERS_MEMBER
+#define GIVEN_GROUP_NUMBERS_OUT
 #endif

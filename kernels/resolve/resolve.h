@@ -174,6 +174,25 @@ typedef struct Surface {
 #endif
 } Surface;
 
+// LANES surfaces: of a pixel each, or of pixels at edges.
+typedef struct Resolved {
+  const Attributes* attributes;
+  const Surface* surface;
+  real x, y, depth;  // place in pixels; reversed depth
+  mask_t covered;    // lanes with a surface
+} Resolved;
+
+// Those at pixels' centres. (x, y): the pixel, of 16 the first of their block.
+static inline Resolved resolved_at(const Attributes* a, const Surface* s, uint x, uint y, real depth,
+                                   mask_t covered) {
+#if LANES == 16
+  const Resolved r = {a, s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth, covered};
+#else
+  const Resolved r = {a, s, (float)x + 0.5f, (float)y + 0.5f, depth, covered};
+#endif
+  return r;
+}
+
 #ifdef TEXTURED
 #ifdef UV1
 #define PLACE_IN(map) ((map)->flags & MAP_UV1 ? a->uv1 : a->uv0)

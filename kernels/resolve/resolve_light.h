@@ -218,11 +218,12 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
 #endif
 
 #define INPUT_OF_LIGHTS(kind, type, name, resource) , l->name
-#define ADD_BASE(inputs, base) sum = add3(sum, base(*p, lit inputs(INPUT_OF_LIGHTS)));
+#define ADD_BASE(inputs, base) sum = add3(sum, base(*p, r->covered inputs(INPUT_OF_LIGHTS)));
 
-// lit: lanes with a surface.
-static inline Real3 own_light(const ShadingPoint* p, const Surface* s, mask_t lit, const ResolveLights* l,
+// p: resolved_point(r).
+static inline Real3 own_light(const ShadingPoint* p, const Resolved* r, const ResolveLights* l,
                               constant ViewParams* view) {
+  const Surface* s = r->surface;
   const Real3 ambient =
       reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
   Real3 sum = add3(UNDER_COAT(*p, s->emissive), scale3(ambient, s->occlusion));
@@ -245,12 +246,10 @@ static inline Real3 own_light(const ShadingPoint* p, const Surface* s, mask_t li
   return sum;
 }
 
-// What a surface shows without point and spot lights.
-static inline Real3 base_light(const ShadingPoint* p, const Surface* s, mask_t lit, const ResolveLights* l,
-                               constant ViewParams* view) {
-  const Real3 own = own_light(p, s, lit, l, view);
-  return real3(s->unlit ? s->base_color.x : own.x, s->unlit ? s->base_color.y : own.y,
-               s->unlit ? s->base_color.z : own.z);
+// The colour that an unlit surface shows in place of light.
+static inline Real3 unlit_or(const Surface* s, Real3 light) {
+  return real3(s->unlit ? s->base_color.x : light.x, s->unlit ? s->base_color.y : light.y,
+               s->unlit ? s->base_color.z : light.z);
 }
 
 // A blended surface of this alpha over what is behind it, which may be infinite.
@@ -259,10 +258,10 @@ static inline float4 blended(float4 over, float alpha, float4 under) {
   return (over > most ? most : over) * alpha + behind;
 }
 
-// x, y: pixel centres. covered: lanes with a surface.
-static inline ShadingPoint resolved_point(const Attributes* a, const Surface* s, real x, real y, real depth,
-                                          mask_t covered, constant ViewParams* view) {
-  const Real3 position = position_of_pixel(x, y, covered ? depth : REAL(1.0f), view);
+static inline ShadingPoint resolved_point(const Resolved* r, constant ViewParams* view) {
+  const Attributes* a = r->attributes;
+  const Surface* s = r->surface;
+  const Real3 position = position_of_pixel(r->x, r->y, r->covered ? r->depth : REAL(1.0f), view);
   const Real3 to_viewer = direction_to_viewer(position);
   ShadingPoint p =
       shading_point(position, to_viewer, shading_normal(a, s), s->base_color, s->metallic, s->roughness);
@@ -284,11 +283,11 @@ static inline ShadingPoint resolved_point(const Attributes* a, const Surface* s,
   return p;
 }
 
-// The same arguments. lit: lanes with a surface that light reaches.
-static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real y, real depth, mask_t lit,
-                             const ResolveLights* l, constant float* bin_edges, constant ViewParams* view) {
-  const ShadingPoint p = resolved_point(a, s, x, y, depth, lit, view);
-  Real3 sum = own_light(&p, s, lit, l, view);
+static inline Real3 radiance(const Resolved* r, const ResolveLights* l, constant float* bin_edges,
+                             constant ViewParams* view) {
+  const mask_t lit = r->covered;
+  const ShadingPoint p = resolved_point(r, view);
+  Real3 sum = own_light(&p, r, l, view);
 #ifdef LIGHTS_VOXELS
   VoxelLight of_voxels = voxel_light_at(p.position, lit, l->irradiance, l->directions, l->voxels);
 #ifdef VOXEL_EXACT
@@ -298,10 +297,9 @@ static inline Real3 radiance(const Attributes* a, const Surface* s, real x, real
 #elif defined(WORLD_GRID)
   sum = light_of_world(sum, &p, lit, l);
 #elif defined(SLICES)
-  sum = light_of_cells(sum, &p, depth, lit, l, bin_edges, view);
+  sum = light_of_cells(sum, &p, r->depth, lit, l, bin_edges, view);
 #else
-  sum = sum_of_list(sum, &p, lit, l->list, l->count, bins_of_pixels(depth, lit, bin_edges), &l->lights);
+  sum = sum_of_list(sum, &p, lit, l->list, l->count, bins_of_pixels(r->depth, lit, bin_edges), &l->lights);
 #endif
-  return real3(s->unlit ? s->base_color.x : sum.x, s->unlit ? s->base_color.y : sum.y,
-               s->unlit ? s->base_color.z : sum.z);
+  return unlit_or(r->surface, sum);
 }

@@ -2,12 +2,21 @@
 // side: a surface's texel is stored for every sample that sees it.
 //
 // -DSAMPLES        kernels/common/sample_places.h; without, a pixel has one texel
+// -DSAMPLES_APART  with -DOUTPUT_SUMS: the light buffer has sums for every sample, not only for those of pixels
+//                  at edges
 // -DGROUP_NUMBERS  kernels/resolve/group_numbers.h
 #pragma once
 
 #include "kernels/common/sample_places.h"
 #include "kernels/resolve/group_numbers.h"
 #include "shared/real.h"
+
+// Samples of a pixel with one surface that have a value of their own, a bit each.
+#if defined(OUTPUT_SUMS) && !defined(SAMPLES_APART)
+#define PIXEL_SAMPLES 1u
+#else
+#define PIXEL_SAMPLES ALL_SAMPLES
+#endif
 
 #if LANES == 16
 typedef struct TexelPlaces {

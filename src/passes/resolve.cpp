@@ -136,11 +136,6 @@ std::string specular_define(const Settings& settings) {
   return define ? fmt::format(" -D{}", define) : "";
 }
 
-// A surface a pixel.
-ClArguments visible_arguments(const VisibilityBuffer& visible) {
-  return {{"triangles", visible.triangles().numbers}, {"depths", visible.pixel_depth().values}};
-}
-
 cl_float4 background(const Seen& seen) {
   const glm::vec3& background = seen.scene.background;
   return {{background.r, background.g, background.b, 1}};
@@ -148,21 +143,50 @@ cl_float4 background(const Seen& seen) {
 
 }  // namespace
 
-// Runs the kernel `stem` over pixels whose samples see several surfaces; others keep what an earlier kernel
-// wrote. lights: null where it reads no lists. traced: arguments that come first.
-static void over_edges(Work& work, Resolver& r, const VisibilityBuffer& visible, const char* stem,
-                       const std::string& defines, const ClArguments& images,
-                       const LightSource* lights = nullptr, const ClArguments& traced = {}) {
-  NamedKernel& kernel = r.kernel(work, stem, defines);
-  auto pass = work.timer.pass(stem, "cl");
-  r.launch(work, kernel, stem,
+// An output of the kernels (kernels/resolve/output.h), and what it reads and writes besides the scene.
+struct ResolveOutput {
+  const char* label;                    // of the pass
+  std::string defines;                  // its OUTPUT_…, and what it takes
+  ClArguments arguments;                // after RESOLVE_ARGUMENTS
+  size_t bytes_read = 0, bytes_written = 0;
+  const LightSource* lights = nullptr;  // null: it reads no lists
+};
+
+static ClArguments common_arguments(Work& work, Resolver& r, const VisibilityBuffer& visible,
+                                    const ResolveOutput& output) {
+  return r.arguments(work, visible.raster, visible.surfaces,
+                     output.lights ? *output.lights->in_cl : ClLightLoop());
+}
+
+static void over_image(Work& work, Resolver& r, const VisibilityBuffer& visible,
+                       const ResolveOutput& output) {
+  NamedKernel& kernel = r.kernel(work, "resolve", output.defines);
+  auto pass = work.timer.pass(output.label, "cl");
+  r.launch(
+      work, kernel, output.label,
+      ClArguments{{"triangles", visible.triangles().numbers}, {"depths", visible.pixel_depth().values}} +
+          common_arguments(work, r, visible, output) + output.arguments);
+  pass.moves(output.bytes_read + (output.lights ? output.lights->bytes : 0) + r.scene(work).memory_bytes(),
+             output.bytes_written);
+}
+
+// Pixels whose samples see several surfaces; others keep what over_image() wrote. traced: arguments that come
+// first.
+static void over_edges(Work& work, Resolver& r, const VisibilityBuffer& visible, const ResolveOutput& output,
+                       const std::string& more_defines = "", const ClArguments& traced = {}) {
+  if (!visible.pixels) return;
+  const std::string label = std::string(output.label) + "_edges";
+  NamedKernel& kernel = r.kernel(work, "resolve_edges", output.defines + more_defines);
+  auto pass = work.timer.pass(label.c_str(), "cl");
+  r.launch(work, kernel, label.c_str(),
            traced +
                ClArguments{{"triangles", visible.image.triangle},
                            {"depths", visible.image.depth},
                            {"edges", visible.pixels->edges}} +
-               r.arguments(work, visible.raster, visible.surfaces, lights ? *lights->in_cl : ClLightLoop()) +
-               images);
-  pass.moves(work.grid().pixels() / 8 + (lights ? lights->bytes : 0) + r.scene(work).memory_bytes(), 0);
+               common_arguments(work, r, visible, output) + output.arguments);
+  pass.moves(work.grid().pixels() / 8 + (output.lights ? output.lights->bytes : 0) +
+                 r.scene(work).memory_bytes(),
+             0);
 }
 
 static std::string averages(const Settings& settings) {
@@ -173,21 +197,18 @@ static std::string averages(const Settings& settings) {
 ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                     const LightSource& lights) {
   Resolver& r = resolving(work, cache);
-  {
-    NamedKernel& kernel = r.kernel(work, "resolve", lights.in_cl->defines);
-    auto pass = work.timer.pass("resolve", "cl");
-    r.launch(work, kernel, "resolve",
-             visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces, *lights.in_cl) +
-                 ClArguments{{"background", background(work)}, {"image", r.image.cl_buffer()}});
-    pass.moves(work.grid().pixels() * 8 + lights.bytes + r.scene(work).memory_bytes(),
-               work.grid().pixels() * 16);
-  }
-  if (!visible.pixels) return {0, &r.image};
+  const ResolveOutput output{"resolve",
+                             lights.in_cl->defines + " -DOUTPUT_RADIANCE",
+                             {{"background", background(work)}, {"image", r.image.cl_buffer()}},
+                             work.grid().pixels() * 8,
+                             work.grid().pixels() * 16,
+                             &lights};
+  over_image(work, r, visible, output);
   const ClArguments& traced = work.shadows.traced;
-  over_edges(work, r, visible, "resolve_edges",
-             lights.in_cl->defines + sample_defines(work.grid().samples) + averages(work.plan.settings) +
+  over_edges(work, r, visible, output,
+             sample_defines(work.grid().samples) + averages(work.plan.settings) +
                  (traced.empty() ? "" : work.shadows.traced_defines),
-             {{"background", background(work)}, {"image", r.image.cl_buffer()}}, &lights, traced);
+             traced);
   return {0, &r.image};
 }
 
@@ -207,21 +228,15 @@ GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const Visibilit
                             BaseLighting base_lighting) {
   Resolver& r = resolving(work, cache);
   GBufferInCl g = gbuffer_in_cl_of(work, base_lighting, TargetUse::gbuffer);
-  const std::string defines = fmt::format(" -DBUFFER_BITS={}{}{}", g.layout->bits,
-                                          group_numbers_out(work.plan), sample_defines(work.grid().samples));
-  {
-    NamedKernel& kernel = r.kernel(work, "resolve_gbuffer", defines);
-    auto pass = work.timer.pass("resolve_gbuffer", "cl");
-    r.launch(work, kernel, "resolve_gbuffer",
-             visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) +
-                 images_out(work, g));
-    const size_t image_bytes = base_lighting == BaseLighting::in_image ? 16 : 0;
-    pass.moves(work.grid().pixels() * (image_bytes > 0 ? 8 : 4) + r.scene(work).memory_bytes(),
-               work.grid().values() * g.bytes() + work.grid().pixels() * image_bytes);
-  }
-  if (!visible.pixels) return g;
-  over_edges(work, r, visible, "resolve_gbuffer_edges", defines, images_out(work, g));
-  g.edges = visible.pixels->edges;
+  const size_t pixels = work.grid().pixels(), image_bytes = base_lighting == BaseLighting::in_image ? 16 : 0;
+  const ResolveOutput output{"resolve_gbuffer",
+                             fmt::format(" -DOUTPUT_GBUFFER -DBUFFER_BITS={}{}{}", g.layout->bits,
+                                         group_numbers_out(work.plan), sample_defines(work.grid().samples)),
+                             images_out(work, g), pixels * (image_bytes > 0 ? 8 : 4),
+                             work.grid().values() * g.bytes() + pixels * image_bytes};
+  over_image(work, r, visible, output);
+  over_edges(work, r, visible, output);
+  if (visible.pixels) g.edges = visible.pixels->edges;
   return g;
 }
 
@@ -229,22 +244,15 @@ NormalsInCl resolve_normals(Work& work, Cached<Resolver>& cache, const Visibilit
   Resolver& r = resolving(work, cache);
   NormalsInCl normals = normals_in_cl_of(work, TargetUse::gbuffer);
   const char* define = normals.layout->define;
-  const std::string defines = (define ? fmt::format(" -D{}", define) : "") + group_numbers_out(work.plan) +
-                              sample_defines(work.grid().samples);
-  const ClArguments images =
-      ClArguments{{"normals", normals.image->cl_buffer()}} + group_numbers_out(normals.group_numbers);
-  {
-    NamedKernel& kernel = r.kernel(work, "resolve_normals", defines);
-    auto pass = work.timer.pass("resolve_normals", "cl");
-    r.launch(work, kernel, "resolve_normals",
-             ClArguments{{"triangles", visible.triangles().numbers}} +
-                 r.arguments(work, visible.raster, visible.surfaces) + images);
-    pass.moves(work.grid().pixels() * 4 + r.scene(work).memory_bytes(),
-               work.grid().values() * normals.layout->image.bytes);
-  }
-  if (!visible.pixels) return normals;
-  over_edges(work, r, visible, "resolve_normals_edges", defines, images);
-  normals.edges = visible.pixels->edges;
+  const ResolveOutput output{
+      "resolve_normals",
+      " -DOUTPUT_NORMALS" + (define ? fmt::format(" -D{}", define) : "") + group_numbers_out(work.plan) +
+          sample_defines(work.grid().samples),
+      ClArguments{{"normals", normals.image->cl_buffer()}} + group_numbers_out(normals.group_numbers),
+      work.grid().pixels() * 4, work.grid().values() * normals.layout->image.bytes};
+  over_image(work, r, visible, output);
+  over_edges(work, r, visible, output);
+  if (visible.pixels) normals.edges = visible.pixels->edges;
   return normals;
 }
 
@@ -253,25 +261,21 @@ ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const Visibil
   Resolver& r = resolving(work, cache);
   const Settings& s = work.plan.settings;
   const bool apart = visible.pixels && s.samples_shading == SamplesShading::all;
-  const std::string defines =
-      fmt::format(" -DBUFFER_BITS={}{}{}{}", s.buffer_bits, specular_define(s),
-                  sample_defines(work.grid().samples), apart ? " -DSAMPLES_APART" : "");
-  const ClArguments images = {{"background", background(work)},
-                              {"first", sums.first->cl_buffer()},
-                              {"second", sums.second ? sums.second->cl_buffer() : cl::Buffer()},
-                              {"scale", cl_float(stored_scale(work))},
-                              {"exponent", cl_float(s.prepass_shininess)},
-                              {"reference", cl_float(reference_light(work.scene, work.plan))},
-                              {"image", r.image.cl_buffer()}};
-  {
-    NamedKernel& kernel = r.kernel(work, "resolve_materials", defines);
-    auto pass = work.timer.pass("resolve_materials", "cl");
-    r.launch(work, kernel, "resolve_materials",
-             visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) + images);
-    pass.moves(work.grid().pixels() * 8 + work.grid().values() * sums.bytes() + r.scene(work).memory_bytes(),
-               work.grid().pixels() * 16);
-  }
-  if (visible.pixels) over_edges(work, r, visible, "resolve_materials_edges", defines + averages(s), images);
+  const ResolveOutput output{
+      "resolve_materials",
+      fmt::format(" -DOUTPUT_SUMS -DBUFFER_BITS={}{}{}{}", s.buffer_bits, specular_define(s),
+                  sample_defines(work.grid().samples), apart ? " -DSAMPLES_APART" : ""),
+      {{"background", background(work)},
+       {"first", sums.first->cl_buffer()},
+       {"second", sums.second ? sums.second->cl_buffer() : cl::Buffer()},
+       {"scale", cl_float(stored_scale(work))},
+       {"exponent", cl_float(s.prepass_shininess)},
+       {"reference", cl_float(reference_light(work.scene, work.plan))},
+       {"image", r.image.cl_buffer()}},
+      work.grid().pixels() * 8 + work.grid().values() * sums.bytes(),
+      work.grid().pixels() * 16};
+  over_image(work, r, visible, output);
+  over_edges(work, r, visible, output, averages(s));
   return {0, &r.image};
 }
 
@@ -280,14 +284,14 @@ ReflectedLight resolve_reflected(Work& work, Cached<Resolver>& cache, const Visi
   Resolver& r = resolving(work, cache);
   const ReflectedLight reflected{&work.shared_pixels("reflected flux", 16),
                                  &work.shared_pixels("reflecting places", 16)};
-  NamedKernel& kernel = r.kernel(work, "resolve_reflected");
-  auto pass = work.timer.pass("resolve_reflected", "cl");
-  r.launch(work, kernel, "resolve_reflected",
-           visible_arguments(visible) + r.arguments(work, visible.raster, visible.surfaces) +
-               ClArguments{{"light", cl_uint(light)},
-                           {"flux", reflected.flux->cl_buffer()},
-                           {"places", reflected.places->cl_buffer()}});
-  pass.moves(work.grid().pixels() * 8 + r.scene(work).memory_bytes(), work.grid().pixels() * 32);
+  over_image(work, r, visible,
+             {"resolve_reflected",
+              " -DOUTPUT_REFLECTED",
+              {{"light", cl_uint(light)},
+               {"flux", reflected.flux->cl_buffer()},
+               {"places", reflected.places->cl_buffer()}},
+              work.grid().pixels() * 8,
+              work.grid().pixels() * 32});
   return reflected;
 }
 

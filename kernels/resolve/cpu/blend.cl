@@ -72,8 +72,8 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
         shown &= s.alpha != REAL(0.0f);  // shows nothing
         if (!any_lane(shown)) continue;
         take_list(&lights, light_indices, cells, y / TILE * view->tiles_x + x / TILE, view);
-        const Real3 color = radiance(&a, &s, (float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, depth,
-                                     shown, &lights, bin_edges, view);
+        const Resolved resolved = resolved_at(&a, &s, x, y, depth, shown);
+        const Real3 color = radiance(&resolved, &lights, bin_edges, view);
 #if SAMPLES > 1
         s.alpha *= share;
 #endif

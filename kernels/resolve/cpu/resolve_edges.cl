@@ -1,17 +1,45 @@
-// Radiance of pixels at edges, for CPUs: a work-item takes a tile, and of it squares of EDGE_BLOCK pixels,
-// whose surfaces are shaded 16 at a time (kernels/resolve/edge_surfaces.h). Other pixels keep their colours.
+// The surfaces of pixels at edges, for CPUs: each once a pixel, at the centroid of the samples that see it. A
+// work-item takes a tile, and of it squares of EDGE_BLOCK pixels, whose surfaces are resolved 16 at a time
+// (kernels/resolve/edge_surfaces.h). Other pixels keep what the walker over pixels stored.
 //
 // triangles, depths, edges  as edge_surfaces.h says
 // RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h
-// background         of samples without a surface
-// image              in and out: RGBA a pixel, linear, row 0 at the bottom
+// OUTPUT_ARGUMENTS   kernels/resolve/output.h; the background is that of samples without a surface, and the
+//                    image takes the mean over the samples
 // -DSHADOWS_TRACED   some light casts a shadow in this view: TRACED_ARGUMENTS come first
 //                    (kernels/shadows/traced_shadows.h)
-// and what edge_surfaces.h and resolve_light.h name
+// -DOUTPUT_…, and what edge_surfaces.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
 #include "kernels/resolve/edge_surfaces.h"
-#include "kernels/resolve/resolve_light.h"
+
+typedef struct Where {
+  const EdgeSurfaces* e;
+  const EdgeBatch* b;
+  uint first;  // the batch's
+} Where;
+
+static inline TexelPlaces texel_places(const Where* w) { return texels_of_batch(w->e, w->first); }
+
+static inline real seen_samples(const Where* w, uint* most) {
+  float counts[16];
+  *most = 0;
+  for (uint i = 0; i < 16; ++i) {
+    const uint count = (uint)popcount((uint)w->e->samples[w->b->surface[i]]);
+    counts[i] = (float)count, *most = max(*most, count);
+  }
+  return vload16(0, counts);
+}
+
+static inline void places_of_samples(size_t* at, const Where* w, uint k) {
+  for (uint i = 0; i < 16; ++i) {
+    uint left = w->e->samples[w->b->surface[i]];
+    for (uint skipped = 0; skipped < k && (left & (left - 1)) != 0; ++skipped) left &= left - 1;
+    at[i] = (size_t)w->e->pixel[w->b->surface[i]] * SAMPLES + lowest_bit(left);
+  }
+}
+
+#include "kernels/resolve/output.h"
 #ifdef SHADOWS_TRACED
 #include "kernels/shadows/traced_shadows.h"
 
@@ -30,9 +58,9 @@ static inline void trace_from_batch(TracedShadows* traced, const EdgeBatch* b, c
 #endif
 
 kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global const float* depths,
-                          global const ushort* edges, RESOLVE_ARGUMENTS, float4 background,
-                          global float* image) {
+                          global const ushort* edges, RESOLVE_ARGUMENTS, OUTPUT_ARGUMENTS) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
+  const Output output = GIVEN_OUTPUT;
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
   take_list(&lights, light_indices, cells, tile_y * view->tiles_x + tile_x, view);
@@ -52,11 +80,13 @@ kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global 
 #ifdef SHADOWS_TRACED
         trace_from_batch(&traced, &b, &scene, view);
 #endif
-        keep_light(
-            &e, &b,
-            radiance(&b.attributes, &b.material, b.x, b.y, b.depth, b.covered, &lights, bin_edges, view));
+        const Where where = {&e, &b, i};
+        const Resolved r = {&b.attributes, &b.material, b.x, b.y, b.depth, b.covered};
+        store_resolved(&output, &r, &where, &scene, &lights, view);
+        if (SHOWS_LIGHT(output))
+          keep_light(&e, &b, light_of(&output, &r, &where, &lights, bin_edges, view));
       }
-      show_edges(&e, background, image);
+      if (SHOWS_LIGHT(output)) show_edges(&e, output.background, output.image);
     }
   }
 }

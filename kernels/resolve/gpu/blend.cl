@@ -46,8 +46,8 @@ kernel void blend(global const RasterRecord* records, global const uint* tile_be
     add_triangle(&a, &scene, r.triangle, 1, (float)(x & ~3u), (float)(y & ~3u), (float)dx, (float)dy);
     add_material(&s, &a, &scene, (uint)a.material, 1);
     if (s.alpha == 0.0f) continue;  // shows nothing
-    const Real3 color =
-        radiance(&a, &s, (float)x + 0.5f, (float)y + 0.5f, depth, 1, &lights, bin_edges, view);
+    const Resolved resolved = resolved_at(&a, &s, x, y, depth, 1);
+    const Real3 color = radiance(&resolved, &lights, bin_edges, view);
 #if SAMPLES > 1
     s.alpha *= share;
 #endif

@@ -1,9 +1,9 @@
-// Radiance of pixels at edges, for GPUs: a work-item a pixel, surface after surface. As
+// The surfaces of pixels at edges, for GPUs: a work-item a pixel, surface after surface. As
 // resolve/cpu/resolve_edges.cl, with the same arguments.
 #define FUSED  // shared/real.h
 #define LANES 1
+#include "kernels/resolve/output.h"
 #include "kernels/resolve/pixel_surfaces.h"
-#include "kernels/resolve/resolve_light.h"
 #include "shared/average.h"
 #include "shared/light_grid.h"
 #ifdef SHADOWS_TRACED
@@ -13,12 +13,12 @@
 #endif
 
 kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global const float* depths,
-                          global const ushort* edges, RESOLVE_ARGUMENTS, float4 background,
-                          global float* image) {
+                          global const ushort* edges, RESOLVE_ARGUMENTS, OUTPUT_ARGUMENTS) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
   const uint at = y * view->width + x;
   if (!at_edge(edges, at)) return;
+  const Output output = GIVEN_OUTPUT;
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
   take_list(&lights, light_indices, cells, cell_of_pixel(x, y, view->tile_size, view->tiles_x), view);
@@ -30,15 +30,19 @@ kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global 
 #endif
   // The background comes first, as it does where it needs no shading.
   const uint missed = missed_samples(triangles, at);
-  float4 color = begun_with(background, share_of(missed));
+  float4 color = begun_with(output.background, share_of(missed));
   for (uint left = ALL_SAMPLES & ~missed; left != 0;) {
-    const ResolvedSurface r = next_resolved(triangles, depths, at, &left, x, y, &scene);
+    const ResolvedSurface s = next_resolved(triangles, depths, at, &left, x, y, &scene);
+    const Resolved r = {&s.attributes, &s.material, s.x, s.y, s.depth, 1};
 #ifdef SHADOWS_TRACED
     trace_from(&traced, 1, r.x, r.y, r.depth, view);
-    trace_from_triangle(&traced, r.triangle, triangle_instance, 1);
+    trace_from_triangle(&traced, s.triangle, triangle_instance, 1);
 #endif
-    const Real3 shown = radiance(&r.attributes, &r.material, r.x, r.y, r.depth, 1, &lights, bin_edges, view);
-    color = add_light(color, (float3)(shown.x, shown.y, shown.z), share_of(r.samples));
+    const Where where = {{at, s.samples}, s.triangle};
+    store_resolved(&output, &r, &where, &scene, &lights, view);
+    if (!SHOWS_LIGHT(output)) continue;
+    const Real3 shown = light_of(&output, &r, &where, &lights, bin_edges, view);
+    color = add_light(color, (float3)(shown.x, shown.y, shown.z), share_of(s.samples));
   }
-  ((global float4*)image)[at] = averaged(color);
+  if (SHOWS_LIGHT(output)) ((global float4*)output.image)[at] = averaged(color);
 }

@@ -1,8 +1,27 @@
 // What the surfaces in a light's view reflect of it, diffusely: the pixels of a reflective shadow map
 // (Dachsbacher, Stamminger, "Reflective Shadow Maps", I3D 2005), with flux and area in place of colours.
+//
+// light   in the light table; the view's eye is at its position. No light grid is read
+// flux    out: RGB flux and area a pixel
+// places  out: normal and distance ahead a pixel
 #pragma once
 
 #include "kernels/resolve/resolve_light.h"
+
+typedef struct Output {
+  float4 background;
+  global float* image;
+  uint light;
+  global float *flux, *places;
+} Output;
+#define OUTPUT_ARGUMENTS uint light, global float *flux, global float *places
+#define GIVEN_OUTPUT \
+  { .light = light, .flux = flux, .places = places }
+#define READS_DEPTH(output) true
+#define SHOWS_LIGHT(output) false
+#define NEEDS_EVERY_PIXEL true
+
+LIGHT_OF { return real3(REAL(0.0f), REAL(0.0f), REAL(0.0f)); }
 
 typedef struct ReflectedLight {
   Real3 flux;    // intensity times sr
@@ -57,4 +76,30 @@ static inline ReflectedLight reflected_light(ShadingPoint p, mask_t unlit, Real3
   r.area = lit ? r.area : none, r.ahead = lit ? r.ahead : none;
   r.normal = real3(lit ? r.normal.x : none, lit ? r.normal.y : none, lit ? r.normal.z : none);
   return r;
+}
+
+STORE_RESOLVED {
+  Real3 plane = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
+#if LANES == 16
+  const uint16 triangle = load_block(where->triangles, where->x, where->y, view->width, view->height);
+  for (uint left = mask_bits(resolved->covered); left != 0;) {
+    const uint one = ((const uint*)&triangle)[lowest_bit(left)];
+    const mask_t here = resolved->covered & (triangle == (uint16)(one));
+    left &= ~mask_bits(here);
+    add_plane(&plane, scene, one, here, view);
+  }
+#else
+  if (resolved->covered) add_plane(&plane, scene, where->triangle, 1, view);
+#endif
+  const ReflectedLight r =
+      reflected_light(resolved_point(resolved, view), resolved->surface->unlit, plane, resolved->covered,
+                      light_at(&lights->lights, output->light), view);
+#if LANES == 16
+  store_block(output->flux, r.flux, r.area, where->x, where->y, view->width, view->height);
+  store_block(output->places, r.normal, r.ahead, where->x, where->y, view->width, view->height);
+#else
+  const size_t at = where->texels.pixel;
+  ((global float4*)output->flux)[at] = (float4)(r.flux.x, r.flux.y, r.flux.z, r.area);
+  ((global float4*)output->places)[at] = (float4)(r.normal.x, r.normal.y, r.normal.z, r.ahead);
+#endif
 }

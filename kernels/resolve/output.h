@@ -1,0 +1,57 @@
+// What a resolve kernel makes of its surfaces. A walker (kernels/resolve/{cpu,gpu}/resolve.cl and
+// resolve_edges.cl) goes over surfaces, LANES at a time; an output stores what it needs of them.
+//
+// -DOUTPUT_RADIANCE   images of light: outputs/radiance.h
+// -DOUTPUT_GBUFFER    a geometry buffer: outputs/gbuffer.h
+// -DOUTPUT_NORMALS    the normals of light_prepass: outputs/normals.h
+// -DOUTPUT_SUMS       images of light, under the sums of a light buffer: outputs/sums.h
+// -DOUTPUT_REFLECTED  what surfaces reflect of one light: outputs/reflected.h, without pixels at edges
+//
+// An output defines
+// OUTPUT_ARGUMENTS, Output, GIVEN_OUTPUT  what its kernels take after RESOLVE_ARGUMENTS
+// NEEDS_EVERY_PIXEL   true if pixels without a surface are stored too
+// READS_DEPTH(output) true if depths are read
+// SHOWS_LIGHT(output) true if light_of() goes to output.image: RGBA a pixel, linear, row 0 at the bottom, and
+//                     output.background where no surface is
+// STORE_RESOLVED      stores what it keeps of surfaces
+// LIGHT_OF            returns the light that they show
+//
+// With 16 lanes a walker defines before
+// Where            the places of 16 surfaces in images
+// texel_places()   those of their texels, one for each sample
+// seen_samples()   how many samples see each surface, and the most of them
+// places_of_samples() the places of the k-th of these samples; of a surface with fewer, of its last one
+#pragma once
+
+#include "kernels/common/image_blocks.h"
+#include "kernels/resolve/resolve_light.h"
+#include "kernels/resolve/texel_places.h"
+
+#if LANES == 1
+typedef struct Where {
+  TexelPlaces texels;
+  uint triangle;
+} Where;
+#define texel_places(where) (where)->texels
+#endif
+
+#define STORE_RESOLVED                                                                          \
+  static inline void store_resolved(const Output* output, const Resolved* resolved,             \
+                                    const Where* where, const ResolveScene* scene,              \
+                                    const ResolveLights* lights, constant ViewParams* view)
+#define LIGHT_OF                                                                                \
+  static inline Real3 light_of(const Output* output, const Resolved* resolved,                  \
+                               const Where* where, const ResolveLights* lights,                 \
+                               constant float* bin_edges, constant ViewParams* view)
+
+#if defined(OUTPUT_GBUFFER)
+#include "kernels/resolve/outputs/gbuffer.h"
+#elif defined(OUTPUT_NORMALS)
+#include "kernels/resolve/outputs/normals.h"
+#elif defined(OUTPUT_SUMS)
+#include "kernels/resolve/outputs/sums.h"
+#elif defined(OUTPUT_REFLECTED)
+#include "kernels/resolve/outputs/reflected.h"
+#else
+#include "kernels/resolve/outputs/radiance.h"
+#endif

@@ -1,0 +1,92 @@
+// The geometry buffer (kernels/resolve/gbuffer.h); lights come from shade_tiles.
+//
+// background  of pixels without a surface
+// first, second, coats, specular  out: the geometry buffer; coats and specular null: none is wanted. Samples
+//             without a surface keep what the walker over pixels stored
+// image       out: RGBA a pixel, what surfaces show without point and spot lights; null: the light pass adds
+//             it
+// -DBUFFER_BITS, -DSAMPLES, -DGROUP_NUMBERS, and what gbuffer.h and resolve.h name
+#pragma once
+
+#include "kernels/resolve/gbuffer.h"
+#include "kernels/resolve/resolve.h"
+#include "kernels/resolve/texel_places.h"
+
+#if BUFFER_BITS == 32
+#define TO_CHANNELS(count, values) (values)
+#define STORE_ROW(row, to) store_row(row, to)
+#else
+#if BUFFER_BITS == 16
+#define TO_CHANNELS(count, values) convert_ushort##count##_sat_rte(values)
+#else
+#define TO_CHANNELS(count, values) convert_uchar##count##_sat_rte(values)
+#endif
+#define STORE_ROW(row, to) vstore16(TO_CHANNELS(16, row), 0, to)
+#endif
+
+typedef struct Output {
+  float4 background;
+  global channel_t *first, *second, *coats, *specular;
+  global float* image;
+  GROUP_NUMBERS_MEMBER
+} Output;
+#define OUTPUT_ARGUMENTS \
+  float4 background, global channel_t *first, global channel_t *second, global channel_t *coats,          \
+      global channel_t *specular, global float *image GROUP_NUMBERS_OUT
+#define GIVEN_OUTPUT \
+  { background, first, second, coats, specular, image GIVEN_GROUP_NUMBERS_OUT }
+#define READS_DEPTH(output) SHOWS_LIGHT(output)
+#define SHOWS_LIGHT(output) ((output).image != 0)
+#define NEEDS_EVERY_PIXEL true  // zeros are stored where no surface is
+
+#if LANES == 16
+static inline void store_texels(global channel_t* to, Texels t, const TexelPlaces* places) {
+  float16 rows[4];
+  rows_of_block(rows, real3(t.x, t.y, t.z), t.w);
+#if SAMPLES == 1
+  if (places->count == 16) {
+    for (uint i = 0; i < 4; ++i) STORE_ROW(rows[i], to + 4 * (size_t)places->at[4 * i]);
+    return;
+  }
+#endif
+  channel_t texels[64];
+  for (uint i = 0; i < 4; ++i) vstore16(TO_CHANNELS(16, rows[i]), i, texels);
+  for (uint i = 0; i < places->count; ++i) vstore4(vload4(places->lane[i], texels), places->at[i], to);
+}
+#else
+static inline void store_texels(global channel_t* to, Texels t, const TexelPlaces* places) {
+  const channel4_t texel = TO_CHANNELS(4, (float4)(t.x, t.y, t.z, t.w));
+#pragma unroll
+  for (uint s = 0; s < SAMPLES; ++s)
+    if (places->samples >> s & 1u) ((global channel4_t*)to)[places->pixel * SAMPLES + s] = texel;
+}
+#endif
+
+STORE_RESOLVED {
+  const Attributes* a = resolved->attributes;
+  const Surface* s = resolved->surface;
+  const mask_t covered = resolved->covered;
+  const TexelPlaces texels = texel_places(where), *places = &texels;
+  const Real3 n = shading_normal(a, s);
+  Texels normal, color;
+  texels_of_surface(&normal, &color, n, s->base_color, s->metallic, s->roughness, number_of(s), s->unlit,
+                    covered);
+  store_texels(output->first, normal, places);
+  store_texels(output->second, color, places);
+#ifdef CLEARCOAT
+  if (output->coats)
+    store_texels(output->coats, texels_of_coat(coat_normal(a, s), n, s->coat, s->coat_roughness, covered),
+                 places);
+#endif
+#ifdef SPECULAR
+  if (output->specular) store_texels(output->specular, texels_of_specular(s->f0, s->f90, covered), places);
+#endif
+#ifdef GROUP_NUMBERS
+  store_group_numbers(output->group_numbers, a->group_number, covered, places);
+#endif
+}
+
+LIGHT_OF {
+  const ShadingPoint p = resolved_point(resolved, view);
+  return unlit_or(resolved->surface, own_light(&p, resolved, lights, view));
+}
