@@ -38,6 +38,16 @@ bool same(const FilledWith& a, const FilledWith& b) {
 
 }  // namespace
 
+static const OwnSetting<int> voxel_bits{"voxel-bits",
+                                        "voxel-lights-exact",
+                                        "bits of a value in the voxel light buffer, float in both cases",
+                                        {{"32", 32}, {"16", 16}}};
+static const OwnSetting<bool> voxel_reuse{
+    "voxel-reuse",
+    "world-grid",
+    "the voxel light buffer is filled in each frame, or only where its place or a light changed",
+    {{"off", false}, {"on", true}}};
+
 class VoxelBuffers : public PassCache {
  public:
   explicit VoxelBuffers(Work& work) : kernels(work, "voxels") { follow(work); }
@@ -56,7 +66,7 @@ class VoxelBuffers : public PassCache {
   }
 
   std::string lookup_defines(const Seen& seen) const {
-    return fmt::format(" -DVOXEL_BITS={}{}", seen.plan.settings.voxel_bits,
+    return fmt::format(" -DVOXEL_BITS={}{}", voxel_bits.of(seen.plan.settings),
                        axes.log_depth ? " -DVOXELS_LOG" : "");
   }
 
@@ -87,7 +97,7 @@ namespace {
 
 size_t volume_bytes(const Seen& seen) {
   const glm::uvec3 size = voxel_size(seen.plan.settings.voxel_size);
-  return size_t(size.x) * size.y * size.z * 4 * size_t(seen.plan.settings.voxel_bits) / 8;
+  return size_t(size.x) * size.y * size.z * 4 * size_t(voxel_bits.of(seen.plan.settings)) / 8;
 }
 
 // A power of two, so that it rounds nothing. In half precision the brightest light at its core is well below
@@ -103,7 +113,7 @@ float stored_scale(const VoxelBuffers& s, int bits) {
 void place(Work& work, VoxelBuffers& s, const TileDistances& distances) {
   auto pass = work.timer.pass("place_voxels", "cl");
   s.placed = place_voxels(work, s.axes, visible_box(work, distances));
-  const int bits = work.plan.settings.voxel_bits;
+  const int bits = voxel_bits.of(work.plan.settings);
   VoxelGrid& grid = s.placed.grid;
   grid.groups = s.lights.groups();
   grid.scale = stored_scale(s, bits);
@@ -134,7 +144,7 @@ VoxelVolume build_voxels(Work& work, Cached<VoxelBuffers>& cache, const TileDist
   if (!s.directions) s.directions.emplace(*work.renderer.cl, bridge, bytes);
   VoxelVolume volume{&*s.irradiance, &*s.directions, s.lookup.buffer(), s.lookup_defines(work), 2 * bytes};
   FilledWith needed{s.placed.grid, s.placed.slices, s.lights.version()};
-  if (work.plan.settings.voxel_reuse && s.filled && same(*s.filled, needed)) return volume;
+  if (voxel_reuse.of(work.plan.settings) && s.filled && same(*s.filled, needed)) return volume;
   auto pass = work.timer.pass("build_voxels", "cl");
   const VoxelGrid& g = s.placed.grid;
   const cl::NDRange bricks(g.size_x / VOXEL_BRICK_X, g.size_y / VOXEL_BRICK_Y, g.size_z / VOXEL_BRICK_Z);
@@ -160,7 +170,7 @@ static void voxels_to_gl(Work& work, const VoxelVolume& volume, VoxelBuffers& s)
   if (!s.lookup_stale) return;
   auto pass = work.timer.pass("voxels_to_gl", "gl");
   const VoxelGrid& g = s.placed.grid;
-  const bool half = work.plan.settings.voxel_bits == 16;
+  const bool half = voxel_bits.of(work.plan.settings) == 16;
   if (!s.irradiance_texture) {
     const auto make_volume = [&] {
       return make_texture_3d(half ? GL_RGBA16F : GL_RGBA32F, int(g.size_x), int(g.size_y), int(g.size_z));
@@ -223,7 +233,7 @@ ReadVoxels read_voxels(Work& work, Cached<VoxelBuffers>& cache) {
   const size_t samples = size_t(s.placed.grid.size_x) * s.placed.grid.size_y * s.placed.grid.size_z;
   const auto values = [&](SharedBuffer& from) {
     std::vector<glm::vec4> all(samples);
-    if (work.plan.settings.voxel_bits == 32) {
+    if (voxel_bits.of(work.plan.settings) == 32) {
       read_buffer(*work.renderer.cl, "reading voxels", from.cl_buffer(), all.data(), samples * sizeof all[0]);
     } else {
       std::vector<uint64_t> halves(samples);

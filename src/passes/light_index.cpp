@@ -14,6 +14,12 @@ namespace lightgrid {
 
 namespace {
 
+const OwnSetting<bool> unpack_in_float{
+    "lidr-unpack",
+    "lidr-types",
+    "light indices are unpacked with integers, or in float as the article does",
+    {{"integer", false}, {"float", true}}};
+
 // Whether each sample has indices of its own and is shaded alone: the article's technique 1 with samples. In
 // technique 2 a pixel has one list, of the lights in front of its farthest sample.
 bool has_samples(const Seen& seen) {
@@ -119,7 +125,7 @@ GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::ve
   for (std::string& define : layout.defines()) loop.defines.push_back(std::move(define));
   loop.defines.emplace_back("LIGHTS_LIDR");
   if (points_alone) loop.defines.emplace_back("NO_CONES");
-  if (seen.plan.settings.lidr_unpack == LidrUnpack::floats) loop.defines.emplace_back("LIDR_FLOAT");
+  if (unpack_in_float.of(seen.plan.settings)) loop.defines.emplace_back("LIDR_FLOAT");
   if (may_repeat(seen)) loop.defines.emplace_back("LIDR_REPEATS");
   if (has_samples(seen)) loop.defines.emplace_back("PER_SAMPLE");
   for (size_t i = 0; i < images.size(); ++i)

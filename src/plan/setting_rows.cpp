@@ -228,8 +228,6 @@ std::vector<SettingRow>& all_settings() {
        named(&Settings::lidr_volumes, {{"stencil", LidrVolumes::stencil},
                                        {"front-faces", LidrVolumes::front_faces},
                                        {"no-prepass", LidrVolumes::no_prepass}})},
-      {"lidr-unpack", "light indices are unpacked with integers, or in float as the article does",
-       named(&Settings::lidr_unpack, {{"integer", LidrUnpack::integers}, {"float", LidrUnpack::floats}})},
       {"lidr-types",
        "point and spot lights: in the same images, told apart by the light's data; or a pass over the "
        "surfaces "
@@ -244,8 +242,6 @@ std::vector<SettingRow>& all_settings() {
        "sorted packings: the most passes over the surfaces; lights that find no group are drawn in the next, "
        "after the last they are left out",
        numbers(&Settings::lidr_passes, {"1", "2", "4", "8", "16"})},
-      {"lidr-order", "the lights kept if a pixel has too many: those of most influence, or the scene's first",
-       named(&Settings::lidr_order, {{"priority", LidrOrder::priority}, {"scene", LidrOrder::scene}})},
       {"lidr-shadows",
        "shadows of point and spot lights: exact, by the pass of all techniques; none; or where light volumes "
        "are drawn by shadow volumes or shadow maps, hard or as a share beside each index, or by shadow maps "
@@ -257,10 +253,6 @@ std::vector<SettingRow>& all_settings() {
                                        {"prepass-soft", LidrShadows::prepass_soft},
                                        {"final", LidrShadows::final_pass}}),
        {.approximate = [](const Settings& s) { return s.lidr_shadows != LidrShadows::pass; }}},
-      {"lidr-maps",
-       "lights with shadow maps, with lidr-shadows=final: those of most influence",
-       numbers(&Settings::lidr_maps, {"4", "1", "16", "64", "256"}),
-       {.shown = [](const Settings& s) { return s.lidr_shadows == LidrShadows::final_pass; }}},
       {"volume-mesh", "the mesh of a light's volume; auto: more faces if it is larger on screen",
        named(&Settings::volume_mesh, {{"auto", VolumeMeshes::automatic},
                                       {"icosahedron", VolumeMeshes::icosahedron},
@@ -312,15 +304,10 @@ std::vector<SettingRow>& all_settings() {
        "what the voxel light buffer divides: a box of the world around what is visible, or the view by "
        "distance",
        named(&Settings::voxel_space, {{"world", VoxelSpace::world}, {"view", VoxelSpace::view}})},
-      {"voxel-bits", "bits of a value in the voxel light buffer, float in both cases",
-       numbers(&Settings::voxel_bits, {"32", "16"})},
       {"voxel-lights-exact",
        "lights a pixel that are shaded by themselves, from a light grid: those that matter most. The rest is "
        "the volume's",
        numbers(&Settings::voxel_lights_exact, {"0", "1", "2", "4", "8"})},
-      {"voxel-reuse",
-       "the voxel light buffer is filled in each frame, or only where its place or a light changed",
-       named(&Settings::voxel_reuse, {{"off", false}, {"on", true}})},
       {"world-grid",
        "cells of world_grid: columns over the ground, cubes of one size, or cubes of sizes that suit each "
        "light, found by a hash",

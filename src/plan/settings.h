@@ -23,13 +23,12 @@ namespace lightgrid {
 enum class VolumeCulling { back_faces, stencil, scissor, depth_bounds };
 
 // Light-indexed deferred rendering (docs/techniques/lidr.md): how several light indices share a pixel, which
-// surfaces of a light's volume are drawn, and the order of the lights.
+// surfaces of a light's volume are drawn, when lights are sorted into groups, and how their types are told
+// apart.
 enum class LidrPacking { bitshift, maxblend, sort, maxblend_sort };
 enum class LidrVolumes { stencil, front_faces, no_prepass };
-enum class LidrUnpack { integers, floats };
 enum class LidrSort { view, still };
 enum class LidrTypes { flag, passes };
-enum class LidrOrder { priority, scene };
 // Who finds the shadows of point and spot lights: find_shadows, as for every technique; nobody; or lidr
 // itself, by shadow volumes or shadow maps (docs/techniques/lidr.md#shadows).
 enum class LidrShadows { pass, none, volumes, prepass, prepass_soft, final_pass };
@@ -98,13 +97,10 @@ struct Settings {
   int lidr_lights = 0;   // capacity of an index: 15, 255, 65535 lights, or 0: the least that suffices for the
                          // scene
   LidrVolumes lidr_volumes = LidrVolumes::stencil;
-  LidrUnpack lidr_unpack = LidrUnpack::integers;
   LidrSort lidr_sort = LidrSort::view;
   LidrTypes lidr_types = LidrTypes::flag;
   int lidr_passes = 1;  // sorted packings: at most 1, 2, 4, 8 or 16 passes over the surfaces
-  LidrOrder lidr_order = LidrOrder::priority;
   LidrShadows lidr_shadows = LidrShadows::pass;
-  int lidr_maps = 4;  // LidrShadows::final_pass: lights that have shadow maps: 1, 4, 16, 64 or 256
   VolumeMeshes volume_mesh = VolumeMeshes::automatic;
   PrepassSpecular prepass_specular = PrepassSpecular::plain;
   int prepass_shininess = 32;  // the lights' specular exponent: 2, 8, 32, 128 or 512
@@ -118,9 +114,7 @@ struct Settings {
   ShadedLights lights = ShadedLights::grid;
   VoxelSize voxel_size = VoxelSize::s128x128x16;
   VoxelSpace voxel_space = VoxelSpace::world;
-  int voxel_bits = 32;         // of a stored value: 16 or 32
   int voxel_lights_exact = 0;  // lights a pixel that are shaded by themselves: 0, 1, 2, 4 or 8
-  bool voxel_reuse = false;    // a volume in which nothing changed is not filled again
   WorldGridShape world_grid = WorldGridShape::cubes;
   std::optional<double> world_cell;  // a cell's edge over the radius of lights; none: what suits the lights
   ShadowMethod shadows = ShadowMethod::exact;

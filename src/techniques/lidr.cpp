@@ -62,13 +62,20 @@ static Frame render(RenderView& v) {
   return frame;
 }
 
+static const OwnSetting<int> lights_with_maps{
+    "lidr-maps",
+    "volume-mesh",
+    "lights with shadow maps, with lidr-shadows=final: those of most influence",
+    {{"4", 4}, {"1", 1}, {"16", 16}, {"64", 64}, {"256", 256}},
+    {.shown = [](const Settings& s) { return s.lidr_shadows == LidrShadows::final_pass; }}};
+
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
   needs.reversed_triangles = settings.lidr_passes > 1 || settings.lidr_types == LidrTypes::passes;
   const LidrShadows way = settings.lidr_shadows;
   if (way == LidrShadows::pass) return;
   needs.own_shadows = true, needs.shadows_by = way == LidrShadows::volumes ? "shadow volumes" : "maps";
   if (way == LidrShadows::none) needs.most_own_shadows = 0;
-  if (way == LidrShadows::final_pass) needs.most_own_shadows = size_t(settings.lidr_maps);
+  if (way == LidrShadows::final_pass) needs.most_own_shadows = size_t(lights_with_maps.of(settings));
 }
 
 extern const Technique lidr{

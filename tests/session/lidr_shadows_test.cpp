@@ -258,7 +258,8 @@ TEST(LidrShadows, FollowEveryChange) {
 
 // Where the sun's shadows are those of the frame before, other views have drawn into the shared images since.
 TEST(LidrShadows, AreThoseOfTheirViewWhereTheSunsAreReused) {
-  Settings settings{.lidr_shadows = LidrShadows::final_pass, .lidr_maps = 256};
+  Settings settings{.lidr_shadows = LidrShadows::final_pass};
+  apply_setting(settings, "lidr-maps=256");
   apply_setting(settings, "shadow-reuse=on");
   const auto pool = std::make_shared<TargetPool>();
   const View elsewhere = make_view(look_at({0.5, 0.3, 0.2}, {0, 0, -4}), 131, 77);

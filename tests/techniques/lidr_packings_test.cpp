@@ -67,9 +67,9 @@ TEST_P(LidrTable, HasTheBytesInTheScenesOrder) {
     const Scene scene = scene_of(row);
     const Image forward = render(scene, view, "forward");
     Settings settings = lidr_settings(GetParam(), row.overlap, row.lights);
-    settings.lidr_order = LidrOrder::scene;
+    apply_setting(settings, "lidr-order=scene");
     EXPECT_TRUE(identical(render(scene, view, "lidr", settings), forward));
-    settings.lidr_unpack = LidrUnpack::floats;
+    apply_setting(settings, "lidr-unpack=float");
     EXPECT_TRUE(identical(render(scene, view, "lidr", settings), forward)) << "in float";
   }
 }

@@ -92,7 +92,7 @@ TEST(LidrTypes, APassForEachTypeHasRoomForEach) {
 // The points' loop reads no cones: a scene of one type has its usual image.
 TEST(LidrTypes, OneTypeTakesOnePass) {
   Settings settings = lidr_settings(LidrPacking::bitshift, 4);
-  settings.lidr_order = LidrOrder::scene;
+  apply_setting(settings, "lidr-order=scene");
   const Scene scene = clustered_lights(4, 40);
   const Image flag = render(scene, small_view(96, 64), "lidr", settings);
   settings.lidr_types = LidrTypes::passes;
@@ -109,7 +109,7 @@ TEST(LidrNoPrepass, HasForwardsBytes) {
   const View view = small_view(96, 64);
   for (const LidrPacking packing : {LidrPacking::bitshift, LidrPacking::sort}) {
     Settings settings = lidr_settings(packing, 16, 0, LidrVolumes::no_prepass);
-    settings.lidr_order = LidrOrder::scene;
+    apply_setting(settings, "lidr-order=scene");
     TechniqueRun run(test_devices(), s.scene, view, settings, find_technique("lidr"));
     run.run_frame();
     const LitPairs pairs = count_listed_pairs(run, read_depth(run));

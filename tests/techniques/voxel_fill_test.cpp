@@ -60,7 +60,7 @@ TEST(VoxelLights, BothShapesFillTheSameBytes) {
   const View view = small_view(31, 23);
   Settings settings = sized(VoxelSize::s32x32x8);
   const auto volume = [&](KernelShape shape, int bits) {
-    settings.kernel_shape = shape, settings.voxel_bits = bits;
+    settings.kernel_shape = shape, apply_setting(settings, "voxel-bits=" + std::to_string(bits));
     TechniqueRun run(test_devices(), scene, view, settings, find_technique("voxel_lights"));
     run.run_frame();
     return read_voxels(run.view(), run.view().caches.voxels);
@@ -126,7 +126,7 @@ TEST(VoxelLights, TakesTheMemoryThatItsPageSays) {
     for (const int bits : {32, 16}) {
       const auto bytes = [&](VoxelSize size) {
         Settings settings = sized(size);
-        settings.raster = raster, settings.voxel_bits = bits;
+        settings.raster = raster, apply_setting(settings, "voxel-bits=" + std::to_string(bits));
         TechniqueRun run(test_devices(), scene, view, settings, find_technique("voxel_lights"));
         run.run_frame();
         return run.result().memory_total;
@@ -141,7 +141,7 @@ TEST(VoxelLights, TakesTheMemoryThatItsPageSays) {
 TEST(VoxelLights, ReuseShowsTheSameAndFillsAfterAChange) {
   SmallScene s = small_scene();
   Settings settings = sized(coarse), keeping = settings;
-  keeping.voxel_reuse = true;
+  apply_setting(keeping, "voxel-reuse=on");
   GpuScene gpu(test_devices(), s.scene);
   TechniqueRun run(test_devices(), gpu, small_view(31, 23), keeping, find_technique("voxel_lights"));
   const auto fills = [&] {

@@ -12,6 +12,12 @@
 namespace lightgrid {
 namespace {
 
+const OwnSetting<bool> by_priority{
+    "lidr-order",
+    "lidr-shadows",
+    "the lights kept if a pixel has too many: those of most influence, or the scene's first",
+    {{"priority", true}, {"scene", false}}};
+
 LightExtent extent_in_space(const LightVolume& v) {
   return {v.center - v.radius, v.center + v.radius, v.center, v.radius};
 }
@@ -92,7 +98,7 @@ bool LightIndexOrder::put_in_still_groups(const Seen& seen, const std::vector<Li
     for (uint32_t i = 0; i < type_.size(); ++i) {
       if (type_[i] == type) order.push_back(i);
     }
-    if (settings.lidr_order == LidrOrder::priority)
+    if (by_priority.of(settings))
       std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) { return before(a, b); });
     const std::vector<uint32_t>& found = still_[type].of(extents, order, groups, layout_.slots);
     for (const uint32_t i : order)
@@ -145,7 +151,7 @@ std::vector<uint32_t> LightIndexOrder::rounds_of(const Seen& seen,
 void LightIndexOrder::order(const Seen& seen, std::vector<LightVolume> volumes) {
   const bool sorted = layout_.sorted();
   // Most influence first if lidr-order says so, else scene order.
-  if (seen.plan.settings.lidr_order == LidrOrder::priority) {
+  if (by_priority.of(seen.plan.settings)) {
     std::stable_sort(volumes.begin(), volumes.end(),
                      [&](const LightVolume& a, const LightVolume& b) { return before(a.light, b.light); });
   }
