@@ -1,6 +1,7 @@
 // lightgrid render SCENE -t TECHNIQUE -o out.png|out.exr
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -95,6 +96,7 @@ int render(RenderOptions o) {
                technique.name);
   }
   if (!o.json.empty()) {
+    for (int i = 0; i < std::max(1, o.timing.warmup); ++i) run.run_frame(true);  // after release()
     run.run_profiled_frames();
     nlohmann::json json = to_json(run.result());
     json["exposure"] = exposure_json(exposure);
