@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """The tables of docs/results/shadows.md from the measurements of tests/benchmarks/shadow_lights.cpp.
 
-    tests/benchmarks/shadow_lights.py CSV [--page PAGE --mark NAME]
+    tests/benchmarks/shadow_lights.py CSV... [--page PAGE --mark NAME]
 
-Prints the tables of one machine; with --page they replace the text there between <!-- NAME --> and
-<!-- /NAME -->.
+Prints the tables of one machine, or of several files, whose names end with a number of cores, one table of
+exact shadows. With --page they replace the text there between <!-- NAME --> and <!-- /NAME -->.
 """
 import argparse
 import csv
 import math
+import re
 import sys
 
 BUDGETS = (16, 33, 100)
@@ -85,6 +86,23 @@ def lights_that_fit(groups, column):
     return table(head, rows)
 
 
+def exact_by_cores(paths):
+    cores = [int(re.search(r"(\d+)\.csv$", path)[1]) for path in paths]
+    machines = [read(path) for path in paths]
+    head = ["scene, size"] + [f"{b} ms: {' / '.join(map(str, cores))} cores" for b in BUDGETS]
+    rows = []
+    for scene, size in machines[-1][0]:
+        points = []
+        for groups, _ in machines:
+            series = groups.get((scene, size), Series())
+            points.append([(n, float(r["frame_ms"])) for n, r in series.of(EXACT)])
+        if all(len(p) < 2 for p in points):
+            continue
+        cells = [" / ".join(fitting(p, b) for p in points) for b in BUDGETS]
+        rows.append([f"`{scene}`, {size.replace('x', ' × ')}"] + cells)
+    return machines[-1][1] + "\n\n" + table(head, rows)
+
+
 def times(groups, column):
     head = ["scene", "lights", "pairs"] + list(NAMES.values())
     rows = []
@@ -140,20 +158,22 @@ def report(description, text_of):
     """Prints what `text_of` makes of the named file, or writes it into --page at --mark."""
     parser = argparse.ArgumentParser(description=description,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file")
+    parser.add_argument("files", nargs="+", metavar="CSV")
     parser.add_argument("--page")
     parser.add_argument("--mark")
     o = parser.parse_args()
     if bool(o.page) != bool(o.mark):
         parser.error("--page and --mark go together")
-    text = text_of(o.file)
+    text = text_of(*o.files)
     if o.page:
         replace(o.page, o.mark, text)
     else:
         print(text)
 
 
-def tables(path):
+def tables(path, *others):
+    if others:
+        return exact_by_cores([path, *others])
     groups, machine = read(path)
     return "\n\n".join([
         machine,

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures docs/results/shadows.md on this machine: writes shadows_NAME.csv beside that page and its tables
-# into it, between the marks of NAME (cpu or h100).
+# into it, between the marks of NAME (cpu or h200).
 #   tests/benchmarks/shadow_lights.sh NAME [ARGUMENTS OF shadow_lights]        such as --device NVIDIA
 # About five minutes on two cores. Needs a built tree (build/, or LIGHTGRID_BUILD) and python3. Nothing else
 # should run.
