@@ -160,11 +160,15 @@ void LightCuller::State::run_kernels(LightGrid& grid, const TileBounds& bounds, 
 
 void LightCuller::State::enqueue_z_bins(LightGrid& grid, GridStorage& storage) {
   grid.z_bin_bytes = light_count_ * sizeof(cl_uint);
-  if (!z_bins_kernel_()) z_bins_kernel_ = programs_.kernel("culling/light_z_bins", "");
-  launch(device_, "light_z_bins", z_bins_kernel_,
-         cl::NDRange((light_count_ + z_bin_group - 1) / z_bin_group * z_bin_group), cl::NDRange(z_bin_group),
-         lights_.get(), z_bins_, cl_uint(z_bin_count_), storage.z_bins(grid.z_bin_bytes),
-         params_upload_.buffer());
+  if (!z_bins_kernel_) z_bins_kernel_ = NamedKernel(programs_, "culling/light_z_bins", "");
+  z_bins_kernel_.launch(device_, "light_z_bins",
+                        cl::NDRange((light_count_ + z_bin_group - 1) / z_bin_group * z_bin_group),
+                        cl::NDRange(z_bin_group),
+                        {{"lights", lights_.get()},
+                         {"bins", z_bins_},
+                         {"bin_count", cl_uint(z_bin_count_)},
+                         {"light_bins", storage.z_bins(grid.z_bin_bytes)},
+                         {"p", params_upload_.buffer()}});
 }
 
 void LightCuller::State::make_masks(LightGrid& grid, GridStorage& storage) {
@@ -177,12 +181,16 @@ void LightCuller::State::make_masks(LightGrid& grid, GridStorage& storage) {
         "larger tiles or fewer slices",
         cells, light_count_, grid.mask_bytes, device_.info().name);
   }
-  cl::Kernel& kernel = masks_kernels_[grid.index_bits == 32];
-  if (!kernel())
-    kernel = programs_.kernel("culling/lists_to_masks", grid.index_bits == 32 ? "-DINDEX_32" : "");
-  launch(device_, "lists_to_masks", kernel, cl::NDRange((cells + mask_group - 1) / mask_group * mask_group),
-         cl::NDRange(mask_group), storage.cells(grid.cell_bytes), storage.indices(grid.index_bytes),
-         cl_uint(cells), cl_uint(grid.mask_words), storage.masks(grid.mask_bytes));
+  NamedKernel& kernel = masks_kernels_[grid.index_bits == 32];
+  if (!kernel)
+    kernel = NamedKernel(programs_, "culling/lists_to_masks", grid.index_bits == 32 ? "-DINDEX_32" : "");
+  kernel.launch(device_, "lists_to_masks", cl::NDRange((cells + mask_group - 1) / mask_group * mask_group),
+                cl::NDRange(mask_group),
+                {{"cells", storage.cells(grid.cell_bytes)},
+                 {"indices", storage.indices(grid.index_bytes)},
+                 {"cell_count", cl_uint(cells)},
+                 {"words", cl_uint(grid.mask_words)},
+                 {"masks", storage.masks(grid.mask_bytes)}});
   finish_queue(device_, "lists_to_masks");
 }
 

@@ -31,9 +31,10 @@ class CullCpuPipeline : public CullPipeline {
   CullCpuPipeline(ClDevice& device, ProgramCache& programs, const PipelineOptions& options)
       : CullPipeline(options), device_(device) {
     const std::string form = options.portable ? " -DPORTABLE" : "", index = index_define(options);
-    project_ = programs.kernel("culling/cpu/project_lights", options.light_defines + form);
-    cull_ = programs.kernel("culling/cpu/cull_lights", options.cell_defines + index + form);
-    write_ = programs.kernel("culling/cpu/write_lists", index + (options.slices ? " -DSLICES" : "") + form);
+    project_ = NamedKernel(programs, "culling/cpu/project_lights", options.light_defines + form);
+    cull_ = NamedKernel(programs, "culling/cpu/cull_lights", options.cell_defines + index + form);
+    write_ =
+        NamedKernel(programs, "culling/cpu/write_lists", index + (options.slices ? " -DSLICES" : "") + form);
   }
 
   void prepare(const CullParams& p) override {
@@ -50,19 +51,42 @@ class CullCpuPipeline : public CullPipeline {
 
   void enqueue(const CullJob& job) override {
     const size_t bins = size_t(job.params.bins_x) * job.params.bins_y;
-    launch(device_, "project_lights", project_, cl::NDRange(runs_), cl::NDRange(1), job.lights,
-           records_.get(), lists_.get(), run_counts_.get(), job.counters, job.params_buffer);
+    project_.launch(device_, "project_lights", cl::NDRange(runs_), cl::NDRange(1),
+                    {{"lights", job.lights},
+                     {"records", records_.get()},
+                     {"lists", lists_.get()},
+                     {"counts", run_counts_.get()},
+                     {"counters", job.counters},
+                     {"p", job.params_buffer}});
     const size_t quads = size_t((job.params.bins_x + 1) / 2) * ((job.params.bins_y + 1) / 2);
     const size_t most = items_a_unit * size_t(device_.info().compute_units),
                  rounds = (quads + most - 1) / most;
-    launch(device_, "cull_lights", cull_, cl::NDRange((quads + rounds - 1) / rounds), cl::NDRange(1),
-           records_.get(), lists_.get(), run_counts_.get(), runs_, cl_uint(spreading_step(quads)),
-           job.light_groups, job.bounds, job.tile_groups, job.slices, pool_.get(), staged_.get(),
-           cell_counts_.get(), bins_.get(), job.counters, job.params_buffer);
+    cull_.launch(device_, "cull_lights", cl::NDRange((quads + rounds - 1) / rounds), cl::NDRange(1),
+                 {{"records", records_.get()},
+                  {"lists", lists_.get()},
+                  {"counts", run_counts_.get()},
+                  {"runs", runs_},
+                  {"spread", cl_uint(spreading_step(quads))},
+                  {"light_groups", job.light_groups},
+                  {"bounds", job.bounds},
+                  {"tile_groups", job.tile_groups},
+                  {"slices", job.slices},
+                  {"pool", pool_.get()},
+                  {"staged", staged_.get()},
+                  {"cell_counts", cell_counts_.get()},
+                  {"bins", bins_.get()},
+                  {"counters", job.counters},
+                  {"p", job.params_buffer}});
     const size_t run = (bins + most_write_items - 1) / most_write_items;
-    launch(device_, "write_lists", write_, cl::NDRange((bins + run - 1) / run), cl::NDRange(1), bins_.get(),
-           cl_uint(run), cell_counts_.get(), staged_.get(), job.cells, job.indices, job.counters,
-           job.params_buffer);
+    write_.launch(device_, "write_lists", cl::NDRange((bins + run - 1) / run), cl::NDRange(1),
+                  {{"bins", bins_.get()},
+                   {"run", cl_uint(run)},
+                   {"cell_counts", cell_counts_.get()},
+                   {"staged", staged_.get()},
+                   {"cells", job.cells},
+                   {"indices", job.indices},
+                   {"counters", job.counters},
+                   {"p", job.params_buffer}});
   }
 
   size_t candidate_bytes() const override {
@@ -77,7 +101,7 @@ class CullCpuPipeline : public CullPipeline {
  private:
   ClDevice& device_;
   cl_uint runs_ = 1;
-  cl::Kernel project_, cull_, write_;
+  NamedKernel project_, cull_, write_;
   GrowingBuffer records_, lists_, run_counts_, pool_, staged_, cell_counts_, bins_;
 };
 
@@ -101,13 +125,14 @@ class CullGpuPipeline : public CullPipeline {
           "lanes",
           project_items, device.info().name, allowed);
     }
-    project_ = programs.kernel("culling/gpu/project_lights", options.light_defines);
+    project_ = NamedKernel(programs, "culling/gpu/project_lights", options.light_defines);
     while (write_items_ > allowed) write_items_ /= 2;
     if (options.group_size > 0) cull_items_ = size_t(options.group_size);
     while (cull_items_ > allowed) cull_items_ /= 2;
-    cull_ = programs.kernel("culling/gpu/cull_lights",
-                            fmt::format("{} -DGROUP={}", options.cell_defines, cull_items_));
-    write_ = programs.kernel("culling/gpu/write_lists", index_define(options) + group_define(write_items_));
+    cull_ = NamedKernel(programs, "culling/gpu/cull_lights",
+                        fmt::format("{} -DGROUP={}", options.cell_defines, cull_items_));
+    write_ =
+        NamedKernel(programs, "culling/gpu/write_lists", index_define(options) + group_define(write_items_));
   }
 
   void prepare(const CullParams& p) override {
@@ -123,16 +148,36 @@ class CullGpuPipeline : public CullPipeline {
 
   void enqueue(const CullJob& job) override {
     const CullParams& p = job.params;
-    launch(device_, "project_lights", project_, cl::NDRange(project_groups(p) * project_items),
-           cl::NDRange(project_items), job.lights, views_.get(), light_marks_.get(), job.counters,
-           job.params_buffer);
-    launch(device_, "cull_lights", cull_, cl::NDRange(blocks(p) * cull_items_), cl::NDRange(cull_items_),
-           views_.get(), light_marks_.get(), job.light_groups, job.bounds, job.tile_groups, job.slices,
-           ids_.get(), places_.get(), totals_.get(), cell_marks_.get(), job.cells, job.counters,
-           job.params_buffer);
-    launch(device_, "write_lists", write_, cl::NDRange(blocks(p) * write_items_), cl::NDRange(write_items_),
-           ids_.get(), places_.get(), totals_.get(), cell_marks_.get(), job.cells, job.indices, job.counters,
-           job.params_buffer);
+    project_.launch(device_, "project_lights", cl::NDRange(project_groups(p) * project_items),
+                    cl::NDRange(project_items),
+                    {{"lights", job.lights},
+                     {"views", views_.get()},
+                     {"marks", light_marks_.get()},
+                     {"counters", job.counters},
+                     {"p", job.params_buffer}});
+    cull_.launch(device_, "cull_lights", cl::NDRange(blocks(p) * cull_items_), cl::NDRange(cull_items_),
+                 {{"views", views_.get()},
+                  {"light_marks", light_marks_.get()},
+                  {"light_groups", job.light_groups},
+                  {"bounds", job.bounds},
+                  {"tile_groups", job.tile_groups},
+                  {"slices", job.slices},
+                  {"ids", ids_.get()},
+                  {"offsets", places_.get()},
+                  {"totals", totals_.get()},
+                  {"marks", cell_marks_.get()},
+                  {"cells", job.cells},
+                  {"counters", job.counters},
+                  {"p", job.params_buffer}});
+    write_.launch(device_, "write_lists", cl::NDRange(blocks(p) * write_items_), cl::NDRange(write_items_),
+                  {{"ids", ids_.get()},
+                   {"offsets", places_.get()},
+                   {"totals", totals_.get()},
+                   {"marks", cell_marks_.get()},
+                   {"cells", job.cells},
+                   {"indices", job.indices},
+                   {"counters", job.counters},
+                   {"p", job.params_buffer}});
   }
 
   size_t candidate_bytes() const override { return sizeof(cl_uint); }
@@ -150,7 +195,7 @@ class CullGpuPipeline : public CullPipeline {
 
   ClDevice& device_;
   size_t cull_items_ = usual_items, write_items_ = usual_items;
-  cl::Kernel project_, cull_, write_;
+  NamedKernel project_, cull_, write_;
   GrowingBuffer views_, light_marks_, ids_, cell_marks_, places_, totals_;
 };
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cl/buffers.h"
+#include "cl/launch.h"
 #include "culling/cull_pipeline.h"
 #include "culling/light_culler.h"
 #include "culling/view_depth.h"
@@ -92,8 +93,8 @@ class LightCuller::State {
   std::optional<CullParams> uploaded_;   // contents of params_upload_ when the queue is done
   std::optional<StraightView> oblique_;  // if the view's near plane is oblique
   GrowingBuffer straight_depth_;
-  cl::Kernel straighten_kernel_;
-  cl::Kernel bounds_kernel_, z_bins_kernel_, masks_kernels_[2];  // masks: of 16-bit and of 32-bit lists
+  NamedKernel straighten_kernel_, bounds_kernel_, z_bins_kernel_,
+      masks_kernels_[2];  // masks: of 16-bit and of 32-bit lists
   bool bounds_kernel_standard_ = false;
   cl::Buffer slices_, z_bins_, opaque_, blend_, counters_;
   uint z_bin_count_ = 1, depth_group_ = 0;

@@ -60,13 +60,19 @@ void LightCuller::State::read_layout(const DepthInput& depth) {
 
 cl::Buffer LightCuller::State::straight_depth(const DepthInput& depth, uint first, uint row) {
   const StraightView& s = *oblique_;
-  if (!straighten_kernel_()) straighten_kernel_ = programs_.kernel("culling/straighten_depth", "");
+  if (!straighten_kernel_) straighten_kernel_ = NamedKernel(programs_, "culling/straighten_depth", "");
   const size_t width = size_t(params_.width) * options_.samples;
   const cl::Buffer& straight = straight_depth_.at_least(device_, width * params_.height * sizeof(float));
   const cl_float4 plane = {{s.tilt_x, s.tilt_y, s.offset, s.scale}};
-  launch(device_, "straighten_depth", straighten_kernel_, cl::NDRange(width, params_.height), cl::NullRange,
-         depth.values, cl_uint(first), cl_uint(row), plane, s.nothing, cl_uint(options_.samples), straight,
-         params_upload_.buffer());
+  straighten_kernel_.launch(device_, "straighten_depth", cl::NDRange(width, params_.height), cl::NullRange,
+                            {{"depth", depth.values},
+                             {"first", cl_uint(first)},
+                             {"row", cl_uint(row)},
+                             {"plane", plane},
+                             {"nothing", s.nothing},
+                             {"samples", cl_uint(options_.samples)},
+                             {"straight", straight},
+                             {"p", params_upload_.buffer()}});
   return straight;
 }
 
@@ -91,7 +97,7 @@ DepthBounds LightCuller::State::depth_bounds(const DepthInput& depth) {
   if (!opaque_()) opaque_ = empty_bounds(planes_of(options_.depth_bounds), far_away, -far_away);
   if (!blend_()) blend_ = options_.blend ? empty_bounds(2, far_away, -far_away) : device_buffer(device_, 0);
   // The kernel depends on the view's depth direction: it is rebuilt when that changes.
-  if (!bounds_kernel_() || bounds_kernel_standard_ != bool(params_.standard_depth)) {
+  if (!bounds_kernel_ || bounds_kernel_standard_ != bool(params_.standard_depth)) {
     bounds_kernel_standard_ = params_.standard_depth;
     std::string defines =
         fmt::format("-DTILE={} -DSAMPLES={} -DDEPTH_MODE={}{}{}", options_.tile, options_.samples,
@@ -101,7 +107,7 @@ DepthBounds LightCuller::State::depth_bounds(const DepthInput& depth) {
     while (depth_group_ > device_.info().max_group_items) depth_group_ /= 2;
     if (!lanes && depth_group_ != usual_depth_group) defines += fmt::format(" -DGROUP={}", depth_group_);
     bounds_kernel_ =
-        programs_.kernel(lanes ? "culling/cpu/depth_bounds" : "culling/gpu/depth_bounds", defines);
+        NamedKernel(programs_, lanes ? "culling/cpu/depth_bounds" : "culling/gpu/depth_bounds", defines);
   }
   const uint depth_first = params_.depth_first, depth_row = params_.depth_row;
   if (oblique_) {
@@ -117,9 +123,15 @@ DepthBounds LightCuller::State::depth_bounds(const DepthInput& depth) {
   const uint counter = invalid_tiles_counter_ == invalid_tiles_counters[0] ? invalid_tiles_counters[1]
                                                                            : invalid_tiles_counters[0];
   const uint other = invalid_tiles_counters[0] + invalid_tiles_counters[1] - counter;
-  launch(device_, "depth_bounds", bounds_kernel_, cl::NDRange((tiles_x + tiles - 1) / tiles * group, tiles_y),
-         cl::NDRange(group, 1), values_in, opaque_, blend_, counters_, cl_uint(counter), cl_uint(other),
-         params_upload_.buffer());
+  bounds_kernel_.launch(device_, "depth_bounds", cl::NDRange((tiles_x + tiles - 1) / tiles * group, tiles_y),
+                        cl::NDRange(group, 1),
+                        {{"depth", values_in},
+                         {"opaque", opaque_},
+                         {"blend", blend_},
+                         {"counters", counters_},
+                         {"counter", cl_uint(counter)},
+                         {"next_counter", cl_uint(other)},
+                         {"p", params_upload_.buffer()}});
   invalid_tiles_counter_ = counter;
   return own_bounds(options_.depth_bounds, blend_);
 }

@@ -30,10 +30,11 @@ class RasterCpuPipeline : public RasterPipeline {
         programs_(programs),
         defines_(portable ? "-DPORTABLE" : ""),
         masks_(alpha_masks(masks)) {
-    transform_ = programs.kernel("raster/cpu/raster_transform", "");
-    clusters_ = programs.kernel("raster/cpu/raster_clusters", "");
-    order_ = programs.kernel("raster/cpu/raster_order", "");
-    scan_ = programs.kernel(device.info().cpu ? "raster/cpu/raster_scan" : "raster/gpu/raster_scan", "");
+    transform_ = NamedKernel(programs, "raster/cpu/raster_transform", "");
+    clusters_ = NamedKernel(programs, "raster/cpu/raster_clusters", "");
+    order_ = NamedKernel(programs, "raster/cpu/raster_order", "");
+    scan_ =
+        NamedKernel(programs, device.info().cpu ? "raster/cpu/raster_scan" : "raster/gpu/raster_scan", "");
   }
 
   uint32_t chunks(const RasterParams& p) const override {
@@ -62,30 +63,73 @@ class RasterCpuPipeline : public RasterPipeline {
                  tiles = size_t(p.tiles_x) * p.tiles_y;
     fill_buffer(device_, "rasterizer: counters", job.counters, 0, RASTER_COUNTERS * sizeof(cl_uint));
     if (p.vertex_runs != 0) {
-      launch(device_, "raster_transform", transform_,
-             cl::NDRange(std::min<size_t>(p.vertex_runs, units * 16)), one, job.positions, job.vertex_runs,
-             job.instances, job.frame, job.clip, job.params_buffer);
+      transform_.launch(device_, "raster_transform", cl::NDRange(std::min<size_t>(p.vertex_runs, units * 16)),
+                        one,
+                        {{"positions", job.positions},
+                         {"runs", job.vertex_runs},
+                         {"instances", job.instances},
+                         {"frame", job.frame},
+                         {"clip", job.clip},
+                         {"p", job.params_buffer}});
     }
-    launch(device_, "raster_clusters", clusters_,
-           cl::NDRange(std::clamp<size_t>(p.pairs / clusters_an_item, 1, units * 16)), one, job.pairs,
-           job.clusters, job.frame, buckets_.get(), job.params_buffer);
-    launch(device_, "raster_order", order_, one, one, buckets_.get(), visible_.get(), job.counters,
-           job.params_buffer);
-    launch(device_, "raster_setup", kernel("raster_setup", job), cl::NDRange(p.chunks), one, visible_.get(),
-           job.pairs, job.clusters, job.instances, job.cluster_indices, job.cluster_triangles, job.clip,
-           records_.get(), next_block_.get(), chunks_.get(), tile_counts_.get(), job.counters,
-           job.params_buffer);
+    clusters_.launch(device_, "raster_clusters",
+                     cl::NDRange(std::clamp<size_t>(p.pairs / clusters_an_item, 1, units * 16)), one,
+                     {{"pairs", job.pairs},
+                      {"clusters", job.clusters},
+                      {"frame", job.frame},
+                      {"buckets", buckets_.get()},
+                      {"p", job.params_buffer}});
+    order_.launch(device_, "raster_order", one, one,
+                  {{"buckets", buckets_.get()},
+                   {"visible", visible_.get()},
+                   {"counters", job.counters},
+                   {"p", job.params_buffer}});
+    kernel("raster_setup", job)
+        .launch(device_, "raster_setup", cl::NDRange(p.chunks), one,
+                {{"visible", visible_.get()},
+                 {"pairs", job.pairs},
+                 {"clusters", job.clusters},
+                 {"instances", job.instances},
+                 {"indices", job.cluster_indices},
+                 {"numbers", job.cluster_triangles},
+                 {"clip", job.clip},
+                 {"records", records_.get()},
+                 {"next_block", next_block_.get()},
+                 {"chunks", chunks_.get()},
+                 {"tile_counts", tile_counts_.get()},
+                 {"counters", job.counters},
+                 {"p", job.params_buffer}});
     const cl::NDRange adders(device_.info().cpu ? 1 : RASTER_SCAN_GROUP);
-    launch(device_, "raster_scan", scan_, adders, adders, tile_counts_.get(), tile_begin_.get(), job.counters,
-           job.params_buffer);
-    launch(device_, "raster_fill", kernel("raster_fill", job), cl::NDRange(p.chunks), one, records_.get(),
-           next_block_.get(), chunks_.get(), tile_counts_.get(), lists_.get(), job.counters,
-           job.params_buffer);
+    scan_.launch(device_, "raster_scan", adders, adders,
+                 {{"tile_counts", tile_counts_.get()},
+                  {"tile_begin", tile_begin_.get()},
+                  {"counters", job.counters},
+                  {"p", job.params_buffer}});
+    kernel("raster_fill", job)
+        .launch(device_, "raster_fill", cl::NDRange(p.chunks), one,
+                {{"records", records_.get()},
+                 {"next_block", next_block_.get()},
+                 {"chunks", chunks_.get()},
+                 {"tile_at", tile_counts_.get()},
+                 {"lists", lists_.get()},
+                 {"counters", job.counters},
+                 {"p", job.params_buffer}});
     if (!job.triangles()) return;
-    launch(device_, "raster_tiles", kernel("raster_tiles", job, job.masks.alphas() ? masks_ : ""),
-           cl::NDRange(std::min(tiles, units)), one, records_.get(), tile_begin_.get(), lists_.get(),
-           job.instances, job.indices, job.clip, job.masks.vertices, job.masks.materials, job.masks.alphas,
-           job.triangles, job.depths, job.counters, job.params_buffer);
+    kernel("raster_tiles", job, job.masks.alphas() ? masks_ : "")
+        .launch(device_, "raster_tiles", cl::NDRange(std::min(tiles, units)), one,
+                {{"records", records_.get()},
+                 {"tile_begin", tile_begin_.get()},
+                 {"lists", lists_.get()},
+                 {"mask_instances", job.instances},
+                 {"mask_indices", job.indices},
+                 {"mask_clip", job.clip},
+                 {"mask_vertices", job.masks.vertices},
+                 {"mask_materials", job.masks.materials},
+                 {"mask_alphas", job.masks.alphas},
+                 {"triangles", job.triangles},
+                 {"depths", job.depths},
+                 {"counters", job.counters},
+                 {"p", job.params_buffer}});
   }
 
   RasterLists lists(const RasterParams& p) const override {
@@ -99,19 +143,19 @@ class RasterCpuPipeline : public RasterPipeline {
 
  private:
   // Built at first use.
-  cl::Kernel& kernel(const char* name, const RasterJob& job, const std::string& more = "") {
-    cl::Kernel& kernel = kernels_[{name, job.samples, !more.empty()}];
-    if (!kernel())
-      kernel =
-          programs_.kernel(std::string("raster/cpu/") + name, defines_ + sample_defines(job.samples) + more);
+  NamedKernel& kernel(const char* name, const RasterJob& job, const std::string& more = "") {
+    NamedKernel& kernel = kernels_[{name, job.samples, !more.empty()}];
+    if (!kernel)
+      kernel = NamedKernel(programs_, std::string("raster/cpu/") + name,
+                           defines_ + sample_defines(job.samples) + more);
     return kernel;
   }
 
   ClDevice& device_;
   ProgramCache& programs_;
   const std::string defines_, masks_;
-  cl::Kernel transform_, clusters_, order_, scan_;
-  std::map<std::tuple<std::string, int, bool>, cl::Kernel> kernels_;  // by samples and masks
+  NamedKernel transform_, clusters_, order_, scan_;
+  std::map<std::tuple<std::string, int, bool>, NamedKernel> kernels_;  // by samples and masks
   GrowingBuffer buckets_, visible_, records_, next_block_, chunks_, tile_counts_, tile_begin_, lists_;
 };
 
@@ -136,11 +180,11 @@ class RasterGpuPipeline : public RasterPipeline {
         programs_(programs),
         wide_(wide_atomics && has_64_bit_atomics(device)),
         masks_(alpha_masks(masks)) {
-    transform_ = programs.kernel("raster/gpu/raster_transform", "");
-    clusters_ = programs.kernel("raster/gpu/raster_clusters", "");
+    transform_ = NamedKernel(programs, "raster/gpu/raster_transform", "");
+    clusters_ = NamedKernel(programs, "raster/gpu/raster_clusters", "");
     if (!wide_) return;
-    clear_ = programs.kernel("raster/gpu/raster_clear", "");
-    keys_kernel_ = programs.kernel("raster/gpu/raster_keys", "");
+    clear_ = NamedKernel(programs, "raster/gpu/raster_clear", "");
+    keys_kernel_ = NamedKernel(programs, "raster/gpu/raster_keys", "");
   }
 
   uint32_t chunks(const RasterParams&) const override { return 1; }
@@ -159,31 +203,73 @@ class RasterGpuPipeline : public RasterPipeline {
     const cl::NDRange all(size_t(std::max(1, device_.info().compute_units)) * groups_a_unit * group_items);
     fill_buffer(device_, "rasterizer: counters", job.counters, 0, RASTER_COUNTERS * sizeof(cl_uint));
     if (wide_) {
-      launch(device_, "raster_clear", clear_, items_for(pairs_of(values), image_group),
-             cl::NDRange(image_group), keys_.get(), cl_uint(pairs_of(values)));
+      clear_.launch(device_, "raster_clear", items_for(pairs_of(values), image_group),
+                    cl::NDRange(image_group), {{"keys", keys_.get()}, {"pairs", cl_uint(pairs_of(values))}});
     } else {
       fill_buffer(device_, "rasterizer: image", job.triangles, RASTER_NONE, values * sizeof(cl_uint));
       fill_buffer(device_, "rasterizer: image", job.depths, 0, values * sizeof(cl_uint));
     }
-    launch(device_, "raster_transform", transform_, items_for(size_t(p.vertex_runs) * RASTER_VERTEX_RUN),
-           group, job.positions, job.vertex_runs, job.instances, job.frame, job.clip, job.params_buffer);
-    launch(device_, "raster_clusters", clusters_, items_for(p.pairs), group, job.pairs, job.clusters,
-           job.frame, visible_.get(), job.counters, job.params_buffer);
+    transform_.launch(device_, "raster_transform", items_for(size_t(p.vertex_runs) * RASTER_VERTEX_RUN),
+                      group,
+                      {{"positions", job.positions},
+                       {"runs", job.vertex_runs},
+                       {"instances", job.instances},
+                       {"frame", job.frame},
+                       {"clip", job.clip},
+                       {"p", job.params_buffer}});
+    clusters_.launch(device_, "raster_clusters", items_for(p.pairs), group,
+                     {{"pairs", job.pairs},
+                      {"clusters", job.clusters},
+                      {"frame", job.frame},
+                      {"visible", visible_.get()},
+                      {"counters", job.counters},
+                      {"p", job.params_buffer}});
     // The second pass needs the depths of all triangles.
     for (int pass = 0; pass < (wide_ ? 1 : 2); ++pass) {
-      launch(device_, "raster_small", kernel("raster_small", pass, job), all, group,
-             visible_.get(), job.pairs, job.clusters, job.instances, job.cluster_indices,
-             job.cluster_triangles, job.clip, job.instances, job.indices, job.clip, job.masks.vertices,
-             job.masks.materials, job.masks.alphas, records_.get(), entries_.get(), keys_.get(),
-             job.triangles, job.depths, job.counters, job.params_buffer);
-      launch(device_, "raster_large", kernel("raster_large", pass, job), all, group,
-             records_.get(), entries_.get(), job.instances, job.indices, job.clip, job.masks.vertices,
-             job.masks.materials, job.masks.alphas, keys_.get(), job.triangles, job.depths, job.counters,
-             job.params_buffer);
+      kernel("raster_small", pass, job)
+          .launch(device_, "raster_small", all, group,
+                  {{"visible", visible_.get()},
+                   {"pairs", job.pairs},
+                   {"clusters", job.clusters},
+                   {"instances", job.instances},
+                   {"indices", job.cluster_indices},
+                   {"numbers", job.cluster_triangles},
+                   {"clip", job.clip},
+                   {"mask_instances", job.instances},
+                   {"mask_indices", job.indices},
+                   {"mask_clip", job.clip},
+                   {"mask_vertices", job.masks.vertices},
+                   {"mask_materials", job.masks.materials},
+                   {"mask_alphas", job.masks.alphas},
+                   {"records", records_.get()},
+                   {"entries", entries_.get()},
+                   {"keys", keys_.get()},
+                   {"triangles", job.triangles},
+                   {"depths", job.depths},
+                   {"counters", job.counters},
+                   {"p", job.params_buffer}});
+      kernel("raster_large", pass, job)
+          .launch(device_, "raster_large", all, group,
+                  {{"records", records_.get()},
+                   {"entries", entries_.get()},
+                   {"mask_instances", job.instances},
+                   {"mask_indices", job.indices},
+                   {"mask_clip", job.clip},
+                   {"mask_vertices", job.masks.vertices},
+                   {"mask_materials", job.masks.materials},
+                   {"mask_alphas", job.masks.alphas},
+                   {"keys", keys_.get()},
+                   {"triangles", job.triangles},
+                   {"depths", job.depths},
+                   {"counters", job.counters},
+                   {"p", job.params_buffer}});
     }
     if (wide_) {
-      launch(device_, "raster_keys", keys_kernel_, items_for(values, image_group), cl::NDRange(image_group),
-             keys_.get(), job.triangles, job.depths, cl_uint(values));
+      keys_kernel_.launch(device_, "raster_keys", items_for(values, image_group), cl::NDRange(image_group),
+                          {{"keys", keys_.get()},
+                           {"triangles", job.triangles},
+                           {"depths", job.depths},
+                           {"samples", cl_uint(values)}});
     }
   }
 
@@ -196,24 +282,24 @@ class RasterGpuPipeline : public RasterPipeline {
 
  private:
   // Built at first use.
-  cl::Kernel& kernel(const char* name, int pass, const RasterJob& job) {
+  NamedKernel& kernel(const char* name, int pass, const RasterJob& job) {
     const bool masks = job.masks.alphas() != nullptr;
-    cl::Kernel& kernel = kernels_[{name, job.samples, pass, masks}];
-    if (kernel()) return kernel;
+    NamedKernel& kernel = kernels_[{name, job.samples, pass, masks}];
+    if (kernel) return kernel;
     std::string defines = wide_       ? "-DATOMICS=64"
                           : pass == 0 ? "-DATOMICS=32 -DPASS=1"
                                       : "-DATOMICS=32 -DPASS=2";
     if (masks) defines += masks_;
-    return kernel =
-               programs_.kernel(std::string("raster/gpu/") + name, defines + sample_defines(job.samples));
+    return kernel = NamedKernel(programs_, std::string("raster/gpu/") + name,
+                                defines + sample_defines(job.samples));
   }
 
   ClDevice& device_;
   ProgramCache& programs_;
   const bool wide_;
   const std::string masks_;
-  cl::Kernel transform_, clusters_, clear_, keys_kernel_;
-  std::map<std::tuple<std::string, int, int, bool>, cl::Kernel> kernels_;  // by samples, pass and masks
+  NamedKernel transform_, clusters_, clear_, keys_kernel_;
+  std::map<std::tuple<std::string, int, int, bool>, NamedKernel> kernels_;  // by samples, pass and masks
   GrowingBuffer visible_, records_, entries_, keys_;
 };
 

@@ -79,10 +79,24 @@ void WorldGrid::update_lists() {
   totals_.at_least(device_, std::max<size_t>(chunks, 1) * 4);
   const auto step = [&](cl_uint write, const cl::Buffer& indices) {
     if (blocks_ == 0) return;
-    run("update", chunks, moved_lights_.get(), moved_balls_.get(), moved_cones_.get(), edit_first_.get(),
-        edits_.get(), changes_.get(), keys(), old_blocks_.get(), storage_->buffer(WorldArray::old_cells),
-        storage_->buffer(WorldArray::old_indices), totals_.get(), cells(), indices, cl_uint(blocks_),
-        cl_uint(chunk), write, params());
+    run("update", chunks,
+        {{"moved", moved_lights_.get()},
+         {"balls", moved_balls_.get()},
+         {"cones", moved_cones_.get()},
+         {"edit_first", edit_first_.get()},
+         {"edits", edits_.get()},
+         {"changes", changes_.get()},
+         {"keys", keys()},
+         {"old_blocks", old_blocks_.get()},
+         {"old_cells", storage_->buffer(WorldArray::old_cells)},
+         {"old_indices", storage_->buffer(WorldArray::old_indices)},
+         {"totals", totals_.get()},
+         {"cells", cells()},
+         {"indices", indices},
+         {"block_count", cl_uint(blocks_)},
+         {"chunk", cl_uint(chunk)},
+         {"write", write},
+         {"world", params()}});
   };
   step(0, {});
   size_indices(blocks_ > 0 ? scan(chunks, true) : 0);

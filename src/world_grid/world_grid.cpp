@@ -44,13 +44,15 @@ bool WorldGrid::serves(const WorldEye& eye, int lights_version) {
   return lights_version_ == lights_version && layout_.reach.holds(needed);
 }
 
-cl::Kernel WorldGrid::kernel_of(const std::string& label) {
+NamedKernel& WorldGrid::kernel_of(const std::string& label) {
+  NamedKernel& kernel = named_[label];
+  if (kernel) return kernel;
   std::string defines;
   if (label == "world_lists" || label == "world_update") {
     if (shape_ == WorldGridShape::columns) defines += " -DCOLUMNS";
     if (index_bits_ == 32) defines += " -DINDEX_32";
   }
-  return kernels_.kernel("world_grid/" + label, defines);
+  return kernel = NamedKernel(kernels_, "world_grid/" + label, defines);
 }
 
 // The device has a limit for one buffer, and entries are counted in 32 bits.
@@ -78,10 +80,10 @@ size_t WorldGrid::chunk_of(size_t count, size_t least) const {
 
 // Turns totals_ into sums of all before each. Returns the sum of all, if it is read.
 uint64_t WorldGrid::scan(size_t count, bool read) {
-  cl::Kernel kernel = kernels_.kernel("world_grid/world_scan", "");
   const size_t group = device_.info().cpu ? 1 : 256;
-  launch(device_, "world_scan", kernel, cl::NDRange(group), cl::NDRange(group), totals_.get(), cl_uint(count),
-         total_.at_least(device_, 8));
+  kernel_of("world_scan")
+      .launch(device_, "world_scan", cl::NDRange(group), cl::NDRange(group),
+              {{"values", totals_.get()}, {"count", cl_uint(count)}, {"total", total_.at_least(device_, 8)}});
   uint64_t total = 0;
   if (read) read_buffer(device_, "reading the world grid's size", total_.get(), &total, sizeof total);
   return total;
@@ -126,9 +128,14 @@ void WorldGrid::sort_pairs() {
   if (pair_count_ == 0) return;
   for (GrowingBuffer& buffer : pairs_) buffer.at_least(device_, pair_count_ * 16);
   const size_t lights = layout_.lights.size(), lights_chunk = chunk_of(lights, 64);
-  run("blocks", (lights + lights_chunk - 1) / lights_chunk, lights_.buffer(),
-      layout_.levels.empty() ? cl::Buffer() : levels_.buffer(), first_pairs_.buffer(), pairs_[0].get(),
-      cl_uint(lights), cl_uint(lights_chunk), params());
+  run("blocks", (lights + lights_chunk - 1) / lights_chunk,
+      {{"lights", lights_.buffer()},
+       {"levels", layout_.levels.empty() ? cl::Buffer() : levels_.buffer()},
+       {"first_pairs", first_pairs_.buffer()},
+       {"pairs", pairs_[0].get()},
+       {"light_count", cl_uint(lights)},
+       {"chunk", cl_uint(lights_chunk)},
+       {"world", params()}});
   const size_t chunk = chunk_of(pair_count_, 2048), chunks = (pair_count_ + chunk - 1) / chunk;
   const int most_bits = device_.info().cpu ? 11 : 8;
   const int passes = (layout_.bucket_bits + most_bits - 1) / most_bits,
@@ -137,8 +144,16 @@ void WorldGrid::sort_pairs() {
   totals_.at_least(device_, digits * chunks * 4);
   for (int pass = 0; pass < passes; ++pass) {
     const auto step = [&](cl_uint write) {
-      run("sort", chunks, pairs_[0].get(), pairs_[1].get(), totals_.get(), cl_uint(pair_count_),
-          cl_uint(chunk), cl_uint(chunks), cl_uint(pass * bits), digits, write);
+      run("sort", chunks,
+          {{"from", pairs_[0].get()},
+           {"to", pairs_[1].get()},
+           {"totals", totals_.get()},
+           {"count", cl_uint(pair_count_)},
+           {"chunk", cl_uint(chunk)},
+           {"chunks", cl_uint(chunks)},
+           {"shift", cl_uint(pass * bits)},
+           {"digits", digits},
+           {"write", write}});
     };
     step(0);
     scan(digits * chunks, false);
@@ -146,7 +161,11 @@ void WorldGrid::sort_pairs() {
     std::swap(pairs_[0], pairs_[1]);
   }
   if (layout_.params.bucket_bits > 0) {
-    run("split", chunks, pairs_[0].get(), pairs_[1].get(), cl_uint(pair_count_), cl_uint(chunk));
+    run("split", chunks,
+        {{"pairs", pairs_[0].get()},
+         {"scratch", pairs_[1].get()},
+         {"count", cl_uint(pair_count_)},
+         {"chunk", cl_uint(chunk)}});
   }
 }
 
@@ -165,8 +184,17 @@ void WorldGrid::find_blocks() {
   const size_t chunk = chunk_of(pair_count_, 1024), chunks = (pair_count_ + chunk - 1) / chunk;
   const auto step = [&](cl_uint write, const cl::Buffer& first, const cl::Buffer& keys,
                         const cl::Buffer& members) {
-    run("entries", chunks, pairs_[0].get(), totals_.get(), first, keys, members, this->buckets(),
-        cl_uint(buckets), cl_uint(pair_count_), cl_uint(chunk), write);
+    run("entries", chunks,
+        {{"pairs", pairs_[0].get()},
+         {"totals", totals_.get()},
+         {"block_first", first},
+         {"keys", keys},
+         {"members", members},
+         {"buckets", this->buckets()},
+         {"bucket_count", cl_uint(buckets)},
+         {"count", cl_uint(pair_count_)},
+         {"chunk", cl_uint(chunk)},
+         {"write", write}});
   };
   totals_.at_least(device_, chunks * 4);
   step(0, {}, {}, {});
@@ -183,9 +211,21 @@ void WorldGrid::inherit() {
   const uint64_t room = most_count(8);
   const cl::Buffer stop = counted(uint64_t(blocks_) * layout_.lights.size(), room);
   const auto step = [&](cl_uint write, const cl::Buffer& first, const cl::Buffer& members) {
-    run("inherit", chunks, lights_.buffer(), block_first_.get(), members_.get(), keys(), buckets(),
-        totals_.get(), first, members, stop, cl_uint(room / 64), cl_uint(blocks_), cl_uint(chunk), write,
-        params());
+    run("inherit", chunks,
+        {{"lights", lights_.buffer()},
+         {"block_first", block_first_.get()},
+         {"members", members_.get()},
+         {"keys", keys()},
+         {"buckets", buckets()},
+         {"totals", totals_.get()},
+         {"full_first", first},
+         {"full_members", members},
+         {"counted", stop},
+         {"most", cl_uint(room / 64)},
+         {"block_count", cl_uint(blocks_)},
+         {"chunk", cl_uint(chunk)},
+         {"write", write},
+         {"world", params()}});
   };
   step(0, {}, {});
   const uint64_t members = scan(chunks, true);
@@ -207,10 +247,23 @@ void WorldGrid::write_lists() {
   const cl::Buffer stop = counted(uint64_t(listed_count_) * WORLD_BLOCK_CELLS, room);
   const auto step = [&](cl_uint write, const cl::Buffer& indices) {
     if (blocks_ == 0) return;
-    run("lists", chunks, lights_.buffer(), layout_.cones.empty() ? cl::Buffer() : cones_.buffer(),
-        (inherited ? full_first_ : block_first_).get(), (inherited ? full_members_ : members_).get(), keys(),
-        masks_.get(), totals_.get(), cells(), indices, stop, cl_uint(room / 64), cl_uint(blocks_),
-        cl_uint(chunk), write, cl_uint(entries_), params());
+    run("lists", chunks,
+        {{"lights", lights_.buffer()},
+         {"cones", layout_.cones.empty() ? cl::Buffer() : cones_.buffer()},
+         {"block_first", (inherited ? full_first_ : block_first_).get()},
+         {"members", (inherited ? full_members_ : members_).get()},
+         {"keys", keys()},
+         {"masks", masks_.get()},
+         {"totals", totals_.get()},
+         {"cells", cells()},
+         {"indices", indices},
+         {"counted", stop},
+         {"most", cl_uint(room / 64)},
+         {"block_count", cl_uint(blocks_)},
+         {"chunk", cl_uint(chunk)},
+         {"write", write},
+         {"entry_count", cl_uint(entries_)},
+         {"world", params()}});
   };
   // Each block's begin at its number plus that of whole batches before it.
   const size_t batches = blocks_ + listed_count_ / world_batch;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -98,14 +99,13 @@ class WorldGrid {
   size_t chunk_of(size_t count, size_t least) const;
   size_t bucket_count() const;
   // Launches world_NAME of kernels/world_grid/.
-  void run(const char* name, size_t items, const auto&... arguments) {
+  void run(const char* name, size_t items, const ClArguments& arguments) {
     const std::string label = std::string("world_") + name;
     const size_t group = device_.info().cpu ? 1 : 64;
-    cl::Kernel kernel = kernel_of(label);
-    launch(device_, label, kernel, cl::NDRange((items + group - 1) / group * group), cl::NDRange(group),
-           arguments...);
+    kernel_of(label).launch(device_, label, cl::NDRange((items + group - 1) / group * group),
+                            cl::NDRange(group), arguments);
   }
-  cl::Kernel kernel_of(const std::string& label);
+  NamedKernel& kernel_of(const std::string& label);
   uint64_t most_count(size_t bytes_each) const;
   void check_count(const char* what, uint64_t count, size_t bytes_each) const;
   uint64_t scan(size_t count, bool read);
@@ -123,6 +123,7 @@ class WorldGrid {
 
   ClDevice& device_;
   ProgramCache& kernels_;
+  std::map<std::string, NamedKernel> named_;  // by label, built at first use
   const std::unique_ptr<WorldGridStorage> storage_;
   const WorldGridShape shape_;
   const std::optional<double> cell_;

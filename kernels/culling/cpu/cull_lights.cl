@@ -5,7 +5,7 @@
 // Forward Shading" (2012) where there are slices.
 //
 // records, lists, counts  as culling/cpu/project_lights.cl writes them, `runs` counts a region
-// step           stride through the patches of 2 x 2 bins, coprime to their number: spreads each
+// spread         stride through the patches of 2 x 2 bins, coprime to their number: spreads each
 //                thread's work-items over the screen
 // light_groups   with -DGROUPS: of each light, bits (scene/light_groups.h)
 // bounds         as culling/cpu/depth_bounds.cl writes them
@@ -138,7 +138,7 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
 }
 
 kernel void cull_lights(global const float* records, global const uint* lists, global const uint* counts,
-                        uint runs, uint step, global const uint* light_groups, global const float* bounds,
+                        uint runs, uint spread, global const uint* light_groups, global const float* bounds,
                         global const uint* tile_groups, global const float2* slices, global float* pool,
                         global index_t* staged, global uint* cell_counts,
                         global uint2* bins, global volatile uint* counters, constant CullParams* p) {
@@ -147,7 +147,7 @@ kernel void cull_lights(global const float* records, global const uint* lists, g
   const uint across = (p->bins_x + 1) / 2, down = (p->bins_y + 1) / 2;
   // Patches of 2 x 2 bins: neighbours share most of their lights.
   for (uint turn = get_global_id(0); turn < across * down; turn += get_global_size(0)) {
-    const uint patch = (uint)((ulong)turn * step % (across * down));
+    const uint patch = (uint)((ulong)turn * spread % (across * down));
     for (uint i = 0; i < 4; ++i) {
       const uint bx = patch % across * 2 + (i & 1), by = patch / across * 2 + (i >> 1),
                  bin = by * p->bins_x + bx;
