@@ -46,9 +46,11 @@ TEST_P(LightCellPictures, HaveTheTreesBytes) {
   const View view = default_view(scene, 97, 61);
   const Found tree = found(scene, view, {"shadow-cells=off"});
   EXPECT_FALSE(makes_cells(tree));
-  for (const char* form : {"portable=off", "portable=on"}) {
-    SCOPED_TRACE(form);
-    const Found cells = found(scene, view, {form});
+  const std::vector<std::string> forms[] = {
+      {"portable=off"}, {"portable=on"}, {"shadow-memory=16M"}, {"shadow-memory=4M"}};
+  for (const std::vector<std::string>& form : forms) {
+    SCOPED_TRACE(form[0]);
+    const Found cells = found(scene, view, form);
     EXPECT_TRUE(makes_cells(cells) || !opencl_devices().cl->info().cpu || scene.lights.empty());
     EXPECT_EQ(cells.shadows.cells, tree.shadows.cells);
     EXPECT_EQ(cells.shadows.bits == tree.shadows.bits, true);
