@@ -398,8 +398,10 @@ TEST(Adding, AReaderOfLightsReadsTheFactorsThatItClaims) {
       if (reader.groups == reads && reader.shadows == reads)
         EXPECT_TRUE(names_one(code_of(text_at(file)), {"light_reaches("})) << file;
     }
-#define LIGHT_FACTOR(condition, type, member, array, texels) \
-  if (reader.member == reads) EXPECT_TRUE(names_one(code, marks_of(#member))) << #member;
+#define LIGHT_FACTOR(condition, type, member, array, texels)    \
+  if (reader.member == reads) {                                 \
+    EXPECT_TRUE(names_one(code, marks_of(#member))) << #member; \
+  }
     LIGHT_TABLE(LIGHT_FACTOR)
 #undef LIGHT_FACTOR
     if (reader.shadows == reads) EXPECT_TRUE(names_one(code, marks_of("shadows")));
