@@ -19,13 +19,14 @@ typedef struct LightCells {
   global const LightCellTriangle* triangles;
 } LightCells;
 
-// Points relative to the light, the share of the way to them at which rays end, and their distances.
+// Points relative to a point light, or for a directional light to the rays' origin; the share of the way to
+// them at which rays end; and the rays' lengths.
 typedef struct CellRays {
   Real3 to;
   real end, length;
 } CellRays;
 
-// Each lane's cell among the starts of its light: of a point light's cube.
+// Each lane's cell in the cube of a point light: an index of the light's starts.
 static inline whole cell_of_cube(Real3 to, uint size) {
   const real ax = fabs(to.x), ay = fabs(to.y), az = fabs(to.z);
   const mask_t is_x = ax >= lane_max(ay, az), is_y = ~is_x & (ay >= az);
@@ -52,7 +53,7 @@ static inline real edge_side(Real3 at, global const float edge[4], const bool po
   return ray_side(at, edge[0], edge[1], edge[2], point ? 0.0f : edge[3]);
 }
 
-// As meets_triangle of rays/ray_packet.h, with planes that are made already.
+// As meets_triangle of rays/ray_packet.h, with stored planes.
 static inline __attribute__((always_inline)) mask_t meets_seen(global const LightCellTriangle* t,
                                                                const CellRays* rays, const bool point) {
   const real past =
@@ -77,8 +78,8 @@ RAYS_CALL uint hidden_by_met(const RayScene* scene, RaySource light, Real3 to, r
   return hidden;
 }
 
-// Rays as set_packet of rays/ray_packet.h has them. *squared: of their lengths, or of their points' distances
-// from the origin.
+// The rays of set_packet in rays/ray_packet.h. *squared: their squared lengths, or for a directional light
+// the squared distances of their points from the origin.
 static inline __attribute__((always_inline)) CellRays cell_rays(global const LightCellTable* table,
                                                                 RaySource light, Real3 to, real gap,
                                                                 const bool point, real* squared) {

@@ -33,7 +33,7 @@ static inline whole groups_of_numbers(uint number, global const uint* masks, uin
 }
 #endif
 
-// Of kernels that write them: after all other arguments. With -DGROUP_NUMBERS alone.
+// The last argument of kernels that write group numbers. Only with -DGROUP_NUMBERS.
 #ifdef GROUP_NUMBERS
 #define GROUP_NUMBERS_OUT , global group_number_t* group_numbers
 #define GROUP_NUMBERS_MEMBER global group_number_t* group_numbers;

@@ -1,5 +1,5 @@
-// What a resolve kernel makes of its surfaces. A walker (kernels/resolve/{cpu,gpu}/resolve.cl and
-// resolve_edges.cl) goes over surfaces, LANES at a time; an output stores what it needs of them.
+// Outputs of the resolve kernels. A walker (kernels/resolve/{cpu,gpu}/resolve.cl and resolve_edges.cl) visits
+// surfaces, LANES at a time, and an output stores what it needs of them.
 //
 // -DOUTPUT_RADIANCE   images of light: outputs/radiance.h
 // -DOUTPUT_GBUFFER    a geometry buffer: outputs/gbuffer.h
@@ -7,7 +7,7 @@
 // -DOUTPUT_SUMS       images of light, under the sums of a light buffer: outputs/sums.h
 // -DOUTPUT_REFLECTED  what surfaces reflect of one light: outputs/reflected.h, without pixels at edges
 //
-// An output defines
+// An output defines:
 // OUTPUT_ARGUMENTS, Output, GIVEN_OUTPUT  what its kernels take after RESOLVE_ARGUMENTS
 // NEEDS_EVERY_PIXEL   true if pixels without a surface are stored too
 // READS_DEPTH(output) true if depths are read
@@ -16,11 +16,11 @@
 // STORE_RESOLVED      stores what it keeps of surfaces
 // LIGHT_OF            returns the light that they show
 //
-// With 16 lanes a walker defines before
+// With 16 lanes a walker defines, before it includes this file:
 // Where            the places of 16 surfaces in images
-// texel_places()   those of their texels, one for each sample
-// seen_samples()   how many samples see each surface, and the most of them
-// places_of_samples() the places of the k-th of these samples; of a surface with fewer, of its last one
+// texel_places()   the places of their texels, one for each sample
+// seen_samples()   the number of samples that see each surface; *most: the largest of these numbers
+// places_of_samples() the place of each surface's k-th sample, or of its last one if it has fewer
 #pragma once
 
 #include "kernels/common/image_blocks.h"

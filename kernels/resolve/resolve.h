@@ -174,7 +174,7 @@ typedef struct Surface {
 #endif
 } Surface;
 
-// LANES surfaces: of a pixel each, or of pixels at edges.
+// LANES surfaces: one per pixel, or those of pixels at edges.
 typedef struct Resolved {
   const Attributes* attributes;
   const Surface* surface;
@@ -182,7 +182,7 @@ typedef struct Resolved {
   mask_t covered;    // lanes with a surface
 } Resolved;
 
-// Those at pixels' centres. (x, y): the pixel, of 16 the first of their block.
+// Surfaces at pixel centres. (x, y): the pixel; with 16 lanes, the first pixel of the block.
 static inline Resolved resolved_at(const Attributes* a, const Surface* s, uint x, uint y, real depth,
                                    mask_t covered) {
 #if LANES == 16

@@ -3,7 +3,7 @@
 //
 // -DDIRECTIONAL  there are directional lights
 // -DDIRECTIONAL_SHADOWS  some of them casts a shadow
-// -DEFFECT_NAME  of each effect in src/effects: its light is added (shared/effects/NAME.h)
+// -DEFFECT_NAME  the effect of src/effects/NAME.cpp adds its light (shared/effects/NAME.h)
 // -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
 // -DLIGHTS_VOXELS  point and spot lights come from a voxel light buffer
 //                  (kernels/voxels/voxel_lookup.h), not from lists
@@ -40,13 +40,13 @@
 #define SOURCE_LIST(X)
 #endif
 
-// What all kernels that resolve triangles take, and the values of ResolveScene and ResolveLights.
-// What a triangle number leads to (raster/raster_view.h); surfaces, vertices and materials
+// Arguments of all kernels that resolve triangles, and the values of ResolveScene and ResolveLights. In
+// order: the records of a triangle number (raster/raster_view.h); surfaces, vertices and materials
 // (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/light_table.h),
-// directional ones two float4 each; the light grid (shared/light_grid.h), or null for every light at every
-// pixel: the same sum, since a list leaves out only zeros; with -DZ_BINS z-bins of each light; what another
-// source of lights reads (voxels, the world grid: shared/world_grid.h); with -DZ_BINS the depth keys between
-// z-bins; with -DSLICES those between slices.
+// directional ones two float4 each; the inputs of effects (shared/effects.h); the light grid
+// (shared/light_grid.h), or null for every light at every pixel: the same sum, since a list leaves out only
+// zeros; with -DZ_BINS z-bins of each light; the data of another source of lights (voxels, the world grid:
+// shared/world_grid.h); with -DZ_BINS the depth keys between z-bins; with -DSLICES those between slices.
 #define RESOLVE_ARGUMENTS                                                                    \
   RESOLVE_SCENE_LIST(PARAMETER)                                                              \
   LIGHT_ARGUMENTS global const float4 *directional, EFFECTS(EFFECT_PARAMETERS)               \

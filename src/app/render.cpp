@@ -96,7 +96,7 @@ int render(RenderOptions o) {
                technique.name);
   }
   if (!o.json.empty()) {
-    for (int i = 0; i < std::max(1, o.timing.warmup); ++i) run.run_frame(true);  // after release()
+    for (int i = 0; i < std::max(1, o.timing.warmup); ++i) run.run_frame(true);  // release() dropped caches
     run.run_profiled_frames();
     nlohmann::json json = to_json(run.result());
     json["exposure"] = exposure_json(exposure);

@@ -11,8 +11,8 @@
 namespace lightgrid {
 namespace {
 
-// The text of "shared/effects.h": each file NAME.h in shared/effects, in the order of their names, where
-// EFFECT_NAME is defined, and EFFECTS(X) with X(NAME_INPUTS, NAME_base) for each of them.
+// The text of "shared/effects.h". It includes each file NAME.h of shared/effects, ordered by name, if
+// EFFECT_NAME is defined. EFFECTS(X) expands to X(NAME_INPUTS, NAME_base) for each of these.
 std::string effects_text(const EmbeddedFiles& files) {
   constexpr std::string_view folder = "shared/effects/";
   std::string text = "#include \"shared/inputs.h\"\n", all = "#define EFFECTS(X)";
@@ -28,16 +28,15 @@ std::string effects_text(const EmbeddedFiles& files) {
   return text + all + '\n';
 }
 
-// A branch of an #if: a number of its own. An #include stands in the branches that enclose it, outermost
-// first.
+// The branches of #ifs that enclose a line, outermost first. Each branch has a number of its own.
 using Branches = std::vector<int>;
 
 class Expansion {
  public:
   explicit Expansion(const EmbeddedFiles& files) : files_(files) {}
 
-  // Leaves a file out where an earlier expansion is certainly read before this one: its branches enclose this
-  // one's. The preprocessor decides by a macro if the branches of one of the expansions may not be taken.
+  // Leaves a file out if an earlier expansion is certainly read: its branches enclose this place. Otherwise a
+  // macro makes sure that the preprocessor reads the file only once.
   void include(const std::string& path) {
     std::vector<Branches>& earlier = expanded_[path];
     const auto encloses = [&](const Branches& b) {

@@ -1,6 +1,6 @@
 // Far light (docs/far_light.md). Its volume is filled when the scene's box or a light changed, and its place
-// in the view follows the camera. Lights of a light group that not all surfaces are in keep their ends: the
-// volume's light belongs to no surface.
+// in the view follows the camera. Lights that leave out a light group send no far light: the volume's light
+// reaches all surfaces.
 #include "effects/far_light.h"
 
 #include <algorithm>
@@ -82,7 +82,7 @@ FarLookup lookup_of(const FarGrid& g, const glm::dvec3& origin, const View& view
   return lookup;
 }
 
-// Along the world's axes from there; those without a group of some surface send nothing.
+// Lights relative to `origin`, along the world's axes. Those that leave out a light group send nothing.
 std::vector<ViewLight> lights_from(const glm::dvec3& origin, const Seen& seen) {
   View along;
   along.view_from_world = glm::dmat4(1);
@@ -202,7 +202,7 @@ constexpr LightReader reader{.name = "far light",
                              .color = reads,
                              .cone = reads,
                              .most_falloff = reads,
-                             .groups = reads,  // a light that lacks a group has no far light
+                             .groups = reads,  // a light that leaves out a group has no far light
                              .shadows = "far light is not hidden: docs/far_light.md#errors"};
 
 }  // namespace

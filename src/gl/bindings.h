@@ -70,8 +70,8 @@ inline void bind_texture(Sampler sampler, GLuint texture, size_t element = 0) {
 inline void bind_sampler_object(Sampler sampler, GLuint object) { glBindSampler(GLuint(sampler), object); }
 void unbind_sampler_objects();
 
-// Of an effect's inputs (shared/inputs.h): numbers after those of the lists, given out at the first call with
-// a name, which must come before a program that reads it is linked.
+// Numbers of an effect's inputs (shared/inputs.h), which follow those of the lists. The first call with a
+// name assigns its number; it must come before a program that reads the input is linked.
 GLuint unit_of_input(const std::string& sampler);
 GLuint point_of_input(const std::string& block);
 

@@ -24,7 +24,7 @@ struct EffectNeed {
 struct Effect {
   const char* name;  // of its files: "far_light"
   // Called after the plan has the lights. Must depend on the scene and the settings only, so that a camera
-  // that turns compiles nothing. None: the settings do not ask for the effect, and the plan does not mention
+  // that turns compiles nothing. Returns none if the settings leave the effect out: the plan does not mention
   // it.
   std::optional<EffectNeed> (*decide)(const Scene&, const FramePlan&);
   std::unique_ptr<EffectState> (*make)(Work&);

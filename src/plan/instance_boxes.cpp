@@ -25,7 +25,7 @@ static FlatAxes flat_axes_of(const glm::dmat3& world_from_object, const Aabb& bo
   return {};
 }
 
-// By how much a matrix stretches at most: a bound, exact for axes at right angles.
+// Upper bound on the factor by which a matrix stretches; exact for axes at right angles.
 static double most_stretch(const glm::dmat3& m) {
   const glm::dmat3 squares = glm::transpose(m) * m;
   double most = 0;
@@ -105,15 +105,16 @@ PixelErrors::PixelErrors(const View& view)
   along_ = 0x1p-19 * widest_;
 }
 
-// Of the least angle at which a pixel's ray meets the plane of a flat box, at distances along the view up to
-// z. Rays through centres are up to across_ beside the triangle.
+// Sine of the least angle at which a pixel's ray meets the plane of a flat box, up to the distance z along
+// the view. Rays through centres pass up to across_ beside the triangle.
 double PixelErrors::sine_at(const InstanceBox& box, double z) const {
   const int axis = box.flat_axis;
   if (orthographic_) return std::abs(ahead_[axis]);
   return std::max(std::abs(eye_[axis] - box.min[axis]) / (z * widest_) - across_, 0.0);
 }
 
-// Between P and Q along the ray. Corners, floats in clip space, err by less than a quarter of rounding_m.
+// Distance between P and Q along the ray. Corners, floats in clip space, err by less than a quarter of
+// rounding_m.
 double PixelErrors::along_m(const InstanceBox& box, double z, double across_m, double rounding_m) const {
   const double longest_m = widest_ * box.longest_m;
   if (box.flat_axis < 0) return longest_m;

@@ -13,11 +13,11 @@ struct InstanceBox {
   glm::dvec3 min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
   int instance = 0;
   bool blended = false;
-  // Of the world: all triangles lie in one plane across it, to the last bit. -1: they may not.
+  // World axis across which all triangles lie in one plane, to the last bit. -1: none.
   int flat_axis = -1;
   double nearest_m = 0, farthest_m = 0;  // along the view's axis
   double longest_m = 0, sliver_m = 0;    // bounds on edges: of all triangles, of slivers (Mesh)
-  double thinness = 16;                  // of a flat box: edge per height of all but slivers is no more
+  double thinness = 16;                  // of a flat box: bound on edge over height of all but slivers
 };
 
 InstanceBox box_of(const Scene& scene, int instance, const View& view);
@@ -38,18 +38,18 @@ struct GrownLightBounds {
 bool may_reach(const GrownLightBounds& reach, const InstanceBox& box);
 
 // How far a pixel's point P, within a light's reach, may lie from the triangle of an instance that it shows.
-// Rasterisers move vertices to 1/256 pixel, by at most half of that along x and y: no farther from the
-// pixel's centre, seen from the eye, is a point Q of the triangle: `across`.
+// Rasterisers move vertices to 1/256 pixel, by at most half of that along x and y. So the triangle has a
+// point Q that, seen from the eye, is no farther than that from the pixel's centre: `across`.
 //
 // P lies on the ray through the centre, at a depth between those of the triangle's corners, as Q does
 // (docs/raster.md; OpenGL 4.6, 14.6.1). So along the ray they differ by no more than the longest edge, at any
 // angle. llvmpipe, whose planes go through unmoved vertices, exceeds that where it draws triangles that are
 // narrower than 1/362 pixel.
 //
-// Of flat instances more is known: P lies in the plane, which the ray meets at the angle a, so that they
-// differ by at most across / sin(a). Rounded corners turn the plane, most of all that of slivers, for which
-// this says nothing. Another triangle, of height edge / t or more, turns by at most 2 t e / edge where its
-// corners err by e. If that is more than sin(a) / 2, its edge is shorter than 4 t e / sin(a).
+// Flat instances have a tighter bound: P lies in the plane, which the ray meets at the angle a, so P and Q
+// differ by at most across / sin(a). Rounded corners turn the plane, most of all that of slivers, which have
+// only the first bound. Any other triangle has a height of at least edge / t and turns by at most 2 t e /
+// edge if its corners err by e. If that is more than sin(a) / 2, its edge is shorter than 4 t e / sin(a).
 //
 // Depth is computed in float, with errors of up to 3 * 2^-21 of the greatest depth, that of the nearest
 // corner: near / z0. At z that is 3 * 2^-21 z^2 / z0 along the view (docs/raster.md). `across` and this are

@@ -1,4 +1,4 @@
-// The settings that several techniques, or passes, read: one row each.
+// The settings that several techniques or passes read, one row each.
 #include "plan/setting_rows.h"
 #include "shared/cull_tests.h"
 
@@ -55,7 +55,7 @@ SettingValues any_number(double LightRanges::*member, std::initializer_list<cons
   return all;
 }
 
-// One choice a row of a table, the default first.
+// One choice per row of a table, the default first.
 template <typename Row, size_t rows, typename T>
 SettingValues choices_of(const Row (&table)[rows], T Settings::*member, T Row::*meant) {
   SettingValues all = values_of(member);
@@ -73,7 +73,7 @@ bool ranges_have_windows(const Settings& s) {
 }
 bool several_samples(const Settings& s) { return s.samples > 1; }
 
-// prepass: one texel decides.
+// LidrShadows::prepass has no filter: one texel decides.
 bool filters_maps(const Settings& s) {
   return s.shadows == ShadowMethod::map || s.lidr_shadows == LidrShadows::prepass_soft ||
          s.lidr_shadows == LidrShadows::final_pass;

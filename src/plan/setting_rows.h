@@ -1,4 +1,4 @@
-// A row of the table of settings: what settings.cpp reads of it.
+// The rows of the table of settings, which only settings.cpp reads.
 #pragma once
 
 #include "plan/settings.h"

@@ -160,8 +160,8 @@ struct Settings {
   std::map<std::string, size_t> own{};  // by key, of OwnSettings: the number of the value; missing: the first
 };
 
-// What a setting does to pictures and to other settings. The conditions are evaluated for techniques that
-// read the setting, with every setting that they do not read at its default.
+// How a setting affects pictures and other settings. Conditions are evaluated only for techniques that read
+// the setting, with the defaults of all settings that they do not read.
 struct SettingFlags {
   using Condition = std::function<bool(const Settings&)>;
   bool model = false;           // says which picture is meant: images with other values cannot be compared
@@ -177,9 +177,9 @@ struct SettingFlags {
 void add_own_setting(const char* key, const char* before, const char* meaning,
                      const std::vector<std::string>& names, const SettingFlags& flags);
 
-// A setting in the file of the technique, the pass or the effect that reads it: a static object, after whose
-// construction the functions below include it, listed before the setting `before`. Its values are given with
-// their names, the default first.
+// A setting that is defined in the file of the technique, pass or effect that reads it, as a static object.
+// Once it is constructed, the functions below include it, listed before the setting `before`. Its values are
+// given with their names, the default first.
 template <typename T>
 class OwnSetting {
  public:
@@ -208,8 +208,8 @@ bool same_model(const Settings& a, const Settings& b);
 // `settings` with the values that `model` has for those.
 Settings with_model(Settings settings, const Settings& model);
 
-// The settings of the picture that `settings` mean, without what they approximate: with far light, ranges
-// without end; with shadow maps, exact shadows.
+// The settings of the picture that `settings` approximate, such as ranges without end in place of far light
+// or exact shadows in place of shadow maps.
 Settings meant_by(Settings settings);
 
 // `settings`, with the default of every key for which `keeps` is false.

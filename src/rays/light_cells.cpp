@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t max_triangles = 1 << 18;  // in reach of a light with lists
 
-// The tree is faster where the entry of a directional light's list has more beside it than this on average.
+// Entries in a directional light's list, averaged over entries: with more the tree is faster.
 constexpr float longest_list = 256;
 
 // About 0.7 cells per triangle: the fastest frames in five scenes, or within their noise (docs/rays.md).
@@ -226,7 +226,7 @@ void LightCells::gather(const RayScene& rays, Waiting& waiting) {
   }
 }
 
-// Room for all of a light's lists, as far as is known.
+// Takes room for all of a light's lists, as far as their sizes are known.
 bool LightCells::has_taken(const CellLight& light, Lists& lists) {
   if (lists.refused == frees_) return false;
   if (take(lists.fixed, fixed_bytes(light, lists.gathered)) &&
@@ -236,7 +236,7 @@ bool LightCells::has_taken(const CellLight& light, Lists& lists) {
   return false;
 }
 
-// For those of the lights that there is room for; the others leave `chosen`.
+// Jobs for the lights that there is room for. The other lights leave `chosen`.
 std::vector<LightCellJob> LightCells::jobs_of(Waiting& chosen) {
   std::erase_if(chosen, [&](auto* item) { return !has_taken(item->first, item->second); });
   std::vector<LightCellJob> jobs;
@@ -254,7 +254,7 @@ std::vector<LightCellJob> LightCells::jobs_of(Waiting& chosen) {
   return jobs;
 }
 
-// Room that was too much comes back. False: there was too little.
+// Gives back the room that was too much. Returns false if there was too little.
 bool LightCells::settle(const CellLight& light, const LightCellJob& job, Lists& lists) {
   lists.entry_count = job.entries;
   if (entry_room(job.entries) > job.entry_room) return free(lists), false;

@@ -22,8 +22,8 @@
 
 namespace lightgrid {
 
-// A light at a point, relative to the rays' origin, metres, or a unit direction towards the light. A range
-// below 0: it needs no lists.
+// A point light's position relative to the rays' origin, metres, or the unit direction towards a directional
+// light. A range below 0: it needs no lists.
 struct CellLight {
   double x = 0, y = 0, z = 0, range_m = -1;
   bool directional = false;

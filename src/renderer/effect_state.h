@@ -1,4 +1,4 @@
-// What passes and effects keep of a view from frame to frame, beyond targets and programs.
+// State of a view that passes and effects keep from frame to frame, besides targets and programs.
 #pragma once
 
 #include <memory>
@@ -32,10 +32,10 @@ class EffectState : public PassCache {
   virtual ClArguments arguments() = 0;         // EFFECT_PARAMETERS of kernels
 };
 
-// Those of a view, in the order of its plan's effects.
+// The effects' states of a view, in the order of its plan.
 class EffectStates {
  public:
-  void before_lights(Work& work);  // makes those that the plan has and that are not there
+  void before_lights(Work& work);  // makes the planned states that are missing
   void bind() const;
   ClArguments arguments();
   EffectState* find(const Effect& effect) const;  // null: none

@@ -198,7 +198,7 @@ void complete_mesh(TangentNeed tangents, Mesh& mesh) {
   measure(mesh);
 }
 
-// A height below 1/16 of the longest edge: twice the area below 1/16 of its square.
+// A sliver's height is below 1/16 of its longest edge, so twice its area is below 1/16 of the edge's square.
 static void measure_edges(Mesh& mesh) {
   double longest = 0, sliver = 0;  // squared
   for (size_t triangle = 0; triangle * 3 < mesh.indices.size(); ++triangle) {

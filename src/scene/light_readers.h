@@ -26,7 +26,7 @@ inline constexpr const char* only_order =
     "it changes which lights come first or are drawn, not what they add";
 inline constexpr const char* upper_bound = "without it the bound is larger, and still a bound";
 
-// Effects name their own (plan/effect.h).
+// Effects list their readers themselves (plan/effect.h).
 inline constexpr LightReader light_readers[] = {
     {.name = "light loops",
      .files =

@@ -35,7 +35,8 @@ struct Mesh {
   std::vector<uint32_t> indices;  // three a triangle, counter-clockwise front
   int material = 0;               // always valid: a default material is added if the file has none
   Aabb bounds;                    // of positions
-  // Bounds on the longest edge of a triangle, and of one whose height over it is less than 1/16 of it.
+  // Bounds on the longest edge of all triangles and of slivers. A sliver's height over its longest edge is
+  // less than 1/16 of that edge.
   float longest_edge = std::numeric_limits<float>::infinity(), longest_sliver = longest_edge;
 };
 

@@ -1,11 +1,12 @@
-// What an effect (src/effects) reads in a light loop: one list of rows. Parameters of kernels, members of
-// their structs, samplers and blocks of shaders follow from it, and in C++ memory, binding and byte counts
-// (renderer/loop_inputs.h).
+// An effect (src/effects) declares the inputs that light loops read for it in one list of rows. From the list
+// follow the parameters of kernels and members of their structs, the samplers and uniform blocks of shaders,
+// and in C++ memory, binding and byte counts (renderer/loop_inputs.h).
 //
 //   #define NAME_INPUTS(ROW) ROW(kind, type, name, resource) ...
-//   ArrayInput  many values: in kernels a pointer to `type`, in shaders a texture, `resource` its sampler
-//   type BlockInput  one struct: in kernels a pointer, in shaders the member `name` of the uniform block
-//   `resource`
+//   ArrayInput  many values: in kernels a pointer to `type`, in shaders a texture of the sampler type
+//               `resource`
+//   BlockInput  one struct: in kernels a pointer to it, in shaders the member `name` of the uniform block
+//               `resource`
 //
 // Functions that read inputs end their parameters with NAME_INPUTS(TAKEN_INPUT) and are called with
 // NAME_INPUTS(PASSED_INPUT); INPUT(name) is a block's struct. NAME_base(point, lit, inputs) is the light that
@@ -25,7 +26,7 @@
 #define TAKEN_INPUT(kind, type, name, resource) , kind(type) name
 #define PASSED_INPUT(kind, type, name, resource) , name
 #define INPUT_UNIFORM(kind, type, name, resource)
-// Of kernels: EFFECTS (below) with the first three gives parameters, members and their values.
+// A kernel's parameters, members and values: EFFECTS of EFFECT_PARAMETERS, _MEMBERS and _VALUES.
 #define INPUT_PARAMETER(kind, type, name, resource) kind(type) name,
 #define INPUT_MEMBER(kind, type, name, resource) kind(type) name;
 #define INPUT_VALUE(kind, type, name, resource) .name = name,

@@ -1,6 +1,6 @@
-// Light cells: a cube around a point light, each of whose six faces has size x size cells, or for a
-// directional light one grid across its direction. A cell lists the triangles that a shadow ray through it
-// may meet, those next to the light first. The host and the kernels of kernels/rays share these structs.
+// Light cells: size x size cells on each face of a cube around a point light, or on one grid across the
+// direction of a directional light. A cell lists the triangles that a shadow ray through it may meet, those
+// next to the light first. The host and the kernels of kernels/rays share these structs.
 // docs/rays.md has the method.
 #pragma once
 
@@ -10,10 +10,10 @@
 namespace lightgrid {
 #endif
 
-// A triangle as a light sees it: the planes that the test of rays/ray_packet.h makes, with the same bits, and
-// their offsets, turned so that the triangle is on their positive side. For a point light they are relative
-// to it, and edges have no offsets: edge_0[3] has the bits of the triangle's place in RayScene::triangles. A
-// directional light's triangles lie in the order of their places.
+// A triangle as a light sees it: the planes of the test in rays/ray_packet.h, with the same bits, and their
+// offsets. The triangle is on their positive side. For a point light they are relative to it, and edges have
+// no offsets: edge_0[3] stores the bits of the triangle's place in RayScene::triangles. A directional light's
+// triangles are stored in the order of their places.
 typedef struct LightCellTriangle {
   float normal[4], edge_0[4], edge_1[4], edge_2[4];
 } LightCellTriangle;
@@ -32,7 +32,7 @@ typedef struct LightCellGrid {
 // A light's cells: `size` squared and one starts for each face. Size 0: it has no lists.
 typedef struct LightCellTable {
   uint first_start, size;
-  float squared;        // of the longest rays that lists serve, or of the farthest point: metres
+  float squared;        // m^2: of the longest ray that lists serve, or of the farthest point's distance
   uint first_triangle;  // of a directional light
   LightCellGrid grid;
 } LightCellTable;
@@ -43,11 +43,11 @@ typedef struct LightCellJob {
   float reach_m;      // no ray is longer
   uint gathered;      // out of the first step: triangles in leaves within reach
   uint size, first_start, first_triangle, first_entry;
-  uint entry_room;  // for 16 entries more than there are, or they are only counted
+  uint entry_room;  // entries: 16 more than there are, or they are only counted
   uint padding;
   uint triangles, entries;         // out of the second
   float low[3], high[3];           // out of the first, of a directional light: a box of all triangles
-  LightCellGrid grid;              // and for the second
+  LightCellGrid grid;              // in for the second, of a directional light
   float metres_u[3], metres_v[3];  // u and v over their squares
   float extent_m;     // 4 times the greatest sum of magnitudes of a corner's coordinates, or more
   float list_length;  // out of the second: entries of a cell, on average over entries

@@ -108,7 +108,7 @@ TEST(Techniques, AreNamedByTheHelpOfWhatTakesThem) {
   }
 }
 
-// "| `tile` | `16` `8` `32` `64` |": what a setting's row begins with.
+// The beginning of a setting's row: "| `tile` | `16` `8` `32` `64` |".
 std::string row_of(const SettingHelp& s) {
   std::string row = "| `" + s.key + "` |";
   for (const std::string& value : s.values) row += " `" + value + "`";

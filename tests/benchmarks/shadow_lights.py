@@ -3,8 +3,8 @@
 
     tests/benchmarks/shadow_lights.py CSV... [--page PAGE --mark NAME]
 
-Prints the tables of one machine, or of several files, whose names end with a number of cores, one table of
-exact shadows. With --page they replace the text there between <!-- NAME --> and <!-- /NAME -->.
+Prints the tables of one machine. Given several files, whose names end with a number of cores, it prints one
+table of exact shadows. With --page they replace the text there between <!-- NAME --> and <!-- /NAME -->.
 """
 import argparse
 import csv

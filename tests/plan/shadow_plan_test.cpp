@@ -154,7 +154,7 @@ TEST(ShadowPlan, MaskedSurfacesCast) {
   EXPECT_EQ(room.need(), ShadowNeed::rays);
 }
 
-// The ball is behind the eye: no pixel shows a point beside it, by up to an edge.
+// The ball is behind the eye: no pixel shows a point that is up to an edge's length beside it.
 const View before_pane = make_view(look_at({0, 1.5, 1.2}, {0, 1, 0}), 64, 64);
 
 TEST(ShadowPlan, CastersOutOfRangeDoNotCount) {

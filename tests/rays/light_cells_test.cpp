@@ -71,7 +71,7 @@ CellAnswers cell_answers(RayScene& scene, const LightCells& cells, const Queries
   return answers;
 }
 
-// Those at a point of a range each.
+// The lights of `q`. Point lights have random ranges, some without end.
 std::vector<CellLight> cell_lights(const Queries& q, RandomNumbers& random) {
   std::vector<CellLight> lights;
   for (const RayLight& light : q.lights) {
@@ -99,7 +99,8 @@ glm::dvec3 hard_direction(RandomNumbers& random, const std::vector<Corners>& tri
   return glm::length(to) > 0 ? glm::normalize(to) : random.direction();
 }
 
-// Behind an edge or a corner of a triangle, as seen along a direction, or before it, or up to 1e-6 m past it.
+// A place behind or in front of an edge or a corner of a triangle, as seen along a direction, or up to 1e-6 m
+// beside that.
 glm::dvec3 hard_place(RandomNumbers& random, const std::vector<Corners>& triangles,
                       const glm::dvec3& toward) {
   const Corners& c = triangles[size_t(random.below(int(triangles.size())))];
@@ -110,7 +111,7 @@ glm::dvec3 hard_place(RandomNumbers& random, const std::vector<Corners>& triangl
   return at - toward * (random.below(4) ? random.between(-0.5, 3) : std::pow(10.0, random.between(-6, -3)));
 }
 
-// Blocks of points along such directions and at such places, each for its light alone.
+// Blocks of points along such directions and at such places, each for only one light.
 void add_hard_points(Queries& q, const std::vector<Corners>& triangles, RandomNumbers& random) {
   for (uint32_t light = 0; light < q.lights.size(); ++light) {
     const glm::dvec3 at(q.lights[light]);
@@ -208,7 +209,7 @@ class HostCells {
         entries_(read_pool<LightCellEntry>(cells.arguments()[1])),
         triangles_(read_pool<LightCellTriangle>(cells.arguments()[2])) {}
 
-  // A light, and for a point light the way to a point, else where the ray begins.
+  // to: the way from a point light to a point; for a directional light, where the ray begins.
   bool serve(size_t light, const glm::dvec3& to) const {
     return tables_[light].size != 0 && glm::dot(to, to) <= double(tables_[light].squared);
   }

@@ -260,8 +260,8 @@ TEST(ShadowRulesPicture, ReckonsWithMovedVertices) {
   EXPECT_GT(bites, 5u) << "walls whose chip hides the lamp from a pixel";
 }
 
-// Walls whose points' errors a box does not show. Vertex normals point through them, so that a lamp lights
-// what the wall itself hides from it.
+// Walls of shapes whose boxes alone do not bound the errors of pixels' points. Vertex normals point through
+// the wall, so that a lamp lights surfaces that the wall hides from it.
 struct AnyWall {
   const char* name;
   Mesh mesh;
@@ -300,8 +300,8 @@ AnyWall any_wall(Random& random, int kind, float half_m, int material) {
   return wall;
 }
 
-// Its middle pixel looks beside an edge, by less than 1/512 pixel as seen from the eye, at a sine of 0.005 to
-// 0.05.
+// The middle pixel looks past an edge by less than 1/512 pixel. Its ray meets the wall's plane at an angle
+// with a sine of 0.005 to 0.05.
 View grazing_view(Random& random, double half_m, const glm::dmat3& world_from_wall) {
   const double from = random.uniform(0, 6.28f), sine = random.uniform(0.005f, 0.05f);
   const glm::dvec3 eye = 2.2 * half_m * glm::dvec3(std::cos(from), std::sin(from), sine);

@@ -1,4 +1,4 @@
-// What a technique's settings make of its pictures.
+// Settings that make a technique's pictures approximate or random, and settings that are shown.
 #include "techniques/technique.h"
 
 #include <gtest/gtest.h>

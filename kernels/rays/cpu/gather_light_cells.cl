@@ -1,5 +1,5 @@
-// The first step to a light's cells: how many triangles the leaves in its reach have, and of a directional
-// light the box of all. A work-item per light.
+// The first step to a light's cells: counts the triangles of the leaves in its reach and, for a directional
+// light, finds the box of all triangles. One work-item per light.
 //
 // RAYS_ARGUMENTS  the scene
 // jobs            in and out: LightCellJob

@@ -1,4 +1,4 @@
-// What the kernels that make light cells share: the walk to the triangles in a light's reach.
+// Shared by the kernels that make light cells: the walk to the triangles in a light's reach.
 //
 // Lists are conservative: whatever triangle the test of rays/ray_packet.h can meet, with all its rounding, is
 // in the list of the ray's cell. A ray passes that test only if

@@ -1,10 +1,10 @@
-// The cells that triangles take part in: of small triangles in 16 lanes a triangle each, of large ones 4 x 4
-// cells at a time.
+// Finds the cells that triangles belong to. Small triangles are processed 16 at a time, one per lane; large
+// ones one after the other, 4 x 4 cells at a time.
 #pragma once
 
 #include "kernels/rays/cpu/light_cell_triangles.h"
 
-#define LARGE 12.0f      // cells along both sides of the box
+#define LARGE 12.0f      // cells: width plus height of a triangle's box
 #define ROW_SLACK 1e-3f  // of a cell: rounding of where a plane leaves a row
 
 // Distances rounded down to steps of 1/64 octave from 2^-10 to 2^22 m: the upper bits of a float. Nearer ones
@@ -22,10 +22,10 @@ static inline float metres_of_steps(uint steps) {
   return steps == 0 ? 0.0f : as_float((steps + FIRST_NEAR_STEP) << NEAR_SHIFT);
 }
 
-// What is listed so far: of each entry its cell and the distance of its triangle, and the triangle's number.
+// The entries listed so far: a key holds the cell and the distance of a triangle, a number is the triangle's.
 typedef struct LightCellItems {
   global uint *keys, *numbers;
-  uint count, room;  // where there is no room, they are counted
+  uint count, room;  // beyond `room`, entries are only counted
 } LightCellItems;
 
 static inline __attribute__((always_inline)) void add_items(LightCellItems* items, uint bits, whole cell,
@@ -37,8 +37,9 @@ static inline __attribute__((always_inline)) void add_items(LightCellItems* item
   items->count += popcount(bits);
 }
 
-// One face of the cube, or the grid: its size, the first of its cells, and no ray is longer than `reach`. Of
-// the cube: which coordinates are along a face and across it. Of the grid: its top's height above its base.
+// One face of the cube, or the grid, with `size` cells along each side. No ray is longer than `reach`. Cube:
+// `along` is the coordinate along the face's axis, `u` and `v` are those across it. Grid: `height` is that of
+// its top above its base; for a cube it is 0.
 typedef struct CellFace {
   int size, first_cell;
   float reach;
@@ -59,7 +60,7 @@ static inline CellFace cube_face(global const LightCellJob* job, int number) {
   return face;
 }
 
-// The greatest value that a plane has in a cell: x, y and 1 times these. h: a cell's width.
+// The greatest value of a plane in cell (column, row): column * x + row * y + at.
 typedef struct CellPlanes {
   real x, y, at;
 } CellPlanes;
@@ -91,8 +92,8 @@ static inline mask_t cells_of_boxes(real low, real high, real along_low, real al
 }
 
 // No shorter ray into the cell meets the triangle. A ray along d reaches the plane at -offset |d| / (normal .
-// d): d is taken where it is shortest in the cell, and the product, `rising`, where it is greatest.
-// Of the grid: `rising` is how high above its base the plane is at most.
+// d). The bound takes the shortest d in the cell and the greatest product, `rising`. In the grid, `rising` is
+// the plane's greatest height above the base.
 static inline real near_in_cells(const CellFace* f, real x, real y, real offset, real rising, real box_near) {
   if (f->height != 0.0f) return lane_max(f->height - rising, box_near);
   const float h = 2.0f / (float)f->size;
@@ -107,7 +108,7 @@ typedef struct FaceTriangles {
   real first_x, last_x, first_y, last_y;
 } FaceTriangles;
 
-// A row's cells from *first to *last in which no edge has all on its wrong side.
+// Narrows *first and *last to the cells of row y that no edge has entirely on its wrong side.
 static inline void cells_of_row(const FaceTriangles* t, const real inverse[3], real y, real* first,
                                 real* last) {
   for (int e = 0; e < 3; ++e) {
@@ -171,7 +172,7 @@ static inline __attribute__((always_inline)) void add_large(const CellFace* f, c
   }
 }
 
-// Of the lanes `seen`. numbers: of their triangles.
+// Adds the triangles of the lanes `seen`, under their `numbers`.
 static inline __attribute__((always_inline)) void add_to_cells(const CellFace* f, const SeenTriangles* s,
                                                                const FaceTriangles* t, mask_t seen,
                                                                whole numbers, LightCellItems* items) {
@@ -189,7 +190,7 @@ static inline __attribute__((always_inline)) void add_to_face(const CellFace* f,
   const real along_low = f->sign > 0 ? s->low[f->along] : -s->high[f->along],
              along_high = f->sign > 0 ? s->high[f->along] : -s->low[f->along];
   const real low_u = s->low[f->u], high_u = s->high[f->u], low_v = s->low[f->v], high_v = s->high[f->v];
-  const real side = 1.01f * along_high;  // most triangles, without a division
+  const real side = 1.01f * along_high;  // rejects most triangles without a division
   seen &= (along_high > 0.0f) & (low_u <= side) & (-high_u <= side) & (low_v <= side) & (-high_v <= side);
   if (!any_lane(seen)) return;
   FaceTriangles t;
@@ -201,7 +202,7 @@ static inline __attribute__((always_inline)) void add_to_face(const CellFace* f,
   add_to_cells(f, s, &t, seen, numbers, items);
 }
 
-// What of the grid's extent bounds all rounding: of planes, of boxes and of a point's place among the cells.
+// The share of the grid's extent that bounds all rounding: of planes, boxes and a point's place in the grid.
 #define GRID_SLACK 0x1p-17f
 
 static inline real along_axis(const real v[3], global const float* axis) {
@@ -230,8 +231,9 @@ static inline void cells_across(const SeenTriangles* s, global const float* axis
   *last = lane_floor(lane_max(lane_min(at + spread, REAL(size - 1.0f)), REAL(0.0f)));
 }
 
-// A ray meets a triangle only if it begins below its box's top and below its plane: where the plane falls by
-// 1 for each `down` metres of height. Planes that are almost along the direction bound nothing.
+// A ray meets a triangle only if it begins below the top of the triangle's box and below its plane. The
+// plane's value falls by `down` per metre of height. Planes that are almost parallel to the direction bound
+// nothing.
 static inline __attribute__((always_inline)) void add_to_grid(global const LightCellJob* job,
                                                               SeenTriangles* s, mask_t seen, whole numbers,
                                                               LightCellItems* items) {

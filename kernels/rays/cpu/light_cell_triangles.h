@@ -1,5 +1,5 @@
-// 16 triangles as a light sees them: their planes, as meets_triangle of rays/ray_packet.h makes them, with
-// the same bits, and their boxes.
+// 16 triangles as a light sees them: their boxes, and their planes with the bits that meets_triangle of
+// rays/ray_packet.h computes.
 #pragma once
 
 #include "kernels/rays/cpu/light_cell_builder.h"
@@ -74,7 +74,8 @@ static inline void read_triangles(SeenTriangles* s, Wide n[3], Wide c[3][3],
   s->place = *(const whole*)places;
 }
 
-// Of a directional light: those in whose plane it is not.
+// Reads triangles for a directional light. Returns the lanes, a bit each, except those of triangles whose
+// plane is parallel to it.
 static inline uint see_along(SeenTriangles* s, global const LightCellJob* job,
                              global const RayTriangle* triangles, const int* places, uint count) {
   const double d[3] = {job->x, job->y, job->z}, origin[3] = {0, 0, 0};
@@ -94,8 +95,8 @@ static inline uint see_along(SeenTriangles* s, global const LightCellJob* job,
   return mask_bits(WIDE_MASK(facing * turn > 0.0)) & first_lanes(count);
 }
 
-// Of a point light: those in its reach, but for those in whose plane it is, but for rounding: no ray meets
-// them.
+// Reads triangles for a point light. Returns the lanes, a bit each, of triangles in its reach. Triangles in
+// whose plane it lies, within rounding, are left out: no ray meets them.
 static inline uint see_from_point(SeenTriangles* s, global const LightCellJob* job,
                                   global const RayTriangle* triangles, const int* places, uint count) {
   const double at[3] = {job->x, job->y, job->z};
@@ -127,8 +128,8 @@ static inline void store_triangle(global LightCellTriangle* to, const SeenTriang
   to->edge_1[3] = OF_LANE(s->edge_offsets[1]), to->edge_2[3] = OF_LANE(s->edge_offsets[2]);
 }
 
-// Those of the lanes `left`: of a point light one after the other from `used`, else each at its place. Their
-// numbers.
+// Stores the triangles of the lanes `left`: for a point light one after the other from *used on, else each at
+// its place. Returns their numbers.
 static inline whole store_triangles(global LightCellTriangle* to, const SeenTriangles* s, uint left,
                                     bool point, uint* used) {
   if (!point) {

@@ -1,5 +1,5 @@
-// Light cells: the triangles of each light, and its cells' lists of them, the nearest first. Each work-item
-// takes light after light.
+// The second step to light cells: stores each light's triangles and, for each cell, lists them, the nearest
+// first. Each work-item takes light after light.
 //
 // RAYS_ARGUMENTS  the scene
 // jobs            in and out: LightCellJob
@@ -45,7 +45,7 @@ static uint add_all(global const LightCellJob* job, global const RayNode* nodes,
   return used;
 }
 
-// Where each value's items begin.
+// Replaces each value's count by the place where its items begin.
 static inline void sum_counts(uint* counts, uint values) {
   uint sum = 0;
   for (uint i = 0; i < values; ++i) {
@@ -72,7 +72,8 @@ static void sort_items(global LightCellJob* job, const LightCellItems* items, gl
   job->list_length = squares / (float)max(items->count, 1u);
   for (uint i = 0; i < items->count; ++i)
     by_distance[steps[items->keys[i] % NEAR_STEPS]++] = (ulong)items->keys[i] << 32 | items->numbers[i];
-  // Where a cell's entries began, the next one's begin now; a face's first cell begins at its own 0.
+  // Placing a cell's entries moves its start to where the next cell begins. Each face has one start more than
+  // cells; it counts no entries and stays where the first cell begins.
   for (uint i = 0; i < items->count; ++i) {
     const uint key = (uint)(by_distance[i] >> 32);
     const LightCellEntry entry = {job->first_triangle + (uint)by_distance[i],

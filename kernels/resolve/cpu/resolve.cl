@@ -1,6 +1,6 @@
-// The surface of every pixel of a visibility buffer, for CPUs: a work-item takes a tile, block after block of
-// 4 x 4 pixels (kernels/resolve/resolve_block.h), then the tile's lights. Burns, Hunt, "The Visibility Buffer"
-// (JCGT 2013).
+// Resolves the surface of every pixel of a visibility buffer and passes it to an output
+// (kernels/resolve/output.h), for CPUs: a work-item takes a tile, block after block of 4 x 4 pixels
+// (kernels/resolve/resolve_block.h). Burns, Hunt, "The Visibility Buffer" (JCGT 2013).
 //
 // triangles, depths  a pixel each, row 0 at the bottom: a triangle number or SURFACE_NONE; reversed depth
 // RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h

@@ -1,6 +1,6 @@
-// The surfaces of pixels at edges, for CPUs: each once a pixel, at the centroid of the samples that see it. A
-// work-item takes a tile, and of it squares of EDGE_BLOCK pixels, whose surfaces are resolved 16 at a time
-// (kernels/resolve/edge_surfaces.h). Other pixels keep what the walker over pixels stored.
+// Resolves the surfaces of pixels at edges, for CPUs: each once per pixel, at the centroid of the samples
+// that see it. A work-item takes a tile in squares of EDGE_BLOCK pixels and resolves their surfaces 16 at a
+// time (kernels/resolve/edge_surfaces.h). Other pixels keep what the walker over pixels stored.
 //
 // triangles, depths, edges  as edge_surfaces.h says
 // RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h
@@ -16,7 +16,7 @@
 typedef struct Where {
   const EdgeSurfaces* e;
   const EdgeBatch* b;
-  uint first;  // the batch's
+  uint first;  // surface of the batch
 } Where;
 
 static inline TexelPlaces texel_places(const Where* w) { return texels_of_batch(w->e, w->first); }

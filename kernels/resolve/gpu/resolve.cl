@@ -1,4 +1,4 @@
-// The surface of every pixel of a visibility buffer, for GPUs: a work-item a pixel. As
+// Resolves the surface of every pixel of a visibility buffer, for GPUs: one work-item per pixel. As
 // resolve/cpu/resolve.cl, with the same arguments.
 #define FUSED  // shared/real.h
 #define LANES 1

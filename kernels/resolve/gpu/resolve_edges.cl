@@ -1,4 +1,4 @@
-// The surfaces of pixels at edges, for GPUs: a work-item a pixel, surface after surface. As
+// Resolves the surfaces of pixels at edges, for GPUs: one work-item per pixel, surface after surface. As
 // resolve/cpu/resolve_edges.cl, with the same arguments.
 #define FUSED  // shared/real.h
 #define LANES 1

@@ -1,4 +1,4 @@
-// What the surfaces in a light's view reflect of it, diffusely: the pixels of a reflective shadow map
+// The light that surfaces in a light's view reflect diffusely: the pixels of a reflective shadow map
 // (Dachsbacher, Stamminger, "Reflective Shadow Maps", I3D 2005), with flux and area in place of colours.
 //
 // light   in the light table; the view's eye is at its position. No light grid is read

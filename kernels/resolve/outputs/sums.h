@@ -5,7 +5,7 @@
 //
 // background     of pixels without a surface
 // first, second  the light buffer (kernels/resolve/cpu/light_buffer.cl)
-// scale          what its values are multiplied by
+// scale          factor of its values
 // exponent, reference  LightBufferParams (shared/light_buffer.h)
 // image          out: RGBA a pixel
 // -DPREPASS_…, -DBUFFER_BITS, -DSAMPLES_APART (kernels/resolve/texel_places.h)

@@ -14,7 +14,7 @@ class ViewLightCells {
   // are not dimmed by blended surfaces.
   static bool serve(const Work& work, const RayScene& rays, bool lanes);
 
-  // When the view, lights or surfaces changed. records: as shadow_light_records has them, of `lights`.
+  // When the view, lights or surfaces changed. records: shadow_light_records() of `lights`.
   void look(Work& work, const std::vector<ShadowLight>& records, const std::vector<CullLight>& lights);
   // In each frame.
   void make(Work& work, const RayScene& rays);

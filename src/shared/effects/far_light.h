@@ -21,7 +21,7 @@
 // green and of blue; then yz of red, of green, of blue.
 #define FAR_PLANES 7
 
-// The planes, one behind the other in a texture, and where they lie.
+// The planes, in a texture one behind the other, and the volume's place in the view.
 #define FAR_LIGHT_INPUTS(ROW)                     \
   ROW(ArrayInput, Float4, far_moments, sampler3D) \
   ROW(BlockInput, FarLookup, far_lookup, FarLookupBlock)
@@ -131,8 +131,8 @@ static inline FarMoments stored_moments(float4 a, float4 b, float yz) {
   return m;
 }
 
-// Adds the eight samples of the cell whose first is `at`; x, y and z from 0 to 1 in it. weight: 1 of the
-// lanes in that cell, 0 of others.
+// Adds the eight samples of the cell that begins at `at`, interpolated at x, y and z from 0 to 1. weight: 1
+// in the lanes of that cell, 0 in others.
 static inline FarLight add_far_cell(FarLight sum, real weight, real x, real y, real z,
                                     global const float4* at, size_t row, size_t slice, size_t samples) {
   for (uint corner = 0; corner < 8; ++corner) {
@@ -147,7 +147,7 @@ static inline FarLight add_far_cell(FarLight sum, real weight, real x, real y, r
   return sum;
 }
 
-// In lanes that are not `lit`: zeros.
+// Zeros in lanes that are not `lit`.
 static inline FarLight far_light_at(Real3 position, mask_t lit FAR_LIGHT_INPUTS(TAKEN_INPUT)) {
   const Real3 place = far_place(position FAR_LIGHT_INPUTS(PASSED_INPUT));
   const size_t row = (size_t)FAR(last_x) + 1, slice = row * ((size_t)FAR(last_y) + 1),
@@ -213,7 +213,7 @@ SHARED_FUNCTION Real3 far_radiance(FarLight light, Lobe l, Real3 normal, Real3 t
 }
 #endif
 
-// What a surface reflects of the light at its place.
+// The radiance that a surface reflects of the light at its place.
 SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p, FarLight light FAR_LIGHT_INPUTS(TAKEN_INPUT)) {
   Real3 normal = far_direction(p.normal FAR_LIGHT_INPUTS(PASSED_INPUT));
   Real3 irradiance =
@@ -288,7 +288,7 @@ static inline FarLight far_light_of(const LightColumns* lights, uint count, Real
 #define FAR_LANE(v, i) (v)
 #endif
 
-// Of lane i, into the planes of sample `at` of `samples`.
+// Stores the moments of lane i in the planes, at sample `at` of `samples`.
 static inline void store_far_light(const FarLight* f, uint i, global float4* moments, size_t at,
                                    size_t samples) {
   const FarMoments* const colors[3] = {&f->red, &f->green, &f->blue};
