@@ -395,8 +395,9 @@ TEST(Adding, AReaderOfLightsReadsTheFactorsThatItClaims) {
     for (const std::string& file : words_of(reader.files)) {
       code += code_of(text_at(file));
       // Each light loop ends with the hook.
-      if (reader.groups == reads && reader.shadows == reads)
+      if (reader.groups == reads && reader.shadows == reads) {
         EXPECT_TRUE(names_one(code_of(text_at(file)), {"light_reaches("})) << file;
+      }
     }
 #define LIGHT_FACTOR(condition, type, member, array, texels)    \
   if (reader.member == reads) {                                 \
@@ -404,7 +405,9 @@ TEST(Adding, AReaderOfLightsReadsTheFactorsThatItClaims) {
   }
     LIGHT_TABLE(LIGHT_FACTOR)
 #undef LIGHT_FACTOR
-    if (reader.shadows == reads) EXPECT_TRUE(names_one(code, marks_of("shadows")));
+    if (reader.shadows == reads) {
+      EXPECT_TRUE(names_one(code, marks_of("shadows")));
+    }
   }
 }
 
