@@ -304,6 +304,39 @@ TEST_P(LightCellsInSoups, ListWhateverARayMeets) {
 INSTANTIATE_TEST_SUITE_P(Soups, LightCellsInSoups, testing::Range(0, 6),
                          [](const auto& info) { return hard_soups()[size_t(info.param)].name; });
 
+// Points behind a triangle one of whose edges, and thus one of whose planes, is along the light but for
+// rounding.
+Compared compared_behind_edges() {
+  RandomNumbers random(12);
+  std::vector<Corners> triangles = {{glm::vec3(5, 5, 17), glm::vec3(-6, 5, -3), glm::vec3(-12, 7, -12)},
+                                    {glm::vec3(-40), glm::vec3(40, -40, -40), glm::vec3(40)}};
+  for (int i = 0; i < 2000; ++i) {
+    const glm::vec3 at(random.in_cube(39));
+    triangles.push_back({at, at + glm::vec3(0.1f, 0, 0), at + glm::vec3(0, 0.1f, 0.1f)});
+  }
+  Queries q{.lights = {{6.0 / 11, -2.0 / 11, 9.0 / 11, 0}}};
+  for (uint32_t block = 0; block < 100; ++block) {
+    q.packets.push_back({block, 0});
+    for (int lane = 0; lane < 16; ++lane) {
+      glm::vec3 at(-18.9842339f, 9.363904f, -22.4421539f);
+      for (int k = 0; k < 3; ++k)
+        for (int i = random.below(4); i > 0; --i) at[k] = std::nextafter(at[k], 0.0f);
+      q.points.push_back({at, 0});
+    }
+  }
+  RayScene scene = scene_of(placed(triangles), {.shape = KernelShape::lanes, .origin = glm::dvec3(0)});
+  const std::vector<CellLight> lights = cell_lights(q, random);
+  LightCells cells(rays_device(), rays_programs());
+  cells.make(scene, lights, enough);
+  return compared_with_tree(scene, cells, q, lights);
+}
+
+TEST(LightCells, HaveTheTreesAnswersBehindEdgesAlongADirection) {
+  const Compared c = compared_behind_edges();
+  EXPECT_EQ(c.different, 0u);
+  EXPECT_GT(c.hidden, 20u);
+}
+
 // A mesh of its own for each instance, and lights, all of which move, come and go.
 class LightCellSequence {
  public:

@@ -243,7 +243,11 @@ static inline __attribute__((always_inline)) void add_to_grid(global const Light
   FaceTriangles t;
   cells_across(s, g->u, pad, (float)f.size, &t.first_x, &t.last_x);
   cells_across(s, g->v, pad, (float)f.size, &t.first_y, &t.last_y);
-  for (int e = 0; e < 3; ++e) t.edges[e] = greatest_in_grid(s->edges[e], s->edge_offsets[e], job);
+  for (int e = 0; e < 3; ++e) {
+    t.edges[e] = greatest_in_grid(s->edges[e], s->edge_offsets[e], job);
+    // A plane through an edge along the direction is rounding alone, and may face anywhere.
+    t.edges[e].at += extent * fabs(along_axis(s->edges[e], g->toward));
+  }
   const CellPlanes plane = greatest_in_grid(s->normal, s->offset, job);
   const real down = -along_axis(s->normal, g->toward),
              least = 1e-4f * (fabs(s->normal[0]) + fabs(s->normal[1]) + fabs(s->normal[2]));
