@@ -11,8 +11,8 @@
 // OUTPUT_ARGUMENTS, Output, GIVEN_OUTPUT  what its kernels take after RESOLVE_ARGUMENTS
 // NEEDS_EVERY_PIXEL   true if pixels without a surface are stored too
 // READS_DEPTH(output) true if depths are read
-// SHOWS_LIGHT(output) true if light_of() goes to output.image: RGBA a pixel, linear, row 0 at the bottom, and
-//                     output.background where no surface is
+// SHOWS_LIGHT(output) true if light_of() goes to output.image: RGBA per pixel, linear, row 0 at the
+//                     bottom, and output.background where no surface is
 // STORE_RESOLVED      stores what it keeps of surfaces
 // LIGHT_OF            returns the light that they show
 //
@@ -35,14 +35,14 @@ typedef struct Where {
 #define texel_places(where) (where)->texels
 #endif
 
-#define STORE_RESOLVED                                                                          \
-  static inline void store_resolved(const Output* output, const Resolved* resolved,             \
-                                    const Where* where, const ResolveScene* scene,              \
-                                    const ResolveLights* lights, constant ViewParams* view)
-#define LIGHT_OF                                                                                \
-  static inline Real3 light_of(const Output* output, const Resolved* resolved,                  \
-                               const Where* where, const ResolveLights* lights,                 \
-                               constant float* bin_edges, constant ViewParams* view)
+#define STORE_RESOLVED                                                                                  \
+  static inline void store_resolved(const Output* output, const Resolved* resolved, const Where* where, \
+                                    const ResolveScene* scene, const ResolveLights* lights,             \
+                                    constant ViewParams* view)
+#define LIGHT_OF                                                                                   \
+  static inline Real3 light_of(const Output* output, const Resolved* resolved, const Where* where, \
+                               const ResolveLights* lights, constant float* bin_edges,             \
+                               constant ViewParams* view)
 
 #if defined(OUTPUT_GBUFFER)
 #include "kernels/resolve/outputs/gbuffer.h"

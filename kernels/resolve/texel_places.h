@@ -11,7 +11,7 @@
 #include "kernels/resolve/group_numbers.h"
 #include "shared/real.h"
 
-// Samples of a pixel with one surface that have a value of their own, a bit each.
+// Samples of a pixel with one surface that have a value of their own, as a mask.
 #if defined(OUTPUT_SUMS) && !defined(SAMPLES_APART)
 #define PIXEL_SAMPLES 1u
 #else
@@ -24,7 +24,7 @@ typedef struct TexelPlaces {
   uint lane[16 * SAMPLES], at[16 * SAMPLES];  // of each texel: the lane of its surface, and its place
 } TexelPlaces;
 
-// samples: those of the pixel that see the lane's surface, a bit each.
+// samples: those of the pixel that see the lane's surface, as a mask.
 static inline void add_texels(TexelPlaces* to, uint lane, uint pixel, uint samples) {
   for (; samples != 0; samples &= samples - 1)
     to->lane[to->count] = lane, to->at[to->count++] = pixel * SAMPLES + lowest_bit(samples);

@@ -245,7 +245,7 @@ static inline __attribute__((always_inline)) void add_to_grid(global const Light
   cells_across(s, g->v, pad, (float)f.size, &t.first_y, &t.last_y);
   for (int e = 0; e < 3; ++e) {
     t.edges[e] = greatest_in_grid(s->edges[e], s->edge_offsets[e], job);
-    // A plane through an edge along the direction is rounding alone, and may face anywhere.
+    // A plane through an edge along the direction is only rounding, and may face anywhere.
     t.edges[e].at += extent * fabs(along_axis(s->edges[e], g->toward));
   }
   const CellPlanes plane = greatest_in_grid(s->normal, s->offset, job);

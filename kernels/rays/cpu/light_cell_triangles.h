@@ -74,7 +74,7 @@ static inline void read_triangles(SeenTriangles* s, Wide n[3], Wide c[3][3],
   s->place = *(const whole*)places;
 }
 
-// Reads triangles for a directional light. Returns the lanes, a bit each, except those of triangles whose
+// Reads triangles for a directional light. Returns a mask of the lanes but for those of triangles whose
 // plane is parallel to it.
 static inline uint see_along(SeenTriangles* s, global const LightCellJob* job,
                              global const RayTriangle* triangles, const int* places, uint count) {
@@ -95,7 +95,7 @@ static inline uint see_along(SeenTriangles* s, global const LightCellJob* job,
   return mask_bits(WIDE_MASK(facing * turn > 0.0)) & first_lanes(count);
 }
 
-// Reads triangles for a point light. Returns the lanes, a bit each, of triangles in its reach. Triangles in
+// Reads triangles for a point light. Returns a mask of the lanes of triangles in its reach. Triangles in
 // whose plane it lies, within rounding, are left out: no ray meets them.
 static inline uint see_from_point(SeenTriangles* s, global const LightCellJob* job,
                                   global const RayTriangle* triangles, const int* places, uint count) {

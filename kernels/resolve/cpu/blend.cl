@@ -6,7 +6,7 @@
 // depths      of opaque surfaces, a pixel or sample each, reversed; row 0 at the bottom
 // RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h; the grid is that of blended surfaces
 // shadow_layers  with -DSHADOWS: layers of shadows, in the order of a pixel's fragments
-// image       in and out: RGBA a pixel, linear, row 0 at the bottom
+// image       in and out: RGBA per pixel, linear, row 0 at the bottom
 // -DTILE      of the light grid, pixels a side, a multiple of 8 (default 16)
 // -DORTHOGRAPHIC, and what kernels/resolve/resolve.h and resolve_light.h name
 #define BLEND  // shared/light_table.h

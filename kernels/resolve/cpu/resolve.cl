@@ -2,7 +2,7 @@
 // (kernels/resolve/output.h), for CPUs: a work-item takes a tile, block after block of 4 x 4 pixels
 // (kernels/resolve/resolve_block.h). Burns, Hunt, "The Visibility Buffer" (JCGT 2013).
 //
-// triangles, depths  a pixel each, row 0 at the bottom: a triangle number or SURFACE_NONE; reversed depth
+// triangles, depths  per pixel, row 0 at the bottom: a triangle number or SURFACE_NONE; reversed depth
 // RESOLVE_ARGUMENTS  kernels/resolve/resolve_light.h
 // OUTPUT_ARGUMENTS   kernels/resolve/output.h
 // -DTILE      pixels a side, a multiple of 8 (default 16)

@@ -3,8 +3,8 @@
 // background  of pixels without a surface
 // first, second, coats, specular  out: the geometry buffer; coats and specular may be null: not stored.
 //             Samples without a surface keep what the walker over pixels stored
-// image       out: RGBA a pixel, what surfaces show without point and spot lights; null: the light pass adds
-//             it
+// image       out: RGBA per pixel, what surfaces show without point and spot lights; null: the light pass
+//             adds it
 // -DBUFFER_BITS, -DSAMPLES, -DGROUP_NUMBERS, and what gbuffer.h and resolve.h name
 #pragma once
 

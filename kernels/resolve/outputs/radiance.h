@@ -1,7 +1,7 @@
 // Radiance under the lists of lights, or other sources of lights, of kernels/resolve/resolve_light.h.
 //
 // background  of pixels without a surface
-// image       out: RGBA a pixel
+// image       out: RGBA per pixel
 #pragma once
 
 #include "kernels/resolve/resolve_light.h"

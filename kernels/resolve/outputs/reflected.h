@@ -2,8 +2,8 @@
 // (Dachsbacher, Stamminger, "Reflective Shadow Maps", I3D 2005), with flux and area in place of colours.
 //
 // light   in the light table; the view's eye is at its position. No light grid is read
-// flux    out: RGB flux and area a pixel
-// places  out: normal and distance ahead a pixel
+// flux    out: RGB flux and area per pixel
+// places  out: normal and distance ahead per pixel
 #pragma once
 
 #include "kernels/resolve/resolve_light.h"

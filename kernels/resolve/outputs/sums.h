@@ -7,7 +7,7 @@
 // first, second  the light buffer (kernels/resolve/cpu/light_buffer.cl)
 // scale          factor of its values
 // exponent, reference  LightBufferParams (shared/light_buffer.h)
-// image          out: RGBA a pixel
+// image          out: RGBA per pixel
 // -DPREPASS_…, -DBUFFER_BITS, -DSAMPLES_APART (kernels/resolve/texel_places.h)
 #pragma once
 
