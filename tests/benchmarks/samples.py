@@ -16,14 +16,24 @@ BUILD = pathlib.Path(os.environ.get("LIGHTGRID_BUILD", ROOT / "build"))
 RESULTS = ROOT / "docs" / "results" / "samples"
 
 
+def span(values):
+    low, high = min(values, key=int), max(values, key=int)
+    return low if low == high else f"{low} to {high}"
+
+
 def table(rows):
-    lines = ["| scene | technique | samples | error at edges | inside | a frame, ms | one sample = 1 | more bytes a pixel |",
-             "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
-    for r in rows:
-        if r["samples"] == "1" and sum(o["technique"] == r["technique"] and o["scene"] == r["scene"] for o in rows) == 1:
-            continue  # takes no other number
-        lines.append(f"| `{r['scene']}` | `{r['technique']}` | {r['samples']} | {float(r['edge_error']):.3f} | "
-                     f"{float(r['inside_error']):.3f} | {r['frame_ms']} | {r['time_of_one']} | {r['more_bytes_a_pixel']} |")
+    """By technique and number of samples: in each scene the error at edges of one sample and of so many, and the frame's time relative to one."""
+    scenes = list(dict.fromkeys(r["scene"] for r in rows))
+    of = {(r["technique"], r["samples"], r["scene"]): r for r in rows}
+    lines = ["| technique | samples | " + " | ".join(f"`{s}`" for s in scenes) + " | more bytes per pixel |",
+             "| --- | ---: | " + " | ".join("---:" for _ in scenes) + " | ---: |"]
+    for technique, samples in dict.fromkeys((r["technique"], r["samples"]) for r in rows if r["samples"] != "1"):
+        cells = []
+        for scene in scenes:
+            one, more = of[technique, "1", scene], of[technique, samples, scene]
+            cells.append(f"{float(one['edge_error']):.3f} → {float(more['edge_error']):.3f}, {more['time_of_one']}x")
+        bytes_ = span([of[technique, samples, scene]["more_bytes_a_pixel"] for scene in scenes])
+        lines.append(f"| `{technique}` | {samples} | {' | '.join(cells)} | {bytes_} |")
     return "\n".join(lines)
 
 
