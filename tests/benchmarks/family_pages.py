@@ -62,9 +62,9 @@ class Families:
             for step in self.steps(series):
                 of = [r for r in self.records if (r["series"], r["lights"], r["overlap"]) == (series, *step)]
                 exact = [r for r in of if not r["refused"] and r["settings"].get("list_cap", "off") == "off"]
-                rows.append([words, f"{step[0]:,}", f"{step[1]:.3f}", f"{of[0]['radius_scale']:.3f}", str(len(of)), str(sum(bool(r["refused"]) for r in of)),
+                rows.append([words, f"{step[0]:,}", f"{step[1]:.3f}", f"{of[0]['radius_scale']:.3f}", f"{sum(bool(r['refused']) for r in of)} of {len(of)}",
                              f"{sum(r['pairs']['lost'] for r in exact):,} of {sum(r['pairs']['lit'] for r in exact):,}"])
-        return self.table(["family", "lights", "that reach a pixel", "ranges times", "points", "refused", "pairs lost by exact lists, of those lit"], rows)
+        return self.table(["family", "lights", "per pixel", "scale of ranges", "refused points", "pairs lost by exact lists"], rows)
 
     def made_growth(self):
         rows = []
@@ -81,7 +81,7 @@ class Families:
                 name = (lambda x: f"{x:,.0f}") if series == "equal overlap" else self.three
                 row += [f"{g['exponent']:.2f}{span}", f"{self.three(t0)} ({name(x0)}) to {self.three(t1)} ({name(x1)})"]
             rows.append(row)
-        return self.table(["technique as it is", "exponent over lights", "ms", "exponent over the overlap", "ms"], rows)
+        return self.table(["technique", "exponent over lights", "ms", "exponent over the overlap", "ms"], rows)
 
     def made_equal(self, series, of, flip, on_gpu=False):
         series = series.replace("-", " ")
@@ -118,17 +118,9 @@ class Families:
             out.append([f"`{name}`", *(self.three(float(times[s])) if times.get(s) else "-" for s in steps)])
         return self.table(["technique", *(self.step_name(series, s) for s in steps)], out)
 
-    def made_refused(self):
-        rows = {}
-        for f in self.answer["failures"]:
-            if f["cause"] == "refused":
-                label, lights = f["label"].rsplit(", ", 2)[0], ", ".join(f["label"].rsplit(", ", 2)[1:])
-                rows.setdefault(label, []).append((lights, f["why"].removeprefix("refused: ")))
-        return self.table(["point", "refused from", "why"], [[f"`{label}`", of[0][0], of[0][1]] for label, of in rows.items()])
-
     def made(self, what):
         return {"machine": self.made_machine, "steps": self.made_steps, "growth": self.made_growth, "equal": self.made_equal,
-                "device": self.made_device, "device-equal": self.made_device_equal, "refused": self.made_refused}[what[0]](*what[1:])
+                "device": self.made_device, "device-equal": self.made_device_equal}[what[0]](*what[1:])
 
     # --- Pictures
 

@@ -137,24 +137,17 @@ class Run:
         for wall, device in zip(self.answer["controls"], self.answer["device_controls"] or self.answer["controls"]):
             rows.append([f"`{wall['scene']}`", interval(device["relative_time"]), interval(wall["relative_time"]),
                          f"{max(0, (device if self.name == 'h100' else wall)['widened_by'] - 1) * 100:.1f} %"])
-        return table(["scene", "by the device's clock", "by the wall", "intervals widened by"], rows)
+        return table(["scene", "device time", "wall-clock time", "intervals widened by"], rows)
 
-    def made_front(self, of="total"):
-        text = []
-        for scene in self.answer["scenes"]:
-            rows = []
+    def made_front(self, *scenes):
+        rows = []
+        for scene in scenes or self.answer["scenes"]:
             for p in self.points(scene):
-                front = p[self.fronts][of]
-                if not front["on"]:
-                    continue
-                over = p["error"].get("over_views_ci95", {}).get(of, {}).get("displayed_flip")
-                views = f" ({three(over[0])} to {three(over[1])})" if over else ""
-                rows.append([f"`{p['label']}`", interval(p[self.time]), three(p[self.ms]["median"]),
-                             three(flip_of(p, of)) + views, percent(p["error"][of]["energy_rel"] if of == "total" else
-                                                                    p["error"]["authored"]["total"]["energy_rel"]),
-                             share(front["probability"])])
-            text.append(f"`{scene}`:\n\n" + table(["point", "times `forward_plus`", "ms", "FLIP as displayed", "energy", "on the front with"], rows))
-        return "\n".join(text)
+                front = p[self.fronts]["total"]
+                if front["on"]:
+                    rows.append([f"`{scene}`", f"`{p['label']}`", interval(p[self.time]), three(flip_of(p)),
+                                 percent(p["error"]["total"]["energy_rel"]), share(front["probability"])])
+        return table(["scene", "point", "time relative to `forward_plus`", "FLIP as displayed", "energy", "on the front with"], rows)
 
     def made_techniques(self):
         """Each technique as it is, its time in every scene, and how far it is from authored ranges."""
@@ -171,17 +164,20 @@ class Run:
             rows.append([f"`{label}`", *(three(p[self.time]["estimate"]) if p else "-" for p in of), three(worst), f"{lost:,}"])
         return table(["technique", *(f"`{s}`" for s in scenes), "largest FLIP from authored ranges", "lost pairs"], rows)
 
-    def made_bear(self, of="total"):
-        rows = []
-        for scene in self.answer["scenes"]:
-            for c in self.answer[self.within]:
-                if c["scene"] == scene and c["of"] == of:
-                    p = self.answer["points"][c["point"]]
-                    rows.append([f"`{scene}`", f"{c['flip']:g}", f"`{p['label']}`", interval(c["relative_time"]), share(c["probability"])])
-        return table(["scene", "FLIP up to", "cheapest point", "times `forward_plus`", "the cheapest with"], rows)
+    def made_within(self):
+        """The cheapest point within each FLIP, a column per scene."""
+        cells = {}
+        for c in self.answer[self.within]:
+            if c["of"] == "total":
+                label = self.answer["points"][c["point"]]["label"]
+                cells.setdefault(c["flip"], {})[c["scene"]] = f"`{label}` {three(c['relative_time']['estimate'])}"
+        scenes = self.answer["scenes"]
+        return table(["FLIP up to", *(f"`{s}`" for s in scenes)],
+                     [[f"{flip:g}", *(of.get(s, "-") for s in scenes)] for flip, of in sorted(cells.items())])
 
     def made_range(self):
-        labels = ["visibility"] + [f"visibility:range=cutoff,cutoff={c}" for c in ("0.2", "0.05", "0.005", "0.001", "0.0001")] + ["visibility:range=infinite"]
+        labels = ["visibility", "visibility:far-light=4096", "visibility:range=stochastic"]
+        labels += [f"visibility:range=cutoff,cutoff={c}" for c in ("0.2", "0.05", "0.005", "0.001", "0.0001")] + ["visibility:range=infinite"]
         rows = []
         for label in labels:
             row = [f"`{label}`"]
@@ -205,7 +201,7 @@ class Run:
 
     def made(self, what):
         name, *arguments = what
-        return {"machine": self.machine, "controls": self.made_controls, "front": self.made_front, "bear": self.made_bear,
+        return {"machine": self.machine, "controls": self.made_controls, "front": self.made_front, "within": self.made_within,
                 "techniques": self.made_techniques, "range": self.made_range, "break-even": self.made_break_even}[name](*arguments)
 
     def figure(self, scene, label, what):

@@ -13,7 +13,7 @@ import re
 import sys
 
 BUDGETS = (16, 33, 100)
-TABLED = "1280x720"  # whose times are in a table; the CSV has the others
+TABLED = "1280x720"  # the size in the tables of one machine; the CSV has the others
 NONE, EXACT = "shadows=none", "shadows=exact"
 MAPS = {64: "shadows=map shadow-size=64", 256: "shadows=map shadow-size=256"}
 NAMES = {NONE: "none", EXACT: "exact", MAPS[64]: "maps of 64", MAPS[256]: "maps of 256"}
@@ -74,15 +74,15 @@ def table(head, rows):
 
 def lights_that_fit(groups, column):
     settings = [s for s in NAMES if s != NONE]
-    head = ["scene, size"] + [f"{b} ms: {' / '.join(NAMES[s] for s in settings)}" for b in BUDGETS]
+    head = ["scene"] + [f"{b} ms: {' / '.join(NAMES[s] for s in settings)}" for b in BUDGETS]
     rows = []
     for (scene, size), series in groups.items():
-        if len(series.of(EXACT)) < 2:
+        if size != TABLED or len(series.of(EXACT)) < 2:
             continue
         timed = {s: [(n, float(r[column])) for n, r in series.of(s)] for s in NAMES}
         least = timed[NONE][0][1]  # with the fewest lights, without shadows
         cells = [" / ".join(fitting(timed[s], b) for s in settings) if least <= b else "0" for b in BUDGETS]
-        rows.append([f"`{scene}`, {size.replace('x', ' × ')}"] + cells)
+        rows.append([f"`{scene}`"] + cells)
     return table(head, rows)
 
 
@@ -103,35 +103,22 @@ def exact_by_cores(paths):
     return machines[-1][1] + "\n\n" + table(head, rows)
 
 
-def times(groups, column):
-    head = ["scene", "lights", "pairs"] + list(NAMES.values())
-    rows = []
-    for (scene, size), series in groups.items():
-        if size != TABLED:
-            continue
-        for lights, row in series.of(EXACT):
-            cells = [series.rows.get(s, {}).get(lights) for s in NAMES]
-            rows.append([f"`{scene}`", f"{lights:,}", f"{int(row['pairs']):,}"]
-                        + [figure(float(c[column])) if c else "–" for c in cells])
-    return table(head, rows)
-
-
 def break_even(groups):
     """Times of a ray, a look-up and a light's maps, by kernels, at the most lights that all of these have."""
-    head = ["scene, size", "lights", "a ray, ns", "pairs a light"]
+    head = ["scene", "ray, ns", "pairs per light"]
     for size in MAPS:
-        head += [f"maps of {size}: a light, µs", "a look-up, ns", "pay from pairs a light"]
+        head += [f"maps of {size}: µs per light", "look-up, ns", "pay from pairs per light"]
     rows = []
     for (scene, size), series in groups.items():
         lights = [n for n in series.both(EXACT, MAPS[256]) if n in series.rows.get(MAPS[64], {})
                   and int(series.rows[EXACT][n]["pairs"]) > 0]
-        if not lights:
+        if size != TABLED or not lights:
             continue
         n = lights[-1]
         exact = series.rows[EXACT][n]
         pairs, found = int(exact["pairs"]), int(exact["lights_found"])
         ray = float(exact["find_shadows_ms"]) * 1e6 / pairs
-        cells = [f"`{scene}`, {size.replace('x', ' × ')}", f"{n:,}", figure(ray), figure(pairs / found)]
+        cells = [f"`{scene}`, {n:,} lights", figure(ray), figure(pairs / found)]
         for setting in MAPS.values():
             row = series.rows[setting][n]
             drawn = int(row["maps_drawn"])
@@ -175,12 +162,11 @@ def tables(path, *others):
     if others:
         return exact_by_cores([path, *others])
     groups, machine = read(path)
+    size = TABLED.replace("x", " × ")
     return "\n\n".join([
         machine,
-        "Lights that fit, by a frame's time:", lights_that_fit(groups, "frame_ms"),
-        "By the time of its kernels:", lights_that_fit(groups, "kernels_ms"),
-        f"Times of a frame of {TABLED.replace('x', ' × ')}, ms:", times(groups, "frame_ms"),
-        "Where maps begin to pay, by kernels:", break_even(groups)])
+        f"Lights that fit at {size}, by frame time:", lights_that_fit(groups, "frame_ms"),
+        f"Where maps begin to pay at {size}, by kernel times:", break_even(groups)])
 
 
 if __name__ == "__main__":
