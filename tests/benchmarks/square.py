@@ -68,8 +68,8 @@ def all_techniques():
 def technique_table(results, times):
     rows = results["rows"]
     base = next(milliseconds(r) for r in rows if r["technique"] == BASE)
-    heads = [f"time, `{BASE}` = 1", *(["ms"] if times else []), "buffers, B a pixel", "of them geometry buffer",
-             "moved, B a pixel", "listed a pixel", "lost", "image"]
+    heads = [f"relative time", *(["ms"] if times else []), "buffers, B per pixel", "geometry buffer",
+             "moved, B per pixel", "listed per pixel", "lost", "image"]
     lines = ["| technique | " + " | ".join(heads) + " |", "| --- |" + " ---: |" * len(heads)]
     for r in rows:
         memory, pairs = r["memory_bytes"], r["pairs"]
@@ -106,7 +106,7 @@ def processor_time(scene, frames, folder):
 
 
 def visibility_table(folder, times):
-    lines = ["| scene | a frame, processor time, `street` = 1 | " + ("ms a frame | " if times else "") + "start, processor time | peak memory |",
+    lines = ["| scene | frame, processor time relative to `street` | " + ("ms per frame | " if times else "") + "start, processor time | peak memory |",
              "| --- | ---: |" + (" ---: |" if times else "") + " ---: | ---: |"]
     frame, cells = {}, {}
     for scene in ["street", "square"]:

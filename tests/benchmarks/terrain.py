@@ -96,7 +96,7 @@ def main():
             writer = csv.writer(file, lineterminator="\n")
             writer.writerows(([COLUMNS] if fresh else []) + lines)
     print(f"Commit {results['commit']}; {results['devices']['cl']}; {results['devices']['gl']}.\n")
-    print("| technique | ms | times forward_multipass | lost pairs of all lit | largest error |\n| --- | ---: | ---: | ---: | ---: |")
+    print("| technique | ms | speed relative to forward_multipass | lost pairs of all lit | largest error |\n| --- | ---: | ---: | ---: | ---: |")
     for line in lines:
         lost = "0" if line[11] == 0 else f"{100 * line[11] / line[10]:.2g} %"
         error = "" if line[13] is None else f"{line[13]:.1e}"
