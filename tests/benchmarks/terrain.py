@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Trebilco's experiment: 255 small lights over hills, light-indexed deferred rendering against a forward pass for each
-light, and every other technique beside them. Prints docs/results/terrain.md's table and the lines of its CSV.
+light, and every other technique. Prints the figures of docs/results/terrain.md as a table and writes the lines of its CSV.
 
     tests/benchmarks/terrain.py [--program FILE] [--frames N] [--article] [--samples N] [--csv FILE] [MORE OPTIONS OF compare …]
     tests/benchmarks/terrain.py --json results.json [--csv FILE]      of a run made elsewhere
