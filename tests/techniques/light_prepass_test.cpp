@@ -33,7 +33,7 @@ TEST(LightPrepass, IsForwardsImageOfOneLightAndItsShininess) {
   }
 }
 
-// The table of docs/techniques/light_prepass.md#errors is printed.
+// The table of docs/lab/2026-11-22-light-prepass.md#errors-of-the-highlights is printed.
 TEST(LightPrepass, IsItsEquationsForAnyNumberOfLights) {
   const View view = small_view(63, 37);
   fmt::print("lights  colours  variant     rmse of forward's brightest channel\n");
