@@ -28,22 +28,38 @@ typedef struct EdgeSurfaces {
   float depth[MOST_SURFACES];
   uchar samples[MOST_SURFACES];  // that see it, a bit each
   float red[MOST_SURFACES], green[MOST_SURFACES], blue[MOST_SURFACES];
-  ulong order[MOST_SURFACES];  // triangle << 16 | surface
+  int16 triangles[MOST_SURFACES / 16];
+  ushort order[MOST_SURFACES];  // surfaces, sorted by triangle within runs of SORTED_RUN
 } EdgeSurfaces;
 
-#define TRIANGLE_OF(ordered) ((uint)((ordered) >> 16))
-#define SURFACE_OF(ordered) ((uint)(ordered)&0xffffu)
+#define TRIANGLE_OF(e, surface) (((const int*)(e)->triangles)[surface])
+#define SORTED_RUN 256u  // time grows with its square
 
-// Shell's method: mostly some dozens.
-static inline void sort_by_triangle(EdgeSurfaces* e) {
-  for (uint gap = 701; gap > 0; gap = gap == 2 ? 1 : gap * 4 / 9) {
-    for (uint i = gap; i < e->count; ++i) {
-      const ulong one = e->order[i];
-      uint to = i;
-      for (; to >= gap && e->order[to - gap] > one; to -= gap) e->order[to] = e->order[to - gap];
-      e->order[to] = one;
+// A surface's place is the number of surfaces that come before it. Each lane counts for a surface of its own,
+// without branches.
+static inline void sort_run(EdgeSurfaces* e, uint first, uint end) {
+  for (uint i = first; i < end; i += 16) {
+    const uint own_end = min(i + 16, end);
+    const int16 triangles = e->triangles[i / 16];
+    int16 place = (int16)((int)first);
+    for (uint k = first; k < i; ++k) place -= (int16)(TRIANGLE_OF(e, k)) <= triangles;
+    for (uint k = i; k < own_end; ++k) {
+      const int16 other = TRIANGLE_OF(e, k);
+      place -= (other < triangles) | ((other == triangles) & ((int16)((int)(k - i)) < LANE_INDEX));
     }
+    for (uint k = own_end; k < end; ++k) place -= (int16)(TRIANGLE_OF(e, k)) < triangles;
+    for (uint k = i; k < own_end; ++k) e->order[((const int*)&place)[k - i]] = (ushort)k;
   }
+}
+
+// Fetches the corners of a sorted run's triangles, which add_edge_pixel began to.
+static inline void fetch_run(const EdgeSurfaces* e, const ResolveScene* scene, uint first, uint end) {
+  uint found[SORTED_RUN], places[SORTED_RUN], count = 0;
+  for (uint i = first; i < end; ++i) {
+    const uint one = (uint)TRIANGLE_OF(e, e->order[i]);
+    if (i == first || one != found[count - 1]) found[count++] = one;
+  }
+  fetch_corners(scene, found, places, count);
 }
 
 // Which of `count` pixels from `at` on are at edges, a bit each: 16 at most.
@@ -66,8 +82,8 @@ static inline void fetch_square(global const uint* triangles, global const float
   }
 }
 
-static inline void add_edge_pixel(EdgeSurfaces* e, global const uint* triangles, global const float* depths,
-                                  uint x, uint y, uint at) {
+static inline void add_edge_pixel(EdgeSurfaces* e, const ResolveScene* scene, global const uint* triangles,
+                                  global const float* depths, uint x, uint y, uint at) {
   const uint one = e->pixel_count++;
   e->pixels[one] = at, e->missed[one] = 0;
   for (uint left = ALL_SAMPLES; left != 0;) {
@@ -77,8 +93,9 @@ static inline void add_edge_pixel(EdgeSurfaces* e, global const uint* triangles,
       e->missed[one] = (uchar)p.samples;
       continue;
     }
+    FETCH(scene->triangle_instance + p.triangle);
     const uint i = e->count++;
-    e->order[i] = (ulong)p.triangle << 16 | i, e->samples[i] = (uchar)p.samples, e->depth[i] = p.depth;
+    ((int*)e->triangles)[i] = (int)p.triangle, e->samples[i] = (uchar)p.samples, e->depth[i] = p.depth;
     e->pixel[i] = at;
     e->x[i] = (float)(x - e->base_x) + p.off_x, e->y[i] = (float)(y - e->base_y) + p.off_y;
   }
@@ -86,9 +103,9 @@ static inline void add_edge_pixel(EdgeSurfaces* e, global const uint* triangles,
 }
 
 // Of the square from (x0, y0) on.
-static inline void find_edge_surfaces(EdgeSurfaces* e, global const uint* triangles,
-                                      global const float* depths, global const ushort* edges, uint x0,
-                                      uint y0, uint width, uint height) {
+static inline void find_edge_surfaces(EdgeSurfaces* e, const ResolveScene* scene,
+                                      global const uint* triangles, global const float* depths,
+                                      global const ushort* edges, uint x0, uint y0, uint width, uint height) {
   e->base_x = x0 & ~(EDGE_BLOCK - 1u), e->base_y = y0 & ~(EDGE_BLOCK - 1u);
   e->pixel_count = e->count = 0;
   fetch_square(triangles, depths, edges, x0 + SIDE, y0, width, height);
@@ -96,10 +113,14 @@ static inline void find_edge_surfaces(EdgeSurfaces* e, global const uint* triang
     uint bits = edge_bits(edges, y * width + x0, min(SIDE, width - x0));
     for (; bits != 0; bits &= bits - 1) {
       const uint x = x0 + lowest_bit(bits);
-      add_edge_pixel(e, triangles, depths, x, y, y * width + x);
+      add_edge_pixel(e, scene, triangles, depths, x, y, y * width + x);
     }
   }
-  sort_by_triangle(e);
+  for (uint first = 0; first < e->count; first += SORTED_RUN) {
+    const uint end = min(first + SORTED_RUN, e->count);
+    sort_run(e, first, end);
+    fetch_run(e, scene, first, end);
+  }
 }
 
 // Surfaces first to first + 15 of the order.
@@ -118,9 +139,8 @@ static inline void take_batch(EdgeBatch* b, const EdgeSurfaces* e, uint first, c
   b->attributes = no_attributes, b->material = no_material;
   real dx, dy;
   for (uint i = 0; i < 16; ++i) {
-    const ulong ordered = e->order[min(first + i, e->count - 1)];
-    const uint one = b->surface[i] = SURFACE_OF(ordered);
-    ((uint*)&b->triangle)[i] = TRIANGLE_OF(ordered);
+    const uint one = b->surface[i] = e->order[min(first + i, e->count - 1)];
+    ((int*)&b->triangle)[i] = TRIANGLE_OF(e, one);
     ((float*)&dx)[i] = e->x[one], ((float*)&dy)[i] = e->y[one], ((float*)&b->depth)[i] = e->depth[one];
   }
   b->covered = LANE_INDEX < (int16)((int)(e->count - first));
@@ -139,7 +159,7 @@ static inline TexelPlaces texels_of_batch(const EdgeSurfaces* e, uint first) {
   TexelPlaces to;
   to.count = 0;
   for (uint i = 0; i < min(e->count - first, 16u); ++i) {
-    const uint one = SURFACE_OF(e->order[first + i]);
+    const uint one = e->order[first + i];
     add_texels(&to, i, e->pixel[one], e->samples[one]);
   }
   return to;

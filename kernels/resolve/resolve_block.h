@@ -40,24 +40,8 @@ static inline void add_materials(Surface* s, const Attributes* a, const ResolveS
   }
 }
 
-// Fetches the corners of the triangles in rows of blocks: from x to x_end, which are TILE pixels at most, and
-// from y to y_end, which are FETCHED_ROWS.
-#define FETCHED_ROWS 16u
-static inline void fetch_corners(const ResolveScene* s, global const uint* triangles, uint x, uint x_end,
-                                 uint y, uint y_end, uint width, uint height) {
-  uint found[FETCHED_ROWS * TILE], places[FETCHED_ROWS * TILE], count = 0, last = SURFACE_NONE;
-  for (; y < y_end; y += 4) {
-    for (uint at = x; at < x_end; at += 4) {
-      const uint16 triangle = load_block(triangles, at, y, width, height);
-      uint left = mask_bits((mask_t)((triangle != (uint16)(SURFACE_NONE)) & (triangle != (uint16)(last))));
-      while (left != 0) {
-        last = ((const uint*)&triangle)[lowest_bit(left)];
-        left &= ~mask_bits((mask_t)(triangle == (uint16)(last)));
-        FETCH(s->triangle_instance + last);
-        found[count++] = last;
-      }
-    }
-  }
+// Fetches the corners of triangles whose entries in triangle_instance were fetched. places: room for `count`.
+static inline void fetch_corners(const ResolveScene* s, const uint* found, uint* places, uint count) {
   for (uint i = 0; i < count; ++i) {
     global const RasterInstanceRecord* r = s->instances + s->triangle_instance[found[i]];
     places[i] = r->first_index + 3 * (found[i] - r->first_triangle);
@@ -71,6 +55,27 @@ static inline void fetch_corners(const ResolveScene* s, global const uint* trian
       FETCH(s->vertices + r->first_vertex + corner);
     }
   }
+}
+
+// The same of the triangles in rows of blocks: from x to x_end, which are TILE pixels at most, and from y to
+// y_end, which are FETCHED_ROWS.
+#define FETCHED_ROWS 16u
+static inline void fetch_rows(const ResolveScene* s, global const uint* triangles, uint x, uint x_end, uint y,
+                              uint y_end, uint width, uint height) {
+  uint found[FETCHED_ROWS * TILE], places[FETCHED_ROWS * TILE], count = 0, last = SURFACE_NONE;
+  for (; y < y_end; y += 4) {
+    for (uint at = x; at < x_end; at += 4) {
+      const uint16 triangle = load_block(triangles, at, y, width, height);
+      uint left = mask_bits((mask_t)((triangle != (uint16)(SURFACE_NONE)) & (triangle != (uint16)(last))));
+      while (left != 0) {
+        last = ((const uint*)&triangle)[lowest_bit(left)];
+        left &= ~mask_bits((mask_t)(triangle == (uint16)(last)));
+        FETCH(s->triangle_instance + last);
+        found[count++] = last;
+      }
+    }
+  }
+  fetch_corners(s, found, places, count);
 }
 
 // Fetches texels of the packed maps that a block's pixels will filter: those of the fine level, and every
@@ -122,8 +127,7 @@ typedef struct BlockWalk {
 #ifdef FETCH_AHEAD
 static inline void look_ahead(BlockWalk* w, uint x, uint y) {
   if (x == w->x0 && (y - w->y0) % FETCHED_ROWS == 0) {
-    fetch_corners(w->scene, w->triangles, x, w->x_end, y, min(y + FETCHED_ROWS, w->y_end), w->width,
-                  w->height);
+    fetch_rows(w->scene, w->triangles, x, w->x_end, y, min(y + FETCHED_ROWS, w->y_end), w->width, w->height);
   }
   const uint16 triangle = load_block(w->triangles, x, y, w->width, w->height);
   const Attributes none = {0};

@@ -74,7 +74,7 @@ kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global 
   EdgeBatch b;
   for (uint y0 = tile_y * TILE; y0 < min(tile_y * TILE + TILE, height); y0 += SIDE) {
     for (uint x0 = tile_x * TILE; x0 < min(tile_x * TILE + TILE, width); x0 += SIDE) {
-      find_edge_surfaces(&e, triangles, depths, edges, x0, y0, width, height);
+      find_edge_surfaces(&e, &scene, triangles, depths, edges, x0, y0, width, height);
       for (uint i = 0; i < e.count; i += 16) {
         take_batch(&b, &e, i, &scene);
 #ifdef SHADOWS_TRACED
