@@ -63,11 +63,14 @@ static inline __attribute__((always_inline)) mask_t meets_seen(global const Ligh
   return lane_min(lane_min(u, v), lane_min(w, lane_min(past, rays->end))) >= 0.0f;
 }
 
-// Of lanes that meet the triangle, those that it hides.
+// Of lanes that meet the triangle, those that it hides. A blended triangle adds to their *veil instead.
 RAYS_CALL uint hidden_by_met(const RayScene* scene, RaySource light, Real3 to, real gap, whole own, int place,
-                             uint met) {
+                             uint met, whole* veil) {
   RayPacket p;
   set_packet(&p, light, to, gap);
+#ifdef RAYS_VEILS
+  p.veil = *veil;
+#endif
   const RayOctants octants = octants_of(&p);
   uint hidden = 0;
   while (met != 0) {  // mostly once
@@ -75,6 +78,9 @@ RAYS_CALL uint hidden_by_met(const RayScene* scene, RaySource light, Real3 to, r
     met &= ~live;
     hidden |= lane_bits(ray_hides(scene, &p, place, own, lanes_of(live)));
   }
+#ifdef RAYS_VEILS
+  *veil = p.veil;
+#endif
   return hidden;
 }
 
@@ -102,7 +108,7 @@ static inline __attribute__((always_inline)) CellRays cell_rays(global const Lig
 
 static inline __attribute__((always_inline)) uint hidden_by_lists(
     const LightCells* cells, const RayScene* scene, global const LightCellTable* table, RaySource light,
-    Real3 to, real gap, uint active, whole own, uint* served, const bool point) {
+    Real3 to, real gap, uint active, whole own, uint* served, whole* veil, const bool point) {
   real squared;
   const CellRays rays = cell_rays(table, light, to, gap, point, &squared);
   const whole cell =
@@ -121,17 +127,33 @@ static inline __attribute__((always_inline)) uint hidden_by_lists(
       const uint met = here & lane_bits(meets_seen(t, &rays, point));
       if (met == 0) continue;
       const int place = point ? as_int(t->edge_0[3]) : (int)(entry.triangle - table->first_triangle);
-      const uint hides = hidden_by_met(scene, light, to, gap, own, place, met);
+      const uint hides = hidden_by_met(scene, light, to, gap, own, place, met, veil);
       hidden |= hides, here &= ~hides;
     }
   }
   return hidden;
 }
 
-// As rays_hidden, for a light with lists. *served: lanes that are answered; longer rays are not.
+// As rays_veiled, for a light with lists. *served: lanes that are answered; longer rays are not.
 static inline uint hidden_by_cells(const LightCells* cells, const RayScene* scene,
                                    global const LightCellTable* table, RaySource light, Real3 to, real gap,
-                                   uint active, whole own, uint* served) {
-  return light.w != 0 ? hidden_by_lists(cells, scene, table, light, to, gap, active, own, served, true)
-                      : hidden_by_lists(cells, scene, table, light, to, gap, active, own, served, false);
+                                   uint active, whole own, uint* served, whole* veil) {
+  return light.w != 0
+             ? hidden_by_lists(cells, scene, table, light, to, gap, active, own, served, veil, true)
+             : hidden_by_lists(cells, scene, table, light, to, gap, active, own, served, veil, false);
+}
+
+// As rays_share: rays that the light's lists do not serve take the tree. number: of the light.
+static inline whole cells_share(const LightCells* cells, const RayScene* scene, uint number, RaySource light,
+                                Real3 to, real gap, mask_t active, whole own, int* last_blocker) {
+  global const LightCellTable* table = cells->tables + number;
+  const uint asked = lane_bits(active);
+  uint served = 0, hidden = 0;
+  whole veil = (whole)(0);
+  if (table->size != 0)
+    hidden = hidden_by_cells(cells, scene, table, light, to, gap, asked, own, &served, &veil);
+  const whole share = hidden_255ths(lanes_of(hidden), veil);
+  if (served == asked) return share;
+  const mask_t left = active & ~lanes_of(served);
+  return left ? rays_share(scene, light, to, gap, left, own, last_blocker) : share;
 }

@@ -220,13 +220,17 @@ static inline mask_t rays_hidden(const RayScene* scene, RaySource light, Real3 t
 }
 
 // 255ths of the light that are hidden from each lane: 0 or 255 without blended triangles.
-static inline whole rays_share(const RayScene* scene, RaySource light, Real3 to, real gap, mask_t active,
-                               whole own, int* last_blocker) {
-  whole veil = (whole)(0);
-  const mask_t hidden = rays_veiled(scene, light, to, gap, active, own, last_blocker, &veil);
+static inline whole hidden_255ths(mask_t hidden, whole veil) {
 #ifdef RAYS_VEILS
   return hidden ? (whole)(255) : share_of_veil(veil);
 #else
   return hidden ? (whole)(255) : (whole)(0);
 #endif
+}
+
+static inline whole rays_share(const RayScene* scene, RaySource light, Real3 to, real gap, mask_t active,
+                               whole own, int* last_blocker) {
+  whole veil = (whole)(0);
+  const mask_t hidden = rays_veiled(scene, light, to, gap, active, own, last_blocker, &veil);
+  return hidden_255ths(hidden, veil);
 }

@@ -3,9 +3,12 @@
 // multiply the unshadowed sum by one share, so that there is noise in shadows alone: the ratio estimator of
 // E. Heitz, S. Hill, M. McGuire, "Combining analytic direct illumination and stochastic shadows", I3D 2018.
 //
-// Roles are exchanged as in soft_shadows.h: the lanes of a packet are the rays of one pixel.
+// Rays of hard shadows are those of ray_test.h: lanes that draw the same light share a packet. With
+// -DSHADOW_RAYS a ray goes to a place on its light's sphere and roles are exchanged as in soft_shadows.h: the
+// lanes of a packet are the rays of one pixel.
 #pragma once
 
+#include "kernels/shadows/ray_test.h"
 #include "kernels/shadows/soft_shadows.h"
 
 // What a light adds to a Lambert surface, times a factor that is the same for all lights of a pixel. It is
@@ -37,11 +40,13 @@ static inline whole groups_of_lanes(const Receivers* r, global const uint* trian
   return groups;
 }
 
+#define PICK_OF(pick, lane) (((const int*)&(pick))[lane])
+
 // Draws the lights of each lane, in systematic steps over the sum of all. Lanes to which no light adds
 // anything have none: a light of other groups adds nothing.
-// picks: SHADOW_PICK a lane. x, y: of lane 0.
+// picks: SHADOW_PICK lights of each lane, those that are alike in succession. x, y: of lane 0.
 static inline mask_t pick_lights(const Receivers* r, whole groups, global const ShadowLight* lights,
-                                 global const index_t* indices, uint2 range, uint x, uint y, uint* picks) {
+                                 global const index_t* indices, uint2 range, uint x, uint y, whole* picks) {
   real sum = REAL(0.0f), before = REAL(0.0f), next = REAL(0.0f), u = REAL(0.0f);
   for (uint i = range.x; i < range.x + range.y; ++i) sum += estimated_light(r, groups, lights + indices[i]);
   for (uint lane = 0; lane < LANES; ++lane) ((float*)&u)[lane] = hash_in_unit(hash_of_pixel(x, y, lane));
@@ -57,7 +62,7 @@ static inline mask_t pick_lights(const Receivers* r, whole groups, global const 
       const float end = ((const float*)&before)[lane], wide = ((const float*)&step)[lane],
                   at = ((const float*)&u)[lane];
       int n = ((const int*)&count)[lane];
-      do picks[lane * SHADOW_PICK + n++] = index;
+      do ((int*)&picks[n++])[lane] = (int)index;
       while (n < SHADOW_PICK && end > ((float)n + at) * wide);
       ((int*)&count)[lane] = n, ((float*)&next)[lane] = ((float)n + at) * wide;
     }
@@ -65,10 +70,11 @@ static inline mask_t pick_lights(const Receivers* r, whole groups, global const 
   return count == (whole)(SHADOW_PICK);
 }
 
+#if SHADOW_RAYS > 1
 // Of a pixel's rays, how many are hidden.
 static inline uint hidden_picks(const RayScene* scene, const SoftReceiver* r,
-                                global const ShadowLight* lights, const uint* picks, uint seed, uint* traced,
-                                int* last_blocker) {
+                                global const ShadowLight* lights, const whole* picks, uint lane_of_picks,
+                                uint seed, uint* traced, int* last_blocker) {
   // A gap off the surface: the rays have no common direction.
   const RaySource origin = {(double)r->x + r->gap * r->normal_x, (double)r->y + r->gap * r->normal_y,
                             (double)r->z + r->gap * r->normal_z, 1};
@@ -78,7 +84,7 @@ static inline uint hidden_picks(const RayScene* scene, const SoftReceiver* r,
   for (uint first = 0; first < SHADOW_PICK; first += LANES) {
     real x = REAL(0.0f), y = x, z = x, at_x = x, at_y = x, at_z = x, radius = x;
     for (uint lane = 0; lane < LANES && first + lane < SHADOW_PICK; ++lane) {
-      global const ShadowLight* l = lights + picks[first + lane];
+      global const ShadowLight* l = lights + PICK_OF(picks[first + lane], lane_of_picks);
       ((float*)&x)[lane] = (float)(l->x - r->x), ((float*)&at_x)[lane] = (float)l->x;
       ((float*)&y)[lane] = (float)(l->y - r->y), ((float*)&at_y)[lane] = (float)l->y;
       ((float*)&z)[lane] = (float)(l->z - r->z), ((float*)&at_z)[lane] = (float)l->z;
@@ -106,23 +112,48 @@ static inline uint hidden_picks(const RayScene* scene, const SoftReceiver* r,
   return hidden;
 }
 
-// 0 to 255: of the light that each lane's pixel has from the tile's lights, the share that is hidden.
-static inline whole picked_share(const RayScene* scene, const Receivers* r,
-                                 global const uint* triangle_groups, global const ShadowLight* lights,
-                                 global const index_t* indices, uint2 range, uint x, uint y, uint* traced,
-                                 int* last_blocker) {
-  uint picks[LANES * SHADOW_PICK];
+// Of the lanes `drawn`.
+static inline whole share_of_picks(ShadowTest* test, const RayScene* scene, const Receivers* r,
+                                   global const ShadowLight* lights, const whole* picks, mask_t drawn, uint x,
+                                   uint y) {
   whole shares = (whole)(0);
-  const whole groups = groups_of_lanes(r, triangle_groups);
-  for (uint left = lane_bits(pick_lights(r, groups, lights, indices, range, x, y, picks)); left != 0;
-       left &= left - 1) {
+  for (uint left = lane_bits(drawn); left != 0; left &= left - 1) {
     const uint lane = lowest_bit(left);
     const SoftReceiver one = soft_receiver(r, lane);
-    const uint hidden = hidden_picks(scene, &one, lights, picks + lane * SHADOW_PICK,
-                                     hash_of_pixel(x, y, lane), traced, last_blocker);
+    const uint hidden = hidden_picks(scene, &one, lights, picks, lane, hash_of_pixel(x, y, lane),
+                                     &test->traced, &test->last_blocker);
     ((int*)&shares)[lane] = byte_of(hidden, SHADOW_PICK);
   }
   return shares;
+}
+#else
+static inline whole share_of_picks(ShadowTest* test, const RayScene* scene, const Receivers* r,
+                                   global const ShadowLight* lights, const whole* picks, mask_t drawn, uint x,
+                                   uint y) {
+  whole sum = (whole)(SHADOW_PICK / 2), share = (whole)(0);
+  for (uint i = 0; i < SHADOW_PICK; ++i) {
+    const whole pick = picks[i];
+    for (uint left = lane_bits(i == 0 ? drawn : drawn & (pick != picks[i - 1])); left != 0;) {
+      const uint light = (uint)PICK_OF(pick, lowest_bit(left));
+      const mask_t here = lanes_of(left) & (pick == (whole)((int)light));
+      left &= ~lane_bits(here);
+      const whole hidden = hidden_by_test(test, scene, r, light, lights + light, here);
+      share = here ? hidden : share;
+    }
+    sum += share;
+  }
+  return drawn ? sum / SHADOW_PICK : (whole)(0);
+}
+#endif
+
+// 0 to 255: of the light that each lane's pixel has from the tile's lights, the share that is hidden.
+static inline whole picked_share(ShadowTest* test, const RayScene* scene, const Receivers* r,
+                                 global const ShadowLight* lights, global const index_t* indices, uint2 range,
+                                 uint x, uint y) {
+  whole picks[SHADOW_PICK];
+  const whole groups = groups_of_lanes(r, test->triangle_groups);
+  const mask_t drawn = pick_lights(r, groups, lights, indices, range, x, y, picks);
+  return share_of_picks(test, scene, r, lights, picks, drawn, x, y);
 }
 
 // Of one light: lights behind the pixel's own triangle are never drawn, and are hidden for certain.

@@ -8,11 +8,14 @@
 
 // Before a kernel's other arguments. number_offsets: kernels/shadows/receivers.h. shadow_lights: of those
 // without shadows none is in reach.
-#define TRACED_ARGUMENTS                                                                         \
-  RAYS_ARGUMENTS, global const int *number_offsets, global const ShadowLight *shadow_lights,      \
-      constant ShadowView *shadow_view,
-#define TRACED_SHADOWS \
-  { .scene = RAYS_SCENE, .number_offsets = number_offsets, .lights = shadow_lights, .view = shadow_view }
+#define TRACED_ARGUMENTS                                                                   \
+  SHADOW_TEST_ARGUMENTS RAYS_ARGUMENTS, global const int *number_offsets,                   \
+      global const ShadowLight *shadow_lights, constant ShadowView *shadow_view,
+#define TRACED_SHADOWS                                                                      \
+  {                                                                                         \
+    .test = SHADOW_TEST, .scene = RAYS_SCENE, .number_offsets = number_offsets,             \
+    .lights = shadow_lights, .view = shadow_view                                            \
+  }
 
 typedef struct TracedShadows {
   RayScene scene;
@@ -27,8 +30,7 @@ typedef struct TracedShadows {
 // centres.
 static inline void trace_from(TracedShadows* t, mask_t covered, real x, real y, real depth,
                               constant ViewParams* view) {
-  const ShadowTest test = SHADOW_TEST;
-  t->test = test, t->receivers = receivers_at(covered, x, y, depth, 1, t->view, view);
+  t->receivers = receivers_at(covered, x, y, depth, 1, t->view, view);
 }
 
 // Into the lanes that are `here` their triangle, by the rasteriser's number.

@@ -56,6 +56,7 @@ class ShadowBits : public PassCache {
     unchanged_ = work.plan.shadows && shadow_reuse.of(work.plan.settings) &&
                  !work.plan.settings.everything_on && found_for_ &&
                  (followed_ || *found_for_ == shadow_inputs(work, scene(work)));
+    if (unchanged_ && work.grid().samples > 1) hand_over_rays(work);
     return unchanged_;
   }
 
@@ -204,9 +205,8 @@ class ShadowBits : public PassCache {
     parts_ = lists_.tiles() * images.size() * groups_here;
     const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
     const cl::NDRange lanes(band.tiles), groups(band.tiles * SHADOW_TILE * SHADOW_TILE, groups_here);
-    ClArguments before = maps_ ? maps_->arguments() : cells_ ? cells_->arguments(device) : ClArguments();
-    if (picks_by_groups(work)) before = {{"triangle_groups", groups_.buffer()}};
-    before = before + scene_->arguments();
+    ClArguments before = maps_ ? maps_->arguments() + scene_->arguments() : arguments_of_rays(work);
+    if (picks_by_groups(work)) before = ClArguments{{"triangle_groups", groups_.buffer()}} + before;
     ClArguments after;
     if (bands_.bands.size() > 1)
       after = {{"first_tile", cl_uint(band.first)}, {"first_entries", first_entries_.buffer()}};
@@ -268,10 +268,16 @@ class ShadowBits : public PassCache {
     SharedBuffer::hand_to_gl(written);
   }
 
-  // For kernels that shade other points than pixels' centres.
+  ClArguments arguments_of_rays(Work& work) {
+    return (cells_ ? cells_->arguments(*work.renderer.cl) : ClArguments()) + scene_->arguments();
+  }
+
+  // For kernels that shade other points than pixels' centres. In each frame: other views may have made other
+  // light cells.
   void hand_over_rays(Work& work) {
-    work.shadows.traced_defines = " -DSHADOWS_TRACED " + scene_->defines();
-    work.shadows.traced = scene_->arguments() + ClArguments{{"number_offsets", offsets_.buffer()},
+    work.shadows.traced_defines =
+        " -DSHADOWS_TRACED " + scene_->defines() + (cells_ ? " -DSHADOW_CELLS" : "");
+    work.shadows.traced = arguments_of_rays(work) + ClArguments{{"number_offsets", offsets_.buffer()},
                                                             {"shadow_lights", lights_.buffer()},
                                                             {"shadow_view", view_.buffer()}};
   }
@@ -288,7 +294,7 @@ class ShadowBits : public PassCache {
     if (picks_by_groups(work)) put_groups(work, rays);
     ClDevice& device = *work.renderer.cl;
     const std::vector<CullLight> lights = shadowed_lights(work, shining_lights(work));
-    if (!ViewLightCells::serve(work, rays, kernels_.lanes))
+    if (!ViewLightCells::serve(work, kernels_.lanes))
       cells_.reset();
     else if (!cells_)
       cells_.emplace();

@@ -31,9 +31,10 @@ kernel void cells_occlusion(RAYS_ARGUMENTS, LIGHT_CELL_ARGUMENTS, global const f
   const Real3 to = real3(vload16(0, at), vload16(1, at), vload16(2, at));
   global const LightCellTable* table = light_cells + packet.y;
   uint served = 0;
+  int16 veil = (int16)(0);
   if (table->size != 0)
     hidden[i] = hidden_by_cells(&cells, &scene, table, lights[packet.y], to, vload16(3, at),
-                                packet.z, vload16(packet.x, own), &served);
+                                packet.z, vload16(packet.x, own), &served, &veil);
   unserved[i] = packet.z & ~served;
 })";
 

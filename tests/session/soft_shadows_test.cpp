@@ -290,6 +290,18 @@ TEST(PickedShadows, MeanIsTheHiddenRatioAndNoiseFallsWithTheRays) {
   }
 }
 
+// A ray to the only lamp is its exact shadow's.
+TEST(PickedShadows, OfOneLightAreExact) {
+  Scene scene = soft_scene();
+  scene.lights.resize(1);
+  const Shaded picked(scene, "visibility", {"shadow-pick=4"}), exact(scene, "visibility", {});
+  ASSERT_EQ(picked.shadows.cells, exact.shadows.cells);
+  EXPECT_EQ(picked.shadows.bits, exact.shadows.bits);
+  const auto is_whole = [](uint8_t share) { return share == 0 || share == 255; };
+  EXPECT_TRUE(std::ranges::all_of(picked.shadows.shares, is_whole));
+  EXPECT_GT(std::ranges::count(picked.shadows.shares, 255), 300);
+}
+
 // Lamps of another group, which are ten times as bright and stand elsewhere, shine on nothing here.
 TEST(PickedShadows, LightsOfOtherGroupsTakeNoPart) {
   Scene scene = soft_scene();

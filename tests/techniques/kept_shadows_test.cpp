@@ -20,11 +20,11 @@ struct MovingRoom {
   Scene scene;
   dvec3 offset;
   int sun = -1;  // its light, if there is one
-  int cloth_mesh, ball, box, mirrored, hedge, cloth;
+  int leaf, cloth_mesh, ball, box, mirrored, hedge, cloth;
 
   explicit MovingRoom(const dvec3& at) : offset(at) {
-    const int plaster = add_material(scene, "plaster", {0.7f, 0.6f, 0.5f}, 0, 0.8f),
-              leaf = add_material(scene, "leaf", {0.3f, 0.7f, 0.2f}, 0, 0.9f);
+    const int plaster = add_material(scene, "plaster", {0.7f, 0.6f, 0.5f}, 0, 0.8f);
+    leaf = add_material(scene, "leaf", {0.3f, 0.7f, 0.2f}, 0, 0.9f);
     scene.materials[size_t(leaf)].alpha_mode = AlphaMode::mask;
     scene.materials[size_t(leaf)].base_color_map.texture = add_speckles(scene, true);
     const auto place = [&](const char* name, int mesh, dvec3 position, dvec3 scale = dvec3(1),
@@ -120,8 +120,10 @@ struct Case {
   const char *technique = "visibility", *shadows = "exact";
   dvec3 offset{0};
   int frames = 20, width = 200, height = 120;
+  bool is_hedge_blended = false;
   bool still = false;                                       // the camera; there is a sun, too
   std::vector<const char*> settings = {"shadow-reuse=on"};  // of what is kept
+  std::vector<const char*> common = {};                     // of both
 };
 
 struct Sum {
@@ -132,10 +134,12 @@ struct Sum {
 Sum expect_same_bits(Renderer& devices, const Case& c) {
   MovingRoom room(c.offset);
   if (c.still) room.add_sun();
+  if (c.is_hedge_blended) room.scene.materials[size_t(room.leaf)].alpha_mode = AlphaMode::blend;
   GpuScene gpu(devices, room.scene);
   Settings settings;
   apply_setting(settings, std::string("shadows=") + c.shadows);
   apply_setting(settings, "shadow-cells=off");
+  for (const char* setting : c.common) apply_setting(settings, setting);
   const View start = room.view(0, c.width, c.height);
   TechniqueRun without(devices, gpu, start, settings, find_technique(c.technique));
   apply_setting(settings, "shadow-cells=on");
@@ -153,6 +157,7 @@ Sum expect_same_bits(Renderer& devices, const Case& c) {
     EXPECT_EQ(bits.cells, truth.cells) << "frame " << frame;
     EXPECT_EQ(bits.indices, truth.indices) << "frame " << frame;
     EXPECT_EQ(bits.bits == truth.bits, true) << "frame " << frame;
+    EXPECT_EQ(bits.shares == truth.shares, true) << "frame " << frame;
     EXPECT_TRUE(identical(with.image(), without.image())) << "frame " << frame;
     const ShadowFigures figures = with.frame().shadow_figures();
     sum.drawn += figures.drawn, sum.maps += figures.maps, sum.kept += figures.kept;
@@ -183,6 +188,20 @@ TEST(KeptShadows, AreThoseOfTheTreeWhereLightsHaveCells) {
   expect_same_bits(opencl_devices(), {.frames = frames, .settings = {}});
   expect_same_bits(opencl_devices(), {.frames = frames, .settings = {"shadow-memory=1M"}});
   expect_same_bits(opencl_devices(), {.offset = {1e5, 300, -2e5}, .frames = frames, .settings = {}});
+}
+
+// At edges, where rays are traced as surfaces are shaded; where blended surfaces cast; and where rays are
+// picked. With shadow-reuse=on lists may change while the bits are kept.
+TEST(KeptShadows, AreThoseOfTheTreeInEachKindOfShadow) {
+  const int frames = long_tests() ? 300 : 25;
+  for (const char* reuse : {"shadow-reuse=off", "shadow-reuse=on"}) {
+    expect_same_bits(opencl_devices(), {.frames = frames,
+                                        .is_hedge_blended = true,
+                                        .settings = {reuse},
+                                        .common = {"samples=4", "shadow-blended=alpha"}});
+    expect_same_bits(opencl_devices(),
+                     {.frames = frames, .settings = {reuse}, .common = {"shadow-pick=4"}});
+  }
 }
 
 TEST(KeptShadows, AreThoseOfMapsDrawnAnewInEachFrame) {

@@ -8,9 +8,6 @@
 #include "kernels/common/fetch.h"
 #include "kernels/common/image_blocks.h"
 #include "kernels/shadows/shadow_test.h"
-#ifdef SHADOW_PICK
-#include "kernels/shadows/picked_shadows.h"
-#endif
 
 // Of a block's pixels, into an entry of zeros.
 #ifdef SHADOW_BYTES
@@ -101,9 +98,9 @@ kernel void find_shadows(SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
 #ifdef SHADOW_PICK
     for (uint left = used; left != 0; left &= left - 1) {
       const uint block = lowest_bit(left);
-      test.picked[block] = picked_share(&scene, receivers + block, PICK_GROUPS, lights, indices, range,
-                                       tile_x * SHADOW_TILE + block % 4 * 4,
-                                       tile_y * SHADOW_TILE + block / 4 * 4, &test.traced, &test.last_blocker);
+      test.picked[block] = picked_share(&test, &scene, receivers + block, lights, indices, range,
+                                        tile_x * SHADOW_TILE + block % 4 * 4,
+                                        tile_y * SHADOW_TILE + block / 4 * 4);
     }
 #endif
     for (uint i = range.x; i < range.x + range.y; ++i) {

@@ -52,8 +52,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   ShadowTest test = SHADOW_TEST;
   if (item == 0) traced_here = 0;
 #ifdef SHADOW_PICK  // one part a tile
-  test.picked[0] =
-      picked_share(&scene, &r, PICK_GROUPS, lights, indices, range, x, y, &test.traced, &test.last_blocker);
+  test.picked[0] = picked_share(&test, &scene, &r, lights, indices, range, x, y);
 #endif
   for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
     global uint* entry = bits + (size_t)(i - range.x + own_entry) * SHADOW_WORDS;

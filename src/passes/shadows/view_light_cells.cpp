@@ -13,11 +13,10 @@ const OwnSetting<bool> shadow_cells{"shadow-cells",
 
 }  // namespace
 
-bool ViewLightCells::serve(const Work& work, const RayScene& rays, bool lanes) {
+bool ViewLightCells::serve(const Work& work, bool lanes) {
   const Settings& settings = work.plan.settings;
   return lanes && work.renderer.cl->info().cpu && shadow_cells.of(settings) &&
-         settings.shadows == ShadowMethod::exact && !settings.soft_shadows() && !settings.picks_shadows() &&
-         rays.defines().find("RAYS_VEILS") == std::string::npos;
+         settings.shadows == ShadowMethod::exact && !settings.soft_shadows();
 }
 
 // With a light's own range, and not with what a view's rounding adds to it: lists then serve all views.

@@ -10,9 +10,8 @@ namespace lightgrid {
 
 class ViewLightCells {
  public:
-  // True if rays of the view may use them: the kernel is for a CPU, and rays begin at a light's centre and
-  // are not dimmed by blended surfaces.
-  static bool serve(const Work& work, const RayScene& rays, bool lanes);
+  // True if rays of the view may use them: the kernel is for a CPU, and rays begin at a light's centre.
+  static bool serve(const Work& work, bool lanes);
 
   // When the view, lights or surfaces changed. records: shadow_light_records() of `lights`.
   void look(Work& work, const std::vector<ShadowLight>& records, const std::vector<CullLight>& lights);
