@@ -19,8 +19,9 @@ constexpr Shows all_seen{.seen = 0.9, .hidden = 0}, mostly_seen{.seen = 0.5, .hi
 std::vector<ShadowImage> shadows(Check& c, const Scene& scene, const std::vector<View>& views,
                                  const Shows& shows = {});
 
-// Of eye, light and surface, views and lists: the second half of shadow_cases().
+// Parts of shadow_cases(): of eye, light and surface, views and lists; of lights that touch casters.
 std::vector<CaseRun> shadow_cases_of_views();
+std::vector<CaseRun> shadow_cases_of_contacts();
 
 // A floor of 8 x 8 m with a post and a table on it, seen from a corner.
 Scene furnished_floor(int cells = 2);

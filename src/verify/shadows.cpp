@@ -341,8 +341,8 @@ std::vector<CaseRun> shadow_cases() {
       inside_closed_boxes, box_of_instances, ranges_that_end_there, within_the_gap,
       within_the_gap_of_the_light, far_by_1e5_m, far_by_1e6_m, far_by_1e8_m, one_far_off, mirrored_instances,
       scaled_and_sheared_instances, masked_foliage, what_does_not_hide, without_area);
-  const std::vector<CaseRun> of_views = shadow_cases_of_views();
-  cases.insert(cases.end(), of_views.begin(), of_views.end());
+  for (const auto& more : {shadow_cases_of_views(), shadow_cases_of_contacts()})
+    cases.insert(cases.end(), more.begin(), more.end());
   return cases;
 }
 

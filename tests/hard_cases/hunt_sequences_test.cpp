@@ -8,6 +8,7 @@
 #include "support/gltf_pointers.h"
 #include "verify/hunt_sequences.h"
 #include "verify/hunt_shadows.h"
+#include "verify/run.h"
 
 namespace lightgrid::verify {
 namespace {
@@ -134,6 +135,14 @@ TEST(HuntOfSequences, AnimatedVisibilityDoesNotShowWhatWasKept) {
       changed += !changes.empty();
     }
     EXPECT_GT(changed, 6u);
+  }
+}
+
+TEST(HuntOfSequences, HardCasesOfContactsFindFaultsAfterMotion) {
+  Faulty lights, casters(&SceneChanges::instances);
+  for (const HardCase* hard_case : chosen_cases("^shadows/lights_(beside_a_wall|inside_slivers)$")) {
+    EXPECT_TRUE(fails(*hard_case, lights, 0)) << hard_case->name;
+    EXPECT_TRUE(fails(*hard_case, casters, 0)) << hard_case->name;
   }
 }
 

@@ -25,8 +25,8 @@ std::vector<ShadowFault> shadow_faults() {
        {"grazing"},
        "coplanar"},
       {"no_gap",
-       "p->end = 1.0f - gap / sqrt",
-       "p->end = 1.0f - 0.0f * gap / sqrt",
+       "end = 1.0f - gap /",  // of the tree's rays and of the cells'
+       "end = 1.0f - 0.0f * gap /",
        {"within_the_gap"},
        "rooms"},
       {"never_turned_away",
@@ -38,6 +38,14 @@ std::vector<ShadowFault> shadow_faults() {
        "return lane_min(lane_min(u, v), lane_min(w, live)) >= 0.0f;",
        "return lane_min(lane_min(u, v), lane_min(w, live)) > 0.0f;",
        {"through_shared_edges"}},
+      {"near_a_plane_is_in_it",
+       "if (!(facing > 0 || facing < 0)) return (mask_t)(0);",
+       "if (!(facing > 1e-4 || facing < -1e-4)) return (mask_t)(0);",
+       {"lights_beside_a_wall", "lights_beside_edges"}},
+      {"near_a_plane_is_in_it_for_cells",
+       "WIDE_MASK(distance * turn > 0.0)",
+       "WIDE_MASK(distance * turn > 1e-4)",
+       {"lights_beside_a_wall", "lights_beside_planes", "lights_beside_edges", "lights_inside_slivers"}},
       {"two_bits_swapped",
        "lane_bits(hidden != 0) << 16 * (block & 1u)",
        "((lane_bits(hidden != 0) & ~3u) | (lane_bits(hidden != 0) & 1u) << 1 |"
@@ -75,10 +83,11 @@ std::vector<ShadowFault> shadow_faults() {
 // *planted: in how many kernels.
 std::unique_ptr<CullEngine> faulty_engine(const ShadowFault& fault, int* planted) {
   return device_engine("", [fault, planted](std::string text) {
-    const size_t at = text.find(fault.right);
-    if (at == text.npos) return text;
-    ++*planted;
-    return text.replace(at, std::string_view(fault.right).size(), fault.wrong);
+    const std::string_view right = fault.right, wrong = fault.wrong;
+    size_t at = text.find(right);
+    *planted += at != text.npos;
+    for (; at != text.npos; at = text.find(right, at + wrong.size())) text.replace(at, right.size(), wrong);
+    return text;
   });
 }
 
