@@ -62,10 +62,20 @@ def percent(value):
 
 
 def cell(f):
-    if f["lost"] == 0 and f["visible_share"] == 0:
-        return "–"
-    seam = f"{f['step_at_borders'] / f['step_inside']:.1f}" if f["step_inside"] > 0 else "-"
-    return " · ".join([percent(f["lost"] / f["lit"]), percent(f["lost_light"]), percent(f["visible_share"]), seam])
+    return f"{percent(float(f['lost_light']))} / {percent(float(f['visible_share']))}"
+
+
+def table(rows):
+    """Lost light and visibly different pixels, by order; without caps of which at most 1 % of the pixels look different."""
+    lines = ["| scene, lights, lit per pixel | list | `index` | `distance` | `brightest` |", "| --- | --- | ---: | ---: | ---: |"]
+    for scene, lights, words in dict.fromkeys((r["scene"], r["lights"], r["cap"]) for r in rows):
+        found = {r["order"]: r for r in rows if (r["scene"], r["lights"], r["cap"]) == (scene, lights, words)}
+        if words == "64 a view" or all(float(r["visible_share"]) <= 0.01 for r in found.values()):
+            continue
+        lit = int(next(iter(found.values()))["lit"]) / (1280 * 720)
+        cells = [cell(found[order]) if order in found else "" for order in ORDERS]
+        lines.append(f"| `{scene}`, {lights}, {lit:.1f} | {words.replace(' a ', ' per ')} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
 
 
 def main():
@@ -73,8 +83,7 @@ def main():
     parser.add_argument("--sponza")
     parser.add_argument("--keep")
     options = parser.parse_args()
-    rows, lines = [], ["| scene | lights | lit a pixel | list | `index` | `distance` | `brightest` |",
-                   "| --- | ---: | ---: | --- | --- | --- | --- |"]
+    rows = []
     with tempfile.TemporaryDirectory() as temporary:
         for scene, more in SCENES:
             file = options.sponza if scene == "sponza" else scene
@@ -90,11 +99,7 @@ def main():
                         found[r["settings"].get("list_cap_order", "distance")] = figures(r)
                 for order, f in found.items():
                     rows.append({"scene": scene, "lights": lights, "technique": technique, "cap": words, "order": order, **f})
-                cells = [cell(found[order]) if order in found else "" for order in ORDERS]
-                lit = f"{next(iter(found.values()))['lit'] / (1280 * 720):.1f}"
-                if words != "64 a view" and any(c not in ("", "–") for c in cells):  # those are in the file
-                    lines.append(f"| `{scene}` | {lights} | {lit} | {words} | " + " | ".join(cells) + " |")
-    print("\n".join(lines))
+    print(table(rows))
     with open(ROOT / "docs" / "results" / "capped_lists.csv", "w", newline="") as out:
         writer = csv.DictWriter(out, rows[0].keys(), lineterminator="\n")
         writer.writeheader()
