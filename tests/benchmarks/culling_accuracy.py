@@ -199,15 +199,13 @@ def winner_table(found):
             best = found.best(frame, cost)
             digits = 2 if ns == 0 else 1
             cells.append(f"{name_of(best)}: {cost(*best):.{digits}f} ({cost(*default(frame)):.{digits}f})")
-        best = found.best(frame, found.ratio)
-        cells.append(f"{name_of(best)}: {found.ratio(*best):.3f}")
         rows.append(cells)
-    return table(["frame", "culling alone, ms", *(f"with shading at {ns} ns, ms" for ns in SHADING_NS), "listed / lit"], rows)
+    return table(["frame", "culling alone, ms", *(f"with shading at {ns} ns, ms" for ns in SHADING_NS)], rows)
 
 
 def choice_table(found):
     """Cost relative to the default: geometric mean over the frames."""
-    settings = [(test, bounds, tile) for tile in (16, 8) for bounds in ("minmax", "halfz-modified", "mask32")
+    settings = [(test, bounds, tile) for tile in (16, 8) for bounds in ("minmax", "halfz-modified")
                 for test in ("planes+aabb", "exact")]
     rows = []
     for test, bounds, tile in settings:
@@ -218,26 +216,6 @@ def choice_table(found):
             cells.append(f"{mean(ratios):.2f}")
         rows.append(cells)
     return table(["setting", *(f"{ns} ns per pair" for ns in CHOICE_NS)], rows)
-
-
-def tightest_at_16(found, frame):
-    places = [place for place in found.at if place[0] == frame and place[1] == 16]
-    return min(places, key=lambda place: found.ratio(*place))
-
-
-def target_table(found):
-    wanted = {"floor256": (1.12, 1.10), "floor1024": (1.23, 1.19), "floor4096": (1.40, 1.33), "spheres1024": (1.33, 1.27)}
-    met = lambda value, most: f"{value:.4f} ({most}){'' if value <= most else ': missed'}"
-    rows = []
-    for frame in (f for f in found.frames if f in wanted):
-        tight = tightest_at_16(found, frame)
-        exact = found.ratio(frame, 16, "exact", "minmax")
-        over = found.ratio(*tight) / found.ratio(*tight, of="perfect")
-        rows.append([frame, met(found.ratio(frame, 16, "planes+aabb", "minmax"), wanted[frame][0]),
-                     met(exact, wanted[frame][1]),
-                     f"{name_of(tight)}: {met(found.ratio(*tight), round(exact, 4))}",
-                     met(over, 1.25)])
-    return table(["frame", "default", "`exact`, `minmax`", "tightest at 16 pixels", "tightest / perfect list"], rows)
 
 
 def total_line(found):
@@ -262,7 +240,7 @@ def main():
     found = Results(args.csv)
     with open(args.doc) as file:
         text = file.read()
-    for name, make in [("total", total_line), ("targets", target_table), ("winners", winner_table),
+    for name, make in [("total", total_line), ("winners", winner_table),
                        ("choice", choice_table), ("tiles", tile_table), ("bounds", bounds_table)]:
         text = fill(text, name, make(found))
     with open(args.doc, "w") as file:

@@ -89,9 +89,11 @@ def lights_that_fit(groups, column):
 def exact_by_cores(paths):
     cores = [int(re.search(r"(\d+)\.csv$", path)[1]) for path in paths]
     machines = [read(path) for path in paths]
-    head = ["scene, size"] + [f"{b} ms: {' / '.join(map(str, cores))} cores" for b in BUDGETS]
+    head = ["scene"] + [f"{b} ms: {' / '.join(map(str, cores))} cores" for b in BUDGETS]
     rows = []
     for scene, size in machines[-1][0]:
+        if size != TABLED:
+            continue
         points = []
         for groups, _ in machines:
             series = groups.get((scene, size), Series())
@@ -99,7 +101,7 @@ def exact_by_cores(paths):
         if all(len(p) < 2 for p in points):
             continue
         cells = [" / ".join(fitting(p, b) for p in points) for b in BUDGETS]
-        rows.append([f"`{scene}`, {size.replace('x', ' × ')}"] + cells)
+        rows.append([f"`{scene}`"] + cells)
     return machines[-1][1] + "\n\n" + table(head, rows)
 
 
