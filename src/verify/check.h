@@ -1,5 +1,5 @@
 // Hard cases of culling: inputs on which naive code loses lights, hangs or crashes, each with the property
-// that must hold (docs/details/hard_case_catalogue.md), and their checks, with counts. Each check is a
+// that must hold (src/verify/catalogue.md), and their checks, with counts. Each check is a
 // sandwich: what is certainly in must be listed, and what is listed must be possibly in. For the library,
 // bytes must also be equal in both kernel shapes and in every run.
 #pragma once

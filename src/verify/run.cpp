@@ -70,7 +70,7 @@ const std::vector<HardCase>& hard_cases() {
   static const std::vector<HardCase> all = [] {
     const std::map<std::string, Run> runs = runs_by_name();
     std::vector<HardCase> cases;
-    std::istringstream catalogue(embedded_file("docs/details/hard_case_catalogue.md"));
+    std::istringstream catalogue(embedded_file("verify/catalogue.md"));
     for (std::string line; std::getline(catalogue, line);) {
       const std::vector<std::string> fields = fields_of_row(line);
       if (fields.size() != 5 || !fields[1].starts_with('`')) continue;
