@@ -151,9 +151,6 @@ class Results:
         row = self.at[place]
         return float(row["min_ms"]) + int(row["listed"]) * shading_ns * 1e-6
 
-    def best(self, frame, value):
-        return min((place for place in self.at if place[0] == frame), key=lambda place: value(*place))
-
 
 def table(head, rows):
     return ["| " + " | ".join(head) + " |", "| --- |" + " ---: |" * (len(head) - 1),
@@ -183,24 +180,6 @@ def tile_table(found):
                 cells.append(f"{found.ratio(*place):.2f} / {float(found.at[place]['tile_p99']):.0f} / {found.ms(*place):.2f}")
             rows.append(cells)
     return table(["frame", "tile", "perfect list", "`planes+aabb`, `minmax`", "`exact`, `halfz-modified`"], rows)
-
-
-def name_of(place):
-    return f"`{place[2]}` `{place[3]}` {place[1]}"
-
-
-def winner_table(found):
-    default = lambda frame: (frame, 16, "planes+aabb", "minmax")
-    rows = []
-    for frame in found.frames:
-        cells = [frame]
-        for ns in [0, *SHADING_NS]:
-            cost = lambda *place, ns=ns: found.ms(*place, shading_ns=ns)
-            best = found.best(frame, cost)
-            digits = 2 if ns == 0 else 1
-            cells.append(f"{name_of(best)}: {cost(*best):.{digits}f} ({cost(*default(frame)):.{digits}f})")
-        rows.append(cells)
-    return table(["frame", "culling alone, ms", *(f"with shading at {ns} ns, ms" for ns in SHADING_NS)], rows)
 
 
 def choice_table(found):
@@ -240,7 +219,7 @@ def main():
     found = Results(args.csv)
     with open(args.doc) as file:
         text = file.read()
-    for name, make in [("total", total_line), ("winners", winner_table),
+    for name, make in [("total", total_line), 
                        ("choice", choice_table), ("tiles", tile_table), ("bounds", bounds_table)]:
         text = fill(text, name, make(found))
     with open(args.doc, "w") as file:

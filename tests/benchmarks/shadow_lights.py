@@ -108,8 +108,7 @@ def exact_by_cores(paths):
 def break_even(groups):
     """Times of a ray, a look-up and a light's maps, by kernels, at the most lights that all of these have."""
     head = ["scene", "ray, ns", "pairs per light"]
-    for size in MAPS:
-        head += [f"maps of {size}: µs per light", "look-up, ns", "pay from pairs per light"]
+    head += ["maps of 64: µs per light", "look-up, ns", "pay from pairs per light"]
     rows = []
     for (scene, size), series in groups.items():
         lights = [n for n in series.both(EXACT, MAPS[256]) if n in series.rows.get(MAPS[64], {})
@@ -121,13 +120,11 @@ def break_even(groups):
         pairs, found = int(exact["pairs"]), int(exact["lights_found"])
         ray = float(exact["find_shadows_ms"]) * 1e6 / pairs
         cells = [f"`{scene}`, {n:,} lights", figure(ray), figure(pairs / found)]
-        for setting in MAPS.values():
-            row = series.rows[setting][n]
-            drawn = int(row["maps_drawn"])
-            a_light = float(row["draw_maps_ms"]) * 1e6 / drawn if drawn else 0
-            look_up = float(row["find_shadows_ms"]) * 1e6 / pairs
-            cells += [figure(a_light / 1e3), figure(look_up),
-                      figure(a_light / (ray - look_up)) if ray > look_up else "never"]
+        row = series.rows[MAPS[64]][n]
+        drawn = int(row["maps_drawn"])
+        a_light = float(row["draw_maps_ms"]) * 1e6 / drawn if drawn else 0
+        look_up = float(row["find_shadows_ms"]) * 1e6 / pairs
+        cells += [figure(a_light / 1e3), figure(look_up), figure(a_light / (ray - look_up)) if ray > look_up else "never"]
         rows.append(cells)
     return table(head, rows)
 
