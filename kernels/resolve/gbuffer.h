@@ -34,30 +34,6 @@ typedef struct Texels {
   real x, y, z, w;
 } Texels;
 
-#if LANES == 16
-#if BUFFER_BITS == 32
-#define CHANNELS16(p) vload16(0, p)
-#else
-#define CHANNELS16(p) convert_float16(vload16(0, p))
-#endif
-
-// 8 pixels from each of two addresses.
-static inline Texels load_texels(global const channel_t* first, global const channel_t* second) {
-  const float16 a = CHANNELS16(first), b = CHANNELS16(first + 16), c = CHANNELS16(second),
-                d = CHANNELS16(second + 16);
-  const Texels t = {
-      (float16)(a.s048c, b.s048c, c.s048c, d.s048c), (float16)(a.s159d, b.s159d, c.s159d, d.s159d),
-      (float16)(a.s26ae, b.s26ae, c.s26ae, d.s26ae), (float16)(a.s37bf, b.s37bf, c.s37bf, d.s37bf)};
-  return t;
-}
-#else
-static inline Texels load_texel(global const channel_t* at) {
-  const channel4_t c = *(global const channel4_t*)at;
-  const Texels t = {(float)c.x, (float)c.y, (float)c.z, (float)c.w};
-  return t;
-}
-#endif
-
 // As lit_surface of shaders/common/gbuffer.glsl, from stored integers in place of normalised ones.
 #if BUFFER_BITS == 32
 #define OF_ONE(x) (x)

@@ -30,27 +30,11 @@ static inline real stored_light(real sum, float inverse_scale, mask_t lit) {
 }
 #define STORED(term) stored_light(term, inverse_scale, lit)
 
-// The first `values` of a row of channels.
-static inline void store_channels(global light_channel_t* to, const float* row, uint values) {
-  for (uint i = 0; i < values; ++i) {
+// n values, as STORED() has them.
 #if BUFFER_BITS == 32
-    to[i] = row[i];
+#define STORE_CHANNELS(n, values, to) vstore##n(values, 0, to)
 #elif BUFFER_BITS == 16
-    vstore_half_rte(row[i], i, to);
+#define STORE_CHANNELS(n, values, to) vstore_half##n##_rte(values, 0, to)
 #else
-    to[i] = convert_uchar_sat_rte(row[i]);
+#define STORE_CHANNELS(n, values, to) vstore##n(convert_uchar##n##_sat_rte(values), 0, to)
 #endif
-  }
-}
-
-// The four sums of the first image and the two of the second, as STORED() has them, into `count` places after
-// one another.
-static inline void store_sums(global light_channel_t* first, global light_channel_t* second, size_t at,
-                              uint count, const float* sums) {
-  for (uint i = 0; i < count; ++i) {
-    store_channels(first + 4 * (at + i), sums, 4);
-#ifdef PREPASS_FIFTH_TERM
-    store_channels(second + 2 * (at + i), sums + 4, 2);
-#endif
-  }
-}

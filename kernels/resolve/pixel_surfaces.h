@@ -4,7 +4,7 @@
 
 #include "kernels/resolve/resolve.h"
 #include "kernels/resolve/samples.h"
-#include "kernels/resolve/stored_samples.h"
+#include "kernels/resolve/stored_batch.h"
 
 // The samples of a pixel that see no surface, a bit each.
 static inline uint missed_samples(global const uint* triangles, uint at) {

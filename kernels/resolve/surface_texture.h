@@ -45,15 +45,6 @@ typedef ushort packed_t;
 #define packed_texels(at) TEXELS_16(at)
 #endif
 
-// Lane i of a member.
-#if LANES == 16
-#define LANE(v, i) (((const float*)&(v))[i])
-#define INDEX_LANE(v, i) ((size_t)((const uint*)&(v))[i])
-#else
-#define LANE(v, i) (v)
-#define INDEX_LANE(v, i) ((size_t)(uint)(v))
-#endif
-
 // A trilinear filter takes these from a level: the numbers of the first texel of both rows, and weights. A
 // texel's weight is its row's times its column's.
 typedef struct LevelTaps {

@@ -45,9 +45,8 @@ class Expansion {
     if (std::ranges::any_of(earlier, encloses)) return;
     const bool guarded = !earlier.empty() || !branches_.empty();
     earlier.push_back(branches_);
-    std::string macro = "EXPANDED_" + path;
-    std::ranges::replace_if(
-        macro, [](char c) { return !std::isalnum(uint8_t(c)); }, '_');
+    std::string macro = "EXPANDED_";  // "a/b.h" and "a_b.h" have different ones
+    for (const char c : path) macro += std::isalnum(uint8_t(c)) ? std::string(1, c) : c == '/' ? "__" : "_";
     if (guarded) text += "#ifndef " + macro + "\n#define " + macro + '\n';
     append(path);
     if (guarded) text += "#endif\n";

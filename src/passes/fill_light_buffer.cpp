@@ -63,9 +63,8 @@ LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const No
                                   const DepthBuffer& depth, const LightSource& lights, TargetUse use,
                                   const cl::Buffer& edges) {
   LightSums& s = cache.of(work);
-  const bool several = work.grid().samples > 1;
-  NamedKernel& kernel = several ? s.kernels.of("light_buffer_samples", sample_defines(work.sample_places()))
-                                : s.kernels.of("light_buffer");
+  NamedKernel& kernel =
+      s.kernels.of("shade_stored", " -DSTORED_NORMALS" + sample_defines(work.sample_places()));
   LightBufferInCl buffer{&light_buffer_layout(work.plan.settings), nullptr, nullptr};
   buffer.first = &work.shared_samples("light buffer", buffer.layout->first.bytes, use);
   if (has_fifth_term(work.plan.settings))
@@ -74,18 +73,19 @@ LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const No
   auto pass = work.timer.pass("fill_light_buffer", "cl");
   const auto [items, group] = over_pixels(work, s.kernels.lanes, 16, 16);
   kernel.launch(*work.renderer.cl, "fill_light_buffer", items, group,
-                ClArguments{{"normals", normals.image->cl_buffer()}, {"depth", depth.values}} +
+                ClArguments{{"normals", normals.image->cl_buffer()},
+                            {"sums", buffer.first->cl_buffer()},
+                            {"other_sums", buffer.second ? buffer.second->cl_buffer() : cl::Buffer()},
+                            {"exponent", cl_float(work.plan.settings.prepass_shininess)},
+                            {"inverse_scale", cl_float(1 / stored_scale(work))},
+                            {"depth", depth.values}} +
                     group_number_arguments(work.plan, normals.group_numbers) + work.light_arguments() +
                     ClArguments{{"cells", lights.in_cl->cells},
                                 {"indices", lights.in_cl->indices},
                                 {"light_bins", lights.in_cl->z_bins},
                                 {"bin_edges", table.bin_edges.buffer()},
-                                {"first", buffer.first->cl_buffer()},
-                                {"second", buffer.second ? buffer.second->cl_buffer() : cl::Buffer()},
-                                {"exponent", cl_float(work.plan.settings.prepass_shininess)},
-                                {"inverse_scale", cl_float(1 / stored_scale(work))},
-                                {"view", table.view.buffer()}} +
-                    (several ? ClArguments{{"edges", edges}} : ClArguments()));
+                                {"edges", edges},
+                                {"view", table.view.buffer()}});
   pass.moves(work.grid().values() * (4 + normals.layout->image.bytes) + lights.bytes,
              work.grid().values() * buffer.bytes());
   return buffer;

@@ -114,19 +114,20 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
   const ClLights& table = work.cl_lights();
   auto pass = work.timer.pass("shade_tiles", "cl");
   const auto [items, group] = over_pixels(work, s.kernels.lanes, 16, 16);
-  const bool base_lighting = holds_base_lighting(gbuffer), several = work.grid().samples > 1;
-  const char* name = several ? "shade_tile_samples" : "shade_tiles";
+  const bool base_lighting = holds_base_lighting(gbuffer);
   const glm::vec3 background =
       base_lighting ? glm::vec3(0) : work.scene.background;  // in the image already, or not
   s.kernels
-      .of(name, lights.in_cl->defines + (base_lighting ? " -DBASE_LIGHTING" : "") +
-                    sample_defines(work.sample_places()))
-      .launch(*work.renderer.cl, name, items, group,
+      .of("shade_stored", lights.in_cl->defines + " -DSTORED_SURFACES" +
+                              (base_lighting ? " -DBASE_LIGHTING" : "") + sample_defines(work.sample_places()))
+      .launch(*work.renderer.cl, "shade_tiles", items, group,
               ClArguments{{"first", gbuffer.surfaces[0]->cl_buffer()},
                           {"second", gbuffer.surfaces[1]->cl_buffer()},
                           {"coats", gbuffer.in_cl(gbuffer_coat)},
                           {"specular", gbuffer.in_cl(gbuffer_specular)},
                           {"models", s.models.buffer()},
+                          {"image", gbuffer.image->cl_buffer()},
+                          {"background", cl_float4{{background.r, background.g, background.b, 0}}},
                           {"depth", depth.values}} +
                   group_number_arguments(work.plan, gbuffer.group_numbers) + work.light_arguments() +
                   ClArguments{{"cells", lights.in_cl->cells},
@@ -134,10 +135,8 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
                               {"light_bins", lights.in_cl->z_bins}} +
                   lights.in_cl->more +
                   ClArguments{{"bin_edges", table.bin_edges.buffer()},
-                              {"image", gbuffer.image->cl_buffer()},
-                              {"background", cl_float4{{background.r, background.g, background.b, 0}}},
-                              {"view", table.view.buffer()}} +
-                  (several ? ClArguments{{"edges", edges}} : ClArguments()));
+                              {"edges", edges},
+                              {"view", table.view.buffer()}});
   const size_t values = work.grid().values();
   const size_t surface_bytes = gbuffer.bytes() + 4 + (base_lighting ? 16 : 0);
   pass.moves(values * surface_bytes + lights.bytes, work.grid().pixels() * 16);

@@ -31,7 +31,7 @@ inline constexpr LightReader light_readers[] = {
     {.name = "light loops",
      .files =
          "src/shared/punctual_light.h shaders/deferred_light.frag shaders/light_buffer.frag "
-         "kernels/resolve/shade_pixels.h kernels/resolve/outputs/reflected.h kernels/resolve/light_buffer.h",
+         "kernels/resolve/shade_pixels.h kernels/resolve/outputs/reflected.h kernels/resolve/stored/normals.h",
      .position = reads,
      .color = reads,
      .cone = reads,

@@ -31,6 +31,15 @@ static inline real lane_max(real a, real b) { return a > b ? a : b; }
 #define any_lane(m) ((m) != 0)
 #endif
 
+// Lane i of a variable.
+#if LANES == 16
+#define LANE(v, i) (((const float*)&(v))[i])
+#define INDEX_LANE(v, i) ((size_t)((const uint*)&(v))[i])
+#else
+#define LANE(v, i) (v)
+#define INDEX_LANE(v, i) ((size_t)(uint)(v))
+#endif
+
 // The instruction set whose builtins kernels use: clang, and with it PoCL, says what it compiles for. -DPORTABLE
 // uses none; the bytes are the same.
 #if LANES == 16 && !defined(PORTABLE)

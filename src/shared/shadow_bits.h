@@ -81,11 +81,7 @@ float seen_share(int light, uvec2 pixel) {
 
 #elif defined(__OPENCL_VERSION__)
 
-// LANES pixels of one tile: SHADOW_ACROSS (4, 8 or 16) side by side, the rest above them. x and y, of the
-// first in its tile, are multiples of SHADOW_ACROSS and of the number of rows.
-#ifndef SHADOW_ACROSS
-#define SHADOW_ACROSS 4
-#endif
+// A pixel of a tile, or with 16 lanes a block of 4 x 4 of them, by its first pixel.
 
 #define SHADOW_ARGUMENTS global const uint2 *shadow_tiles, global const uint *shadow_bits,
 #define GIVEN_SHADOWS , shadow_tiles, shadow_bits
@@ -123,7 +119,7 @@ static inline ShadowsHere shadows_here(global const uint2* tiles, global const u
   return here;
 }
 
-// Of an entry: where the pixels' values begin. Those of 16 pixels side by side are in four blocks, 4 each.
+// Where the pixels' values begin in an entry.
 static inline uint first_value(const ShadowsHere* here) {
   return (here->y / 4 * 4 + here->x / 4) * 16 + (here->y & 3u) * 4 + (here->x & 3u);
 }
@@ -133,32 +129,17 @@ static inline real seen_in_entry(global const uint* words, const ShadowsHere* he
   global const uchar* from = (global const uchar*)words + first_value(here);
 #if LANES == 1
   const float hidden = (float)*from;
-#elif SHADOW_ACROSS == 4
-  const real hidden = convert_float16(vload16(0, from));
-#elif SHADOW_ACROSS == 8
-  const real hidden = convert_float16(
-      (uchar16)(vload4(0, from), vload4(4, from), vload4(1, from), vload4(5, from)));
 #else
-  const real hidden = convert_float16(
-      (uchar16)(vload4(0, from), vload4(4, from), vload4(8, from), vload4(12, from)));
+  const real hidden = convert_float16(vload16(0, from));
 #endif
   return 1.0f - hidden * (1.0f / 255.0f);
 }
 #else
 static inline real seen_in_entry(global const uint* words, const ShadowsHere* here) {
-  const uint first = first_value(here), shift = first & 31u;
-  const uint w = words[first / 32] >> shift;
+  const uint first = first_value(here), bits = words[first / 32] >> (first & 31u);
 #if LANES == 1
-  return w & 1u ? 0.0f : 1.0f;
+  return bits & 1u ? 0.0f : 1.0f;
 #else
-#if SHADOW_ACROSS == 4
-  const uint bits = w;
-#elif SHADOW_ACROSS == 8
-  const uint bits = (w & 15u) | (w >> 16 & 15u) << 4 | (w >> 4 & 15u) << 8 | (w >> 20 & 15u) << 12;
-#else
-  const uint v = words[first / 32 + 1] >> shift;
-  const uint bits = (w & 15u) | (w >> 16 & 15u) << 4 | (v & 15u) << 8 | (v >> 16 & 15u) << 12;
-#endif
   return ((int16)((int)bits) >> LANE_INDEX & 1) != 0 ? REAL(0.0f) : REAL(1.0f);
 #endif
 }

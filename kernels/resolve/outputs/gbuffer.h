@@ -1,4 +1,4 @@
-// The geometry buffer (kernels/resolve/gbuffer.h); lights come from shade_tiles.
+// The geometry buffer (kernels/resolve/gbuffer.h); lights come from stored/surfaces.h.
 //
 // background  of pixels without a surface
 // first, second, coats, specular  out: the geometry buffer; coats and specular may be null: not stored.

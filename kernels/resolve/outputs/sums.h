@@ -4,7 +4,7 @@
 // rasterises.
 //
 // background     of pixels without a surface
-// first, second  the light buffer (kernels/resolve/cpu/light_buffer.cl)
+// first, second  the light buffer (kernels/resolve/stored/normals.h)
 // scale          factor of its values
 // exponent, reference  LightBufferParams (shared/light_buffer.h)
 // image          out: RGBA per pixel

@@ -1,0 +1,135 @@
+// The sums of a light buffer (shared/light_buffer.h) on surfaces whose normals are stored. Engel, "Designing
+// a Renderer for Multiple Lights: The Light Pre-Pass Renderer" (ShaderX7, 2009).
+//
+// normals        row 0 at the bottom (shared/stored_normal.h)
+// sums           out: four channels for each sample, diffuse red, green, blue and the specular term
+// other_sums     out: two channels, the fifth term and the specular one's rim; with -DPREPASS_FIFTH_TERM
+// alone exponent       of the lights inverse_scale  what sums are multiplied by before they are stored
+// -DNORMALS_OCTAHEDRAL, -DNORMALS_SPHEREMAP, -DNORMALS_XYZ8  the format of normals (shared/stored_normal.h);
+// without, floats
+// -DBUFFER_BITS, -DPREPASS_FIFTH_TERM  kernels/resolve/light_sums.h
+#pragma once
+
+#include "kernels/resolve/group_numbers.h"
+#include "kernels/resolve/light_sums.h"
+#include "kernels/resolve/shade_pixels.h"
+#include "kernels/resolve/stored_batch.h"
+#include "kernels/resolve/stored_normals.h"
+
+#define STORED_ARGUMENTS                                                                            \
+  global const normal_t *normals, global light_channel_t *sums, global light_channel_t *other_sums, \
+      float exponent, float inverse_scale
+typedef struct Stored {
+  global const normal_t* normals;
+  global light_channel_t *sums, *other_sums;
+  float exponent, inverse_scale;
+} Stored;
+#define GIVEN_STORED \
+  { normals, sums, other_sums, exponent, inverse_scale }
+#define NEEDS_EVERY_PIXEL true
+
+// For all samples that show them.
+static inline void store_sums(const Stored* s, size_t at, float share, float4 sums, float2 others) {
+  for (uint i = 0; i < PLACES_OF(share); ++i) {
+    STORE_CHANNELS(4, sums, s->sums + 4 * (at + i));
+#ifdef PREPASS_FIFTH_TERM
+    STORE_CHANNELS(2, others, s->other_sums + 2 * (at + i));
+#endif
+  }
+}
+
+#if LANES == 16
+static inline void store_row_of_sums(const Stored* s, size_t at, float16 sums, float8 others) {
+  STORE_CHANNELS(16, sums, s->sums + 4 * at);
+#ifdef PREPASS_FIFTH_TERM
+  STORE_CHANNELS(8, others, s->other_sums + 2 * at);
+#endif
+}
+
+static inline Real3 normals_at(global const normal_t* normals, const StoredBatch* b) {
+#ifdef NORMAL_CHANNEL_STEPS
+  uint n[16];
+  for (uint i = 0; i < 16; ++i) n[i] = normals[IMAGE_OF(b, i)];
+  return unpacked_normal(vload16(0, n));
+#else
+  float n[3][16];
+  for (uint i = 0; i < 16; ++i) {
+    const float4 one = normals[IMAGE_OF(b, i)];
+    n[0][i] = one.x, n[1][i] = one.y, n[2][i] = one.z;
+  }
+  return real3(vload16(0, n[0]), vload16(0, n[1]), vload16(0, n[2]));
+#endif
+}
+
+static inline void store_terms(const Stored* s, const StoredBatch* b, LightTerms t) {
+  float16 rows[4];
+  rows_of_block(rows, t.diffuse, t.specular);
+  float pairs[32];
+  for (uint i = 0; i < 16; ++i) pairs[2 * i] = LANE(t.weight, i), pairs[2 * i + 1] = LANE(t.rim, i);
+  if (b->in_rows) {
+    for (uint i = 0; i < 4; ++i) store_row_of_sums(s, IMAGE_OF(b, 4 * i), rows[i], vload8(i, pairs));
+    return;
+  }
+  for (uint left = b->lanes; left != 0; left &= left - 1) {
+    const uint i = lowest_bit(left);
+    store_sums(s, IMAGE_OF(b, i), SHARE_OF(b, i), vload4(i, (const float*)rows), vload2(i, pairs));
+  }
+}
+#else
+#define normals_at(normals, b) normal_at(normals, (b)->image)
+static inline void store_terms(const Stored* s, const StoredBatch* b, LightTerms t) {
+  store_sums(s, b->image, b->share, (float4)(t.diffuse.x, t.diffuse.y, t.diffuse.z, t.specular),
+             (float2)(t.weight, t.rim));
+}
+#endif
+
+// A light that reaches none of the pixels, or that none of them faces, would add exact zeros.
+static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal, Real3 to_viewer,
+                                    whole groups, mask_t lit, uint index, const Lights* lights,
+                                    float exponent) {
+  const PunctualLight light = light_at(lights, index);
+#ifdef GROUPS
+  if (!any_lane(lit & groups_meet(light.groups, groups))) return sum;
+#endif
+  if (!any_lane(lit & in_range(position, light))) return sum;
+  Arrival arrival = arrival_at(position, light);
+  const mask_t reached = (arrival.attenuation > REAL(0.0f)) & (dot3(normal, arrival.to_light) > REAL(0.0f));
+  if (!any_lane(lit & reached)) return sum;
+  arrival.attenuation = arrival.attenuation * light_reaches(light, position, groups);
+#ifdef SHADOWS
+  if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
+#endif
+  return add_terms(sum, light_terms(normal, to_viewer, arrival, light, REAL(exponent)));
+}
+
+// In the order of the list. groups: of the surfaces; without -DGROUPS they are not read.
+static inline LightTerms terms_of_list(Real3 position, Real3 normal, whole groups, mask_t lit,
+                                       global const index_t* list, uint count, PixelBins bins,
+                                       const Lights* lights, float exponent) {
+  const Real3 to_viewer = direction_to_viewer(position);
+  LightTerms sum = no_terms();
+  for (uint i = 0; i < count; ++i) {
+    const uint index = list[i];
+#ifdef Z_BINS
+    if (!bins_meet(lights->bins[index], bins.first, bins.last)) continue;
+#endif
+    sum = with_terms(sum, position, normal, to_viewer, groups, lit, index, lights, exponent);
+  }
+  return sum;
+}
+
+static inline void shade(const Stored* s, const StoredBatch* b, whole groups, global const index_t* list,
+                         uint count, constant float* bin_edges, const Lights* lights,
+                         constant ViewParams* view) {
+  const mask_t lit = b->depth > REAL(0.0f);
+  LightTerms t = no_terms();
+  if (count > 0 && any_lane(lit)) {
+    const Real3 position = position_of_pixel(b->x, b->y, lit ? b->depth : REAL(1.0f), view);
+    t = terms_of_list(position, normals_at(s->normals, b), groups, lit, list, count,
+                      bins_of_pixels(b->depth, lit, bin_edges), lights, s->exponent);
+  }
+  const float inverse_scale = s->inverse_scale;
+  const LightTerms stored = {real3(STORED(t.diffuse.x), STORED(t.diffuse.y), STORED(t.diffuse.z)),
+                             STORED(t.specular), STORED(t.weight), STORED(t.rim)};
+  store_terms(s, b, stored);
+}

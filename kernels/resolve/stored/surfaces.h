@@ -1,0 +1,142 @@
+// The light that the surfaces of a geometry buffer reflect, into an image. The light pass of Lauritzen,
+// "Deferred Rendering for Current and Future Rendering Pipelines" (SIGGRAPH 2010).
+//
+// first, second, coats, specular  geometry buffer, row 0 at the bottom (kernels/resolve/gbuffer.h); coats
+// with
+//             -DCLEARCOAT alone, specular with -DSPECULAR
+// models      of materials by number (shared/model_records.h); with -DSKIN or -DMINNAERT alone
+// image       RGBA per pixel, the mean of its samples. With -DBASE_LIGHTING it holds what surfaces show
+// without
+//             these lights, which are added
+// background  of pixels without a surface; without -DBASE_LIGHTING alone
+#pragma once
+
+#include "kernels/common/fetch.h"
+#include "kernels/resolve/shade_pixels.h"
+#include "kernels/resolve/stored_batch.h"
+
+#define STORED_ARGUMENTS                                                                               \
+  global const channel_t *first, global const channel_t *second, global const channel_t *coats,        \
+      global const channel_t *specular, global const MaterialModelRecord *models, global float *image, \
+      float4 background
+typedef struct Stored {
+  global const channel_t *first, *second, *coats, *specular;
+  global const MaterialModelRecord* models;
+  global float* image;
+  float4 background;
+} Stored;
+#define GIVEN_STORED \
+  { first, second, coats, specular, models, image, background }
+#ifdef BASE_LIGHTING
+#define NEEDS_EVERY_PIXEL false
+#else
+#define NEEDS_EVERY_PIXEL true
+#endif
+
+#if LANES == 16
+#if BUFFER_BITS == 32
+#define CHANNELS(n, from) vload##n(0, from)
+#else
+#define CHANNELS(n, from) convert_float##n(vload##n(0, from))
+#endif
+
+static inline Texels texels_at(global const channel_t* image, const StoredBatch* b) {
+  float16 row[4];  // of four lanes each
+  for (uint k = 0; k < 4; ++k) {
+    if (b->in_rows) {
+      global const channel_t* at = image + 4 * (size_t)IMAGE_OF(b, 4 * k);
+      FETCH(at + 4 * TILE);  // for the next tile
+      row[k] = CHANNELS(16, at);
+    } else {
+      row[k].lo = (float8)(CHANNELS(4, image + 4 * (size_t)IMAGE_OF(b, 4 * k)),
+                           CHANNELS(4, image + 4 * (size_t)IMAGE_OF(b, 4 * k + 1)));
+      row[k].hi = (float8)(CHANNELS(4, image + 4 * (size_t)IMAGE_OF(b, 4 * k + 2)),
+                           CHANNELS(4, image + 4 * (size_t)IMAGE_OF(b, 4 * k + 3)));
+    }
+  }
+  const Texels t = {(float16)(row[0].s048c, row[1].s048c, row[2].s048c, row[3].s048c),
+                    (float16)(row[0].s159d, row[1].s159d, row[2].s159d, row[3].s159d),
+                    (float16)(row[0].s26ae, row[1].s26ae, row[2].s26ae, row[3].s26ae),
+                    (float16)(row[0].s37bf, row[1].s37bf, row[2].s37bf, row[3].s37bf)};
+  return t;
+}
+#else
+static inline Texels texels_at(global const channel_t* image, const StoredBatch* b) {
+  const channel4_t c = ((global const channel4_t*)image)[b->image];
+  const Texels t = {(float)c.x, (float)c.y, (float)c.z, (float)c.w};
+  return t;
+}
+#endif
+
+static inline void add_to_pixel(global float* image, size_t pixel, float3 light, float share, bool next) {
+  global float* to = image + 4 * pixel;
+#ifdef BASE_LIGHTING
+  vstore3(vload3(0, to) + share * light, 0, to);
+#else
+  const float3 under = next ? vload3(0, to) : (float3)(0.0f);
+  vstore4((float4)(under + share * light, 1.0f), 0, to);
+#endif
+}
+
+#if LANES == 16
+static inline void add_to_image(global float* image, const StoredBatch* b, Real3 light) {
+#if SAMPLES == 1
+  if (b->in_rows) {
+    float16 rows[4];
+#ifdef BASE_LIGHTING
+    rows_of_block(rows, light, REAL(0.0f));
+    for (uint i = 0; i < 4; ++i) rows[i] += vload16(0, image + 4 * (size_t)IMAGE_OF(b, 4 * i));
+#else
+    rows_of_block(rows, light, REAL(1.0f));
+#endif
+    for (uint i = 0; i < 4; ++i) store_row(rows[i], image + 4 * (size_t)IMAGE_OF(b, 4 * i));
+    return;
+  }
+#endif
+  for (uint left = b->lanes; left != 0; left &= left - 1) {
+    const uint i = lowest_bit(left);
+    add_to_pixel(image, IMAGE_OF(b, i) / SAMPLES,
+                 (float3)(LANE(light.x, i), LANE(light.y, i), LANE(light.z, i)), SHARE_OF(b, i),
+                 IS_NEXT(b, i));
+  }
+}
+#else
+static inline void add_to_image(global float* image, const StoredBatch* b, Real3 light) {
+  add_to_pixel(image, b->image / SAMPLES, (float3)(light.x, light.y, light.z), b->share, b->next);
+}
+#endif
+
+static inline ShadingPoint stored_point(const Stored* s, const StoredBatch* b, Texels normal, Texels color,
+                                        mask_t lit, whole groups, constant ViewParams* view) {
+  const Real3 position = position_of_pixel(b->x, b->y, lit ? b->depth : REAL(1.0f), view);
+  const Real3 to_viewer = direction_to_viewer(position);
+  ShadingPoint p = point_of_texels(position, to_viewer, normal, color);
+#ifdef GROUPS
+  p.groups = groups;
+#endif
+#ifdef SPECULAR
+  p = specular_point(p, normal, color, texels_at(s->specular, b));
+#endif
+#ifdef MODELS
+  p = modelled_point(p, to_viewer, number_of_texel(color), s->models);
+#endif
+#ifdef CLEARCOAT
+  p = coated_point(p, texels_at(s->coats, b));
+#endif
+  return p;
+}
+
+static inline void shade(const Stored* s, const StoredBatch* b, whole groups, global const index_t* list,
+                         uint count, constant float* bin_edges, const Lights* lights,
+                         constant ViewParams* view) {
+  const Texels normal = texels_at(s->first, b), color = texels_at(s->second, b);
+  const mask_t lit = (b->depth > REAL(0.0f)) & (color.w > REAL(0.0f));
+  Real3 shown = real3(REAL(s->background.x), REAL(s->background.y), REAL(s->background.z));
+  if (any_lane(lit)) {
+    const ShadingPoint p = stored_point(s, b, normal, color, lit, groups, view);
+    const Real3 light =
+        light_sum(&p, lit, list, count, bins_of_pixels(b->depth, lit, bin_edges), lights, view);
+    shown = real3(lit ? light.x : shown.x, lit ? light.y : shown.y, lit ? light.z : shown.z);
+  }
+  add_to_image(s->image, b, shown);
+}
