@@ -184,7 +184,7 @@ class LimitPictures {
   LimitPictures(const CheckOptions& o, CheckedScene& checked, LimitsPage& page)
       : o_(o), checked_(checked), page_(page) {}
 
-  // Of the frame that is furthest over the limit.
+  // Adds the pictures of the frame that exceeds the limit most.
   void add_to(LimitSection& section, const LimitResult& result) {
     std::string why;
     const auto picture = limit_picture(*result.limit, checked_.chosen.scene, why);

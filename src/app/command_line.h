@@ -49,8 +49,8 @@ class CommandLine {
   // 0x0: …"). Other messages stay as they are.
   std::string with_option(const std::string& message) const;
 
-  // What is known of all commands as text: a man page ("page", roff) or completions for "bash", "zsh" or
-  // "fish". Throws Error(input) for another form.
+  // All commands described as text: a man page ("page", roff) or completions for "bash", "zsh" or "fish".
+  // Throws Error(input) for another form.
   std::string manual(const std::string& form) const;
 
   bool quiet() const { return quiet_; }

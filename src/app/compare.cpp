@@ -29,7 +29,7 @@ struct CompareCommand {
   int page_mb = 30;
 };
 
-// What was refused, which is no failure, becomes one of the report's warnings.
+// Refused rows, which are no failures, become warnings of the report.
 void warn_of_refusals(CompareReport& report, const std::string& view) {
   const WarningCollector collector;
   const std::vector<std::string> names = row_names(report);

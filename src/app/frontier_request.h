@@ -1,4 +1,4 @@
-// What `lightgrid frontier` is asked for: its options, and the sweep that follows from them.
+// The options of `lightgrid frontier`, and the sweep that follows from them.
 #pragma once
 
 #include <filesystem>
@@ -41,8 +41,8 @@ struct SceneRequest {
   bool casts = false;  // some light of the scene
 };
 
-// Of the techniques and settings that are named, or of a family, or the default ones; `shadows`: of a scene
-// whose lights cast.
+// The points of the techniques and settings that are named, of a family, or the default ones; `shadows`: for
+// a scene whose lights cast.
 std::vector<ChosenPoint> points_of(const FrontierCommand& o, const Settings& common, bool opengl,
                                    const std::optional<FrontierTruth>& shadows = {});
 SceneRequest request_of_scene(const FrontierCommand& o, bool casts, const Settings& common, bool opengl);

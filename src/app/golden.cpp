@@ -37,7 +37,7 @@ struct GoldenOptions {
 constexpr const char* golden_file = "golden.json";
 constexpr int golden_format = 2;
 
-// Of the files of a view.
+// The name of a view's files.
 std::string picture_name(size_t scene, size_t view) { return fmt::format("{:02}_{:04}", scene, view); }
 
 std::string text_of(const ChoiceField& field, const SceneChoice& choice) {

@@ -17,7 +17,7 @@ std::vector<CLI::App*> commands_of(CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-// Of a command and of all commands; positional arguments apart.
+// The options of a command and those of all commands, without positional arguments.
 std::vector<const CLI::Option*> options_of(const CLI::App& command, const CLI::App& app) {
   std::vector<const CLI::Option*> options;
   const auto add = [&](const CLI::Option* option) {
@@ -39,7 +39,7 @@ std::vector<std::string> names_of(const CLI::Option& option) {
 
 bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
-// What may follow an option, or stand for the scene; empty: anything.
+// The values that may follow an option, or stand for the scene; empty: anything.
 std::vector<std::string> values_of(const std::string& name) {
   std::vector<std::string> values;
   if (name == "--technique" || name == "--techniques") {

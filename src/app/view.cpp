@@ -73,7 +73,7 @@ void load(ViewJob& job, SceneChoice choice) {
   job.view = chosen.view;
 }
 
-// What belongs to the first scene alone is left out: its camera, its file of lights, its time.
+// The options of the first scene only are left out: its camera, its file of lights, its time.
 ViewJob load_other(ViewOptions o, const std::string& scene) {
   o.scene.scene = scene;
   o.scene.camera = o.scene.lights_file = o.scene.time = "";

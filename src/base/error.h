@@ -15,7 +15,7 @@ enum class ErrorKind {
   machine = 3,  // this machine cannot do it (no device, out of memory); the message says what would help
 };
 
-// What every function of the libraries throws.
+// The exception that every function of the libraries throws.
 class Error : public std::runtime_error {
  public:
   // One line, as a user reads it.

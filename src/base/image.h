@@ -29,8 +29,8 @@ struct Image {
 glm::vec3 tone_map_neutral(glm::vec3 linear);
 float srgb_from_linear(float linear);
 float linear_from_srgb(float srgb);
-// Of each byte of sRGB the least linear value that becomes it, and one that is reached by none: how devices
-// find the same bytes (shared/tone_map.h).
+// For each sRGB byte the smallest linear value that maps to it, then a value that none reaches: devices find
+// the same bytes with them (shared/tone_map.h).
 const std::array<float, 257>& srgb_thresholds();
 
 // Pictures alone have one: each linear value is multiplied by 2^ev before the tone map. Files of linear

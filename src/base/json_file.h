@@ -57,7 +57,7 @@ inline constexpr uintmax_t max_json_file_bytes = 1 << 20;
 // file".
 std::string read_small_file(const std::filesystem::path& path, uintmax_t most, const char* kind);
 
-// What the parser says, without its own prefix.
+// Returns the parser's message without its own prefix.
 std::string fault_of(const nlohmann::json::exception& error);
 
 // A small JSON file of this program or another. Each field is checked; a fault is an Error(input) of one line

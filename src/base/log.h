@@ -35,7 +35,7 @@ struct Warning {
 // them prints each warning once.
 void set_command(const std::vector<std::string>& words);
 
-// What this thread warns of while the object exists, each warning once. Objects may be nested: all of them
+// Collects the warnings of this thread while the object exists, each once. Objects may be nested: all of them
 // collect.
 class WarningCollector {
  public:

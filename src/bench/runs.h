@@ -1,4 +1,4 @@
-// What is timed: a frame's culling, and the rasterising of a scene, each with one set of settings.
+// The timed work: a frame's culling, and the rasterising of a scene, each with one set of settings.
 #pragma once
 
 #include <memory>
@@ -49,7 +49,7 @@ class CullingRun {
 // Names of the rows that a case of the rasteriser may have.
 const std::vector<std::string>& raster_rows();
 
-// What a run computed, from which its kernels' costs follow.
+// The work of one run, from which the costs of its kernels follow.
 struct KernelWork {
   size_t pixels = 0, tiles = 0, cells = 0, bins = 0, lights = 0;  // a tile has one cell a slice
   size_t indices = 0, index_bytes = 0;                            // entries of the grid's lists, and their

@@ -1,4 +1,4 @@
-// What every function of lightgrid.h does around its work: exceptions become a status and this thread's last
+// The frame of every function of lightgrid.h: exceptions become a status and this thread's last
 // error.
 #pragma once
 
@@ -17,7 +17,7 @@ struct Cancelled {};
 // Records the exception that is being handled.
 lightgrid_status failed() noexcept;
 
-// What the last call of this thread warned of, for lightgrid_describe.
+// The warnings of this thread's last call, for lightgrid_describe.
 std::vector<Warning>& last_warnings();
 
 // Makes what is warned of while it exists the last call's.
@@ -55,7 +55,7 @@ T& needed(T* argument, const char* name) {
 // For the caller to free.
 char* text_for_caller(const std::string& text);
 
-// Of a null-terminated array, or null.
+// The strings of a null-terminated array; none for null.
 std::vector<std::string> words_of(const char* const* words);
 
 }  // namespace lightgrid::c

@@ -47,7 +47,7 @@ void set_field(CompareChoice& choice, const std::string& assignment) {
   }
 }
 
-// Whether one of the settings that a scene's warning advises was given: scenes are loaded without settings.
+// True if a setting that a scene's warning advises was given: scenes are loaded without settings.
 bool is_answered(const Warning& warning, const std::vector<std::string>& given) {
   const auto key_of = [](const std::string& setting) { return setting.substr(0, setting.find('=')); };
   return std::ranges::any_of(warning.settings, [&](const std::string& advised) {

@@ -1,4 +1,4 @@
-// What the handles of lightgrid.h hold.
+// The contents of the handles of lightgrid.h.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ class LoadedScene {
 
   uint64_t shape() const { return shape_; }
   uint64_t time() const { return time_; }
-  // What moved after time() was `time`.
+  // The changes since time() was `time`.
   SceneChanges changes_since(uint64_t time) const;
 
  private:

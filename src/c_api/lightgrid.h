@@ -67,10 +67,10 @@ typedef struct lightgrid_frame lightgrid_frame;   /* keeps the memory of a view'
 typedef struct lightgrid_lists lightgrid_lists;   /* a light grid, in host memory */
 typedef struct lightgrid_report lightgrid_report; /* a comparison's results and images */
 
-/* Of the library that is loaded: "0.1.0, commit 15179abf". */
+/* The loaded library: "0.1.0, commit 15179abf". */
 const char* lightgrid_version(void);
 
-/* Of this thread's last failure, until its next one; one line, never null. */
+/* The message of this thread's last failure, until its next one; one line, never null. */
 const char* lightgrid_error_message(void);
 /* What that was about: an argument ("image.row_bytes", "lights[3].radius_m"), a field ("light-radius"), a
  * setting ("tile") or a field of a file; empty if the message is about nothing that has a name. */
@@ -94,7 +94,7 @@ lightgrid_status lightgrid_describe(const char* table, char** json);
 
 /* ---- Images: rows of pixels in the caller's memory ---- */
 
-/* What a pixel is. */
+/* The contents of a pixel. */
 typedef enum lightgrid_format {
   LIGHTGRID_RGBA_F32 = 0, /* four floats: linear light, alpha is coverage */
   LIGHTGRID_R_F32 = 1,    /* one float */
@@ -115,7 +115,7 @@ typedef struct lightgrid_image {
 /* The exposure, in stops, at which the logarithmic mean of the luminances becomes 0.18, to half a stop.
  * RGBA_F32. */
 lightgrid_status lightgrid_exposure(const lightgrid_image* image, double* stops);
-/* What a PNG file shows: 2^stops times the linear values, the tone map, the sRGB curve. From RGBA_F32 to
+/* The picture of a PNG file: 2^stops times the linear values, the tone map, the sRGB curve. From RGBA_F32 to
  * RGB_U8. */
 lightgrid_status lightgrid_srgb(const lightgrid_image* image, double stops, const lightgrid_image* picture);
 /* .png: what lightgrid_srgb makes; .exr: the linear values. RGBA_F32. */
@@ -209,7 +209,7 @@ lightgrid_status lightgrid_scene_add_instance(lightgrid_scene* scene, int32_t me
 lightgrid_status lightgrid_scene_move_instance(lightgrid_scene* scene, int32_t instance,
                                                const double* world_from_object);
 
-/* What a light sends where. */
+/* The directions in which a light shines. */
 typedef enum lightgrid_light_type {
   LIGHTGRID_POINT = 0,
   LIGHTGRID_SPOT = 1,
@@ -281,7 +281,7 @@ lightgrid_status lightgrid_view_render(lightgrid_view* view, const lightgrid_ima
  * long as its size and what its scene consists of stay. */
 lightgrid_status lightgrid_view_draw(lightgrid_view* view, lightgrid_image* image, lightgrid_frame** frame);
 void lightgrid_frame_free(lightgrid_frame* frame);
-/* Of the last frame: the depth of opaque surfaces (R_F32), and the lights in each pixel's list (R_U32). */
+/* The last frame's depth of opaque surfaces (R_F32), and number of lights in each pixel's list (R_U32). */
 lightgrid_status lightgrid_view_depth(lightgrid_view* view, const lightgrid_image* depth);
 lightgrid_status lightgrid_view_listed(lightgrid_view* view, const lightgrid_image* counts);
 /* The last frame's figures, with the times of its passes, for which it draws up to five more: what
@@ -322,7 +322,7 @@ typedef struct lightgrid_grid {
   size_t z_bin_count;     /* lights, or 0 */
   const float* slice_edges; /* metres, slices - 1 of them */
 } lightgrid_grid;
-/* What they hold; nothing is copied. */
+/* Gives the contents of the lists; nothing is copied. */
 lightgrid_status lightgrid_lists_get(const lightgrid_lists* lists, lightgrid_grid* grid);
 
 /* The number of the nearest opaque triangle at each pixel (R_U32; 0xffffffff: none) and its depth (R_F32);

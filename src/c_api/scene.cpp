@@ -100,7 +100,7 @@ lightgrid_light light_from(const Light& in) {
   return out;
 }
 
-// Whether lists, plans and programs made for one fit the other.
+// Returns whether lists, plans and programs made for one light fit the other.
 bool alike(const Light& a, const Light& b) {
   return a.type == b.type && a.is_virtual == b.is_virtual && a.casts_shadow == b.casts_shadow &&
          a.groups == b.groups && std::isinf(a.radius_m) == std::isinf(b.radius_m);

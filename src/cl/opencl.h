@@ -2,7 +2,7 @@
 // exceptions (cl/error.h converts them).
 #pragma once
 
-// What the bindings read.
+// Options of the OpenCL bindings.
 #define CL_HPP_ENABLE_EXCEPTIONS
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
 #define CL_HPP_TARGET_OPENCL_VERSION 120

@@ -24,7 +24,7 @@ class ClProfiler {
 
   // Counts one launch or transfer under `label`. Returns a place for its event, or null while timing is off.
   cl::Event* event(const std::string& label);
-  // Of a copy from or to the host, which is not counted; null while these are not timed.
+  // For a copy from or to the host, which is not counted; null while copies are not timed.
   cl::Event* copy_event(const std::string& label);
 
   // Waits for the timed launches, sums them by label in order of first use, and clears them.

@@ -20,7 +20,7 @@ std::string common_options(const ClDeviceInfo& device) {
   return options;
 }
 
-// Whether a CPU compiles this kernel without optimisation.
+// Returns whether a CPU compiles this kernel without optimisation.
 bool builds_quickly(const std::string& file) {
   const char* kernels = std::getenv("LIGHTGRID_CL_QUICK_BUILD");
   return kernels && (file.find("/gpu/") != file.npos || std::string_view(kernels) == "all");

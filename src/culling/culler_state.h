@@ -1,4 +1,4 @@
-// What a LightCuller keeps from call to call, and its steps. Public functions are those of LightCuller.
+// State of a LightCuller from call to call, and its steps. Public functions are those of LightCuller.
 #pragma once
 
 #include <optional>

@@ -51,7 +51,7 @@ struct DepthInput {
   int x = 0, y = 0;    // the view's lower left pixel in the image, 0 or more
 };
 
-// What bounds depend on beside the surfaces.
+// The values, next to the surfaces, on which bounds depend.
 struct BoundsView {
   int width = 0, height = 0, tile = 0;  // pixels: the image, a tile's side
   // As CullView's.
@@ -74,7 +74,7 @@ struct TileBounds {
   cl::Buffer groups{};
 };
 
-// What a depth buffer gives.
+// The bounds that a depth buffer gives.
 struct DepthBounds {
   TileBounds opaque;  // of the surfaces in the depth buffer
   TileBounds blend;   // from the near plane to the farthest visible blended surface; null unless

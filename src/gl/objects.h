@@ -49,10 +49,10 @@ GlBuffer make_buffer(size_t bytes, const void* data, GLbitfield flags = 0);
 GlTexture make_texture_2d(GLenum format, int width, int height, int levels = 1);
 // Interpolated between texels, and clamped to the edge.
 GlTexture make_texture_3d(GLenum format, int width, int height, int depth);
-// Whether make_texture_of_samples() can make one.
+// Returns whether make_texture_of_samples() can make such a texture.
 bool has_samples(int samples);
-// Of just so many samples a pixel, 2 or more. Throws Error(machine) too where the machine draws them with
-// another number, and names it.
+// Has exactly this number of samples per pixel, 2 or more. Throws Error(machine) too where the machine draws
+// with another number, and names it.
 GlTexture make_texture_of_samples(GLenum format, int width, int height, int samples);
 GlTexture make_buffer_texture(GLenum format, GLuint buffer);
 GlSampler make_sampler();

@@ -24,7 +24,7 @@ struct TestMargins {
   std::optional<double> pieces;  // the parts of the cell that halfz, halfz-modified and mask32 distinguish
 };
 
-// Of a light that casts, at the pixel.
+// The verdict on the shadow of a casting light at the pixel.
 struct ShadowVerdict {
   SightAnswer truth;
   std::string by;                 // name of the instance that hides it; empty: several blended ones do

@@ -24,7 +24,7 @@ constexpr std::span<const glm::ivec2> raster_samples(int samples) {
   return {};
 }
 
-// What kernels/common/sample_places.h is compiled with. Empty for one sample; begins with a space otherwise.
+// Options for kernels/common/sample_places.h. Empty for one sample; begins with a space otherwise.
 inline std::string sample_defines(std::span<const glm::ivec2> of) {
   if (of.size() == 1) return "";
   std::string places;

@@ -20,8 +20,8 @@ struct RasterMesh {
   bool drawing_order = false;
 };
 
-// What decides which pixels triangles of instances with an alpha material cover (shared/surface_records.h).
-// The buffers are kept alive, not copied.
+// The data that decide which pixels triangles of instances with an alpha material cover
+// (shared/surface_records.h). The buffers are kept alive, not copied.
 struct RasterMasks {
   cl::Buffer vertices;   // SurfaceVertex each, of all meshes one after the other
   cl::Buffer materials;  // SurfaceMaterial each, by alpha_material

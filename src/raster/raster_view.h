@@ -64,7 +64,7 @@ struct RasterInstance {
   bool drawn = true;                // false: its triangles keep their numbers and are left out
 };
 
-// What a view sees.
+// The view that is drawn.
 struct RasterCamera {
   // 1 to 16,384 pixels a side. A pixel has 1 sample, at its centre, or 2, 4 or 8 (raster/raster_samples.h),
   // drawn in one pass.
@@ -88,8 +88,8 @@ struct Visibility {
   PixelGrid grid;
 };
 
-// What a triangle number leads to, on the device. Made by set_instances, and `indices` the scene's; `clip` is
-// written by each draw().
+// The data that a triangle number refers to, on the device. Made by set_instances, with the scene's
+// `indices`; each draw() writes `clip`.
 struct RasterBuffers {
   cl::Buffer indices;            // uint[3] a triangle of each mesh, mesh after mesh
   cl::Buffer instances;          // RasterInstanceRecord an instance
@@ -115,7 +115,7 @@ struct RasterLists {
   uint32_t tiles_x = 0, tiles_y = 0;      // tiles, the last ones may be cut
 };
 
-// What the last draw() did.
+// The counts of the last draw().
 struct RasterCounts {
   uint64_t triangles = 0;          // of all drawn instances
   uint64_t clusters = 0;           // of up to 64 triangles, that may be in view

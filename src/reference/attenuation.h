@@ -30,8 +30,8 @@ inline bool has_hard_edge(const ViewLight& light) {
   return has_cone(light) && light.cos_inner - light.cos_outer < softest_edge / 2;
 }
 
-// Whether rounding in shading may put a point on the other side of a hard edge: cosines round by less than
-// 10^-6, positions of points and lights by up to 8u of their distances from the eye.
+// Returns whether rounding in shading may put a point on the other side of a hard edge: cosines round by less
+// than 10^-6, positions of points and lights by up to 8u of their distances from the eye.
 inline bool is_near_hard_edge(const ViewLight& light, const glm::dvec3& position) {
   const glm::dvec3 offset = position - light.position;
   const double distance = length_of(offset.x, offset.y, offset.z);

@@ -44,7 +44,7 @@ struct CellBox {
 };
 CellBox box_around(const Cell& cell);
 
-// Whether a spotlight's sector meets a cell, in closed form, for half-angles from 0 to 180 degrees.
+// Decides in closed form whether a spotlight's sector meets a cell, for half-angles from 0 to 180 degrees.
 enum class Touch { no, unsure, yes };
 
 // The closed sector is {apex + t u : 0 <= t <= radius, angle(u, axis) <= acos(cos_outer)}, u and axis unit;

@@ -37,14 +37,14 @@ struct CoveredPixel {
   uint32_t alike = 0xffffffffu;
 };
 
-// Whether the outline of the triangle winds around a point: 1 counter-clockwise, -1 clockwise, 0 not at all.
+// The winding of the triangle's outline around a point: 1 counter-clockwise, -1 clockwise, 0 not around it.
 int winding_at(const std::array<SnappedPoint, 3>& triangle, const SnappedPoint& sample);
 
 // Where a vertex in front of the eye and within the guard band is snapped to.
 SnappedPoint snapped(const glm::vec4& clip, const PixelGrid& grid);
 
-// What cutting leaves of a triangle: 0 corners, or 3 and more; nothing where one is not finite, before or
-// after.
+// The part of a triangle that cutting leaves: 0 corners, or 3 and more; nothing where a corner is not finite,
+// before or after.
 std::optional<std::vector<glm::vec4>> cut_triangle(const std::array<glm::vec4, 3>& clip,
                                                    const PixelGrid& grid);
 
@@ -71,8 +71,8 @@ class CoverageOracle {
   std::map<std::array<uint32_t, 12>, uint32_t> first_of_corners_;
 };
 
-// What is wrong with a pixel that shows `triangle` (0xffffffff: none) at `depth`, in words; empty: nothing.
-// It may show what is nearest, or may be nearest as far as the bounds of the depths say; of triangles with
+// Describes the fault of a pixel that shows `triangle` (0xffffffff: none) at `depth`; empty: none. It may
+// show the nearest triangle, or one that may be nearest within the bounds of the depths; of triangles with
 // the same corners the last.
 std::string wrong_at(const std::vector<CoveredPixel>& covered, uint32_t triangle, float depth);
 

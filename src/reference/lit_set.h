@@ -37,7 +37,7 @@ struct LitPairs {
 
 class SeenPairs;
 
-// What a pair's light meets on its way: according to the oracle, and as a frame shaded it (null: unhidden).
+// The shadows of pairs: according to the oracle, and as a frame shaded them (null: unhidden).
 struct PairShadows {
   const SeenPairs& truth;
   const HostShadows* shaded = nullptr;

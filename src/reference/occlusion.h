@@ -1,5 +1,5 @@
-// Whether a light is seen from a pixel's surface, or which triangle hides it: the oracle of shadows, in
-// double. docs/oracle.md#seen-and-hidden has the contract.
+// The oracle of shadows, in double: whether a light is seen from a pixel's surface, or which triangle hides
+// it. docs/oracle.md#seen-and-hidden has the contract.
 #pragma once
 
 #include <span>
@@ -64,8 +64,8 @@ class Occlusion {
   void sights(const Light& light, std::span<const Receiver* const> receivers, std::span<SightAnswer> answers,
               int* last) const;
 
-  // What blended triangles hide by their alpha: 1 less the product of 1 - alpha of all but the receiver's
-  // own. With BlendedCasters::alpha; else nothing.
+  // The share that blended triangles hide by their alpha: 1 minus the product of 1 - alpha of all but the
+  // receiver's own. With BlendedCasters::alpha; else nothing.
   Veil veil(const Light& light, const Receiver& receiver) const;
 
   // A vertex or light at `place`, as far off as floats relative to the rays' origin may put it.

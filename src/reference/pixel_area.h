@@ -1,5 +1,5 @@
-// What a pixel shows in truth: the mean of the radiance over its area, from 256 places, in double. The oracle
-// of samples (docs/samples.md): rays find what each place sees, whatever places a rasteriser has.
+// The exact value of a pixel: the mean of the radiance over its area, from 256 places, in double. The oracle
+// of samples (docs/samples.md): rays find the surface at each place, whatever places a rasteriser has.
 #pragma once
 
 #include <span>
@@ -12,9 +12,9 @@ namespace lightgrid {
 
 inline constexpr int places_of_area = 256;
 
-// Of 0 to 255: within the pixel, 0 to 1 from its lower left corner. Hammersley's points in base 2: each part
-// of a 256th of the pixel's area, of sides that are powers of two, has one. The share of them on one side of
-// a line through the pixel's centre is off by at most 3 / 256 (PlacesOfArea in reference_tests).
+// For numbers 0 to 255: within the pixel, 0 to 1 from its lower left corner. Hammersley's points in base 2:
+// each 256th of the pixel's area, of sides that are powers of two, has one. The share of them on one side of
+// a line through the pixel's centre has an error of at most 3 / 256 (PlacesOfArea in reference_tests).
 glm::dvec2 place_of_area(int number);
 
 struct PixelArea {
@@ -26,7 +26,7 @@ struct PixelArea {
   bool undecided = false;  // some light's shadow turns on rounding, at more than 1 in 100 places
 };
 
-// What some of a pixel's places see.
+// The surfaces at some of a pixel's places.
 struct SeenSurfaces {
   int surfaces = 0;  // without the background; told apart as for at_edge above
   int covered = 0;   // places that see one

@@ -1,4 +1,4 @@
-// What the eye sees at a place on the screen, by rays in double: no rasteriser's coverage or depth.
+// The surfaces at a place on the screen, by rays in double: no rasteriser's coverage or depth.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// Whether each light that casts is seen from each pixel: decided once, for the lists and shadows of many
-// settings.
+// The oracle's answer whether each casting light is seen from each pixel: decided once, for the lists and
+// shadows of many settings.
 #pragma once
 
 #include <functional>
@@ -34,7 +34,7 @@ class SeenPairs {
             const std::vector<uint32_t>& pixels, bool in_range = true,
             const std::function<bool()>& stops = {});
 
-  // Of a pair that was not decided: seen. Of a pixel without a triangle: either.
+  // Seen for a pair that was not decided, and either for a pixel without a triangle.
   Sight at(uint32_t pixel, uint32_t light) const;
   bool decided(uint32_t pixel) const { return of_pixel_[pixel].x != undecided; }
   bool has_either(uint32_t pixel) const;

@@ -5,7 +5,7 @@ namespace {
 
 using glm::dvec3;
 
-// What float of_test that tests the sign may add: eight roundings of the products' sizes.
+// The rounding of a float test that tests the sign: eight roundings of the products' sizes.
 constexpr double of_test = 8 * float_rounding;
 
 // det(a - o, b - o, c - o), and how far it moves with its points.

@@ -36,7 +36,7 @@ Vector in_float(const Vector& v) { return {float(v[0]), float(v[1]), float(v[2])
 
 Real size_of(const Vector& v) { return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]); }
 
-// Of the part in front of the near plane. Deeper corners than -2^64 count as that deep.
+// The depth of the part in front of the near plane. Deeper corners than -2^64 count as that deep.
 Real depth_in_view(const glm::vec4& v) {
   return v.w > 0 ? std::clamp(Real(v.z) / v.w, -0x1p64L, 1.0L) : 1.0L;
 }

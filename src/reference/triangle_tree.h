@@ -55,7 +55,7 @@ class TriangleTree {
     }
   }
 
-  // Whether the box of a triangle, grown by `reach`, meets the segment.
+  // Returns whether the box of a triangle, grown by `reach`, meets the segment.
   bool is_near(int triangle, const glm::dvec3& from, const glm::dvec3& to, double reach) const {
     return meets(boxes_[size_t(triangle)], from, to, reach);
   }

@@ -49,8 +49,8 @@ struct Chart {
 // run of the slower. Otherwise the order is noise.
 std::vector<Crossing> crossings_of(const std::vector<Curve>& curves);
 
-// What views with several numbers of lights have in common: "all with the ranges of 300 lights". Empty: there
-// is a single number.
+// The property that views with several numbers of lights share: "all with the ranges of 300 lights". Empty:
+// there is a single number.
 std::string kept_in_words(const CompareReport& report);
 
 // Over lights and over pixels: a chart for each group of views that differ in that alone. Axes are

@@ -56,7 +56,7 @@ std::string lists_in_opencl_in_words(const Speedup& speedup) {
   return fmt::format("; within OpenCL, shorter lists give {} times", short_number(times));
 }
 
-// What differs from the reference where no rows tell how much each of it contributes.
+// The differences from the reference for which no rows isolate the contribution of each.
 std::string not_isolated(const CompareReport& report, const RunResult& row, const RunResult& reference) {
   std::vector<std::string> differences;
   if (const std::string lights = lights_instead(report, row, reference); !lights.empty())

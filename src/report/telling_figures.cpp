@@ -169,7 +169,7 @@ const RunResult* fastest_lossy(const CompareReport& report) {
   return fastest(report, [](const RunResult& row) { return passes_gates(row) && !is_exact(row); });
 }
 
-// What the figures are about: the fastest exact row, or else the best there is; null if nothing was timed.
+// The row that the figures describe: the fastest exact one, or else the best one; null if nothing was timed.
 const RunResult* best_row(const CompareReport& report) {
   for (const RunResult* row : {fastest_exact(report), fastest_lossy(report)}) {
     if (row) return row;

@@ -42,7 +42,7 @@ struct ImageDifference {
   // The same of errors over the reference's channel, or over 1e-3 of `brightest` if that is more.
   double sum_of_relative_squares = 0;
   double brightest = 0;  // channel that errors are stated over
-  // Of the frontier alone, otherwise NaN; infinite if an error is.
+  // Only in the frontier, otherwise NaN; infinite if an error is.
   LightDifference light = {};
 };
 
@@ -62,7 +62,7 @@ struct ErrorMeasure {
   bool of_compare, gated;  // in results.json; held against an earlier frontier.json
 };
 
-// Whether an error is more than an earlier one, beyond the rounding of another compiler or driver.
+// Returns whether an error exceeds an earlier one by more than the rounding of another compiler or driver.
 inline bool grew(double error, double earlier) { return error > 1.001 * earlier + 1e-9; }
 
 std::span<const ErrorMeasure> error_measures();           // of compare

@@ -11,7 +11,7 @@
 
 namespace lightgrid {
 
-// What a display shows of a picture: linear RGB from 0 to 1, exposed and tone-mapped as its PNG file is, but
+// A picture as a display shows it: linear RGB from 0 to 1, exposed and tone-mapped as its PNG file is, but
 // not rounded to bytes, since rounding flickers by itself. NaN stays.
 Image shown_image(const Image& image, const Exposure& exposure);
 
@@ -57,7 +57,7 @@ class FlickerMeter {
 
   // The next frame, a shown_image. `counts`: it is one of those that figures() are of.
   void add(const Image& shown, const TruthFrame& truth, bool counts = true);
-  // Of no frame: 0.
+  // All 0 without a frame.
   SequenceFigures figures() const;
 
  private:

@@ -319,7 +319,7 @@ Image exposed(const Image& image, double stops) {
   return out;
 }
 
-// Of a PNG file's bytes, row 0 at the top as there.
+// From a PNG file's bytes, row 0 at the top as there.
 SeenImage seen_on_display(const std::vector<uint8_t>& bytes, int width, int height) {
   std::array<float, 256> linear_of;
   for (size_t byte = 0; byte < linear_of.size(); ++byte)

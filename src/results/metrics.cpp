@@ -104,7 +104,7 @@ double low_pass_squares(const std::vector<double>& errors, int width, int height
   return squares;
 }
 
-// Of the sum of these over all channels, the mean square of the means over squares.
+// The mean square of the means over squares, from the sum of these over all channels.
 double low_pass_mean_square(double squares, int width, int height) {
   const int across = std::min(low_pass_px, width), up = std::min(low_pass_px, height);
   const double pixels = double(across) * double(up),

@@ -30,7 +30,7 @@ struct PassResult {
   std::vector<KernelResult> kernels = {};    // of OpenCL passes, by the device's own clock
 };
 
-// Of the same pairs, what the frame's shadows are according to the oracle (docs/oracle.md#seen-and-hidden).
+// The frame's shadows at the same pairs, according to the oracle (docs/oracle.md#seen-and-hidden).
 struct ShadowPairs {
   uint64_t leaked = 0, acned = 0, either = 0;
   uint64_t pixels = 0;     // at which they were decided
@@ -160,7 +160,7 @@ struct SkippedEffect {
   std::string effect, why;
 };
 
-// Of the last frame: what its shadows took, and the lights that cast but needed none.
+// The work for shadows in the last frame, and the lights that cast but needed none.
 struct ShadowResult {
   struct Skipped {
     int light = 0;  // of the scene
@@ -174,7 +174,7 @@ struct ShadowResult {
   int halvings = 0;      // of all maps' sizes
 };
 
-// Of the last frame, with several samples a pixel: as SampleFigures.
+// The last frame with several samples per pixel: as SampleFigures.
 struct SampleResult {
   size_t edge_pixels = 0, shadings = 0, covered = 0, bytes = 0;
 };
@@ -189,7 +189,7 @@ struct ErrorSteps {
   double at_borders = 0, inside = 0;
 };
 
-// What lists that lack lights by design leave out, against every light on the same surfaces.
+// The light that is lost because lists lack lights by design, against every light on the same surfaces.
 struct LimitedLists {
   double lost_light = 0;  // the share of all radiance, over all channels and pixels; below 0: it has more
   ErrorSteps steps;
@@ -208,7 +208,7 @@ struct RunResult {
   std::map<std::string, double> built_with;  // the same
   std::optional<PairCounts> pairs;           // absent without the oracle
   std::optional<ImageError> error;  // technique error: this image against the float image with every light
-  // Whether it draws its surfaces in OpenCL. Its light is then judged by `same_surfaces`: this image against
+  // Set if surfaces are drawn in OpenCL. The light is then judged by `same_surfaces`: this image against
   // every light on these surfaces, relative to the brightest channel of `error`. Absent if that was not
   // drawn.
   bool own_surfaces = false;
@@ -287,7 +287,7 @@ struct CompareReport {
   std::optional<PathMemory> path_memory;  // absent without a camera path
   Exposure exposure;                      // of every picture of this view
   std::vector<Warning> warnings;          // of this view, those of its scene included
-  // Of several views that differ in the number of lights: what stays the same, "range" or "overlap"; empty: a
+  // For views that differ in the number of lights: their common property, "range" or "overlap"; empty: a
   // single number. ranges_of: the number of scattered lights whose ranges all have; 0: ranges were given.
   std::string lights_kept;
   int ranges_of = 0;

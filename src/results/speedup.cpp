@@ -24,7 +24,7 @@ double times_faster(const RunResult& row, const RunResult& than) {
   return than.frame_ms.median / row.frame_ms.median;
 }
 
-// Whether both are meant to show the same, with as many samples per pixel.
+// Returns whether both are meant to show the same, with as many samples per pixel.
 bool same_picture(const RunResult& a, const RunResult& b) {
   std::vector<std::string> settings(model_settings().begin(), model_settings().end());
   settings.push_back("samples");
@@ -34,7 +34,7 @@ bool same_picture(const RunResult& a, const RunResult& b) {
   });
 }
 
-// Whether every pass of the row in OpenCL is also one of the reference.
+// Returns whether every pass of the row in OpenCL is also one of the reference.
 bool same_api(const RunResult& row, const RunResult& reference) {
   return std::ranges::all_of(
       row.passes, [&](const PassResult& pass) { return pass.on != "cl" || has_pass(reference, pass); });

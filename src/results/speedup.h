@@ -1,4 +1,4 @@
-// What makes a row faster than the reference: factors that rows of the same run isolate.
+// Explains why a row is faster than the reference: factors that rows of the same run isolate.
 #pragma once
 
 #include <optional>
@@ -25,10 +25,10 @@ struct Speedup {
 // Empty if the row or the reference was not timed.
 std::optional<Speedup> speedup_of(const CompareReport& report, const RunResult& row);
 
-// Whether no pass draws or shades in OpenGL.
+// Returns whether no pass draws or shades in OpenGL.
 bool draws_without_opengl(const RunResult& row);
 
-// Whether the row draws with the passes of `every_light`: what it has in addition builds its lists.
+// Returns whether the row draws with the passes of `every_light`, so that its other passes only build lists.
 bool adds_only_lists(const RunResult& row, const RunResult& every_light);
 
 // The name of a driver that draws without a graphics card ("llvmpipe"); empty for others.

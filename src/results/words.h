@@ -25,7 +25,7 @@ std::string spelled_setting(
 std::string short_scene(const CompareReport& report);    // without folders and extension
 std::string view_in_words(const CompareReport& report);  // "hall, 1280 × 720, 237 lights"
 
-// Of settings by the keys of results.json the value, or nothing where it is missing or off.
+// The value of a setting by its key in results.json, or nothing where it is missing or off.
 std::string setting_in_force(const std::map<std::string, std::string>& settings, const std::string& key);
 
 // Settings as one field of a table: "brdf=ggx tile=16".

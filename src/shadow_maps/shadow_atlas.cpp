@@ -26,7 +26,7 @@ double farthest_m(const WorldBox& box, const dvec3& point) {
   return glm::length(glm::max(glm::abs(box.min - point), glm::abs(box.max - point)));
 }
 
-// Of the view that the sphere of the light's range covers; 1 from inside.
+// The share of the view that the sphere of the light's range covers; 1 from inside.
 double share_of_screen(const Light& light, const View& view, double far_m) {
   const double range = range_or(light, far_m);
   const double away = view.orthographic ? 1 : glm::length(light.position - view.eye);

@@ -32,7 +32,7 @@ inline constexpr DepthBoundsRow depth_bounds_modes[] = {
 // The row of a mode.
 constexpr const DepthBoundsRow& row_of(DepthBoundsMode mode) { return depth_bounds_modes[int(mode)]; }
 
-// Whether row_of finds each.
+// Returns whether row_of finds each.
 constexpr bool rows_are_in_order() {
   int mode = 0;
   for (const DepthBoundsRow& row : depth_bounds_modes) {

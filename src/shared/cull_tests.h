@@ -31,7 +31,7 @@ inline constexpr CullTestRow cull_tests[] = {
 // The row of a test.
 constexpr const CullTestRow& row_of(CullTest test) { return cull_tests[int(test)]; }
 
-// Whether row_of finds each.
+// Returns whether row_of finds each.
 constexpr bool cull_tests_are_in_order() {
   int test = 0;
   for (const CullTestRow& row : cull_tests) {

@@ -10,7 +10,7 @@ namespace lightgrid {
 // coverage: at each sample's place on the plane through the alpha at the centre and its slope on the screen
 enum class SampleMasks { centre, samples, coverage };
 
-// What masks are compiled with, in kernels (kernels/raster/raster_masks.h) and in shaders
+// The define for masks in kernels (kernels/raster/raster_masks.h) and in shaders
 // (shaders/common/material.glsl). Empty: at centres.
 inline std::string mask_define(SampleMasks masks) {
   if (masks == SampleMasks::samples) return "MASKS_AT_SAMPLES";

@@ -1,5 +1,5 @@
-// What kernels/shadows/ reads of a view and of the lights whose shadows it finds. Positions are relative to
-// the origin of the rays' scene (rays/ray_scene.h), metres.
+// The records of a view and of its lights from which kernels/shadows/ finds shadows. Positions are relative
+// to the origin of the rays' scene (rays/ray_scene.h), metres.
 #pragma once
 
 #include "shared/language.h"

@@ -79,7 +79,7 @@ SHARED_FUNCTION Arrival arrival_at_sample(Real3 at, PunctualLight light VOXEL_AR
   return arrival;
 }
 
-// What is left of the volume's light at a point without `share` of a light, which is 0 or 1.
+// The rest of the volume's light at a point without `share` of a light, which is 0 or 1.
 SHARED_FUNCTION VoxelLight without_light(VoxelLight rest, Real3 position, PunctualLight light,
                                          real share VOXEL_ARGUMENT) {
   Real3 place = voxel_place(position GIVEN_LOOKUP);

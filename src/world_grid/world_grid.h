@@ -57,9 +57,9 @@ class WorldGrid {
             WorldGridShape shape, std::optional<double> cell, int index_bits);
   virtual ~WorldGrid() = default;
 
-  // Whether the lists are those of these lights (lights_version: the caller's number of them) and right for
-  // the view. Notes the view: a build of the same lights is right for it too, and so is the first one of the
-  // next lights.
+  // Returns whether the lists are those of these lights (lights_version: the caller's number of them) and
+  // right for the view. Stores the view: a build of the same lights is right for it too, and so is the first
+  // one of the next lights.
   bool serves(const WorldEye& eye, int lights_version);
 
   // Builds them. The same bytes in both kernel shapes and with any number of threads. bounds: of the scene's

@@ -71,7 +71,7 @@ SHARED_FUNCTION FarMoments add_moments(FarMoments m, real weight, FarMoments mor
   return sum;
 }
 
-// Of each light E, with t = direction.l: E (mean + first t + second t^2).
+// For each light E, with t = direction.l: E (mean + first t + second t^2).
 SHARED_FUNCTION FarMoments far_factors(Real3 direction, real mean, real first, real second) {
   Real3 scaled = scale3(direction, second), twice = scale3(scaled, REAL(2.0f));
   FarMoments f;
@@ -94,8 +94,8 @@ SHARED_FUNCTION Real3 far_sums(FarLight light, FarMoments f) {
 }
 
 #ifndef LAMBERT
-// What a lobe with Schlick's Fresnel sends to the viewer of light from all sides is f0 times x and f90 times
-// y, and around its middle the mean cosine of that light is z. Fitted to GGX with height-correlated masking.
+// A lobe with Schlick's Fresnel sends f0 times x and f90 times y of the light from all sides to the viewer; z
+// is the mean cosine of that light around the lobe's middle. Fitted to GGX with height-correlated masking.
 SHARED_FUNCTION Real3 far_albedo(Lobe l) {
   real a = l.alpha, v = min_real(l.n_dot_v, REAL(1.0f)), grazing = 1.0f - v;
   real once = mad_real(mad_real(REAL(-0.135f), v, REAL(1.2844f)), v, REAL(-1.0567f));
