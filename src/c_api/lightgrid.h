@@ -72,7 +72,7 @@ const char* lightgrid_version(void);
 
 /* The message of this thread's last failure, until its next one; one line, never null. */
 const char* lightgrid_error_message(void);
-/* What that was about: an argument ("image.row_bytes", "lights[3].radius_m"), a field ("light-radius"), a
+/* Its subject: an argument ("image.row_bytes", "lights[3].radius_m"), a field ("light-radius"), a
  * setting ("tile") or a field of a file; empty if the message is about nothing that has a name. */
 const char* lightgrid_error_field(void);
 

@@ -16,15 +16,15 @@ struct MedianInterval {
   int runs = 0;
 };
 
-// Whether no point of its scene is better in both FLIP as displayed and relative time, and the share of draws
-// of the scene's times in which none is.
-// NaN: not measured, with fewer than min_rounds rounds or a control that failed.
+// True if no point of its scene is better in both displayed FLIP and relative time; probability: the share of
+// draws of the scene's times in which none is. NaN: not measured, with fewer than min_rounds rounds or a
+// control that failed.
 struct OnFront {
   bool on = false;
   double probability = 0;
 };
 
-// What a point takes by the devices' own clocks (DeviceTimes); as in PointFigures otherwise. No runs:
+// A point's times by the devices' own clocks (DeviceTimes); otherwise as in PointFigures. No runs:
 // unknown.
 struct DeviceFigures {
   MedianInterval device_ms, hand_over_ms, copy_ms, read_back_ms;
@@ -62,8 +62,8 @@ struct PointFigures {
   DeviceFigures device;
 };
 
-// Of all pairs of a pixel and a light that casts and is in range, in per cent: those shaded though hidden,
-// and those dark though seen. None where shadows were not counted, or there is no such pair.
+// The percentage of pairs of a pixel and a casting light in range that are shaded though hidden, and dark
+// though seen. None where shadows were not counted, or there is no such pair.
 std::optional<double> leaked_percent(const PairCounts& pairs);
 std::optional<double> acned_percent(const PairCounts& pairs);
 
@@ -102,7 +102,7 @@ struct Control {
 // "forward", or of a series "forward, 10,000 lights".
 std::string label_in_series(const FrontierRecord& record);
 
-// What the machine did during the rounds of a process, of those in which it could be read.
+// The state of the machine in those rounds of a process in which it could be read.
 struct ProcessConditions {
   int shard = 0, process = 0, rounds = 0;
   // Largest and, of clock and power, least: least, largest.
@@ -151,7 +151,7 @@ struct Growth {
   std::string kept = {};                           // over lights: FrontierPart::keep
 };
 
-// Of a family of lights: the cheapest point of each technique whose picture is within a FLIP as displayed,
+// For a family of lights: the cheapest point of each technique whose displayed FLIP stays within a bound,
 // along the family. Picked on every second of its rounds; its time is the median of the others.
 struct EqualFlip {
   struct Sample {
@@ -198,7 +198,7 @@ struct FrontierAnswer {
 // Pure. Throws Error(input) if the parts are not of one sweep (check_same_sweep).
 FrontierAnswer answer_of(const std::vector<FrontierPart>& parts);
 
-// Of frontier.json; what versions 1 and 2 had otherwise is in docs/frontier_json.md.
+// The version of frontier.json; docs/frontier_json.md lists the differences of versions 1 and 2.
 inline constexpr int frontier_schema_version = 3;
 
 // frontier.json, frontier.csv (one row a point and view: each record of `answer.part`), samples.csv (one row

@@ -48,7 +48,7 @@ std::vector<FrontierRecord> by_device_clock(std::vector<FrontierRecord> records)
 // Sets what is known by the devices' clocks, of points of the same records; their wall's figures are set.
 void set_device_figures(FrontierAnswer& answer);
 
-// Whether a point with this label draws without OpenGL; of a technique that nobody knows, false.
+// Returns whether a point with this label draws without OpenGL; false for an unknown technique.
 bool draws_in_opencl(const std::string& label);
 std::vector<AmongOpenCl> among_opencl_of(const FrontierAnswer& answer);
 
@@ -86,7 +86,7 @@ std::vector<Failure> failures_of(Records records);
 // One paragraph a scene. A sentence whose figures are missing is left out.
 std::vector<std::string> sentences_of(const FrontierAnswer& answer);
 
-// What the page says of a scene above its table of errors, and below it.
+// The page's sentences above and below a scene's table of errors.
 struct SceneWords {
   std::vector<std::string> opening, notes;
 };
@@ -95,7 +95,7 @@ SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene
 // "hall" for "scenes/hall.glb".
 std::string scene_in_words(const std::string& scene);
 
-// What `text_of` says of the items, each text once, in the order of the items.
+// The texts that `text_of` gives for the items, each text once, in the order of the items.
 template <typename Items, typename TextOf>
 std::vector<std::string> distinct(const Items& items, const TextOf& text_of) {
   std::vector<std::string> texts;

@@ -178,7 +178,7 @@ void add_break_even(const FrontierAnswer& answer, const std::string& scene,
                   most_undecided > 0 ? fmt::format(" ({} undecided)", most_undecided) : ""));
 }
 
-// What all numbers of lights of the series have in common.
+// The property that all numbers of lights of the series share.
 std::string kept_over_lights(const Growth* growth) {
   if (!growth || growth->kept.empty()) return "";
   return growth->kept == "range"
@@ -234,7 +234,7 @@ void add_failures(const FrontierAnswer& answer, const std::string& scene,
                                   fmt::join(parts, ", ")));
 }
 
-// What errors are against, where that is not every light without a range.
+// Names the reference of errors, where that is not every light without a range.
 void add_truth(const FrontierAnswer& answer, const std::string& scene, std::vector<std::string>& sentences) {
   const auto of_scene = std::ranges::find_if(
       answer.points, [&](const PointFigures& p) { return p.point.scene == scene && p.truth; });
@@ -249,7 +249,7 @@ void add_truth(const FrontierAnswer& answer, const std::string& scene, std::vect
       truth.places ? fmt::format(", and the mean over each pixel's area, of {} places", *truth.places) : ""));
 }
 
-// What the two families' truths differ by, where a point of the front has a smaller error.
+// States how much the two families' references differ, where a point of the front has a smaller error.
 void add_surfaces(const FrontierAnswer& answer, const std::string& scene,
                   std::vector<std::string>& sentences) {
   double floor = 0, least = INFINITY;
@@ -281,7 +281,7 @@ void add_external(const FrontierAnswer& answer, const std::string& scene,
   }
 }
 
-// What a baseline that draws with OpenGL is on this machine, where it is not what readers have in mind.
+// Describes a baseline that draws with OpenGL, where on this machine it is not what readers expect.
 void add_baseline(const FrontierAnswer& answer, std::vector<std::string>& sentences) {
   if (answer.points.empty() || answer.machines.empty() || draws_in_opencl(answer.part.baseline)) return;
   const std::string& gl = answer.machines.front().gl_device;
@@ -426,7 +426,7 @@ SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene
   return words;
 }
 
-// Of the whole sweep, where others used the machine or it was throttled.
+// Describes the complete sweep, where others used the machine or it was throttled.
 static std::string conditions_in_words(const FrontierAnswer& answer) {
   int rounds = 0, shared = 0, throttled = 0;
   for (const ProcessConditions& p : answer.processes)

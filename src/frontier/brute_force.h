@@ -20,8 +20,8 @@ namespace lightgrid {
 FrontierTruth chosen_truth(const Settings& common, bool casts, std::optional<bool> own_ranges = {},
                            bool areas = false);
 
-// Whether the oracle can tell whether a pair's shadow is right: not where a light is partly hidden, or a
-// pixel's lights share one estimate.
+// Returns whether the oracle can judge a pair's shadow: not where a light is partly hidden, or a pixel's
+// lights share one estimate.
 bool counts_shadow_pairs(const Settings& settings, const FrontierTruth& truth);
 
 // The view at `scale` times its size, of which the part from pixel (x, y) of the view, of so many of its
@@ -48,7 +48,7 @@ class BruteForce {
   const Image& truth();
   // Draws the truth of pixels' centres, frame after frame.
   std::unique_ptr<TechniqueRun> truth_run(const View& view) const;
-  // Of areas: the same for both kinds of surfaces.
+  // For a reference of areas, which is the same for both kinds of surfaces.
   void take_truth(const Image& of_areas) { of_areas_ = of_areas; }
   double brightest();  // channel of the truth
   const Image& authored();  // the truth whose lights have the ranges of `common`

@@ -1,5 +1,5 @@
-// What the machine did while rounds were timed, as far as Linux tells: others' share of the processors,
-// clocks, throttling, temperature, power. What cannot be read stays empty.
+// The machine's state while rounds were timed, as far as Linux reports it: others' share of the processors,
+// clocks, throttling, temperature, power. Unreadable values stay empty.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace lightgrid {
 
-// Of the time since the sample before.
+// Over the time since the sample before.
 struct FrontierConditions {
   int process = 0;  // of the part
-  // Of the processors' time, in per cent: other processes', and what a hypervisor gave to other machines.
+  // Per cent of the processors' time: other processes', and what a hypervisor gave to other machines.
   std::optional<double> others_percent, steal_percent;
   std::optional<double> clock_mhz;      // mean of the processors, at the sample
   std::optional<double> temperature_c;  // the hottest sensor, at the sample

@@ -1,5 +1,5 @@
-// What a tighter cull test must save, and what it saves (docs/frontier.md#break-even); and how frame time
-// grows.
+// The saving that a tighter cull test needs, and its actual saving (docs/frontier.md#break-even); and the
+// growth of frame times.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -191,7 +191,7 @@ double half_ms(const FrontierRecord& r, size_t first) {
   return half.empty() ? r.frame_ms.front() : median_interval(half).median;
 }
 
-// Of one technique at one place of a family.
+// Considers one technique at one place of a family.
 std::optional<EqualFlip::Sample> cheapest_of(const Group& points, const std::string& error, double flip) {
   const FrontierRecord* best = nullptr;
   for (const FrontierRecord* r : points) {

@@ -1,5 +1,5 @@
-// What another renderer needs to draw the pictures of a sweep: the scene as glTF, and its views
-// (docs/put_your_renderer_on_the_plane.md#what-to-draw).
+// Exports the data that another renderer needs to draw the pictures of a sweep: the scene as glTF, and its
+// views (docs/put_your_renderer_on_the_plane.md#what-to-draw).
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace lightgrid {
 
-// Of a scene, as far as requests need it.
+// An exported scene, as far as requests need it.
 struct ExportedScene {
   std::string name;              // as in the sweep
   std::filesystem::path folder;  // absolute; holds scene.glb and views.json

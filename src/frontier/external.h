@@ -45,8 +45,8 @@ struct ExternalRenderer {
 // Throws Error(input) that names the file, the field and the value.
 ExternalRenderer read_external_renderer(const std::filesystem::path& path);
 
-// Those of several files. Throws also where two have one label, and where one takes part in none of the
-// scenes.
+// The renderers of several files. Throws also where two have one label, and where one takes part in none of
+// the scenes.
 std::vector<std::shared_ptr<const ExternalRenderer>> read_external_renderers(
     const std::vector<std::string>& files, const std::vector<std::string>& scenes);
 

@@ -117,7 +117,7 @@ class FamilySweep {
     measure_points(view, base);
   }
 
-  // Of the surfaces, which all steps share.
+  // Finds the depth of the surfaces, which all steps share.
   void find_depth(const View& view) {
     if (!depth_.empty()) return;
     TechniqueRun run(renderer_, gpu_, view, job_.baseline.contestant.settings,

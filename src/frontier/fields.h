@@ -111,7 +111,7 @@ inline constexpr std::pair<const char*, ImageError PointErrors::*> kinds_of_erro
     {"technique", &PointErrors::technique},
     {"total", &PointErrors::total}};
 
-// Those that fronts are of: of the whole picture, in FLIP as displayed, against either reference.
+// The errors of which there are fronts: FLIP of the complete displayed picture, against either reference.
 inline constexpr const char* front_errors[] = {"total", "authored"};
 
 // NaN: not measured.

@@ -162,7 +162,7 @@ class SceneSweep {
     return seconds() + more + round_s * views <= until();
   }
 
-  // What a round takes of the points that growth is measured with: each frame, and the baseline's, follows
+  // The time of a round of the points that growth is measured with: each frame, and the baseline's, follows
   // one that does not count.
   double round_of_growth() const {
     double round_s = 0;
@@ -207,7 +207,7 @@ class SceneSweep {
     end_step("figures");
   }
 
-  // What a view after this one takes, with HDR-FLIP and flicker and without: estimates as long as none was
+  // The expected time of a later view, with HDR-FLIP and flicker and without: estimates until one was
   // measured so.
   struct ViewSeconds {
     double whole = 0, plain = 0;

@@ -29,14 +29,14 @@ struct FrontierJob {
   double seconds = 180;  // for the scene, from loading to its last record
   int least_rounds = 6, most_rounds = 120;
   int controls = 3;  // the baseline as this many points of its own, in each round
-  // Of several processes that share the rounds: the first measures the figures, the last completes the
+  // For several processes that share the rounds: the first measures the figures, the last completes the
   // records.
   int process = 0, processes = 1;
   // Rounds end when each ratio's interval is at most this share of its median, and the controls are precise.
   double interval_width = 0.05;
   uint64_t seed = 1;
-  // Of pixel and light, on a view: those that the oracle shades, and those whose shadows it decides, which
-  // takes longer (of more, an even sample of the pixels is taken).
+  // Pairs of pixel and light per view: those that the oracle shades, and those whose shadows it decides,
+  // which takes longer (of more, an even sample of the pixels is taken).
   size_t shaded_pairs = 10'000'000, shadow_pairs = 1'000'000;
   bool sequences = false;          // SequenceErrors too, in time of their own: `seconds` are without them
   bool growth = true;              // the series of lights, pixels and radius too

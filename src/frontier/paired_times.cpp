@@ -140,7 +140,7 @@ class Normals {
   Random random_;
 };
 
-// What draws need of a point.
+// The data of a point that draws need.
 struct Drawn {
   Location location;
   std::vector<size_t> blocks;  // of multipliers

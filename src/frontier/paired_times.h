@@ -40,7 +40,7 @@ inline constexpr int min_rounds = 3;
 using LogRatios = std::vector<double>;
 using LogTimes = std::map<TimeBlock, LogRatios>;
 
-// Of a time over the baseline's.
+// A time relative to the baseline's.
 struct RelativeTime {
   double estimate = 0;
   double low = 0, high = 0;                 // 95 % interval, if has_interval()

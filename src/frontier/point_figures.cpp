@@ -250,7 +250,7 @@ std::vector<Group> grouped(const Group& records,
   return groups;
 }
 
-// Of each point that ran in each of its views, without points of a series.
+// The views of each point that ran in all of them, without points of a series.
 static std::vector<Group> views_of_points(Records records) {
   const Group of_front = accepted(records, [](const FrontierRecord& r) { return r.series.empty(); });
   std::vector<Group> points = grouped(of_front, [](const FrontierRecord& r) { return point_key(r.point); });

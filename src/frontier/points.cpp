@@ -111,8 +111,8 @@ constexpr Star soft_variations[] = {
     {"visibility", "shadow-rays=4 shadow-pick=16"},
 };
 
-// Of each of these techniques in families of lights, the ranges of each; cutoffs of 0.005 and 0.0005 are 5
-// and 16 times the ranges of scattered lights.
+// The points of each of these techniques in families of lights, with the ranges of each; cutoffs of 0.005 and
+// 0.0005 are 5 and 16 times the ranges of scattered lights.
 constexpr Star family_techniques[] = {{"forward_plus", ""},
                                       {"clustered", ""},
                                       {"deferred_tiled", ""},
@@ -143,7 +143,7 @@ ChosenPoint point(const Technique& technique, const Settings& settings, int fram
   return chosen;
 }
 
-// Those of a star that run, with OpenGL or without it.
+// The points of a star that run, with OpenGL or without it.
 class StarPoints {
  public:
   StarPoints(const Settings& common, bool opengl) : common_(common), opengl_(opengl) {}

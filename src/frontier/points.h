@@ -51,11 +51,11 @@ std::string label_of(const Contestant& contestant, int frames);
 
 FrontierPoint described(const std::string& scene, const ChosenPoint& point);
 
-// Whether timed frames end with the bytes of a display (picture=bytes): on GPUs, where reading back floats
-// can take half of a frame. On CPUs the host reads the floats where they are.
+// Returns whether timed frames end with the bytes of a display (picture=bytes): on GPUs, where reading back
+// floats can take half of a frame. On CPUs the host reads the floats where they are.
 bool times_bytes(const Renderer& renderer);
 
-// Whether random numbers of frames are independent, or go on from frame to frame as a renderer's do: those of
+// Random numbers of frames are independent, or continue from frame to frame as a renderer's do: those of
 // sampled lists then complement each other.
 enum class NumbersOfFrames { independent, in_a_row };
 
@@ -79,7 +79,7 @@ class PointRun {
   // With a clock a picture of one frame ends with its bytes where times_bytes() says so, and image() is an
   // older one.
   double draw(DeviceClock* clock = nullptr);
-  // Of the last draw() with a clock; empty too if that clock does not know, or the point is refused.
+  // The times of the last draw() with a clock; empty too if that clock has none, or the point is refused.
   const std::optional<DeviceTimes>& device_times() const { return device_times_; }
   // The picture drawn last; and of an averaged one how far its frames scatter.
   const Image& image() const { return point_.frames > 1 || point_.external ? mean_ : run_->image(); }

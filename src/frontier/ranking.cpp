@@ -21,7 +21,7 @@ constexpr double unranked = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double bearable_flips[] = {0.001, 0.01, 0.02, 0.05, 0.1, 0.2};
 
-// What fronts hold against the time; NaN: not on a front.
+// The error that fronts compare with the time; NaN: not on a front.
 double error_on_front(const PointFigures& p, const std::string& kind) {
   const double flip = flip_of(p.errors, kind);
   return p.nan_pixels == 0 && !p.log_times.empty() && std::isfinite(flip) ? flip : unranked;
@@ -63,12 +63,12 @@ std::map<std::string, SceneTimes> drawn_scenes(const std::vector<PointFigures>& 
 
 bool has_rounds(const PointFigures& p) { return p.log_times.size() >= size_t(min_rounds); }
 
-// What draws say of a point, where there are rounds enough for them and the control passed.
+// The probability from draws, where there are enough rounds for them and the control passed.
 double probability_of(const SceneTimes& scene, const PointFigures& p, double share) {
   return scene.control_passed && has_rounds(p) ? share : unranked;
 }
 
-// Of the points within `error`, the one of least `time_of`; -1 without one.
+// Returns the point within `error` that has the least `time_of`; -1 without one.
 template <typename TimeOf>
 int cheapest(const SceneTimes& scene, double error, const TimeOf& time_of) {
   int best = -1;

@@ -43,7 +43,7 @@ struct AuthoredErrors {
   ImageError total;  // the picture
 };
 
-// Of random ranges and lists: independent pictures, of which errors are means.
+// The spread of random ranges and lists over independent pictures, of which errors are means.
 struct SeedErrors {
   int pictures = 0, flip_pictures = 0;              // and of them those of which FLIP was measured
   ImageError deviation;                             // of each measure of the total from picture to picture
@@ -77,17 +77,17 @@ struct PointErrors {
   std::optional<SampledErrors> in_double;  // the same against the truth in double, at a sample of pixels
   std::optional<AuthoredErrors> authored;  // where the truth's lights have no ranges and those of settings do
   std::optional<SeedErrors> seeds;         // of random points; total and authored are then means over them
-  // Of the same, root mean squares over pixels, relative like the others: of the expected picture's error
-  // (random ranges: against the truth; lists: against what the settings mean), 0 where it is not above the
-  // noise, and of the standard deviation of one frame.
+  // For these points, root mean squares over pixels, relative like the others: of the expected picture's
+  // error (random ranges: against the truth; lists: against what the settings mean), 0 where it is not above
+  // the noise, and of the standard deviation of one frame.
   std::optional<double> bias_rmse_rel, deviation_rmse_rel;
   // Flicker: how much the picture's difference from the truth changes from frame to frame while the camera
   // turns by a quarter of a degree a frame; root mean square over pixels and frames.
   std::optional<double> temporal_rmse_rel;
   std::optional<SequenceErrors> sequences;  // of the first view, where they were asked for
-  // Of points with surfaces of their own: the truth on these against the truth on OpenGL's, of the same view.
-  // Smaller errors do not compare such points with those that draw with OpenGL. Empty: there is one truth for
-  // both, of areas, or no OpenGL.
+  // For points with surfaces of their own: the truth on these against the truth on OpenGL's, of the same
+  // view. Smaller errors do not compare such points with those that draw with OpenGL. Empty: there is one
+  // truth for both, of areas, or no OpenGL.
   std::optional<ImageError> surfaces;
 };
 
@@ -102,7 +102,7 @@ struct FrontierTruth {
   bool operator==(const FrontierTruth&) const = default;
 };
 
-// Of a point of another renderer (frontier/external.h).
+// A point of another renderer (frontier/external.h).
 struct ExternalPoint {
   std::string note;    // what its author says of it
   bool paired = true;  // timed in the rounds, beside the baseline; otherwise by its author, elsewhere
@@ -119,11 +119,11 @@ struct FrontierRecord {
   // Empty: a point of the front; "lights", "pixels", "radius": of a growth curve; "equal overlap", "overlap":
   // of a family of lights (families.h); "control 0", "control 1", …: the baseline, timed as a point.
   std::string series;
-  // Of a family: lights that reach a covered pixel in the mean, with their own ranges, by the oracle.
+  // For a family: mean number of lights that reach a covered pixel, with their own ranges, by the oracle.
   std::optional<double> overlap;
   std::optional<uint64_t> pair_pixels;  // at which `pairs` were counted; empty: at all covered ones
   std::optional<FrontierTruth> truth;  // empty: every light without a range
-  // Of a point of another renderer. Its technique is the renderer's name; pairs, bytes and the errors of
+  // For a point of another renderer. Its technique is the renderer's name; pairs, bytes and the errors of
   // model, precision and technique are unknown (NaN).
   std::optional<ExternalPoint> external;
 
@@ -146,8 +146,8 @@ struct FrontierRecord {
   std::optional<FlipExposures> flip;  // with which errors.total.flip_mean was measured
   std::optional<double> exposure_ev;  // of the scene's pictures, with which displayed FLIP was measured
   std::string image;  // name of its picture among the part's pictures, without extension; empty: none
-  // Of the part that holds it, set by RecordFile and read_part: its times are of that machine. Times that are
-  // not paired are of no round: they have a number of their own, unpaired_shard or more.
+  // The shard of the part that holds it, set by RecordFile and read_part: its times are of that machine.
+  // Times that are not paired belong to no round: they have their own number, unpaired_shard or more.
   int shard = 0;
 };
 

@@ -12,14 +12,14 @@ namespace lightgrid {
 
 class RoundBaselines {
  public:
-  // Of records of the front and of controls.
+  // Takes the records of the front and of controls.
   explicit RoundBaselines(Records records);
 
-  // Of a point, whose views these are: for each round that all of them have, the logarithms of the sum of the
-  // views' times over sums of the baseline's, of one run a view each. A round has a baseline run for each two
-  // points; those that count are the same for all points, so that they cancel between two of them, are chosen
-  // by their places among the records, whatever their times are, and are others in the next round. One that
-  // two points share may count twice, as do some where a round has fewer than three.
+  // For the point with these views: for each round that all of them have, the logarithms of the sum of the
+  // views' times over sums of the baseline's, of one run per view each. A round has a baseline run for each
+  // two points; those that count are the same for all points, so that they cancel between two of them, are
+  // chosen by their places among the records, whatever their times are, and are others in the next round. One
+  // that two points share may count twice, as do some where a round has fewer than three.
   LogTimes log_times(const Group& views) const;
 
  private:

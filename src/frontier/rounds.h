@@ -81,7 +81,7 @@ constexpr double share_of_growth = 0.12;
 // at most. Negative if the budget is exceeded.
 double growth_seconds(double budget, double used);
 
-// Whether growth is measured with it: techniques that cull, as they are.
+// Returns whether growth is measured with the point: techniques that cull, with default settings.
 bool is_grown(const ChosenPoint& point);
 
 // How times grow with lights, pixels and the lights' ranges: the techniques among the job's points, each as

@@ -316,7 +316,7 @@ void join(const std::vector<ImageError>& pictures, ImageError& mean, ImageError*
   if (deviation) deviation->displayed = {moments(flips).second, moments(visible).second};
 }
 
-// Of a point's first view, and of its others: they show what changes from view to view, and so many more of them
+// For a point's first view, and for its others: they show changes from view to view, and so many more of them
 // fit into the same time.
 constexpr int pictures_of_first_view = 32, pictures_of_a_view = 8;  // of averaged frames the latter everywhere
 constexpr int flips_of_first_view = 8, flips_of_a_view = 4;         // FLIP takes long

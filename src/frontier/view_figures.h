@@ -33,7 +33,7 @@ class ViewFigures {
   void measure_picture(const ChosenPoint& point, const Image& image, FrontierRecord& record);
 
  private:
-  // What pictures are compared with.
+  // The picture that others are compared with.
   struct Reference {
     const Image* truth = nullptr;
     double brightest = 0;  // channel; one for both kinds of surfaces, since a highlight of one pixel makes it

@@ -1,5 +1,5 @@
-// What light buffers hold, in double: the sums of light_prepass (docs/details/light_prepass.md#equations) and
-// a sample of a voxel light buffer (docs/details/voxel_lights.md#a-sample).
+// The values of light buffers in double: the sums of light_prepass (docs/details/light_prepass.md#equations)
+// and a sample of a voxel light buffer (docs/details/voxel_lights.md#a-sample).
 #pragma once
 
 #include <span>

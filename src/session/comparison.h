@@ -26,7 +26,7 @@ struct CompareChoice {
 };
 const std::vector<std::string>& default_techniques();
 
-// What was chosen, with its scenes loaded.
+// The chosen comparison, with its scenes loaded.
 struct Comparison {
   CompareChoice choice;
   std::vector<LoadedView> views;

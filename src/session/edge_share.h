@@ -1,5 +1,5 @@
-// What samples would find in a view, by the oracle's rays, without a device: pixels with edges, and what
-// shading the others once saves.
+// Predicts samples in a view by the oracle's rays, without a device: pixels with edges, and the saving from
+// shading the others once.
 #pragma once
 
 #include <string>

@@ -8,16 +8,16 @@
 
 namespace lightgrid {
 
-// What has room for a number of lights. pool: all entries of all cells of a view together. distance: nothing
-// further than so many metres along the view's axis is lit.
+// The container that holds a limited number of lights. pool: all entries of all cells of a view together.
+// distance: nothing further than so many metres along the view's axis is lit.
 enum class LimitScope { view, mesh, cell, pool, distance };
 
 // Which lights count. local: points and spots together. each: points and spots, each kind with its own room.
 // every: directional lights too.
 enum class LimitKinds { local, points, each, every };
 
-// Of which lights: all of the scene; those whose range and cone the view sees; those of them that earlier
-// limits of the engine keep.
+// The lights that count: all of the scene; those whose range and cone the view sees; those of them that
+// earlier limits of the engine keep.
 enum class LimitOf { scene, seen, kept };
 
 // Which lights are kept. index: the scene's first. points_first: points before spots, each in the scene's
@@ -63,7 +63,7 @@ struct UnlimitedEngine {
 const std::vector<UnlimitedEngine>& unlimited_engines();
 std::vector<std::string> engine_names();
 
-// Those of one engine, or of all. Throws Error(input) for an unknown name.
+// The limits of one engine, or of all. Throws Error(input) for an unknown name.
 std::vector<const EngineLimit*> limits_of(std::string_view engine);
 
 const char* name_of(LimitScope scope);

@@ -23,7 +23,7 @@ struct FrameShadows {
   PixelShadows at(int x, int y, SceneOcclusion& occlusion) const;
 };
 
-// Of the run's last frame.
+// Reads the shadows of the run's last frame.
 FrameShadows read_frame_shadows(TechniqueRun& run);
 
 }  // namespace lightgrid

@@ -36,7 +36,7 @@ std::vector<std::string> hash_tiles(const GoldenView& view,
   return hashes;
 }
 
-// Of each cell's list, in the order in which its lights are summed.
+// The hash of each cell's list, in the order in which its lights are summed.
 std::vector<uint32_t> hashes_of_lists(const ListedLights& lists) {
   std::vector<uint32_t> hashes;
   for (size_t cell = 0; cell < lists.count.size(); ++cell) {

@@ -14,7 +14,7 @@ namespace lightgrid {
 // In the order of the frame: a stage reads the ones before it.
 inline constexpr std::array golden_stages = {"triangles", "depth", "lists", "radiance"};
 
-// What the stages left at each pixel, row 0 at the bottom.
+// The results of the stages at each pixel, row 0 at the bottom.
 struct GoldenPixels {
   std::vector<uint32_t> triangles;  // a hash of the nearest opaque one: its instance and vertices
   std::vector<uint32_t> depth;      // the bits of a float
@@ -24,7 +24,7 @@ struct GoldenPixels {
   bool same(size_t stage, const GoldenPixels& other, size_t pixel) const;
 };
 
-// Of the run's last frame.
+// Reads the run's last frame.
 GoldenPixels golden_pixels(TechniqueRun& run);
 
 // Hashes of a view, 16 hexadecimal digits a tile; rows of tiles from the bottom.

@@ -22,7 +22,7 @@ std::optional<GoldenPixels> load_golden_pixels(const std::filesystem::path& path
 glm::ivec2 first_pixel(const GoldenPixels& recorded, const GoldenPixels& drawn, const GoldenView& view,
                        const GoldenDifference& difference);
 
-// What a view that differs is shown by. Without recorded pixels only by its tiles.
+// The pictures of a view that differs. Without recorded pixels only its tiles.
 struct GoldenPictures {
   const GoldenView& recorded_view;
   const GoldenView& drawn_view;

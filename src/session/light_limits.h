@@ -13,7 +13,7 @@
 
 namespace lightgrid {
 
-// What has too many lights, or the most: a view, an object of it, or a cell.
+// The place that has too many lights, or the most: a view, an object of it, or a cell.
 struct LimitPlace {
   size_t frame = 0;
   int instance = -1;      // of a mesh: the object's first

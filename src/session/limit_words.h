@@ -1,4 +1,4 @@
-// What is said of limits and the lights that they drop.
+// Sentences about limits and the lights that they drop.
 #pragma once
 
 #include "session/light_limits.h"

@@ -1,4 +1,4 @@
-// What a comparison's rows are measured against, once all have run: the reference's picture, its surfaces,
+// The references of a comparison's rows, measured once all have run: the reference's picture, its surfaces,
 // and the oracle.
 #pragma once
 
@@ -19,7 +19,7 @@ struct ReferenceTriangles {
   std::vector<bool> contested = std::vector<bool>(shown.opaque.size());
 };
 
-// What of a row's settings its samples' picture of every light depends on.
+// The settings of a row on which its samples' picture of every light depends.
 struct SampledBy {
   bool own_surfaces = false;  // drawn in OpenCL
   int samples = 1;
@@ -29,7 +29,7 @@ struct SampledBy {
 };
 SampledBy sampled_by(bool own_surfaces, const Settings& settings);
 
-// What the rows are compared with.
+// The data that the rows are compared with.
 struct Measured {
   Reference& reference;
   std::vector<float> depth;
@@ -56,7 +56,7 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
 // lists may not fit in memory. The run's images may hold another run's frame, so it draws once more.
 void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m);
 
-// Of all rows, against surfaces in double and the oracle.
+// Measures all rows against surfaces in double and the oracle.
 void measure_errors(CompareReport& report, const Compared& compared, Measured& m);
 
 // The reference's image becomes the report's, or its row's.

@@ -17,7 +17,7 @@ class SurfaceOracle {
   const std::vector<uint32_t>& pixels() const { return pixels_; }
   uint64_t pixels_left_out() const { return left_out_; }  // blended
 
-  // Those of `pixels` where neither a shadow nor a cone's hard edge turns on rounding; window: of the lights in range.
+  // The `pixels` where neither a shadow nor a cone's hard edge turns on rounding; window: of lights in range.
   std::vector<uint32_t> decided(std::vector<uint32_t> pixels, bool window = true) const;
 
   // Radiance at `pixels` from every light that is not hidden there; window: with ranges.

@@ -35,7 +35,7 @@ struct EveryLight {
 // would otherwise depend on the contestants' order.
 EveryLight every_light_technique(const Renderer& renderer, const std::vector<Contestant>& contestants = {});
 
-// What is compared, on which view.
+// The contestants of a comparison, on one view.
 struct Compared {
   Renderer& renderer;
   GpuScene& gpu;

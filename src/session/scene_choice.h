@@ -64,8 +64,8 @@ const std::vector<ChoiceField>& choice_fields();
 // are used.
 void set_choice_field(SceneChoice& choice, const std::string& assignment);
 
-// What stays the same over a series of numbers of scattered lights: their ranges, or how many of them reach a
-// point, for which ranges shrink as the number grows.
+// The property that stays the same over a series of numbers of scattered lights: their ranges, or how many of
+// them reach a point, for which ranges shrink as the number grows.
 enum class Kept { range, overlap };
 // Throws Error(input) for another word, and for overlap where ranges cannot follow the number: those of
 // light-radius or of a lights-file.

@@ -29,19 +29,19 @@ class ShadowTruth {
   bool casts() const;  // some light of the scene
   SceneOcclusion& occlusion() { return *occlusion_; }
 
-  // Of point and spot lights, as lists have them, then of directional ones. Null if no light casts; until the
-  // next call but one. triangles: the nearest opaque one of each pixel.
+  // The pairs of point and spot lights, in the order of lists, then of directional ones. Null if no light
+  // casts; valid until the next call but one. triangles: the nearest opaque one of each pixel.
   const SeenPairs* pairs(const Seen& v, const std::vector<float>& depth,
                          const std::vector<SceneTriangle>& triangles);
 
-  // Of all lights of the scene, in its order, at `pixels`; in_range: without those that are out of range.
-  // Null if no light casts.
+  // The pairs of all lights of the scene, in its order, at `pixels`; in_range: without those that are out of
+  // range. Null if no light casts.
   std::unique_ptr<SeenPairs> at_pixels(const Seen& v, const std::vector<float>& depth,
                                        const std::vector<CastingTriangle>& triangles,
                                        const std::vector<uint32_t>& pixels, bool in_range = true);
 
-  // Of point and spot lights at the fragments of a layer of blended surfaces. Null if no light casts; until
-  // the next call.
+  // The pairs of point and spot lights at the fragments of a layer of blended surfaces. Null if no light
+  // casts; valid until the next call.
   const SeenPairs* of_layer(const Seen& v, const HostShadowLayer& layer);
 
   // Another view, and `geometry`: whether instances moved or meshes deformed.

@@ -24,7 +24,7 @@ class VirtualLights {
   // The same after the scene changed; the changes with those of the virtual lights.
   SceneChanges follow(SceneChanges changes);
 
-  // Of the last place(): what every light's view reflects.
+  // The reflections in every light's view, from the last place().
   const std::vector<ReflectedView>& views() const { return views_; }
   size_t reflected() const { return reflected_; }  // lights
 

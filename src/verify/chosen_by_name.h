@@ -1,4 +1,4 @@
-// What a filter names.
+// Choices by a filter of names.
 #pragma once
 
 #include <regex>
@@ -9,8 +9,8 @@
 
 namespace lightgrid::verify {
 
-// Those of `all` in whose name_of the regular expression is found. Throws Error(input) if it is none, or is
-// found in no name; `what` and `like` are for that message.
+// Returns the items of `all` in whose name_of the regular expression is found. Throws Error(input) if it is
+// invalid or found in no name; `what` and `like` are for that message.
 template <typename All, typename Name>
 auto chosen_by_name(const All& all, const std::string& filter, const Name& name_of, const char* what,
                     const char* like) {

@@ -264,7 +264,7 @@ class DeviceEngine : public CullEngine {
     return depths;
   }
 
-  // Of the surface at each pixel.
+  // The light groups of the surface at each pixel.
   static std::vector<uint32_t> groups_shown(RenderView& v, const Frame& frame) {
     std::vector<uint32_t> groups;
     const auto add = [&](int instance) {

@@ -54,7 +54,7 @@ struct RasterImage {
   uint64_t invalid_triangles = 0;
 };
 
-// What a technique lists, read back.
+// The lists of a technique, read back.
 struct ListImage {
   std::vector<float> depths;  // a pixel, row 0 at the bottom; 0 for background
   std::vector<float>
@@ -62,7 +62,7 @@ struct ListImage {
   ListedLights lists;  // of opaque surfaces
 };
 
-// What a frame's light loops read where lights cast shadows, and the surfaces that they shade.
+// The shadows that a frame's light loops read where lights cast, and the surfaces that they shade.
 struct ShadowImage {
   std::vector<float> depths;               // a pixel, row 0 at the bottom; 0 for background
   std::vector<CastingTriangle> triangles;  // the nearest opaque one
@@ -107,7 +107,7 @@ class CullEngine {
 
   // The library has both kernel shapes, and every depth-bounds mode.
   virtual bool is_the_library() const = 0;
-  // Whether cases hold both kernel shapes to the same bytes.
+  // Returns whether cases require the same bytes from both kernel shapes.
   virtual bool has_both_shapes() const { return is_the_library(); }
 
   virtual HostGrid cull(const CullerOptions& options, const CullView& view, std::span<const CullLight> lights,
@@ -132,8 +132,8 @@ class CullEngine {
   // Nothing from an engine that only culls.
   virtual std::optional<RasterImage> rasterize(const RasterOptions&, const RasterInput&) { return {}; }
 
-  // What a technique lists at each pixel, a view after the other in one run. Nothing from an engine that only
-  // culls, or without OpenGL where the technique draws with it. No light of the scene may cast.
+  // Returns the technique's lists at each pixel, one view after the other in one run. Nothing from an engine
+  // that only culls, or without OpenGL where the technique draws with it. No light of the scene may cast.
   virtual std::vector<ListImage> lists(const Scene&, const std::string& /*technique*/, std::span<const View>,
                                        const Settings&) {
     return {};

@@ -48,7 +48,7 @@ const std::vector<Way>& every_way() {
   return ways;
 }
 
-// Those that draw several hundred masks.
+// The ways that draw several hundred masks.
 const std::vector<Way>& numbered_ways() {
   static const std::vector<Way> ways = {
       {"forward_plus", "group-ids=16", true},

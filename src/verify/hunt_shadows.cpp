@@ -49,7 +49,7 @@ class ShadowHunt {
     tally.seconds += timer.elapsed_ms() / 1000;
   }
 
-  // Whether all is right.
+  // Returns whether all is right.
   bool compare(ShadowHuntTally& tally, const HuntedScene& made, uint64_t seed) {
     Random random(seed);
     Settings settings;

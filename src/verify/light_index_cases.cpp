@@ -27,8 +27,8 @@ struct Listing {
   int room = no_limit;   // lights that a pixel holds: further ones are lost
 };
 
-// Whether a light may be listed for a surface at p: its volume is at most so many times as large as its
-// range, and half a pixel for how corners are drawn. Behind front faces, the sight to p passes through it.
+// Returns whether a light may be listed for a surface at p: its volume exceeds its range by so much at most,
+// and half a pixel for how corners are drawn. Behind front faces, the sight to p passes through it.
 bool may_be_listed(const View& view, const ViewLight& light, const dvec3& p, bool behind, bool box) {
   const bool cone = light.type == LightType::spot && light.cos_outer > 0;
   // A cone is grown by moving it back, by 1 / sin of its angle.
@@ -314,8 +314,8 @@ void add_far_lights(Scene& scene, Random& random) {
   }
 }
 
-// What is packed is unpacked: no more lights than there is room for, in any packing; each is listed where it
-// lights, and nothing else is.
+// Unpacking gives what was packed: no more lights than there is room for, in any packing; each is listed
+// where it lights, and nothing else is.
 void packings(Check& c, Random& random) {
   const RandomPacking packing = random_packing(random, true);
   Scene scene = floor_scene();

@@ -1,4 +1,4 @@
-// What hard cases of rasterising share: scenes of few triangles, and the comparison with the coverage oracle.
+// Shared by hard cases of rasterising: scenes of few triangles, and the comparison with the coverage oracle.
 #pragma once
 
 #include <optional>

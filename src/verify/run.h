@@ -36,7 +36,7 @@ std::vector<const HardCase*> chosen_cases(const std::string& filter);
 
 Outcome run_case(const HardCase& hard_case, CullEngine& engine, uint64_t adversarial_lights);
 
-// Whether it fails. Ends at the first failure, so that what would be compared after it is not made.
+// Returns whether the case fails. Ends at the first failure, so that later comparisons are not made.
 bool fails(const HardCase& hard_case, CullEngine& engine, uint64_t adversarial_lights);
 
 VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines, const VerifyOptions& options);

@@ -96,7 +96,7 @@ void cover_once(Check& c, bool on_places) {
     const std::optional<RasterImage> whole = raster(c, input);
     if (!whole) return;
     c.that(std::ranges::count(whole->triangles, no_triangle) == 0, "a hole with {} samples", samples);
-    // Of 11 parts of the mesh, in which no two triangles touch, one covers a sample.
+    // One of 11 parts of the mesh, in which no two triangles touch, covers a sample.
     std::vector<int> claims(whole->triangles.size(), 0);
     constexpr size_t parts = 11;
     for (size_t part = 0; part < parts; ++part) {

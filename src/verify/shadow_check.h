@@ -7,7 +7,7 @@
 
 namespace lightgrid::verify {
 
-// What a case has to show, so that it proves something: shares of the pairs.
+// The shares of the pairs that a case must show, so that it proves something.
 struct Shows {
   double seen = 0.02, hidden = 0.02;  // at least, decided
   double either = 0.05;               // at most

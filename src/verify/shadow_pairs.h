@@ -20,7 +20,7 @@ struct ShadowPairs {
 // On all cores. occlusion: of the scene. Throws Error(input) if the lists are no lists of lights that cast.
 ShadowPairs count_shadow_pairs(const Scene& scene, const Occlusion& occlusion, const View& view,
                                const ShadowImage& image);
-// Of images that show the same surfaces and have the same lights: the oracle decides once.
+// For images that show the same surfaces and have the same lights: the oracle decides once.
 std::vector<ShadowPairs> count_shadow_pairs(const Scene& scene, const Occlusion& occlusion, const View& view,
                                             const std::vector<const ShadowImage*>& images);
 bool same_surfaces_and_lights(const ShadowImage& a, const ShadowImage& b);

@@ -306,7 +306,7 @@ void masked_foliage(Check& c) {
   }
 }
 
-// What does not hide: blended surfaces, instances that cast no shadow, and all from lights that do not cast.
+// These do not hide: blended surfaces, instances that cast no shadow, and all from lights that do not cast.
 void what_does_not_hide(Check& c) {
   Random random(59);
   Scene scene = furnished_floor();

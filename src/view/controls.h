@@ -12,7 +12,7 @@
 
 namespace lightgrid {
 
-// What a side shows.
+// The map that a side shows.
 enum class SideMap { picture, listed, lit, lost, hidden, leaked, acned, difference, edges };
 
 const std::array<const char*, 9>& map_names();  // by SideMap
@@ -75,7 +75,7 @@ struct Input {
   std::string dropped;               // a file; empty: none
 };
 
-// What a hand can do in the window, for its list of keys.
+// An action by hand in the window, for its list of keys.
 struct KeyHelp {
   const char *press, *shown, *does;  // press: the key's name in scripts; empty where it is not one key
 };

@@ -24,7 +24,7 @@ struct ListedFrame {
 };
 ListedFrame read_listed_frame(TechniqueRun& run);
 
-// What is counted.
+// The choice of pairs to count.
 struct CountChoice {
   size_t picture = 0;        // number of the side's
   std::optional<int> light;  // of the scene, which is counted alone; none: all but directional ones
@@ -44,7 +44,7 @@ class PairCount {
   // Starts the count of the run's last frame; nothing may be running.
   void start(TechniqueRun& run, const CountChoice& choice);
   bool running() const { return running_.valid(); }
-  // Of the pixels whose shadows are decided: 0 to 1.
+  // The share of the pixels whose shadows are decided: 0 to 1.
   double progress() const { return job_ ? std::min(1.0, double(job_->tiles_done) / job_->tiles) : 0; }
   // The last count, if it is of this choice and done; else null, and a running one of another choice ends
   // soon. `wait`: waits for it.

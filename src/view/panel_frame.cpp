@@ -1,4 +1,4 @@
-// What the last frames did: times of passes, the lights at the clicked pixel, and the plan with its
+// The panel of the last frames: times of passes, the lights at the clicked pixel, and the plan with its
 // witnesses.
 #include <algorithm>
 #include <limits>

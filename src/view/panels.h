@@ -75,7 +75,7 @@ std::string casting_line(const LightShadow& light, const FramePlan& plan, const 
 
 // Sections of the panel.
 void show_techniques(Controls& controls, const Shown& shown);
-// Those whose keys begin with "shadow", or all others.
+// Settings whose keys begin with "shadow", or all others.
 void show_settings(Controls& controls, bool of_shadows);
 void show_shadows(Controls& controls, const Shown& shown);
 void show_times(Controls& controls, const Shown& shown);

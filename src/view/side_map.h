@@ -19,7 +19,7 @@ namespace lightgrid {
 // each group by distance. Tests are empty. Of the place only what a pixel has without a light grid is set.
 PixelInspection lights_at(const ListedFrame& listed, PicturePixel pixel);
 
-// What culling decided about each light at the pixel: the frame's depth is culled once more, with the
+// The decision of culling about each light at the pixel: the frame's depth is culled once more, with the
 // run's settings. Empty if the technique's plan has no light grid.
 std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const CapturedFrame& frame,
                                              PicturePixel pixel);

@@ -1,5 +1,5 @@
-// What the window shows of a drawn frame: maps, the lights at a pixel, the panel; and the files that scripts
-// ask for.
+// The output for a drawn frame: maps, the lights at a pixel, the panel; and the files that scripts
+// request.
 #include <algorithm>
 
 #include "base/error.h"

@@ -83,7 +83,7 @@ class Interface {
   // as long as there is no widget yet.
   void announce(const std::string& text);
 
-  // Whether a panel is under the pointer, or a text box has keyboard focus.
+  // Returns whether a panel is under the pointer, or a text box has keyboard focus.
   bool takes_pointer() const;
   bool takes_keys() const;
 
