@@ -28,7 +28,7 @@ def version() -> str:
 
 
 def copy_licence(name: str, folder: pathlib.Path) -> None:
-    """Of the Debian package that has the library `name`; nothing on other systems."""
+    """Copies the licence of the Debian package that has the library `name`; nothing on other systems."""
     if not shutil.which("dpkg-query"):
         return
     owner = subprocess.run(["dpkg-query", "-S", f"*/{name}"], check=True, capture_output=True, text=True).stdout.split(":")[0]

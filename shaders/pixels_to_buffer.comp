@@ -68,7 +68,7 @@ void main() {
     pixels[i / UINTS_OF_WORD] = word;
   }
 #else
-  // Of one sample: level 0.
+  // With one sample, s = 0 is the level.
   for (int s = 0; s < SAMPLES; ++s)
     pixels[(at.y * size.x + at.x) * SAMPLES + s] = pixel_of(texelFetch(image, at, s));
 #endif

@@ -13,7 +13,7 @@
 
 constant int sample_places[2 * SAMPLES] = {SAMPLE_PLACES};
 
-// Of a sample's share of a pixel, as a square, pixels: 1 / sqrt(SAMPLES).
+// The side of a sample's share of a pixel, as a square, pixels: 1 / sqrt(SAMPLES).
 #if SAMPLES == 2
 #define SAMPLE_SIDE 0.70710678f
 #elif SAMPLES == 4

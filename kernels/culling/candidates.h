@@ -123,8 +123,8 @@ static inline uint select_lights(RegionLights all, PackedRange range, global uin
   return n;
 }
 
-// Those of the lights `ids` that may touch the bin's box, in order. *pairs: an upper bound
-// of their pairs with its tiles. groups: of the bin.
+// Gathers the lights `ids` that may touch the bin's box, in order. *pairs: an upper bound of their pairs with
+// its tiles. groups: of the bin.
 static inline uint gather(global const uint* ids, uint count, global const float* records,
                           global const uint* light_groups, int x, int y, const Cell* bin, uint groups,
                           Candidates out, ulong* pairs) {

@@ -1,4 +1,4 @@
-// Whether a light may touch a cell. A test may keep a light that does not, and never drops one that does.
+// Tests of lights against cells. A test may keep a light that touches none, and never drops one that does.
 //
 // Why they are conservative: each test computes, in float, a lower bound of a distance and compares it with
 // the radius, which has grown by more than all rounding errors of the computation: docs/hard_cases.md#slack.

@@ -104,8 +104,8 @@ static inline TileRect tile_rect(ViewSphere s, real radius, constant CullParams*
   return rect;
 }
 
-// Whether r shares a tile with columns x0 ... x1 and rows y0 ... y1, given as first = x0 | y0 << 16, last
-// likewise. Both halves are compared at once: a half below 0 sets its top bit. Halves hold 15 bits.
+// Returns whether r shares a tile with columns x0 ... x1 and rows y0 ... y1, given as first = x0 | y0 << 16,
+// last likewise. Both halves are compared at once: a half below 0 sets its top bit. Halves hold 15 bits.
 static inline mask_t rect_meets(TileRect r, int first, int last) {
   return ((r.last - first | last - r.first) & (whole)(0x80008000)) == (whole)(0);
 }

@@ -29,12 +29,12 @@ static inline float weight_of(PunctualLight light, Middle m) {
   return weight > 1e-30f ? fmin(weight, 1e30f) : 1e-30f;
 }
 
-// What the whole number of the heaviest light of a list is.
+// The integer weight of the heaviest light of a list.
 #define MOST_WEIGHT 16777216.0f
 
 static inline uint whole_weight(float weight, float scale) { return max((uint)(weight * scale), 1u); }
 
-// Of the first step, below `rest`: the sum of the weights of lights that are not certain.
+// The place of the first step, below `rest`: the sum of the weights of lights that are not certain.
 static inline ulong first_place(ulong rest, ulong random) {
   return (rest >> 32) * random + ((rest & UINT_MAX) * random >> 32);
 }

@@ -35,7 +35,7 @@ static inline Corners least_corner(const Corners* v, const real* values) {
 // behind the far plane anyway.
 #define DEEPEST (-1.8446744073709552e19f)  // -2^64
 
-// Of the part that lies in front of the near plane: where a corner does not, the near plane's.
+// The depth of the part in front of the near plane: for a corner behind it, the near plane's.
 static inline real depth_of_corner(Corners v) {
   const real one = 1.0f, deepest = DEEPEST, depth = lane_max(lane_min(v.z * (one / v.w), one), deepest);
   return v.w > (real)(0.0f) ? depth : one;
@@ -46,8 +46,8 @@ static inline real depth_of_corner(Corners v) {
 #define LEAST_DISTANCE 0x1p-90f
 #define LARGEST_DISTANCE 0x1p90f
 
-// What depth gains a pixel to the right and up; infinite where floats do not reach far enough, or where the
-// eye lies in the triangle's plane.
+// The change of depth per pixel to the right and up; infinite where floats do not reach far enough, or where
+// the eye lies in the triangle's plane.
 static inline void plane_gradients(const Corners* v, real* zx, real* zy, constant RasterParams* p) {
   const Corners o = v[0];
   const real ax = v[1].x - o.x, ay = v[1].y - o.y, az = v[1].z - o.z, aw = v[1].w - o.w;
@@ -56,7 +56,7 @@ static inline void plane_gradients(const Corners* v, real* zx, real* zy, constan
              nw = difference_of_products(ax, by, ay, bx);
   real size[3];
   for (int k = 0; k < 3; ++k) size[k] = fabs(v[k].x) + fabs(v[k].y) + fabs(v[k].w);
-  // Of the corner nearest to the eye: its distance from the plane loses the least by cancellation.
+  // The corner nearest to the eye is used: its distance from the plane loses the least by cancellation.
   const Corners near = least_corner(v, size);
   const real distance = fma(nx, near.x, fma(ny, near.y, nw * near.w)), per_distance = (real)(1.0f) / distance;
   real right = o.z * (nx * per_distance), up = o.z * (ny * per_distance);

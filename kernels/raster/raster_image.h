@@ -34,7 +34,7 @@ typedef struct Image {
 
 static inline ulong key_of(float depth, uint triangle) { return (ulong)as_uint(depth) << 32 | triangle; }
 
-// Whether put_pixel would change the pixel. It is tested before the mask, whose lookup costs more.
+// Returns whether put_pixel would change the pixel. It is tested before the mask, whose lookup costs more.
 static inline bool would_change(const Image* image, size_t at, float depth, uint triangle) {
   const bool drawn = depth >= LEAST_DEPTH;
 #if ATOMICS == 64

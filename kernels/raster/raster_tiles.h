@@ -45,7 +45,7 @@ static inline int edge_of_samples(Edge e) {
 #endif
 }
 
-// Whether some sample of a pixel of the tile lies inside the edge.
+// Returns whether some sample of a pixel of the tile lies inside the edge.
 static inline bool edge_meets_tile(int x0, int y0, int x1, int y1, int tile_x, int tile_y) {
   const Edge e = edge_at(x0, y0, x1, y1, tile_x * RASTER_TILE, tile_y * RASTER_TILE);
   return edge_of_samples(e) + (max(e.a, 0) + max(e.b, 0)) * (RASTER_TILE - 1) >= 0;

@@ -116,7 +116,7 @@ static inline mask_t set_up(const FaceTile* t, const Real3 corners[3], TriangleL
   return drawn & ~(out_of_edge(t, d->p, d) | out_of_edge(t, d->q, d) | out_of_edge(t, d->r, d));
 }
 
-// Of one of these triangles.
+// The value of one of these triangles.
 #define LANE_OF(v) (((const float*)&(v))[lane])
 #define WHOLE_LANE_OF(v) (((const int*)&(v))[lane])
 typedef struct Triangle {

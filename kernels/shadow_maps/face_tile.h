@@ -53,7 +53,7 @@ typedef struct FaceTile {
 static inline float dot_in_order(float3 a, float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static inline float3 at3(global const float* p) { return (float3)(p[0], p[1], p[2]); }
 
-// What a texel holds of a distance, which is monotonic.
+// The value that a texel stores for a distance; it is monotonic.
 #if SHADOW_BITS == 32
 #define texel_value(t, distance) (distance)
 #define float_texel_value(t, distance) (distance)

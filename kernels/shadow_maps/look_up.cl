@@ -1,4 +1,4 @@
-// What shadow maps answer at points, a work-item a packet of 16 points that share a light.
+// Looks up shadow maps at points: one work-item per packet of 16 points that share a light.
 //
 // RAYS_ARGUMENTS         the triangles that the points lie on
 // SHADOW_MAPS_ARGUMENTS  the maps

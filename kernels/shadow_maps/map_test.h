@@ -7,7 +7,7 @@
 #define SHADOW_TEST SHADOW_MAPS
 typedef ShadowMaps ShadowTest;
 
-// Of its texels around the lanes' points, those that see something nearer, in 255ths of all.
+// The share of the texels around the lanes' points that see something nearer, in 255ths.
 static inline whole hidden_by_test(ShadowTest* maps, const RayScene* scene, const Receivers* r, uint light,
                                    global const ShadowLight* l, mask_t active) {
   const float share = 255.0f / (SHADOW_TAPS * SHADOW_TAPS);

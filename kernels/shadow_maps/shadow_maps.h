@@ -151,7 +151,7 @@ static inline whole taps_of_face(const ShadowMaps* maps, global const ShadowFace
   return asked ? hidden : (whole)(0);
 }
 
-// Of the taps, those that see something nearer than the receiver: 0 to SHADOW_TAPS^2 for each lane of
+// The number of taps that see something nearer than the receiver: 0 to SHADOW_TAPS^2 for each lane of
 // `active`. A point takes its face of a cube, or the first cascade that holds all taps; outside of the last
 // it is lit.
 static inline whole shadow_taps(const ShadowMaps* maps, uint light, const ShadowReceivers* r, mask_t active) {

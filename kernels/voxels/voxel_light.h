@@ -1,4 +1,4 @@
-// What a light adds to LANES samples of a voxel light buffer, which lie in one slice.
+// Adds a light to LANES samples of a voxel light buffer, which lie in one slice.
 // docs/techniques/voxel_lights.md has the reasons: a light's reach is grown so that the samples around each
 // lit point get a part of it, and dimmed by as much.
 //
@@ -27,15 +27,15 @@ typedef float voxel_t;
 #endif
 #endif
 
-// Of one light at one sample, and of all of them on a sample that is written: finite in
-// all products that shading makes.
+// The largest value of one light at one sample, and of all of them on a sample that is written: finite in all
+// products that shading makes.
 #define LARGEST_VOXEL 1e15f
 
 // Lights by groups of VOXEL_LIGHT_GROUP. What pads the last group is far away.
 typedef struct VoxelLights {
-  // Of groups, six planes of VOXEL_LIGHT_GROUP groups each: least and greatest x, y, z
+  // The boxes of groups, six planes of VOXEL_LIGHT_GROUP groups each: least and greatest x, y, z
   global const float* boxes;
-  // Of a group's lights: x, y, z and radius, VOXEL_LIGHT_GROUP each, along the volume's axes
+  // The places of a group's lights: x, y, z and radius, VOXEL_LIGHT_GROUP each, along the volume's axes
   global const float* places;
   global const float4* colors;  // radiant intensity, and the least 1 / distance^2
 #ifdef SPOTS
@@ -50,7 +50,7 @@ typedef struct VoxelBox {
   float low_x, low_y, low_z, high_x, high_y, high_z;
 } VoxelBox;
 
-// Of count_x * count_y * count_z samples from (x, y, z) on.
+// The box of count_x * count_y * count_z samples from (x, y, z) on.
 static inline VoxelBox box_of_samples(constant VoxelGrid* grid, constant VoxelSlice* slices, uint x, uint y,
                                       uint z, uint count_x, uint count_y, uint count_z) {
   const float x0 = grid->origin_x + (float)x * grid->spacing_x,
@@ -102,7 +102,7 @@ typedef struct VoxelSum {
 
 static inline real luminance_of(Real3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
-// What a light's radius is in a slice.
+// A light's radius in a slice.
 typedef struct VoxelReach {
   float squared, inverse_squared;
   // Over the ball of its reach a light adds up to its intensity times the radius, whatever the window
@@ -117,7 +117,7 @@ static inline VoxelReach voxel_reach(float radius, constant VoxelSlice* slice) {
   return r;
 }
 
-// Of a spot. Its edge is rounded off over the angle that a cell fills, q its square. y (y - x) = soft^2 / 4.
+// A spot's attenuation. Its edge is rounded over a cell's angle, whose square is q. y (y - x) = soft^2 / 4.
 static inline real voxel_cone(float8 cone, Real3 d, real inverse_squared, real inverse,
                               constant VoxelSlice* slice) {
   const real q = lane_min(slice->half_diagonal_squared * inverse_squared, REAL(4.0f));
@@ -134,7 +134,7 @@ static inline real voxel_cone(float8 cone, Real3 d, real inverse_squared, real i
   return fade * (cone.s5 / (cone.s5 + 0.5f * q));
 }
 
-// What a light is attenuated by at samples, 0 out of its reach or its cone, and 1 / distance. d: to the
+// A light's attenuation at samples, 0 outside its reach or its cone, and 1 / distance. d: to the
 // light, from position. color, cone: as in VoxelLights; cone is unread without SPOTS.
 typedef struct VoxelArrival {
   real attenuation, inverse;

@@ -26,7 +26,7 @@ static inline float world_block_away(float at, uint block, uint shift, uint leve
   return world_away(at, block << shift, ((block + 1) << shift) - 1, level, least, cells);
 }
 
-// Whether the light's ball may reach a block. light: position and radius in cells, the radius with slack.
+// Returns whether the light's ball may reach a block. light: position and radius in cells, radius with slack.
 static inline bool world_meets_block(float4 light, uint x, uint y, uint z, uint level,
                                      constant WorldGridParams* world) {
   const float dx = world_block_away(light.x, x, world->shift_x, level, world->least_x, world->cells_x);

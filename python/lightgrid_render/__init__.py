@@ -22,7 +22,7 @@ __all__ = ["Camera", "Cancelled", "Device", "Image", "InputError", "LightgridErr
 
 
 def version() -> str:
-    """Of the library, with its commit."""
+    """The library's version, with its commit."""
     return _text(_lib.lightgrid_version())
 
 

@@ -38,7 +38,7 @@ class Image(np.ndarray):
     """Linear light, float32, height x width x 4 (RGBA), the top row first. A NumPy array that notebooks show as a picture."""
 
     def picture(self, exposure: float | str = 0) -> np.ndarray:
-        """What a PNG file shows: height x width x 3 bytes. Exposure in stops, or "auto"."""
+        """The bytes of its PNG file: height x width x 3. Exposure in stops, or "auto"."""
         return srgb(self, exposure)
 
     def save(self, path: str | os.PathLike, exposure: float | str = 0) -> None:
@@ -280,7 +280,7 @@ class Camera:
                         "orthographic": int(self.orthographic), "half_height_m": self.half_height_m})
 
     def project(self, size: Sequence[int]) -> Projection:
-        """Of an image of this width and height."""
+        """The projection for an image of this width and height."""
         out = ffi.new("lightgrid_projection*")
         check(lib.lightgrid_project(self._c(), int(size[0]), int(size[1]), out))
         return Projection._from_c(out)

@@ -19,7 +19,7 @@ log = logging.getLogger("lightgrid_render")
 
 
 class LightgridError(Exception):
-    """What the library reports: one line, and the field, setting or argument that it is about ("" if none)."""
+    """An error of the library: one line, and the field, setting or argument that it is about ("" if none)."""
 
     def __init__(self, message: str, field: str = "") -> None:
         super().__init__(message)
@@ -114,7 +114,7 @@ def made(type_name: str, free: Any, make: Any) -> Any:
 
 
 def warned() -> list[dict[str, Any]]:
-    """What this thread's last call warned of: text, and settings that would help ("KEY=VALUE" each)."""
+    """Warnings of this thread's last call: text, and settings that would help ("KEY=VALUE" each)."""
     return described("warnings")
 
 

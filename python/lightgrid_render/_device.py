@@ -151,11 +151,11 @@ class View:
         return array.view(Image) if linear else array
 
     def depth(self, out: Any = None) -> np.ndarray:
-        """Of the last frame: 1 at the near plane, 0 where no opaque surface is."""
+        """The depth of the last frame: 1 at the near plane, 0 where no opaque surface is."""
         return self._draw(lib.lightgrid_view_depth, out, "R_F32")
 
     def listed(self, out: Any = None) -> np.ndarray:
-        """Of the last frame: how many lights the list of each pixel has."""
+        """The number of lights in each pixel's list, in the last frame."""
         return self._draw(lib.lightgrid_view_listed, out, "R_U32")
 
     def profile(self) -> dict[str, Any]:

@@ -179,7 +179,7 @@ class Scene:
         return Camera._from_c(out)
 
     def projection(self, size: Sequence[int], which: Any = None) -> Projection:
-        """What camera() gives, for an image of this width and height."""
+        """The projection of camera(), for an image of this width and height."""
         return self.camera(which, size[0] / size[1] if size[1] else 0).project(size)
 
 

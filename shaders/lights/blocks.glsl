@@ -7,7 +7,7 @@
 //     entry_is_read(light)
 #define BLOCK_SIZE 64u
 
-// Whether the point may be nearer than the light's range, with room for the rounding of
+// Returns whether the point may be nearer than the light's range, with room for the rounding of
 // shared/punctual_light.h. True for NaN.
 bool may_reach(vec3 position, uint light) {
   vec4 at = texelFetch(light_positions, int(light));

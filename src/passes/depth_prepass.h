@@ -10,8 +10,8 @@ namespace lightgrid {
 // Where surfaces have equal depth it keeps the last one's, as forward shading does.
 DepthImage depth_prepass(Work& work, GLuint group_numbers = 0);
 
-// Of a frame of several samples a pixel the depth of pixels' centres, for read-outs, in the format of the
-// frame's and with the same light groups in its stencil; of one sample nothing, as its own depth is that.
+// The depth of pixels' centres for read-outs, in a frame of several samples per pixel, in its format and with
+// its light groups in the stencil. With one sample nothing, as the frame's own depth is that.
 GlTexture depth_of_centres(Work& work);
 
 // The same image, cleared: for a technique that finds depth as it shades.

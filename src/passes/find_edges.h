@@ -15,8 +15,8 @@ struct PixelSurfaces {
   cl::Buffer edges;  // a bit a pixel, 16 in a ushort: 1 at edges
 };
 
-// Of an image of samples and what its numbers lead to. Numbers of neighbouring triangles that are one surface
-// in a pixel become one (kernels/resolve/join_surfaces.h).
+// Finds the edges of an image of samples and the data of its numbers. Numbers of neighbouring triangles that
+// are one surface in a pixel become one (kernels/resolve/join_surfaces.h).
 PixelSurfaces find_edges(Work& work, Cached<PixelEdges>& cache, const Visibility& image,
                          const RasterBuffers& raster);
 

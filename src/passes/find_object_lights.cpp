@@ -15,7 +15,7 @@
 namespace lightgrid {
 namespace {
 
-// Those that the groups of the instance let in. All of them where nothing calls for groups.
+// The lights that the groups of the instance let in. All of them where nothing requires groups.
 std::vector<uint32_t> lights_of_groups(const Seen& seen, int instance, const std::vector<uint32_t>& all) {
   if (!seen.plan.groups) return all;
   const uint32_t groups = seen.scene.instances[size_t(instance)].groups;

@@ -20,8 +20,8 @@ const OwnSetting<bool> unpack_in_float{
     "light indices are unpacked with integers, or in float as the article does",
     {{"integer", false}, {"float", true}}};
 
-// Whether each sample has indices of its own and is shaded alone: the article's technique 1 with samples. In
-// technique 2 a pixel has one list, of the lights in front of its farthest sample.
+// Returns whether each sample has its own indices and is shaded separately: the article's technique 1 with
+// samples. In technique 2 a pixel has one list, of the lights in front of its farthest sample.
 bool has_samples(const Seen& seen) {
   return seen.grid().samples > 1 && seen.plan.settings.lidr_volumes == LidrVolumes::stencil;
 }
@@ -65,7 +65,7 @@ void clear(const LightIndexLayout& layout, GLuint framebuffer, GLint stencil) {
   glClearNamedFramebufferiv(framebuffer, GL_STENCIL, 0, &stencil);
 }
 
-// Whether lights are not written where they are hidden.
+// Returns whether lights are not written where they are hidden.
 bool drops_hidden(const Seen& seen) {
   return seen.plan.own_shadows && seen.plan.settings.lidr_shadows != LidrShadows::final_pass;
 }

@@ -19,7 +19,7 @@ struct VisibilityBuffer {
   std::span<const int> instances;  // of the scene, in the same order
 
   DepthBuffer depth() const { return {image.depth}; }  // of samples
-  // Of pixels; at edges none.
+  // The depth of pixels. Edge pixels have none.
   DepthBuffer pixel_depth() const { return {pixels ? pixels->depths : image.depth}; }
   TriangleBuffer triangles() const { return {pixels ? pixels->triangles : image.triangle, instances}; }
 };

@@ -13,7 +13,7 @@ namespace lightgrid {
 
 namespace {
 
-// Whether a pixel's samples and its centre see one plane. A depth is linear on the screen.
+// Returns whether a pixel's samples and its centre see one plane. A depth is linear on the screen.
 bool sees_plane(float centre, const float* samples, std::span<const glm::ivec2> places) {
   double xx = 0, xy = 0, yy = 0, xd = 0, yd = 0, most = centre;
   for (size_t s = 0; s < places.size(); ++s) {

@@ -116,7 +116,7 @@ class Resolver : public PassCache {
 
 namespace {
 
-// Of kernels that write the numbers of groups' masks.
+// The options of kernels that write the numbers of groups' masks.
 std::string group_numbers_out(const FramePlan& plan) {
   return has_group_numbers(plan) ? " -DGROUP_NUMBERS" + group_number_define(plan) : "";
 }

@@ -26,8 +26,8 @@ NormalsInCl resolve_normals(Work& work, Cached<Resolver>& cache, const Visibilit
 ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                               const LightBufferInCl& sums);
 
-// Of a view whose eye is at a light: what each pixel reflects of it. Float4 each, row 0 at the bottom: flux
-// and area; normal and distance ahead (scene/virtual_lights.h: ReflectedPixel).
+// For a view whose eye is at a light: the light that each pixel reflects. Float4 each, row 0 at the bottom:
+// flux and area; normal and distance ahead (scene/virtual_lights.h: ReflectedPixel).
 struct ReflectedLight {
   SharedBuffer *flux = nullptr, *places = nullptr;
 };

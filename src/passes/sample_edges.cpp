@@ -50,7 +50,7 @@ class SampleEdges : public PassCache {
   GrowingBuffer edges_;
 };
 
-// Of these edges; null: all pixels are at one. bytes: of all images. Waits.
+// The figures of these edges; null: all pixels are at one. bytes: of all images. Waits.
 static SampleFigures figures_of_edges(Work& work, const cl::Buffer& edges, const DepthBuffer& depth,
                                       size_t bytes) {
   const PixelGrid grid = work.grid();

@@ -35,7 +35,7 @@ ShadedImage shade_forward_and_depth(Work& work, const DrawList& surfaces, const 
   return shade_opaque(work, surfaces, lights, true);
 }
 
-// Of surfaces of one depth the last is visible, and light is added to it alone: all are drawn last to first,
+// If surfaces have the same depth, the last is visible, and only it gets light: all are drawn last to first,
 // and the stencil lets a pixel take one.
 void add_lights_forward(Work& work, const DrawList& surfaces, const LightSource& lights,
                         const ShadedImage& image) {

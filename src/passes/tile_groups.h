@@ -7,8 +7,8 @@
 
 namespace lightgrid {
 
-// Of triangles, or of numbers of masks that copy_group_numbers has handed to OpenCL, and the depth there. In
-// the order of the culler's bounds; kept until the view's next one.
+// The groups of triangles, or of numbers of masks that copy_group_numbers has passed to OpenCL with the
+// depth. In the order of the culler's bounds; kept until the view's next one.
 cl::Buffer tile_groups(Work& work, Cached<TileGroups>& cache, const CullParams& tiles,
                        const VisibilityBuffer& visible);
 cl::Buffer tile_groups(Work& work, Cached<TileGroups>& cache, const CullParams& tiles, SharedBuffer& numbers,

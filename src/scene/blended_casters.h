@@ -3,7 +3,7 @@
 
 namespace lightgrid {
 
-// What a blended surface hides of a light.
+// The part of a light that a blended surface hides.
 enum class BlendedCasters {
   none,    // nothing
   opaque,  // all of it, as an opaque one does

@@ -17,7 +17,7 @@ struct HostShadows {
   static constexpr int side = 16, words = 8;
   int tiles_x = 0, tiles_y = 0;
   std::vector<glm::uvec2> cells;  // first entry and number of entries, a tile; x fastest from the lower left
-  // Of point and spot lights in scene order, then of directional ones; ascending in each cell.
+  // The lights of cells: point and spot lights in scene order, then directional ones; ascending in each cell.
   std::vector<uint32_t> indices;
   std::vector<uint32_t> bits;   // `words` an entry of indices: the light, or more than half of it, is hidden
   std::vector<uint8_t> shares;  // the hidden share times 255, in the same order; empty: bits say all
@@ -42,7 +42,7 @@ inline std::vector<uint32_t> hidden_bits(const std::vector<uint8_t>& shares) {
   return bits;
 }
 
-// Of a pixel, row 0 at the bottom, and a light. None: the tile does not list it.
+// The value of a light at a pixel, row 0 at the bottom. None: the tile does not list it.
 inline std::optional<size_t> shadow_value(const HostShadows& shadows, int x, int y, uint32_t light) {
   constexpr int side = HostShadows::side;
   const glm::uvec2 cell = shadows.cells[size_t(y / side) * size_t(shadows.tiles_x) + size_t(x / side)];
@@ -54,8 +54,8 @@ inline std::optional<size_t> shadow_value(const HostShadows& shadows, int x, int
   return entry * side * side + size_t(value);
 }
 
-// Whether a light loop is told that the light is hidden at a pixel. A light that the tile does not list is
-// not.
+// Returns whether a light loop reads that the light is hidden at a pixel. A light that the tile does not list
+// is not.
 inline bool hidden_at(const HostShadows& shadows, int x, int y, uint32_t light) {
   const auto value = shadow_value(shadows, x, y, light);
   return value && (shadows.bits[*value / 32] >> *value % 32 & 1);

@@ -20,14 +20,14 @@ inline bool groups_meet(uint32_t light, uint32_t instance) { return (light & ins
 // Some mask of the scene lacks a group. Without, all lights light everything.
 bool calls_for_groups(const Scene& scene);
 
-// What a file says of one light or instance.
+// The lists that a file gives for one light or instance.
 struct GroupLists {
   using Names = std::optional<std::vector<std::string>>;
 
   int owner = 0;      // index of the light or the instance
   std::string where;  // for messages: `lights.json: light 3 "lamp"`
   Names groups;       // names, and numbers 0 to 31 as text; empty: in no group; none: in every group
-  // Of a light, names of instances: those that it lights, and those that it does not. None: all, and none.
+  // For a light, names of instances: those that it lights, and those that it does not. None: all, and none.
   Names include, exclude;
 };
 

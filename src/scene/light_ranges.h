@@ -48,7 +48,7 @@ double most_falloff(const Light& light);
 // The scene's lights with their ranges as radius_m.
 std::vector<Light> lights_with_ranges(const Scene& scene, const LightRanges& ranges);
 
-// What a cutoff leaves of the point and spot lights at the scene's surfaces, cones and directions aside:
+// The effect of a cutoff on the point and spot lights at the scene's surfaces, without cones and directions:
 // lights that reach a point on average, and the share of its light that a point keeps on average, with the
 // window khr.
 struct CutoffEffect {

@@ -10,7 +10,7 @@
 
 namespace lightgrid {
 
-// Of a factor: read, or why it is not in one line.
+// The value of a factor that is read; other factors have a line that gives the reason.
 inline constexpr const char* reads = "";
 
 struct LightReader {

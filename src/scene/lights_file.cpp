@@ -250,7 +250,7 @@ void warn_of_mistyped_lists(const std::filesystem::path& path, const Json& json)
   }
 }
 
-// Of all instances of a name.
+// The groups of all instances by name.
 std::vector<GroupLists> instance_groups(const std::filesystem::path& path, const Json& list,
                                         const Scene& scene) {
   std::vector<GroupLists> all;

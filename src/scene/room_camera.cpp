@@ -75,8 +75,8 @@ glm::dvec3 level_direction(int i) {
   return {std::cos(angle), 0, std::sin(angle)};
 }
 
-// Whether the floor goes on at its height to near the walls on at least half of the sides. Bodies that are
-// hollow and wound inwards, as some files' animals, have a round bottom instead.
+// Returns whether the floor continues at its height to near the walls on at least half of the sides. Bodies
+// that are hollow and wound inwards, as some files' animals, have a round bottom instead.
 bool has_level_floor(const std::vector<Corners>& triangles, const glm::dvec3& eye, double ground,
                      const std::array<double, directions>& distance) {
   constexpr double near_wall = 0.9, tolerance = 0.25;  // of the distance, and of the eye's height
@@ -112,7 +112,7 @@ Walls walls_along(const std::vector<Corners>& triangles, const glm::dvec3& eye, 
                       [&](const Hit& h) { return h.front && h.distance > first_front->distance + same; })};
 }
 
-// Whether the eye is in the cavity of an object that is meant to be seen from outside: nearly all outermost
+// Returns whether the eye is in the cavity of an object made to be seen from outside: nearly all outermost
 // surfaces face out, and the cavity is empty: few rays meet another front behind the first, and none of the
 // scene's lights is in it.
 bool in_hollow_object(const Scene& scene, const std::vector<Corners>& triangles, const glm::dvec3& eye) {

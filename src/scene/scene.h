@@ -99,8 +99,8 @@ struct Material {
 // Reflectance of the dielectric part at normal incidence, without its strength, its maps and the limit of 1.
 glm::vec3 dielectric_f0(const Material& material);
 
-// Whether the dielectric part has another reflectance than glTF's default, 0.04 and 1 at grazing incidence.
-// An unlit material has none, nor has one that is all metal.
+// Returns whether the dielectric part's reflectance differs from glTF's default, 0.04 and 1 at grazing
+// incidence. Unlit materials have none, nor have materials that are all metal.
 bool has_specular(const Material& material);
 
 // Light groups (scene/light_groups.h): a light lights an instance where their masks share a bit.
@@ -148,8 +148,8 @@ inline bool has_cone(const auto& light) { return light.type == LightType::spot; 
 // As files have it: "point", "spot" or "directional".
 const char* name_of(LightType type);
 
-// Whether colour times intensity exceeds the largest float in any channel. Shaders cannot represent such a
-// light, so all readers of lights reject it.
+// Returns whether colour times intensity exceeds the largest float in any channel. Shaders cannot represent
+// such a light, so all readers of lights reject it.
 bool intensity_overflows(const Light& light);
 
 struct Camera {

@@ -7,7 +7,7 @@
 
 namespace lightgrid {
 
-// What a light brings to a scene of this diameter, whatever the view: its irradiance (brightest channel),
+// A light's contribution to a scene of this diameter, whatever the view: its irradiance (brightest channel),
 // integrated over the space that it reaches, lux m^3. A point light of intensity I has I / d^2 on a sphere of
 // 4 pi d^2, thus 4 pi I times its range; a spot has its cone's share of that; ranges end at the diameter. A
 // directional light reaches the ball of that diameter.

@@ -37,7 +37,7 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
     const bool hard = light.inner_cone_rad >= light.outer_cone_rad;
     out.cos_outer = cos_outer;
     out.cos_inner = hard ? cos_outer + hard_edge : std::max(cos_inner, cos_outer + softest_edge);
-    // Of a cone of no width rounding would leave its axis.
+    // Rounding would leave the axis of a cone without width.
     if (has_cone(light) && cos_outer == 1) out.radius_m = 0;
     // A hard edge at 180 degrees is none, and would be a point that rounding makes visible.
     if (has_cone(light) && hard && cos_outer == -1) out.type = LightType::point;

@@ -14,8 +14,8 @@ namespace lightgrid {
 // inverse is a float.
 constexpr double softest_edge = 0.001, hard_edge = 0x1p-40;
 
-// Of a cone's half-angle. Of the float next to pi/2, which is above it: 0, as of 90 degrees. Of that next to
-// pi: -1.
+// The cosine of a cone's half-angle. For the float next to pi/2, which is above it: 0, as for 90 degrees. For
+// the float next to pi: -1.
 double cone_cosine(float half_angle_rad);
 
 struct ViewLight {
@@ -45,8 +45,8 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
 std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, const LightRanges& ranges,
                                       const std::vector<int>& indices);
 
-// What a light can reach, whatever its kind: a ball, or the part of it in a cone. Culling, light volumes and
-// whatever else must find a light's surfaces start from it.
+// The space that a light of any kind can reach: a ball, or the part of it in a cone. Culling, light volumes
+// and all else that must find a light's surfaces start from it.
 struct LightBounds {
   glm::dvec3 position{0};                                     // in the light's space
   double radius_m = std::numeric_limits<double>::infinity();  // of 0 or less: it reaches nothing

@@ -25,7 +25,7 @@ struct VirtualLightSettings {
 // (scene/shadow_casters.h).
 std::vector<size_t> reflected_lights(const Scene& scene, size_t most);
 
-// What the light sees, `side` pixels wide and high: one view of a spot up to 150 degrees wide, else six of 90
+// The light's views, `side` pixels wide and high: one view for a spot up to 150 degrees wide, else six of 90
 // degrees.
 std::vector<View> views_from(const Light& light, int side, double near_m);
 

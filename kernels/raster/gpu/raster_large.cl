@@ -12,8 +12,8 @@
 #define BLOCK 8                       // pixels a side: a work-item each
 #define BLOCKS (RASTER_TILE / BLOCK)  // a side of a window: a work-item each
 
-// Whether the triangle may cover a pixel of the block whose first pixel is (x, y) of the window: the block
-// meets the record's box, and lies outside no edge.
+// Returns whether the triangle may cover a pixel of the block whose first pixel is (x, y) of the window: the
+// block meets the record's box, and lies outside no edge.
 static inline bool meets_block(const PlacedTriangle* t, const RasterRecord* r, int x, int y) {
   bool meets = t->x0 + x <= (int)(r->box_high & 0xffffu) && t->y0 + y <= (int)(r->box_high >> 16) &&
                t->x0 + x + BLOCK > (int)(r->box_low & 0xffffu) && t->y0 + y + BLOCK > (int)(r->box_low >> 16);

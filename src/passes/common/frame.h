@@ -57,7 +57,7 @@ struct DisplayedImage {
   SharedBuffer* in_cl = nullptr;  // set if it is in this buffer alone, row 0 at the bottom
 };
 
-// What the shadows of a frame took, for results.json.
+// The work for the shadows of a frame, for results.json.
 struct ShadowFigures {
   size_t lights = 0;       // whose shadows were found
   size_t rays = 0;         // traced
@@ -70,7 +70,7 @@ struct ShadowFigures {
   size_t bands = 0;        // of tiles, for each of which the frame was shaded: their bits fit into memory
   int halvings = 0;        // of the sizes of all maps, to fit into their bound of memory
 
-  // Of other lights of the same frame.
+  // Adds the figures of other lights of the same frame.
   ShadowFigures& operator+=(const ShadowFigures& more) {
     lights += more.lights, rays += more.rays, maps += more.maps, drawn += more.drawn, kept += more.kept;
     bytes += more.bytes, undecided += more.undecided, halvings += more.halvings;
@@ -78,7 +78,7 @@ struct ShadowFigures {
   }
 };
 
-// What several samples a pixel took, for results.json.
+// The work for several samples per pixel, for results.json.
 struct SampleFigures {
   size_t edge_pixels = 0;          // whose samples see more than one surface
   size_t shadings = 0;             // surfaces that were shaded, each once a pixel

@@ -36,7 +36,7 @@ GLuint group_number_image(Work& work) {
   const GroupNumberFormat& format = group_number_format(work.plan.settings);
   const GLuint texture = work.targets.texture(format.name, format.format, TargetUse::gbuffer);
   if (work.grid().samples > 1) return texture;  // which has no filter
-  // Of integers a texture that interpolates is incomplete, and reads as 0.
+  // A texture of integers that interpolates is incomplete, and reads as 0.
   glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return texture;

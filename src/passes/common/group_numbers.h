@@ -23,7 +23,7 @@ inline constexpr GroupNumberFormat group_number_formats[] = {
 
 const GroupNumberFormat& group_number_format(const Settings& settings);
 
-// Whether there is an image of numbers: groups are asked for, and not by the stencil.
+// Returns whether there is an image of numbers: groups are required, and not by the stencil.
 bool has_group_numbers(const FramePlan& plan);
 // Its bytes a pixel, or 0.
 size_t group_number_bytes(const FramePlan& plan);

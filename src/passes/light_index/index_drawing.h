@@ -16,8 +16,8 @@ struct VolumeBatch {
 
 class IndexDrawing {
  public:
-  // Of shaders/light_index.*. mark: draws the front faces that mark what is inside, and leaves out what it
-  // discards.
+  // Programs of shaders/light_index.*. mark: draws the front faces that mark the inside; discarded fragments
+  // mark nothing.
   struct Programs {
     GLuint mark, write;
   };

@@ -197,7 +197,7 @@ std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLig
   return volumes;
 }
 
-// Of a plan that builds in advance.
+// The volumes of a plan that builds in advance.
 static std::vector<LightVolume> whole_screens(const View& view, std::span<const ViewLight> lights,
                                               PlannedLights planned) {
   std::vector<LightVolume> volumes;

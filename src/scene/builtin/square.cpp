@@ -46,7 +46,7 @@ class Square {
   }
 
  private:
-  // Whether a place has fine meshes.
+  // Returns whether a place has fine meshes.
   bool is_near(glm::dvec3 at, double metres) const {
     return at.z > first_eye.z + 1 || glm::distance(at, first_eye) < metres;
   }

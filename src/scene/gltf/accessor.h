@@ -19,8 +19,8 @@ struct FloatArray {
 // always: for colours, normals, tangents and weights, whose integers have no other meaning.
 enum class Normalize { as_accessor_says, always };
 
-// Whether an accessor has no elements, which glTF forbids but exporters write for empty parts: one warning for
-// all of them.
+// Returns whether an accessor has no elements, which glTF forbids but exporters write for empty parts: one
+// warning for all of them.
 bool is_empty_accessor(Document& doc, int accessor, const std::string& place);
 
 // All elements of an accessor of type SCALAR … VEC4 or MAT4; at most max_count, all finite.

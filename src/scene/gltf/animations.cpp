@@ -21,7 +21,7 @@ size_t target_count(const Document& doc, int node) {
   return count;
 }
 
-// What a channel animates. Without a path: nothing that is read.
+// The target of a channel. Without a path: nothing that is read.
 struct Target {
   int index = -1;  // node or light of the file
   std::optional<AnimatedPath> path;

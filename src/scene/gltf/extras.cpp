@@ -140,7 +140,7 @@ void read_own(const Reporter& report, const json& in, const std::string& place,
   }
 }
 
-// Whether any field was read.
+// Returns whether any field was read.
 template <typename Owner>
 bool read_old_place(Reporter& report, const json& extras, const std::string& place,
                     std::span<const Field<Owner>> fields, Owner& out) {

@@ -18,7 +18,7 @@ struct SceneExtras {
   std::optional<glm::vec3> ambient, background;
 };
 
-// Of a node or a light.
+// The extras of a node or a light.
 struct PlacedExtras {
   std::optional<bool> casts_shadow;
   std::optional<float> source_radius_m;

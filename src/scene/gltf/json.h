@@ -64,8 +64,8 @@ PreparedJson prepare_json(Reporter& report, std::string_view text);
 
 bool is_supported_extension(std::string_view name);
 
-// Whether a file that requires this extension looks the same without it: metadata, sound, physics, and
-// extensions whose default is the file without them.
+// Returns whether a file that requires this extension looks the same without it: metadata, sound, physics,
+// and extensions whose default is the file without them.
 bool keeps_the_picture(std::string_view extension);
 
 }  // namespace lightgrid::gltf
