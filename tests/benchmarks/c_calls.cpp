@@ -1,5 +1,5 @@
-// What calls of the C interface leave behind after a tenth of the rounds: blocks of the heap, and resident
-// memory, which also grows by gaps between blocks.
+// Memory that calls of the C interface leave behind after a tenth of the rounds: blocks of the heap, and
+// resident memory, which also grows by gaps between blocks.
 //
 //   build/tests/c_calls 1000000 300                            small calls, views
 //   valgrind --leak-check=full build/tests/c_calls 20000 0     blocks that nobody can free any more: must be

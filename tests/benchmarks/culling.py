@@ -27,7 +27,7 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 COLUMNS = ["commit", "device", "cores", "round", "frame", "lights", "threads", "program", "settings", "row", "runs",
            "min_ms", "median_ms", "p90_ms"]
-# What is compared within lightgrid, where the program has the setting; the first is the default.
+# Comparisons within lightgrid, where the program has the setting; the first is the default.
 COMPARISONS = [("cull-test", ["planes+aabb", "exact"]), ("portable", ["off", "on"])]
 
 
@@ -164,7 +164,7 @@ class Found:
         return {number: statistics.mean(values) for number, values in found.items()}
 
     def ratio(self, above, below):
-        """Of the least times of two such places; and the median of the rounds' ratios."""
+        """The ratio of the least times of two such places; and the median of the rounds' ratios."""
         low = [self.per_round(*place, "min_ms") for place in (above, below)]
         mid = [self.per_round(*place, self.typical) for place in (above, below)]
         both = sorted(set(mid[0]) & set(mid[1]))

@@ -1,4 +1,4 @@
-"""What docs/results/families.md shows of two families of lights, from the part that `lightgrid frontier --families` wrote: for
+"""Writes docs/results/families.md about two families of lights from the part that `lightgrid frontier --families` wrote: for
 frontier_pages.py."""
 import html
 import json

@@ -11,7 +11,7 @@ def cell(value):
 
 def write(answer, file):
     out = csv.writer(file, lineterminator="\n")
-    # Of a sweep with shadows alone.
+    # Only in a sweep with shadows.
     shadows = ["leaked_percent", "acned_percent"] if any("leaked_percent" in p for p in answer["points"]) else []
     out.writerow(
         "scene label views runs processes ms p95_ms p99_ms relative_time relative_time_low relative_time_high modes total_rmse_rel model_rmse_rel technique_rmse_rel precision_rmse_rel "

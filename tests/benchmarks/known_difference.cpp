@@ -1,8 +1,8 @@
-// Whether `lightgrid frontier` finds what is there: sweeps of two points, with all of the command's code. One
-// is the baseline, forward_plus, as the controls. The other draws the same and first does nothing for 2 % of
-// the time of a frame; where times are of the devices' clocks, a kernel does, of which one work item counts.
-// Prints each sweep, and in how many of them the intervals hold 1 and 1.02, the estimates are within 1 % of
-// these, and the 2 % are found.
+// Tests whether `lightgrid frontier` finds known ratios: sweeps of two points, with all of the command's
+// code. One is the baseline, forward_plus, as the controls. The other draws the same and first does nothing
+// for 2 % of the time of a frame; where times are of the devices' clocks, a kernel does, of which one work
+// item counts. Prints each sweep, and in how many of them the intervals contain 1 and 1.02, the estimates are
+// within 1 % of these, and the 2 % are found.
 //   known_difference [--device NAME] [--clock wall|device] [SCENE [SIZE [SWEEPS [SECONDS]]]]
 // of a sweep; by default 20 of 22 s by the wall's clock.
 #include <fmt/format.h>
@@ -75,7 +75,7 @@ cl_uint steps_of(double ms, Renderer& renderer, const ChosenScene& chosen, const
   return cl_uint(ms / (with - without) * many);
 }
 
-// Of the baseline by the devices' clocks, as it is in the rounds of a sweep: between frames of others.
+// The baseline's time by the devices' clocks, as in the rounds of a sweep: between frames of others.
 double baseline_device_ms(const FrontierPart& part) {
   std::vector<double> all;
   for (const FrontierRecord& r : part.records)

@@ -1,6 +1,6 @@
-// What a light outside a mesh's group costs a pixel, in each technique and way of groups: frames of `rooms`,
-// of rooms with lights that reach every pixel and are of a group that no surface has, and of rooms in which
-// the same lights light all, in turn. CSV; docs/light_groups.md has the table.
+// The cost per pixel of a light outside a mesh's group, in each technique and way of groups: frames of
+// `rooms`, of rooms with lights that reach every pixel and are of a group that no surface has, and of rooms
+// in which the same lights light all, in turn. CSV; docs/light_groups.md has the table.
 //   light_group_cost [WxH [LIGHTS [FRAMES]]]
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// What shadow rays of a scene cost, on the OpenCL device that lightgrid would use: the tree's making and
+// The costs of a scene's shadow rays on the OpenCL device that lightgrid would use: the tree's making and
 // memory, refits, and rays from the scene's lights to patches of 4 x 4 points, 2 cm apart, on triangles
 // within their reach.
 //   ray_cost SCENE.gltf|hall|street|... [LIGHTS]

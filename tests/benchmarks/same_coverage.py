@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether two builds of the rasteriser in OpenCL cover the same pixels, as a table.
+"""Tests whether two builds of the rasteriser in OpenCL cover the same pixels, as a table.
 
 Usage: same_coverage.py OLD NEW [scene...]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What settings of `visibility` cost and get wrong, from a sweep with shadows.
+"""Costs and errors of settings of `visibility`, from a sweep with shadows.
 
     lightgrid frontier SCENE… --shadows all -o FOLDER
     tests/benchmarks/shadow_frontier.py FOLDER/frontier.json > docs/results/shadows_NAME.csv

@@ -47,7 +47,7 @@ double kernel_ms(const PassRecord& pass, const std::string& name) {
   return all.empty() ? 0 : spread_of(all).median;
 }
 
-// Of the scene's own lights, in metres, to a decimal.
+// The median range of the scene's own lights, in metres, to a decimal.
 double median_radius(const std::vector<Light>& lights) {
   std::vector<double> radii;
   for (const Light& light : lights)

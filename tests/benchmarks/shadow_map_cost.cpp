@@ -1,4 +1,4 @@
-// What shadow maps cost and how wrong they are, on the OpenCL device that lightgrid would use: a scene's
+// Costs and errors of shadow maps on the OpenCL device that lightgrid would use: a scene's
 // first camera, all its point and spot lights, every pair of a pixel and a light that reaches it. Leaked and
 // acned are counted against exact rays of the same pairs. Times are of kernels, the least of three.
 //   shadow_map_cost SCENE.gltf|hall|street|... [LIGHTS.json]

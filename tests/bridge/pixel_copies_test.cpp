@@ -62,7 +62,7 @@ struct PixelCopiesOfContext : testing::Test {
   std::unique_ptr<GlContext> gl = GlContext::create();
 };
 
-// What was uploaded is the reference for both ways.
+// The uploaded pixels are the reference for both ways.
 TEST_F(PixelCopiesOfContext, WriteTheBytesOfTheImageByShaderAndByDriver) {
   PixelCopies by_shader(true), by_driver(false);
   for (const Pixels& pixels : read_pixels) {
@@ -116,7 +116,7 @@ GlTexture make_volume(GLenum format, int width, int height, int depth) {
   return texture;
 }
 
-// Of images, and of volumes. In whole words, as copies ask.
+// Fills images and volumes, in whole words, as copies require.
 TEST_F(PixelCopiesOfContext, FillATextureByShaderAndByDriver) {
   PixelCopies by_shader(true), by_driver(false);
   for (const Pixels& pixels : written_pixels) {

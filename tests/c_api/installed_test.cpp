@@ -13,7 +13,7 @@ namespace {
 
 std::string header() { return file_bytes(std::string(source_folder) + "/src/c_api/lightgrid.h"); }
 
-// Of the header's functions, whose declarations begin a line.
+// The functions of the header, whose declarations begin a line.
 std::set<std::string> declared() {
   const std::string text = header();
   const std::regex function(R"(\n(?:lightgrid_status|void|const char\*) (lightgrid_\w+)\()");

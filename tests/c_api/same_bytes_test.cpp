@@ -1,4 +1,4 @@
-// What the C interface gives has the bytes of what the program writes.
+// The C interface returns the bytes that the program writes.
 #include <gmock/gmock.h>
 
 #include <cstring>
@@ -152,7 +152,7 @@ std::string bytes_of(const auto* values, size_t count) {
   return {reinterpret_cast<const char*>(values), count * sizeof(*values)};
 }
 
-// Of the depth that the view has, which is a rasterised scene's.
+// The view's depth is used, which is a rasterised scene's.
 TEST(CLists, HaveTheBytesOfTheCommandLines) {
   const TempFolder folder;
   const std::string frame = folder.path / "frame", lists_folder = folder.path / "lists";

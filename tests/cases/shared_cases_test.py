@@ -20,7 +20,7 @@ from exr_files import read_exr  # noqa: E402
 CASES = pathlib.Path(os.environ.get("LIGHTGRID_SHARED") or ROOT.parent / "shared") / "cases"
 PROGRAM, LIBRARY = None, None
 
-# What a case without pixels shows: the exit status, and what stderr must say.
+# The result of a case without pixels: the exit status, and text that stderr must contain.
 STATUS = {
     "asset_source": (0, ""),
     "basisu_required": (2, "KHR_texture_basisu"),

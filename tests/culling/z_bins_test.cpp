@@ -23,7 +23,7 @@ std::vector<uint32_t> bins_of(const std::vector<CullLight>& lights, const View& 
   return read_grid(test_device(), culler.cull(culler.bounds_of(everywhere), storage), storage).z_bins;
 }
 
-// Those of one light at a distance straight ahead.
+// The bins of one light at a distance straight ahead.
 std::vector<uint32_t> bins_at(double distance_m, double radius_m, const View& view) {
   const std::vector<float> edges = {1, 2, 4};
   const std::vector<uint32_t> words = bins_of({{{0, 0, -distance_m}, radius_m}}, view, edges);

@@ -38,8 +38,8 @@ std::vector<std::string> front_of(const FrontierAnswer& answer) {
   return names;
 }
 
-// Of two points, the one that is faster by the wall's clock is slower by the devices': its frames end with
-// less read-back. A point without device times is on no such front.
+// The point that is faster in wall-clock time is slower in device time: its frames end with less read-back. A
+// point without device times is on no such front.
 TEST(Answer, FrontsByTheDevicesClocksAreTheirOwn) {
   const auto timed = [](const char* technique, double ratio, double device_ms, double error) {
     FrontierRecord r = synthetic_record(synthetic_point("hall", technique), ratio, error);
@@ -72,7 +72,7 @@ TEST(Answer, FrontsByTheDevicesClocksAreTheirOwn) {
   ASSERT_THAT(answer.device_front_bands, SizeIs(1));
   EXPECT_NEAR(answer.device_front_bands[0].steps.back().low, 0.25, 1e-12);
 
-  // What is the cheapest differs likewise. Sentences are of the wall's clock, but on a GPU.
+  // The cheapest point differs likewise. Sentences state wall-clock time, except on a GPU.
   const auto cheapest = [&](const std::vector<CheapestWithin>& all) {
     return answer.points[size_t(all.back().point)].point.technique;
   };
@@ -206,7 +206,7 @@ TEST(Answer, FrontHoldsWhatNothingBeatsInBothAndNoNaN) {
               ElementsAre("coarse", "middle", "fine", "worst of hall, alone in terrain"));
 }
 
-// Of n figures with a standard deviation s the mean of n draws has s sqrt(1 / n): for 64 of 0 and 1 in turn
+// The mean of n draws from n figures with standard deviation s has s sqrt(1 / n): for 64 of 0 and 1 in turn
 // 0.0625. The binomial distribution of 64 draws has 2.5 % up to 24 and 97.5 % up to 40.
 TEST(Answer, StatesWhatOtherViewsMightHaveGiven) {
   std::vector<double> figures;
@@ -413,7 +413,7 @@ TEST(Answer, FindsTheCheapestPointWithinEachError) {
   EXPECT_EQ(answer.cheapest_within[4].relative_time.runs, 5) << "picked on the other five of ten";
 }
 
-// Of one round: no interval, no probability, no percentile, in figures and in words.
+// One round gives no interval, no probability and no percentile, in figures and in words.
 TEST(Answer, OfFewRoundsClaimsNoCertainty) {
   const auto of = [](const std::string& name, double ratio, double error, int rounds) {
     return synthetic_record(synthetic_point("hall", name), ratio, error, 0, rounds);

@@ -51,7 +51,7 @@ TEST(TruthOfAreas, IsTheOraclesMeanOfEachPixel) {
     EXPECT_LT(truth.largest, 2 * (1.0 / 32 + 3.0 / 256));
     // Along an axis its rows lie 16 times as dense as centres do; across slanted edges more so.
     EXPECT_LT(16 * truth.rmse, centres.rmse);
-    // What settings mean has their samples.
+    // The picture that settings mean has their samples.
     const Differences four = against(brute.picture({.samples = 4}));
     EXPECT_LT(2 * four.rmse, centres.rmse);
     EXPECT_LT(truth.rmse, four.rmse);

@@ -375,8 +375,8 @@ TEST_F(FrontierPage, ShowsErrorsAgainstEitherReference) {
   EXPECT_EQ(with["again"], with["plain"]);
 }
 
-// What the surfaces of the two rasterizers differ by is a line where a point has a smaller error, and a
-// sentence in any case; only measures of the total have it, and only scenes where it was measured.
+// The difference between the surfaces of the two rasterizers is a line where a point has a smaller error, and
+// a sentence in any case; only measures of the total have it, and only scenes where it was measured.
 TEST_F(FrontierPage, DrawsWhatSurfacesDifferBy) {
   FrontierPart part = synthetic_sweep();
   for (FrontierRecord& r : part.records) {

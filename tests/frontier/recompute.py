@@ -27,7 +27,7 @@ def read_points(folder):
     return {key: rows for key, rows in points.items() if not any(row["refused"] for row in rows)}
 
 
-# Of frontier.json the keys of times and fronts; of samples.csv the columns; words.
+# The keys of times and fronts in frontier.json; the columns of samples.csv; words.
 CLOCKS = [("relative_time", "fronts", ("frame_ms", "baseline_ms"), ""),
           ("relative_device_time", "device_fronts", ("device_ms", "baseline_device_ms"), " by the devices' clocks")]
 

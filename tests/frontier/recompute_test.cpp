@@ -59,7 +59,7 @@ FrontierPart random_sweep(uint32_t seed) {
             record.hand_over_ms.push_back(0.5), record.copy_ms.push_back(0.1),
                 record.read_back_ms.push_back(1);
           }
-          // Of one process in the first scene, of two in the second.
+          // One process in the first scene, two in the second.
           record.processes.push_back(record.point.scene == "hall" ? 0 : int(record.processes.size()) / 3 % 2);
         }
         part.records.push_back(record);

@@ -13,7 +13,7 @@ namespace {
 
 int trials() { return long_tests() ? 2000 : 400; }
 
-// Of shares of n trials the deviation is at most this.
+// The deviation of shares of n trials is at most this.
 double three_deviations(double share, int n) { return 3 * std::sqrt(share * (1 - share) / n); }
 
 struct Coverage {
@@ -32,7 +32,7 @@ Coverage coverage_on(const SimulatedMachine& machine, uint64_t seed) {
   return c;
 }
 
-// Of many trials whose true ratio is 1.
+// Many trials whose true ratio is 1.
 struct AgainstItself {
   int trials = 0, held = 0;
   double sum = 0, squares = 0;  // of logarithms of estimates
@@ -285,7 +285,7 @@ TEST(SimulatedMachine, PicksAreReportedOnOtherRounds) {
   EXPECT_NEAR(on_the_others, 0, 0.001);
 }
 
-// What a control finds wrong is in every interval.
+// The error that a control finds is in every interval.
 TEST(SimulatedMachine, WidenedIntervalsHoldAControlsError) {
   std::mt19937_64 random(11);
   const LogTimes control = simulated_times({}, {1.08}, random)[0];

@@ -19,7 +19,7 @@ inline ImageError some_figures(double scale) {
           .low_pass_rmse_of_mean = 0.375 * scale};
 }
 
-// Of view `view` of a point whose tile is `tile`.
+// The record of view `view` of a point whose tile is `tile`.
 inline FrontierRecord some_record(int tile, int view) {
   FrontierRecord r;
   r.point.scene = "scenes/\"Sponza\", großer\n.glb";

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::SizeIs;
 
-// Of a scene on one view, as a sweep measures them.
+// A scene on one view, as a sweep measures it.
 struct MeasuredView {
   MeasuredView(Renderer& devices, const Scene& of, const View& from)
       : renderer(devices), scene(of), view(from), gpu(devices, of) {}

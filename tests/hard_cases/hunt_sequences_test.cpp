@@ -67,7 +67,7 @@ struct Faulty : LibraryEngine {
   }
 };
 
-// Of 10 scenes; ends with the first stale frame.
+// Runs 10 scenes; ends with the first stale frame.
 SequenceReport short_sequences(CullEngine& engine, const SequenceKind& kind) {
   SequenceReport sum;
   const std::vector<ShadowHuntClass> classes = chosen_shadow_classes("rooms|boxes");

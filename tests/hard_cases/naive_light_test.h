@@ -1,4 +1,4 @@
-// Whether a light reaches a cell, in double with, optionally, one fault of naive
+// Returns whether a light reaches a cell, in double with, optionally, one fault of naive
 // code (hard_cases/naive_culler.h).
 #pragma once
 

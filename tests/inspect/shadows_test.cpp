@@ -1,4 +1,4 @@
-// What `inspect` tells of shadows, on a frame of a small scene.
+// The report of `inspect` about shadows, on a frame of a small scene.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

@@ -15,7 +15,7 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[2]
 debian = root / "debian"
 cmake, build, library = sys.argv[1:4]
-# What only making the packages needs, not building the program. git: `lightgrid --version` names the commit.
+# Needed only to make the packages, not to build the program. git: `lightgrid --version` names the commit.
 packaging = {"debhelper-compat", "dh-sequence-python3", "git", "pybuild-plugin-pyproject", "python3-all", "python3-setuptools",
              "python3-wheel"}
 
@@ -43,13 +43,13 @@ def fits(path: str, pattern: str) -> bool:
 
 
 def names(field: str) -> set[str]:
-    """Of packages; of alternatives the first."""
+    """The names of packages; the first of alternatives."""
     items = (item.split("|")[0].split("(")[0].strip() for item in field.split(","))
     return {item for item in items if item and not item.startswith("${")}
 
 
 def fields() -> list[dict[str, str]]:
-    """Of each paragraph of debian/control."""
+    """The fields of each paragraph of debian/control."""
     return [{name: " ".join(value.split()) for name, value in re.findall(r"^(\S+):((?:.*\n)(?:\s.*\n)*)", part + "\n", re.M)}
             for part in (debian / "control").read_text().strip().split("\n\n")]
 

@@ -23,7 +23,7 @@ constexpr double light_exponent = 32;  // of the setting prepass-shininess
 constexpr double largest_sum = 1e30;   // of floats that the buffer stores
 constexpr double float_step = 0x1p-24;
 
-// What the pass reads of surfaces: row 0 at the bottom, normals in view space.
+// The surfaces that the pass reads: row 0 at the bottom, normals in view space.
 struct PrepassInput {
   std::vector<float> depth;
   std::vector<glm::vec4> normals;
@@ -74,10 +74,10 @@ std::vector<SixSums> filled_sums(Renderer& renderer, const Scene& scene, const V
   return all;
 }
 
-// What rounding of positions by some steps may change of one light: its direction turns by `turned`, of which
-// the lobe's slope is below the root of its exponent times 0.61, that of (1 - v.h)^5 below 5, that of 1 / d^2
-// and its window below 6, and that of a cone 2 / (inner - outer). The lobe's logarithm and exponential: 32
-// times some steps.
+// The possible change of one light by rounding positions by some steps: its direction turns by `turned`, of
+// which the lobe's slope is below the root of its exponent times 0.61, that of (1 - v.h)^5 below 5, that of 1
+// / d^2 and its window below 6, and that of a cone 2 / (inner - outer). The lobe's logarithm and exponential:
+// 32 times some steps.
 double rounding_of(const ViewLight& light, const glm::dvec3& position, double brightest) {
   const double distance = glm::length(light.position - position);
   const double size = glm::length(position) + std::min(glm::length(light.position), light.radius_m);

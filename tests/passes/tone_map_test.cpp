@@ -16,8 +16,8 @@
 namespace lightgrid {
 namespace {
 
-// What floats can be: dark and bright light, negative, infinite, without a number; greys around each step of
-// the display.
+// All kinds of floats: dark and bright light, negative, infinite, not a number; greys around each step of the
+// display.
 Image all_kinds(int width, int height) {
   Image image(width, height);
   std::mt19937 random(7);

@@ -98,7 +98,7 @@ class Images(unittest.TestCase):
 
     def test_are_exchanged_by_dlpack(self):
         class Tensor:
-            """What another library has."""
+            """A tensor of another library."""
 
             def __init__(self, array):
                 self.array = array
@@ -171,7 +171,7 @@ class ListsOfLights(unittest.TestCase):
         self.assertLess(listed.sum(), 6 * reached.sum())
         np.testing.assert_array_equal(lists.counts(), listed.sum(-1))
 
-        # What rasterising gives is what the frame had.
+        # Rasterising gives the depth that the frame had.
         triangles, drawn = device.rasterize(scene, projection)
         np.testing.assert_array_equal(drawn, depth)
         np.testing.assert_array_equal(triangles == 0xFFFFFFFF, depth == 0)

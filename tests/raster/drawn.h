@@ -1,4 +1,4 @@
-// What the rasteriser draws, on the host, and what the coverage oracle says of it.
+// The rasteriser's picture, on the host, and the coverage oracle's verdict on it.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -15,7 +15,7 @@
 namespace lightgrid {
 namespace {
 
-// What a ray through a pixel's centre meets first: by slabs for boxes, by its height for the floor.
+// The letter of the first object on a ray through a pixel's centre: boxes by slabs, the floor by height.
 char letter_at(int x, int y) {
   const RasterCamera view = make_camera();
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));

@@ -17,7 +17,7 @@ struct ScannedCounts {
   bool operator==(const ScannedCounts&) const = default;
 };
 
-// Of `chunks` chunks, one after the other, each with a count a tile.
+// Scans `chunks` chunks, one after the other, each with a count per tile.
 ScannedCounts scanned(const char* kernel, size_t items, std::vector<uint32_t> counts, uint32_t tiles_x,
                       uint32_t tiles_y, uint32_t chunks) {
   ClDevice& device = raster_device();

@@ -52,7 +52,7 @@ TEST_P(InstancesNotDrawn, LeaveTheOthersAsTheyAre) {
   scene.instances[1].drawn = false;
   rasterizer.set_instances(scene.instances);
   expect_instance_1_left_out();
-  // What moves while it is left out is drawn where it is then.
+  // An instance that moves while it is left out is later drawn at its new place.
   scene.instances[1].world_from_object[3].x = 1;
   rasterizer.set_instances(scene.instances);
   expect_instance_1_left_out();

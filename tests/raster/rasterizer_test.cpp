@@ -1,4 +1,4 @@
-// What the rasteriser promises beside coverage: order, room, errors.
+// The rasteriser's promises besides coverage: order, room, errors.
 #include "raster/raster_view.h"
 
 #include <gmock/gmock.h>
@@ -89,7 +89,7 @@ TEST(Rasterizer, NumbersTrianglesInDrawingOrderAndSaysWhatTheyBelongTo) {
   EXPECT_EQ(image.instances[2].flags, RASTER_TWO_SIDED);
 }
 
-// What must hold in each shape.
+// Tests that must pass in each shape.
 class RasterizerShapes : public testing::TestWithParam<KernelShape> {
  protected:
   RasterOptions options() const { return {.shape = GetParam()}; }

@@ -47,7 +47,7 @@ const std::map<int, std::vector<glm::ivec2>>& listed_locations() {
   return all;
 }
 
-// What only one sample of a pixel meets: a triangle smaller than the distance between them.
+// Only one sample of a pixel meets the triangle, which is smaller than the distance between samples.
 TEST_P(RasterSamples, ATinyTriangleCoversTheSampleThatItHolds) {
   for (const auto& [samples, locations] : listed_locations()) {
     for (int s = 0; s < samples; ++s) {

@@ -98,7 +98,7 @@ TEST(Coverage, ATriangleIsCutWhereItsEdgesMeetTheNearPlane) {
 }
 
 TEST(Coverage, TheGuardBandIsCutAt16368PixelsFromTheCentre) {
-  // Of 4 pixels: x / w = 8184.
+  // The image has 4 pixels: x / w = 8184.
   const auto polygon = cut_triangle(
       {glm::vec4{0, 0, 0.5f, 1}, glm::vec4{16368, 0, 0.5f, 1}, glm::vec4{0, 1, 0.5f, 1}}, {4, 4});
   ASSERT_TRUE(polygon);

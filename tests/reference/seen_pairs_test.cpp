@@ -112,7 +112,7 @@ TEST(SeenPairs, OfAnyLightAreThoseOfEachPairAlone) {
   EXPECT_GT(hidden[3], side);
 }
 
-// Of two panes that let 0.6 of the light through, 0.36 comes through both: less than half.
+// Through two panes that each let 0.6 of the light through, 0.36 comes: less than half.
 TEST(SeenPairs, KnowWhatBlendedTrianglesHideTogether) {
   RoofFromAbove roof;
   Material glass;

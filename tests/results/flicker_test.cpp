@@ -71,7 +71,7 @@ TEST(Flicker, IsNothingWhereTheErrorStays) {
   EXPECT_EQ(of_truth.displayed.mean, 0);
 }
 
-// Of a truth that changes what stays below the truth's steps is none; the same step looks larger in the dark.
+// Changes of the truth below its steps are no flicker; the same step looks larger in the dark.
 TEST(Flicker, IsWhatStepsExceedTheTruthsBy) {
   const std::vector<float> levels = {0.5f, 0.52f, 0.54f, 0.56f};
   std::vector<Image> truths, lighter, darker, still;
@@ -125,7 +125,7 @@ TEST(Flicker, OfTwoPicturesThatAlternateIsTheirFlip) {
   }
 }
 
-// Of a picture whose error changes its sign each frame FLIP against the truth stays, and yet it flickers.
+// An error that changes its sign each frame leaves FLIP against the truth as it is, and yet flickers.
 TEST(Flicker, SeesAnErrorThatChangesItsSign) {
   const Image truth = grey(20, 20, 0.5f), above = grey(20, 20, 0.6f), below = grey(20, 20, 0.4f);
   const SequenceFigures f = figures_of({above, below, above, below}, {truth}, false);

@@ -169,7 +169,7 @@ TEST(Flip, HasNoExposuresForABlackReference) {
   EXPECT_FALSE(flip_exposures(Image()));
 }
 
-// What no byte of the picture shows is no difference; a pixel in four that turns from black to white is one.
+// Changes that no byte shows are no difference; a pixel in four that turns from black to white is one.
 TEST(Flip, AsDisplayedComparesTheBytesOfThePictures) {
   Image reference(8, 8), near = reference, far = reference;
   for (glm::vec4& pixel : near.pixels) pixel.r = 1e-5f;

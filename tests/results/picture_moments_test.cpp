@@ -70,7 +70,7 @@ void add_noisy(const Image& truth, float bias, Random& random, BiasOfPictures& o
   mean_square += rmse * rmse;
 }
 
-// Of as many pictures as groups, the mean square error is the bias squared and the variance, whatever they
+// With as many pictures as groups, the mean square error is the bias squared and the variance, whatever they
 // are.
 TEST(BiasOfPictures, IsWhatTheVarianceLeavesOfTheMeanSquareError) {
   const Image truth(16, 8);

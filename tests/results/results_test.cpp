@@ -124,7 +124,7 @@ TEST(Results, ShadowsAreThereIfALightCastsOne) {
   EXPECT_EQ(all["dim_steps"], 0.5);
 }
 
-// Of surfaces drawn in OpenCL: not `error`, in which these surfaces are too.
+// The error on the surfaces drawn in OpenCL, not `error`, which includes these surfaces.
 TEST(Results, JudgeLightOnTheSameSurfaces) {
   RunResult result = small_result();
   result.own_surfaces = true;

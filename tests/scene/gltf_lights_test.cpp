@@ -220,7 +220,7 @@ Cone cone_of(double inner, double outer) {
   return {light.inner_cone_rad, light.outer_cone_rad, light.intensity, warning};
 }
 
-// Of Blender, whose angles are floats: every spot with a blend of 0, and every spot of 180 degrees.
+// Files of Blender, whose angles are floats: every spot with a blend of 0, and every spot of 180 degrees.
 TEST(GltfLights, cones_with_hard_edges_and_of_90_degrees_in_float_are_read) {
   constexpr float right_angle = glm::half_pi<float>();
   const Cone hard = cone_of(0.6, 0.6), wide = cone_of(0.1, 1.5707963705062866),

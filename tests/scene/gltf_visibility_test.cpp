@@ -31,7 +31,7 @@ void hide(GltfBuilder& made, int node) { made.root["nodes"][node]["extensions"].
 const std::string visible_of_0 = visible_of(0);
 const std::string light_0 = "/extensions/KHR_lights_punctual/lights/0/";
 
-// Of instance 0: a hidden one is a point.
+// The size of instance 0: a hidden one is a point.
 double size_of(const Scene& scene) { return glm::length(scene.instances.at(0).world_from_object[0]); }
 
 TEST(GltfVisibility, hidden_nodes_hide_their_meshes_lights_and_descendants) {
@@ -103,7 +103,7 @@ TEST(GltfVisibility, what_is_hidden_at_a_time_is_in_no_total_and_no_box) {
   expect(2, 1, 51);
 }
 
-// What the caller puts in place of a file's light has no node, and so stays as it is.
+// A light that replaces the file's has no node, and so stays as it is.
 TEST(GltfVisibility, a_light_that_the_caller_replaced_is_neither_hidden_nor_animated) {
   GltfBuilder made = nested();
   animate(made, visible_of_0, std::vector<uint8_t>{1, 0, 1}, "SCALAR", u8);

@@ -77,7 +77,7 @@ TEST(AreaError, OfRowsWhoseSceneAsksForSamples) {
   }
 }
 
-// Of random places errors at edges would fall by the square root of 2 a step: a slope of -0.5.
+// With random places errors at edges would fall by the square root of 2 per step: a slope of -0.5.
 TEST(AreaError, OfCompareFallsAtEdgesAndIsSmallInside) {
   const CompareReport report = compared_samples(in_the_sun().scene, {1, 2, 4, 8});
   std::vector<AreaError> of;

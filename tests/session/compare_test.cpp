@@ -80,7 +80,7 @@ TEST(CompareTechniques, TellsWhoseLoopShadesLessThanItsListsHold) {
   EXPECT_EQ(report.rows[2].unshaded.value(), 0) << "against every light on its own surfaces";
 }
 
-// What capped lists lack is counted as overflow, and its light is told apart from that of a broken loop.
+// Lights that capped lists lack count as overflow, apart from the light of a broken loop.
 TEST(CompareTechniques, TellsWhatCappedListsLeaveOut) {
   Settings one, none;
   apply_setting(one, "list-cap=1");

@@ -47,7 +47,7 @@ TEST(DeviceClock, TimesFramesOfKernels) {
   EXPECT_LT(sum_of(frame.times), frame.wall_ms);
 }
 
-// What OpenGL draws is most of the frame.
+// OpenGL's drawing is most of the frame.
 TEST(DeviceClock, TimesFramesOfBothApis) {
   Renderer renderer("", GlBackend::automatic);
   if (!renderer.gl) GTEST_SKIP() << renderer.why_no_gl;

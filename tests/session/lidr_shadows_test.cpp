@@ -218,7 +218,7 @@ TEST(LidrShadows, SharesNeedRoom) {
   }
 }
 
-// What a run shows after a change is what a run that begins with it shows, and a camera that moves builds
+// A run after a change shows the same as a run that begins with it, and a camera that moves builds
 // nothing.
 TEST(LidrShadows, FollowEveryChange) {
   for (const LidrShadows way : {LidrShadows::volumes, LidrShadows::final_pass}) {

@@ -1,4 +1,4 @@
-// What the oracle of shadows makes of the surfaces that runs show.
+// The oracle of shadows on the surfaces that runs show.
 #include "session/shadow_truth.h"
 
 #include <gtest/gtest.h>

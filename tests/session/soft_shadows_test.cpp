@@ -81,7 +81,7 @@ struct Errors {
   double standard_error() const { return rms / std::sqrt(double(count)); }
 };
 
-// Of penumbrae.
+// The errors of penumbrae.
 Errors errors_of(const HostShadows& shadows, const std::vector<Pair>& pairs) {
   Errors e;
   for (const Pair& pair : pairs) {
@@ -105,7 +105,7 @@ TEST(SoftShadows, ErrorFallsWithTheRaysAndHasNoBias) {
     std::printf("%s rays: %zu pairs in penumbrae of %zu, mean %.5f (standard error %.5f), RMS %.5f\n", rays,
                 e.count, pairs.size(), e.mean, e.standard_error(), e.rms);
     EXPECT_LT(std::abs(e.mean), 3 * e.standard_error()) << rays;
-    // Of random samples the quotient of two rows is a half.
+    // For random samples the quotient of two rows is a half.
     EXPECT_LT(e.rms, 0.5 * last_rms) << rays;
     last_rms = e.rms;
     size_t wrong = 0;

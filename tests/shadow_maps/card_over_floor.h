@@ -74,8 +74,8 @@ inline double inside_m(const Light& light, const glm::vec3& point) {
   return (sun ? card_half_m : shadow_half_m) - std::max(std::abs(p.x), std::abs(p.y));
 }
 
-// Of the floor, 4.5 m each way in steps of 3 cm: further than 3 m from its middle it is seen by a cube's side
-// faces, whose axes it is parallel to.
+// Points of the floor, 4.5 m each way in steps of 3 cm: further than 3 m from its middle it is seen by a
+// cube's side faces, whose axes it is parallel to.
 inline std::vector<RayPoint> floor_points() {
   std::vector<RayPoint> points;
   for (float x = -4.49f; x < 4.5f; x += 0.03f)
@@ -94,7 +94,7 @@ inline std::vector<uint8_t> taps_at(ShadowMaps& maps, const RayScene& rays,
 
 inline glm::dvec3 axis(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
-// Whether a cascade has all texels that a point asks.
+// Returns whether a cascade has all texels that a point reads.
 inline bool holds_taps(const ShadowFace& f, const glm::dvec3& point, int taps) {
   const glm::dvec3 to = point - axis(f.from);
   const double most = double(f.extent) * (int(f.size) - 2 * (taps / 2)) / int(f.size);
@@ -128,9 +128,9 @@ inline Wrong wrong_points(const Light& light, const ShadowMapOptions& options) {
   return wrong_points(light, options, taps_at(maps, rays, floor_points()));
 }
 
-// Of a texel on the floor, which is seen from the light that is above it. A texel's centre is at most half a
-// texel away along either side, and each tap of a filter a texel more: no point further from the edge may be
-// wrong.
+// The largest error of a texel on the floor, which the light sees from above. A texel's centre is at most
+// half a texel away along either side, and each tap of a filter a texel more: no point further from the edge
+// may be wrong.
 inline double most_wrong_m(const Light& light, const ShadowMapOptions& options) {
   const ShadowAtlas atlas = plan_shadow_atlas({&light, 1}, view_from(5), glm::dvec3(0), room, options);
   const double texel_m = 2 * double(atlas.faces[0].extent) / options.size *

@@ -1,6 +1,6 @@
-// Whether shadows of cascades swim while the camera moves: the temporal error of points of a still scene. A
-// point's answer is wrong in time where it flips from a frame to the next, in both of which the eye sees the
-// point, though the truth, by exact rays, does not.
+// Measures how shadows of cascades swim while the camera moves: the temporal error of points of a still
+// scene. A point's answer is wrong in time where it flips from a frame to the next, in both of which the eye
+// sees the point, though the truth, by exact rays, does not.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -133,7 +133,7 @@ struct GltfBuilder {
     return load_gltf(folder.write("made.gltf", text()), scene, limits);
   }
 
-  // What loading says of images that are replaced by a checkerboard, a line each.
+  // The warnings of loading about images that are replaced by a checkerboard, a line each.
   std::string broken_images(const GltfLimits& limits = {}) const {
     testing::internal::CaptureStderr();
     load(limits);

@@ -1,6 +1,6 @@
-// What a light adds to a pixel after one reflection, in double on the oracle's surfaces, with Embree's rays:
-// the truth of virtual lights. Shares no formula with them: directions are chosen at the pixel, none at the
-// light.
+// A light's contribution to a pixel after one reflection, in double on the oracle's surfaces, with Embree's
+// rays: the truth of virtual lights. Shares no formula with them: directions are chosen at the pixel, none at
+// the light.
 #pragma once
 
 #ifdef LIGHTGRID_EMBREE

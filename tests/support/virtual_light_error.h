@@ -1,4 +1,4 @@
-// What virtual lights add to a picture against the truth of one bounce, at a sample of its pixels.
+// The error of a picture with virtual lights against the truth of one bounce, at a sample of its pixels.
 #pragma once
 
 #include "support/one_bounce.h"
@@ -54,9 +54,9 @@ class OneBounceView {
     for (const glm::dvec3& t : truth_) mean_ += (t.x + t.y + t.z) / 3 / double(truth_.size());
   }
 
-  // Of what draws virtual lights from here on; visibility unless set.
+  // Draws virtual lights from here on; visibility unless set.
   void set_technique(const char* technique) { technique_ = technique; }
-  // Of virtual lights from here on.
+  // The ranges of virtual lights from here on.
   void set_ranges(const LightRanges& ranges) { settings_.ranges = ranges; }
 
   double truth_mean() const { return mean_; }

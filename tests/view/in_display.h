@@ -69,7 +69,7 @@ class ViewInDisplay : public testing::Test {
   void SetUp() override {
     if (!has_xvfb()) GTEST_SKIP() << "xvfb-run is not installed (Debian: xvfb)";
   }
-  // What the program wrote into a file of the folder.
+  // The text that the program wrote into a file of the folder.
   std::string text_of(const std::string& file) const {
     std::ifstream stream(folder_.path / file);
     return {std::istreambuf_iterator<char>(stream), {}};

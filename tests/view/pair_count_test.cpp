@@ -72,7 +72,7 @@ TEST(PairCount, IsThatOfAComparison) {
   EXPECT_EQ(c.count.progress(), 1);
 }
 
-// Of an exact frame nothing leaks or acnes, whatever blended surfaces hide.
+// An exact frame has no leaks and no acne, whatever blended surfaces hide.
 TEST(PairCount, IsOfWhatBlendedSurfacesHideInTheRun) {
   CountedRun plain({"shadow-blended=none"});
   const uint64_t without = plain.counted({1, {}, true})->hidden;

@@ -87,7 +87,7 @@ class LiveView : public testing::Test {
     return render(words);
   }
 
-  // Whether the window's picture is this one, but for names and the line.
+  // Returns whether the window's picture is this one, except for names and the line.
   bool shows_now(const PngPixels& picture) {
     const PngPixels shown = desktop_.picture();
     return shown.width == picture.width + panel_px && shown.height == picture.height &&
