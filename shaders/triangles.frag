@@ -2,7 +2,7 @@
 //   RAY_NUMBERS: instead the triangle's number in the scene of shadow rays, of which `object` is the first of
 //     the object's triangles
 uniform uint object;
-uniform uint first_triangle;  // of the draw
+uniform uint first_triangle;  // the draw's first
 
 #ifdef RAY_NUMBERS
 uniform usamplerBuffer triangle_numbers;  // in the mesh, by place

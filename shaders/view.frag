@@ -4,12 +4,12 @@
 uniform sampler2D left_image;   // linear RGB
 uniform sampler2D right_image;
 
-uniform vec2 size;        // of the picture, pixels
+uniform vec2 size;        // the picture's size, pixels
 uniform float line;       // pixels from its left
 uniform int mapped_left;  // 1: colours of a map, without tone mapping
 uniform int mapped_right;
-uniform float exposure;     // of pictures, before the tone map
-uniform float map_opacity;  // of maps, over what is drawn already
+uniform float exposure;     // for pictures, before the tone map
+uniform float map_opacity;  // for maps, over what is drawn already
 
 layout(location = 0) out vec4 color;
 

@@ -32,7 +32,7 @@ static inline ulong sum_of_group(ulong mine, local ulong* scratch) {
 // (sum of `mine` of lower items, sum of all). scratch: PREFIX_SCRATCH, free again after the next barrier.
 static inline uint2 prefix_sum(uint mine, local uint* scratch) {
   const uint item = get_local_id(0), segment = item / SEGMENT;
-  local uint* sums = scratch + GROUP + SEGMENTS;  // of lower segments, and of all
+  local uint* sums = scratch + GROUP + SEGMENTS;  // sums of lower segments, and of all
   scratch[item + segment] = mine;
   barrier(CLK_LOCAL_MEM_FENCE);
   if (item < SEGMENTS) {

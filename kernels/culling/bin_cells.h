@@ -21,7 +21,7 @@
 typedef struct TestCell {
   Cell parts[INTERVALS];
 #if DEPTH_MODE == DEPTH_MASK32
-  uint mask;                   // of the tile's whole interval
+  uint mask;                   // mask of the tile's complete interval
   float mask_near, mask_far;
 #endif
 } TestCell;

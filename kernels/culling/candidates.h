@@ -174,7 +174,7 @@ static inline uint narrow(const Candidates* all, uint x, uint y, uint side, cons
 // Room for candidates. A work-item keeps it from bin to bin, so that it stays in the cache.
 typedef struct Room {
   global float* at;
-  uint batches;  // of 16 lights
+  uint batches;  // batches of 16 lights
 } Room;
 
 // Makes it at least `batches` batches large. Returns whether there was room.

@@ -6,7 +6,7 @@
 
 typedef struct Middle {
   float x, y;            // slopes; orthographic: metres
-  float half_x, half_y;  // of the tile: likewise
+  float half_x, half_y;  // half the tile's size: likewise
   float near, far;
   uint orthographic;
 } Middle;

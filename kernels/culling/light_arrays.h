@@ -13,7 +13,7 @@
 #define VIEW_Y 1
 #define VIEW_D 2
 #define VIEW_R 3
-#define VIEW_TILES 4  // of one bin: bits 0-7 its columns, 8-15 its rows
+#define VIEW_TILES 4  // the tiles in one bin: bits 0-7 columns, 8-15 rows
 #define VIEW_ID 5
 #define VIEW_CONE 6  // four arrays
 #ifdef SPOTS

@@ -7,7 +7,7 @@
 
 typedef struct TileRecord {
   Edge edges[3];
-  int dx, dy;  // of the tile's first pixel from the anchor
+  int dx, dy;  // offset of the tile's first pixel from the anchor
   float z0, zx, zy, z_min, z_max;
   uint triangle, instance;
   int alpha_material;

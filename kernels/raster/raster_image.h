@@ -60,8 +60,8 @@ static inline void put_pixel(const Image* image, size_t at, float depth, uint tr
 typedef struct PlacedTriangle {
   Edge edges[3];
   int x0, y0;
-  int width, height;  // of what lies in its box from there on, pixels
-  float dx, dy;       // of the pixel from the anchor
+  int width, height;  // size of the rest of its box from there on, pixels
+  float dx, dy;       // offset of the pixel from the anchor
   float z0, zx, zy, z_min, z_max;
   uint triangle, instance;
   int alpha_material;

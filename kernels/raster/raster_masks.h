@@ -32,7 +32,7 @@ typedef struct MaskSource {
   global const SurfaceVertex* vertices;
   global const SurfaceMaterial* materials;
   global const uint* alphas;
-  float2 half_size;  // of the image, pixels
+  float2 half_size;  // half the image's size, pixels
 } MaskSource;
 
 #ifdef ALPHA_MASKS

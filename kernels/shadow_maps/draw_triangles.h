@@ -8,7 +8,7 @@
 // A triangle a lane, as all texels of the tile see it.
 typedef struct TriangleLanes {
   Real3 p, q, r;  // planes through the light and an edge: above 0 inside
-  Real3 normal;   // of the side that the light sees
+  Real3 normal;   // on the side that the light sees
   real offset;    // normal . corner
   real nearest, furthest;
   whole left, right, low, high;  // texels of the face that it may cover

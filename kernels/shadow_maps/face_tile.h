@@ -32,14 +32,14 @@
 #endif
 #define PACKETS (TILE / LANES)  // a row
 
-#define ROUNDING 1e-6f        // of coordinates: more than 8 roundings of 2^-24
+#define ROUNDING 1e-6f        // relative to coordinates: more than 8 roundings of 2^-24
 #define TEXEL_ROUNDING 0.01f  // texels: more than what a triangle's bounds on the image round
 
 typedef struct FaceTile {
   float3 from, right, up, ahead;
   float extent, range, scale;
   float step, first_u;   // u of column x: first_u + step x; v of rows likewise
-  int size, x, y, side;  // of the face; the tile's first texel, and its texels a side
+  int size, x, y, side;  // the face's size; the tile's first texel, and its texels per side
   bool parallel;
   // Planes that bound what the tile sees: 4 sides, in front of the light, and -(distance ahead). The positive
   // and the negative parts of their normals; `offset` is of a directional light's sides.

@@ -94,7 +94,7 @@ static inline real texels_at(global const Texel* texels, uint size, whole x, who
 // A face's coordinates of receivers: of their points, normals, and of their triangles' furthest corners.
 typedef struct FaceReceivers {
   real x, y, z, nx, ny, nz, furthest;
-  real u, v;  // of the points, as texels have them
+  real u, v;  // the points' places in texels
   float to_texels, half_size;
 } FaceReceivers;
 

@@ -9,7 +9,7 @@
 #include "kernels/common/pack.h"
 #include "shared/world_grid.h"
 
-#define PARTS (WORLD_BLOCK_CELLS / LANES)  // of a block, whose cells are tested together
+#define PARTS (WORLD_BLOCK_CELLS / LANES)  // parts of a block, whose cells are tested together
 
 // Lower and upper sides of a block's cells along each axis, in lanes: cubes have 4 along x, then 4 along y
 // and 4 along z; columns 8 along x, then 8 along y. The outer cells have no end.
@@ -73,8 +73,8 @@ static inline BlockSides block_sides(uint2 key, constant WorldGridParams* world)
 // docs/details/world_grid.md#slack has its rounding.
 typedef struct ConeTest {
   real along, squared;        // in the lanes of BlockSides: parts of a, and of cos^2 d^2
-  real along_xy, squared_xy;  // of a + R sin, and of cos^2 d^2
-  float least, added;         // of a + R sin: where R + a sin is 0; R^2 cos^2
+  real along_xy, squared_xy;  // for a + R sin, and for cos^2 d^2
+  float least, added;         // for a + R sin: where R + a sin is 0; R^2 cos^2
 } ConeTest;
 
 // cone: axis, and the cosine of the outer half-angle, lowered: at least 0.

@@ -39,7 +39,7 @@ struct LitSurface {
   vec3 base_color;
   float metallic, roughness;
   bool lit;
-  int model;  // of shaders/common/read_gbuffer.glsl; 0: Lambert
+  int model;  // number in shaders/common/read_gbuffer.glsl; 0: Lambert
 };
 
 // Reflectance of the dielectric part.

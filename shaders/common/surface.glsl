@@ -25,7 +25,7 @@ struct Surface {
   float minnaert_k;  // 1: Lambert
 #endif
 #ifdef SPECULAR
-  vec3 f0;  // of the dielectric part, at normal incidence; f90 at grazing incidence
+  vec3 f0;  // the dielectric part's, at normal incidence; f90 at grazing incidence
   float f90;
 #endif
 #ifdef CLEARCOAT

@@ -67,7 +67,7 @@ int capture(CaptureOptions o) {
   take_own_settings(o.technique, o.scene.set);
   const Settings settings = chosen_settings(o.scene);
   if (!o.technique.empty())
-    grid_needs(o.technique, settings);  // what is wrong with the technique is said before the work
+    grid_needs(o.technique, settings);  // reports faults of the technique before the work
   parse_gl_backend(o.devices.gl);
   if (!o.json.empty()) check_output_file("--json", o.json);
   o.scene.device = o.devices.device;

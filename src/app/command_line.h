@@ -59,7 +59,7 @@ class CommandLine {
   std::unique_ptr<CLI::App> app_;
   Command chosen_;
   bool quiet_ = false;
-  std::string unused_gl_ = "auto";  // of commands that open no OpenGL, which check it alone
+  std::string unused_gl_ = "auto";  // for commands that open no OpenGL and only check the option
 };
 
 }  // namespace lightgrid

@@ -31,9 +31,9 @@ struct Found {
   std::vector<ClDeviceInfo> cl;
   std::vector<GlFound> gl;
   int chosen_cl = -1, chosen_gl = -1;  // -1: none is usable, for the reason in `problems`
-  TunedSizes tuned;                    // of the chosen OpenCL device
+  TunedSizes tuned;                    // sizes for the chosen OpenCL device
   std::string bridge;
-  std::string why_staged;  // of the bridge "staged", else empty
+  std::string why_staged;  // reason for the bridge "staged", else empty
   std::vector<std::string> problems;
 };
 

@@ -80,7 +80,7 @@ struct Subject {
   Settings settings;
   std::string technique;  // the chosen one
   TechniqueNeeds needs{};
-  std::unique_ptr<Renderer> renderer{};      // of `shadows`
+  std::unique_ptr<Renderer> renderer{};      // for `shadows`
   std::unique_ptr<FrameAndTruth> shadows{};  // where lights of the scene cast
   const View& view() const { return scene ? scene->view : frame.view; }
 };

@@ -11,10 +11,10 @@
 namespace lightgrid {
 
 void add_scene_options(Subcommand& command, SceneChoice& choice);
-void add_file_options(Subcommand& command, SceneChoice& choice);  // of how a glTF file is read
+void add_file_options(Subcommand& command, SceneChoice& choice);  // options of reading a glTF file
 void add_view_options(Subcommand& command, SceneChoice& choice);  // all but scene, size and lights
-void add_keep_option(Subcommand& command, std::string& keep);        // of commands with several --lights
-void add_exposure_option(Subcommand& command, SceneChoice& choice);  // of commands that write pictures
+void add_keep_option(Subcommand& command, std::string& keep);        // for commands with several --lights
+void add_exposure_option(Subcommand& command, SceneChoice& choice);  // for commands that write pictures
 void add_path_option(Subcommand& command, SceneChoice& choice);
 void add_device_options(Subcommand& command, DeviceOptions& options);
 void add_timing_options(Subcommand& command, TimingOptions& options);

@@ -9,7 +9,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr double rounding = 0x1p-44;  // of determinants, relative to the sum of their terms' magnitudes
+constexpr double rounding = 0x1p-44;  // for determinants, relative to the sum of their terms' magnitudes
 
 double sum_of_magnitudes(const glm::dmat3& m) {
   const glm::dvec3 a = glm::abs(m[0]), b = glm::abs(m[1]), c = glm::abs(m[2]);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr size_t depth_bytes = size_t(1920) * 1080 * sizeof(float);
 constexpr size_t gpu_group = 256;
-constexpr int chains = 12, vector_width = 16;  // of the arithmetic kernels
+constexpr int chains = 12, vector_width = 16;  // shape of the arithmetic kernels
 
 double device_ms(ClDevice& device) {
   double ms = 0;

@@ -68,13 +68,13 @@ struct MeasuredRun {
   Spread device;                // the sum over all kernels of one run, which is timed by events; not the run
                                 // of `wall`
   std::vector<Kernel> kernels;  // in order of first launch
-  Spread lights_upload, grid_download;  // of culling: wall clock, each with its wait
+  Spread lights_upload, grid_download;  // for culling: wall-clock time, each with its wait
   Spread overhead;                      // wall minus device, for the runs timed by events
 };
 
 struct MeasuredFrame {
   std::vector<MeasuredRun> runs;  // one for each contestant
-  Spread plain_read;              // of the same depth buffer, in the same rounds
+  Spread plain_read;              // time for the same depth buffer, in the same rounds
   double least_read_ms = 0;       // the least of those and of the earlier runs that fitted it
 };
 

@@ -28,7 +28,7 @@ struct BenchRow {
   Spread ms;
   std::optional<KernelCost> cost;
   std::optional<double> limit_ms;  // the cost's time at the machine's limits
-  std::optional<double> ratio;     // of the median to that of the first contestant
+  std::optional<double> ratio;     // median relative to that of the first contestant
 };
 
 // The limits of the whole run, one row each.

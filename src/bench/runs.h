@@ -71,7 +71,7 @@ class RasterRun {
   // Vertices to the visibility buffer, with the wait in which the rasteriser reads its counters.
   void run() { raster_.draw(); }
 
-  KernelWork work() const;  // of the last run
+  KernelWork work() const;  // work of the last run
 
  private:
   RasterScene geometry_;

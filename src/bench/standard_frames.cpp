@@ -156,7 +156,7 @@ Borders borders(int pixels, float tangent) {
 
 struct TileGrid {
   Borders x, y;
-  std::vector<float> near, far;  // of each tile, x fastest
+  std::vector<float> near, far;  // depths of each tile, x fastest
   int tiles_x() const { return int(x.slope.size()) - 1; }
 };
 

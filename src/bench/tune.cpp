@@ -25,7 +25,7 @@ struct Candidate {
   std::string value;
   Settings settings;
   std::string failure;
-  double log_sum = 0;  // of the medians, over the frames
+  double log_sum = 0;  // sum over the frames, of the medians
 };
 
 std::vector<Candidate> candidates_of(const std::string& key, const Settings& best) {

@@ -54,7 +54,7 @@ const Pixel* pixel_of(std::span<const Pixel> pixels, GLenum format, GLenum type,
 }
 
 void dispatch_pixels(const GlProgram& program, const PixelGrid& grid, int depth = 1) {
-  constexpr int group_width = 32, group_height = 8;  // of the shaders
+  constexpr int group_width = 32, group_height = 8;  // size of the shaders' groups
   glUseProgram(program.name());
   glDispatchCompute(GLuint(grid.width + group_width - 1) / group_width,
                     GLuint(grid.height + group_height - 1) / group_height, GLuint(depth));

@@ -82,7 +82,7 @@ class SharedBuffer {
   void* mapped_ = nullptr;   // mapped: the GL buffer's memory; staged: that of `staging_`
   GLsync copied_ = nullptr;  // staged: signalled when OpenGL has read the staging memory; null: already read
   cl::Buffer cl_buffer_;
-  std::unique_ptr<ImportedMemory> imported_;  // of kind imported; gl_buffer_ and cl_buffer_ are then its own
+  std::unique_ptr<ImportedMemory> imported_;  // for kind imported: then gl_buffer_ and cl_buffer_ are its own
 };
 
 }  // namespace lightgrid

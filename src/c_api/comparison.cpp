@@ -89,7 +89,7 @@ lightgrid_status lightgrid_compare(lightgrid_device* device, lightgrid_scene* sc
       if (!choice.scene.camera_path.empty()) of.rebuilt();
       throw;
     }
-    if (!choice.scene.camera_path.empty()) of.rebuilt();  // what moved along the path stays there
+    if (!choice.scene.camera_path.empty()) of.rebuilt();  // objects that moved along the path stay there
     std::vector<Warning> warnings = of.warnings;
     std::erase_if(warnings, [&](const Warning& w) { return is_answered(w, choice.scene.set); });
     add_distinct(warnings, made->report.warnings);

@@ -17,7 +17,7 @@ namespace {
 
 struct OpenGlTurn {
   std::recursive_mutex mutex;
-  GlContext* current = nullptr;  // of the calls that hold it
+  GlContext* current = nullptr;  // context of the calls that hold it
 };
 
 OpenGlTurn& opengl_turn() {

@@ -25,7 +25,7 @@ class LoadedScene {
 
   Scene scene;
   const SceneChoice choice;
-  std::vector<Warning> warnings;  // of loading, and of choosing the view
+  std::vector<Warning> warnings;  // warnings of loading, and of choosing the view
 
   // The view that the fields choose, and with it their lights, at the first call. May be called from two
   // threads.
@@ -58,7 +58,7 @@ class LoadedScene {
 struct DeviceScene {
   std::shared_ptr<LoadedScene> scene;
   std::shared_ptr<GpuScene> gpu{};  // another one after the scene's shape changed
-  uint64_t shape = 0, time = 0;     // of the scene when `gpu` last read it
+  uint64_t shape = 0, time = 0;     // the scene's when `gpu` last read it
 
   struct Raster {
     std::shared_ptr<RasterScene> scene;
@@ -139,7 +139,7 @@ struct lightgrid_view {
   lightgrid::View view;
   std::shared_ptr<lightgrid::GpuScene> gpu;  // that the run reads
   std::shared_ptr<lightgrid::TechniqueRun> run;
-  uint64_t shape = 0, time = 0;  // of the scene when `run` last read it
+  uint64_t shape = 0, time = 0;  // the scene's when `run` last read it
   bool drawn = false;            // a frame of this camera and this scene
 };
 

@@ -106,7 +106,7 @@ typedef enum lightgrid_format {
 /* Row 0 is the bottom row. An image that begins with its top row in memory has `pixels` at its last row and
  * negative row_bytes; nothing is copied for that. */
 typedef struct lightgrid_image {
-  void* pixels; /* of row 0 */
+  void* pixels; /* start of row 0 */
   int32_t width, height;   /* pixels, 1 or more */
   lightgrid_format format; /* as the function that takes the image says */
   ptrdiff_t row_bytes; /* from a row to the one above it; at least a row's pixels, or at most minus that */
@@ -176,7 +176,7 @@ typedef struct lightgrid_material {
   float clearcoat, clearcoat_roughness;   /* 0 to 1; clearcoat 0: no coat */
   lightgrid_alpha alpha;                  /* how alpha is read */
   float alpha_cutoff;                     /* with LIGHTGRID_MASK: what is below is not there */
-  float normal_scale, occlusion_strength; /* of the maps */
+  float normal_scale, occlusion_strength; /* strengths of the maps */
   int32_t double_sided, unlit;            /* 0 or 1 */
   int32_t base_color_map, metallic_roughness_map, normal_map, occlusion_map, emissive_map; /* or -1 */
 } lightgrid_material;
@@ -192,7 +192,7 @@ typedef struct lightgrid_mesh {
   const float* normals;   /* 3 a vertex, or null: flat ones */
   const float* uv;        /* 2 a vertex, or null */
   const float* colors;    /* 4 a vertex, linear, or null */
-  size_t vertex_count;    /* of each of the arrays above */
+  size_t vertex_count;    /* length of each of the arrays above */
   const uint32_t* indices; /* 3 a triangle, each below vertex_count */
   size_t index_count;      /* a multiple of 3 */
   int32_t material;        /* its number */
@@ -219,14 +219,14 @@ typedef enum lightgrid_light_type {
 
 /* In world space. */
 typedef struct lightgrid_light {
-  double position[3]; /* of all but directional lights */
-  float direction[3]; /* of spots, directional and virtual lights; any length above 0 */
+  double position[3]; /* except for directional lights */
+  float direction[3]; /* for spots, directional and virtual lights; any length above 0 */
   float color[3];     /* linear, times intensity */
   float intensity; /* candela, or lux of a directional light */
   float radius_m;  /* where its light ends; infinite: nowhere */
-  float inner_cone_rad, outer_cone_rad; /* of a spot: full light inside, none outside; equal: a hard edge */
-  float source_radius_m; /* of its sphere, for soft shadows; below 0: the setting's */
-  float nearest_m;       /* of a virtual light */
+  float inner_cone_rad, outer_cone_rad; /* for a spot: full light inside, none outside; equal: a hard edge */
+  float source_radius_m; /* radius of its sphere, for soft shadows; below 0: the setting's */
+  float nearest_m;       /* only for a virtual light */
   lightgrid_light_type type; /* the default: LIGHTGRID_POINT */
   int32_t casts_shadow;      /* 0 or 1 */
   uint32_t groups; /* lights instances that share a bit */
@@ -247,8 +247,8 @@ lightgrid_status lightgrid_scene_set_ambient(lightgrid_scene* scene, const float
 /* A view of the world, of any size in pixels. */
 typedef struct lightgrid_camera {
   double world_from_view[16]; /* rigid; looks along its -z, y up */
-  double fov_y_rad;           /* of a perspective camera */
-  double half_height_m;       /* of an orthographic one */
+  double fov_y_rad;           /* for a perspective camera */
+  double half_height_m;       /* for an orthographic camera */
   double near_m, far_m;       /* far may be infinite in perspective */
   int32_t orthographic;       /* 0 or 1 */
 } lightgrid_camera;
@@ -314,8 +314,8 @@ typedef struct lightgrid_grid {
   int32_t cells_x, cells_y, slices, tile; /* tile: pixels a side */
   const uint32_t* cells;                  /* two a cell: the first of its indices, and how many */
   size_t cell_count;                      /* cells_x * cells_y * slices */
-  const uint32_t* indices; /* of lights, ascending in each cell */
-  size_t index_count;      /* of all lists together */
+  const uint32_t* indices; /* indices of lights, ascending in each cell */
+  size_t index_count;      /* total of all lists */
   const uint32_t* masks; /* with grid-lists=masks: a bit a light, in mask_words words a cell; else null */
   size_t mask_words;     /* a cell */
   const uint32_t* z_bins; /* with z-bins: a word a light; else null */

@@ -16,7 +16,7 @@
 namespace lightgrid {
 
 struct CapturedFrame {
-  std::string name;  // of its folder, or of its scene
+  std::string name;  // name of its folder, or of its scene
   // clip_from_view as the frame has it: depth reversed or standard. near_m and far_m are informative.
   View view;
   int tile = 16;

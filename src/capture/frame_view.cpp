@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double largest = 1e12;  // of a matrix element; larger than any world, and its square fits a float
+constexpr double largest = 1e12;  // largest matrix element; above any world, and its square fits a float
 constexpr double least_scale = 1e-9, largest_scale = 1e9;
 constexpr double rotation_tolerance = 5e-6;  // engines keep matrices in float
 constexpr double near_tolerance = 1e-3;      // relative

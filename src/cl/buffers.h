@@ -70,7 +70,7 @@ class UploadedBuffer {
 
   cl::Buffer buffer_;
   size_t bytes_ = 0;
-  std::vector<std::unique_ptr<Staged>> staged_;  // what writes read; one, unless the queue falls behind
+  std::vector<std::unique_ptr<Staged>> staged_;  // data of writes; one, unless the queue falls behind
 };
 
 }  // namespace lightgrid

@@ -47,7 +47,7 @@ class ClDevice {
   cl::Device& device() { return device_; }            // for calls of OpenCL itself
   cl::Context& context() { return context_; }         // all buffers are its
   cl::CommandQueue& queue() { return queue_; }  // in order; with profiling if it was created here
-  ClProfiler& profiler() { return profiler_; }  // of what goes through the queue
+  ClProfiler& profiler() { return profiler_; }  // profiles commands of the queue
 
  private:
   ClDeviceInfo info_;

@@ -39,8 +39,8 @@ struct ClArgument {
     std::memcpy(value, &given, sizeof given);
   }
 
-  const char* name;         // of the parameter
-  size_t bytes;             // of the value, as clSetKernelArg takes it
+  const char* name;         // the parameter's name
+  size_t bytes;             // size of the value, as clSetKernelArg takes it
   unsigned char value[16];  // the first `bytes` of it
 };
 
@@ -72,7 +72,7 @@ class NamedKernel {
  private:
   std::string file_;
   cl::Kernel kernel_;
-  size_t count_ = 0;                     // of parameters
+  size_t count_ = 0;                     // number of parameters
   std::vector<std::string> parameters_;  // empty: the driver does not tell
 };
 

@@ -107,7 +107,7 @@ class CullCpuPipeline : public CullPipeline {
 
 constexpr size_t project_items = PROJECT_GROUP, block_tiles = BLOCK_TILES;
 constexpr size_t bin_blocks = BIN_TILES / block_tiles * (BIN_TILES / block_tiles);
-constexpr size_t usual_items = 256;  // of kernels whose work-groups may have any size
+constexpr size_t usual_items = 256;  // for kernels whose work-groups may have any size
 
 // Empty if `items` is the kernel's own default.
 std::string group_define(size_t items) {

@@ -20,7 +20,7 @@ struct CullJob {
 struct PipelineOptions {
   // Each kernel gets only the defines that it reads, so that none is compiled twice to the same code.
   std::string light_defines;  // cull test, cones
-  std::string cell_defines;   // those, depth-bounds mode, slices
+  std::string cell_defines;   // these, the depth-bounds mode, slices
   bool portable = false;      // as in CullerOptions
   bool slices = false;        // cells a tile: more than one
   bool cones = false;         // at least one light is a spot
@@ -46,7 +46,7 @@ class CullPipeline {
   // units of 16 staged words needed, [3] whether a bin overflowed, [4] and [5] low and high word of the
   // number of indices.
   virtual void enqueue(const CullJob& job) = 0;
-  virtual size_t candidate_bytes() const = 0;  // of one candidate
+  virtual size_t candidate_bytes() const = 0;  // bytes per candidate
   virtual size_t memory_bytes() const = 0;
 };
 

@@ -60,7 +60,7 @@ CullParams cull_params(const CullView& view, int tile);
 // Properties of the view's depth, derived from clip_from_view.
 bool is_orthographic(const CullView& view);
 bool has_standard_depth(const CullView& view);  // near 0, far 1
-double near_distance(const CullView& view);     // of the near plane, metres; negative if an orthographic one
+double near_distance(const CullView& view);     // near plane's, metres; negative if an orthographic one
                                                 // lies behind the eye
 
 }  // namespace lightgrid

@@ -86,7 +86,7 @@ class LightCuller::State {
   bool cones_ = false;
   std::vector<CullLight> host_lights_;         // to upload again when the origin follows the eye
   std::optional<glm::dvec3> fixed_origin_;     // choose_origin's, world
-  std::optional<glm::dvec3> uploaded_origin_;  // of the positions on the device; empty: not uploaded yet
+  std::optional<glm::dvec3> uploaded_origin_;  // as on the device; empty: not uploaded yet
   double cone_slack_m_ = 0;
   CullParams params_{};
   uint light_count_ = 0, light_stride_ = 0;
@@ -102,7 +102,7 @@ class LightCuller::State {
   size_t bounds_bytes_ = 0;
   glm::uvec2 bounds_tiles_{0};
   BoundsView view_;                          // set_view's
-  std::shared_ptr<BoundsView> bounds_view_;  // of opaque_ and blend_
+  std::shared_ptr<BoundsView> bounds_view_;  // view of opaque_ and blend_
   GrowingBuffer lights_;
   UploadedBuffer params_upload_;
   GrowingBuffer light_groups_;

@@ -9,7 +9,7 @@ namespace lightgrid {
 namespace {
 
 constexpr float endless = std::numeric_limits<float>::infinity();
-constexpr double small_part = 0x1p-8;  // of a radius
+constexpr double small_part = 0x1p-8;  // relative to a radius
 
 // A light has a position and a radius; without either it is listed nowhere.
 bool is_light(const CullLight& light) {

@@ -46,7 +46,7 @@ struct CullLight {
 // side by side for each pixel. A value is z / w of clip_from_view, 0 to 1; the far end of that (0 in reversed
 // depth, 1 in standard) means no surface. The view may be a part of a larger image.
 struct DepthInput {
-  cl::Buffer values;   // of the culler's context; (y + height - 1) * row_pixels + x + width pixels or more
+  cl::Buffer values;   // in the culler's context; (y + height - 1) * row_pixels + x + width pixels or more
   int row_pixels = 0;  // pixels from row to row, x + width or more; 0: the view's width
   int x = 0, y = 0;    // the view's lower left pixel in the image, 0 or more
 };
@@ -76,7 +76,7 @@ struct TileBounds {
 
 // The bounds that a depth buffer gives.
 struct DepthBounds {
-  TileBounds opaque;  // of the surfaces in the depth buffer
+  TileBounds opaque;  // bounds of the surfaces in the depth buffer
   TileBounds blend;   // from the near plane to the farthest visible blended surface; null unless
                       // CullerOptions::blend
 };
@@ -124,7 +124,7 @@ class ClGridStorage : public GridStorage {
 // pixel's. Same bytes on every device, in every kernel shape, for any number of threads.
 struct LightGrid {
   int cells_x = 0, cells_y = 0, slices = 1;  // cells_x * cells_y * slices cells
-  uint64_t index_count = 0;                  // of all lists together, below 2^32
+  uint64_t index_count = 0;                  // total of all lists, below 2^32
   int index_bits = 16;                       // 16 or 32 each
   size_t cell_bytes = 0, index_bytes = 0;    // in use; the storage's buffers may be larger
   size_t mask_words = 0, mask_bytes = 0;     // 0 without masks
@@ -135,7 +135,7 @@ struct LightGrid {
 struct HostGrid {
   int cells_x = 0, cells_y = 0, slices = 1;  // cells_x * cells_y * slices cells
   std::vector<glm::uvec2> cells;             // first, count
-  std::vector<uint32_t> indices;             // of lights, all lists one after the other
+  std::vector<uint32_t> indices;             // indices of lights, all lists one after the other
   std::vector<uint32_t> masks;               // empty without masks
   std::vector<uint32_t> z_bins;              // a word a light; empty without z-bins
   bool operator==(const HostGrid&) const = default;
@@ -149,11 +149,11 @@ enum class DepthFormat { d32f, d24, d16 };
 
 // shared/cull_settings.h describes the choices and their sources.
 struct CullerOptions {
-  CullTest cull_test = default_cull_test;  // of a light against a cell: a name of shared/cull_tests.h
-  DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;  // what of its depths a tile keeps
+  CullTest cull_test = default_cull_test;  // test of a light against a cell: a name of shared/cull_tests.h
+  DepthBoundsMode depth_bounds = DepthBoundsMode::minmax;  // the depths that a tile keeps
   KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the grid is the same
   int tile = 16;                               // pixels a side: 8, 16, 32 or 64
-  DepthFormat depth_format = DepthFormat::d32f;  // of the graphics API's depth buffer
+  DepthFormat depth_format = DepthFormat::d32f;  // format of the graphics API's depth buffer
   int samples = 1;  // depth values a pixel: 1, 2, 4 or 8; more than one makes cells span whole pixels
   GridLists lists = GridLists::lists;  // masks: bitmasks as well
   bool blend = false;                  // depth bounds and a grid for blended surfaces
@@ -168,7 +168,7 @@ struct CullerOptions {
 // otherwise.
 struct CullInputs {
   CullParams params{};                             // the kernels' view
-  DepthBoundsMode mode = DepthBoundsMode::minmax;  // of `bounds`
+  DepthBoundsMode mode = DepthBoundsMode::minmax;  // mode of `bounds`
   std::vector<float> lights, bounds;  // kernels/culling/light_arrays.h, depth_bounds.h
   std::vector<glm::vec2> slices;      // near and far of each, metres; a single slice is infinite
 };
@@ -210,7 +210,7 @@ class LightCuller {
   // span every distance. Waits.
   uint32_t invalid_depth_tiles();
 
-  size_t memory_bytes() const;  // of all buffers except the grid's
+  size_t memory_bytes() const;  // bytes of all buffers except the grid's
   KernelShape shape() const;    // lanes or group: never automatic
   const CullParams& params() const;  // tiles_x, tiles_y and the rest of the kernels' view
 

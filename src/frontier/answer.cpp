@@ -76,8 +76,8 @@ std::vector<FrontierRecord> on_one_machine(std::vector<FrontierRecord> records,
   };
   std::map<std::string, std::map<int, BaselineTimes>> baselines;  // by scene and kind
   for (const FrontierRecord& r : records) {
-    if (!r.series.empty()) continue;  // of other sizes and lights
-    if (is_unpaired(r)) continue;     // of another session
+    if (!r.series.empty()) continue;  // other sizes and lights
+    if (is_unpaired(r)) continue;     // another session
     std::vector<double>& times = baselines[r.point.scene][kind_of_record(r)][r.view];
     times.insert(times.end(), r.baseline_ms.begin(), r.baseline_ms.end());
   }

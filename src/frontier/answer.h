@@ -28,7 +28,7 @@ struct OnFront {
 // unknown.
 struct DeviceFigures {
   MedianInterval device_ms, hand_over_ms, copy_ms, read_back_ms;
-  LogTimes log_times;  // of device_ms
+  LogTimes log_times;  // logarithms of device_ms
   RelativeTime relative_time;
   std::map<std::string, OnFront> fronts;
 };
@@ -38,8 +38,8 @@ struct PointFigures {
   FrontierPoint point;
   int views = 0, timed_views = 0;  // with errors; the first of them, with times
   int width = 0, height = 0;       // pixels
-  MedianInterval frame_ms;         // of the sum over timed views, over their number
-  double p95_ms = 0, p99_ms = 0;   // of all timed frames: the least that this share of them is within
+  MedianInterval frame_ms;         // sum over timed views, divided by their number
+  double p95_ms = 0, p99_ms = 0;   // percentiles of all timed frames
   // By round: the sum of its times over the timed views over the same sum of the baseline's, of three of its
   // runs in that round and view.
   LogTimes log_times;
@@ -52,10 +52,10 @@ struct PointFigures {
   PairCounts pairs;                    // sums over views
   std::optional<FrontierTruth> truth;  // empty: every light without a range
   std::optional<ExternalPoint> external;
-  std::optional<double> exposure_ev;   // of the scene's pictures
+  std::optional<double> exposure_ev;   // exposure of the scene's pictures
   uint64_t memory_bytes = 0;           // the largest of the views
   uint64_t bytes_moved = 0;            // a frame of the views that were profiled: the first
-  std::map<std::string, double> pass_ms;       // of the same: medians of profiled frames
+  std::map<std::string, double> pass_ms;       // medians of profiled frames
   std::map<std::string, uint64_t> pass_bytes;  // read and written; parts of earlier versions have none
   uint64_t nan_pixels = 0;
   std::map<std::string, OnFront> fronts;  // by the error that it is of (front_errors)
@@ -87,7 +87,7 @@ struct Coverage {
 // technique's.
 struct Control {
   std::string scene;
-  RelativeTime relative_time;  // of all places together
+  RelativeTime relative_time;  // over all places together
   std::vector<double> places;  // the estimate of each
   // 1 is in the interval, if there is one, and within 1 % of the estimate.
   bool passed() const;
@@ -129,7 +129,7 @@ struct FrontBand {
 struct BreakEven {
   std::string scene, tighter, looser;  // labels; otherwise of equal settings. Tighter: lists fewer pairs
   double ns_per_pixel_light = 0;       // infinite: the tighter test never wins; 0: it always does
-  double extra_ms = 0;                 // of culling the first view: the median over rounds of both
+  double extra_ms = 0;                 // extra time of culling the first view: the median over rounds of both
   double pairs_saved = 0;              // listed pairs of that view
   // 95 % interval of ns_per_pixel_light, from that of the median (median_interval); rounds: 0 if there is
   // none, since pass times are known by their medians alone, or no pair is saved.
@@ -137,7 +137,7 @@ struct BreakEven {
   int rounds = 0;
 };
 
-struct ShadingCost {  // of this machine, a slope over points of one technique and BRDF
+struct ShadingCost {  // on this machine, a slope over points of one technique and BRDF
   std::string scene, technique, brdf;
   double ns_per_pixel_light = 0;
   double low = 0, high = 0;  // 95 % interval of the slope (Student's t); infinite without a degree of freedom
@@ -172,10 +172,10 @@ struct Failure {
 };
 
 struct FrontierAnswer {
-  FrontierPart part;  // of the first; records of all
+  FrontierPart part;  // the first part; records of all parts
   std::vector<FrontierMachine> machines;
   std::vector<PointFigures> points;
-  std::vector<Coverage> coverage;  // of scenes whose parts know what they were asked for
+  std::vector<Coverage> coverage;  // for scenes whose parts record what was requested
   std::vector<Control> controls;
   std::vector<ProcessConditions> processes;
   std::vector<CheapestWithin> cheapest_within;
@@ -222,7 +222,7 @@ void write_answer(const std::filesystem::path& folder, const FrontierAnswer& ans
 // A frontier held against an earlier one: what got worse.
 struct GateResult {
   std::vector<std::string> worse;  // one sentence each; empty: the gate is passed
-  std::vector<std::string> told;   // what was not compared, and why; no failure
+  std::vector<std::string> told;   // figures that were not compared, and why; no failure
 };
 
 // frontier.json, as to_json(FrontierAnswer) gives it. Throws Error(input) that names the file.

@@ -99,7 +99,7 @@ json csv_row(const FrontierAnswer& answer, size_t row) {
     for (const char* key : {"bytes_moved", "memory_bytes", "covered_pixels", "pairs", "overflow"})
       fields.erase(key);
   }
-  if (!r.refused.empty()) {  // what it would have drawn
+  if (!r.refused.empty()) {  // it drew no picture
     fields.erase("nan_pixels");
     for (const auto& [kind, ignored] : kinds_of_error) fields["errors"].erase(kind);
   }

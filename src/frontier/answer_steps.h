@@ -31,7 +31,7 @@ std::string point_key(const FrontierPoint& point, std::span<const std::string> w
 // The name of the pass whose times are those of culling, and what pairs of a break-even differ in.
 inline constexpr const char* cull_pass = "cull_lights";
 inline const std::vector<std::string> cull_test_alone = {"cull_test"};
-bool has_cull_time(const FrontierRecord& record);  // of a point of the front that ran, and has a cull test
+bool has_cull_time(const FrontierRecord& record);  // a point of the front that ran, with a cull test
 
 // Records whose times may be compared: those of another kind of machine (devices, drivers, processor,
 // threads) are multiplied by how much longer or shorter the same baseline took on the first kind of machine

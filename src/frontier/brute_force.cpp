@@ -15,7 +15,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t least_pixels = 400, most_pixels = 20000;
-constexpr int places_a_side = 16;   // of a pixel, in a truth of areas
+constexpr int places_a_side = 16;   // places per side of a pixel, in a truth of areas
 constexpr int rays_of_truth = 256;  // to a sphere; docs/shadows.md has their error
 
 }  // namespace

@@ -108,7 +108,7 @@ class Precision {
   size_t pairs_;
   double brightest_ = 0;  // channel of the truth on OpenGL's surfaces
   std::optional<TechniqueRun> opengl_, visibility_;
-  Sample samples_[2];  // of OpenGL's surfaces, of the rasteriser's
+  Sample samples_[2];  // OpenGL's surfaces, then the rasteriser's
 };
 
 // A random one of each of `count` equal runs of `pixels`; all of them if there are no more. If a share f of

@@ -11,12 +11,12 @@ namespace lightgrid {
 
 // Over the time since the sample before.
 struct FrontierConditions {
-  int process = 0;  // of the part
+  int process = 0;  // process number within the part
   // Per cent of the processors' time: other processes', and what a hypervisor gave to other machines.
   std::optional<double> others_percent, steal_percent;
   std::optional<double> clock_mhz;      // mean of the processors, at the sample
   std::optional<double> temperature_c;  // the hottest sensor, at the sample
-  std::optional<double> power_w;        // of the processor packages (RAPL)
+  std::optional<double> power_w;        // power of the processor packages (RAPL)
   std::optional<double> throttles;      // how often a core was throttled
 };
 

@@ -83,7 +83,7 @@ struct PairsAndMs {
 // Sums of products of deviations from the means of each group of samples.
 struct Deviations {
   double pairs_squared = 0, pairs_ms = 0, ms_squared = 0;
-  int degrees_of_freedom = -1;  // of the residuals: samples less groups less one, the slope
+  int degrees_of_freedom = -1;  // for the residuals: samples less groups less one, the slope
 
   void add(const std::vector<PairsAndMs>& samples) {
     PairsAndMs mean;

@@ -17,7 +17,7 @@ namespace lightgrid {
 // A picture and times that were taken elsewhere, of one view.
 struct ExternalFrame {
   std::filesystem::path picture;              // EXR
-  std::vector<double> frame_ms, baseline_ms;  // of equal length, at least one each
+  std::vector<double> frame_ms, baseline_ms;  // equal length, at least one each
 };
 
 struct ExternalFrames {
@@ -30,7 +30,7 @@ struct ExternalRenderer {
   std::map<std::string, std::string> settings;
   bool own_surfaces =
       false;  // held against the truth on the surfaces of the rasteriser in OpenCL, not OpenGL's
-  std::filesystem::path folder;                  // of the file: where the command runs
+  std::filesystem::path folder;                  // folder of the file, in which the command runs
   std::vector<std::string> command;              // program and arguments; empty: `scenes` has what there is
   double timeout_s = 60;                         // for one frame
   std::map<std::string, ExternalFrames> scenes;  // by name, as in the sweep

@@ -74,7 +74,7 @@ void ExternalProcess::start() {
   posix_spawn_file_actions_adddup2(&actions, output[1], STDOUT_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // of its own, with its children
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // its own group, with its children
   posix_spawnattr_setpgroup(&attributes, 0);
   std::vector<char*> arguments;
   for (std::string& word : command_) arguments.push_back(word.data());
@@ -99,7 +99,7 @@ void ExternalProcess::stop(double patience) {
   pid_t ended = 0;
   while ((ended = waitpid(process_, &status_, WNOHANG)) == 0 && now_s() < until_s)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  kill(-process_, SIGKILL);  // what it started and left behind, too
+  kill(-process_, SIGKILL);  // and processes that it started and left behind
   while (ended == 0 && waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
   }
   process_ = 0;

@@ -35,9 +35,9 @@ class ExternalProcess {
   double timeout_s_;
   pid_t process_ = 0;  // 0: none
   int in_ = -1, out_ = -1;
-  std::string heard_;      // of its output, what follows the last whole line
+  std::string heard_;      // output after the last complete line
   bool answered_ = false;  // since its start
-  int status_ = 0;         // of the one that ended last
+  int status_ = 0;         // status of the last ended process
 };
 
 }  // namespace lightgrid

@@ -248,7 +248,7 @@ class FamilySweep {
   const Timer timer_;
   GpuScene gpu_;
   std::vector<float> depth_;
-  Truths truths_[2];  // of OpenGL's surfaces, of the rasterizer's in OpenCL
+  Truths truths_[2];  // for OpenGL's surfaces, and for the rasterizer's in OpenCL
   double exposure_ev_ = 0;
   std::map<std::string, std::string> too_slow_;  // by series and label: why
 };

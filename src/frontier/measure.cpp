@@ -365,7 +365,7 @@ class SceneSweep {
   ExportedScene exported_;  // without a name: not yet
   std::optional<PointRun> baseline_;
   double growth_round_s_ = 0, baseline_s_ = 0, step_began_s_ = 0, sequences_s_ = 0;
-  std::string steps_;  // what took how long
+  std::string steps_;  // durations of the steps
   int used_views_ = 0, whole_views_ = 0;
 };
 

@@ -68,6 +68,6 @@ void export_with_truths(Renderer& renderer, const SceneChoice& choice, const Fro
 
 // The machine that a part is measured on.
 FrontierMachine machine_of(const Renderer& renderer);
-double load_average();  // of the last minute; 0: unknown
+double load_average();  // mean of the last minute; 0: unknown
 
 }  // namespace lightgrid

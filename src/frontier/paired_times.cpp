@@ -28,8 +28,8 @@ double deviation_of(std::span<const double> values) {
 
 struct Location {
   double mean = 0;
-  std::vector<double> influences;  // of each value on the mean, times their number; they add up to 0
-  int dof = 0;                     // of the mean's variance
+  std::vector<double> influences;  // each value's influence on the mean, times their number; they add up to 0
+  int dof = 0;                     // degrees of freedom of the mean's variance
 };
 
 Location trimmed_mean(std::span<const double> values, double share = trimmed_share) {
@@ -143,7 +143,7 @@ class Normals {
 // The data of a point that draws need.
 struct Drawn {
   Location location;
-  std::vector<size_t> blocks;  // of multipliers
+  std::vector<size_t> blocks;  // blocks of multipliers
   std::optional<Modes> modes;
 };
 

@@ -33,7 +33,7 @@ struct TimeBlock {
 
 // Logarithms of a single time over single ones of the baseline, as many in each round, by the round in which
 // all were taken: entry k of all rounds is a series.
-inline constexpr int baseline_runs = 3;  // of a round that count
+inline constexpr int baseline_runs = 3;  // baseline runs per round that count
 // Fewer rounds give no interval, no probability and no percentile: Student's t of three has two degrees of
 // freedom. Points far from the front are timed in this many.
 inline constexpr int min_rounds = 3;

@@ -31,7 +31,7 @@ uint64_t hash_of(const Image& image) {
 }
 
 constexpr int most_reduction = 8;
-constexpr float fine_quality = 85, coarse_quality = 60;  // of WebP
+constexpr float fine_quality = 85, coarse_quality = 60;  // WebP quality
 
 struct RgbPicture {
   int width = 0, height = 0;

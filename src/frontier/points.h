@@ -116,7 +116,7 @@ class PointRun {
 
   std::unique_ptr<ExternalProcess> external_;
   ExportedScene exported_;
-  View view_;  // of another renderer
+  View view_;  // for another renderer
   double asked_ms_ = 0;
 };
 

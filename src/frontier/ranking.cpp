@@ -15,7 +15,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr double most_off = 0.01;  // of a control
+constexpr double most_off = 0.01;  // largest deviation of a control
 constexpr int draws_of_a_scene = 2000;
 constexpr double unranked = std::numeric_limits<double>::quiet_NaN();
 
@@ -167,7 +167,7 @@ std::vector<FrontBand> front_bands_of(const std::vector<PointFigures>& points,
 }
 
 std::vector<FrontierRecord> by_device_clock(std::vector<FrontierRecord> records) {
-  const auto key_of = [](const FrontierRecord& r) {  // of all views
+  const auto key_of = [](const FrontierRecord& r) {  // one key for all views
     return fmt::format("{}\n{}\n{}", r.shard, r.series, point_key(r.point));
   };
   std::set<std::string> unknown;

@@ -30,7 +30,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr size_t max_line_bytes = size_t(64) << 20;  // a thousand views of a thousand runs take 40 million
-constexpr int max_depth = 8;                         // of a line
+constexpr int max_depth = 8;                         // depth of a line's JSON
 constexpr char first_key[] = "lightgrid_frontier";
 
 std::string first_text() { return fmt::format("{{\"{}\":1,", first_key); }

@@ -22,7 +22,7 @@ struct FrontierPoint {
   std::string scene;      // as given: a path or a built-in name
   std::string technique;  // its name
   std::map<std::string, std::string>
-      settings;       // those that it reads, all of them, by the keys of results.json
+      settings;       // all of the settings that it reads, by the keys of results.json
   std::string label;  // "forward_plus:tile=8": what differs from the defaults
   int frames = 1;     // averaged frames, each with other random numbers; 1: not averaged
 };
@@ -39,14 +39,14 @@ struct SampledErrors {
 // Against every light with the range that the sweep's settings give it, over that picture's brightest
 // channel.
 struct AuthoredErrors {
-  ImageError model;  // what the settings mean
+  ImageError model;  // the meaning of the settings
   ImageError total;  // the picture
 };
 
 // The spread of random ranges and lists over independent pictures, of which errors are means.
 struct SeedErrors {
   int pictures = 0, flip_pictures = 0;              // and of them those of which FLIP was measured
-  ImageError deviation;                             // of each measure of the total from picture to picture
+  ImageError deviation;                             // per measure of the total, from picture to picture
   double bias_mse_rel = 0, bias_mse_rel_error = 0;  // over the brightest channel squared (BiasOfPictures)
 };
 
@@ -70,13 +70,13 @@ struct SequenceErrors {
 // light, no range window.
 struct PointErrors {
   // `displayed`: of model and total.
-  ImageError model;  // what the settings mean (range, window, BRDF) against the truth, both by brute force
+  ImageError model;  // the settings' meaning (range, window, BRDF) against the truth, both by brute force
   ImageError precision;  // brute force in float against the oracle in double, at a sample of pixels
   ImageError technique;  // the picture against brute force of the same meaning
   ImageError total;      // the picture against the truth
   std::optional<SampledErrors> in_double;  // the same against the truth in double, at a sample of pixels
   std::optional<AuthoredErrors> authored;  // where the truth's lights have no ranges and those of settings do
-  std::optional<SeedErrors> seeds;         // of random points; total and authored are then means over them
+  std::optional<SeedErrors> seeds;         // for random points; total and authored are then means over them
   // For these points, root mean squares over pixels, relative like the others: of the expected picture's
   // error (random ranges: against the truth; lists: against what the settings mean), 0 where it is not above
   // the noise, and of the standard deviation of one frame.
@@ -84,7 +84,7 @@ struct PointErrors {
   // Flicker: how much the picture's difference from the truth changes from frame to frame while the camera
   // turns by a quarter of a degree a frame; root mean square over pixels and frames.
   std::optional<double> temporal_rmse_rel;
-  std::optional<SequenceErrors> sequences;  // of the first view, where they were asked for
+  std::optional<SequenceErrors> sequences;  // for the first view, where requested
   // For points with surfaces of their own: the truth on these against the truth on OpenGL's, of the same
   // view. Smaller errors do not compare such points with those that draw with OpenGL. Empty: there is one
   // truth for both, of areas, or no OpenGL.
@@ -94,17 +94,17 @@ struct PointErrors {
 // The lights of a truth that is not the usual one of every light without a range (docs/frontier.md#shadows),
 // or the mean over pixels' areas (docs/frontier.md#samples).
 struct FrontierTruth {
-  bool own_ranges = false;  // those of the sweep's settings
+  bool own_ranges = false;  // the ranges of the sweep's settings
   double source_m = 0;      // lights that cast are spheres of this radius, in metres; 0: points
   int shadow_rays = 1;      // for each pixel and light that casts
-  std::optional<int> places{};  // of each pixel's area, whose mean it is; empty: pixels' centres
+  std::optional<int> places{};  // places per pixel, whose area's mean it is; empty: pixels' centres
 
   bool operator==(const FrontierTruth&) const = default;
 };
 
 // A point of another renderer (frontier/external.h).
 struct ExternalPoint {
-  std::string note;    // what its author says of it
+  std::string note;    // its author's note
   bool paired = true;  // timed in the rounds, beside the baseline; otherwise by its author, elsewhere
 
   bool operator==(const ExternalPoint&) const = default;
@@ -114,8 +114,8 @@ struct FrontierRecord {
   FrontierPoint point;
   int view = 0;               // index on the scene's path
   int width = 0, height = 0;  // pixels
-  int lights = 0;             // of the scene
-  double radius_scale = 1;    // of the lights' ranges, in the series "radius"
+  int lights = 0;             // lights in the scene
+  double radius_scale = 1;    // scale of the lights' ranges, in the series "radius"
   // Empty: a point of the front; "lights", "pixels", "radius": of a growth curve; "equal overlap", "overlap":
   // of a family of lights (families.h); "control 0", "control 1", …: the baseline, timed as a point.
   std::string series;
@@ -128,10 +128,10 @@ struct FrontierRecord {
   std::optional<ExternalPoint> external;
 
   std::string refused;                        // why it did not run; the fields below are then empty
-  std::vector<double> frame_ms, baseline_ms;  // of equal length; entry i of both ran one after the other
+  std::vector<double> frame_ms, baseline_ms;  // equal length; entry i of both ran one after the other
   // By the devices' own clocks (DeviceTimes), of the same runs; empty, or fewer, where a device has none.
   std::vector<double> device_ms, hand_over_ms, copy_ms, read_back_ms, baseline_device_ms;
-  std::vector<int> processes;                 // of each run: the number of the process that took it, from 0
+  std::vector<int> processes;                 // for each run: the number of the process that took it, from 0
   std::map<std::string, double> pass_ms;      // medians of profiled frames
   std::map<std::string, uint64_t> pass_bytes;  // read and written, where counted; of the same passes
   // Times of culling, one a round: entry i of points that differ in the cull test alone was taken in one
@@ -144,7 +144,7 @@ struct FrontierRecord {
   uint64_t nan_pixels = 0, overflow = 0;
   PointErrors errors;
   std::optional<FlipExposures> flip;  // with which errors.total.flip_mean was measured
-  std::optional<double> exposure_ev;  // of the scene's pictures, with which displayed FLIP was measured
+  std::optional<double> exposure_ev;  // the scene's pictures have it, and displayed FLIP
   std::string image;  // name of its picture among the part's pictures, without extension; empty: none
   // The shard of the part that holds it, set by RecordFile and read_part: its times are of that machine.
   // Times that are not paired belong to no round: they have their own number, unpaired_shard or more.
@@ -158,9 +158,9 @@ struct FrontierMachine {
   std::string cl_kind;                        // "CPU" or "GPU"; empty: unknown
   std::string picture = "float";              // that timed frames end with, as the setting has it
   double clock_mhz = 0;                       // at the start; 0: unknown
-  int threads = 0;                            // of the OpenCL device: compute units
+  int threads = 0;                            // compute units of the OpenCL device
   double load_at_start = 0, load_at_end = 0;  // the system's one-minute load average
-  int shard = 0;                              // of the part that it measured, set by RecordFile and read_part
+  int shard = 0;                              // the measuring part's, set by RecordFile and read_part
 };
 
 inline constexpr int unpaired_shard = 1'000'000;

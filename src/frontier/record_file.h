@@ -19,7 +19,7 @@ namespace lightgrid {
 
 class JsonFields;
 
-using Notice = std::function<void(const std::string&)>;  // of one line; null: nobody reads it
+using Notice = std::function<void(const std::string&)>;  // receives one line; null: nobody reads it
 
 // 16 hexadecimal digits: FNV-1a (Fowler, Noll, Vo 1991), 64 bits. Records and requests are found again by it.
 std::string content_hash(const std::string& text);
@@ -44,9 +44,9 @@ std::filesystem::path part_path(const std::filesystem::path& folder, int shard, 
 struct PartLines {
   FrontierPart part;                           // its records: those that are complete
   bool described = false;                      // the first line was read
-  std::set<std::string> keys;                  // of the complete records
+  std::set<std::string> keys;                  // keys of the complete records
   std::map<std::string, FrontierRecord> open;  // by key: figures whose times are being measured
-  uintmax_t whole_bytes = 0;                   // of the complete lines
+  uintmax_t whole_bytes = 0;                   // bytes of the complete lines
   bool half_line = false;
 
   // Throws Error(input). `place`: for notices, "FILE: line 7".
@@ -68,7 +68,7 @@ struct TimeOfRecord {
   std::string key;
   double frame_ms = 0, baseline_ms = 0;
   std::string refused;  // why the point did not run; the times then do not count
-  std::optional<DeviceTimes> device = {};  // of the same frame
+  std::optional<DeviceTimes> device = {};  // times of the same frame
   double baseline_device_ms = 0;
 };
 
@@ -95,8 +95,8 @@ class RecordFile {
   // is complete. All of these throw as append() does, and are whole or not there after a kill. Keys:
   // record_key of open records.
   void begin(const FrontierRecord& record);
-  void add_times(const std::vector<TimeOfRecord>& times);     // of a round; the first begins a process
-  void add_conditions(const FrontierConditions& conditions);  // of the round before, of this process
+  void add_times(const std::vector<TimeOfRecord>& times);     // times of a round; the first begins a process
+  void add_conditions(const FrontierConditions& conditions);  // conditions in this process's last round
   void add_cull_times(const std::map<std::string, double>& times_ms);  // likewise
   void complete(const std::vector<std::string>& keys);
   const std::map<std::string, FrontierRecord>& open_records() const { return lines_.open; }

@@ -38,7 +38,7 @@ std::vector<double> ratios_of(const MeasuredPoint& point) {
 }
 
 constexpr size_t least_cull_rounds = 6, most_cull_rounds = 12;
-constexpr double share_of_cull_rounds = 0.1;  // of the time that is left
+constexpr double share_of_cull_rounds = 0.1;  // share of the remaining time
 
 // The points that another one differs from in the cull test alone.
 std::vector<MeasuredPoint*> with_partner(std::vector<MeasuredPoint>& points) {
@@ -68,14 +68,14 @@ double culling_ms(PointRun& point) {
 }
 
 constexpr int growth_rounds = 4;
-constexpr int middle_lights = 512;  // of the series of lights, which has their ranges if it keeps ranges
+constexpr int middle_lights = 512;  // in the series of lights, which has their ranges if it keeps ranges
 
 // A variant of the scene, by one of its three sizes.
 struct Variant {
   const char* series;
   int lights = -1;    // scattered; -1: the scene's own
-  double side = 1;    // of the image's sides
-  double radius = 1;  // of the lights' ranges
+  double side = 1;    // scale of the image's sides
+  double radius = 1;  // scale of the lights' ranges
 };
 
 // Five of each series, the ends and the middle first, since the time may not suffice for all.
@@ -151,7 +151,7 @@ int TimeRounds::run() {
         (job.processes > 1 ? point.rounds() : 0) + (slow_rounds + job.processes - 1) / job.processes;
   ConditionsReader conditions;
   double longest_s = 0;
-  int precise = 0;  // of the latest rounds, those after which the controls were
+  int precise = 0;  // number of latest rounds after which the controls were precise
   for (bool warm_up = true; done < most; warm_up = false) {
     const double before = timer.elapsed_ms() / 1000;
     if (done > before_this && before + longest_s > until_s) break;

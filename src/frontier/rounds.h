@@ -22,14 +22,14 @@ struct MeasuredPoint {
   int rounds() const { return int(records.front().frame_ms.size()); }
 };
 
-constexpr int slow_rounds = min_rounds;  // of slow points
+constexpr int slow_rounds = min_rounds;  // for slow points
 // Rounds end when the controls were precise after this many in a row. With one, rounds would end where times
 // happen to look quiet, and fewer intervals would hold the truth.
 constexpr int precise_rounds = 3;
 
 struct FrameTimes {
   double ms = 0;
-  std::optional<DeviceTimes> device;  // of the same frame
+  std::optional<DeviceTimes> device;  // times of the same frame
 };
 
 // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round.
@@ -39,8 +39,8 @@ struct FrameTimes {
 // round does not count: drivers compile in it what they dropped.
 struct TimeRounds {
   const FrontierJob& job;
-  const Timer& timer;  // of the scene
-  double until_s;      // of `timer`: a round that would end later is not begun
+  const Timer& timer;  // started with the scene
+  double until_s;      // end by `timer`: a round that would end later is not begun
   std::span<const View> views;
   std::vector<MeasuredPoint>& points;  // whose first records are of `views`
   PointRun& baseline;

@@ -83,7 +83,7 @@ std::vector<bool> pareto_front(std::span<const std::pair<double, double>> points
 double student_t_quantile(double p, int dof) {
   if (dof < 1 || !(p > 0 && p < 1)) return p == 0.5 ? 0 : p < 0.5 ? -infinity : infinity;
   if (p < 0.5) return -student_t_quantile(1 - p, dof);
-  double low = 0, high = std::numbers::pi / 2;  // of the angle
+  double low = 0, high = std::numbers::pi / 2;  // bounds of the angle
   for (int step = 0; step < 100; ++step) {
     const double middle = 0.5 * (low + high);
     (central_probability(middle, dof) < 2 * p - 1 ? low : high) = middle;

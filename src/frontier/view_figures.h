@@ -38,7 +38,7 @@ class ViewFigures {
     const Image* truth = nullptr;
     double brightest = 0;  // channel; one for both kinds of surfaces, since a highlight of one pixel makes it
     std::optional<ShownReference> shown;
-    std::map<const Image*, ImageError> of_brute_force = {};  // of its pictures
+    std::map<const Image*, ImageError> of_brute_force = {};  // errors of its pictures
     Reference(const Image& image, double brightest_channel, const Exposure& exposure);
     ImageError error_of(const Image& image, bool with_flip = true) const;
     const ImageError& error_of_brute_force(const Image& kept);
@@ -47,13 +47,13 @@ class ViewFigures {
   struct Truths {
     Truths(Renderer& renderer, GpuScene& gpu, const FrontierJob& job, bool own_surfaces);
     BruteForce brute;
-    std::vector<BruteForce> turned;  // of the later frames of a slow turn
+    std::vector<BruteForce> turned;  // for the later frames of a slow turn
     std::optional<HdrFlip> flip;
     std::optional<Reference> reference, authored;
-    std::map<const Image*, double> flicker;  // of pictures of brute force
+    std::map<const Image*, double> flicker;  // flicker of brute force's pictures
     std::optional<ImageError> surfaces;      // as in PointErrors; of OpenGL's none
     void look(const View& view, const std::vector<View>& turn);
-    void take_truths(Truths& of_areas, size_t frames);  // of a turn
+    void take_truths(Truths& of_areas, size_t frames);  // frames of a turn
   };
   Truths& truths_of(const ChosenPoint& point);
   void refer(Truths& truths);

@@ -98,7 +98,7 @@ void assign_bindings(GLuint program, const std::string& files) {
     GLenum type = 0;
     glGetActiveUniform(program, i, longest_name, nullptr, &count, &type, text);
     if (!is_sampler(type)) continue;
-    const std::string name = std::string(text).substr(0, std::string_view(text).find('['));  // of an array
+    const std::string name = std::string(text).substr(0, std::string_view(text).find('['));
     std::vector<GLint> taken(size_t(count),
                              GLint(number_of(listed_samplers, input_units, files, "sampler", name)));
     std::iota(taken.begin(), taken.end(), taken[0]);

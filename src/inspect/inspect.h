@@ -46,11 +46,11 @@ struct LightVerdict {
   double distance_m = 0;  // from the pixel's surface
   bool listed = false;
   std::string test;     // among the tests in use: the one that dropped it, or the one with the least margin
-  double margin_m = 0;  // of that test
+  double margin_m = 0;  // margin of that test
   TestMargins margins;
   bool touches = false;                 // some point of the convex cell may be lit, cone included
   bool lit = false;                     // by the oracle, at this pixel
-  int lit_pixels = 0;                   // of the cell
+  int lit_pixels = 0;                   // lit pixels of the cell
   std::optional<ShadowVerdict> shadow;  // by add_shadows
 };
 
@@ -61,8 +61,8 @@ struct PixelInspection {
   bool covered = false;   // shows a surface
   int cell_x = 0, cell_y = 0, slice = 0;
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // the tile's pixels, end exclusive
-  double near_m = 0, far_m = 0;        // of the cell; near > far if none of its pixels shows a surface
-  int covered_pixels = 0;              // of the cell
+  double near_m = 0, far_m = 0;        // bounds of the cell; near > far if none of its pixels shows a surface
+  int covered_pixels = 0;              // covered pixels of the cell
   int directional = 0;                 // directional lights: they reach every pixel and are in no list
   std::vector<LightVerdict> lights;    // listed ones by index, then dropped ones, nearest to the cell first
   std::vector<DirectionalShadow> directional_shadows;  // by add_shadows

@@ -9,7 +9,7 @@ namespace lightgrid {
 // In the memory of Work::shadows (shared/shadow_bits.h).
 struct BlendedLayers {
   std::vector<cl::Buffer> numbers, depths;  // as a VisibilityBuffer has them: an image a layer
-  std::vector<std::pair<uint32_t, int>> first_numbers;  // of a blended instance of the scene
+  std::vector<std::pair<uint32_t, int>> first_numbers;  // first number of each blended instance of the scene
   size_t bytes = 0;
 };
 

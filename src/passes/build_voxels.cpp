@@ -18,7 +18,7 @@ namespace {
 
 constexpr float largest_float_voxel = 1e15f;  // LARGEST_VOXEL of kernels/voxels/voxel_light.h
 constexpr float largest_half_voxel = 6e4f;
-constexpr float brightest_half = 1024;  // what the brightest light is stored as, at most: room for sums
+constexpr float brightest_half = 1024;  // the brightest light's largest stored value: room for sums
 
 }  // namespace
 

@@ -12,8 +12,8 @@ struct VoxelVolume {
   SharedBuffer* irradiance = nullptr;
   SharedBuffer* directions = nullptr;
   cl::Buffer lookup;           // VoxelLookup
-  std::string kernel_defines;  // of kernels that read it
-  size_t bytes = 0;            // of both
+  std::string kernel_defines;  // defines of kernels that read it
+  size_t bytes = 0;            // bytes of both
 };
 
 // Places the volume around what is visible, and adds up the lights at its samples. Deterministic: a sample is

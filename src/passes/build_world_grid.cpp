@@ -28,7 +28,7 @@ class ViewOfWorldGrid : public PassCache {
   }
 
   std::shared_ptr<SharedWorldGrid> grid;
-  std::vector<CullLight> lights;  // of the last build, for their memory
+  std::vector<CullLight> lights;  // lights of the last build, for their memory
   WorldViewParams params{};
   UploadedBuffer in_cl;
   GlBuffer in_gl;

@@ -188,7 +188,7 @@ class ListCaps : public PassCache {
   std::string defines_;
   PassKernels sampling_;
   UploadedBuffer lights_, edges_, params_;
-  UploadedBuffer nodes_, leaves_, eye_;  // of the light tree
+  UploadedBuffer nodes_, leaves_, eye_;  // buffers of the light tree
   size_t leaf_count_ = 0;
   int tree_of_ = 0;  // the version of its lights
   bool stale_ = true;

@@ -11,7 +11,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t run_pixels = 4096, item_pixels = 16, group = 64;  // of kernels/resolve/*/find_edges.cl
+constexpr size_t run_pixels = 4096, item_pixels = 16, group = 64;  // sizes of kernels/resolve/*/find_edges.cl
 
 }  // namespace
 

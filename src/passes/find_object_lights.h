@@ -25,7 +25,7 @@ class LightReach {
  private:
   glm::dvec3 position_, direction_;
   double radius_;
-  double cos_, sin_;  // of the cone's half-angle, widened
+  double cos_, sin_;  // the cone's half-angle, widened
   bool cone_;         // narrower than 90 degrees
 };
 
@@ -36,7 +36,7 @@ class ObjectLights : public PassCache {
     int instance;
     std::vector<uint32_t> clusters;             // clusters of the instance's mesh
     uint32_t first_light = 0, light_count = 0;  // range in lights, ascending
-    IndexRanges ranges;                         // of these clusters
+    IndexRanges ranges;                         // index ranges of these clusters
   };
 
   explicit ObjectLights(Work&) {}

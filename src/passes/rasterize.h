@@ -13,12 +13,12 @@ namespace lightgrid {
 // buffers: until the view's next rasterize().
 struct VisibilityBuffer {
   Visibility image;
-  std::optional<PixelSurfaces> pixels;  // of several samples a pixel
+  std::optional<PixelSurfaces> pixels;  // with several samples per pixel
   RasterBuffers raster;
   cl::Buffer surfaces;             // SurfaceInstance each, in the order of raster.instances
-  std::span<const int> instances;  // of the scene, in the same order
+  std::span<const int> instances;  // numbers in the scene, in the same order
 
-  DepthBuffer depth() const { return {image.depth}; }  // of samples
+  DepthBuffer depth() const { return {image.depth}; }  // depth of samples
   // The depth of pixels. Edge pixels have none.
   DepthBuffer pixel_depth() const { return {pixels ? pixels->depths : image.depth}; }
   TriangleBuffer triangles() const { return {pixels ? pixels->triangles : image.triangle, instances}; }
@@ -32,7 +32,7 @@ struct BlendedTriangles {
   RasterLists lists;
   RasterBuffers raster;
   cl::Buffer surfaces;
-  std::span<const int> instances;  // of the scene
+  std::span<const int> instances;  // numbers in the scene
 };
 
 BlendedTriangles list_blended(Work& work, Cached<BlendedTriangleLists>& cache);

@@ -81,7 +81,7 @@ SurfaceImages read_gbuffer_surfaces(Work& work);
 // A triangle by what it connects and which way it turns, so that two drawings of a mesh in different orders
 // can be compared.
 struct SceneTriangle {
-  int instance = -1;  // of the scene; -1: nothing
+  int instance = -1;  // number in the scene; -1: nothing
   TriangleVertices vertices{};  // in its mesh
   auto operator<=>(const SceneTriangle&) const = default;
 };
@@ -93,7 +93,7 @@ inline SceneTriangle scene_triangle(int instance, const uint32_t* corners) {
 
 struct ShownTriangles {
   std::vector<SceneTriangle> opaque;  // a pixel each, row 0 at the bottom
-  std::vector<bool> blended;          // whether a blended surface lies over it
+  std::vector<bool> blended;          // true where a blended surface lies over it
 };
 
 // Draws and reads them. Uses the depth image of the last frame.

@@ -82,7 +82,7 @@ class Resolver : public PassCache {
     kernel.launch(*work.renderer.cl, label, items, group, arguments);
   }
 
-  SharedBuffer& image;  // of the view's targets
+  SharedBuffer& image;  // one of the view's targets
 
  private:
   // Material code by what the scene has, not the view: a camera that turns compiles nothing.
@@ -145,7 +145,7 @@ cl_float4 background(const Seen& seen) {
 
 // An output of the kernels (kernels/resolve/output.h), and what it reads and writes besides the scene.
 struct ResolveOutput {
-  const char* label;                    // of the pass
+  const char* label;                    // label of the pass
   std::string defines;                  // its OUTPUT_…, and what it takes
   ClArguments arguments;                // after RESOLVE_ARGUMENTS
   size_t bytes_read = 0, bytes_written = 0;

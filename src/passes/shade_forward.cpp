@@ -73,7 +73,7 @@ void limit_behind_opaque(Work& work) {
   for (const DrawItem& item : work.blended) {
     const int material = work.scene.meshes[work.scene.instances[item.instance].mesh].material;
     if (work.scene.materials[material].base_color.a < 1)
-      continue;  // of a factor of textures and vertex colours
+      continue;  // the factor of textures and vertex colours
     drawer.bind(item.instance, programs.of(work.plan.features_of_instance[item.instance]));
     drawer.draw(item.ranges);
   }

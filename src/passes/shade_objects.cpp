@@ -84,8 +84,8 @@ class ObjectDraws {
   const ObjectLights::Object& object_;
   InstanceDrawer& drawer_;
   PendingDraws& pending_;
-  const size_t indices_;  // of a draw
-  IndexRanges reversed_;  // of the object's ranges, computed at first use
+  const size_t indices_;  // indices of a draw
+  IndexRanges reversed_;  // reversed ranges of the object, computed at first use
   int alpha_ = 1;
 };
 

@@ -17,7 +17,7 @@ struct Surfaces {
   DepthBuffer depth;      // in OpenCL; null: only OpenGL has it so far
   bool numbered = false;  // find_shadows drew triangle numbers (shadows/triangle_numbers.h) in this frame
   std::optional<BlendedTriangles> blended;  // listed in OpenCL, where a pass before blending needed them
-  SharedBuffer* group_numbers = nullptr;    // of OpenGL's surfaces, in OpenCL; null: of none
+  SharedBuffer* group_numbers = nullptr;    // OpenGL's surfaces' numbers, in OpenCL; null: none
   std::optional<DepthBounds> bounds;
   std::optional<TileDistances> distances;
 };

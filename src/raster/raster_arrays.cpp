@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t most_indices = 0xffffffffu - 64;
 constexpr size_t most_triangles = 0x7fffffffu;  // kernels compare their numbers as signed ones
-constexpr double least_cosine = 0.1;            // of a cone: wider ones face away from next to nothing
+constexpr double least_cosine = 0.1;            // wider cones face away from next to nothing
 
 using Corners = std::array<glm::dvec3, 3>;
 
@@ -137,8 +137,8 @@ void check_instance_numbers(std::span<const RasterInstance> instances,
     throw machine_error("rasterizer: instances have 2^31 triangles or 2^32 vertices or more");
 }
 
-constexpr int levels = 10;                // of the curve: cells a side are 2 to the power of this
-constexpr size_t triangles_a_cell = 512;  // of the coarse cells: some clusters for each of six directions
+constexpr int levels = 10;                // levels of the curve: it has 2^levels cells per side
+constexpr size_t triangles_a_cell = 512;  // for the coarse cells: some clusters for each of six directions
 
 glm::dvec3 corner_of(const RasterMesh& mesh, size_t triangle, int k) {
   return mesh.positions[mesh.indices[3 * triangle + k]];

@@ -45,7 +45,7 @@ struct RasterScene::State {
   int version = 0;  // how often the meshes were set
   std::vector<RasterMeshPlace> places{};
   GrowingBuffer positions{}, indices{}, cluster_indices{}, cluster_triangles{},
-      clusters{};  // of RasterMeshes
+      clusters{};  // clusters of RasterMeshes
   RasterMasks masks{};
 };
 

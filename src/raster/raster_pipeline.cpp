@@ -15,7 +15,7 @@ namespace lightgrid {
 namespace {
 
 constexpr uint32_t chunks_a_unit = 8, most_chunks = 64;   // enough to share out evenly
-constexpr uint32_t most_tile_counts = uint32_t(1) << 24;  // of all chunks
+constexpr uint32_t most_tile_counts = uint32_t(1) << 24;  // over all chunks
 constexpr uint32_t clusters_an_item = 256;
 
 std::string alpha_masks(SampleMasks masks) {
@@ -160,7 +160,7 @@ class RasterCpuPipeline : public RasterPipeline {
 };
 
 constexpr size_t group_items = 64, groups_a_unit = 32;
-constexpr size_t image_group = 256;  // of kernels with little work a pixel: groups of 64 start too slowly
+constexpr size_t image_group = 256;  // for kernels with little work per pixel: groups of 64 start too slowly
 
 bool has_64_bit_atomics(ClDevice& device) {
   return device.device().getInfo<CL_DEVICE_EXTENSIONS>().find("cl_khr_int64_extended_atomics") !=

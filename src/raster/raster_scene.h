@@ -43,7 +43,7 @@ class RasterScene {
   // are null and others are not.
   void set_masks(const RasterMasks& masks);
 
-  size_t geometry_bytes() const;  // of positions and indices as given
+  size_t geometry_bytes() const;  // bytes of positions and indices as given
   size_t memory_bytes() const;    // on the device, without the masks'
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* uploading = "rasterizer: scene";
 constexpr uint32_t first_entries_a_tile = 64;
-constexpr uint64_t most_numbers = 0xffffffffu;  // of records or entries
+constexpr uint64_t most_numbers = 0xffffffffu;  // numbers of records or entries
 
 bool mirrors(const glm::dmat4& m) { return is_mirroring(glm::dmat3(m)); }
 
@@ -141,7 +141,7 @@ struct RasterView::State {
   ProgramCache& programs;
   const RasterOptions options;
   std::unique_ptr<RasterPipeline> pipeline;
-  int version = 0;  // of the scene, when the instances were set
+  int version = 0;  // version of the scene when the instances were set
   std::vector<RasterInstance> instances;
   int last_alpha_material = -1;
   std::optional<RasterCamera> camera;
@@ -155,7 +155,7 @@ struct RasterView::State {
   UploadedBuffer records, triangle_instance, runs, pair_list, frame, params_upload;
   cl::Buffer counters;
   bool masked = false;  // an instance that is drawn needs masks
-  bool image = true;    // what the last run was for
+  bool image = true;    // true if the last run drew an image
 };
 
 RasterView::RasterView(const RasterScene& scene, ProgramCache& programs, const RasterOptions& options)

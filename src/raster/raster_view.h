@@ -81,7 +81,7 @@ constexpr uint32_t no_triangle = 0xffffffffu;
 
 // The view's own buffers, written again by the next draw(), of grid.values() values in PixelGrid's order.
 struct Visibility {
-  static constexpr size_t spare_pixels = 16;  // of depth, that kernels may read past its end
+  static constexpr size_t spare_pixels = 16;  // depth values that kernels may read past its end
   // A sample: uint, the nearest triangle's number, or no_triangle; float, reversed z / w of clip_from_view, 0
   // where no triangle is: DepthInput::values.
   cl::Buffer triangle, depth;
@@ -104,7 +104,7 @@ struct RasterOptions {
   bool cluster_cones = true;                   // leaves out clusters that face away
   bool wide_atomics = true;    // group shape: false uses 32-bit atomics, in two passes; the same bytes
   bool drawing_order = false;  // for list(): triangles in drawing order; by the lanes shape on any device
-  SampleMasks masks = SampleMasks::centre;  // of several samples a pixel
+  SampleMasks masks = SampleMasks::centre;  // with several samples per pixel
 };
 
 // The triangles of each tile of RASTER_TILE x RASTER_TILE pixels (shared/raster_params.h), for passes that
@@ -117,8 +117,8 @@ struct RasterLists {
 
 // The counts of the last draw().
 struct RasterCounts {
-  uint64_t triangles = 0;          // of all drawn instances
-  uint64_t clusters = 0;           // of up to 64 triangles, that may be in view
+  uint64_t triangles = 0;          // triangles of all drawn instances
+  uint64_t clusters = 0;           // clusters of up to 64 triangles that may be in view
   uint64_t records = 0;            // triangles, or parts that clipping left, that were rasterised
   uint64_t tile_entries = 0;       // pairs of a record and a tile of 64 x 64 pixels
   uint64_t invalid_triangles = 0;  // left out since a corner is not finite
@@ -157,7 +157,7 @@ class RasterView {
   RasterLists list();
 
   const RasterBuffers& buffers() const;  // null before set_instances
-  const RasterCounts& counts() const;    // of the last draw() or list()
+  const RasterCounts& counts() const;    // counts of the last draw() or list()
   size_t memory_bytes() const;           // on the device, without the scene's
 
  private:

@@ -24,7 +24,7 @@ constexpr double far_away = 1e17;       // the kernels' infinity is 1e18
 constexpr double farthest = 1e30;       // end of the boxes of endless cells, past all lights and surfaces
 constexpr double least_radius = 2e-18;  // metres, the least uploaded radius
 constexpr double gentle_slope = 2;      // up to this slope the exact test converges in its three Newton steps
-constexpr double endless_near = -1e12;  // of orthographic cells: the oracle's cones need a finite near
+constexpr double endless_near = -1e12;  // near of orthographic cells: the oracle's cones need a finite one
 
 double steepest_slope(const View& v) {
   return std::max({std::abs(view_x_of_pixel(v, 0)), std::abs(view_x_of_pixel(v, v.width)),

@@ -19,7 +19,7 @@ using glm::dvec3;
 constexpr double angle_slack = 1e-8;
 constexpr double radius_slack = 1e-9;
 constexpr double rounding =
-    1e-14;  // of coordinates: bounds the error of a stationary point, about ten operations
+    1e-14;  // relative to coordinates: bounds the error of a stationary point, about ten operations
 
 struct Plane {
   dvec3 normal;   // unit, into the cell

@@ -125,7 +125,7 @@ Occlusion::Met Occlusion::meet(int number, const RoundedPoint& light, const Roun
   const SignedVolume from = side_of_triangle(c[0], c[1], c[2], light),
                      to = side_of_triangle(c[0], c[1], c[2], end);
   if (from.sign() * to.sign() > 0) return {};
-  SignedVolume weights[3];  // of the corner that faces the edge
+  SignedVolume weights[3];  // weights of the corners, each with the edge that it faces
   int least = 1, most = -1, unsure = 0;
   Met met{.light_side = from.sign()};
   for (int k = 0; k < 3; ++k) {

@@ -18,8 +18,8 @@ namespace lightgrid {
 enum class Sight { seen, hidden, either };
 
 struct CastingTriangle {
-  int instance = -1;      // of the scene; -1: none
-  uint32_t triangle = 0;  // of its mesh
+  int instance = -1;      // number in the scene; -1: none
+  uint32_t triangle = 0;  // number in its mesh
   auto operator<=>(const CastingTriangle&) const = default;
 };
 
@@ -34,7 +34,7 @@ struct Receiver {
 
 struct SightAnswer {
   Sight sight = Sight::seen;
-  CastingTriangle by;     // of a hidden light: a triangle that hides it
+  CastingTriangle by;     // a triangle that hides the light, if it is hidden
   double distance_m = 0;  // from the light to where it does; of a directional light from the receiver
 };
 
@@ -78,9 +78,9 @@ class Occlusion {
   struct Met {
     Meeting meeting = Meeting::none;
     int of_edge = -1;
-    int light_side = 0;                      // of the plane
-    double share = 0;                        // of the segment, from the light to the plane
-    glm::dvec3 weights{1.0 / 3}, errors{1};  // of the corners, where the segment meets it
+    int light_side = 0;                      // the light's side of the plane
+    double share = 0;                        // share of the segment from the light to the plane
+    glm::dvec3 weights{1.0 / 3}, errors{1};  // weights of the corners where the segment meets it
   };
   Corners corners_of(const CastingTriangle& triangle) const;
   double beyond_all_m(const glm::dvec3& place) const;  // further from there than all triangles
@@ -100,9 +100,9 @@ class Occlusion {
   const Scene& scene_;
   BlendedCasters by_blended_;
   MaskCover masks_;
-  glm::dvec3 origin_;                           // of the rays
-  glm::dvec3 middle_{0};                        // of the box around the scene
-  double diagonal_m_ = 0, vertex_error_m_ = 0;  // of the box; the largest of a vertex
+  glm::dvec3 origin_;                           // origin of the rays
+  glm::dvec3 middle_{0};                        // middle of the box around the scene
+  double diagonal_m_ = 0, vertex_error_m_ = 0;  // diagonal of the box; largest error of a vertex
   std::vector<CastingTriangle> numbers_;
   std::vector<Corners> corners_;  // world, by number
   TriangleTree tree_;

@@ -18,7 +18,7 @@ inline constexpr int places_of_area = 256;
 glm::dvec2 place_of_area(int number);
 
 struct PixelArea {
-  glm::dvec3 radiance{0};  // of opaque surfaces and the background
+  glm::dvec3 radiance{0};  // radiance of opaque surfaces and the background
   // Its places see several surfaces, of which the background is one. Triangles of one instance that share an
   // edge by its vertices' numbers, and turn the same way on the screen, are one surface.
   bool at_edge = false;

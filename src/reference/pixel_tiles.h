@@ -27,7 +27,7 @@ std::vector<uint32_t> lights_within_reach(const std::vector<ViewLight>& lights,
 // The pixels of a 16 x 16 tile that are in `pixels`.
 struct TileOfPixels {
   std::vector<uint32_t> indices;      // in `pixels`
-  std::vector<glm::dvec3> positions;  // of these
+  std::vector<glm::dvec3> positions;  // positions of these
   std::vector<uint32_t> lights;       // lights_within_reach of the positions
 };
 

@@ -49,8 +49,8 @@ class TextureSampler {
 
 // A triangle in a view. In clip space corners that lie behind the eye need no clipping.
 struct TriangleInView {
-  int instance = 0;                    // of the scene
-  std::array<uint32_t, 3> vertices{};  // of its mesh, in the mesh's order
+  int instance = 0;                    // number in the scene
+  std::array<uint32_t, 3> vertices{};  // vertices of its mesh, in the mesh's order
   std::array<glm::dvec4, 3> corners{};
   // The determinant of the corners' x, y and w: above 0 if they appear counter-clockwise; 0: seen edge on.
   double turn() const;
@@ -61,7 +61,7 @@ class SceneSurfaces {
   // Both must outlive it.
   SceneSurfaces(const Scene& scene, const View& view) : scene_(scene), view_(view) {}
 
-  glm::ivec2 size() const { return {view_.width, view_.height}; }  // of the view, pixels
+  glm::ivec2 size() const { return {view_.width, view_.height}; }  // the view's size, pixels
 
   TriangleInView triangle(int instance, const std::array<uint32_t, 3>& vertices) const;
 

@@ -48,7 +48,7 @@ SeenPairs::SeenPairs(const Occlusion& occlusion, const ShownSurfaces& shown, con
     }
     const auto blocks = blocks_of(width, pixels, tile);
     std::vector<const Receiver*> asked;
-    std::vector<uint32_t> places;  // of these in the tile
+    std::vector<uint32_t> places;  // their places in the tile
     std::vector<SightAnswer> answers;
     for (const uint32_t light : in_range ? tile.lights : all) {
       if (!lights.casting[light]) continue;

@@ -24,9 +24,9 @@ struct Surface {
   double f90 = 1;
   double coat = 0, coat_roughness = 0;  // factor, 0: no coat; perceptual roughness, floored likewise
   glm::dvec3 coat_normal{0, 0, 1};      // as normal
-  glm::dvec3 subsurface_color{0};       // of skin (scene/material_model.h)
+  glm::dvec3 subsurface_color{0};       // only for skin (scene/material_model.h)
   double roll_off = 0, minnaert_k = 1;
-  uint32_t groups = all_groups;  // of lights that light it
+  uint32_t groups = all_groups;  // groups of lights that light it
 };
 
 // Reflected over incoming radiance, towards `to_eye` from `to_light` (both unit, view space), 1 / sr. Without

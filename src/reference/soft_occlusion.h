@@ -8,7 +8,7 @@ namespace lightgrid {
 
 struct HiddenShare {
   double share = 0;
-  double either = 0;  // of the rays, those whose answer turns on rounding: half of them count as hidden
+  double either = 0;  // share of the rays whose answer turns on rounding: half of them count as hidden
 };
 
 // The sphere is the disc of its radius around the light that faces the receiver. side * side rays, one to a

@@ -37,7 +37,7 @@ class TriangleDepth {
   struct Plane {
     Real at_x = 0, at_y = 0, depth = 0;
     Real right = 0, up = 0, right_bound = 0, up_bound = 0;
-    Real size = 0;  // of the depths that are rounded
+    Real size = 0;  // size of the depths that are rounded
   };
   enum class Shown { exact, snapped, either };
 
@@ -47,7 +47,7 @@ class TriangleDepth {
   DepthAt in_plane(const Plane& plane, const SnappedPoint& sample) const;
 
   glm::ivec2 box_low_, box_high_;  // the first and the last pixel whose centre the part may cover
-  Real least_ = 0, greatest_ = 0;  // of the triangle in view
+  Real least_ = 0, greatest_ = 0;  // depths of the triangle in view
   Plane exact_, snapped_;
   Shown shown_ = Shown::snapped;
 };

@@ -81,13 +81,13 @@ class TriangleTree {
   static constexpr int depth_limit = 64, most_in_leaf = 4;
   struct Node {
     WorldBox box{};
-    int first = 0, count = 0;  // of order_; without triangles the first of two nodes
+    int first = 0, count = 0;  // range in order_; without triangles the first of two nodes
   };
   static bool meets(const WorldBox& box, const glm::dvec3& from, const glm::dvec3& to, double reach);
 
   std::vector<Node> nodes_;
   std::vector<int> order_;
-  std::vector<WorldBox> boxes_;  // of triangles
+  std::vector<WorldBox> boxes_;  // boxes of triangles
 };
 
 }  // namespace lightgrid

@@ -11,7 +11,7 @@ namespace lightgrid {
 
 struct AgainstResult {
   std::vector<std::string> worse;  // one sentence each; empty: nothing is
-  std::vector<std::string> told;   // what was not compared, and why; no failure
+  std::vector<std::string> told;   // figures that were not compared, and why; no failure
 };
 
 // Throws Error(input) that names the file, if it is not a results.json of `compare`.

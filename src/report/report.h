@@ -26,7 +26,7 @@ struct ReportView {
   std::string verdict;
   std::vector<Choice> choices;
   std::vector<std::string> figures;
-  std::string folder;  // of its pictures, below the report's; empty for a single view
+  std::string folder;  // folder of its pictures, below the report's; empty for a single view
 };
 
 // Writes into `folder`, created if needed: ROW.png and .exr, ROW.difference.png (log scale, against the

@@ -37,7 +37,7 @@ struct LightDifference {
 // The input of the measures, for images of at least one pixel. Linear light.
 struct ImageDifference {
   size_t pixels = 0;
-  double largest = 0, percentile_99 = 0;  // of each pixel's largest absolute error of a colour channel
+  double largest = 0, percentile_99 = 0;  // each pixel's largest absolute error of a colour channel
   double sum_of_squares = 0;              // over all pixels and channels
   // The same of errors over the reference's channel, or over 1e-3 of `brightest` if that is more.
   double sum_of_relative_squares = 0;
@@ -54,7 +54,7 @@ double joined(const std::vector<double>& figures, OverViews how);
 
 struct ErrorMeasure {
   const char* key;             // in all files
-  const char* title;           // of the column in compare's page; empty: no column
+  const char* title;           // column title in compare's page; empty: no column
   const char* frontier_title;  // in the frontier's page; empty: no measure of the frontier
   double ImageError::*value;
   double (*of)(const ImageDifference& difference);  // infinite if undefined
@@ -65,7 +65,7 @@ struct ErrorMeasure {
 // Returns whether an error exceeds an earlier one by more than the rounding of another compiler or driver.
 inline bool grew(double error, double earlier) { return error > 1.001 * earlier + 1e-9; }
 
-std::span<const ErrorMeasure> error_measures();           // of compare
+std::span<const ErrorMeasure> error_measures();           // measures of compare
 std::span<const ErrorMeasure> frontier_error_measures();  // over the truth's brightest channel
 
 }  // namespace lightgrid

@@ -68,7 +68,7 @@ class FlickerMeter {
   bool filtered_;
   Image last_;
   int frames_ = 0, counted_ = 0, steps_ = 0;
-  DisplayedFlip error_;  // of the last frame
+  DisplayedFlip error_;  // error of the last frame
   SequenceFigures sums_;
 };
 

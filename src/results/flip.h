@@ -54,7 +54,7 @@ class HdrFlip {
  public:
   HdrFlip(const Image& reference, const FlipExposures& exposures,
           double pixels_per_degree = default_pixels_per_degree);
-  std::vector<float> map(const Image& test) const;  // of the reference's size
+  std::vector<float> map(const Image& test) const;  // `test` has the reference's size
 
  private:
   std::function<std::vector<float>(const Image& test, int exposure)> map_at_;
@@ -75,7 +75,7 @@ DisplayedFlip displayed_flip(const Image& image, const Image& reference, const E
 class ShownReference {
  public:
   ShownReference(const Image& reference, const Exposure& exposure);
-  DisplayedFlip flip_of(const Image& image) const;  // of the reference's size
+  DisplayedFlip flip_of(const Image& image) const;  // `image` has the reference's size
 
  private:
   std::function<DisplayedFlip(const Image& image)> flip_of_;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr size_t pixels_at_once = 4096;
-constexpr double least_channel = 1e-3;  // of the brightest: denominators of relative errors
+constexpr double least_channel = 1e-3;  // relative to the brightest: denominators of relative errors
 
 bool same_bits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
 
@@ -29,7 +29,7 @@ double channel_error(double a, double b) {
 
 // The sums of some pixels.
 struct Sums {
-  double luminance = 0, light = 0, reference_light = 0;  // of the reference, of all channels of either
+  double luminance = 0, light = 0, reference_light = 0;  // luminance: the reference's; light: in all channels
   double squares = 0, relative_squares = 0, largest = 0;
   Sums& operator+=(const Sums& other) {
     luminance += other.luminance, light += other.light, reference_light += other.reference_light;
@@ -77,7 +77,7 @@ ImageDifference difference_of(const Image& image, const ReferenceAt& reference_a
           .brightest = brightest};
 }
 
-constexpr double dim = 0.01;  // of the mean luminance: what relative errors of dark pixels are over
+constexpr double dim = 0.01;  // relative to mean luminance: least denominator for dark pixels
 constexpr size_t trimmed_one_of = 1000;
 constexpr int low_pass_px = 16;
 
@@ -319,7 +319,7 @@ void BiasOfPictures::add(const Image& image, const Image& truth) {
 // A U-statistic of the groups' means, and what it is without each of them in turn.
 BiasOfPictures::Estimate BiasOfPictures::estimate() const {
   assert(count_ >= groups && count_ % groups == 0);
-  double products[groups * groups] = {};  // of a and each b < a
+  double products[groups * groups] = {};  // products of a and each b < a
   parallel_for(groups * groups, [&](int pair) {
     const std::vector<glm::vec3>&a = errors_[pair / groups], &b = errors_[pair % groups];
     if (pair % groups >= pair / groups) return;

@@ -11,7 +11,7 @@ namespace lightgrid {
 
 struct SharedPlanChange {
   PlanChange change;
-  std::vector<size_t> rows;  // of the report, rising
+  std::vector<size_t> rows;  // the report's rows, rising
 };
 
 // The changes of rows with RunResult::moving, by frame, and within a frame as the first row has them.

@@ -12,7 +12,7 @@ namespace lightgrid {
 namespace {
 
 constexpr int steps = 254;
-constexpr double lowest_decade = -7;  // of the difference image: 1e-7
+constexpr double lowest_decade = -7;  // the difference image's lowest: 1e-7
 
 template <typename Colour>
 Ramp make_ramp(const Colour& colour_at) {

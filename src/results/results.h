@@ -18,7 +18,7 @@
 namespace lightgrid {
 
 struct KernelResult {
-  std::string name;  // of a kernel or a transfer
+  std::string name;  // name of a kernel or a transfer
   double median_ms = 0;
 };
 
@@ -27,14 +27,14 @@ struct PassResult {
   std::string on;  // "gl", "cl" or "cpu"
   double median_ms = 0;
   size_t bytes_read = 0, bytes_written = 0;  // counted from the pass's inputs and outputs, not measured
-  std::vector<KernelResult> kernels = {};    // of OpenCL passes, by the device's own clock
+  std::vector<KernelResult> kernels = {};    // kernels of OpenCL passes, by the device's own clock
 };
 
 // The frame's shadows at the same pairs, according to the oracle (docs/oracle.md#seen-and-hidden).
 struct ShadowPairs {
   uint64_t leaked = 0, acned = 0, either = 0;
   uint64_t pixels = 0;     // at which they were decided
-  uint64_t pairs = 0;      // of these pixels and lights that cast and are in range, directional ones too
+  uint64_t pairs = 0;      // pairs of these pixels and casting lights in range, directional ones too
   bool says_exact = true;  // the technique and its settings: leaked and acned must be 0
 
   ShadowPairs& operator+=(const ShadowPairs& other);
@@ -109,7 +109,7 @@ struct ImageError {
   double max_abs = 0;
   double max_rel = 0;  // max_abs relative to the reference's brightest channel
   double rmse = 0;
-  double p99 = 0;  // of each pixel's largest absolute error
+  double p99 = 0;  // 99th percentile of each pixel's largest absolute error
   std::optional<double> flip_mean;
   bool bit_identical = true;
   std::optional<OracleError> oracle;  // absent if not requested
@@ -163,7 +163,7 @@ struct SkippedEffect {
 // The work for shadows in the last frame, and the lights that cast but needed none.
 struct ShadowResult {
   struct Skipped {
-    int light = 0;  // of the scene
+    int light = 0;  // number in the scene
     std::string why;
   };
   size_t lights = 0;                                                         // whose shadows were found
@@ -171,7 +171,7 @@ struct ShadowResult {
   std::vector<Skipped> skipped;
   size_t bands = 0;      // as in ShadowFigures
   double dim_steps = 0;  // as in FramePlan
-  int halvings = 0;      // of all maps' sizes
+  int halvings = 0;      // halvings of all maps' sizes
 };
 
 // The last frame with several samples per pixel: as SampleFigures.
@@ -200,7 +200,7 @@ struct RunResult {
   std::string refused;  // why the machine or the technique cannot do this; empty if it ran
   std::map<std::string, std::string> settings;
   int lights_total = 0, lights_in_view = 0;
-  int lights_virtual = 0;  // of lights_total
+  int lights_virtual = 0;  // included in lights_total
   Spread frame_ms;
   std::vector<PassResult> passes;
   size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
@@ -269,14 +269,14 @@ struct OwnSurfaces {
 struct CompareReport {
   std::string scene;
   int width = 0, height = 0;
-  glm::vec3 ambient{0};  // of the scene
+  glm::vec3 ambient{0};  // the scene's
   std::string cl_device, gl_device, commit;
   std::string reference;  // the technique that the images are compared with: "forward", or with the setting
                           // that makes it one, "visibility:lights=all"
   uint64_t reference_pixels = 0;  // number of pixels compared: all, or a sample if all would take too long
   double brightest = 0;           // channel of the reference's image, which errors are relative to
   uint64_t covered_pixels = 0;    // with an opaque surface; 0 if not counted
-  std::optional<SurfacesError> reference_surfaces;  // of the reference's image, at the rows' pixels
+  std::optional<SurfacesError> reference_surfaces;  // errors of the reference's image, at the rows' pixels
   std::optional<OwnSurfaces> own_surfaces;          // absent if no row has such, and if the reference has
   std::vector<RunResult> rows;
   std::vector<Image> images;                  // one a row, linear; read with image_of
@@ -285,8 +285,8 @@ struct CompareReport {
   std::vector<uint32_t> lit;                  // per pixel, by the oracle; empty without one
   std::optional<ReferenceErrors> reference_errors;
   std::optional<PathMemory> path_memory;  // absent without a camera path
-  Exposure exposure;                      // of every picture of this view
-  std::vector<Warning> warnings;          // of this view, those of its scene included
+  Exposure exposure;                      // exposure of every picture of this view
+  std::vector<Warning> warnings;          // warnings of this view, those of its scene included
   // For views that differ in the number of lights: their common property, "range" or "overlap"; empty: a
   // single number. ranges_of: the number of scattered lights whose ranges all have; 0: ranges were given.
   std::string lights_kept;

@@ -6,7 +6,7 @@
 
 namespace lightgrid {
 
-inline constexpr double hidden_scale = 0x1p-40;  // of a hidden instance's matrix
+inline constexpr double hidden_scale = 0x1p-40;  // scale of a hidden instance's matrix
 
 inline bool is_hidden(const Instance& instance) {
   return glm::dmat3(instance.world_from_object) == glm::dmat3(hidden_scale);

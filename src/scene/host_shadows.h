@@ -21,7 +21,7 @@ struct HostShadows {
   std::vector<uint32_t> indices;
   std::vector<uint32_t> bits;   // `words` an entry of indices: the light, or more than half of it, is hidden
   std::vector<uint8_t> shares;  // the hidden share times 255, in the same order; empty: bits say all
-  bool local_alone = false;     // those of directional lights are elsewhere
+  bool local_alone = false;     // directional lights are stored elsewhere
   bool drops_hidden = false;    // a pixel's list lacks lights that are wholly hidden there
 };
 

@@ -121,7 +121,7 @@ CutoffEffect effect_of(double cutoff, const SampledIrradiance& sampled) {
     for (const double irradiance : at) {
       sum += irradiance;
       if (irradiance <= cutoff) continue;
-      const double squares = cutoff / irradiance;  // of distance over range
+      const double squares = cutoff / irradiance;  // square of distance over range
       ++reach, kept += irradiance * (1 - squares * squares);
     }
     share += sum > 0 ? kept / sum : 1;

@@ -25,7 +25,7 @@ struct LightRanges {
       0.01;  // irradiance at the range: brightest channel of the radiant intensity over distance^2
   double alpha =
       0.01;  // a light whose irradiance at a point is f reaches it with the probability min(f / alpha, 1)
-  uint32_t seed = 1;  // of the random ranges
+  uint32_t seed = 1;  // seed of the random ranges
   bool operator==(const LightRanges&) const = default;
 };
 

@@ -17,7 +17,7 @@ struct LightTree {
     glm::vec4 high{0};  // the other corner
   };
   std::vector<Node> nodes;       // the first is none
-  std::vector<uint32_t> lights;  // of leaves, by index
+  std::vector<uint32_t> lights;  // lights of the leaves, by index
 };
 
 // Halves are of equal number, along the longest side of the box, so that lights of a node are neighbours.

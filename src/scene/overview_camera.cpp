@@ -9,7 +9,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr double filled = 0.9;  // of the image's width or height
+constexpr double filled = 0.9;  // share of the image's width or height
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // An instance's mesh in a space that is turned as the view, with the scene's centre as its origin.

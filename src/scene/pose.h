@@ -11,7 +11,7 @@ namespace lightgrid {
 
 struct Pose {
   std::vector<glm::dmat4> world_from_node;     // one a node of the rig
-  std::map<int, std::vector<double>> weights;  // of the nodes whose morph weights are animated
+  std::map<int, std::vector<double>> weights;  // by node, where morph weights are animated
   std::vector<char> hidden;                    // one per node: it or a node above it is not visible
   std::map<std::pair<int, AnimatedPath>, std::vector<double>>
       lights;  // animated properties, by the file's light

@@ -7,7 +7,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t max_points = 1000;   // of each kind
+constexpr size_t max_points = 1000;   // for each kind
 constexpr double farthest_m = 0x1p50;  // parked there, to switch it off
 
 template <typename T, typename Place>

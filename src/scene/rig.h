@@ -45,7 +45,7 @@ inline bool is_of_light(AnimatedPath path) { return path >= AnimatedPath::color;
 
 // A light that is hidden or shown, or whose properties are animated.
 struct RigLight {
-  int light = 0;  // of the file
+  int light = 0;  // light number in the file
   Light rest;
 };
 enum class Interpolation { linear, step, cubic_spline };
@@ -64,7 +64,7 @@ struct AnimationChannel {
 
 struct Animation {
   std::string name;
-  std::vector<AnimationChannel> channels;  // those that move a node of this scene
+  std::vector<AnimationChannel> channels;  // channels that move a node of this scene
 };
 
 struct RigSkin {
@@ -80,7 +80,7 @@ struct MorphTarget {
 };
 
 struct SkinWeights {
-  int sets = 0;                    // of four joints a vertex; 0: not skinned
+  int sets = 0;                    // sets of four joints per vertex; 0: not skinned
   std::vector<glm::uvec4> joints;  // joints[vertex * sets + set], into RigSkin::joints
   std::vector<glm::vec4> weights;
 };
@@ -98,7 +98,7 @@ struct DeformingMesh {
   int weights_node = -1;             // the node with the morph weights; -1: base is already morphed
   std::vector<double> rest_weights;  // one a target, or none: all 0
   std::vector<MorphTarget> targets;
-  int skin = -1;  // of Rig::skins; -1: not skinned
+  int skin = -1;  // index into Rig::skins; -1: not skinned
   SkinWeights skin_weights;
   // A skinned mesh ignores the node that draws it, except that a negative determinant makes front faces
   // clockwise (glTF 2.0, section 3.7.4). Such a mesh is stored mirrored, in the space of winding_matrix.

@@ -79,7 +79,7 @@ glm::dvec3 level_direction(int i) {
 // that are hollow and wound inwards, as some files' animals, have a round bottom instead.
 bool has_level_floor(const std::vector<Corners>& triangles, const glm::dvec3& eye, double ground,
                      const std::array<double, directions>& distance) {
-  constexpr double near_wall = 0.9, tolerance = 0.25;  // of the distance, and of the eye's height
+  constexpr double near_wall = 0.9, tolerance = 0.25;  // relative to the distance, and to the eye's height
   const double height = eye.y - ground;
   int level = 0;
   for (int i = 0; i < directions; ++i) {

@@ -34,7 +34,7 @@ struct Mesh {
   std::vector<glm::vec4> colors;  // linear RGBA, multiplies base colour
   std::vector<uint32_t> indices;  // three a triangle, counter-clockwise front
   int material = 0;               // always valid: a default material is added if the file has none
-  Aabb bounds;                    // of positions
+  Aabb bounds;                    // bounds of the positions
   // Bounds on the longest edge of all triangles and of slivers. A sliver's height over its longest edge is
   // less than 1/16 of that edge.
   float longest_edge = std::numeric_limits<float>::infinity(), longest_sliver = longest_edge;
@@ -93,7 +93,7 @@ struct Material {
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
   bool unlit = false;   // KHR_materials_unlit
-  MaterialModel model;  // of the diffuse part; an unlit material has none
+  MaterialModel model;  // model of the diffuse part; an unlit material has none
 };
 
 // Reflectance of the dielectric part at normal incidence, without its strength, its maps and the limit of 1.
@@ -110,7 +110,7 @@ struct Instance {
   std::string name;  // the node's
   int mesh = 0;
   glm::dmat4 world_from_object{1};
-  int node = -1;             // of the rig, which moves it; -1: static
+  int node = -1;             // node of the rig that moves it; -1: static
   bool casts_shadow = true;  // false: hides no light, such as the surface of a lamp around its light
   uint32_t groups = all_groups;
 };
@@ -130,7 +130,7 @@ struct Light {
   float inner_cone_rad = 0;                                 // half-angles, 0 <= inner <= outer; only spots
   float outer_cone_rad = 0.78539816f;                       // equal: a hard edge
   bool casts_shadow = false;  // opaque and masked surfaces hide it from what lies behind them
-  int node = -1;              // of the rig, which moves it; -1: static
+  int node = -1;              // node of the rig that moves it; -1: static
   // A virtual point light (scene/virtual_lights.h): a spot that emits with the cosine from its direction, and
   // that counts as if it were no nearer than nearest_m.
   bool is_virtual = false;
@@ -161,7 +161,7 @@ struct Camera {
   double half_width_m = 1, half_height_m = 1;  // orthographic
   double near_m = 0.1;
   double far_m = std::numeric_limits<double>::infinity();
-  int node = -1;  // of the rig, which moves it; -1: static
+  int node = -1;  // node of the rig that moves it; -1: static
 };
 
 struct Rig;  // scene/rig.h
@@ -179,9 +179,9 @@ struct Scene {
   glm::vec3 ambient{0.02f};        // constant radiance from all sides; occlusion maps darken it
   glm::vec3 background{0};         // radiance without any surface
   int samples = 1;                 // a pixel, that it asks to be drawn with: 1, 2, 4 or 8 (docs/samples.md)
-  std::vector<std::string> group_names;  // of light groups, by number; empty: it has none
+  std::vector<std::string> group_names;  // names of light groups, by number; empty: it has none
   std::shared_ptr<const Rig> rig;  // moving parts; null: none. Copies of a scene share it
-  std::optional<double> time_s;    // of the pose, as last given to set_time; empty: at rest
+  std::optional<double> time_s;    // time of the pose, as last given to set_time; empty: at rest
   int animation = -1;              // the posed animation; -1: all animations
 };
 

@@ -49,9 +49,9 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
 // and all else that must find a light's surfaces start from it.
 struct LightBounds {
   glm::dvec3 position{0};                                     // in the light's space
-  double radius_m = std::numeric_limits<double>::infinity();  // of 0 or less: it reaches nothing
+  double radius_m = std::numeric_limits<double>::infinity();  // 0 or less: it reaches nothing
   glm::dvec3 direction{0, 0, -1};                             // the cone's axis, unit
-  double cos_outer = -1;                                      // of the cone's half-angle; -1: the whole ball
+  double cos_outer = -1;                                      // the cone's half-angle; -1: the complete ball
 
   bool has_cone() const { return cos_outer > -1; }
   // Shading rounds the cosine, by less than 10^-6. pi without a cone.

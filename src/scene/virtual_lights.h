@@ -32,15 +32,15 @@ std::vector<View> views_from(const Light& light, int side, double near_m);
 // A pixel of a light's view. All zero where nothing is reflected.
 struct ReflectedPixel {
   glm::vec3 flux{0};    // lumens, or what intensity has as its unit times sr: what its surface reflects
-  float area_m2 = 0;    // of the surface
-  glm::vec3 normal{0};  // of the triangle, unit, view space, towards the light
+  float area_m2 = 0;    // area of the surface
+  glm::vec3 normal{0};  // the triangle's: unit, view space, towards the light
   float ahead_m = 0;    // along the view's axis
 };
 
 struct ReflectedView {
   View view;
   std::vector<ReflectedPixel> pixels;  // row 0 at the bottom
-  uint32_t groups = all_groups;        // of the light: what it reflects lights the same instances
+  uint32_t groups = all_groups;        // the light's: its reflections light the same instances
 };
 
 // `count` lights, each with an equal part of the flux that all pixels reflect together (sum of its channels):

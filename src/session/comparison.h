@@ -13,7 +13,7 @@ namespace lightgrid {
 
 // Fields as in docs/command_line.md.
 struct CompareChoice {
-  SceneChoice scene;  // of all views, but for what follows
+  SceneChoice scene;  // for all views, except as follows
   // Every scene at every size with every number of lights; none: the scene's own.
   std::vector<std::string> scenes = {"hall"}, sizes = {"1280x720"}, lights;
   DeviceOptions devices;

@@ -11,7 +11,7 @@ namespace lightgrid {
 struct EdgeShare {
   int samples = 0;       // a pixel
   uint64_t pixels = 0;   // looked at
-  uint64_t edges = 0;    // of these, pixels whose samples see several surfaces or also the background
+  uint64_t edges = 0;    // pixels of these whose samples see several surfaces or also the background
   uint64_t covered = 0;  // samples that see a surface
   uint64_t shaded = 0;   // surfaces, each once a pixel
 

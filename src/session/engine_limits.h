@@ -47,8 +47,8 @@ struct EngineLimit {
   LimitCells cells;
   LimitReach reach;
   const char* source;        // URL
-  const char* not_verified;  // of what the check takes for granted; empty: nothing
-  const char* change;        // what to do about it
+  const char* not_verified;  // assumptions of the check; empty: none
+  const char* change;        // advice
 };
 
 // An engine's limits stand together, in the order in which it applies them.

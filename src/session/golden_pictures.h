@@ -29,7 +29,7 @@ struct GoldenPictures {
   const GoldenDifference& difference;
   const GoldenPixels& drawn;
   const std::optional<GoldenPixels>& recorded;
-  Exposure exposure;  // of both pictures
+  Exposure exposure;  // exposure of both pictures
 
   std::optional<DisplayedFlip> flip() const;  // between the two as PNG files show them
 

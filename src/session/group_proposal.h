@@ -7,7 +7,7 @@
 namespace lightgrid {
 
 struct ProposedGroup {
-  std::vector<int> lights;           // of the scene
+  std::vector<int> lights;           // numbers in the scene
   std::vector<std::string> exclude;  // nodes on which these lights are seen nowhere, and leak
   uint64_t leaked = 0;               // pairs that it takes away
 };

@@ -10,7 +10,7 @@
 namespace lightgrid {
 
 struct Leak {
-  int light = 0, instance = 0;  // of the scene: the light, and what hides it. Of several, any one
+  int light = 0, instance = 0;  // in the scene: the light, and one of the instances that hide it
   uint64_t pixels = 0;          // sampled ones, at which this is so
 };
 

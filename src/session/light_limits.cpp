@@ -58,7 +58,7 @@ struct LimitFrame {
   std::vector<LightBounds> in_world;
   Lights all, seen;  // directional lights are in `all`
   std::vector<SeenObject> objects;
-  std::vector<LightBox> view_boxes;  // of instances in view, in view space
+  std::vector<LightBox> view_boxes;  // instances in view, in view space
 
   LimitFrame(const Scene& scene, const View& view, const LightRanges& ranges, double range_factor)
       : scene(scene), view(view), in_view(lights_in_view(scene, view, ranges)) {

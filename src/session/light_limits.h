@@ -16,7 +16,7 @@ namespace lightgrid {
 // The place that has too many lights, or the most: a view, an object of it, or a cell.
 struct LimitPlace {
   size_t frame = 0;
-  int instance = -1;      // of a mesh: the object's first
+  int instance = -1;      // number of a mesh: the object's first
   glm::ivec3 cell{-1};    // from the left, the bottom and the near plane
   size_t counted = 0;     // lights; of pool, entries
   const char* kind = "";  // "points" or "spots", where they count apart
@@ -36,7 +36,7 @@ struct LimitResult {
   LimitPlace worst;                   // that with most lights, over the limit or not
   std::vector<LimitPlace> over;       // the worst place of each frame that has one
   std::vector<DroppedLight> dropped;  // by index
-  std::vector<int> lost;              // those that the view of the worst frame drops as a whole
+  std::vector<int> lost;              // lights that the view of the worst frame drops completely
 
   double holds_at = 0;  // how far ranges must shrink: a factor on all; 0: none that was tried
 
@@ -57,7 +57,7 @@ class LightCheck {
  private:
   LightRanges ranges_;
   double range_factor_;
-  std::vector<std::unordered_map<int, size_t>> numbers_;  // of each limit's dropped lights
+  std::vector<std::unordered_map<int, size_t>> numbers_;  // numbers of each limit's dropped lights
   std::vector<LimitResult> results_;  // their lights in the order in which they were dropped
   size_t frame_ = 0;
 };

@@ -23,8 +23,8 @@ struct ReferenceTriangles {
 struct SampledBy {
   bool own_surfaces = false;  // drawn in OpenCL
   int samples = 1;
-  SampleMasks masks = SampleMasks::centre;          // of one sample: at centres
-  SamplesResolve resolve = SamplesResolve::linear;  // of one sample: linear
+  SampleMasks masks = SampleMasks::centre;          // with one sample: centres
+  SamplesResolve resolve = SamplesResolve::linear;  // with one sample: linear
   auto operator<=>(const SampledBy&) const = default;
 };
 SampledBy sampled_by(bool own_surfaces, const Settings& settings);

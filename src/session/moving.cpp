@@ -16,7 +16,7 @@ namespace {
 // Everything is built by then.
 constexpr size_t frames_to_settle = 2;
 constexpr size_t frames_before = 2;
-constexpr int resting_frames = 2;                        // of each view
+constexpr int resting_frames = 2;                        // per view
 constexpr uint64_t most_shadow_pairs_a_frame = 200'000;  // that the oracle decides in a frame
 
 // One technique along the path.
@@ -24,13 +24,13 @@ struct Path {
   TechniqueRun* run;
   RunResult* row;
   std::vector<double> frame_ms, resting_ms;  // with look() and without, of the frames after frames_to_settle
-  std::vector<double> over_resting;          // of each of resting_ms
+  std::vector<double> over_resting;          // one entry for each of resting_ms
   std::vector<glm::vec3> difference;         // from the reference, in the last frame
   double flicker_sum = 0, flicker_max = 0;
   uint64_t flicker_count = 0;
   double error_sum = 0;
   uint64_t error_count = 0;
-  double brightest = 0;  // of the reference, over the path
+  double brightest = 0;  // the reference's brightest channel, over the path
   PathPlans plans;
   MovingResult result;
 };

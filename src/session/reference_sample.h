@@ -13,7 +13,7 @@ namespace lightgrid {
 // at once.
 struct PixelBlock {
   static constexpr int side = 4;
-  int x = 0, y = 0;  // of its lower left pixel, row 0 at the bottom
+  int x = 0, y = 0;  // its lower left pixel, row 0 at the bottom
 };
 
 // All blocks of an image in an order that depends on the seed alone: every prefix is a sample.

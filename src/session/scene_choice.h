@@ -46,7 +46,7 @@ struct SceneChoice {
   std::string files;         // that a glTF file may name: below its folder, or anywhere; empty: below
   std::string image_memory;  // that its decoded images may take: bytes, or with K, M or G; empty: by the machine
   int texture_size = 0;      // larger images are averaged down to this side; 0: to the largest that is drawn
-  std::string exposure;  // of pictures: stops, or auto; empty: auto for files, 0 for built-in scenes
+  std::string exposure;  // exposure of pictures: stops, or auto; empty: auto for files, 0 for built-in scenes
 };
 
 // The fields by their names, which command lines have as options and messages as their first word.
@@ -56,7 +56,7 @@ struct ChoiceField {
   const char* help;
   Of of;
   std::variant<std::string SceneChoice::*, int SceneChoice::*, uint64_t SceneChoice::*> value;
-  int most = 0;  // of an int, from 0
+  int most = 0;  // largest value of an int; least is 0
 };
 const std::vector<ChoiceField>& choice_fields();
 
@@ -129,7 +129,7 @@ struct LoadedView {
   View view;
   std::vector<Light> lights;
   glm::vec3 ambient;
-  std::vector<Warning> warnings;  // of the file, the lights and the camera
+  std::vector<Warning> warnings;  // warnings of the file, the lights and the camera
 
   // The scene with this view's lights.
   Scene& with_lights() const {

@@ -71,7 +71,7 @@ class TechniqueRun {
   const Technique& technique() const { return technique_; }
   bool limits_lists() const { return lightgrid::limits_lists(technique_, view_.plan.settings); }
   bool approximate() const { return is_approximate(technique_, view_.plan.settings); }
-  const std::vector<double>& frame_ms() const { return frame_ms_; }  // of recorded frames, in order
+  const std::vector<double>& frame_ms() const { return frame_ms_; }  // times of recorded frames, in order
 
   // All but `pairs` and `error`, which need the oracle and the reference image.
   RunResult result() const;

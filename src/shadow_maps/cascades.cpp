@@ -16,7 +16,7 @@ struct Sphere {
 // Around the part of the frustum between two distances: its size depends on them and on the projection alone.
 Sphere around_part(const View& view, double near_m, double far_m) {
   const double x = 1 / view.clip_from_view[0][0], y = 1 / view.clip_from_view[1][1];
-  const double slope = std::sqrt(x * x + y * y);  // of a corner
+  const double slope = std::sqrt(x * x + y * y);  // slope of a corner
   const double near_r = view.orthographic ? slope : slope * near_m,
                far_r = view.orthographic ? slope : slope * far_m;
   // As far from a corner of the near end as from one of the far end, if that lies between the ends.
@@ -37,7 +37,7 @@ std::vector<ShadowFace> cascades_of(const Light& light, const View& view, const 
                                     const WorldBox& box, int size, const ShadowMapOptions& options) {
   const dvec3 ahead = glm::normalize(dvec3(light.direction));
   const double far_m = std::max(std::min(glm::length(box.max - box.min), view.far_m), 2 * view.near_m);
-  double first_m = HUGE_VAL, last_m = -HUGE_VAL;  // of the box along `ahead`
+  double first_m = HUGE_VAL, last_m = -HUGE_VAL;  // the box's extent along `ahead`
   for (int corner = 0; corner < 8; ++corner) {
     const dvec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                   corner & 4 ? box.max.z : box.min.z);

@@ -10,7 +10,7 @@ namespace {
 using glm::dvec3;
 
 constexpr double widest_face_rad = 75 * std::numbers::pi / 180;  // half its angle
-constexpr double widening = 1e-3;  // of a spot's tangent: shading rounds the cone's cosine
+constexpr double widening = 1e-3;  // relative, for a spot's tangent: shading rounds the cone's cosine
 
 double range_or(const Light& light, double far_m) {
   return std::isfinite(light.radius_m) ? double(light.radius_m) : far_m;

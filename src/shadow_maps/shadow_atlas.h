@@ -13,9 +13,9 @@ namespace lightgrid {
 
 struct ShadowMapOptions {
   int size = 256;  // texels a side of a face of the light with the largest share of the screen; a power of 2
-  int bits = 32;   // of a texel: 16, 24 (which take 4 bytes) or 32 (float)
+  int bits = 32;   // per texel: 16, 24 (which take 4 bytes) or 32 (float)
   int taps = 1;    // texels a side that a point asks: 1, or 3 or 5 with a filter
-  int cascades = 4;  // of a directional light: 1 to 4
+  int cascades = 4;  // per directional light: 1 to 4
   size_t most_bytes = size_t(256) << 20;
   KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the same bits
 };

@@ -8,7 +8,7 @@
 
 namespace lightgrid {
 
-constexpr size_t tiles_a_group = 64;  // of an atlas, on a GPU
+constexpr size_t tiles_a_group = 64;  // for an atlas on a GPU
 
 ShadowMaps::ShadowMaps(ClDevice& device, ProgramCache& programs, const ShadowMapOptions& options)
     : device_(device), programs_(programs), options_(options) {}
@@ -35,7 +35,7 @@ void ShadowMaps::draw(const RayScene& rays, const ShadowAtlas& atlas, const std:
   const cl::Buffer& drawn = texels() ? texels : texels_.at_least(device_, atlas.bytes);
   light_count_ = atlas.lights.size();
   const uint side = lanes() ? FACE_TILE_LANES : FACE_TILE_GROUP;
-  std::vector<std::array<uint32_t, 2>> tiles;  // of each face that is drawn: the first, and the face
+  std::vector<std::array<uint32_t, 2>> tiles;  // for each drawn face: its first tile, and the face
   uint32_t count = 0;
   for (uint32_t face = 0; face < atlas.faces.size(); ++face) {
     if (!lost && face < kept.size() && kept[face]) continue;

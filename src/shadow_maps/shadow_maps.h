@@ -45,7 +45,7 @@ class ShadowMaps {
   ShadowMapOptions options_;
   UploadedBuffer faces_, lights_, tiles_;
   GrowingBuffer texels_;
-  size_t light_count_ = 0;                      // of the atlas that was drawn
+  size_t light_count_ = 0;                      // lights of the atlas that was drawn
   std::map<std::string, NamedKernel> kernels_;  // by file and defines
   bool lanes() const;
   NamedKernel& kernel(const std::string& name, const RayScene& rays);

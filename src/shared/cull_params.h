@@ -27,7 +27,7 @@ typedef struct CullParams {
   // (depth_b - depth) * depth_a.
   float depth_a, depth_a_rest, depth_b;
   float depth_step;             // one step of the depth format, if coarser than the slack covers; else 0
-  float near_distance;          // of the near plane
+  float near_distance;
   // Slack for the rounding of tile sides (docs/hard_cases.md#slack): perspective, of a
   // distance; orthographic, metres.
   float side_slack, side_slack_m;
@@ -41,7 +41,7 @@ typedef struct CullParams {
   uint light_count, light_stride;  // floats from a coordinate of all lights to the next one
   uint depth_row, depth_first;  // depth input: floats from row to row, index of the view's lower left sample
   uint pool_batches, staging_units;  // capacity, in batches of 16 candidates and in units of 16 indices
-  uint index_capacity;               // of the grid, in indices
+  uint index_capacity;               // entries for which the grid has room
 } CullParams;
 
 #if !defined(__OPENCL_VERSION__)

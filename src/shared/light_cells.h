@@ -33,7 +33,7 @@ typedef struct LightCellGrid {
 typedef struct LightCellTable {
   uint first_start, size;
   float squared;        // m^2: of the longest ray that lists serve, or of the farthest point's distance
-  uint first_triangle;  // of a directional light
+  uint first_triangle;  // only for a directional light
   LightCellGrid grid;
 } LightCellTable;
 

@@ -16,10 +16,10 @@ namespace lightgrid {
 // one after the other, first_clip_vertex + index in the clip-space positions of this frame.
 typedef struct RasterInstanceRecord {
   uint first_triangle, triangle_count;  // numbers of the frame's triangles, in drawing order
-  uint first_index;                     // of the mesh, in `indices`
-  uint first_vertex, vertex_count;      // of the mesh, in arrays of all meshes' vertices
-  uint first_position;                  // of the mesh, in the rasteriser's own blocks of 16
-  uint first_clip_vertex;               // of the instance, in this frame's positions
+  uint first_index;                     // the mesh's first in `indices`
+  uint first_vertex, vertex_count;      // the mesh's, in arrays of all meshes' vertices
+  uint first_position;                  // the mesh's, in the rasteriser's own blocks of 16
+  uint first_clip_vertex;               // the instance's, in this frame's positions
   uint flags;                           // RASTER_TWO_SIDED, RASTER_MIRRORED
   int alpha_material;                   // below 0: opaque
 } RasterInstanceRecord;

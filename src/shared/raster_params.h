@@ -7,7 +7,7 @@
 #define RASTER_CLUSTER 64      // triangles at most
 #define RASTER_BLOCK 256       // records that room is handed out in
 #define RASTER_SCAN_GROUP 128  // work-items that add up a scan on GPUs
-#define RASTER_BUCKETS 256     // of distance, by which clusters are sorted
+#define RASTER_BUCKETS 256     // distance buckets by which clusters are sorted
 #define RASTER_HIDDEN 255      // the bucket of clusters out of view
 #define RASTER_VERTEX_RUN \
   1024  // vertices of an instance that a work-item transforms in one go, a multiple of 16
@@ -35,9 +35,9 @@ typedef struct RasterParams {
   float guard_x, guard_y;  // the guard band's edge in normalized device coordinates
   uint width, height;      // pixels
   uint tiles_x, tiles_y;
-  uint pairs;  // of an instance and one of its mesh's clusters
+  uint pairs;  // pairs of an instance and one of its mesh's clusters
   uint vertex_runs;
-  uint chunks;                         // of the clusters in view: each is set up by one work-item
+  uint chunks;                         // chunks of clusters in view: one work-item sets up each
   uint record_blocks, entry_capacity;  // room
   uint cones;                          // 1: clusters that face away are left out
   uint drawing_order;                  // 1: clusters stay in the order of their instances, not nearest first
@@ -54,11 +54,11 @@ typedef struct RasterFrameInstance {
 // Some triangles of a mesh that lie together; object space.
 typedef struct RasterCluster {
   float center_x, center_y, center_z;
-  float half_x, half_y, half_z;  // of the box around them; infinite where a position is not finite
-  float radius;                  // of the sphere around the center that holds them
+  float half_x, half_y, half_z;  // the box around them; infinite where a position is not finite
+  float radius;                  // radius of the sphere around the center that holds them
   float axis_x, axis_y, axis_z;  // unit, of the cone that holds their normals
-  float sine;                    // of the cone's half-angle, RASTER_NO_CONE where it is 90 degrees or more
-  uint first, count;             // of the triangles of all meshes, in the order of clusters
+  float sine;                    // sine of the cone's half-angle; RASTER_NO_CONE from 90 degrees on
+  uint first, count;             // range of all meshes' triangles, in the order of clusters
   uint pad0, pad1, pad2;
 } RasterCluster;
 
@@ -66,7 +66,7 @@ typedef struct RasterCluster {
 typedef struct RasterRecord {
   int x[3], y[3];      // 1/256 pixel
   float z0, zx, zy;    // depth at the anchor (kernels/raster/raster_tiles.h), and what it gains per pixel
-  float z_min, z_max;  // of the triangle in view
+  float z_min, z_max;  // depths of the part in view
   uint triangle;       // its number
   uint box_low;        // first and last pixel of which a sample may be covered, x | y << 16
   uint box_high;

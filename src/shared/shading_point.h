@@ -30,9 +30,9 @@ SHARED_STRUCT(Lobe) {
 SHARED_STRUCT(ShadingPoint) {
   Real3 position, normal;
 #ifdef GROUPS
-  Whole groups;  // of the surface
+  Whole groups;  // the surface's light groups
 #endif
-  Real3 diffuse;  // of the dielectric at normal incidence: base colour (1 - metallic) (1 - 0.04) / pi;
+  Real3 diffuse;  // the dielectric's, at normal incidence: base colour (1 - metallic) (1 - 0.04) / pi;
                   // with LAMBERT base colour / pi; with MINNAERT times (n.v)^(1 - k)
 #ifdef SKIN
   Real3 subsurface;           // colour / pi

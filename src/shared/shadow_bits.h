@@ -99,7 +99,7 @@ typedef struct ShadowsHere {
   uint x, y;
 #ifdef BLEND
   size_t layer_words;  // pairs of words from one layer's row to that of the next
-  whole layer;         // of each lane
+  whole layer;         // one per lane
   mask_t shown;        // lanes that have one
 #endif
 } ShadowsHere;

@@ -27,7 +27,7 @@ SHARED_FUNCTION Real3 normal_of_octahedral(real u, real v) {
 }
 
 #if defined(NORMALS_OCTAHEDRAL) || defined(NORMALS_SPHEREMAP)
-#define NORMAL_CHANNEL_STEPS 65535.0f  // of a channel from 0 to 1
+#define NORMAL_CHANNEL_STEPS 65535.0f  // steps of a channel from 0 to 1
 #define NORMAL_STEPS_OF_ONE 32767.0f   // between 0 and 1
 #define NORMAL_STEP_OF_ZERO 32768.0f
 #elif defined(NORMALS_XYZ8)

@@ -48,7 +48,7 @@ namespace lightgrid {
 // A cache line. What the mesh lacks is zero, but its colour is 1.
 typedef struct SurfaceVertex {
   float normal_x, normal_y, normal_z;  // object space
-  float handedness;                    // of the tangent
+  float handedness;                    // sign of the bitangent
   float tangent_x, tangent_y, tangent_z, spare;
   float u0, v0, u1, v1;
   float red, green, blue, alpha;
@@ -70,7 +70,7 @@ typedef struct SurfaceMaterial {
   float emissive[3];
   float metallic, roughness, normal_scale, occlusion_strength, alpha_cutoff;
   uint flags;
-  uint alpha_base;  // of a masked base colour map: the first texel of its chain of alphas
+  uint alpha_base;  // the first texel of a masked base colour map's chain of alphas
   float coat, coat_roughness, coat_normal_scale;  // KHR_materials_clearcoat
   float subsurface[3], roll_off, minnaert_k;      // scene/material_model.h
   float model;                                    // its number
@@ -80,7 +80,7 @@ typedef struct SurfaceMaterial {
 
 // In the rasteriser's order of instances. Matrices to view space, row by row.
 typedef struct SurfaceInstance {
-  float normal[9], direction[9];  // of normals (the inverse transpose), and of tangents
+  float normal[9], direction[9];  // matrices of normals (the inverse transpose) and of tangents
   uint material, flags;
 } SurfaceInstance;
 

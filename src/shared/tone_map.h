@@ -26,7 +26,7 @@ using glm::sqrt;
 #define TONE_START 0.76f  // 0.8 less the 0.04 that a dielectric reflects
 #define TONE_ROOM (1.0f - TONE_START)
 #define TONE_DESATURATION 0.15f
-#define TONE_BRIGHTEST 1e30f  // what is brighter is white; inf - inf and inf * 0 would give NaN
+#define TONE_BRIGHTEST 1e30f  // brighter values are white; inf - inf and inf * 0 would give NaN
 
 SHARED_FUNCTION float brightest_of(float3 c) { return max(c.x, max(c.y, c.z)); }
 

@@ -23,7 +23,7 @@ layout(std140) uniform ViewParamsBlock {
   // Reversed depth to distance along the view axis, in metres: perspective depth_b / (depth + depth_a),
   // orthographic (depth_b - depth) * depth_a.
   float depth_a, depth_b;
-  float near_distance;  // of the near plane
+  float near_distance;
   uint orthographic;    // 0 or 1
   uint width, height;   // image, pixels
   uint tile_size;       // pixels a side

@@ -38,17 +38,17 @@ namespace lightgrid {
 // A table holds a VoxelSlice for each slice of equal z: what its samples share.
 typedef struct VoxelGrid {
   uint size_x, size_y, size_z;  // samples
-  uint groups;                  // of lights, VOXEL_LIGHT_GROUP each
-  float origin_x, origin_y;     // of sample (0, 0)
+  uint groups;                  // groups of VOXEL_LIGHT_GROUP lights each
+  float origin_x, origin_y;     // place of sample (0, 0)
   float spacing_x, spacing_y;
-  float scale;    // of what is stored
+  float scale;    // stored value over real value
   float largest;  // value that is stored; a brighter sample keeps its colour and direction
 } VoxelGrid;
 
 // Metres and their squares.
 typedef struct VoxelSlice {
   float place;                  // along the volume's z axis; with VOXELS_LOG the distance
-  float half_diagonal_squared;  // of the cells between samples
+  float half_diagonal_squared;  // for the cells between samples
   float core_squared;           // nearer than this a light counts as if it were this far away
   float unused;
 } VoxelSlice;
@@ -69,7 +69,7 @@ typedef struct VoxelLookup {
   float view_y_from_x, view_y_from_y, view_y_from_z;
   float view_z_from_x, view_z_from_y, view_z_from_z;
   float last_x, last_y, last_z;           // places of the last samples: sizes less 1
-  float inverse_scale;                    // of what is stored
+  float inverse_scale;                    // real value over stored value
   float spacing_x, spacing_y, spacing_z;  // metres, along the volume's axes
   // As in VoxelSlice; with VOXELS_LOG at distance 1: elsewhere they grow with the distance's square.
   float half_diagonal_squared, core_squared;

@@ -46,7 +46,7 @@ namespace lightgrid {
 #else
 using Uint2 = glm::uvec2;
 #define UINT2(x, y) glm::uvec2(x, y)
-inline float world_floor(float x) {  // of less than 2^31; std::floor is a call
+inline float world_floor(float x) {  // requires |x| < 2^31; std::floor is a call
   const float whole = float(int(x));
   return whole > x ? whole - 1 : whole;
 }
@@ -67,12 +67,12 @@ typedef struct WorldGridParams {
 #else
 layout(std140) uniform WorldGridBlock {
 #endif
-  uint cells_x, cells_y, cells_z;  // of level 0: 1, or even
+  uint cells_x, cells_y, cells_z;  // counts of level 0: 1, or even
   // The lower edges of the first and of the last cell, were they as long as the others.
   float least_x, least_y, least_z;
   float most_x, most_y, most_z;
   uint shift_x, shift_y, shift_z;  // log2 of a block's cells
-  uint blocks_x, blocks_y;         // of level 0
+  uint blocks_x, blocks_y;         // counts of level 0
   uint bucket_bits;                // 0: a bucket is a block's number; else the bits of its key's hash
   uint levels;                     // a bit a level that has lights
   uint everywhere_first, everywhere_count;  // lights that belong to every list
@@ -103,7 +103,7 @@ layout(std140) uniform WorldViewBlock {
 #define WORLD_VIEW_ARGUMENT , constant WorldViewParams* world_view
 typedef struct WorldLists {
   global const uint* buckets;  // each bucket's first block, and one more for the end
-  global const uint2* keys;    // of blocks
+  global const uint2* keys;    // the blocks' keys
   global const uint2* cells;   // 64 a block: first entry of the list, and their number
 } WorldLists;
 

@@ -224,7 +224,7 @@ void fields_to_179_9(Check& c) {
     std::vector<CullLight> lights;
     const auto add = [&](int x, int y, int axis, double side) {
       const glm::dvec3 q = *surface_at(view, depth, x, y);
-      glm::dvec3 normal(0, 0, q[axis] / -q.z);  // of the plane through the eye and the pixel's column or row
+      glm::dvec3 normal(0, 0, q[axis] / -q.z);  // plane through the eye and the pixel's column or row
       normal[axis] = 1;
       const double size = -q.z * std::exp2(-6 - 10 * random.uniform());
       lights.push_back(point(q + side * size * glm::normalize(normal), size * (1 + 0x1p-30)));

@@ -219,7 +219,7 @@ void cut_and_turned_views(Check& c) {
   std::vector<View> views;
   for (const glm::ivec2 size : {glm::ivec2(1, 1), {17, 9}, {1, 33}, {33, 1}, {65, 63}, {31, 47}, {16, 16}})
     views.push_back(of_capped(size.x, size.y));
-  views.push_back(shadow_view({3, 2.5, 3.5}, {9, 9, 9}, 33, 17));  // of nothing
+  views.push_back(shadow_view({3, 2.5, 3.5}, {9, 9, 9}, 33, 17));  // a view of nothing
   views.push_back(shadow_view({-3, 1.5, 2}, {0, 0.3, 0}, 33, 17));
   views.push_back(shadow_view({0, 6, 0.1}, {0, 0, 0}, 33, 17, 0.5));
   Camera camera = look_at({3, 2.5, 3.5}, {0, 0.3, 0});

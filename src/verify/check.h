@@ -196,6 +196,6 @@ std::vector<float> twin_bounds(const CullParams& params, DepthBoundsMode mode, b
                                std::span<const float> depth);
 // Empty, or the first difference.
 std::string difference(const HostGrid& twin, const HostGrid& grid);
-std::string difference(std::span<const float> twin, std::span<const float> bounds);  // of bits
+std::string difference(std::span<const float> twin, std::span<const float> bounds);  // difference of bits
 
 }  // namespace lightgrid::verify

@@ -326,8 +326,8 @@ class DeviceEngine : public CullEngine {
   const std::string substring_;
   const ProgramCache::Alter alter_;
   const bool both_shapes_;
-  std::unique_ptr<Renderer> renderer_;     // of shadows: made at first use
-  std::unique_ptr<Renderer> with_opengl_;  // of light indices and groups: likewise
+  std::unique_ptr<Renderer> renderer_;     // for shadows: made at first use
+  std::unique_ptr<Renderer> with_opengl_;  // for light indices and groups: likewise
   ClDevice device_;
   ProgramCache programs_;
   ClGridStorage storage_;

@@ -50,7 +50,7 @@ struct RasterInput {
 struct RasterImage {
   std::vector<uint32_t> triangles;  // a pixel, row 0 at the bottom
   std::vector<float> depths;
-  std::vector<std::vector<glm::vec4>> clip;  // of each instance, its vertices in clip space
+  std::vector<std::vector<glm::vec4>> clip;  // each instance's vertices in clip space
   uint64_t invalid_triangles = 0;
 };
 
@@ -59,23 +59,23 @@ struct ListImage {
   std::vector<float> depths;  // a pixel, row 0 at the bottom; 0 for background
   std::vector<float>
       of_samples;      // the same of each sample, where OpenCL draws several: a pixel's are adjacent
-  ListedLights lists;  // of opaque surfaces
+  ListedLights lists;  // lists of opaque surfaces
 };
 
 // The shadows that a frame's light loops read where lights cast, and the surfaces that they shade.
 struct ShadowImage {
   std::vector<float> depths;               // a pixel, row 0 at the bottom; 0 for background
   std::vector<CastingTriangle> triangles;  // the nearest opaque one
-  std::vector<int> lights;                 // of the scene, by their indices in lists
+  std::vector<int> lights;                 // lights of the scene, by their indices in lists
   HostShadows shadows;
 };
 
 // A technique's frame of a scene with light groups.
 struct GroupImage {
   std::vector<float> depths;      // a pixel, row 0 at the bottom; 0 for background
-  std::vector<uint32_t> groups;   // of the surface that is shown; 0 for background
-  std::vector<int> lights;        // of the scene, by their indices in lists
-  ListedLights lists;             // of opaque surfaces, one a pixel
+  std::vector<uint32_t> groups;   // groups of the visible surface; 0 for background
+  std::vector<int> lights;        // lights of the scene, by their indices in lists
+  ListedLights lists;             // lists of opaque surfaces, one per pixel
   std::vector<glm::vec4> pixels;  // linear
   int tile = 0;                   // pixels a side
 };

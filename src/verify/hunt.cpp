@@ -21,9 +21,9 @@
 namespace lightgrid::verify {
 namespace {
 
-constexpr int views_a_setting = 8;       // of each class, because a new setting may require kernel builds
-constexpr int most_saved = 3;            // of each class
-constexpr size_t lights_in_both = 4096;  // of a view, if both shapes run: the other one may be slow
+constexpr int views_a_setting = 8;       // for each class, because a new setting may require kernel builds
+constexpr int most_saved = 3;            // for each class
+constexpr size_t lights_in_both = 4096;  // limit per view if both shapes run: the other one may be slow
 
 struct HuntLoss {
   HuntContact contact;
@@ -54,9 +54,9 @@ std::vector<HuntLoss> lost_contacts(const HuntView& view, std::span<const HuntCo
 struct ShrunkLoss {
   std::vector<Light> lights;
   HuntLoss lost;
-  HostGrid grid;  // of these lights
+  HostGrid grid;  // grid of these lights
 };
-constexpr int most_runs = 200;  // of the culler, to shrink one loss
+constexpr int most_runs = 200;  // runs of the culler to shrink one loss
 
 // With the grid of these lights; empty if the contact is found.
 std::optional<ShrunkLoss> still_lost(CullEngine& engine, const CullerOptions& options, const HuntView& view,
@@ -261,8 +261,8 @@ class Hunt {
   HuntReport report_;
   uint64_t contacts_ = 0;
   std::vector<HuntClass> classes_;
-  std::vector<int> saved_;                   // of each
-  std::vector<std::vector<double>> cpu_ns_;  // of each, a contact: a value a view
+  std::vector<int> saved_;                   // number for each class
+  std::vector<std::vector<double>> cpu_ns_;  // by class and contact: a value per view
 };
 
 }  // namespace

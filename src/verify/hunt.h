@@ -20,15 +20,15 @@ struct HuntOptions {
   std::string filter;         // a regular expression searched in class names; empty: all
   bool few_settings = false;  // as in HuntSetting, for tests
   size_t lights_a_view = 32768;
-  int frames = 6;  // of each sequence of the hunt of shadows; 0: it draws none
+  int frames = 6;  // per sequence of the hunt of shadows; 0: it draws none
   std::filesystem::path save;  // folder for losing views; empty: not saved
   std::function<void(double done, const std::string& step)> progress;
 };
 
 struct HuntTally {
-  std::string name;       // of the class
+  std::string name;       // name of the class
   uint64_t contacts = 0;  // distinct (light, pixel) pairs that are certainly lit
-  uint64_t lost = 0;      // of them, not listed
+  uint64_t lost = 0;      // those not listed
   uint64_t views = 0;
   uint64_t refused = 0;        // views inside the domain that the library refused
   uint64_t shapes_differ = 0;  // views for which the two kernel shapes made different grids

@@ -17,7 +17,7 @@ std::vector<RandomCase> random_sample_cases();
 std::vector<RandomCase> random_light_index_cases();
 
 struct CaseHuntTally {
-  std::string name;                                        // of the class
+  std::string name;                                        // name of the class
   uint64_t cases = 0, trials = 0, contacts = 0, lost = 0;  // as in Outcome
   uint64_t skipped = 0;                                    // the engine lacks what the class needs
   double seconds = 0;

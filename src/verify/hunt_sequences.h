@@ -51,7 +51,7 @@ class MovingScene {
 struct SequenceReport {
   uint64_t frames = 0, stale = 0;  // stale: not those of a renderer that keeps nothing
   std::string why;                 // the first of these
-  ShadowPairs pairs;               // of the last frame, where the kind's shadows are exact
+  ShadowPairs pairs;               // pairs of the last frame, where the kind's shadows are exact
 };
 
 // Empty, or in which of surfaces, lists, bits, shares and pixels two frames differ.

@@ -8,12 +8,12 @@
 namespace lightgrid::verify {
 
 struct ShadowHuntTally {
-  std::string name;   // of the class
+  std::string name;   // name of the class
   ShadowPairs pairs;  // `why`: the first wrong one, with its seed
   uint64_t views = 0;
   uint64_t refused = 0;            // scenes that the library refused
   uint64_t shapes_differ = 0;      // views for which the two kernel shapes wrote different bits
-  uint64_t frames = 0, stale = 0;  // of sequences: drawn, and not those of a renderer that keeps nothing
+  uint64_t frames = 0, stale = 0;  // frames of sequences: drawn, and unlike a new renderer's
   double seconds = 0;
   std::vector<uint64_t> failed;  // seeds of scenes with a wrong pair, a refusal or a difference
   std::string refusal;           // the first one, or the first difference of shapes or frames

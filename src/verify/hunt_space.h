@@ -106,7 +106,7 @@ struct HuntContact {
 
 struct HuntLights {
   std::vector<Light> lights;  // as a lights file can store them: radius, direction and cone are floats
-  std::vector<HuntContact> contacts;  // those that are certainly lit
+  std::vector<HuntContact> contacts;  // contacts that are certainly lit
 };
 
 // `count` lights; the view may place some elsewhere. Depends on the seed alone, not on the number of threads.

@@ -69,7 +69,7 @@ struct OverTiles {
 };
 OverDepth scattered_over_depth(const CullView& view, size_t count, bool spots, uint64_t seed);
 OverTiles scattered_over_tiles(const CullView& view, size_t count, bool spots,
-                               uint64_t seed);  // of 16 pixels
+                               uint64_t seed);  // tiles of 16 pixels
 OverTiles tangent_over_tiles(const CullView& view, size_t count, Contact contact, uint64_t seed,
                              int ulps = 0);
 

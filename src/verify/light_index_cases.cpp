@@ -212,7 +212,7 @@ void cut_images(Check& c) {
   std::vector<View> views;
   for (const glm::ivec2 size : {glm::ivec2(1, 1), {17, 9}, {1, 33}, {33, 1}, {65, 63}, {31, 47}, {16, 16}})
     views.push_back(of_floor(size.x, size.y));
-  views.push_back(shadow_view({3, 2.5, 3.5}, {9, 9, 9}, 33, 17));  // of nothing
+  views.push_back(shadow_view({3, 2.5, 3.5}, {9, 9, 9}, 33, 17));  // a view of nothing
   views.push_back(of_floor(33, 17));
   light_indices(c, coincident(8), views,
                 {{"lidr-overlap=8"},

@@ -196,7 +196,7 @@ std::vector<CullerOptions> chosen_settings(int tile, bool every_combination) {
 struct Replay {
   const CapturedFrame& frame;
   const std::vector<CullLight> lights;
-  const std::vector<ViewLight> true_lights;  // of the oracle
+  const std::vector<ViewLight> true_lights;  // lights of the oracle
   const std::vector<float> covered;          // the depth image for the oracle
   const DepthImage depth;
 };

@@ -54,7 +54,7 @@ struct ReplayOptions {
   // Further views. The frame's view without slices and z-bins is always replayed.
   std::vector<CullView> more_views;
   std::optional<FrameGrid> own;    // the lists that came with the frame, from whatever made them
-  bool every_combination = false;  // of cull test and depth bounds; else each test with the default bounds,
+  bool every_combination = false;  // cull tests x depth bounds; else each test with the default bounds,
                                    // and each kind of bounds with the default test
   std::function<void(double done, const std::string& step)> progress;
 };

@@ -44,11 +44,11 @@ void check_lists(const Scene& scene, const ShadowImage& image) {
   }
 }
 
-constexpr size_t block = 16;  // of a tile's pixels: what the oracle looks at together
+constexpr size_t block = 16;  // pixels per side of a tile's block, in which the oracle shares work
 
 struct TileLight {
   const Light& light;
-  int number;  // of the scene
+  int number;  // number in the scene
   const ViewLight& in_view;
   uint32_t index;  // in lists
 };

@@ -9,7 +9,7 @@ namespace lightgrid::verify {
 struct ShadowPairs {
   uint64_t seen = 0, hidden = 0;   // decided: which of the two (docs/oracle.md#seen-and-hidden)
   uint64_t either = 0;             // not decided
-  uint64_t leaked = 0, acned = 0;  // of the decided ones: hidden but not found so, and the other way round
+  uint64_t leaked = 0, acned = 0;  // decided pairs: hidden but not found so, and the other way round
   std::string why;                 // the first of these
 
   uint64_t decided() const { return seen + hidden; }

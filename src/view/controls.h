@@ -36,7 +36,7 @@ struct Controls {
   double line = 0.5;                  // position of the dividing line, as a fraction of the picture's width
   bool picture_under = false;         // maps let the picture through
   std::string casters;       // lights that cast shadows, in the form of --shadows; empty: the scene's own
-  std::optional<int> light;  // of the scene: chosen, maps count its pairs alone
+  std::optional<int> light;  // the chosen light of the scene: maps count only its pairs
   double rate = 30;  // frames a second to hold while something moves; 0: always the full picture
   std::optional<std::string> camera;                    // target of a jump, in the form of --camera
   std::array<std::optional<std::string>, 3> bookmarks;  // cameras
@@ -71,7 +71,7 @@ struct Input {
   // Where the button went down in this frame; without it, at the position of the frame before.
   std::optional<std::array<double, 2>> pressed;
   double wheel = 0;                  // notches, away from the user
-  std::vector<std::string> presses;  // of keys, by KeyHelp::press
+  std::vector<std::string> presses;  // pressed keys, by KeyHelp::press
   std::string dropped;               // a file; empty: none
 };
 

@@ -42,12 +42,12 @@ class FlyCamera {
   const Scene& scene_;
   bool moved_ = false;  // text_ is that of the members below
   std::string text_;
-  double aspect_ = 1;  // of the last view
+  double aspect_ = 1;  // the last view's
   glm::dvec3 eye_{0};
   double yaw_ = 0, pitch_ = 0, fov_deg_ = 60;  // yaw about y from -z, pitch upwards; radians
   double near_m_ = 0;
   bool near_given_ = false;  // by the text: the camera keeps it when it moves
-  double size_m_ = 1;        // of the scene
+  double size_m_ = 1;        // the scene's
 };
 
 }  // namespace lightgrid

@@ -27,8 +27,8 @@ ListedFrame read_listed_frame(TechniqueRun& run);
 // The choice of pairs to count.
 struct CountChoice {
   size_t picture = 0;        // number of the side's
-  std::optional<int> light;  // of the scene, which is counted alone; none: all but directional ones
-  bool shadows = false;      // what hides lights, as LitPairs has it
+  std::optional<int> light;  // the only counted light of the scene; none: all but directional ones
+  bool shadows = false;      // shadows hide lights, as in LitPairs
   bool operator==(const CountChoice&) const = default;
 };
 

@@ -9,7 +9,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr float casting_lines_high = 9;  // of the list
+constexpr float casting_lines_high = 9;  // height of the list
 
 bool has_shadows_found(const LightShadow& light, const FramePlan& plan) {
   return plan.light_reaches && (plan.settings.everything_on || light.need == ShadowNeed::rays);

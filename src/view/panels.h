@@ -48,7 +48,7 @@ struct Shown {
   const std::string& scene_name;
   const std::vector<std::string>& scenes;
   const std::string& start_camera;
-  const View& view;                          // of the drawn picture
+  const View& view;                          // view of the drawn picture
   std::array<double, 2> pointer = {-1, -1};  // from the window's upper left
   int picture_width = 0, picture_height = 0;
   double fraction = 1;  // drawn size as a fraction of the picture's sides

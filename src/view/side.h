@@ -32,7 +32,7 @@ class Side {
   const std::string& problem() const { return problem_; }
   const Timings& timings() const { return timings_; }
   GLuint picture() const { return picture_.name(); }  // linear RGBA, 32-bit float; 0: nothing drawn yet
-  int width() const { return width_; }                // of the picture
+  int width() const { return width_; }                // width of the picture
   int height() const { return height_; }
   // The median of the last frames of this size; 0: none yet. A frame that compiled something is in no figure:
   // neither here nor in timings(); it is drawn again.

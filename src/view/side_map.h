@@ -78,7 +78,7 @@ class MapOfSide {
   bool counts() const { return count_.running(); }
   double progress() const { return count_.progress(); }
   GLuint texture() const { return texture_.name(); }
-  const std::string& legend() const { return legend_; }  // of the displayed map
+  const std::string& legend() const { return legend_; }  // legend of the displayed map
   const MapScale& scale() const { return scale_; }
 
  private:

@@ -246,7 +246,7 @@ void Viewer::draw_sides() {
       const bool made = sides_[i].choose(controls_.sides[i], view_);
       if (!made && looks) sides_[i].look(view_, changes);
       if (sides_[i].draw(controls_.draw_always, controls_.measure_passes)) drew_ = true;
-    } catch (const Error& error) {  // of the right side, which has no picture to keep
+    } catch (const Error& error) {  // the right side's error: it has no picture to keep
       if (job_.scripted || sides_[0].figures() == 0) throw;
       tell(error.what());
       controls_.sides[1] = controls_.sides[0];

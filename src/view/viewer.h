@@ -22,20 +22,20 @@
 namespace lightgrid {
 
 struct ViewJob {
-  std::string name;  // of the scene: a built-in one's or a file's
+  std::string name;  // name of the scene: a built-in one's or a file's
   Scene scene;
-  View view;                      // of the picture; the window adds its panel
+  View view;                      // view of the picture; the window adds its panel
   std::string scene_words;        // the scene and its lights as command-line options
   std::string camera;             // the value of --camera
-  std::optional<double> seconds;  // of the scene's animations; empty: at rest
+  std::optional<double> seconds;  // time of the scene's animations; empty: at rest
   Controls controls;              // initial values
   std::function<std::unique_ptr<VirtualLights>(Scene&)> reflect;  // null ones: none were chosen
-  std::function<Exposure(const Image&)> expose;  // of the scene's pictures, by its first one
+  std::function<Exposure(const Image&)> expose;  // exposure of the scene's pictures, by its first one
 
   bool scripted = false;  // no user: ends after `frames`, in steps of a sixtieth of a second
   Script script{"", ""};
   int frames = 0;
-  std::filesystem::path screenshot;  // of the last frame; empty: not saved
+  std::filesystem::path screenshot;  // file of the last frame; empty: not saved
 
   std::function<ViewJob(const std::string& name)> load;  // another scene, with the start's options
   std::vector<std::string> scenes;                       // to choose from
@@ -74,7 +74,7 @@ class Viewer {
   Shown shown();
   void tell(const std::string& note);
   void take_screenshot();
-  double frames_a_second() const;  // of frames that drew; 0: none yet
+  double frames_a_second() const;  // rate of frames that drew; 0: none yet
   double wait_s() const;           // for events, before the next frame
 
   Window& window_;
@@ -87,7 +87,7 @@ class Viewer {
   Controls& controls_;
   FlyCamera camera_;
   Motion motion_;
-  std::unique_ptr<VirtualLights> reflected_;  // of a scene that moves
+  std::unique_ptr<VirtualLights> reflected_;  // only for a scene that moves
   Pointer pointer_;
   Resolution resolution_;
   ReferencePicture reference_;
@@ -104,12 +104,12 @@ class Viewer {
   bool pixel_is_new_ = false;
   size_t pixel_picture_[2] = {};
   Input script_input_;
-  int width_ = 0, height_ = 0;              // of the picture
-  int drawn_width_ = 0, drawn_height_ = 0;  // of the drawn part
-  View view_;                               // of the drawn part
-  double seconds_ = 0, now_s_ = 0;          // of this frame, and since the start
+  int width_ = 0, height_ = 0;              // size of the picture
+  int drawn_width_ = 0, drawn_height_ = 0;  // size of the drawn part
+  View view_;                               // view of the drawn part
+  double seconds_ = 0, now_s_ = 0;          // time of this frame, and since the start
   double fraction_ = 1;
-  double sides_ms_ = 0;            // of this frame; 0: not both are figures
+  double sides_ms_ = 0;            // time of this frame; 0: not both are figures
   std::deque<double> between_ms_;  // the last frames that drew figures, from start to start
   Timer announced_;
   std::set<std::string> compiled_;  // files
@@ -117,7 +117,7 @@ class Viewer {
   int awake_frames_ = 0;  // to draw before the next wait for events
   std::string note_;
   double told_s_ = -1e9;  // when
-  Input input_;           // of this frame
+  Input input_;           // input of this frame
 };
 
 }  // namespace lightgrid

@@ -62,7 +62,7 @@ class Window {
   std::deque<std::string> presses_;
   double wheel_ = 0;
   std::string dropped_;
-  std::array<int, 4> place_before_{};  // of a window that fills the screen
+  std::array<int, 4> place_before_{};  // place of a window before it filled the screen
   bool any_event_ = false;
 };
 

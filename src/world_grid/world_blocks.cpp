@@ -148,7 +148,7 @@ void move_world_lights(std::span<const WorldLight> now, std::span<const uint32_t
   };
   std::vector<Edit> edits;
   std::vector<uint32_t> places(count + 1,
-                               0);  // of each block, its number of edits, then where its next one goes
+                               0);  // for each block, its number of edits, then where its next one goes
   moves.balls.clear(), moves.cones.clear();
   for (uint32_t k = 0; k < now.size(); ++k) {
     const uint32_t i = moves.moved[k];

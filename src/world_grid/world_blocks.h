@@ -7,9 +7,9 @@ namespace lightgrid {
 
 struct WorldBlockLights {
   std::vector<uint32_t>
-      buckets;  // of each block of the grid, and of the end: how many stored blocks are before it
-  std::vector<glm::uvec2> keys;   // of each stored block (world_key): those around any light's ball
-  std::vector<uint32_t> first;    // of each stored block and of the end: its first light in `members`
+      buckets;  // for each block of the grid, and for the end: the number of stored blocks before it
+  std::vector<glm::uvec2> keys;   // each stored block's key (world_key): those around any light's ball
+  std::vector<uint32_t> first;    // for each stored block and for the end: its first light in `members`
   std::vector<uint32_t> members;  // ascending in each block; then world_batch - 1 more numbers of lights
   std::vector<uint32_t> places;   // memory of count_world_blocks
 };

@@ -33,7 +33,7 @@ void LitBox::add(const LitBox& other) {
 LitBox lit_box(std::span<const CullLight> lights, double most_radius) {
   std::vector<LitBox> parts(parts_of(lights.size()));
   for_each_part(lights.size(), [&](size_t part, size_t begin, size_t end) {
-    LitBox of_part;  // of this thread alone: parts share cache lines
+    LitBox of_part;  // only this thread's: parts share cache lines
     for (size_t i = begin; i < end; ++i) of_part.add(lights[i], most_radius);
     parts[part] = of_part;
   });
@@ -78,7 +78,7 @@ struct FourSpans {
 // Estimates are made from some lights and the box of the grid.
 struct LightSample {
   std::vector<CullLight> lights;  // with a radius above 0
-  std::vector<FourSpans> spans;   // of them; what fills the last one up is nowhere
+  std::vector<FourSpans> spans;   // spans of these lights, in fours; padding is nowhere
   double lights_of_each = 0;
   double median = 0, least = LitBox::inf;
   glm::dvec3 middle{0}, extent{0};  // extent in the grid's order

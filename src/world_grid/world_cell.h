@@ -15,7 +15,7 @@
 
 namespace lightgrid {
 
-constexpr uint32_t most_world_blocks = 1u << 20;  // of cubes and columns: a word each
+constexpr uint32_t most_world_blocks = 1u << 20;  // cubes and columns: a word each
 constexpr uint32_t most_blocks_of_light = 4096;   // a light that meets more is stored once, for every list
 // Cells lie within this of the origin, and none is larger: the outer ones have no end anyway. The differences
 // of any double from a place there, and of two such places, are finite.
@@ -73,8 +73,8 @@ WorldBox ordinary_box(const WorldBox& lit, const WorldBox& bounds);
 // The grid that a value of world-cell would make.
 struct WorldCellEstimate {
   double listed = 0;   // lights that a position next to a light has in its list
-  double entries = 0;  // of all lists
-  double blocks = 0;   // of the grid, stored or not; 0: hashed
+  double entries = 0;  // entries of all lists
+  double blocks = 0;   // blocks of the grid, stored or not; 0: hashed
 };
 WorldCellEstimate estimate_world_cell(std::span<const CullLight> lights, const WorldBox& bounds,
                                       WorldGridShape shape, double cell);

@@ -82,12 +82,12 @@ class WorldGrid {
   cl::Buffer& indices() { return storage_->buffer(WorldArray::indices); }
 
   size_t list_bytes() const { return list_bytes_; }  // in use
-  size_t memory_bytes() const;                       // of everything, with what only building needs
+  size_t memory_bytes() const;                       // all buffers, with those that only building needs
   size_t blocks() const { return blocks_; }
-  size_t entries() const { return entries_; }  // of the cells' lists
+  size_t entries() const { return entries_; }  // entries of the cells' lists
   int builds() const { return builds_; }
   int updates() const { return updates_; }
-  int lights_version() const { return lights_version_; }  // of its lists; below 0: none
+  int lights_version() const { return lights_version_; }  // version of its lists; below 0: none
 
   HostWorldGrid read();  // waits
 
@@ -131,9 +131,9 @@ class WorldGrid {
 
   WorldLayout layout_;
   WorldBlockLights block_lights_;
-  WorldMoves moved_;  // of the last update
+  WorldMoves moved_;  // moves of the last update
   std::vector<uint32_t>
-      block_pairs_;       // of each block of the grid its number of lights; empty: no update since the build
+      block_pairs_;       // number of lights per block of the grid; empty: no update since the build
   bool counted_ = false;  // count_blocks made the last build
   size_t moves_ = 0;      // lights that moved since then
   UploadedBuffer params_, lights_, cones_, levels_, first_pairs_;

@@ -207,7 +207,7 @@ struct LightsPart {
 LightsPart add_part(std::span<const CullLight> lights, size_t begin, size_t end, WorldLayout& layout) {
   const bool hashed = layout.params.bucket_bits > 0, cones = !layout.cones.empty();
   const double metre = 1 / layout.cell_m;
-  LightsPart part;  // of this thread alone: parts share cache lines
+  LightsPart part;  // only this thread's: parts share cache lines
   for (size_t i = begin; i < end; ++i) {
     const WorldLight light = placed(lights[i], metre, layout, cones);
     layout.lights[i] = light.ball;

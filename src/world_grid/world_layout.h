@@ -17,7 +17,7 @@ namespace lightgrid {
 // (docs/details/world_grid.md#slack). Larger values make longer lists.
 struct WorldReach {
   double distance_m =
-      0;  // of the eye from the grid's middle and, in orthographic views, of what is seen from the eye
+      0;  // from the grid's middle to the eye and, in orthographic views, from the eye to the scene
   double spread = 1;  // at least 1: steep slopes at the image's sides
   bool holds(const WorldReach& other) const {
     return other.distance_m <= distance_m && other.spread <= spread;
@@ -56,9 +56,9 @@ struct WorldLayout {
   // For lights whose cone is tested: axis, and a cosine no larger than the outer half-angle's. Empty: no
   // light has a cone.
   std::vector<glm::vec4> cones;
-  std::vector<WorldBlocks> light_blocks;  // of each light; empty: hashed
-  std::vector<uint32_t> levels;           // of each light; empty: 0
-  std::vector<uint32_t> first_pairs;      // of each light, among all pairs of a block and a light
+  std::vector<WorldBlocks> light_blocks;  // one per light; empty: hashed
+  std::vector<uint32_t> levels;           // one per light; empty: 0
+  std::vector<uint32_t> first_pairs;      // one per light, among all pairs of a block and a light
   uint64_t pairs = 0;                     // may exceed 32 bits: first_pairs is then of no use
   std::vector<uint32_t> everywhere;       // lights of every list, ascending
 };

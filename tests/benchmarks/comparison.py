@@ -16,7 +16,7 @@ FRAMES = os.environ.get("LIGHTGRID_FRAMES", "3")
 SCENES = ["hall", "spheres", "terrain", "street", "gallery"]
 SIZE = os.environ.get("LIGHTGRID_SIZE", "1280x720")
 RESULTS = "docs/results/comparison"
-EXACT = 1e-5  # of the brightest channel: src/report/report.h
+EXACT = 1e-5  # relative to the brightest channel: src/report/report.h
 # Techniques that are shown with more than their defaults.
 VARIANTS = {
     "deferred": ["deferred", "deferred:buffer-bits=8"],

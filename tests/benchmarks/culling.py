@@ -115,7 +115,7 @@ def run_lightgrid(args, frame, lights, threads, comparison, earlier=False):
             for row in report["rows"]]
 
 
-machines = {}  # of each program, as its bench tells it
+machines = {}  # each program's machine, as its bench reports it
 
 
 def jobs(args, comparisons):

@@ -22,7 +22,7 @@ namespace {
 constexpr double planted = 0.02;
 // Before each frame of the second point:
 double wait_ms = 0;
-cl_uint steps = 0;  // of the kernel; 0: none
+cl_uint steps = 0;  // the kernel's; 0: none
 cl::Kernel count_up;
 cl::Buffer counted;
 
@@ -138,7 +138,7 @@ int run(std::vector<std::string> arguments) {
     measure_scene(renderer, choice, job, file);
     return answer_of({file.part()});
   };
-  if (by_device)  // of a first sweep, which does not count
+  if (by_device)  // a first sweep, which does not count
     steps = steps_of(planted * baseline_device_ms(sweep_of(0).part), renderer, chosen, late);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     const Timer timer;

@@ -19,7 +19,7 @@ namespace lightgrid {
 namespace {
 
 constexpr int patches_a_light = 400;
-constexpr double most_reach_m = 10;  // of a light
+constexpr double most_reach_m = 10;  // a light's
 
 struct Queries {
   std::vector<RayPoint> points;

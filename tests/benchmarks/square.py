@@ -31,7 +31,7 @@ COUNTS = [1, 4, 16, 64, 300]
 SCATTERED = ["--lights", 3000, "--light-radius", "3,8"]
 MORE = []  # arguments of compare, from the command line
 OF_THE_ARTICLE = ["forward", "forward_zprepass", "deferred", "forward_plus"]
-EXACT = 1e-5  # of the brightest channel: src/report/report.h
+EXACT = 1e-5  # relative to the brightest channel: src/report/report.h
 
 
 def program(*arguments):

@@ -150,7 +150,7 @@ cl_uint write_through_image(SharedBuffer& buffer, cl_uint words, cl_uint seed, i
 TEST_P(BridgeExchange, BringsEveryWordAndTexelInBothDirections) {
   const bool gpu = GetParam() == BridgeKind::imported;
   const cl_uint rounds = gpu ? 500 : 50;
-  const double largest_log2 = gpu ? 23 : 15;  // of a number of words: 32 MiB
+  const double largest_log2 = gpu ? 23 : 15;  // number of words: 32 MiB
   GLint most_texels = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels);
   const auto write = compute_program_of(write_shader), check = compute_program_of(check_shader);

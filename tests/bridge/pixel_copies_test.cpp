@@ -47,7 +47,7 @@ Bytes random_pixels(const Pixels& pixels, size_t count) {
     for (unsigned char& byte : bytes) byte = static_cast<unsigned char>(random());
   }
   if (pixels.type == GL_HALF_FLOAT)
-    for (size_t i = 1; i < bytes.size(); i += 2) bytes[i] &= 0x3b;  // of exponents up to 14
+    for (size_t i = 1; i < bytes.size(); i += 2) bytes[i] &= 0x3b;  // exponents up to 14
   return bytes;
 }
 
@@ -82,7 +82,7 @@ TEST_F(PixelCopiesOfContext, WriteTheBytesOfTheImageByShaderAndByDriver) {
       const PixelCopies::Source source{
           framebuffer.name(), GLenum(depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0), texture.name()};
       const size_t used = expected.size(), words = (used + 3) / 4 * 4;
-      expected.resize(words + spare, 0xab);  // what no copy may touch
+      expected.resize(words + spare, 0xab);  // bytes that no copy may touch
       for (PixelCopies* copies : {&by_shader, &by_driver}) {
         const Bytes before(expected.size(), 0xab);
         const GlBuffer buffer = make_buffer(before.size(), before.data());

@@ -205,7 +205,7 @@ TEST_F(BrokenFrame, AListPastTheIndicesIsTold) {
 
 TEST_F(BrokenFrame, AnIndexThatIsNoLightIsTold) {
   std::string indices = file_bytes(folder_.path / "indices.u32");
-  indices[4] = 21;  // of 24 lights three are directional
+  indices[4] = 21;  // three of 24 lights are directional
   write_bytes(folder_.path / "indices.u32", indices);
   expect_told("indices.u32", {"index 1 is 21", "21 point and spot lights"});
   write_bytes(folder_.path / "indices.u32", indices + "x");

@@ -17,9 +17,9 @@ namespace lightgrid {
 struct DoubleErrors {
   size_t pixels = 0, compared = 0;
   size_t elsewhere = 0, forward_elsewhere = 0;  // show another triangle than in double
-  double largest = 0, mean = 0;  // of the compared pixels' largest channel, relative to the brightest
+  double largest = 0, mean = 0;  // errors of the compared pixels' largest channel, relative to the brightest
   double forward_largest = 0, forward_mean = 0;
-  double sum = 0, forward_sum = 0, sum_in_double = 0;  // of all channels of the compared pixels
+  double sum = 0, forward_sum = 0, sum_in_double = 0;  // sums over all channels of the compared pixels
   // As `mean`, where the surfaces lie at visibility's own depth, which is that of a plane through corners
   // that are rounded to 1/256 pixel (docs/raster.md).
   double own_depth_mean = 0;

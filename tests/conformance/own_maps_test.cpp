@@ -10,7 +10,7 @@ struct MapCase {
   const char* name;
   bool ball;
   double normal_scale;
-  int repeats;                // of the textures over the picture's height; 32 texels each
+  int repeats;                // repeats of the textures over the picture's height; 32 texels each
   double forward_off = 5e-4;  // how far forward's sum may be off
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr int width = 400, height = 300;
 
 struct Spot {
-  float u, v;      // of the image's width and height, v from the top
+  float u, v;      // relative to the image's width and height, v from the top
   int r, g, b;     // sRGB bytes
 };
 

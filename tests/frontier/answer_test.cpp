@@ -50,7 +50,7 @@ TEST(Answer, FrontsByTheDevicesClocksAreTheirOwn) {
     return r;
   };
   FrontierRecord unknown = timed("clustered", 0.2, 1, 0.001);
-  unknown.device_ms.pop_back();  // of one run
+  unknown.device_ms.pop_back();  // one run has none
   FrontierPart part =
       synthetic_part({timed("forward_plus", 0.5, 10, 0.01), timed("deferred", 0.8, 5, 0.01), unknown});
   part.machine.cl_kind = "CPU";
@@ -170,13 +170,13 @@ TEST(Answer, SumsTimesOverViewsRunByRunAndJoinsErrors) {
   EXPECT_THAT(ratios, ElementsAre(DoubleNear(0.1, 1e-15), DoubleNear(0.2, 1e-15), DoubleNear(0.3, 1e-15)));
   EXPECT_NEAR(p.relative_time.estimate, std::cbrt(0.006), 1e-15);
   EXPECT_EQ(p.relative_time.runs, 3);
-  EXPECT_EQ(p.p95_ms, 30);                    // of 10, 20, 30, 2, 4, 6, 8
+  EXPECT_EQ(p.p95_ms, 30);                    // the times are 10, 20, 30, 2, 4, 6, 8
   EXPECT_NEAR(p.frame_ms.median, 12, 1e-12);  // (20 + 4) / 2 views
   EXPECT_EQ(p.errors.total.max_rel, 0.3);
   EXPECT_NEAR(p.errors.total.rmse_rel, std::sqrt(0.00125), 1e-15);
   EXPECT_NEAR(p.errors.total.relative_rmse, std::sqrt(0.125), 1e-15);
   EXPECT_NEAR(p.errors.total.p99_rel, 0.02, 1e-15);
-  EXPECT_EQ(p.errors.total.flip_mean, 0.25);  // of the one view that has it
+  EXPECT_EQ(p.errors.total.flip_mean, 0.25);  // one view has it
   EXPECT_EQ(p.errors.deviation_rmse_rel, 0.5);
   EXPECT_EQ(p.errors.bias_rmse_rel, std::nullopt);
   EXPECT_EQ(p.pairs.listed, 30u);

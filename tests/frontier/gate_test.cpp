@@ -127,7 +127,7 @@ TEST(Gate, ComparesTimesOfEqualViewsAlone) {
   const GateResult result = held_against(now, earlier, "");
   EXPECT_THAT(result.worse, IsEmpty());
   EXPECT_THAT(result.told, Contains(HasSubstr(": times of 1 views, earlier of 2: not compared")));
-  earlier["points"][0].erase("timed_views");  // of a program that timed all views
+  earlier["points"][0].erase("timed_views");  // as from a program that timed all views
   now["points"][0]["timed_views"] = now["points"][0]["views"];
   EXPECT_THAT(held_against(now, earlier, "").worse, SizeIs(1));
 }

@@ -324,7 +324,7 @@ def main():
         for clock in CLOCKS:
             if clock is CLOCKS[0] or any(p[clock[0]]["runs"] for p in points):
                 differences += different_fronts(folder, of, clock, keys, points)
-    if len(answer.get("machines", [])) < 2:  # those of other machines are scaled
+    if len(answer.get("machines", [])) < 2:  # times of other machines are scaled
         differences += different_break_evens(folder, answer["break_even"])
     return 1 if differences or not points else 0
 

@@ -193,7 +193,7 @@ TEST(FrontierRecords, HaveAKeyOfWhatIsMeasuredAlone) {
   measured.image.clear();
   measured.shard = 3;
   EXPECT_EQ(record_key(measured), record_key(r));
-  EXPECT_EQ(content_hash(""), "cbf29ce484222325");  // of the authors' test vectors
+  EXPECT_EQ(content_hash(""), "cbf29ce484222325");  // from the authors' test vectors
   EXPECT_EQ(content_hash("foobar"), "85944171f73967e8");
 }
 

@@ -20,10 +20,10 @@ struct SimulatedMachine {
   double drift = 0.1;       // the last round's slowness over the first's, of every point
   double heavy_tails = 0;   // the share of times with five times the noise
   double skew = 0;          // lognormal slowness of one time, the median of it as a share
-  double spike_share = 0;   // of times: interruptions
+  double spike_share = 0;   // share of times with interruptions
   double spike = 0;         // a time takes up to this share longer
   double slow_mode = 0;     // the logarithm by which a bimodal point's slow runs are slower
-  double slow_share = 0.4;  // of its runs
+  double slow_share = 0.4;  // share of its runs
 };
 
 // The logarithm of one time over the true one, but for what the round and the process share.

@@ -35,7 +35,7 @@ Coverage coverage_on(const SimulatedMachine& machine, uint64_t seed) {
 // Many trials whose true ratio is 1.
 struct AgainstItself {
   int trials = 0, held = 0;
-  double sum = 0, squares = 0;  // of logarithms of estimates
+  double sum = 0, squares = 0;  // sums over logarithms of estimates
 
   void add(const RelativeTime& r) {
     const double log_estimate = std::log(r.estimate);

@@ -22,7 +22,7 @@ constexpr int width = 320, height = 180;
 // Tolerances for another vector width or Mesa: docs/testing.md has the measurements.
 constexpr double allowed_mean = 0.05;        // steps of 255, over all channels
 constexpr int allowed_step = 2;              // steps of 255 in a channel
-constexpr double allowed_share_off = 0.002;  // of the pixels may be further off, at edges of triangles,
+constexpr double allowed_share_off = 0.002;  // share of pixels that may differ more, at edges of triangles,
 constexpr int allowed_beyond = 18;           // but by no more than this past their neighbours: steps of 255
 
 using Bytes = std::vector<uint8_t>;

@@ -12,7 +12,7 @@ enum class Fault {
   sky_in_maximum,         // background counts as far
   invalid_depth_ignored,  // NaN, infinite, negative depth ignored
   signed_minimum,         // the least depth by its bits as a signed integer
-  last_pixel_forgotten,   // of each tile
+  last_pixel_forgotten,   // the last pixel of each tile
   partial_tiles_dropped,
   first_sample_only,
   viewport_ignored,
@@ -45,7 +45,7 @@ enum class Fault {
                           // coordinates
   squares_underflow,      // the box test in float: slack, but no absolute term
   projections_unchecked,  // any matrix with positive scales is accepted
-  totals_of_32_bits,      // of list entries
+  totals_of_32_bits,      // sums of list entries
   edges_of_both,          // a pixel's centre on an edge belongs to both triangles
   edges_of_none,
   edges_in_float,

@@ -130,7 +130,7 @@ std::vector<Caught> faults() {
 TEST(RightCuller, PassesEveryCase) {
   NaiveCuller culler(Fault::none);
   for (const HardCase& c : hard_cases()) {
-    if (c.name == "hundred_runs") continue;  // of a culler without threads of its own they tell nothing
+    if (c.name == "hundred_runs") continue;  // no evidence for a culler without threads of its own
     const bool draws = std::set<std::string>{"shadows", "lidr", "groups", "caps"}.contains(c.group);
     if (draws) continue;  // which this culler does not
     SCOPED_TRACE(c.name);

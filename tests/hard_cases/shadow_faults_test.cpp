@@ -25,7 +25,7 @@ std::vector<ShadowFault> shadow_faults() {
        {"grazing"},
        "coplanar"},
       {"no_gap",
-       "end = 1.0f - gap /",  // of the tree's rays and of the cells'
+       "end = 1.0f - gap /",  // in the tree's rays and in the cells'
        "end = 1.0f - 0.0f * gap /",
        {"within_the_gap"},
        "rooms"},

@@ -19,8 +19,8 @@
 namespace lightgrid {
 namespace {
 
-constexpr double light_exponent = 32;  // of the setting prepass-shininess
-constexpr double largest_sum = 1e30;   // of floats that the buffer stores
+constexpr double light_exponent = 32;  // value of the setting prepass-shininess
+constexpr double largest_sum = 1e30;   // bound on floats that the buffer stores
 constexpr double float_step = 0x1p-24;
 
 // The surfaces that the pass reads: row 0 at the bottom, normals in view space.

@@ -74,8 +74,8 @@ bool same_triangle(const double_surfaces::Hit& a, const double_surfaces::Hit& b)
 
 struct Errors {
   size_t pixels = 0, compared = 0, elsewhere = 0;  // elsewhere: another triangle than in double
-  double largest = 0, mean = 0;                    // of the brightest channel
-  double share_apart = 0;                          // of the compared pixels, by more than 1/1000
+  double largest = 0, mean = 0;                    // errors of the brightest channel
+  double share_apart = 0;                          // share of pixels that differ by more than 1/1000
 };
 
 Errors errors_of(const Scene& scene, const View& view, const Settings& settings = {}) {

@@ -19,7 +19,7 @@ namespace {
 struct FilledVoxels {
   ReadVoxels read;
   std::vector<ViewLight> lights;
-  glm::dvec2 most_slope{0};  // of the image, where the volume is the view's
+  glm::dvec2 most_slope{0};  // slope at the image's edge, where the volume is the view's
 
   glm::uvec3 size() const {
     return {read.placed.grid.size_x, read.placed.grid.size_y, read.placed.grid.size_z};

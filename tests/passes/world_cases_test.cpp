@@ -203,7 +203,7 @@ void thin_spots(PassCheck& c) {
   Random random(11);
   std::vector<CullLight> lights;
   for (int i = 0; i < 200; ++i) {
-    const double angle = std::pow(10.0, -7 * double(random.uniform()));  // of a radian; some lower to 0
+    const double angle = std::pow(10.0, -7 * double(random.uniform()));  // radians; some lower to 0
     lights.push_back(
         world_spot(any_direction(random) * 5.0, 4, any_direction(random), i % 20 ? std::cos(angle) : 1));
   }

@@ -17,7 +17,7 @@ struct WorldFault {
   void (*of_light)(CullLight&) = nullptr;
   void (*of_lists)(ListedWorld&) = nullptr;
   bool near_view = false;    // lists are built for an eye at the origin, wherever it is
-  bool first_build = false;  // what an earlier build listed is read again
+  bool first_build = false;  // an earlier build's lists are read again
   bool no_slack = false;     // radii are neither grown nor rounded up
 };
 

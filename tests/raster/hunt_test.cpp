@@ -102,7 +102,7 @@ TEST(RasterHunt, FindsNoWrongPixel) {
   for (size_t i = 0; i < count; ++i) {
     TriangleScene scene = random_scene(random);
     scene.camera.grid.samples = i % 8 < 6 ? 1 : 4;
-    if (i % 3 == 0) scene.instances.push_back(scene.instances[0]);  // of equal depths the last is shown
+    if (i % 3 == 0) scene.instances.push_back(scene.instances[0]);  // at equal depths the last is shown
     Rasterizer& rasterizer = shapes[i % 2];
     set_scene(rasterizer, scene);
     const Drawn result = drawn_by(rasterizer, scene);

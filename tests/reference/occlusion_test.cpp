@@ -158,7 +158,7 @@ TEST(Occlusion, APixelsReceiverLiesInItsTrianglesPlane) {
   Camera camera = look_at({0, 5, 0}, {0, 0, 0});
   camera.fov_y_rad = 1.5707963267948966;
   const View view = make_view(camera, 10, 10);
-  const double wrong = 1e-5;  // of the depth
+  const double wrong = 1e-5;  // relative to the depth
   const Receiver r = occlusion.receiver(view, 7, 7, view.near_m / 5 * (1 + wrong), {0, 0});
   EXPECT_NEAR(r.place.place.x, 2.5 * (1 - wrong), 1e-9);
   EXPECT_NEAR(r.place.place.y, 0, 1e-12);

@@ -1,5 +1,5 @@
 #define LAMBERT
-#pragma GCC diagnostic ignored "-Wunused-parameter"  // of shading_point
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // for shading_point
 #include "reference/shared_brdf.h"
 
 namespace lightgrid {

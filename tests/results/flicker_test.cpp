@@ -107,7 +107,7 @@ TEST(Flicker, OfTwoPicturesThatAlternateIsTheirFlip) {
     return image;
   };
   std::ifstream file(shared_folder() / "flip/values.csv");
-  std::map<std::string, double> means;  // of the reference and a picture, at 67 pixels per degree
+  std::map<std::string, double> means;  // means of the reference and a picture, at 67 pixels per degree
   for (std::string line; std::getline(file, line);) {
     std::vector<std::string> fields;
     std::stringstream stream(line);

@@ -66,8 +66,8 @@ TEST(ErrorSteps, AreThoseAcrossBordersAndInside) {
   EXPECT_EQ(flat.inside, 0);
   image.at(2, 1).b -= 3;
   const ErrorSteps steps = error_steps(image, reference, 2, 4);
-  EXPECT_EQ(steps.at_borders, (6.0 + 3.0) / 2 / 4);  // of two pairs
-  EXPECT_EQ(steps.inside, (3.0 + 3.0) / 8 / 4);      // of four in rows and four in columns
+  EXPECT_EQ(steps.at_borders, (6.0 + 3.0) / 2 / 4);  // two pairs
+  EXPECT_EQ(steps.inside, (3.0 + 3.0) / 8 / 4);      // four in rows and four in columns
   EXPECT_EQ(error_steps(image, reference, 1, 4).inside, 0) << "every pair is of two tiles";
   image.at(0, 0).r = infinity;
   EXPECT_EQ(error_steps(image, reference, 2, 4).inside, 0) << "not a number";

@@ -68,7 +68,7 @@ TEST(VirtualLights, ShareTheFluxEquallyAndStandWhereItIs) {
     EXPECT_TRUE(light.is_virtual);
     flux += dvec3(light.color) * double(light.intensity) * std::numbers::pi;
     const dvec3 offset = light.position - dvec3(1, 2, 3);
-    const bool second = offset.y < -1.9;  // of the view downwards
+    const bool second = offset.y < -1.9;  // it belongs to the view downwards
     of_second += second;
     // 1/64 of a pixel's width, 1 m, towards the light.
     EXPECT_NEAR(second ? -offset.y : offset.x, 2 - 1.0 / 64, 1e-9);

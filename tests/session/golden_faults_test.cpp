@@ -10,7 +10,7 @@ namespace {
 
 struct KernelFault {
   const char* name;
-  const char* right;  // of kernels for CPUs
+  const char* right;  // text of kernels for CPUs
   const char* wrong;
   const char* stage;
 };

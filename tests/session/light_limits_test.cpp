@@ -108,7 +108,7 @@ TEST(LightLimits, AViewTakesSoManyOfTheLightsThatItSees) {
       EXPECT_EQ(result.holds(), !more) << id_of(limit);
       EXPECT_EQ(result.worst.counted, size_t(limit.most) + more) << id_of(limit);
       if (!more) continue;
-      const int first = spots_too;  // of the points
+      const int first = spots_too;  // index of the first point light
       switch (limit.order) {
         case LimitOrder::nearest:
           EXPECT_THAT(dropped(result), ElementsAre(first));
@@ -375,7 +375,7 @@ TEST(LightLimits, PicturesAreOfSettingsOrScenesThatAreLikeTheLimit) {
   level.add_wall("wall", {-1, -1, -5}, 1);
   EXPECT_THAT(picture("godot-mobile/mesh")->note, testing::HasSubstr("all primitives of a node together"));
   level.spot({0, 0, -5}, {0, 0, -6}, 1);
-  EXPECT_FALSE(picture("godot-mobile/mesh"));  // of each kind
+  EXPECT_FALSE(picture("godot-mobile/mesh"));  // one of each kind
   EXPECT_FALSE(picture("three-clustered/cell"));
   EXPECT_THAT(why, testing::HasSubstr("farthest"));
 }

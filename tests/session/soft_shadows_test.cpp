@@ -207,7 +207,7 @@ TEST(SoftShadows, DoNotMakeErrorsDependOnTheOrderOfRows) {
 struct PickedPixel {
   int x = 0, y = 0;
   uint32_t brightest = 0;
-  double ratio = 0;  // of all that they add, what is hidden
+  double ratio = 0;  // hidden share of their sum
 };
 
 glm::dvec3 normal_towards_the_eye(const Scene& scene, const Receiver& receiver) {

@@ -107,7 +107,7 @@ void add_triangle(const SeenTriangle& t, const dvec3& r, const ShadowFace& face,
   const double sine = std::abs(towards) / (face.parallel ? 1 : length), margin = t.error_m / sine;
   const double at =
       face.parallel ? (t.offset - t.normal.x * r.x - t.normal.y * r.y) / t.normal.z : t.offset / towards;
-  const bool sure = sine > 1e-4;  // of its distance, else somewhere in the triangle
+  const bool sure = sine > 1e-4;  // its distance is certain, else somewhere in the triangle
   const double low = sure ? std::clamp(at - margin, t.nearest, t.furthest) : t.nearest,
                high = sure ? std::clamp(at + margin, t.nearest, t.furthest) : t.furthest;
   d->low = std::min(d->low, low);

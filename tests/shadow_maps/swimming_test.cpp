@@ -67,9 +67,9 @@ ShadowAtlas cascades_at(const Light& sun, const View& view, const WorldBox& box,
 
 struct Temporal {
   size_t seen = 0;     // in two frames
-  size_t flipped = 0;  // of these
-  size_t swam = 0;     // of these, though in the same cascade
-  size_t wrong = 0;    // of those seen: not as the truth is
+  size_t flipped = 0;  // those that flipped
+  size_t swam = 0;     // those that flipped in the same cascade
+  size_t wrong = 0;    // seen points that differ from the truth
   double per_million(size_t points) const { return 1e6 * double(points) / double(seen); }
 };
 

@@ -17,8 +17,8 @@ using glm::dvec2, glm::dvec3, glm::dvec4;
 
 // The nearest triangle at a pixel.
 struct Hit {
-  int instance = -1;      // of the scene; -1: nothing
-  uint32_t triangle = 0;  // of its mesh
+  int instance = -1;      // number in the scene; -1: nothing
+  uint32_t triangle = 0;  // number in its mesh
   double depth = 0;
 };
 

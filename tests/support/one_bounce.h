@@ -92,7 +92,7 @@ class OneBounce {
     int instance = 0;
     std::array<uint32_t, 3> vertices{};
     std::array<glm::dvec3, 3> corners{};
-    glm::dvec3 front{0};  // of the front face, not unit
+    glm::dvec3 front{0};  // normal of the front face, not unit
   };
 
   static double fraction(double x) { return x - std::floor(x); }

@@ -88,7 +88,7 @@ inline void add_groups(Scene& scene) {
 struct SceneEffect {
   std::string name;
   std::string decision;  // as in FramePlan::decisions; empty if the effect is the absence of all
-  std::string define;    // of shaders; empty if no material sets it
+  std::string define;    // define of shaders; empty if no material sets it
   std::string witness;   // the start of its reason
   std::function<void(SmallScene&)> add;
 };

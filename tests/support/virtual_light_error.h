@@ -14,8 +14,8 @@ namespace lightgrid {
 
 // Relative to the mean of the truth. Channels count alike.
 struct VirtualLightError {
-  double bias = 0;    // of the sum over all pixels
-  double mean_abs = 0;  // of pixels, of single placements; with the truth's noise
+  double bias = 0;    // error of the sum over all pixels
+  double mean_abs = 0;  // mean over pixels, for single placements; with the truth's noise
   double rms = 0;     // over pixels, of single placements; without the truth's own noise
   double spread = 0;  // the part of it that changes from one placement to the next: the root of the variance
 };
@@ -60,7 +60,7 @@ class OneBounceView {
   void set_ranges(const LightRanges& ranges) { settings_.ranges = ranges; }
 
   double truth_mean() const { return mean_; }
-  double truth_noise() const { return std::sqrt(noise_) / mean_; }  // of a pixel
+  double truth_noise() const { return std::sqrt(noise_) / mean_; }  // noise of one pixel
   const std::vector<glm::dvec3>& truth() const { return truth_; }
   const Scene& scene() const { return scene_; }
 

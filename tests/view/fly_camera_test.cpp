@@ -196,7 +196,7 @@ TEST(Pointer, LeavesWhatAPanelTakes) {
 TEST(Resolution, DropsWhileTheCameraMovesAndIsFullAtRest) {
   Resolution resolution;
   EXPECT_EQ(resolution.next(true, 0.1, 30), 1);
-  resolution.measured(120);  // of 33 ms: a quarter of the pixels
+  resolution.measured(120);  // the target is 33 ms: a quarter of the pixels
   EXPECT_EQ(resolution.next(true, 0.1, 30), 0.5);
   EXPECT_FALSE(resolution.resting());
   resolution.measured(30);
@@ -209,7 +209,7 @@ TEST(Resolution, StartsSmallAndLeavesTimeForTheWindow) {
   Resolution resolution(true);
   EXPECT_EQ(resolution.next(false, 0.01, 30), 0.5);
   EXPECT_FALSE(resolution.resting());
-  resolution.measured(5, 15);  // of 33 ms: 18 are left, and a full picture takes 20
+  resolution.measured(5, 15);  // of the target of 33 ms 18 are left; a full picture takes 20
   EXPECT_EQ(resolution.next(true, 0.01, 30), 0.75);
   EXPECT_EQ(resolution.next(false, 1, 30), 1);
 }

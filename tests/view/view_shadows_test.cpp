@@ -96,7 +96,7 @@ TEST_F(ViewShadowsInDisplay, MapsOfLeakedAndAcnedPairsAreThoseOfInspect) {
   ASSERT_EQ(inspected.status, 0) << inspected.err;
   const PngPixels shown = read_png(folder_.path / "view.png"), leaked = read_png(folder_.path / "leaked.png"),
                   acned = read_png(folder_.path / "acned.png");
-  constexpr int bar_row = 130;  // of colours with their numbers, at the lower edge
+  constexpr int bar_row = 130;  // row with colours and their numbers, at the lower edge
   int wrong = 0, marked[2] = {};
   for (int y = label_rows; y < bar_row; ++y) {
     for (int x = 0; x < view_width; ++x) {

@@ -233,7 +233,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cull_lights(
   uint mark_units_at = 0;
   if (item == 0) mark_units_at = atomic_add(counters + 1, mark_units);
   barrier(CLK_GLOBAL_MEM_FENCE);
-  ulong tile_total = 0;  // of this item's tile: past 2^32 where 2^22 lights are in each of 64 slices
+  ulong tile_total = 0;  // for this item's tile: past 2^32 where 2^22 lights are in each of 64 slices
   for (uint slice = 0; slice < SLICE_COUNT; ++slice) {
     uint listed = 0;
     for (uint base = 0; base < words; base += MARK_WORDS) {

@@ -9,7 +9,7 @@
 #define GROUP 256
 #endif
 #define WIDTH (ROW < GROUP ? ROW : GROUP)  // items of a tile
-#define TILES (GROUP / WIDTH)              // of a group
+#define TILES (GROUP / WIDTH)              // tiles per group
 // A word between tiles: items that each read their own tile use other banks.
 #define PLACE(i) ((i) + (i) / WIDTH)
 

@@ -29,8 +29,8 @@ typedef struct Tile {
 typedef struct TileRecord {
   Edge edges[3];
   int sample_c[3][SAMPLES], most_c[3];  // c of each sample, and of the one that lies farthest inside
-  int16 in_block[3];  // what each edge gains from a block's first pixel to each
-  int dx, dy;         // of the tile's first pixel's centre from the anchor, 1/256 pixel
+  int16 in_block[3];  // each edge's gain from a block's first pixel to each pixel
+  int dx, dy;         // from the anchor to the tile's first pixel's centre, 1/256 pixel
   float z0, zx, zy, z_min, z_max;
   uint triangle, instance;
   int alpha_material;
@@ -92,7 +92,7 @@ static inline __attribute__((always_inline)) void draw_block(const TileRecord* r
   float* least = (float*)tile->least + at;
   if (r->z_max < *least) return;
   const int x = block_x * 4, y = block_y * 4;
-  int16 gain[3];  // of each edge from the tile's first pixel
+  int16 gain[3];  // each edge's gain from the tile's first pixel
   for (int k = 0; k < 3; ++k) gain[k] = r->in_block[k] + edge_gain(r->edges[k], x, y);
 #if SAMPLES > 1
   const int16 some = (gain[0] + r->most_c[0]) | (gain[1] + r->most_c[1]) | (gain[2] + r->most_c[2]);

@@ -20,14 +20,14 @@
 #include "kernels/raster/raster_setup.h"
 #include "kernels/raster/raster_tiles.h"
 
-#define SMALL_PIXELS 64  // of the box around a small triangle, at most
+#define SMALL_PIXELS 64  // largest box around a small triangle
 
 // Small triangles of a cluster, and their pixels in one row after the other: triangle i has those from
 // firsts[i] on.
 typedef struct SmallList {
   local PlacedTriangle* triangles;
   local uint* firsts;
-  local float* inverse_widths;  // of boxes
+  local float* inverse_widths;  // 1 / width of each box
   local volatile uint* sums;    // how many triangles << COUNT_SHIFT | how many pixels
 } SmallList;
 #define COUNT_SHIFT 24  // RASTER_CLUSTER * SMALL_PIXELS pixels are fewer than 2^24

@@ -30,7 +30,7 @@ struct DepthBuffer {
 // other. Until the view's next look().
 struct TriangleBuffer {
   cl::Buffer numbers;
-  std::span<const int> instances;  // of the scene
+  std::span<const int> instances;  // numbers in the scene
 };
 
 // A light grid, and where it lies.
@@ -65,10 +65,10 @@ struct ShadowFigures {
   size_t drawn = 0;        // drawn in this frame, and
   size_t kept = 0;         // kept from frames before
   bool unchanged = false;  // all are those of the frame before, and nothing was found
-  size_t bytes = 0;        // of bits and maps
+  size_t bytes = 0;        // bytes of bits and maps
   size_t undecided = 0;    // pairs that maps left to rays
-  size_t bands = 0;        // of tiles, for each of which the frame was shaded: their bits fit into memory
-  int halvings = 0;        // of the sizes of all maps, to fit into their bound of memory
+  size_t bands = 0;        // bands of tiles, each shaded separately: their bits fit into memory
+  int halvings = 0;        // halvings of all maps' sizes, to fit into their bound of memory
 
   // Adds the figures of other lights of the same frame.
   ShadowFigures& operator+=(const ShadowFigures& more) {
@@ -83,25 +83,25 @@ struct SampleFigures {
   size_t edge_pixels = 0;          // whose samples see more than one surface
   size_t shadings = 0;             // surfaces that were shaded, each once a pixel
   size_t covered = 0;              // samples that see a surface: what shading each of them would take
-  size_t bytes = 0;                // of images of samples and of what says where edges are
-  std::vector<uint32_t> surfaces;  // of each pixel at an edge, with the background; of others 0
+  size_t bytes = 0;                // bytes of images of samples and of edges
+  std::vector<uint32_t> surfaces;  // number of surfaces per edge pixel, with the background; elsewhere 0
 };
 
 // A technique's result, for readers of the frame: the image, input of the oracle, memory figures.
 struct Frame {
   ShadedImage image;
   std::optional<DisplayedImage> displayed;  // with picture=bytes
-  std::optional<ViewGrid> grid;             // of opaque surfaces
-  std::optional<ViewGrid> blend_grid;       // of blended ones
-  HostLists listed;                         // of opaque surfaces
+  std::optional<ViewGrid> grid;             // grid of opaque surfaces
+  std::optional<ViewGrid> blend_grid;       // grid of blended surfaces
+  HostLists listed;                         // lists of opaque surfaces
   std::function<HostShadows()> shadows;     // reads those that it shaded with, for the oracle; null: none
-  std::function<std::vector<HostShadowLayer>()> blended_shadows;  // of its blended surfaces, likewise
+  std::function<std::vector<HostShadowLayer>()> blended_shadows;  // shadows of its blended surfaces, likewise
   bool lights_in_volume = false;  // which has no shadows: all count as seen, also those shaded apart
-  size_t list_bytes = 0;          // of lists of lights in no grid
+  size_t list_bytes = 0;          // bytes of lists of lights in no grid
   std::string built_by;           // the pass whose result serves many frames, if there is one, and
   std::map<std::string, double> built_with;  // values that it chose, by their keys in results.json
-  std::optional<DepthBuffer> depth;  // of techniques that rasterise in OpenCL; else the depth image has it
-  std::optional<TriangleBuffer> triangles;        // of the same techniques
+  std::optional<DepthBuffer> depth;  // for techniques that rasterise in OpenCL; else the depth image has it
+  std::optional<TriangleBuffer> triangles;        // for the same techniques
   std::function<ShadowFigures()> shadow_figures;  // null where `shadows` is; waits
   std::function<SampleFigures()> sample_figures;  // null with one sample a pixel; waits
 

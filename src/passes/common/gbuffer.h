@@ -14,7 +14,7 @@ namespace lightgrid {
 // Four channels, stored in OpenGL as glReadPixels(GL_RGBA, type) returns them, so that reading is a plain
 // copy.
 struct GBufferImage {
-  const char* name;  // of the target (Targets), counted as memory_bytes.gbuffer
+  const char* name;  // name of the target (Targets), counted as memory_bytes.gbuffer
   GLenum format, type;
   size_t bytes;  // a pixel
 };
@@ -43,7 +43,7 @@ inline constexpr size_t gbuffer_coat = 2, gbuffer_specular = 3, gbuffer_most_ima
 
 struct GBufferLayout {
   int bits;
-  const char* define;  // of shaders; null for 32 bits
+  const char* define;  // define for shaders; null for 32 bits
   std::array<GBufferImage, gbuffer_most_images> images;
   // A pixel.
   size_t bytes(const std::vector<size_t>& which) const {

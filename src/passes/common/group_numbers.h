@@ -11,8 +11,8 @@ namespace lightgrid {
 // A value of the setting group-ids.
 struct GroupNumberFormat {
   int bits;
-  const char* name;     // of the target, counted as memory_bytes.gbuffer
-  GLenum format, type;  // of the texture, one unsigned channel; of glReadPixels
+  const char* name;     // name of the target, counted as memory_bytes.gbuffer
+  GLenum format, type;  // format of the texture, one unsigned channel; type of glReadPixels
   size_t bytes;         // a pixel
 };
 

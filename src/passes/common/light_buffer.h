@@ -9,8 +9,8 @@ namespace lightgrid {
 
 // One image in OpenGL, or a buffer of the same bytes in OpenCL's memory, row 0 at the bottom.
 struct PrepassImage {
-  const char* name;    // of the target, counted as memory_bytes.gbuffer
-  GLenum format;       // of the texture
+  const char* name;    // name of the target, counted as memory_bytes.gbuffer
+  GLenum format;       // format of the texture
   GLenum pixel, type;  // as glReadPixels and glTextureSubImage2D take them
   size_t bytes;        // a pixel
 };
@@ -18,7 +18,7 @@ struct PrepassImage {
 // A value of the setting normals, stored as shared/stored_normal.h says.
 struct NormalLayout {
   NormalFormat format;
-  const char* define;  // of shaders and kernels; null: floats, x, y and z and a spare
+  const char* define;  // define for shaders and kernels; null: floats, x, y and z and a spare
   PrepassImage image;
 };
 

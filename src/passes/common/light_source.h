@@ -15,7 +15,7 @@ struct GlLightLoop {
   struct Binding {
     Sampler sampler;
     GLuint texture;
-    size_t element = 0;  // of an array of samplers
+    size_t element = 0;  // index in an array of samplers
   };
   std::vector<Binding> textures;
   struct Block {
@@ -31,7 +31,7 @@ struct GlLightLoop {
 struct ClLightLoop {
   std::string defines;                // -D options; none: lists of cells, or every light
   cl::Buffer cells, indices, z_bins;  // null: every light
-  ClArguments more;                   // what the defines add, in their order
+  ClArguments more;                   // arguments that the defines add, in their order
 };
 
 class LightSource {

@@ -37,7 +37,7 @@ class CasterDraws {
   size_t index_bytes_ = 0;
   int shape_ = -1, instances_ = -1, lights_ = -1;  // versions of the scene that the volumes have
   std::optional<LightRanges> ranges_;
-  GLuint stencil_ = 0, framebuffer_ = 0;  // of the frame
+  GLuint stencil_ = 0, framebuffer_ = 0;  // the frame's
   glm::mat4 clip_from_rays_{1};
 };
 

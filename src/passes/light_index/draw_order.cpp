@@ -171,7 +171,7 @@ void LightIndexOrder::order(const Seen& seen, std::vector<LightVolume> volumes) 
     return any_order ? batch_of(a) < batch_of(b) : std::get<0>(batch_of(a)) < std::get<0>(batch_of(b));
   });
   batches_ = {};
-  uint32_t last_pass = 0;  // those without lights count
+  uint32_t last_pass = 0;  // lights without one count
   for (size_t i = 0; i < order.size(); ++i) {
     const auto [group, round, crosses, mesh] = batch_of(order[i]);
     const auto [last_group, last_round, last_crosses, last_mesh] = batch_of(order[i ? i - 1 : 0]);

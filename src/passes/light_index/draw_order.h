@@ -40,11 +40,11 @@ class LightIndexOrder : public PassCache {
   std::vector<uint32_t> rounds_of(const Seen& seen, const std::vector<LightVolume>& volumes) const;
 
   LightIndexLayout layout_;
-  std::vector<double> influence_;         // of each light
+  std::vector<double> influence_;         // one per light
   std::vector<uint32_t> group_of_light_;  // (type * passes + pass) * layout().groups + group
   bool grouped_ = false;                  // group_of_light_ is the view's, and does not depend on the frame
   static constexpr uint32_t light_types = 2;
-  std::vector<uint32_t> type_;  // of each light: 1 for spots, where types have passes of their own
+  std::vector<uint32_t> type_;  // one per light: 1 for spots, where types have separate passes
   StillLightGroups still_[light_types];
   LightIndexBatches batches_;
 };

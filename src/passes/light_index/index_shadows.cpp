@@ -10,7 +10,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t least_table_bytes = 64;  // of a buffer
+constexpr size_t least_table_bytes = 64;  // least size of a buffer
 constexpr size_t corner_bytes = 16;
 
 bool reads_maps(const Seen& seen) { return seen.plan.settings.lidr_shadows != LidrShadows::volumes; }

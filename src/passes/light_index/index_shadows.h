@@ -57,7 +57,7 @@ class IndexShadows : public PassCache {
   };
 
   std::shared_ptr<RayScene> scene_;
-  SharedTexture corners_;  // of the scene's triangles
+  SharedTexture corners_;  // corners of the scene's triangles
   NamedKernel corners_kernel_;
   int shape_ = -1, instances_ = -1;  // versions of the scene that corners_ has
   std::optional<ViewShadowMaps> maps_;
@@ -65,7 +65,7 @@ class IndexShadows : public PassCache {
   SharedTexture texels_;
   Table lights_, faces_;
   GlBuffer view_block_;
-  GLuint triangles_ = 0;  // of the frame
+  GLuint triangles_ = 0;  // the frame's
   bool view_uploaded_ = false;
 };
 

@@ -16,7 +16,7 @@ struct LightIndexLayout {
   uint32_t overlap = 0;            // lights a pixel
   uint32_t lights = 0;             // lights an index distinguishes: 15, 255 or 65,535
   uint32_t groups = 1, slots = 1;  // overlap = groups * slots; each group of slots has its own channels
-  uint32_t channels = 1;           // of a group
+  uint32_t channels = 1;           // channels of a group
   uint32_t channel_bits = 8;
   uint32_t shift = 8;  // bitshift: bits of each channel that one slot takes
   // Bits of the share of the light that is hidden, above those of its index; 0: there is none. An entry is

@@ -10,7 +10,7 @@ namespace lightgrid {
 namespace {
 
 using std::numbers::pi;
-constexpr int sides = 12;  // of cones
+constexpr int sides = 12;  // sides of a cone
 
 using Triangle = std::array<int, 3>;
 

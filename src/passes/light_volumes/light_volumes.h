@@ -43,7 +43,7 @@ struct LightVolume {
                                              // enclose
 
   uint32_t light;             // index into the given lights, which are FramePlan::local's
-  LightBounds bounds;         // of the light
+  LightBounds bounds;         // bounds of the light
   uint32_t mesh;              // index into light_meshes()
   glm::dmat4 view_from_mesh;  // unused for `everything`
   glm::mat4 clip_from_mesh;

@@ -27,7 +27,7 @@ class VoxelLister {
   ListedLights listed(const std::vector<float>& depth) {
     ListedLights lists;
     lists.cell_of_pixel.assign(depth.size(), 0);
-    lists.count.push_back(0);              // of background
+    lists.count.push_back(0);              // the background's
     std::map<uint64_t, uint32_t> cell_of;  // by brick, then place in it
     for (size_t p = 0; p < depth.size(); ++p) {
       if (!(depth[p] > 0)) continue;

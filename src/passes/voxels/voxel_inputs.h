@@ -62,7 +62,7 @@ class GroupedLights {
 
   std::vector<glm::dvec4>
       sorted_by_;                // world position and radius of the plan's lights, by which order_ was made
-  std::vector<uint32_t> order_;  // of the plan's lights: neighbours are near each other
+  std::vector<uint32_t> order_;  // order of the plan's lights: neighbours are near each other
   std::vector<float> places_, boxes_;
   std::vector<glm::vec4> colors_, cones_;
   uint32_t groups_ = 0;

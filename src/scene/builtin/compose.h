@@ -49,7 +49,7 @@ struct Masonry {
   int columns, rows;  // pieces across and up the image; each second row shifted by half a piece
   float joint_px;
   glm::vec3 color, mortar;
-  float depth_px;  // of the joints
+  float depth_px;  // depth of the joints
   uint64_t seed;
 };
 

@@ -31,7 +31,7 @@ Field noise(int size, int cells_x, int cells_y, int octaves, uint64_t seed);
 struct Cell {
   float x, y;     // -1..1 across the cell
   float edge_px;  // to the nearest edge, in texels
-  uint64_t hash;  // of the cell
+  uint64_t hash;  // hash of the cell
   float random;   // 0..1, of the cell
 };
 

@@ -38,7 +38,7 @@ struct Rectangle {
   float z0, z1, y0, y1;
 };
 std::vector<Rectangle> windows(int kind);  // three a floor, from below
-float height_m(int kind);                  // of the facade
+float height_m(int kind);                  // height of the facade
 
 // Houses of four kinds; kinds 1 and 3 have one more floor. Windows by kind % 2 and one of two patterns of lit
 // and dark: [2 * (kind % 2) + pattern].

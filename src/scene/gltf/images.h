@@ -11,7 +11,7 @@
 namespace lightgrid::gltf {
 
 struct ImageUse {
-  int image = 0;        // of the file
+  int image = 0;        // image number in the file
   bool colors = false;  // stored with the sRGB curve
 };
 

@@ -41,7 +41,7 @@ struct AnimationEntry {
   std::string name;
   std::vector<Sampler> samplers;
   std::vector<Channel> channels;
-  std::optional<Error> fault;  // of its JSON, which then is not read to its end
+  std::optional<Error> fault;  // fault of its JSON, which then is not read to its end
 };
 
 struct PreparedJson {

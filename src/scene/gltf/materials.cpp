@@ -59,7 +59,7 @@ TextureSlot read_slot(Document& doc, const auto& info, const std::string& place)
   int uv_set = info.texCoord;
   if (const auto* transform = find_extension(info.extensions, "KHR_texture_transform"))
     read_transform(doc, *transform, place, slot, uv_set);
-  slot.uv_set = uv_set;  // of the file, until number_uv_sets
+  slot.uv_set = uv_set;  // the file's number, until number_uv_sets
   return slot;
 }
 

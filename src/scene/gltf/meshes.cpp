@@ -84,14 +84,14 @@ class MeshReader {
 
  private:
   struct Drawn {
-    int mesh;      // of the scene
+    int mesh;      // mesh number in the scene
     bool skinned;  // its joints place it
     int winding_node;
   };
 
   // The inputs that determine the shape of a file's mesh.
   struct Use {
-    int mesh, skin;               // of the file
+    int mesh, skin;               // numbers in the file
     std::vector<double> weights;  // at rest
     int weights_node;             // a place in nodes_, where the weights are animated; else -1
     bool mirrored;                // DeformingMesh has both

@@ -20,7 +20,7 @@ std::vector<uint8_t> read_regular_file(const Reporter& report, const std::string
 
 // The files that a glTF file may name.
 struct FileReach {
-  std::vector<std::filesystem::path> folders;  // of the file itself and, if that is a link, of the link
+  std::vector<std::filesystem::path> folders;  // folders of the file and, if that is a link, of the link
   bool anywhere = false;                       // others too
 };
 FileReach reach_of(const std::filesystem::path& gltf, bool anywhere);

@@ -25,7 +25,7 @@ class Desktop {
   bool find_window(const std::string& title, double seconds);
 
   void resize(int width, int height);
-  PngPixels picture();  // what the screen shows; empty while the size is about to change
+  PngPixels picture();  // the screen's picture; empty while the size is about to change
 
   void key(const std::string& name, bool down);  // X11's name: "w", "space", "F12"
   void tap(const std::string& name) { key(name, true), key(name, false); }

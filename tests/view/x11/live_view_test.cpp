@@ -25,7 +25,7 @@ namespace {
 using testing::StartsWith;
 
 constexpr double patience_s = 100;  // for what takes a moment; less on a machine that does nothing else
-constexpr int panel_px = 420, name_rows = 70;  // of labels in two lines each, where the picture is narrow
+constexpr int panel_px = 420, name_rows = 70;  // labels have two lines each where the picture is narrow
 
 int colour_distance(const PngPixels& a, int ax, int ay, const PngPixels& b, int bx, int by) {
   int greatest = 0;
@@ -273,7 +273,7 @@ TEST_F(LiveView, ShowsMapsOfShadowsAtRest) {
   start("spheres --size 320x400 --shadows all");
   const PngPixels resting = render({"render", "spheres", "--size", "320x400", "--shadows", "all"});
   ASSERT_TRUE(shows(resting));
-  desktop_.click(320 + 176, 113);  // what the left side shows
+  desktop_.click(320 + 176, 113);  // the left side's map
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   constexpr int row_of_hidden = 4, row_px = 17;
   desktop_.click(320 + 150, 113 + 20 + row_of_hidden * row_px);
