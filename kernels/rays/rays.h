@@ -17,10 +17,11 @@
 #include "kernels/rays/ray_masks.h"
 #endif
 
-#define RAYS_ARGUMENTS                                                                                     \
-  global const RayNode *ray_nodes, global const RayTriangle *ray_triangles, global const uint *ray_places, \
-      global const uint4 *ray_masks, global const SurfaceVertex *ray_vertices,                             \
-      global const SurfaceMaterial *ray_materials, global const uint *ray_alphas
+#define RAYS_ARGUMENTS                                                                                       \
+  global const RayNode *ray_nodes, global const RayTriangle *ray_triangles, global const uint *ray_places,   \
+      global const RayWideNode *ray_wide_nodes, global const uint4 *ray_masks,                               \
+      global const SurfaceVertex *ray_vertices, global const SurfaceMaterial *ray_materials,                 \
+      global const uint *ray_alphas
 #ifdef RAYS_MASKS
 #define RAYS_MASK_SOURCE                                                   \
   , {                                                                      \
@@ -30,12 +31,13 @@
 #define RAYS_MASK_SOURCE
 #endif
 #define RAYS_SCENE \
-  { ray_nodes, ray_triangles, ray_places RAYS_MASK_SOURCE }
+  { ray_nodes, ray_triangles, ray_places, ray_wide_nodes RAYS_MASK_SOURCE }
 
 typedef struct RayScene {
   global const RayNode* nodes;
-  global const RayTriangle* triangles;  // in the order of the tree, then those that cast nothing
-  global const uint* places;            // a triangle's number to its place in `triangles`
+  global const RayTriangle* triangles;   // in the order of the tree, then those that cast nothing
+  global const uint* places;             // a triangle's number to its place in `triangles`
+  global const RayWideNode* wide_nodes;  // with -DRAYS_WIDE
 #ifdef RAYS_MASKS
   RayMasks masks;
 #endif
@@ -107,6 +109,9 @@ static inline __attribute__((always_inline)) bool leaf_blocked(const RayScene* s
   return false;
 }
 
+#if defined(RAYS_WIDE) && LANES == 16
+#include "kernels/rays/wide_walk.h"
+#else
 static inline void fetch_child(const RayScene* scene, int child, int count) {
   if (count == 0) FETCH(scene->nodes + child);
   else FETCH(scene->triangles + child);
@@ -162,6 +167,7 @@ static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene,
     }
   }
 }
+#endif
 
 // Which way each lane's segment goes along each axis.
 typedef struct RayOctants {

@@ -78,8 +78,7 @@ void RayRefit::find_nodes(std::span<const RayMoved> moved) {
 
 void RayRefit::refit(std::span<const size_t> moved, std::span<const RayInstance> instances,
                      std::span<const RayMeshData> meshes, std::span<const uint32_t> first_triangles,
-                     const glm::dvec3& origin, const cl::Buffer& nodes, const cl::Buffer& triangles,
-                     const cl::Buffer& places) {
+                     const glm::dvec3& origin, const RayTreeBuffers& tree) {
   std::vector<RayMoved> records;
   std::vector<std::array<uint32_t, 2>> runs;
   for (const size_t i : moved) {
@@ -102,13 +101,15 @@ void RayRefit::refit(std::span<const size_t> moved, std::span<const RayInstance>
                             {"runs", runs_.get()},
                             {"positions", positions_.get()},
                             {"indices", indices_.get()},
-                            {"places", places},
-                            {"triangles", triangles}});
+                            {"places", tree.places},
+                            {"triangles", tree.triangles}});
   for (const Launch& l : launches_) {
     nodes_kernel_.launch(device_, "rays_refit_nodes",
                          cl::NDRange((l.count + l.a_work_item - 1) / l.a_work_item), cl::NullRange,
-                         {{"nodes", nodes},
-                          {"triangles", triangles},
+                         {{"nodes", tree.nodes},
+                          {"triangles", tree.triangles},
+                          {"wide_nodes", tree.wide_nodes},
+                          {"slots", tree.slots},
                           {"list", list_.get()},
                           {"first", l.first},
                           {"count", l.count},

@@ -9,6 +9,11 @@
 
 namespace lightgrid {
 
+// wide_nodes, slots: null without a wide tree (rays/wide_tree.h).
+struct RayTreeBuffers {
+  const cl::Buffer &nodes, &wide_nodes, &slots, &triangles, &places;
+};
+
 class RayRefit {
  public:
   // Of a tree as it was built. Uploads the meshes and builds its kernels at the first refit.
@@ -17,8 +22,7 @@ class RayRefit {
   // The instances of these numbers moved, or their meshes did. Enqueues, and waits for uploads alone.
   void refit(std::span<const size_t> moved, std::span<const RayInstance> instances,
              std::span<const RayMeshData> meshes, std::span<const uint32_t> first_triangles,
-             const glm::dvec3& origin, const cl::Buffer& nodes, const cl::Buffer& triangles,
-             const cl::Buffer& places);
+             const glm::dvec3& origin, const RayTreeBuffers& tree);
   void positions_changed() { has_positions_ = false; }
   size_t memory_bytes() const;
 

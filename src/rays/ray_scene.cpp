@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "cl/transfer.h"
 #include "rays/ray_state.h"
+#include "rays/wide_tree.h"
 #include "shared/surface_records.h"
 
 namespace lightgrid {
@@ -37,6 +38,10 @@ void RayScene::State::build(std::span<const RayInstance> given, const RayBounds&
   invalid = arrays.invalid;
   masked = !arrays.masks.empty();
   upload(device, nodes, arrays.nodes);
+  if (device.info().cpu) {
+    const WideTree wide = wide_tree(arrays.nodes);
+    upload(device, wide_nodes, wide.nodes), upload(device, wide_slots, wide.slots);
+  }
   upload(device, triangles, arrays.triangles);
   upload(device, places, arrays.places);
   upload(device, mask_records, arrays.masks);
@@ -132,8 +137,9 @@ void RayScene::set_instances(std::span<const RayInstance> instances) {
       if (s.changed[instances[i].mesh] || instances[i].world_from_object != before[i].world_from_object)
         moved.push_back(i);
     }
-    s.refit->refit(moved, instances, s.meshes, s.first_triangles, s.origin, s.nodes.get(), s.triangles.get(),
-                   s.places.get());
+    s.refit->refit(
+        moved, instances, s.meshes, s.first_triangles, s.origin,
+        {s.nodes.get(), s.wide_nodes.get(), s.wide_slots.get(), s.triangles.get(), s.places.get()});
   }
   s.instances.assign(instances.begin(), instances.end());
   s.changed.assign(s.meshes.size(), false);
@@ -150,25 +156,26 @@ int RayScene::builds() const { return state_->builds; }
 ClArguments RayScene::arguments() const {
   const State& s = *state_;
   s.check();
-  return {{"ray_nodes", s.nodes.get()},       {"ray_triangles", s.triangles.get()},
-          {"ray_places", s.places.get()},     {"ray_masks", s.mask_records.get()},
-          {"ray_vertices", s.masks.vertices}, {"ray_materials", s.masks.materials},
-          {"ray_alphas", s.masks.alphas}};
+  return {{"ray_nodes", s.nodes.get()},         {"ray_triangles", s.triangles.get()},
+          {"ray_places", s.places.get()},       {"ray_wide_nodes", s.wide_nodes.get()},
+          {"ray_masks", s.mask_records.get()},  {"ray_vertices", s.masks.vertices},
+          {"ray_materials", s.masks.materials}, {"ray_alphas", s.masks.alphas}};
 }
 
 std::string RayScene::defines() const {
-  if (!state_->has_masks()) return "";
+  const std::string wide = state_->device.info().cpu ? "-DRAYS_WIDE" : "";
+  if (!state_->has_masks()) return wide;
   const bool veils = std::ranges::any_of(
       state_->instances, [](const RayInstance& i) { return i.casts && i.blends && i.alpha_material >= 0; });
-  return veils ? "-DRAYS_MASKS -DRAYS_VEILS" : "-DRAYS_MASKS";
+  return wide + (veils ? " -DRAYS_MASKS -DRAYS_VEILS" : " -DRAYS_MASKS");
 }
 
 std::string RayScene::kernel_text() { return with_includes("kernels/rays/rays.h"); }
 
 size_t RayScene::memory_bytes() const {
   const State& s = *state_;
-  return s.nodes.bytes() + s.triangles.bytes() + s.places.bytes() + s.mask_records.bytes() +
-         (s.refit ? s.refit->memory_bytes() : 0);
+  return s.nodes.bytes() + s.wide_nodes.bytes() + s.wide_slots.bytes() + s.triangles.bytes() +
+         s.places.bytes() + s.mask_records.bytes() + (s.refit ? s.refit->memory_bytes() : 0);
 }
 
 }  // namespace lightgrid

@@ -22,7 +22,7 @@ struct RayScene::State {
   glm::dvec3 origin{0};
   bool has_instances = false, masked = false;
   RayMasks masks{};
-  GrowingBuffer nodes{}, triangles{}, places{}, mask_records{};
+  GrowingBuffer nodes{}, wide_nodes{}, wide_slots{}, triangles{}, places{}, mask_records{};
   std::optional<RayRefit> refit{};                 // of the tree; none: it has to be built
   std::map<std::string, NamedKernel> occlusion{};  // by defines
 

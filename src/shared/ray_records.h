@@ -4,6 +4,7 @@
 #include "shared/language.h"
 
 #define RAY_STACK 64      // entries: no path from the root down is longer
+#define RAY_WIDTH 16     // children of a RayWideNode
 #define RAY_MASKED 0x80000000u  // in RayTriangle::number: its material's alpha may let light through
 #define RAY_BLENDS \
   0x80000000u             // in a mask's material: its alpha hides that share of a light, in place of a cutoff
@@ -22,6 +23,13 @@ typedef struct RayNode {
   int count_0, count_1;  // triangles
 } RayNode;
 
+// The children of up to 15 nodes, for packets of segments on CPUs. Planes of each: low x y z, high x y z. Missing
+// children have boxes that nothing meets.
+typedef struct RayWideNode {
+  float planes[6][RAY_WIDTH];
+  int child[RAY_WIDTH], count[RAY_WIDTH];  // as in RayNode
+} RayWideNode;
+
 // Three corners, and the normal (second - first) x (third - first) over its greatest component, or 0.
 typedef struct RayTriangle {
   double normal[3];
@@ -37,6 +45,6 @@ typedef struct RayMoved {
 } RayMoved;
 
 #if !defined(__OPENCL_VERSION__)
-static_assert(sizeof(RayNode) == 64 && sizeof(RayTriangle) == 64);
+static_assert(sizeof(RayNode) == 64 && sizeof(RayWideNode) == 512 && sizeof(RayTriangle) == 64);
 }  // namespace lightgrid
 #endif
