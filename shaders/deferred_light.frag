@@ -77,7 +77,7 @@ void main() {
   Coat coat = coat_of_pixel(pixel, s.normal);
   p = with_coat(p, coat.normal, coat.factor, coat.roughness);
 #endif
-  arrival.attenuation *= light_reaches(from, position, groups);
+  arrival.attenuation *= light_reaches(from, position, arrival.to_light, groups);
   added = vec4(radiance_of(p, arrival, from), 0.0);
 #endif
 }

@@ -57,7 +57,7 @@ void main() {
   vec3 position = position_of_pixel(place_of_sample(), depth);
   Arrival arrival = arrival_at(position, from);
   if (!(arrival.attenuation > 0.0)) discard;  // would add exact zeros
-  arrival.attenuation *= light_reaches(from, position, groups);
+  arrival.attenuation *= light_reaches(from, position, arrival.to_light, groups);
   LightTerms terms =
       light_terms(normal_of_pixel(pixel), direction_to_viewer(position), arrival, from, LIGHT_EXPONENT);
   diffuse_specular = vec4(terms.diffuse, terms.specular) * (1.0 / LIGHT_SCALE);

@@ -3,7 +3,7 @@
 //
 // -DDIRECTIONAL  there are directional lights
 // -DDIRECTIONAL_SHADOWS  some of them casts a shadow
-// -DEFFECT_NAME  the effect of src/effects/NAME.cpp adds its light (shared/effects/NAME.h)
+// -DEFFECT_NAME  the effect of src/effects/NAME.cpp adds light or takes it away (shared/effects/NAME.h)
 // -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
 // -DLIGHTS_VOXELS  point and spot lights come from a voxel light buffer
 //                  (kernels/voxels/voxel_lookup.h), not from lists
@@ -49,7 +49,7 @@
 // shared/world_grid.h); with -DZ_BINS the depth keys between z-bins; with -DSLICES those between slices.
 #define RESOLVE_ARGUMENTS                                                                    \
   RESOLVE_SCENE_LIST(PARAMETER)                                                              \
-  LIGHT_ARGUMENTS global const float4 *directional, EFFECTS(EFFECT_PARAMETERS)               \
+  LIGHT_ARGUMENTS global const float4 *directional, BASE_EFFECTS(EFFECT_PARAMETERS)          \
   global const uint2 *cells, global const index_t *light_indices,                            \
       global const uint *light_bins, FACTOR_ARGUMENTS SOURCE_LIST(PARAMETER)                 \
   constant float *bin_edges, constant float *slice_edges, constant ViewParams *view
@@ -67,13 +67,13 @@
   {                                                                                                \
     .lights = {GIVEN_LIGHTS light_bins GIVEN_FACTORS(light_indices) GIVEN_SHADOWS},                \
     .directional = directional, .list = light_indices, .cells = cells, .slice_edges = slice_edges, \
-    SOURCE_LIST(GIVEN) EFFECTS(EFFECT_VALUES)                                                      \
+    SOURCE_LIST(GIVEN) BASE_EFFECTS(EFFECT_VALUES)                                                 \
   }
 
 typedef struct ResolveLights {
   Lights lights;
   global const float4* directional;  // two each: direction to the light, and illuminance
-  EFFECTS(EFFECT_MEMBERS)
+  BASE_EFFECTS(EFFECT_MEMBERS)
   global const index_t* list;  // null: all of them; with -DSLICES and -DWORLD_GRID where all lists begin
   uint count;
   global const uint2* cells;  // with -DSLICES: of all tiles
@@ -239,10 +239,14 @@ static inline Real3 own_light(const ShadingPoint* p, const Resolved* r, const Re
 #ifdef DIRECTIONAL_SHADOWS
     back = scale3(back, seen_share(&l->lights.shadows, view->light_count + i));
 #endif
+#ifdef REACHED_BY_EFFECTS
+    back = scale3(back, effects_reach(&l->lights.reach, view->light_count + i, p->position,
+                                      real3(REAL(to_light.x), REAL(to_light.y), REAL(to_light.z)), GROUPS_AT(*p)));
+#endif
     sum = add3(sum, real3(back.x * light.x, back.y * light.y, back.z * light.z));
   }
 #endif
-  EFFECTS(ADD_BASE)
+  BASE_EFFECTS(ADD_BASE)
   return sum;
 }
 

@@ -12,6 +12,7 @@
 // -DSKIN, -DMINNAERT  some surface has that model: shared/material_models.h
 // -DGROUPS    light groups are asked for: shared/light_table.h
 // -DSHADOWS   some light casts a shadow: shared/shadow_bits.h
+// -DEFFECT_NAME  an effect takes a part of some lights away: shared/inputs.h
 // -DLIST_FACTORS  lists are samples: each light counts as often as its place in `list_factors` says
 //             (kernels/culling/*/sample_lists.cl)
 #pragma once
@@ -25,6 +26,7 @@
 // Point and spot lights by index, as the shaders read them, and the z-bins of each (shared/slices.h).
 typedef struct Lights {
   LIGHT_TABLE(LIGHT_ARRAY)
+  LIGHTS_REACH
   global const uint* bins;
 #ifdef LIST_FACTORS
   global const index_t* lists;  // all of them
@@ -66,8 +68,14 @@ static inline void light_layers(Lights* lights, whole layer, mask_t shown, uint 
 static inline PunctualLight light_at(const Lights* lights, uint index) {
   PunctualLight light;
   LIGHT_TABLE(LIGHT_ELEMENT)
+#ifdef HAS_LIGHT_INDEX
+  light.index = index;
+#endif
 #ifdef SHADOWS
-  light.index = index, light.shadows = &lights->shadows;
+  light.shadows = &lights->shadows;
+#endif
+#ifdef REACHED_BY_EFFECTS
+  light.reach = &lights->reach;
 #endif
   return light;
 }
@@ -125,8 +133,9 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
 #endif
   const mask_t reached = (arrival.attenuation > REAL(0.0f)) & facing;
   if (!any_lane(lit & reached)) return sum;
-  arrival.attenuation = arrival.attenuation * light_reaches(light, p->position, GROUPS_AT(*p));
-#ifdef SHADOWS
+  arrival.attenuation =
+      arrival.attenuation * light_reaches(light, p->position, arrival.to_light, GROUPS_AT(*p));
+#if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
   if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
 #endif
   arrival.attenuation = arrival.attenuation * factor;

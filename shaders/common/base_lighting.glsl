@@ -14,6 +14,6 @@ vec3 base_lighting(Surface s, ShadingPoint p) {
 #ifdef DIRECTIONAL
   color += directional_light_sum(p);
 #endif
-  EFFECTS(ADD_BASE)
+  BASE_EFFECTS(ADD_BASE)
   return color;
 }

@@ -22,6 +22,10 @@ vec3 directional_light_sum(ShadingPoint p) {
 #ifdef DIRECTIONAL_SHADOWS
     back *= seen_share(int(view.light_count) + i, uvec2(gl_FragCoord.xy));
 #endif
+#ifdef REACHED_BY_EFFECTS
+    back *= effects_reach(int(view.light_count) + i, p.position, texelFetch(directional_lights, 2 * i).xyz,
+                          GROUPS_AT(p));
+#endif
     sum += back * texelFetch(directional_lights, 2 * i + 1).rgb;
   }
   return sum;

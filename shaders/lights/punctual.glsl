@@ -10,7 +10,7 @@ LIGHT_TABLE(LIGHT_TEXTURE)
 PunctualLight light_at(int index) {
   PunctualLight light;
   LIGHT_TABLE(LIGHT_TEXEL)
-#ifdef SHADOWS
+#ifdef HAS_LIGHT_INDEX
   light.index = index;
 #endif
   return light;

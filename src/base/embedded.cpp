@@ -12,20 +12,28 @@ namespace lightgrid {
 namespace {
 
 // The text of "shared/effects.h". It includes each file NAME.h of shared/effects, ordered by name, if
-// EFFECT_NAME is defined. EFFECTS(X) expands to X(NAME_INPUTS, NAME_base) for each of these.
+// EFFECT_NAME is defined. BASE_EFFECTS(X) expands to X(NAME_BASE_INPUTS, NAME_base) for each file that
+// defines NAME_BASE_INPUTS; REACH_EFFECTS(X) likewise. If there are any, REACHED_BY_EFFECTS is defined.
 std::string effects_text(const EmbeddedFiles& files) {
   constexpr std::string_view folder = "shared/effects/";
-  std::string text = "#include \"shared/inputs.h\"\n", all = "#define EFFECTS(X)";
+  std::string text = "#include \"shared/inputs.h\"\n", bases = "#define BASE_EFFECTS(X)",
+              reaches = "#define REACH_EFFECTS(X)";
   for (auto file = files.lower_bound(folder); file != files.end() && file->first.starts_with(folder);
        ++file) {
     const std::string path = file->first, name = path.substr(folder.size(), path.rfind('.') - folder.size());
     std::string upper = name;
     std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return char(std::toupper(c)); });
-    text += "#ifdef EFFECT_" + upper + "\n#include \"" + path + "\"\n#define IF_" + upper + "(X) X(" + upper +
-            "_INPUTS, " + name + "_base)\n#else\n#define IF_" + upper + "(X)\n#endif\n";
-    all += " IF_" + upper + "(X)";
+    const auto hook = [&](const std::string& kind, const std::string& function, const char* if_any) {
+      const std::string inputs = upper + kind + "_INPUTS", macro = "IF_" + upper + kind + "(X)";
+      text += "#ifdef " + inputs + "\n" + if_any + "#define " + macro + " X(" + inputs + ", " + name +
+              function + ")\n#else\n#define " + macro + "\n#endif\n";
+      return ' ' + macro;
+    };
+    text += "#ifdef EFFECT_" + upper + "\n#include \"" + path + "\"\n#endif\n";
+    bases += hook("_BASE", "_base", "");
+    reaches += hook("_REACH", "_reach", "#define REACHED_BY_EFFECTS\n");
   }
-  return text + all + '\n';
+  return text + bases + '\n' + reaches + '\n';
 }
 
 // The branches of #ifs that enclose a line, outermost first. Each branch has a number of its own.

@@ -7,4 +7,14 @@ extern const Effect far_light;
 static constexpr const Effect* effects[] = {&far_light};
 constinit const Effects all_effects = effects;
 
+// Lights are read with the effects' part in them (scene/effect_terms.h).
+[[maybe_unused]] static const bool registered = [] {
+  std::vector<ReachOracle> oracles;
+  for (const Effect* effect : effects) {
+    if (effect->reach) oracles.push_back(*effect->reach);
+  }
+  set_reach_oracles(std::move(oracles));
+  return true;
+}();
+
 }  // namespace lightgrid

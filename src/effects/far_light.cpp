@@ -1,6 +1,6 @@
 // Far light (docs/far_light.md). Its volume is filled when the scene's box or a light changed, and its place
-// in the view follows the camera. Lights that leave out a light group send no far light: the volume's light
-// reaches all surfaces.
+// in the view follows the camera. Lights that leave out a light group, or that an effect keeps from some
+// surfaces, send no far light: the volume's light reaches all surfaces.
 #include "effects/far_light.h"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ std::optional<EffectNeed> decide(const Scene& scene, const FramePlan& plan) {
   return EffectNeed{true, light_witness(scene, *first) + " has a range"};
 }
 
-LOOP_INPUTS(FarLightInputs, FAR_LIGHT_INPUTS);
+LOOP_INPUTS(FarLightInputs, FAR_LIGHT_BASE_INPUTS);
 
 constexpr size_t far_group = 64;      // work-items of the group shape
 constexpr double least_box_m = 1e-3;  // of a side
@@ -82,14 +82,15 @@ FarLookup lookup_of(const FarGrid& g, const glm::dvec3& origin, const View& view
   return lookup;
 }
 
-// Lights relative to `origin`, along the world's axes. Those that leave out a light group send nothing.
+// Lights relative to `origin`, along the world's axes. Those that do not reach every surface send nothing.
 std::vector<ViewLight> lights_from(const glm::dvec3& origin, const Seen& seen) {
   View along;
   along.view_from_world = glm::dmat4(1);
   along.eye = origin;
   std::vector<ViewLight> lights = lights_in_view(seen.scene, along, seen.plan.settings.ranges);
   for (ViewLight& light : lights) {
-    if (light.groups != all_groups) light.radiant_intensity = glm::dvec3(0);
+    const bool of_surface = light.share.of_surface || light.groups != all_groups;
+    light.radiant_intensity = of_surface ? glm::dvec3(0) : largest_intensity(light);
   }
   return lights;
 }
@@ -134,7 +135,8 @@ class FarLightVolume : public EffectState {
   }
 
   void bind() const override { inputs_.bind(); }
-  ClArguments arguments() override { return inputs_.arguments(); }
+  ClArguments base_arguments() override { return inputs_.arguments(); }
+  EffectFigures figures() const override { return {{"samples", double(samples())}}; }
   size_t memory_bytes() const override { return columns_.memory_bytes() + inputs_.bytes(); }
 
   ReadFarLight read(Work& work) {
@@ -203,11 +205,16 @@ constexpr LightReader reader{.name = "far light",
                              .cone = reads,
                              .most_falloff = reads,
                              .groups = reads,  // a light that leaves out a group has no far light
-                             .shadows = "far light is not hidden: docs/far_light.md#errors"};
+                             .shadows = "far light is not hidden: docs/far_light.md#errors",
+                             .effects = reads};
 
 }  // namespace
 
-extern constexpr Effect far_light{.name = "far_light", .decide = decide, .make = make, .reader = &reader};
+extern constexpr Effect far_light{.name = "far_light",
+                                  .decide = decide,
+                                  .make = make,
+                                  .base = BaseOracle{.meant_by = "far-light"},
+                                  .reader = &reader};
 
 ReadFarLight read_far_light(Work& work) {
   return static_cast<FarLightVolume&>(*work.effects.find(far_light)).read(work);

@@ -132,7 +132,7 @@ const Image& BruteForce::picture_of_points(const Settings& settings) { return ke
 
 Settings BruteForce::meaning_of_truth() const {
   Settings settings = common_;
-  if (!truth_.own_ranges) settings.ranges = {.range = LightRange::infinite};
+  if (!truth_.own_ranges) settings.ranges = {.range = LightRange::infinite, .effects = common_.ranges.effects};
   return meaning(settings, truth_.source_m);
 }
 

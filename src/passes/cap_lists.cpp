@@ -21,7 +21,7 @@ constexpr size_t sample_group = 32;  // GROUP in kernels/culling/gpu/sample_*.cl
 constexpr double least_inverse = 1e-20, most_inverse = 1e20;
 
 double over_intensity(double value, const ViewLight& light) {
-  const glm::dvec3& i = light.radiant_intensity;
+  const glm::dvec3 i = largest_intensity(light);
   return value * std::clamp(1 / (i.r + i.g + i.b), least_inverse, most_inverse);
 }
 

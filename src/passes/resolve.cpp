@@ -69,7 +69,7 @@ class Resolver : public PassCache {
                        {"texels_4", s.texels_4()},
                        {"texels_8", s.texels_8()}} +
            work.light_arguments() + ClArguments{{"directional", lights.directional.buffer()}} +
-           work.effects.arguments() + source_arguments(loop) +
+           work.effects.base_arguments() + source_arguments(loop) +
            ClArguments{{"bin_edges", lights.bin_edges.buffer()},
                        {"slice_edges", lights.slice_edges.buffer()},
                        {"view", lights.view.buffer()}};
@@ -89,7 +89,9 @@ class Resolver : public PassCache {
   std::string resolve_defines(Work& work) {
     std::string defines = light_defines(work, lanes(), work.plan.settings.brdf);
     if (work.plan.directional) defines += " -DDIRECTIONAL";
-    for (const Effect* effect : work.plan.effects) defines += " -D" + define_of(*effect);
+    for (const Effect* effect : work.plan.effects) {
+      if (!effect->reach) defines += " -D" + define_of(*effect);
+    }
     if (work.plan.light_grid && work.plan.slices > 1) defines += " -DSLICES";
     const uint32_t of_scene = work.plan.settings.everything_on ? feature_all : scene(work).features();
     if (work.plan.settings.texels == TexelLayout::packed_8) defines += " -DSMALL_TEXELS";

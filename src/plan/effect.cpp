@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "plan/frame_plan.h"
+
 namespace lightgrid {
 
 std::string words_of(const Effect& effect) {
@@ -15,6 +17,24 @@ std::string define_of(const Effect& effect) {
   std::string define = std::string("EFFECT_") + effect.name;
   std::ranges::transform(define, define.begin(), [](unsigned char c) { return char(std::toupper(c)); });
   return define;
+}
+
+std::string missing_oracle(const Effect& effect, std::span<const std::string> keys_that_mean) {
+  if (!effect.base && !effect.reach) return "it answers no hook: give .base or .reach with its oracle";
+  if (effect.reach && (!effect.reach->term || !effect.reach->share))
+    return "reach has no oracle: give .term and .share";
+  if (!effect.base || effect.base->term) return "";
+  if (!effect.base->meant_by) return "base has no oracle: give .term, or .meant_by with a setting's key";
+  const bool means = std::ranges::count(keys_that_mean, std::string(effect.base->meant_by)) > 0;
+  return means ? "" : std::string("base is meant by ") + effect.base->meant_by + ", which has no .mean";
+}
+
+std::vector<BaseTerm> base_terms(const Scene& scene, const View& view, const FramePlan& plan) {
+  std::vector<BaseTerm> terms;
+  for (const Effect* effect : plan.effects) {
+    if (effect->base && effect->base->term) terms.push_back(effect->base->term(scene, view, plan.settings));
+  }
+  return terms;
 }
 
 }  // namespace lightgrid

@@ -1,5 +1,5 @@
-// An effect that adds to what surfaces show: its name, whether a frame needs it, and what it keeps for a
-// view. src/effects has one file for each, shared/effects the text that kernels and shaders read.
+// An effect: its name, whether a frame needs it, what it keeps for a view, and the oracle of each hook that
+// its text answers. src/effects has one file for each, shared/effects the text that kernels and shaders read.
 #pragma once
 
 #include <memory>
@@ -8,10 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "scene/effect_terms.h"
+
 namespace lightgrid {
 
-struct Scene;
 struct FramePlan;
+struct Settings;
+struct View;
+struct Surface;  // reference/shading.h
 struct Work;
 struct LightReader;  // scene/light_readers.h
 class EffectState;   // renderer/effect_state.h
@@ -21,6 +25,16 @@ struct EffectNeed {
   std::string why;  // the witness, or why not
 };
 
+// The radiance that an effect adds to a surface at this point of view space.
+using BaseTerm = std::function<glm::dvec3(const Surface&, const glm::dvec3& position)>;
+
+// The hook NAME_base: the same in double, or the key of the setting whose `.mean` takes the effect's place in
+// the picture that is meant.
+struct BaseOracle {
+  BaseTerm (*term)(const Scene&, const View&, const Settings&) = nullptr;
+  const char* meant_by = nullptr;
+};
+
 struct Effect {
   const char* name;  // of its files: "far_light"
   // Called after the plan has the lights. Must depend on the scene and the settings only, so that a camera
@@ -28,6 +42,9 @@ struct Effect {
   // it.
   std::optional<EffectNeed> (*decide)(const Scene&, const FramePlan&);
   std::unique_ptr<EffectState> (*make)(Work&);
+  // The hooks that its text answers, one or both.
+  std::optional<BaseOracle> base{};
+  std::optional<ReachOracle> reach{};
   const LightReader* reader = nullptr;  // what it reads of lights, if it does
 };
 
@@ -36,5 +53,12 @@ using Effects = std::span<const Effect* const>;
 // Its name in a plan ("far light"), and the define of programs that have it ("EFFECT_FAR_LIGHT").
 std::string words_of(const Effect& effect);
 std::string define_of(const Effect& effect);
+
+// What an effect has no oracle of: "base has no oracle: ..."; empty if nothing is missing. `keys_that_mean`:
+// of the settings with `.mean`.
+std::string missing_oracle(const Effect& effect, std::span<const std::string> keys_that_mean);
+
+// Of the planned effects that add to what surfaces show.
+std::vector<BaseTerm> base_terms(const Scene& scene, const View& view, const FramePlan& plan);
 
 }  // namespace lightgrid

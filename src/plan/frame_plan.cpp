@@ -80,11 +80,13 @@ void plan_effects(const Scene& scene, Effects effects, FramePlan& plan) {
 void plan_base_lighting(const Scene& scene, FramePlan& plan) {
   const auto first = std::find_if(plan.opaque.begin(), plan.opaque.end(),
                                   [&](int i) { return shows_base_lighting(scene, i); });
-  plan.base_lighting = plan.directional || !plan.effects.empty() || first != plan.opaque.end();
+  const auto effect = std::ranges::find_if(plan.effects, [](const Effect* e) { return e->base.has_value(); });
+  const bool adds = effect != plan.effects.end();
+  plan.base_lighting = plan.directional || adds || first != plan.opaque.end();
   plan.decisions.push_back(
       {"base lighting", plan.base_lighting,
-       plan.directional        ? light_witness(scene, plan.directional_lights[0])
-       : !plan.effects.empty() ? words_of(*plan.effects.front())
+       plan.directional ? light_witness(scene, plan.directional_lights[0])
+       : adds           ? words_of(**effect)
        : plan.base_lighting
            ? instance_witness(scene, *first)
            : "no opaque surface is emissive, unlit or has an occlusion map; no light is directional"});

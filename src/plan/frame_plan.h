@@ -59,7 +59,7 @@ struct Decision {
 
 // What a technique requires of the plan.
 struct TechniqueNeeds {
-  Effects effects{};  // that its base lighting can have
+  Effects effects{};  // that its light can have
   bool light_grid = false;
   bool slices = false;              // tiles are cut into depth slices
   bool stencil = false;             // beside the depth buffer
@@ -138,7 +138,7 @@ struct FramePlan {
   bool directional_shadows = false;  // as light_reaches, of directional lights alone
   bool shadow_bytes = false;         // a share of a light may be hidden: a byte a pixel and light, not a bit
   bool directional = false;
-  std::vector<const Effect*> effects;  // of base lighting
+  std::vector<const Effect*> effects;  // that the frame needs
   bool blend = false;                  // the blended pass
   bool blend_grid = false;             // a light grid for blended surfaces
   bool base_lighting = false;  // an opaque surface shows more than point, spot and plain ambient light

@@ -12,12 +12,15 @@ constexpr double least_number = 1e-9, most_number = 1e9;
 
 void add_own_setting(const char* key, const char* before, const char* meaning,
                      const std::vector<std::string>& names, const SettingFlags& flags) {
-  const auto number_of = [key](const Settings& s) { return s.own.contains(key) ? s.own.at(key) : 0; };
+  const auto own = [of_lights = flags.of_lights](auto& s) -> auto& {
+    return of_lights ? s.ranges.effects : s.own;
+  };
+  const auto number_of = [=](const Settings& s) { return own(s).contains(key) ? own(s).at(key) : 0; };
   SettingValues values{
-      .copy = [=](Settings& to, const Settings& from) { to.own[key] = number_of(from); },
+      .copy = [=](Settings& to, const Settings& from) { own(to)[key] = number_of(from); },
       .same = [=](const Settings& a, const Settings& b) { return number_of(a) == number_of(b); }};
   for (size_t i = 0; i < names.size(); ++i) {
-    values.choices.push_back({names[i], [=](Settings& s) { s.own[key] = i; },
+    values.choices.push_back({names[i], [=](Settings& s) { own(s)[key] = i; },
                               [=](const Settings& s) { return number_of(s) == i; }});
   }
   all_settings().insert(std::ranges::find(all_settings(), before, &SettingRow::key),

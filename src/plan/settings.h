@@ -167,6 +167,9 @@ struct SettingFlags {
   bool model = false;           // says which picture is meant: images with other values cannot be compared
   bool common = false;          // every technique reads it
   bool tunable = false;         // changes no result, only times: `lightgrid bench --tune` tries its values
+  // An effect's, which changes how much of a light reaches surfaces. It is stored with the ranges, which all
+  // code that reads lights is given.
+  bool of_lights = false;
   bool shown_if_given = false;  // shown only where apply_setting has set it
   Condition shown{};            // without effect, and not shown, where this is false
   Condition approximate{};      // images are not meant to be exact
@@ -185,20 +188,28 @@ class OwnSetting {
  public:
   OwnSetting(const char* key, const char* before, const char* meaning,
              std::initializer_list<std::pair<const char*, T>> values, const SettingFlags& flags = {})
-      : key_(key) {
+      : key_(key), of_lights_(flags.of_lights) {
     std::vector<std::string> names;
     for (const auto& [name, value] : values) names.emplace_back(name), values_.push_back(value);
     add_own_setting(key, before, meaning, names, flags);
   }
 
   T of(const Settings& settings) const {
-    const auto chosen = settings.own.find(key_);
-    return values_[chosen == settings.own.end() ? 0 : chosen->second];
+    return in(of_lights_ ? settings.ranges.effects : settings.own);
   }
-  void set_default(Settings& settings) const { settings.own.erase(key_); }
+  T of(const LightRanges& ranges) const { return in(ranges.effects); }  // of a setting with `of_lights`
+  void set_default(Settings& settings) const {
+    (of_lights_ ? settings.ranges.effects : settings.own).erase(key_);
+  }
 
  private:
+  T in(const std::map<std::string, size_t>& own) const {
+    const auto chosen = own.find(key_);
+    return values_[chosen == own.end() ? 0 : chosen->second];
+  }
+
   const char* key_;
+  bool of_lights_;
   std::vector<T> values_;
 };
 

@@ -168,6 +168,7 @@ dvec3 shade(const Surface& surface, const dvec3& position, bool orthographic,
   const dvec3 ambient = settings.ambient * surface.occlusion;
   dvec3 radiance = ambient * ambient_reflectance(surface, to_eye, settings.brdf);
   radiance = glm::mix(radiance + surface.emissive, ambient, coat_share(surface, to_eye, settings.brdf));
+  for (const auto& term : settings.base) radiance += term(surface, position);
   for (const ViewLight& light : lights) {
     radiance += light_radiance(surface, position, to_eye, light, settings);
   }

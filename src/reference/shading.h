@@ -45,6 +45,8 @@ struct ShadeSettings {
   // shade_pixels leaves out the lights (numbers in `lights`) that it says are hidden at a pixel; empty: none.
   // Called from several threads.
   std::function<bool(uint32_t pixel, uint32_t light)> hidden = {};
+  // Radiance that effects add (BaseTerm in plan/effect.h).
+  std::vector<std::function<glm::dvec3(const Surface&, const glm::dvec3& position)>> base = {};
 };
 
 // Radiance towards the eye, lights added in order. Finite for finite input.

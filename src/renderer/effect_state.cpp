@@ -20,10 +20,21 @@ void EffectStates::bind() const {
   for (const State& s : states_) s.state->bind();
 }
 
-ClArguments EffectStates::arguments() {
+ClArguments EffectStates::all(ClArguments (EffectState::*of)()) {
   ClArguments arguments;
-  for (const State& s : states_) arguments = std::move(arguments) + s.state->arguments();
+  for (const State& s : states_) arguments = std::move(arguments) + (*s.state.*of)();
   return arguments;
+}
+
+ClArguments EffectStates::base_arguments() { return all(&EffectState::base_arguments); }
+ClArguments EffectStates::reach_arguments() { return all(&EffectState::reach_arguments); }
+
+std::map<std::string, EffectFigures> EffectStates::figures() const {
+  std::map<std::string, EffectFigures> figures;
+  for (const State& s : states_) {
+    if (EffectFigures own = s.state->figures(); !own.empty()) figures[s.effect->name] = std::move(own);
+  }
+  return figures;
 }
 
 EffectState* EffectStates::find(const Effect& effect) const {

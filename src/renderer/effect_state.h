@@ -1,7 +1,9 @@
 // State of a view that passes and effects keep from frame to frame, besides targets and programs.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "cl/launch.h"
@@ -10,6 +12,8 @@
 namespace lightgrid {
 
 struct Work;
+
+using EffectFigures = std::map<std::string, double>;  // by key
 
 class PassCache {
  public:
@@ -27,9 +31,11 @@ class PassCache {
 // An effect's memory. It fills its inputs (renderer/loop_inputs.h), which light loops then read.
 class EffectState : public PassCache {
  public:
-  virtual void before_lights(Work& work) = 0;  // at the beginning of each frame
-  virtual void bind() const = 0;               // the inputs of shaders
-  virtual ClArguments arguments() = 0;         // EFFECT_PARAMETERS of kernels
+  virtual void before_lights(Work& work) = 0;          // at the beginning of each frame
+  virtual void bind() const = 0;                       // the inputs of shaders
+  virtual ClArguments base_arguments() { return {}; }  // of kernels: EFFECT_PARAMETERS of the hook NAME_base,
+  virtual ClArguments reach_arguments() { return {}; }  // and of NAME_reach
+  virtual EffectFigures figures() const { return {}; }  // of the last frame, for results.json and results.csv
 };
 
 // The effects' states of a view, in the order of its plan.
@@ -37,7 +43,9 @@ class EffectStates {
  public:
   void before_lights(Work& work);  // makes the planned states that are missing
   void bind() const;
-  ClArguments arguments();
+  ClArguments base_arguments();
+  ClArguments reach_arguments();
+  std::map<std::string, EffectFigures> figures() const;  // by the effect's name, of those that have any
   EffectState* find(const Effect& effect) const;  // null: none
 
   void follow(Work& work);  // drops those that the plan no longer has, or that no longer fit
@@ -49,6 +57,8 @@ class EffectStates {
     const Effect* effect;
     std::unique_ptr<EffectState> state;
   };
+  ClArguments all(ClArguments (EffectState::*of)());
+
   std::vector<State> states_;
 };
 

@@ -51,6 +51,35 @@ struct BlockInput {
   GlBuffer uniform;  // where OpenGL draws
 };
 
+// Values of the lights, in the order of FramePlan::local and then of FramePlan::directional_lights.
+struct ColumnInput {
+  ColumnInput(const char* name, const char*) : name(name), unit(unit_of_input(name)) {}
+
+  template <typename Value>
+  void put(ClDevice& device, bool opengl, const char* what, const std::vector<Value>& column) {
+    values.put(device, what, column);
+    if (!opengl) return;
+    texels = make_buffer(column.size() * sizeof(Value), column.data());
+    texture = make_buffer_texture(format_of(Value()), texels.name());
+  }
+  void bind() const {
+    if (texture) glBindTextureUnit(unit, texture.name());
+  }
+  ClArgument argument() { return {name, values.buffer()}; }
+  size_t bytes() const { return values.bytes() * (texture ? 2 : 1); }
+
+  const char* name;
+  GLuint unit;
+  UploadedBuffer values;
+  GlBuffer texels;  // where OpenGL draws
+  GlTexture texture;
+
+ private:
+  static constexpr GLenum format_of(const glm::vec4&) { return GL_RGBA32F; }
+  static constexpr GLenum format_of(float) { return GL_R32F; }
+  static constexpr GLenum format_of(uint32_t) { return GL_R32UI; }
+};
+
 #define LOOP_INPUT_MEMBER(kind, type, name, resource) kind name{#name, #resource};
 #define LOOP_INPUT_BIND(kind, type, name, resource) name.bind();
 #define LOOP_INPUT_ARGUMENT(kind, type, name, resource) name.argument(),

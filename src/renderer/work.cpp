@@ -108,7 +108,8 @@ const ClLights& Work::cl_lights() {
 }
 
 ClArguments Work::light_arguments() {
-  return plan.light_reaches ? cl_lights().columns() + shadows.arguments() : cl_lights().columns();
+  ClArguments arguments = cl_lights().columns() + effects.reach_arguments();
+  return plan.light_reaches ? std::move(arguments) + shadows.arguments() : arguments;
 }
 
 std::array<std::unique_ptr<PassCache>*, 19> PassCaches::all() {

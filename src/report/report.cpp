@@ -6,6 +6,7 @@
 #include <cctype>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/write_file.h"
 #include "results/error_measures.h"
@@ -50,7 +51,10 @@ ReportView finished_view(const fs::path& folder, const CompareReport& report, bo
   return view;
 }
 
-std::vector<CsvColumn> csv_columns(bool shadows) {
+// Of the effects of any row.
+using EffectKeys = std::set<std::pair<std::string, std::string>>;
+
+std::vector<CsvColumn> csv_columns(bool shadows, const EffectKeys& effects) {
   std::vector<CsvColumn> all;
   add_columns(all, {"commit", "cl", "gl", "scene", "size"});
   all.push_back({"lights", "/lights/total"});
@@ -70,6 +74,8 @@ std::vector<CsvColumn> csv_columns(bool shadows) {
   add_columns(all, {"reference_pixels"});
   add_columns(all, {"pixels", "sum_rel", "max_rel", "rmse_rel", "p99_rel"}, "/error/surfaces", "surfaces_");
   add_columns(all, {"reference", "bit_identical", "max_rel", "rmse_rel"}, "/same_surfaces", "same_surfaces_");
+  for (const auto& [effect, key] : effects)
+    all.push_back({effect + '_' + key, "/effects/" + effect + '/' + key});
   return all;
 }
 
@@ -157,13 +163,19 @@ nlohmann::json to_json(const std::vector<ReportView>& views) {
 std::string results_csv(const std::vector<ReportView>& views) {
   std::vector<nlohmann::json> rows;
   bool shadows = false;
+  EffectKeys effects;
   for (const ReportView& view : views) {
-    for (const RunResult& row : view.report.rows) shadows |= row.pairs && row.pairs->shadows;
+    for (const RunResult& row : view.report.rows) {
+      shadows |= row.pairs && row.pairs->shadows;
+      for (const auto& [effect, figures] : row.effects) {
+        for (const auto& figure : figures) effects.emplace(effect, figure.first);
+      }
+    }
     const auto names = row_names(view.report);
     for (size_t i = 0; i < names.size(); ++i)
       rows.push_back(csv_row(view.report, view.report.rows[i], names[i]));
   }
-  return csv_table(csv_columns(shadows), rows);
+  return csv_table(csv_columns(shadows, effects), rows);
 }
 
 void write_report(const fs::path& folder, const CompareReport& report) {

@@ -267,6 +267,7 @@ json to_json(const RunResult& result) {
                       {"covered", s->covered},
                       {"bytes", s->bytes}};
   }
+  if (!result.effects.empty()) out["effects"] = result.effects;
   if (result.moving) out["moving"] = to_json(*result.moving);
   if (!result.refused.empty()) out["refused"] = result.refused;
   return out;

@@ -223,7 +223,8 @@ struct RunResult {
   std::vector<SkippedEffect> skipped;
   std::optional<ShadowResult> shadows;  // absent if no light casts a shadow
   std::optional<SampleResult> samples;  // absent with one sample a pixel
-  std::optional<MovingResult> moving;   // absent without a camera path
+  std::map<std::string, std::map<std::string, double>> effects;  // figures of each, by its name
+  std::optional<MovingResult> moving;  // absent without a camera path
 };
 
 // The technique that shades every light at every pixel, on OpenGL's surfaces or on those drawn in OpenCL.

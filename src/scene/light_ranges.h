@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "scene/scene.h"
@@ -26,6 +28,9 @@ struct LightRanges {
   double alpha =
       0.01;  // a light whose irradiance at a point is f reaches it with the probability min(f / alpha, 1)
   uint32_t seed = 1;  // seed of the random ranges
+  // Settings of effects that change how much of a light reaches surfaces, as Settings::own
+  // (SettingFlags::of_lights).
+  std::map<std::string, size_t> effects{};
   bool operator==(const LightRanges&) const = default;
 };
 

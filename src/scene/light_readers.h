@@ -1,6 +1,7 @@
 // Every place that computes with a light's brightness, and the factors of a light that it takes into account.
-// A factor is a column of LIGHT_TABLE, or what light_reaches answers besides (shadows; cookies will). A new
-// column is a new member here, without which this does not compile; Adding.EveryReaderOfLights… finds a
+// A factor is a column of LIGHT_TABLE, or what light_reaches answers besides: shadows, and the effects that
+// answer NAME_reach. Code outside of light loops reads the effects' largest_intensity (scene/view_lights.h). A
+// new column is a new member here, without which this does not compile; Adding.EveryReaderOfLights… finds a
 // reader that is not listed, and one that does not name a factor that it claims to read.
 #pragma once
 
@@ -20,6 +21,7 @@ struct LightReader {
   LIGHT_TABLE(LIGHT_FACTOR)
 #undef LIGHT_FACTOR
   const char* shadows = nullptr;
+  const char* effects = nullptr;
 };
 
 inline constexpr const char* only_order =
@@ -37,7 +39,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = reads,
      .most_falloff = reads,
      .groups = reads,
-     .shadows = reads},
+     .shadows = reads,
+     .effects = reads},
     {.name = "oracle",
      .files = "src/reference/shading.cpp src/reference/light_sums.cpp",
      .position = reads,
@@ -45,7 +48,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = reads,
      .most_falloff = reads,
      .groups = reads,
-     .shadows = "SeenPairs decides them for each pair, and ShadeSettings::hidden leaves lights out"},
+     .shadows = "SeenPairs decides them for each pair, and ShadeSettings::hidden leaves lights out",
+     .effects = reads},
     {.name = "voxel volumes",
      .files =
          "src/passes/voxels/voxel_inputs.cpp kernels/voxels/voxel_light.h kernels/voxels/gpu/build_voxels.cl "
@@ -55,7 +59,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = reads,
      .most_falloff = reads,
      .groups = "a sample belongs to no surface; the technique's groups_of says so",
-     .shadows = "a sample belongs to no surface; exact lights have them"},
+     .shadows = "a sample belongs to no surface; exact lights have them",
+     .effects = reads},
     {.name = "choice of voxel_lights' exact lights",
      .files = "kernels/resolve/resolve_light.h shaders/lights/voxels.glsl",
      .position = reads,
@@ -63,7 +68,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = reads,
      .most_falloff = reads,
      .groups = only_order,
-     .shadows = only_order},
+     .shadows = only_order,
+     .effects = only_order},
     {.name = "list orders",
      .files = "src/passes/cap_lists.cpp",
      .position = reads,
@@ -71,7 +77,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = only_order,
      .most_falloff = only_order,
      .groups = only_order,
-     .shadows = only_order},
+     .shadows = only_order,
+     .effects = reads},
     {.name = "sampled lists",
      .files = "kernels/culling/sampled_list.h",
      .position = reads,
@@ -79,7 +86,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = reads,
      .most_falloff = reads,
      .groups = "weights may be any that are above 0: the sum's mean is right",
-     .shadows = "weights may be any that are above 0: the sum's mean is right"},
+     .shadows = "weights may be any that are above 0: the sum's mean is right",
+     .effects = "weights may be any that are above 0: the sum's mean is right"},
     {.name = "light tree",
      .files = "src/scene/light_tree.cpp kernels/culling/sampled_tree.h",
      .position = reads,
@@ -87,7 +95,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = "weights may be any that are above 0: the sum's mean is right",
      .most_falloff = "weights may be any that are above 0: the sum's mean is right",
      .groups = "weights may be any that are above 0: the sum's mean is right",
-     .shadows = "weights may be any that are above 0: the sum's mean is right"},
+     .shadows = "weights may be any that are above 0: the sum's mean is right",
+     .effects = reads},
     {.name = "shadow-pick",
      .files = "src/passes/shadows/shadow_lights.cpp kernels/shadows/picked_shadows.h",
      .position = reads,
@@ -95,7 +104,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = reads,
      .most_falloff = "an estimate of shares: virtual lights weigh as spots",
      .groups = reads,
-     .shadows = "it finds them"},
+     .shadows = "it finds them",
+     .effects = reads},
     {.name = "orders of lidr",
      .files = "src/passes/light_index/draw_order.cpp src/plan/frame_plan.cpp",
      .position = reads,
@@ -103,7 +113,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = only_order,
      .most_falloff = only_order,
      .groups = only_order,
-     .shadows = only_order},
+     .shadows = only_order,
+     .effects = reads},
     {.name = "plan of shadows",
      .files = "src/plan/dim_lights.cpp",
      .position = reads,
@@ -111,7 +122,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = reads,
      .most_falloff = upper_bound,
      .groups = upper_bound,
-     .shadows = "it plans them"},
+     .shadows = "it plans them",
+     .effects = upper_bound},
     {.name = "scale of light_prepass",
      .files = "src/passes/common/light_buffer.cpp",
      .position = reads,
@@ -119,7 +131,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = upper_bound,
      .most_falloff = upper_bound,
      .groups = upper_bound,
-     .shadows = upper_bound},
+     .shadows = upper_bound,
+     .effects = upper_bound},
     {.name = "importance (--shadows N, virtual lights)",
      .files = "src/scene/shadow_casters.cpp src/scene/virtual_lights.cpp",
      .position = reads,
@@ -127,7 +140,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = reads,
      .most_falloff = only_order,
      .groups = only_order,
-     .shadows = only_order},
+     .shadows = only_order,
+     .effects = only_order},
     {.name = "ranges from intensities",
      .files = "src/scene/light_ranges.cpp",
      .position = reads,
@@ -135,7 +149,8 @@ inline constexpr LightReader light_readers[] = {
      .cone = upper_bound,
      .most_falloff = reads,
      .groups = upper_bound,
-     .shadows = upper_bound},
+     .shadows = upper_bound,
+     .effects = upper_bound},
     {.name = "check",
      .files = "src/session/light_limits.cpp",
      .position = reads,
@@ -143,11 +158,12 @@ inline constexpr LightReader light_readers[] = {
      .cone = reads,
      .most_falloff = "glTF and engines have no virtual lights",
      .groups = reads,
-     .shadows = "engines limit lights before they find shadows"},
+     .shadows = "engines limit lights before they find shadows",
+     .effects = "engines limit lights, whatever each lets through"},
 };
 
 constexpr bool says_all(const LightReader& reader) {
-  bool all = reader.shadows != nullptr;
+  bool all = reader.shadows && reader.effects;
 #define LIGHT_FACTOR(condition, type, member, array, texels) all = all && reader.member;
   LIGHT_TABLE(LIGHT_FACTOR)
 #undef LIGHT_FACTOR

@@ -17,7 +17,7 @@ struct Leaf {
 };
 
 float luminance_of(const ViewLight& light) {
-  const glm::dvec3& i = light.radiant_intensity;
+  const glm::dvec3 i = largest_intensity(light);
   const double luminance = 0.2126 * i.r + 0.7152 * i.g + 0.0722 * i.b;
   return light.radius_m > 0 && luminance > 0 ? float(std::clamp(luminance, 1e-20, 1e20)) : 0;
 }

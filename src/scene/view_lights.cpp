@@ -29,6 +29,8 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
     out.window = window_of(ranges);
     out.least_falloff = least_falloff(light, ranges);
     out.groups = light.groups;
+    out.reach = reach_terms(scene, light, ranges, rotation);
+    out.share = share_of(scene, light, ranges);
     if (light.is_virtual) out.most_falloff = most_falloff(light);
     if (light.outer_cone_rad != outer_rad)
       outer_rad = light.outer_cone_rad, cos_outer = cone_cosine(outer_rad);

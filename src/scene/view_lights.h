@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scene/camera.h"
+#include "scene/effect_terms.h"
 #include "scene/light_ranges.h"
 #include "scene/scene.h"
 
@@ -31,11 +32,21 @@ struct ViewLight {
   uint32_t groups = all_groups;
   double most_falloff =
       0;  // 1 / m^2: of a virtual light, whose 1 / distance^2 is at most this; 0: no such light
+  // What effects let through, in view space, and its bounds.
+  ReachTerms reach{};
+  LightShare share{};
 };
+
+// Radiant intensity in the direction in which effects let through most: the brightness of a light for code
+// that has no surface.
+inline glm::dvec3 largest_intensity(const ViewLight& light) {
+  return light.radiant_intensity * light.share.largest;
+}
 
 // The integral of intensity / distance^2 over the range's ball, up to a factor.
 inline double influence_of(const ViewLight& light) {
-  return (light.radiant_intensity.r + light.radiant_intensity.g + light.radiant_intensity.b) * light.radius_m;
+  const glm::dvec3 intensity = largest_intensity(light);
+  return (intensity.r + intensity.g + intensity.b) * light.radius_m;
 }
 
 // In the scene's order. Positions are subtracted from the eye in double, so that a scene and a camera moved

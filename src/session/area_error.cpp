@@ -14,7 +14,9 @@ AreaTruth area_truth(const Seen& v, SceneOcclusion& occlusion, size_t most_at_ed
   const bool casts = std::ranges::any_of(v.scene.lights, &Light::casts_shadow) &&
                      v.plan.settings.shadows != ShadowMethod::none;
   const AreaOracle oracle(v.scene, v.view, meant_by(v.plan.settings).ranges,
-                          {.brdf = v.plan.settings.brdf, .ambient = v.scene.ambient},
+                          {.brdf = v.plan.settings.brdf,
+                           .ambient = v.scene.ambient,
+                           .base = base_terms(v.scene, v.view, v.plan)},
                           casts ? &occlusion.get(v.plan.settings.shadow_blended) : nullptr);
   std::vector<uint32_t> all(v.view.grid().values());
   std::iota(all.begin(), all.end(), 0u);

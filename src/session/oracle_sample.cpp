@@ -69,6 +69,7 @@ std::vector<glm::dvec3> SurfaceOracle::shade(const std::vector<uint32_t>& pixels
     return surface;
   };
   ShadeSettings settings{.brdf = v_.plan.settings.brdf, .ambient = v_.scene.ambient, .window = window};
+  settings.base = base_terms(v_.scene, v_.view, v_.plan);
   const std::unique_ptr<SeenPairs> seen = shadows_->at_pixels(v_, depth_, triangles_, pixels, window);
   if (seen) settings.hidden = seen->hidden();
   return shade_pixels(v_.view, depth_, surface_at, lights_, settings, pixels);

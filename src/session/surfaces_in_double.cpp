@@ -30,6 +30,7 @@ SurfacesInDouble surfaces_in_double(const RenderView& v, const std::vector<Scene
     found.pixels.push_back(pixel);
   }
   ShadeSettings settings{.brdf = v.plan.settings.brdf, .ambient = v.scene.ambient};
+  settings.base = base_terms(v.scene, v.view, v.plan);
   ShadowTruth own_shadows(v.scene, 0);
   if (!shadows) shadows = &own_shadows;
   std::unique_ptr<SeenPairs> seen;

@@ -231,6 +231,7 @@ RunResult TechniqueRun::result() const {
     if (!decision.needed) result.skipped.push_back({decision.effect, decision.why});
   }
   result.shadows = shadow_result(view_.plan, frame_);
+  result.effects = view_.effects.figures();
   if (frame_.sample_figures) {
     const SampleFigures f = frame_.sample_figures();
     result.samples = {f.edge_pixels, f.shadings, f.covered, f.bytes};

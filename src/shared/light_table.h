@@ -5,11 +5,15 @@
 //   VIRTUAL_LIGHTS: at least one of those is a virtual point light.
 //   SHADOWS: some light of the scene casts a shadow (FramePlan::light_reaches).
 //   GROUPS: some light or instance lacks a light group (FramePlan::groups).
+//   EFFECT_NAME: an effect answers NAME_reach (shared/inputs.h).
 #pragma once
 
 #include "shared/real.h"
 #ifdef SHADOWS
 #include "shared/shadow_bits.h"
+#endif
+#if defined(__OPENCL_VERSION__) || defined(LIGHTGRID_GLSL)
+#include "shared/effects.h"
 #endif
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
@@ -50,28 +54,44 @@ namespace lightgrid {
   ROW(IF_VIRTUAL, float, most_falloff, light_falloffs, samplerBuffer) \
   ROW(IF_GROUPS, uint, groups, light_group_masks, usamplerBuffer)
 
-// With shadows a light knows its index, and in OpenCL the shadows at the pixels that read it.
-#if !defined(SHADOWS)
-#define SHADOW_MEMBERS
-#elif defined(__OPENCL_VERSION__)
-#define SHADOW_MEMBERS \
-  uint index;          \
-  const ShadowsHere* shadows;
+// What light_reaches asks for a light by: its index, and in OpenCL the shadows at the pixels that read it and
+// the inputs of effects.
+#if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
+#define HAS_LIGHT_INDEX
+#define INDEX_MEMBER LightIndex index;
 #else
-#define SHADOW_MEMBERS Whole index;
+#define INDEX_MEMBER
+#endif
+#if defined(SHADOWS) && defined(__OPENCL_VERSION__)
+#define SHADOW_MEMBER const ShadowsHere* shadows;
+#else
+#define SHADOW_MEMBER
+#endif
+#if defined(REACHED_BY_EFFECTS) && defined(__OPENCL_VERSION__)
+typedef struct ReachInputs {
+  REACH_EFFECTS(EFFECT_MEMBERS)
+} ReachInputs;
+#define REACH_MEMBER const ReachInputs* reach;
+#define LIGHTS_REACH ReachInputs reach;  // of structs of lights, after LIGHT_TABLE(LIGHT_ARRAY)
+#define GIVEN_REACH {REACH_EFFECTS(EFFECT_VALUES)},
+#define REACH_ARGUMENTS REACH_EFFECTS(EFFECT_PARAMETERS)
+#else
+#define REACH_MEMBER
+#define LIGHTS_REACH
+#define GIVEN_REACH
+#define REACH_ARGUMENTS
 #endif
 
 #define LIGHT_MEMBER(condition, type, member, array, texels) condition(type member;)
-SHARED_STRUCT(PunctualLight){LIGHT_TABLE(LIGHT_MEMBER) SHADOW_MEMBERS};
+SHARED_STRUCT(PunctualLight){LIGHT_TABLE(LIGHT_MEMBER) INDEX_MEMBER SHADOW_MEMBER REACH_MEMBER};
 
 // The end of every light loop: how much of a light reaches a point of a surface, 0 to 1, besides what
-// distance and cone let through. Shadows answer here, for the pixel that is shaded, and light groups. Cookies
-// will answer here and in reference/attenuation.h. The plan says whether an effect asks
-// (FramePlan::light_reaches, FramePlan::groups); without one the factor is the constant 1, which compiles to
-// nothing.
-//   point: along the axes of light.position, which are the view's. groups: the surface's. Forward shaders get
-//   them with each draw, resolve kernels from the instance's record, both by way of ShadingPoint; what reads
-//   a geometry buffer, from the number that it holds.
+// distance and cone let through. Shadows answer here, for the pixel that is shaded, light groups, and the
+// effects that answer NAME_reach (shared/inputs.h). The plan says who answers (FramePlan::light_reaches,
+// ::groups and ::effects); without any the factor is the constant 1, which compiles to nothing.
+//   point: along the axes of light.position, which are the view's. to_light: of length 1, likewise.
+//   groups: the surface's. Forward shaders get them with each draw, resolve kernels from the instance's record,
+//   both by way of ShadingPoint; code that reads a geometry buffer, from the number that it holds.
 #ifdef GROUPS
 #define GROUPS_AT(p) ((p).groups)
 #ifdef __OPENCL_VERSION__
@@ -88,17 +108,43 @@ bool groups_meet(uint light, int groups) { return (light & uint(groups)) != 0u; 
 #define IF_MEETING(light, own, share) (share)
 #endif
 #if defined(SHADOWS) && defined(LIGHTGRID_GLSL)
-SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole groups) {
-  return IF_MEETING(light, groups, seen_share(light.index, uvec2(gl_FragCoord.xy)));
-}
+#define SEEN_SHARE(light) seen_share((light).index, uvec2(gl_FragCoord.xy))
 #elif defined(SHADOWS) && defined(__OPENCL_VERSION__)
-SHARED_FUNCTION real light_reaches(PunctualLight light, Real3 point, Whole groups) {
-  return IF_MEETING(light, groups, seen_share(light.shadows, light.index));
-}
-#elif defined(LIGHTGRID_GLSL) || defined(__OPENCL_VERSION__)
-#define light_reaches(light, point, own) IF_MEETING(light, own, REAL(1.0f))
+#define SEEN_SHARE(light) seen_share((light).shadows, (light).index)
 #else
-inline real light_reaches(const PunctualLight&, const Real3&, Whole) { return 1; }
+#define SEEN_SHARE(light) REAL(1.0f)
+#endif
+
+// The part of a light that all effects let pass.
+#if defined(REACHED_BY_EFFECTS) && defined(__OPENCL_VERSION__)
+#define INPUT_OF_REACH(kind, type, name, resource) , from->name
+#define TIMES_REACH(inputs, reach) \
+  share = share * reach(light, point, to_light, groups inputs(INPUT_OF_REACH));
+static inline real effects_reach(const ReachInputs* from, uint light, Real3 point, Real3 to_light,
+                                 whole groups) {
+  real share = REAL(1.0f);
+  REACH_EFFECTS(TIMES_REACH)
+  return share;
+}
+#define EFFECTS_REACH(light, point, to_light, groups) \
+  effects_reach((light).reach, (light).index, point, to_light, groups)
+#elif defined(REACHED_BY_EFFECTS)
+#define TIMES_REACH(inputs, reach) share *= reach(light, point, to_light, groups);
+float effects_reach(int light, vec3 point, vec3 to_light, int groups) {
+  float share = 1.0;
+  REACH_EFFECTS(TIMES_REACH)
+  return share;
+}
+#define EFFECTS_REACH(light, point, to_light, groups) effects_reach((light).index, point, to_light, groups)
+#endif
+
+#ifdef REACHED_BY_EFFECTS
+#define light_reaches(light, point, to_light, own) \
+  IF_MEETING(light, own, SEEN_SHARE(light) * EFFECTS_REACH(light, point, to_light, own))
+#elif defined(LIGHTGRID_GLSL) || defined(__OPENCL_VERSION__)
+#define light_reaches(light, point, to_light, own) IF_MEETING(light, own, SEEN_SHARE(light))
+#else
+inline real light_reaches(const PunctualLight&, const Real3&, const Real3&, Whole) { return 1; }
 #endif
 
 #if defined(LIGHTGRID_GLSL)
@@ -113,10 +159,10 @@ inline real light_reaches(const PunctualLight&, const Real3&, Whole) { return 1;
 #define SHADOW_ARGUMENTS
 #define GIVEN_SHADOWS
 #endif
-#define LIGHT_ARGUMENTS LIGHT_TABLE(LIGHT_ARGUMENT) SHADOW_ARGUMENTS
+#define LIGHT_ARGUMENTS LIGHT_TABLE(LIGHT_ARGUMENT) REACH_ARGUMENTS SHADOW_ARGUMENTS
 #define LIGHT_ARRAY(condition, type, member, array, texels) global const type* array;
 #define LIGHT_GIVEN(condition, type, member, array, texels) array,
-#define GIVEN_LIGHTS LIGHT_TABLE(LIGHT_GIVEN)
+#define GIVEN_LIGHTS LIGHT_TABLE(LIGHT_GIVEN) GIVEN_REACH
 #define LIGHT_ELEMENT(condition, type, member, array, texels) condition(light.member = lights->array[index];)
 #endif
 

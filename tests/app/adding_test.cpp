@@ -97,6 +97,7 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
       // Its hard cases.
       {"src/verify/light_index_cases.cpp", {"lidr"}},
       {"src/verify/samples.cpp", {"visibility"}},
+      {"src/verify/shadow_contacts.cpp", {"visibility"}},
       // Ways to draw light groups that hard cases compare.
       {"src/verify/group_cases.cpp",
        {"clustered", "deferred", "deferred_tiled", "forward", "forward_multipass", "forward_plus",
@@ -161,6 +162,46 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
   }
   EXPECT_THAT(differences(others, expected), IsEmpty());
   for (const auto& [name, files] : own) EXPECT_LE(files, 5u) << name;
+}
+
+// Without an oracle an effect that is wrong would pass: techniques would only be compared with each other.
+TEST(Adding, EveryHookOfAnEffectHasItsOracle) {
+  std::vector<std::string> keys_that_mean;
+  for (const SettingHelp& setting : setting_help()) {
+    if (setting.flags.mean) keys_that_mean.push_back(setting.key);
+  }
+  for (const Effect* effect : all_effects) EXPECT_EQ(missing_oracle(*effect, keys_that_mean), "") << effect->name;
+}
+
+// The hooks with an oracle are those that the text answers.
+TEST(Adding, AnEffectsTextAnswersTheHooksThatHaveAnOracle) {
+  for (const Effect* effect : all_effects) {
+    const std::string name = effect->name, define = define_of(*effect), upper = define.substr(7);
+    const std::string text = text_at("src/shared/effects/" + name + ".h");
+    const auto lists = [&](const std::string& hook) {
+      return text.find("#define " + upper + hook + "_INPUTS(") != text.npos;
+    };
+    EXPECT_EQ(lists("_BASE"), effect->base.has_value()) << name;
+    EXPECT_EQ(lists("_REACH"), effect->reach.has_value()) << name;
+  }
+}
+
+TEST(Adding, AnEffectThatASettingStandsForIsNotInThePictureThatIsMeant) {
+  const Scene scene{.lights = {{.radius_m = 2}}};
+  for (const Effect* effect : all_effects) {
+    if (!effect->base || !effect->base->meant_by) continue;
+    bool ever_drawn = false;
+    const auto setting = std::ranges::find(setting_help(), effect->base->meant_by, &SettingHelp::key);
+    ASSERT_NE(setting, setting_help().end());
+    for (const std::string& value : setting->values) {
+      FramePlan plan{.local = {0}};
+      apply_setting(plan.settings, setting->key + "=" + value);
+      ever_drawn = ever_drawn || effect->decide(scene, plan);
+      plan.settings = meant_by(plan.settings);
+      EXPECT_FALSE(effect->decide(scene, plan)) << setting->key << "=" << value;
+    }
+    EXPECT_TRUE(ever_drawn) << effect->name;
+  }
 }
 
 // Its key, its values and its effect on the plan stand in the technique's own file, which `lightgrid
@@ -336,6 +377,7 @@ const std::vector<std::string> reading = {" arrival_at(",         "(arrival_at("
                                           " voxel_arrival(",      " attenuation(light",
                                           " arrival_at_sample(",  "arrival_beyond(",
                                           "radiant_intensity",    "influence_of(",
+                                          "largest_intensity(",
                                           "brightest_intensity(", "light_importance(",
                                           "most_irradiance(",     "->luminance",
                                           "record.luminance",     "double(light.intensity)",
@@ -357,6 +399,8 @@ TEST(Adding, EveryReaderOfLightsIsListedInLightReaders) {
   const std::set<std::string> no_readers = {"src/scene/scene.cpp",
                                             "src/plan/dim_lights.h",
                                             "src/renderer/upload/lights.cpp",
+                                            "src/scene/effect_terms.cpp",
+                                            "src/scene/effect_terms.h",
                                             "src/scene/light_ranges.h",
                                             "src/scene/light_readers.h",
                                             "src/scene/shadow_casters.h",
@@ -380,7 +424,8 @@ std::vector<std::string> marks_of(const std::string& factor) {
       {"cone", {"has_cone(", "cos_outer", "bounds_of("}},
       {"most_falloff", {"most_falloff"}},
       {"groups", {"light_reaches(", "groups"}},
-      {"shadows", {"light_reaches("}}};
+      {"shadows", {"light_reaches("}},
+      {"effects", {"light_reaches(", "largest_intensity(", "influence_of(", "share_of("}}};
   for (const char* of_distance : {"position", "color", "cone", "most_falloff"})
     marks[of_distance].insert(marks[of_distance].end(), arrivals.begin(), arrivals.end());
   const auto own = marks.find(factor);
@@ -407,6 +452,9 @@ TEST(Adding, AReaderOfLightsReadsTheFactorsThatItClaims) {
 #undef LIGHT_FACTOR
     if (reader.shadows == reads) {
       EXPECT_TRUE(names_one(code, marks_of("shadows")));
+    }
+    if (reader.effects == reads) {
+      EXPECT_TRUE(names_one(code, marks_of("effects")));
     }
   }
 }

@@ -79,19 +79,31 @@ TEST(WithIncludes, AFileReadBeforeTheConditionIsNotRepeated) {
 }
 
 TEST(WithIncludes, EffectsAreTheFilesOfTheirFolder) {
-  const EmbeddedFiles files = {{"main", "#include \"shared/effects.h\"\nEFFECTS(X)\n"},
+  const EmbeddedFiles files = {{"main", "#include \"shared/effects.h\"\nBASE_EFFECTS(X)\n"},
                                {"shared/effects/fog.h", "fog\n"},
                                {"shared/effects/sky_light.h", "sky\n"},
                                {"shared/effects_of_another.h", "no\n"},
                                {"shared/inputs.h", "inputs\n"}};
   const std::string text = with_includes("main", files);
-  EXPECT_EQ(preprocessed(text, {}), "inputs EFFECTS(X)");
-  EXPECT_EQ(preprocessed(text, {"EFFECT_SKY_LIGHT"}), "inputs sky EFFECTS(X)");
-  EXPECT_EQ(preprocessed(text, {"EFFECT_FOG", "EFFECT_SKY_LIGHT"}), "inputs fog sky EFFECTS(X)");
-  EXPECT_THAT(text, testing::HasSubstr("#define EFFECTS(X) IF_FOG(X) IF_SKY_LIGHT(X)\n"));
-  EXPECT_THAT(text,
-              testing::HasSubstr("\n#define IF_SKY_LIGHT(X) X(SKY_LIGHT_INPUTS, sky_light_base)\n#else\n"
-                                 "#define IF_SKY_LIGHT(X)\n#endif\n"));
+  EXPECT_EQ(preprocessed(text, {}), "inputs BASE_EFFECTS(X)");
+  EXPECT_EQ(preprocessed(text, {"EFFECT_SKY_LIGHT"}), "inputs sky BASE_EFFECTS(X)");
+  EXPECT_EQ(preprocessed(text, {"EFFECT_FOG", "EFFECT_SKY_LIGHT"}), "inputs fog sky BASE_EFFECTS(X)");
+  EXPECT_THAT(text, testing::HasSubstr("#define BASE_EFFECTS(X) IF_FOG_BASE(X) IF_SKY_LIGHT_BASE(X)\n"
+                                       "#define REACH_EFFECTS(X) IF_FOG_REACH(X) IF_SKY_LIGHT_REACH(X)\n"));
+}
+
+// An effect answers the hooks whose inputs its text lists.
+TEST(WithIncludes, AnEffectsHooksAreThoseOfItsInputs) {
+  const std::string text = with_includes("main", {{"main", "#include \"shared/effects.h\"\n"},
+                                                  {"shared/effects/sky_light.h", "sky\n"},
+                                                  {"shared/inputs.h", "inputs\n"}});
+  EXPECT_THAT(text, testing::HasSubstr(
+                        "\n#ifdef SKY_LIGHT_BASE_INPUTS\n"
+                        "#define IF_SKY_LIGHT_BASE(X) X(SKY_LIGHT_BASE_INPUTS, sky_light_base)\n"
+                        "#else\n#define IF_SKY_LIGHT_BASE(X)\n#endif\n"
+                        "#ifdef SKY_LIGHT_REACH_INPUTS\n#define REACHED_BY_EFFECTS\n"
+                        "#define IF_SKY_LIGHT_REACH(X) X(SKY_LIGHT_REACH_INPUTS, sky_light_reach)\n"
+                        "#else\n#define IF_SKY_LIGHT_REACH(X)\n#endif\n"));
 }
 
 }  // namespace

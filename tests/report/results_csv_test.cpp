@@ -44,6 +44,16 @@ TEST(ResultsCsv, HaveColumnsOfShadowsWhereLightsCast) {
   EXPECT_EQ(table[0].at("leaked"), "");
 }
 
+TEST(ResultsCsv, HaveColumnsOfEffectsWithFigures) {
+  std::vector<ReportView> views(1);
+  views[0].report = synthetic_view("hall", 8, 8, 60);
+  EXPECT_EQ(csv_table(results_csv(views))[1].count("far_light_samples"), 0u);
+  views[0].report.rows[1].effects = {{"far_light", {{"samples", 480}}}};
+  const auto table = csv_table(results_csv(views));
+  EXPECT_EQ(std::stod(table[1].at("far_light_samples")), 480);
+  EXPECT_EQ(table[0].at("far_light_samples"), "");
+}
+
 TEST(ResultsCsv, LeaveEmptyWhatWasNotMeasured) {
   std::vector<ReportView> views(1);
   views[0].report = synthetic_report(8, 8);

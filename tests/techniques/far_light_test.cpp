@@ -68,6 +68,7 @@ TEST_P(FarLightWindows, FillTheVolumeWithWhatTheyTakeAway) {
   const size_t samples = size_t(read.grid.size_x) * read.grid.size_y * read.grid.size_z;
   ASSERT_GT(samples, 256u);
   ASSERT_LE(samples, 512u);
+  EXPECT_EQ(run.result().effects.at("far_light").at("samples"), double(samples));
   double largest = 0, apart = 0;
   for (size_t i = 0; i < samples; ++i) {
     const glm::dvec3 index(double(i % read.grid.size_x), double(i / read.grid.size_x % read.grid.size_y),

@@ -64,7 +64,8 @@ static inline ReflectedLight reflected_light(ShadingPoint p, mask_t unlit, Real3
   r.area = solid_angle * squared / across;
   // What arrives on the shading normal, over the area of the triangle itself.
   const real n_dot_l = min_real(max_real(dot3(p.normal, arrival.to_light), REAL(0.0f)), REAL(1.0f));
-  const real arriving = arrival.attenuation * light_reaches(light, p.position, GROUPS_AT(p));
+  const real arriving =
+      arrival.attenuation * light_reaches(light, p.position, arrival.to_light, GROUPS_AT(p));
   const real received = arriving * n_dot_l * r.area;
   const Real3 diffuse = DIFFUSE_INTEGRAL(p, SHADING_PI);
   const Real3 albedo = UNDER_COAT(p, diffuse);

@@ -95,8 +95,8 @@ static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal
   Arrival arrival = arrival_at(position, light);
   const mask_t reached = (arrival.attenuation > REAL(0.0f)) & (dot3(normal, arrival.to_light) > REAL(0.0f));
   if (!any_lane(lit & reached)) return sum;
-  arrival.attenuation = arrival.attenuation * light_reaches(light, position, groups);
-#ifdef SHADOWS
+  arrival.attenuation = arrival.attenuation * light_reaches(light, position, arrival.to_light, groups);
+#if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
   if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
 #endif
   return add_terms(sum, light_terms(normal, to_viewer, arrival, light, REAL(exponent)));

@@ -19,8 +19,10 @@ GlLightLoop base_lighting(const Seen& seen) {
   if (seen.plan.settings.brdf == Brdf::blinn) loop.defines.emplace_back("BLINN");
   if (seen.plan.settings.brdf == Brdf::lambert) loop.defines.emplace_back("LAMBERT");
   if (seen.plan.directional) loop.defines.emplace_back("DIRECTIONAL");
-  for (const char* define : reach_defines(seen.plan)) loop.defines.emplace_back(define);
-  for (const Effect* effect : seen.plan.effects) loop.defines.push_back(define_of(*effect));
+  for (const std::string& define : reach_defines(seen.plan)) loop.defines.push_back(define);
+  for (const Effect* effect : seen.plan.effects) {
+    if (!effect->reach) loop.defines.push_back(define_of(*effect));
+  }
   return loop;
 }
 

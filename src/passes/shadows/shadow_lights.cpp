@@ -75,7 +75,8 @@ std::vector<ShadowLight> shadow_light_records(const Seen& seen, const std::vecto
     const Light& light = seen.scene.lights[size_t(seen.plan.local[i])];
     if (settings.soft_shadows()) record.source_m = float(source_of(light, settings.shadow_source_m));
     record.groups = light.groups;
-    record.luminance = light.intensity * glm::dot(light.color, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    record.luminance = light.intensity * glm::dot(light.color, glm::vec3(0.2126f, 0.7152f, 0.0722f)) *
+                       float(share_of(seen.scene, light, settings.ranges).largest);
   }
   for (const int i : seen.plan.directional_lights)
     records.push_back(shadow_light(seen.scene.lights[size_t(i)]));

@@ -314,7 +314,7 @@ void GroupedLights::update(Work& work, const VoxelAxes& axes) {
       low = lane == 0 ? from : std::min(low, from), high = lane == 0 ? to : std::max(high, to);
     }
     places[(4 * g + 3) * group + lane] = float(radius);
-    const glm::dvec3 color = light.radius_m > 0 ? light.radiant_intensity : glm::dvec3(0);
+    const glm::dvec3 color = light.radius_m > 0 ? largest_intensity(light) : glm::dvec3(0);
     colors[n] = glm::vec4(glm::vec3(color),
                           float(std::min(light.least_falloff, double(std::numeric_limits<float>::max()))));
     brightest_ = std::max({brightest_, colors[n].x, colors[n].y, colors[n].z});

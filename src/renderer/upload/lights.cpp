@@ -121,9 +121,13 @@ std::vector<const char*> light_table_defines(const FramePlan& plan) {
   return defines;
 }
 
-std::vector<const char*> reach_defines(const FramePlan& plan) {
-  std::vector<const char*> defines = shadow_defines(plan);
-  if (plan.groups) defines.push_back("GROUPS");
+std::vector<std::string> reach_defines(const FramePlan& plan) {
+  const std::vector<const char*> shadows = shadow_defines(plan);
+  std::vector<std::string> defines(shadows.begin(), shadows.end());
+  if (plan.groups) defines.emplace_back("GROUPS");
+  for (const Effect* effect : plan.effects) {
+    if (effect->reach) defines.push_back(define_of(*effect));
+  }
   return defines;
 }
 
@@ -260,7 +264,7 @@ std::string light_defines(const Seen& seen, bool lanes, Brdf brdf) {
   if (seen.plan.index_bits == 32) defines += " -DINDEX_32";
   if (seen.plan.z_bins > 1) defines += " -DZ_BINS";
   for (const char* define : light_table_defines(seen.plan)) defines += fmt::format(" -D{}", define);
-  for (const char* define : reach_defines(seen.plan)) defines += fmt::format(" -D{}", define);
+  for (const std::string& define : reach_defines(seen.plan)) defines += fmt::format(" -D{}", define);
   if (brdf == Brdf::blinn) defines += " -DBLINN";
   if (brdf == Brdf::lambert) defines += " -DLAMBERT";
   if (seen.view.orthographic) defines += " -DORTHOGRAPHIC";

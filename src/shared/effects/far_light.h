@@ -22,7 +22,7 @@
 #define FAR_PLANES 7
 
 // The planes, in a texture one behind the other, and the volume's place in the view.
-#define FAR_LIGHT_INPUTS(ROW)                     \
+#define FAR_LIGHT_BASE_INPUTS(ROW)                     \
   ROW(ArrayInput, Float4, far_moments, sampler3D) \
   ROW(BlockInput, FarLookup, far_lookup, FarLookupBlock)
 #define FAR(member) INPUT(far_lookup).member
@@ -45,7 +45,7 @@ SHARED_STRUCT(FarLookup) {
   float last_x, last_y, last_z;  // places of the last samples: sizes less 1
 };
 #ifdef LIGHTGRID_GLSL
-FAR_LIGHT_INPUTS(INPUT_UNIFORM)
+FAR_LIGHT_BASE_INPUTS(INPUT_UNIFORM)
 #else
 // The samples, along the world's axes from the volume's origin, in metres.
 typedef struct FarGrid {
@@ -112,13 +112,13 @@ SHARED_FUNCTION Real3 far_albedo(Lobe l) {
 
 #ifdef EFFECT_FAR_LIGHT  // in light loops
 // Clamped to the volume.
-SHARED_FUNCTION Real3 far_place(Real3 p FAR_LIGHT_INPUTS(TAKEN_INPUT)) {
+SHARED_FUNCTION Real3 far_place(Real3 p FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
   return real3(place_along(p, FAR(x_from_x), FAR(x_from_y), FAR(x_from_z), FAR(x_from_1), FAR(last_x)),
                place_along(p, FAR(y_from_x), FAR(y_from_y), FAR(y_from_z), FAR(y_from_1), FAR(last_y)),
                place_along(p, FAR(z_from_x), FAR(z_from_y), FAR(z_from_z), FAR(z_from_1), FAR(last_z)));
 }
 
-SHARED_FUNCTION Real3 far_direction(Real3 d FAR_LIGHT_INPUTS(TAKEN_INPUT)) {
+SHARED_FUNCTION Real3 far_direction(Real3 d FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
   return real3(component_along(d, FAR(world_x_from_x), FAR(world_x_from_y), FAR(world_x_from_z)),
                component_along(d, FAR(world_y_from_x), FAR(world_y_from_y), FAR(world_y_from_z)),
                component_along(d, FAR(world_z_from_x), FAR(world_z_from_y), FAR(world_z_from_z)));
@@ -148,8 +148,8 @@ static inline FarLight add_far_cell(FarLight sum, real weight, real x, real y, r
 }
 
 // Zeros in lanes that are not `lit`.
-static inline FarLight far_light_at(Real3 position, mask_t lit FAR_LIGHT_INPUTS(TAKEN_INPUT)) {
-  const Real3 place = far_place(position FAR_LIGHT_INPUTS(PASSED_INPUT));
+static inline FarLight far_light_at(Real3 position, mask_t lit FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
+  const Real3 place = far_place(position FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
   const size_t row = (size_t)FAR(last_x) + 1, slice = row * ((size_t)FAR(last_y) + 1),
                samples = slice * ((size_t)FAR(last_z) + 1);
   // The last sample is the far end of the last cell.
@@ -195,7 +195,7 @@ FarLight far_light_at(vec3 position, bool lit) {
 #ifndef LAMBERT
 // The radiance that a lobe takes in, averaged over its directions.
 SHARED_FUNCTION Real3 far_radiance(FarLight light, Lobe l, Real3 normal, Real3 to_viewer,
-                                   real mean_cosine FAR_LIGHT_INPUTS(TAKEN_INPUT)) {
+                                   real mean_cosine FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
   // From the mirrored direction of a smooth surface to the normal of a rough one.
   real smoothness = max_real(1.0f - l.alpha, REAL(0.0f)), twice = 2.0f * dot3(normal, to_viewer);
   real along = mad_real(smoothness, twice, 1.0f - smoothness);
@@ -207,15 +207,15 @@ SHARED_FUNCTION Real3 far_radiance(FarLight light, Lobe l, Real3 normal, Real3 t
   real order2 =
       mad_real(mad_real(mad_real(REAL(0.2217f), a, REAL(0.5692f)), a, REAL(-1.6407f)), a, REAL(1.0f));
   real sphere = REAL(0.25f / SHADING_PI);
-  Real3 direction = far_direction(middle FAR_LIGHT_INPUTS(PASSED_INPUT));
+  Real3 direction = far_direction(middle FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
   return far_sums(light, far_factors(direction, sphere * mad_real(REAL(-2.5f), order2, REAL(1.0f)),
                                      sphere * 3.0f * mean_cosine, sphere * 7.5f * order2));
 }
 #endif
 
 // The radiance that a surface reflects of the light at its place.
-SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p, FarLight light FAR_LIGHT_INPUTS(TAKEN_INPUT)) {
-  Real3 normal = far_direction(p.normal FAR_LIGHT_INPUTS(PASSED_INPUT));
+SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p, FarLight light FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
+  Real3 normal = far_direction(p.normal FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
   Real3 irradiance =
       far_sums(light, far_factors(normal, REAL(3.0f / 32.0f), REAL(0.5f), REAL(15.0f / 32.0f)));
 #ifdef LAMBERT
@@ -240,7 +240,7 @@ SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p, FarLight light FAR_L
 #ifndef LAMBERT
   Real3 albedo = far_albedo(p.lobe);
   Real3 radiance =
-      far_radiance(light, p.lobe, p.normal, p.to_viewer, albedo.z FAR_LIGHT_INPUTS(PASSED_INPUT));
+      far_radiance(light, p.lobe, p.normal, p.to_viewer, albedo.z FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
 #ifdef SPECULAR
   real rim = p.f90 * albedo.y;
 #else
@@ -252,7 +252,7 @@ SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p, FarLight light FAR_L
 #ifdef CLEARCOAT
   Real3 of_coat = far_albedo(p.coat_lobe);
   Real3 coat =
-      far_radiance(light, p.coat_lobe, p.coat_normal, p.to_viewer, of_coat.z FAR_LIGHT_INPUTS(PASSED_INPUT));
+      far_radiance(light, p.coat_lobe, p.coat_normal, p.to_viewer, of_coat.z FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
   back = add3(UNDER_COAT(p, back), scale3(coat, p.coat * (of_coat.x + of_coat.y)));
 #endif
 #endif
@@ -260,9 +260,9 @@ SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p, FarLight light FAR_L
 }
 
 // The light that a surface shows besides point and spot lights.
-SHARED_FUNCTION Real3 far_light_base(ShadingPoint p, Lit lit FAR_LIGHT_INPUTS(TAKEN_INPUT)) {
-  FarLight light = far_light_at(p.position, lit FAR_LIGHT_INPUTS(PASSED_INPUT));
-  return radiance_of_far_light(p, light FAR_LIGHT_INPUTS(PASSED_INPUT));
+SHARED_FUNCTION Real3 far_light_base(ShadingPoint p, Lit lit FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
+  FarLight light = far_light_at(p.position, lit FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
+  return radiance_of_far_light(p, light FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
 }
 
 #elif defined( \

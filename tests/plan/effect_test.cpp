@@ -1,0 +1,30 @@
+#include "plan/effect.h"
+
+#include <gtest/gtest.h>
+
+namespace lightgrid {
+namespace {
+
+ReachTerm term(const Scene&, const Light&, const LightRanges&, const glm::dmat3&) { return {}; }
+LightShare share(const Scene&, const Light&, const LightRanges&) { return {}; }
+
+TEST(MissingOracle, NamesWhatAnEffectHasNone) {
+  const std::vector<std::string> mean = {"far-light"};
+  const auto missing = [&](const Effect& effect) { return missing_oracle(effect, mean); };
+  EXPECT_EQ(missing({.name = "a"}), "it answers no hook: give .base or .reach with its oracle");
+  EXPECT_EQ(missing({.name = "a", .base = BaseOracle{}}),
+            "base has no oracle: give .term, or .meant_by with a setting's key");
+  EXPECT_EQ(missing({.name = "a", .base = BaseOracle{.meant_by = "tile"}}),
+            "base is meant by tile, which has no .mean");
+  EXPECT_EQ(missing({.name = "a", .base = BaseOracle{.meant_by = "far-light"}}), "");
+  EXPECT_EQ(missing({.name = "a",
+                     .base = BaseOracle{.term = [](const Scene&, const View&,
+                                                   const Settings&) { return BaseTerm(); }}}),
+            "");
+  EXPECT_EQ(missing({.name = "a", .reach = ReachOracle{term, nullptr}}),
+            "reach has no oracle: give .term and .share");
+  EXPECT_EQ(missing({.name = "a", .reach = ReachOracle{term, share}}), "");
+}
+
+}  // namespace
+}  // namespace lightgrid
