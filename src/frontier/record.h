@@ -70,7 +70,7 @@ struct SequenceErrors {
 // light, no range window.
 struct PointErrors {
   // `displayed`: of model and total.
-  ImageError model;  // the settings' meaning (range, window, BRDF) against the truth, both by brute force
+  ImageError model;  // meaning of the settings (range, window, BRDF) against the truth, both by brute force
   ImageError precision;  // brute force in float against the oracle in double, at a sample of pixels
   ImageError technique;  // the picture against brute force of the same meaning
   ImageError total;      // the picture against the truth
