@@ -55,7 +55,7 @@ static inline void rays_triangle(const RayScene* scene, uint number, float corne
 #define IN_MEMORY const RayPacket
 #endif
 
-// Of lanes that meet the triangle, those that it hides. A blended one hides none, and adds to their veils.
+// The lanes that the triangle hides among those that meet it. A blended one hides none, but adds to veils.
 RAYS_CALL mask_t ray_hides(const RayScene* scene, IN_MEMORY* p, int place, whole own, mask_t met) {
   global const RayTriangle* t = scene->triangles + place;
   met &= meets_own_box(p, t->corners) & (own != (whole)((int)(t->number & ~RAY_MASKED)));
@@ -125,7 +125,7 @@ static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene,
   if (*last_blocker >= 0 && ray_met(scene, p, point, *last_blocker, own, &hidden) &&
       lane_bits(hidden) == live)
     return hidden;
-  // Of a node as 12 floats: the planes where segments come into the first box and where they go out.
+  // A node is 12 floats: indices of the planes where segments enter the first box and where they leave it.
   const int in_x = p->down & 1 ? 3 : 0, in_y = p->down & 2 ? 4 : 1, in_z = p->down & 4 ? 5 : 2;
   const int out_x = 3 - in_x, out_y = 5 - in_y, out_z = 7 - in_z;
   int stack[RAY_STACK], height = 0, at = 0;
@@ -181,7 +181,7 @@ static inline RayOctants octants_of(const RayPacket* p) {
   return o;
 }
 
-// Those of the lanes `left` that go the same way as the first: the packet is then of them.
+// Takes the lanes of `left` that go the same way as the first: the packet then consists of them.
 static inline uint take_octant(RayPacket* p, const RayOctants* o, uint left) {
   const uint lane = lowest_bit(left);
   p->down = (o->down_x >> lane & 1) | (o->down_y >> lane & 1) << 1 | (o->down_z >> lane & 1) << 2;

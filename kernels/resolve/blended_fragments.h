@@ -66,7 +66,7 @@ static inline whole next_layers(FragmentCounts* counts, int bx, int by, mask_t s
   return layer;
 }
 #else
-// Of one pixel, (dx, dy) of the block. opaque: the pixel's depth, or those of its samples.
+// Tests one pixel, (dx, dy) of the block. opaque: the pixel's depth, or those of its samples.
 static inline bool is_fragment(const TileRecord* r, int bx, int by, int dx, int dy, OpaqueDepth opaque,
                                float* depth SHARE) {
   if (!covered_pixels(r, bx, by, dx, dy)) return false;

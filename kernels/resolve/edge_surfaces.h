@@ -102,7 +102,7 @@ static inline void add_edge_pixel(EdgeSurfaces* e, const ResolveScene* scene, gl
   e->ends[one] = (ushort)e->count;
 }
 
-// Of the square from (x0, y0) on.
+// Finds the surfaces of the square from (x0, y0) on.
 static inline void find_edge_surfaces(EdgeSurfaces* e, const ResolveScene* scene,
                                       global const uint* triangles, global const float* depths,
                                       global const ushort* edges, uint x0, uint y0, uint width, uint height) {

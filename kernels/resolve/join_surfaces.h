@@ -15,7 +15,7 @@
 #include "kernels/resolve/surface_attributes.h"
 #include "shared/raster_instance.h"
 
-// What a triangle number leads to: the rasteriser's.
+// The rasteriser's data by triangle number.
 typedef struct SeenTriangles {
   global const uint* triangle_instance;
   global const RasterInstanceRecord* instances;
@@ -63,8 +63,8 @@ static inline void see_everywhere(global uint* triangles, uint number) {
 }
 
 #ifdef SHADOWED
-// Whether the triangle holds a pixel's centre, and its reversed depth there: no further than the samples are,
-// between whose depths tiles list lights.
+// Returns whether the triangle contains a pixel's centre, and its reversed depth there: no further than the
+// samples are, between whose depths tiles list lights.
 static inline bool holds_centre(const SeenTriangle* t, const SeenTriangles* scene, uint x, uint y,
                                 float2 half_size, global const float* depths, float* depth) {
   global const float4* clip = scene->clip + scene->instances[t->instance].first_clip_vertex;
@@ -96,7 +96,7 @@ static inline bool join_surfaces(global uint* triangles, const SeenTriangles* sc
     left &= ~t.samples;
     seen[count++] = t;
   }
-  // of[i]: the surface of triangle i, by the first of its triangles.
+  // The surface of triangle i, by the first of its triangles.
   uint of[SAMPLES];
   bool joined = false;
   for (uint i = 0; i < count; ++i) {

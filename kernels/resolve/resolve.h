@@ -347,7 +347,7 @@ static inline void add_material(Surface* surface, const Attributes* a, const Res
   KEEP(surface->unlit, (mask_t)(m->flags & SURFACE_UNLIT ? -1 : 0));
 }
 
-// Whether a vector of this squared length can be made a unit vector. False for NaN.
+// Returns whether a vector of this squared length can be made a unit vector. False for NaN.
 static inline mask_t has_direction(real length_squared) {
   return (length_squared >= REAL(FLT_MIN)) & (length_squared <= REAL(FLT_MAX));
 }

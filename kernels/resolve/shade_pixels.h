@@ -59,7 +59,7 @@ static inline void light_pixels(Lights* lights, uint x, uint y, constant ViewPar
 }
 
 #if defined(SHADOWS) && defined(BLEND)
-// Of blended surfaces besides: the layer of each lane's fragment. Past the last one it has no shadows.
+// For blended surfaces: the layer of each lane's fragment. Past the last one it has no shadows.
 static inline void light_layers(Lights* lights, whole layer, mask_t shown, uint layers) {
   lights->shadows.layer = layer, lights->shadows.shown = shown & (layer < (whole)((int)layers));
 }
@@ -106,7 +106,7 @@ static inline PixelBins bins_of_pixels(real depths, mask_t lit, constant float* 
   return bins;
 }
 
-// Whether positions lie within the light's radius.
+// Returns whether positions lie within the light's radius.
 static inline mask_t in_range(Real3 position, PunctualLight light) {
   const Real3 d = offset_to_light(position, light);
   return dot3(d, d) * light.position.w < REAL(1.0f);

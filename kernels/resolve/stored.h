@@ -1,4 +1,4 @@
-// What the walker over stored surfaces (kernels/resolve/{cpu,gpu}/shade_stored.cl) reads and writes.
+// Input and output of the walker over stored surfaces (kernels/resolve/{cpu,gpu}/shade_stored.cl).
 //
 // -DSTORED_SURFACES  a geometry buffer, and an image of light: stored/surfaces.h
 // -DSTORED_NORMALS   normals, and a light buffer: stored/normals.h

@@ -46,7 +46,7 @@ typedef struct TexelPlaces {
 } TexelPlaces;
 #endif
 
-// Of kernels with GROUP_NUMBERS_OUT (kernels/resolve/group_numbers.h).
+// For kernels with GROUP_NUMBERS_OUT (kernels/resolve/group_numbers.h).
 #ifdef GROUP_NUMBERS
 #if LANES == 16
 static inline void store_group_numbers(global group_number_t* to, whole numbers, mask_t covered,

@@ -11,7 +11,7 @@
 #include "kernels/shadows/ray_test.h"
 #include "kernels/shadows/soft_shadows.h"
 
-// What a light adds to a Lambert surface, times a factor that is the same for all lights of a pixel. It is
+// The light that a Lambert surface reflects, times a factor that is the same for all lights of a pixel. It is
 // not exact: cones fade from their axis on, and the surface's own reflectance is left out.
 static inline real estimated_light(const Receivers* r, whole groups, global const ShadowLight* l) {
   const Real3 d = real3(from_double(r->at.x, l->x), from_double(r->at.y, l->y), from_double(r->at.z, l->z));
@@ -71,7 +71,7 @@ static inline mask_t pick_lights(const Receivers* r, whole groups, global const 
 }
 
 #if SHADOW_RAYS > 1
-// Of a pixel's rays, how many are hidden.
+// The number of a pixel's rays that are hidden.
 static inline uint hidden_picks(const RayScene* scene, const SoftReceiver* r,
                                 global const ShadowLight* lights, const whole* picks, uint lane_of_picks,
                                 uint seed, uint* traced, int* last_blocker) {
@@ -112,7 +112,7 @@ static inline uint hidden_picks(const RayScene* scene, const SoftReceiver* r,
   return hidden;
 }
 
-// Of the lanes `drawn`.
+// The hidden shares of the lanes `drawn`.
 static inline whole share_of_picks(ShadowTest* test, const RayScene* scene, const Receivers* r,
                                    global const ShadowLight* lights, const whole* picks, mask_t drawn, uint x,
                                    uint y) {
@@ -156,7 +156,7 @@ static inline whole picked_share(ShadowTest* test, const RayScene* scene, const 
   return share_of_picks(test, scene, r, lights, picks, drawn, x, y);
 }
 
-// Of one light: lights behind the pixel's own triangle are never drawn, and are hidden for certain.
+// Only one light: lights behind the pixel's own triangle are never drawn, and are hidden for certain.
 static inline whole picked_or_away(const RayScene* scene, const Receivers* r, global const ShadowLight* l,
                                    whole shares, constant ShadowView* v) {
   const mask_t reached = may_shade(r, l);

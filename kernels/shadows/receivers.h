@@ -96,7 +96,7 @@ static inline void add_plane(Receivers* r, global const RayTriangle* t, mask_t h
 }
 
 #if LANES == 16
-// Of a block of 4 x 4 pixels from (x, y) on, those in the image that show a triangle.
+// The pixels of a block of 4 x 4 from (x, y) on that lie in the image and show a triangle.
 static inline mask_t covered_lanes(uint16 triangle, uint x, uint y, uint width, uint height) {
   return (LANE_INDEX & 3) < (int16)((int)(width - x)) & (LANE_INDEX >> 2) < (int16)((int)(height - y)) &
          (triangle != (uint16)(NO_TRIANGLE));

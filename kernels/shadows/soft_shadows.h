@@ -62,7 +62,7 @@ static inline void disc_samples(whole i, uint count, uint turned, float u, real*
   *y = r * (t < 0.0f ? -sine : sine);
 }
 
-// Of samples of which `away` are hidden without a ray, those that are hidden in all; with blended casters in
+// The number of hidden samples, of which `away` are hidden without a ray; with blended casters in
 // 255ths.
 static inline uint hidden_in_samples(const RayScene* scene, RaySource origin, Real3 to, mask_t active,
                                      mask_t away, int own, int* last_blocker) {
@@ -80,7 +80,7 @@ static inline uint hidden_in_samples(const RayScene* scene, RaySource origin, Re
 
 static inline float hash_in_unit(uint h) { return (float)(mixed(h ^ 0x68bc21ebu) >> 8) * 0x1p-24f; }
 
-// Of the samples, how many are hidden. `seed`: of pixel and light.
+// The number of hidden samples. `seed`: of pixel and light.
 static inline uint hidden_samples(const RayScene* scene, const SoftReceiver* r, global const ShadowLight* l,
                                   uint seed, uint* traced, int* last_blocker) {
   const float x = (float)(l->x - r->x), y = (float)(l->y - r->y), z = (float)(l->z - r->z);

@@ -1,5 +1,5 @@
-// What this scene, view and settings require of a frame, and why. A pure function: what the plan does not
-// name is not compiled, allocated or run.
+// The requirements of this scene, view and settings for a frame, and their reasons. A pure function: features
+// that the plan does not name are not compiled, allocated or run.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace lightgrid {
 
-// What a material requires of the shaders, as bits; each is one #define (defines_of).
+// The features that a material requires of the shaders, as bits; each is one #define (defines_of).
 enum MaterialFeature : uint32_t {
   feature_textured = 1,  // any map at all: first UV set
   feature_uv1 = 2,
@@ -48,7 +48,7 @@ uint32_t features_read(uint32_t features, Brdf brdf);
 
 std::vector<std::string> defines_of(uint32_t features);
 
-// What a mesh with its material requires of shaders and vertex streams.
+// The features that a mesh with its material requires of shaders and vertex streams.
 uint32_t material_features(const Scene& scene, const Mesh& mesh);
 
 struct Decision {
@@ -57,7 +57,7 @@ struct Decision {
   std::string why;  // the witness: `material 3 "glass" on node 12 "window"`, or why not
 };
 
-// What a technique requires of the plan.
+// The requirements of a technique for the plan.
 struct TechniqueNeeds {
   Effects effects{};  // that its light can have
   bool light_grid = false;
@@ -91,7 +91,7 @@ struct TechniqueNeeds {
   const char* shadows_by = "rays";  // what finds shadows, in words
 };
 
-// Whether a technique with these settings draws with OpenGL.
+// Returns whether a technique with these settings draws with OpenGL.
 bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings);
 
 // The point and spot lights that a plan counts as in view. All but the first serve to build in advance, as
@@ -132,8 +132,8 @@ struct FramePlan {
   std::vector<uint8_t> own_shadowed;
   bool own_shadows = false;
   const char* shadows_by = "rays";  // what finds shadows, in words
-  // What the lights that are too dim for a shadow (shadow-threshold) add to any pixel, at most, in steps of
-  // the 8-bit display.
+  // The most that lights too dim for a shadow (shadow-threshold) add to any pixel, in steps of the 8-bit
+  // display.
   double dim_steps = 0;
   bool directional_shadows = false;  // as light_reaches, of directional lights alone
   bool shadow_bytes = false;         // a share of a light may be hidden: a byte a pixel and light, not a bit
@@ -181,7 +181,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
                      PlannedInstances instances = PlannedInstances::in_view,
                      PlannedLights lights = PlannedLights::in_view);
 
-// Whether the plan counts a point or spot light as in view; in_view: whether it is.
+// Returns whether the plan counts a point or spot light as in view; in_view: whether it is.
 bool counts_as_seen(PlannedLights planned, const ViewLight& light, bool in_view);
 
 // The plan as `lightgrid plan` prints it.

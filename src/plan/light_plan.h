@@ -1,4 +1,4 @@
-// What a frame needs for its lights: parts of plan_frame, in its order.
+// The needs of a frame for its lights: parts of plan_frame, in its order.
 #pragma once
 
 #include <string>

@@ -10,7 +10,7 @@
 namespace lightgrid {
 
 struct PlanChange {
-  size_t frame = 0;     // of the path, counted from 0: the first with the new plan
+  size_t frame = 0;     // number in the path, from 0: the first with the new plan
   std::string effect;   // as in Decision
   bool needed = false;  // from this frame on
   std::string why;  // "came: " and the new plan's witness, or "left: " and the witness of the plan before it

@@ -20,7 +20,7 @@ bool casts(const Scene& scene, int instance, BlendedCasters by_blended) {
 
 struct Boxes {
   std::vector<InstanceBox> casters, receivers;
-  double diameter_m = 0;  // of all of them and the eye
+  double diameter_m = 0;  // diameter of all of them and the eye
 };
 
 Boxes boxes_of(const Scene& scene, const View& view, const std::vector<int>& opaque,
@@ -44,7 +44,7 @@ bool overlap(const dvec3& min, const dvec3& max, const InstanceBox& box) {
   return glm::all(glm::lessThanEqual(box.min, max)) && glm::all(glm::lessThanEqual(min, box.max));
 }
 
-// Whether nothing hides any point of a flat receiver: light and eye are on one side of it, and each caster is
+// True if nothing hides any point of a flat receiver: light and eye are on one side of it, and each caster is
 // below its plane, or out of the box around it and the light.
 // A ray to the plane ends gap_m before it, hence at least gap_m times the sine of its slope above it. If that
 // is more than rounding moves casters and the ray's end, then the receiver's own triangles do not meet the
@@ -68,7 +68,7 @@ bool nothing_hides(const InstanceBox& receiver, const GrownLightBounds& reach, c
   });
 }
 
-// Of all that may cast, or of receivers, whose triangles hide those behind them from their own points.
+// The first caster, or receiver, whose triangles hide those behind them from their own points.
 template <typename InReach>
 const InstanceBox* first_caster(const Boxes& boxes, const InReach& in_reach) {
   const auto caster = std::ranges::find_if(boxes.casters, in_reach);

@@ -29,11 +29,11 @@ enum class ShadowNeed {
 // Why no rays are traced. Empty: they are.
 const char* reason_of(ShadowNeed need);
 
-// Of a light whose shadows are those of the frame before (the setting shadow-reuse).
+// The reason for a light whose shadows are those of the frame before (the setting shadow-reuse).
 inline constexpr const char* unchanged_reason = "unchanged since the last frame";
 
 struct LightShadow {
-  int light = 0;  // of the scene
+  int light = 0;  // number in the scene
   ShadowNeed need = ShadowNeed::rays;
   int caster = -1;  // rays, too_dim: the first instance that may cast within the light's bounds
 };
@@ -60,7 +60,7 @@ std::vector<LightShadow> plan_light_shadows(const Scene& scene, const View& view
                                             double source_m = 0,
                                             BlendedCasters by_blended = BlendedCasters::none);
 
-// Whether a blended instance may cast, and hides as much as its alpha says.
+// Returns whether a blended instance may cast, and hides as much as its alpha says.
 bool has_veils(const Scene& scene, BlendedCasters by_blended);
 
 }  // namespace lightgrid

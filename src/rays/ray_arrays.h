@@ -11,7 +11,7 @@ namespace lightgrid {
 
 struct RayArrays {
   std::vector<RayNode> nodes;
-  std::vector<RayTriangle> triangles;  // those of leaves in the tree's order, then the others
+  std::vector<RayTriangle> triangles;  // triangles of leaves in the tree's order, then the others
   std::vector<uint32_t> places;        // a triangle's number to its place in `triangles`
   // As kernels/rays/ray_masks.h, a triangle in the tree's order; empty without an alpha material.
   std::vector<std::array<uint32_t, 4>> masks;

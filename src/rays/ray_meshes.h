@@ -13,7 +13,7 @@ struct RayMeshData {
   std::vector<uint32_t> indices;
   uint32_t first_index = 0, first_vertex = 0;  // in arrays of all meshes
   bool finite = true;                          // all vertices in use
-  glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};   // of those that are finite
+  glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};   // bounds of the finite corners
   uint32_t triangles() const { return uint32_t(indices.size() / 3); }
 };
 
@@ -23,14 +23,14 @@ constexpr float most_ray_extent = 0x1p50f;  // metres: products of three coordin
 std::vector<RayMeshData> ray_meshes(std::span<const RayMesh> meshes);
 void check_ray_instances(std::span<const RayInstance> instances, std::span<const RayMeshData> meshes);
 
-// Of all instances' boxes; of none, 0.
+// The bounds of all instances' boxes; 0 without instances.
 struct RayBounds {
   glm::dvec3 low, high;
   bool finite = true;  // every corner is
 };
 RayBounds ray_bounds(std::span<const RayInstance> instances, std::span<const RayMeshData> meshes);
 
-// Whether every corner is certainly finite and within the greatest extent.
+// Returns whether every corner is certainly finite and within the greatest extent.
 bool all_are_valid(const RayBounds& bounds, const glm::dvec3& origin);
 
 }  // namespace lightgrid

@@ -8,7 +8,7 @@ namespace lightgrid {
 namespace {
 
 constexpr uint32_t packets_a_work_item = 64;  // on a CPU: they try each other's last blocker first
-constexpr uint32_t packets_a_group = 4;       // of gpu/occlusion.cl
+constexpr uint32_t packets_a_group = 4;       // packets per group of gpu/occlusion.cl
 
 }  // namespace
 

@@ -16,7 +16,7 @@ struct RayTreeBuffers {
 
 class RayRefit {
  public:
-  // Of a tree as it was built. Uploads the meshes and builds its kernels at the first refit.
+  // Takes a tree as it was built. Uploads the meshes and builds its kernels at the first refit.
   RayRefit(ClDevice& device, ProgramCache& programs, const RayArrays& arrays);
 
   // The instances of these numbers moved, or their meshes did. Enqueues, and waits for uploads alone.

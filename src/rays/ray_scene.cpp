@@ -49,7 +49,7 @@ void RayScene::State::build(std::span<const RayInstance> given, const RayBounds&
   ++builds;
 }
 
-// Whether the device can look up what it will.
+// Throws unless the device has all that lookups need.
 void RayScene::State::check() const {
   if (!has_instances)
     throw input_error(

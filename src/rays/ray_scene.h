@@ -38,9 +38,9 @@ struct RayMesh {
   std::span<const uint32_t> indices;     // three a triangle
 };
 
-// What lets light through triangles of instances with an alpha material, where its alpha at the point that is
-// met is below the cutoff: bilinear at the base level, or nearest where the map magnifies so. The buffers are
-// kept alive, not copied.
+// Masks that let light through triangles with an alpha material, where its alpha at the point that is met is
+// below the cutoff: bilinear at the base level, or nearest where the map magnifies so. The buffers are kept
+// alive, not copied.
 struct RayMasks {
   cl::Buffer vertices;   // SurfaceVertex each (shared/surface_records.h), of all meshes one after the other
   cl::Buffer materials;  // SurfaceMaterial each, by alpha_material
@@ -60,14 +60,14 @@ struct RayInstance {
 // Choices of a RayScene.
 struct RayOptions {
   KernelShape shape =
-      KernelShape::automatic;  // of occlusion(): lanes on a CPU, group elsewhere; the same bits
+      KernelShape::automatic;  // shape of occlusion(): lanes on a CPU, group elsewhere; the same bits
   // Else the centre of the instances' bounds when they are set first, rounded to floats.
   std::optional<glm::dvec3> origin;
 };
 
 // Relative to the scene's origin, metres.
 struct RayPoint {
-  glm::vec3 position{0};  // of the surface
+  glm::vec3 position{0};  // position on the surface
   float gap = 1e-3f;      // the last metres before it, in which nothing hides it
   int own = -1;           // the triangle that it lies on, which does not hide it
 };
@@ -111,11 +111,11 @@ class RayScene {
                                   std::span<const RayPacket> packets);
 
   glm::dvec3 origin() const;                       // each coordinate is a float
-  uint32_t triangles() const;                      // of all instances, also those left out
+  uint32_t triangles() const;                      // triangles of all instances, also those left out
   uint32_t first_triangle(size_t instance) const;  // its number
   // Left out, since a corner is not finite or further than 1e15 m from the origin.
   uint32_t invalid_triangles() const;
-  int builds() const;  // of the tree, until now
+  int builds() const;  // builds of the tree, until now
 
   // For kernels that include kernels/rays/rays.h: RAYS_ARGUMENTS, and the -D that it takes. Both may differ
   // after each set_... Throw input: there are no instances; masks as occlusion() does.

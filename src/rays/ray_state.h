@@ -1,4 +1,4 @@
-// What a RayScene holds.
+// The state of a RayScene.
 #pragma once
 
 #include <map>

@@ -17,7 +17,7 @@ struct RayBox {
 
 struct RayTree {
   std::vector<RayNode> nodes;   // the root first, children after their parents
-  std::vector<uint32_t> order;  // of the boxes: leaves take runs of this
+  std::vector<uint32_t> order;  // order of the boxes: leaves take runs of this
 };
 
 // Binned by the surface area heuristic (MacDonald, Booth, "Heuristics for ray tracing using space

@@ -25,7 +25,7 @@ void DeviceClock::start() {
   spans_.clear(), open_.clear(), span_depth_.reset();
   used_ = 0;
   ClProfiler& profiler = renderer_.cl->profiler();
-  profiler.collect_each();  // of a frame that failed
+  profiler.collect_each();  // events of a frame that failed
   profiler.time_launches(true), profiler.time_copies(true);
 }
 

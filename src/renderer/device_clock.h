@@ -1,4 +1,4 @@
-// What frames take by the clocks of the devices that draw them, without a wait between passes: events of
+// Frame times by the clocks of the devices that draw them, without a wait between passes: events of
 // OpenCL's launches and copies, and OpenGL's timestamps around its passes.
 #pragma once
 
@@ -14,9 +14,9 @@ namespace lightgrid {
 
 struct DeviceTimes {
   double device_ms = 0;     // kernels and OpenGL's passes; passes on the host, by its clock
-  double hand_over_ms = 0;  // of memory between OpenCL and OpenGL
+  double hand_over_ms = 0;  // handing memory from one API to the other
   double copy_ms = 0;       // other copies between OpenCL's memory and the host's
-  double read_back_ms = 0;  // of the image
+  double read_back_ms = 0;  // reading back the image
 };
 
 // The name of the pass, and what its copy in OpenCL is called.
@@ -28,7 +28,7 @@ class DeviceClock : public PassTimer::Watcher {
   ~DeviceClock() override;
   DeviceClock(const DeviceClock&) = delete;
 
-  // What is enqueued from here on counts, and the passes that are told of it.
+  // Counts later commands and the passes that are reported to it.
   void start();
   // Waits for the devices. Empty if OpenGL drew and has no clock. Throws Error(machine).
   std::optional<DeviceTimes> stop();
@@ -37,8 +37,8 @@ class DeviceClock : public PassTimer::Watcher {
   void end() override;
 
  private:
-  // Of OpenGL, from its first command to its last one, or of the host. Launches and copies within one are
-  // part of it.
+  // The time of OpenGL, from its first command to its last one, or of the host. Launches and copies within
+  // one are part of it.
   struct Span {
     std::string name;
     bool in_gl = false;

@@ -13,8 +13,8 @@ class GpuScene;
 
 class MovedInstances {
  public:
-  // Of instances that moved, or whose meshes deformed, since the last call: before and after. None: all may
-  // have changed.
+  // The boxes of instances that moved, or whose meshes deformed, since the last call: before and after. None:
+  // all may have changed.
   std::optional<std::vector<WorldBox>> since_last(const GpuScene& gpu, const RayScene& rays);
 
  private:
@@ -24,7 +24,7 @@ class MovedInstances {
     WorldBox box{};
   };
   std::vector<Placed> instances_;
-  int builds_ = 0;  // of the rays' tree
+  int builds_ = 0;  // builds of the rays' tree
 };
 
 }  // namespace lightgrid

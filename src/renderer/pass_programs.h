@@ -30,7 +30,7 @@ struct SceneProgram {
 // The shaders of a pass over a scene's surfaces.
 struct SurfaceShaders {
   const char *vertex, *fragment;     // embedded files
-  std::vector<std::string> defines;  // of all variants, after those of the features
+  std::vector<std::string> defines;  // defines of all variants, after those of the features
   bool blended = false;              // the pass draws blended surfaces; else opaque and masked ones
   uint32_t (*features_read)(uint32_t features) = nullptr;  // that select variants; null: all
 };

@@ -18,7 +18,7 @@ struct KernelTime {
 struct PassRecord {
   std::string name, on;  // "gl" or "cl"
   std::vector<double> ms;
-  std::vector<std::vector<KernelTime>> kernels;  // of OpenCL passes, by run
+  std::vector<std::vector<KernelTime>> kernels;  // kernels of OpenCL passes, by run
   size_t bytes_read = 0, bytes_written = 0;      // counted from the pass's inputs and outputs
 };
 
@@ -33,7 +33,7 @@ class PassTimer {
   struct Watcher {
     virtual ~Watcher() = default;
     virtual void begin(const std::string& name, const std::string& on) = 0;
-    virtual void end() = 0;  // of the pass that began last and has not ended
+    virtual void end() = 0;  // ends the last pass that began
   };
   explicit PassTimer(Clock clock) : clock_(std::move(clock)) {}
 

@@ -48,7 +48,7 @@ struct RenderView : Work {
   SharedGridStorage& opaque_grid() { return grid_storage(false); }
   SharedGridStorage& blend_grid() { return grid_storage(true); }
 
-  size_t memory_bytes() const;  // of this view's targets and buffers, and the scene's
+  size_t memory_bytes() const;  // bytes of this view's targets and buffers, and the scene's
 
  private:
   SharedGridStorage& grid_storage(bool blended);

@@ -43,7 +43,7 @@ class Renderer {
   std::unique_ptr<ProgramCache> kernels;
   BridgeKind bridge = BridgeKind::none;
   PixelCopies pixel_copies;  // by shader where the bridge is imported memory
-  TunedSizes tuned{};        // of settings that are not given
+  TunedSizes tuned{};        // sizes for settings that are not given
 
   // A GLSL program, compiled at first use: embedded shader files, each after one "#define" per name.
   const GlProgram& program(const std::string& vertex, const std::string& fragment,

@@ -92,7 +92,7 @@ class SharedWorldGridStorage : public WorldGridStorage {
 WorldEye world_eye(const View& view) {
   WorldEye eye{.position = view.eye};
   const glm::dmat4& clip = view.clip_from_view;
-  const int column = view.orthographic ? 3 : 2;  // of what moves the image's middle
+  const int column = view.orthographic ? 3 : 2;  // the column that moves the image's middle
   const double width = (1 + std::abs(clip[column][0])) / std::abs(clip[0][0]);
   const double height = (1 + std::abs(clip[column][1])) / std::abs(clip[1][1]);
   if (view.orthographic) {

@@ -31,7 +31,7 @@ class SharedGridStorage : public GridStorage {
   cl::Buffer& indices(size_t bytes) override;
   cl::Buffer& masks(size_t bytes) override;
   cl::Buffer& z_bins(size_t bytes) override;
-  cl::Buffer& factors(size_t bytes);  // of sampled lists, a float an index
+  cl::Buffer& factors(size_t bytes);  // factors of sampled lists, a float per index
   int index_bits() const { return index_bits_; }
   size_t allocated_bytes() const;
   SharedTexture cells_, indices_, masks_, z_bins_, factors_;

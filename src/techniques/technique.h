@@ -10,7 +10,7 @@
 
 namespace lightgrid {
 
-// What Frame::listed has a list for each of: an estimate of its memory. cell: or fewer.
+// The unit that has a list in Frame::listed: an estimate of its memory. cell: or fewer.
 enum class ListedBy { cell, object, pixel };
 
 struct Technique {
@@ -27,7 +27,7 @@ struct Technique {
   bool approximate = false;
 };
 
-// Whether the technique with these settings rasterises and filters by its own code, in OpenCL: at
+// Returns whether the technique with these settings rasterises and filters by its own code, in OpenCL: at
 // silhouettes, where surfaces share a depth and in minified textures its image differs from one that OpenGL
 // draws.
 inline bool own_surfaces(const Technique& technique, const Settings& settings) {
@@ -40,13 +40,13 @@ const std::vector<const Technique*>& techniques();
 const std::vector<const char*>& common_settings();
 bool reads_setting(const Technique& technique, const std::string& key);
 
-// Whether with these settings lists may lack lights by design.
+// Returns whether with these settings lists may lack lights by design.
 bool limits_lists(const Technique& technique, const Settings& settings);
 
-// Whether with these settings its pictures are random: by the ranges of lights, or as its lists are samples.
+// Returns whether its pictures are random with these settings: by the lights' ranges, or by sampled lists.
 bool is_random(const Technique& technique, const Settings& settings);
 
-// Whether with these settings its picture is not forward's, by nature, or its shadows are no exact ones.
+// Returns whether with these settings its picture differs from forward's by design, or shadows are inexact.
 bool is_approximate(const Technique& technique, const Settings& settings);
 
 // The technique's frame, its image of one sample per pixel, with its shadows.

@@ -233,7 +233,7 @@ TEST_F(Golden, PicturesTellThePixelAndFlip) {
   EXPECT_LT(white, size_t(mask.width) * size_t(mask.height));
   EXPECT_GT(view["displayed_flip"]["mean"], 0.001);
   EXPECT_EQ(flip.width, 150);
-  // What was drawn is what the next recording would store.
+  // The drawn pixels are those that the next recording would store.
   const ProgramRun again =
       run_program({"golden", "record", changed.path, "spheres", "--pictures", "--size", "150x90", "--camera",
                    "eye:0,3,9,target:0,1,0", "--lights-file", changed.path / "lights.json"},

@@ -1,4 +1,4 @@
-// What is typed at the command line: mistakes get one line that helps, and an option means the same in every
+// Text typed at the command line: mistakes get one line that helps, and an option means the same in every
 // command.
 #include <gmock/gmock.h>
 

@@ -133,7 +133,7 @@ TEST(FullDisk, UnderAReportEndsWithThreeAndALineThatNamesTheFile) {
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
-// What was written before is removed with the folder that the run made.
+// Earlier output is removed with the folder that the run made.
 TEST(FullDisk, UnderAReportLeavesNothing) {
   NEEDS_SMALL_DISK();
   const TempFolder disk;

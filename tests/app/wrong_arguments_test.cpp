@@ -25,7 +25,7 @@ std::string replace_folder(std::string text, const std::string& folder) {
 
 class WrongArguments : public testing::TestWithParam<Wrong> {};
 
-// What a shell's <(...) gives is a pipe, which several views read.
+// A shell's <(...) gives a pipe, which several views read.
 TEST(LightsFile, MayBeAPipe) {
   const ProgramRun run = run_words(
       {"bash", "-c",

@@ -14,7 +14,7 @@
 namespace lightgrid {
 namespace {
 
-// Whether the segment from a point along `way`, to its end at 1, enters one of the boxes: by slabs.
+// Returns whether the segment from a point along `way`, to its end at 1, enters one of the boxes: by slabs.
 bool boxes_hide(const glm::dvec3& point, const glm::dvec3& way) {
   for (const glm::dmat4& place : {placed(-2, 0.5, 0.4), placed(3.5, -1, 0.8)}) {
     const glm::dmat4 box_from_world = glm::inverse(place);

@@ -1,5 +1,5 @@
-// Whether a segment meets a triangle, in long double: where it crosses the plane, and on which side of each
-// edge that is. Shares no formula with the kernels.
+// Tests whether a segment meets a triangle, in long double: where it crosses the plane, and on which side of
+// each edge that is. Shares no formula with the kernels.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@ enum class Answer { no, either, yes };
 
 struct RayOracle {
   using Vec = glm::vec<3, long double>;
-  // Of the distance from the light (a direction: from the origin): what turns on less is `either`. The
-  // kernels round a plane, a point and a product to floats.
+  // Relative to the distance from the light (a direction: from the origin): smaller differences are `either`.
+  // The kernels round a plane, a point and a product to floats.
   static constexpr long double band = 1e-6L;
 
   static Answer one(const Corners& corners, const RayLight& light, const RayPoint& point) {
@@ -61,7 +61,7 @@ struct RayOracle {
     return s >= point.gap && s <= last ? Answer::yes : Answer::no;
   }
 
-  // Whether the segment's line passes by the triangle at more than its size and any doubt: one() is `no`. It
+  // True if the segment's line passes by the triangle at more than its size and any doubt: one() is `no`. It
   // takes no root and no division; most triangles are far from a line. Plain numbers: tests are compiled with
   // few functions inlined.
   class Line {

@@ -1,4 +1,4 @@
-// What a scene does when it changes: a refitted tree answers as one built anew. And what it refuses.
+// Changes of a scene: a refitted tree answers as a new one does. And inputs that it refuses.
 #include "rays/ray_scene.h"
 
 #include <gmock/gmock.h>

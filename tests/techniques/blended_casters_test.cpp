@@ -73,7 +73,7 @@ void add_shares(TechniqueRun& run, const HostShadowLayer& layer, Shares& sum) {
   }
 }
 
-// Of opaque surfaces and of all layers.
+// The shares of opaque surfaces and of all layers.
 Shares shares_of(TechniqueRun& run) {
   HostShadowLayer opaque{run.frame().shadows(), read_depth(run), {}};
   for (const CastingTriangle& t : casting_triangles(run.view().scene, shown_triangles(run)))

@@ -9,7 +9,7 @@ namespace {
 
 struct EveryTechnique : testing::TestWithParam<const Technique*> {};
 
-// Those that draw another picture by nature have tests of their own.
+// Techniques that draw another picture by design have their own tests.
 std::vector<const Technique*> exact_techniques() {
   std::vector<const Technique*> exact = techniques();
   std::erase_if(exact, [](const Technique* technique) { return technique->approximate; });

@@ -78,7 +78,7 @@ struct MovingRoom {
     return make_view(camera, width, height);
   }
 
-  // What moves in a frame; in some frames nothing does.
+  // Moves some objects in a frame; in some frames nothing moves.
   SceneChanges move(int frame) {
     SceneChanges changes;
     const double t = frame * 0.1;

@@ -56,7 +56,7 @@ inline std::vector<double> channels(const std::vector<glm::dvec3>& radiance) {
   return values;
 }
 
-// Of an image, at these pixels.
+// The channels of an image at these pixels.
 inline std::vector<double> channels(const Image& image, const std::vector<uint32_t>& pixels) {
   std::vector<double> values;
   for (const uint32_t pixel : pixels) {

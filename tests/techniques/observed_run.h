@@ -1,5 +1,5 @@
-// What two frames of a technique show of the settings that it read: pictures, light lists, passes, kernels,
-// programs and memory.
+// Two frames of a technique, as evidence of the settings that it read: pictures, light lists, passes,
+// kernels, programs and memory.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ std::string hash_text(const std::vector<T>& values) {
   return fmt::format("{} {:x}", values.size(), std::hash<std::string_view>()(bytes));
 }
 
-// Of each of its runs the kernels, and the bytes of the last.
+// The kernels of each of its runs, and the bytes of the last.
 inline std::string pass_text(const PassRecord& pass) {
   std::string text = fmt::format("{}, reads {}, writes {}", pass.on, pass.bytes_read, pass.bytes_written);
   for (const std::vector<KernelTime>& run : pass.kernels) {
@@ -57,7 +57,7 @@ inline Observed observe(Renderer& renderer, const Scene& scene, const View& view
     renderer.note_programs(nullptr);
     seen["refused"] = error.what();
   }
-  // What a first run asks of the device, later runs of the process know.
+  // A first run queries the device; later runs of the process do not.
   std::erase_if(programs, [](const std::string& name) { return name.find("_probe.") != std::string::npos; });
   seen["programs"] = fmt::format("{}", fmt::join(programs, "\n"));
   return seen;

@@ -93,8 +93,8 @@ inline ImageDistance distance_of(const Image& image, const Image& reference) {
   return {differences[differences.size() / 2], double(differences.end() - end) / double(differences.size())};
 }
 
-// What another rasteriser and another texture filter may change: silhouettes, and little elsewhere.
-// llvmpipe's levels of detail are up to 0.03 of an octave off.
+// Another rasteriser and another texture filter may change silhouettes, and little elsewhere. llvmpipe's
+// levels of detail have errors of up to 0.03 of an octave.
 inline void expect_near(const Image& image, const Image& forward) {
   const ImageDistance distance = distance_of(image, forward);
   EXPECT_LT(distance.median, 1e-3);

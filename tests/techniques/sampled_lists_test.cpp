@@ -142,8 +142,8 @@ struct ListRun {
   TechniqueRun run;
 };
 
-// Of the lights of whole lists, how many are drawn often enough to tell, are drawn in every picture, and have
-// a mean count over the pictures that is within four standard errors of 1. One drawn with the probability p
+// Counts the lights of complete lists that are drawn often enough to judge, are drawn in every picture, and
+// have a mean count over the pictures within four standard errors of 1. One drawn with the probability p
 // counts 1 / p times.
 struct Counted {
   size_t all = 0, told = 0, certain = 0, once = 0, lists_too_short = 0;

@@ -86,7 +86,7 @@ TEST(StoredSamples, ShowWhatPicturesOfOneSampleShowThere) {
     }
     EXPECT_FALSE(same_bytes(edges.image, all));
     EXPECT_LT(compare_images(edges.image, all).rmse_rel, 2e-3) << samples;
-    // Of two samples each is the centroid of the surface that it sees alone.
+    // With two samples each is the centroid of the only surface that it sees.
     if (samples == 2) {
       const Image visibility = frame_of_samples(scene, "visibility", "samples=2").image;
       EXPECT_LT(compare_images(edges.image, visibility).max_rel, rounding_of_lights);

@@ -30,8 +30,8 @@ static inline void load_samples(global const uint* values, uint count, uint16* o
   separate(of);
 }
 
-// Whether two triangles are neighbours. A pair meets in several pixels: what is known of some is kept, two
-// numbers << 1 | the answer each, since a triangle's corners are far away.
+// Returns whether two triangles are neighbours. A pair meets in several pixels: some answers are kept, as two
+// numbers << 1 | the answer, since a triangle's corners are far away.
 static inline bool known_neighbours(ulong* known, uint a, uint b, const SeenTriangles* scene) {
   const uint low = min(a, b), high = max(a, b);
   const ulong pair = ((ulong)low << 31 | high) << 1;  // numbers are below 2^31

@@ -62,7 +62,7 @@ static inline ReflectedLight reflected_light(ShadingPoint p, mask_t unlit, Real3
   const real solid_angle = (view->slope_x_scale * view->slope_y_scale) * (cosine * cosine * cosine);
   const real across = max_real(max_real(facing, -facing), REAL(1e-3f));
   r.area = solid_angle * squared / across;
-  // What arrives on the shading normal, over the area of the triangle itself.
+  // The light that arrives on the shading normal, over the area of the triangle itself.
   const real n_dot_l = min_real(max_real(dot3(p.normal, arrival.to_light), REAL(0.0f)), REAL(1.0f));
   const real arriving =
       arrival.attenuation * light_reaches(light, p.position, arrival.to_light, GROUPS_AT(p));

@@ -9,7 +9,7 @@
 #include "kernels/common/image_blocks.h"
 #include "kernels/shadows/shadow_test.h"
 
-// Of a block's pixels, into an entry of zeros.
+// Stores a block's pixels into an entry of zeros.
 #ifdef SHADOW_BYTES
 static inline void store_shadows(global uint* entry, uint block, whole hidden) {
   vstore16(convert_uchar16(hidden), block, (global uchar*)entry);
@@ -37,8 +37,8 @@ static inline void add_triangles(TileTriangles* t, uint block, uint16 triangle, 
   }
 }
 
-// Of a tile's blocks. Returns those with a surface. First the places of all triangles are read, then all
-// records, so that the processor waits for many of them at a time.
+// The receivers of a tile's blocks. Returns those with a surface. First the places of all triangles are read,
+// then all records, so that the processor waits for many of them at a time.
 static inline uint receivers_of_tile(Receivers receivers[16], const RayScene* scene, uint tile_x, uint tile_y,
                                      global const uint* triangles, global const float* depths,
                                      global const uint* triangle_instance, global const int* number_offsets,

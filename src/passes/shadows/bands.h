@@ -21,7 +21,7 @@ struct ShadowRoom {
   size_t tiles = 0, table_bytes = 0, bit_bytes = 0;
 };
 
-// Of the table: its first pair of words, the rows of its tiles, and the empty row.
+// The bytes of the table: its first pair of words, the rows of its tiles, and the empty row.
 size_t shadow_table_bytes(size_t tiles, size_t words);
 
 // Both parts together take at most most_bytes, the table at most half of it.
@@ -30,7 +30,7 @@ size_t shadow_table_bytes(size_t tiles, size_t words);
 ShadowRoom shadow_room(size_t tiles, size_t words, size_t lights, size_t entry_bytes, size_t most_bytes,
                        size_t most_table, size_t most_bits);
 
-// Of a frame's tiles. cells: first entry and number of entries, a tile.
+// The bands of a frame's tiles. cells: first entry and number of entries per tile.
 struct ShadowBands {
   std::vector<ShadowBand> bands;
   std::vector<uint32_t> first_entries;  // by tile: entries of its band before it

@@ -29,8 +29,8 @@ struct CastingLight {
   double range_m = 0;      // 0: it has no volume
 };
 
-// Of all opaque and masked triangles in each light's range; a mask lets no light through, and blended
-// surfaces cast nothing. On all cores.
+// The volumes of all opaque and masked triangles in each light's range; a mask lets no light through, and
+// blended surfaces cast nothing. On all cores.
 CasterVolumes caster_volumes(const Scene& scene, const RayScene& rays, std::span<const CastingLight> lights);
 
 }  // namespace lightgrid

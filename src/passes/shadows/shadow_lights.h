@@ -13,11 +13,11 @@ namespace lightgrid {
 // In the order of FramePlan::shadowed: point and spot lights, then directional ones.
 size_t shadow_light_count(const FramePlan& plan);
 size_t shadow_table_words(const FramePlan& plan);  // pairs of words a tile (shared/shadow_bits.h)
-size_t shadow_entry_bytes(const FramePlan& plan);  // of a pair of a tile and a light
+size_t shadow_entry_bytes(const FramePlan& plan);  // bytes per pair of a tile and a light
 
 // In this order, as shining: directional ones everywhere.
 std::vector<CullLight> shining_lights(const Seen& seen);
-// Those without shadows are listed nowhere, directional ones in every tile that shows a surface.
+// Lights without shadows are listed nowhere, directional ones in every tile that shows a surface.
 std::vector<CullLight> shadowed_lights(const Seen& seen, std::vector<CullLight> shining);
 
 // origin: of the rays. Without stamps. Lights without shadows reach nothing.
@@ -32,7 +32,7 @@ struct ShadowInputs {
   std::vector<CullLight> shining;  // with their ranges
   std::vector<uint8_t> shadowed;
   std::vector<std::pair<glm::dmat4, int>> instances;  // and the versions of their meshes
-  int builds;                                         // of the tree
+  int builds;                                         // number of builds of the tree
   bool operator==(const ShadowInputs&) const = default;
 };
 ShadowInputs shadow_inputs(Work& work, const RayScene& rays);

@@ -20,9 +20,9 @@ class ShadowLists {
   void clear() { images_.clear(); }
 
   size_t images() const { return images_.size(); }  // 0: nothing was listed
-  size_t tiles() const;                             // of one image
-  size_t pairs() const;                             // of a tile and a light, of all images
-  size_t bytes() const;                             // of the lists
+  size_t tiles() const;                             // tiles of one image
+  size_t pairs() const;                             // pairs of a tile and a light, of all images
+  size_t bytes() const;                             // bytes of the lists
   size_t memory_bytes() const { return bytes() + (culler_ ? culler_->memory_bytes() : 0); }
 
   const cl::Buffer& cells(size_t image) {

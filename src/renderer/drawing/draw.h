@@ -53,7 +53,7 @@ class PendingDraws {
   void add(size_t indices);
 
  private:
-  size_t indices_ = 0;      // of this portion
+  size_t indices_ = 0;      // indices of this portion
   GLsync drawn_ = nullptr;  // signalled when the portion before is
 };
 

@@ -37,8 +37,8 @@ IndexRanges in_reverse(const IndexRanges& ranges, const GlScene& gpu);
 // Clusters of one instance that are drawn together.
 struct DrawItem {
   int instance;
-  std::vector<uint32_t> clusters;  // of its mesh, ascending
-  IndexRanges ranges;              // of these clusters
+  std::vector<uint32_t> clusters;  // clusters of its mesh, ascending
+  IndexRanges ranges;              // index ranges of these clusters
 };
 
 using DrawList = std::vector<DrawItem>;

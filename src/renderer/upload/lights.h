@@ -84,7 +84,7 @@ class ClLights : public ClLightColumns {
 // A frame's shadows, which passes/find_shadows.h fills. Only where the plan's `light_reaches` is set.
 struct ShadowMemory {
   SharedTexture tiles, bits;  // shared/shadow_bits.h
-  // Of blended surfaces: images of triangles' numbers, and of depths after them, `layer_count` each. In
+  // For blended surfaces: images of triangles' numbers, and of depths after them, `layer_count` each. In
   // OpenGL numbers are those of rays, and `first_triangles` has that of each instance's first.
   SharedTexture layers;
   uint32_t layer_count = 0;
