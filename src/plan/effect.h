@@ -54,11 +54,11 @@ using Effects = std::span<const Effect* const>;
 std::string words_of(const Effect& effect);
 std::string define_of(const Effect& effect);
 
-// What an effect has no oracle of: "base has no oracle: ..."; empty if nothing is missing. `keys_that_mean`:
-// of the settings with `.mean`.
+// Lists the hooks of an effect that have no oracle: "base has no oracle: ..."; empty if nothing is missing.
+// `keys_that_mean`: keys of the settings with `.mean`.
 std::string missing_oracle(const Effect& effect, std::span<const std::string> keys_that_mean);
 
-// Of the planned effects that add to what surfaces show.
+// The terms of planned effects that add to the light of surfaces.
 std::vector<BaseTerm> base_terms(const Scene& scene, const View& view, const FramePlan& plan);
 
 }  // namespace lightgrid

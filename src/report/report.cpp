@@ -51,7 +51,7 @@ ReportView finished_view(const fs::path& folder, const CompareReport& report, bo
   return view;
 }
 
-// Of the effects of any row.
+// The effects of any row.
 using EffectKeys = std::set<std::pair<std::string, std::string>>;
 
 std::vector<CsvColumn> csv_columns(bool shadows, const EffectKeys& effects) {

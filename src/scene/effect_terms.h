@@ -1,5 +1,5 @@
-// What effects (plan/effect.h) let through of lights, in double: the oracle of their hook NAME_reach
-// (shared/inputs.h), and bounds for the code that reads lights outside of light loops.
+// The share of lights that effects (plan/effect.h) let through, in double: the oracle of their hook
+// NAME_reach (shared/inputs.h), and bounds for the code that reads lights outside of light loops.
 #pragma once
 
 #include <functional>
@@ -37,7 +37,7 @@ void set_reach_oracles(std::vector<ReachOracle> oracles);
 
 ReachTerms reach_terms(const Scene& scene, const Light& light, const LightRanges& ranges,
                        const glm::dmat3& from_world);
-// Of all effects together.
+// The share that all effects together let through.
 LightShare share_of(const Scene& scene, const Light& light, const LightRanges& ranges);
 
 }  // namespace lightgrid

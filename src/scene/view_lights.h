@@ -32,7 +32,7 @@ struct ViewLight {
   uint32_t groups = all_groups;
   double most_falloff =
       0;  // 1 / m^2: of a virtual light, whose 1 / distance^2 is at most this; 0: no such light
-  // What effects let through, in view space, and its bounds.
+  // The shares that effects let through, in view space, and their bounds.
   ReachTerms reach{};
   LightShare share{};
 };

@@ -54,7 +54,7 @@ namespace lightgrid {
   ROW(IF_VIRTUAL, float, most_falloff, light_falloffs, samplerBuffer) \
   ROW(IF_GROUPS, uint, groups, light_group_masks, usamplerBuffer)
 
-// What light_reaches asks for a light by: its index, and in OpenCL the shadows at the pixels that read it and
+// Identifies a light for light_reaches: its index, and in OpenCL the shadows at the pixels that read it and
 // the inputs of effects.
 #if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
 #define HAS_LIGHT_INDEX

@@ -1,4 +1,5 @@
-// The pages under docs/: their links, their contents page, and the references to them in comments.
+// The pages under docs/: their links, their contents page, and the references to them in comments; and how
+// comments begin.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -106,6 +107,25 @@ TEST(Documents, AreWhereCommentsSay) {
                   [&](const std::string& link) { expect_target(file, checkout, link); });
     }
   }
+}
+
+// A comment's subject comes first: "The stored values of ...", "Returns whether ...".
+TEST(Comments, SeldomBeginWithAFragment) {
+  std::vector<std::string> openings;
+  for (const char* folder : {"src", "kernels", "shaders", "tests"}) {
+    for (const fs::path& file : files_under(checkout / folder)) {
+      std::ifstream lines(file);
+      bool continued = false;
+      for (std::string line; std::getline(lines, line);) {
+        line.erase(0, line.find_first_not_of(' '));
+        const bool comment = line.starts_with("// ");
+        for (const char* word : {"// Of ", "// What ", "// Those ", "// Whether "})
+          if (!continued && line.starts_with(word)) openings.push_back(file.string() + ": " + line);
+        continued = comment;
+      }
+    }
+  }
+  EXPECT_LE(openings.size(), 60u) << testing::PrintToString(openings);
 }
 
 TEST(Documents, AreInTheContents) {

@@ -1,4 +1,4 @@
-// What effects let through of lights, with effects of this test.
+// The share of lights that effects let through, with effects of this test.
 #include "scene/effect_terms.h"
 
 #include <gtest/gtest.h>
@@ -99,7 +99,7 @@ TEST_F(EffectTerms, AreInTheOraclesShading) {
   };
   EXPECT_GT(radiance({}), 0);
   EXPECT_DOUBLE_EQ(radiance(dim), radiance({}) / 4);
-  // What effects add is not scaled.
+  // The light that effects add is not scaled.
   const ShadeSettings adds{
       .base = {[](const Surface& s, const glm::dvec3& at) { return s.base_color * at.x; }}};
   EXPECT_DOUBLE_EQ(radiance(dim, adds), radiance(dim) + 2);
