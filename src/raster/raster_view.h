@@ -12,7 +12,7 @@
 // JCGT 2013), filled by tiles in software (Laine, Karras, "High-Performance Software Rasterization on GPUs",
 // HPG 2011).
 //
-// What is drawn is a function of meshes, instances and camera alone: the same bytes on every device that
+// The picture depends on meshes, instances and camera only: the same bytes on every device that
 // rounds divisions correctly, in every kernel shape, for any number of threads. docs/raster.md has the
 // arithmetic; in short:
 //

@@ -74,7 +74,7 @@ function slide(get, value) {
   return getComputedStyle(get("left-part")).clipPath;
 }
 
-// Of every pass of this program: a stage without a color of its own is "other".
+// The passes of this program: a stage without a color of its own is "other".
 const PASSES = `blend_resolved build_voxels build_world_grid cull_lights cull_lights_for_blended depth_bounds depth_prepass
   depth_to_cl draw_light_buffer fill_gbuffer fill_light_buffer fill_normals find_blended_object_lights find_object_lights
   gbuffer_to_cl grid_to_gl image_to_gl light_buffer_to_gl light_index light_volumes list_blended normals_to_cl place_voxels
