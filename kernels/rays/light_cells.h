@@ -106,6 +106,16 @@ static inline __attribute__((always_inline)) CellRays cell_rays(global const Lig
   return rays;
 }
 
+// Lanes of `active` that lists serve.
+static inline uint served_lanes(global const LightCellTable* table, const CellRays* rays, real squared,
+                                uint active, const bool point) {
+  mask_t served = squared <= REAL(table->squared);
+  global const float* axis = table->grid.toward;
+  if (point && table->grid.top >= -1.0f)
+    served &= ray_side(rays->to, axis[0], axis[1], axis[2], 0.0f) >= table->grid.top * rays->length;
+  return active & lane_bits(served);
+}
+
 static inline __attribute__((always_inline)) uint hidden_by_lists(
     const LightCells* cells, const RayScene* scene, global const LightCellTable* table, RaySource light,
     Real3 to, real gap, uint active, whole own, uint* served, whole* veil, const bool point) {
@@ -113,7 +123,7 @@ static inline __attribute__((always_inline)) uint hidden_by_lists(
   const CellRays rays = cell_rays(table, light, to, gap, point, &squared);
   const whole cell =
       point ? cell_of_cube(rays.to, table->size) : cell_of_grid(rays.to, table->size, &table->grid);
-  *served = active & lane_bits(squared <= REAL(table->squared));
+  *served = served_lanes(table, &rays, squared, active, point);
   uint hidden = 0;
   for (uint left = *served; left != 0;) {
     const int one = ((const int*)&cell)[lowest_bit(left)];

@@ -25,12 +25,18 @@ uint32_t cells_across(const CellLight& light, uint32_t triangles) {
 // rays at the range's end.
 float reach_of(const CellLight& light) {
   if (light.directional) return std::numeric_limits<float>::infinity();
-  return float(1.002 * light.range_m + 1e-5 * (std::abs(light.x) + std::abs(light.y) + std::abs(light.z)));
+  constexpr double most = std::numeric_limits<float>::max();
+  const double size = std::abs(light.x) + std::abs(light.y) + std::abs(light.z);
+  return float(std::min(1.002 * light.range_m + 1e-5 * size, most));
 }
 
 LightCellJob job_of(const CellLight& light) {
   constexpr float most = std::numeric_limits<float>::max();
   LightCellJob job{light.x, light.y, light.z, light.directional ? 0.0 : 1.0, reach_of(light)};
+  // Wider than the cone, so that few rays of shading's wider one take the tree.
+  job.grid.top = float(light.cos_outer > -1 ? std::max(light.cos_outer - 2e-3, -1.0) : -2.0);
+  const double axis[3] = {light.axis_x, light.axis_y, light.axis_z};
+  std::ranges::copy(axis, job.grid.toward);
   std::ranges::fill(job.low, most), std::ranges::fill(job.high, -most);
   return job;
 }

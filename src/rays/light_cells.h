@@ -27,6 +27,7 @@ namespace lightgrid {
 struct CellLight {
   double x = 0, y = 0, z = 0, range_m = -1;
   bool directional = false;
+  double axis_x = 0, axis_y = 0, axis_z = 0, cos_outer = -1;  // rays outside of this cone take the tree
   auto operator<=>(const CellLight&) const = default;
 };
 

@@ -12,9 +12,10 @@
 #include "renderer/cl_scene.h"
 #include "renderer/gl_scene.h"
 #include "renderer/shared_grids.h"
-#include "renderer/shared_light_cells.h"
 
 namespace lightgrid {
+
+class SharedLightCells;
 
 class GpuScene {
  public:

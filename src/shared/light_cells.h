@@ -24,7 +24,9 @@ typedef struct LightCellEntry {
 } LightCellEntry;
 
 // The cells of a directional light: x = u . p + u[3], y = v . p + v[3] of a point p, cut off to whole numbers
-// from 0 to size - 1. The point's ray is as long as it lies below the plane toward . p = top.
+// from 0 to size - 1. The point's ray is as long as it lies below the plane toward . p = top. Of a spot light:
+// `toward` is its axis, and only rays within an angle of it have lists, whose cosine is `top`. Of other point
+// lights `top` is below -1.
 typedef struct LightCellGrid {
   float u[4], v[4], toward[3], top;
 } LightCellGrid;

@@ -72,13 +72,18 @@ CellAnswers cell_answers(RayScene& scene, const LightCells& cells, const Queries
   return answers;
 }
 
-// The lights of `q`. Point lights have random ranges, some without end.
+// The lights of `q`. Point lights have random ranges, some without end, and some are spots.
 std::vector<CellLight> cell_lights(const Queries& q, RandomNumbers& random) {
   std::vector<CellLight> lights;
   for (const RayLight& light : q.lights) {
     const double far_m = random.below(2) ? 40 : HUGE_VAL,
                  range_m = random.below(3) ? random.between(0.5, 4) : far_m;
-    lights.push_back({light.x, light.y, light.z, light.w != 0 ? range_m : HUGE_VAL, light.w == 0});
+    CellLight& made = lights.emplace_back(
+        CellLight{light.x, light.y, light.z, light.w != 0 ? range_m : HUGE_VAL, light.w == 0});
+    if (light.w == 0 || random.below(3)) continue;
+    const glm::dvec3 axis = random.direction();
+    made.axis_x = axis.x, made.axis_y = axis.y, made.axis_z = axis.z;
+    made.cos_outer = random.between(-0.9, 0.99);
   }
   return lights;
 }
@@ -212,7 +217,10 @@ class HostCells {
 
   // to: the way from a point light to a point; for a directional light, where the ray begins.
   bool serve(size_t light, const glm::dvec3& to) const {
-    return tables_[light].size != 0 && glm::dot(to, to) <= double(tables_[light].squared);
+    const LightCellGrid& g = tables_[light].grid;
+    const double along = g.toward[0] * to.x + g.toward[1] * to.y + g.toward[2] * to.z;
+    return tables_[light].size != 0 && glm::dot(to, to) <= double(tables_[light].squared) &&
+           (lights_[light].directional || g.top < -1 || along >= g.top * glm::length(to));
   }
 
   double length(size_t light, const glm::dvec3& to) const {
@@ -492,6 +500,8 @@ TEST(LightCellFaults, EachIsFound) {
       {"-offset * 0.999f", "-offset * 1.05f"},
       {"number % 2 ? -1.0f : 1.0f", "number % 2 ? 1.0f : -1.0f"},
       {"ROW_SLACK 1e-3f", "ROW_SLACK -1.0f"},
+      {"CONE_SLACK 1e-4f", "CONE_SLACK -1e-1f"},
+      {"> radius + 1e-3f", "> -radius + 1e-3f"},
       {"near_steps(near)", "near_steps(near) ^ 2047"},
       {"GRID_SLACK 0x1p-17f", "GRID_SLACK -0x1p-8f"},
       {"REAL(f.height) : plane.at / down + extent", "REAL(f.height) : plane.at / down - extent"},

@@ -16,16 +16,27 @@
 
 #define BOX_PAD 4e-6f      // of a box's and the light's coordinates
 #define PLANE_SLACK 1e-5f  // of a plane's coefficients: rounding, and where in its cell a ray is
+#define CONE_SLACK 1e-4f  // of the cosine of a spot's cone
 #define CELL_SLACK 1e-3f   // of a cell: rounding of where a box begins and ends
 
 // A box relative to a light, with room for all that a box test rounds.
 typedef struct SeenBox {
   float low[3], high[3];
-  float near;  // metres to its nearest point
+  float near;  // metres to its nearest point; infinite outside of a spot's cone
 } SeenBox;
 
 static inline float larger(float a, float b) { return a > b ? a : b; }
 static inline float smaller(float a, float b) { return a < b ? a : b; }
+
+// Whether balls lie outside of a spot's cone, with room for rounding.
+static inline mask_t misses_cone(global const LightCellJob* job, const real at[3], real radius) {
+  const float cosine = job->grid.top - CONE_SLACK, sine = sqrt(fmax(1.0f - cosine * cosine, 0.0f));
+  global const float* axis = job->grid.toward;
+  const real along = fma(at[2], REAL(axis[2]), fma(at[1], REAL(axis[1]), at[0] * axis[0])),
+             squared = fma(at[2], at[2], fma(at[1], at[1], at[0] * at[0]));
+  const real aside = sqrt(lane_max(squared - along * along, REAL(0.0f)));
+  return aside * cosine - along * sine > radius + 1e-3f * sqrt(squared);
+}
 
 static inline SeenBox seen_box(global const LightCellJob* job, const float low[3], const float high[3]) {
   const double at[3] = {job->x, job->y, job->z};
@@ -42,6 +53,15 @@ static inline SeenBox seen_box(global const LightCellJob* job, const float low[3
     squared += away * away;
   }
   box.near = sqrt(squared) * 0.9999f;
+  if (job->w != 0 && job->grid.top >= -1.0f) {
+    real center[3];
+    squared = 0;
+    for (int k = 0; k < 3; ++k) {
+      const float half_size = 0.5f * (box.high[k] - box.low[k]);
+      center[k] = REAL(0.5f * (box.low[k] + box.high[k])), squared += half_size * half_size;
+    }
+    if (any_lane(misses_cone(job, center, REAL(sqrt(squared) * 1.001f)))) box.near = INFINITY;
+  }
   return box;
 }
 

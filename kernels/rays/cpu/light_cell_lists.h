@@ -37,33 +37,24 @@ static inline __attribute__((always_inline)) void add_items(LightCellItems* item
   items->count += popcount(bits);
 }
 
+// The greatest value of a plane in cell (column, row): column * x + row * y + at.
+typedef struct CellPlanes {
+  real x, y, at;
+} CellPlanes;
+
 // One face of the cube, or the grid, with `size` cells along each side. No ray is longer than `reach`. Cube:
 // `along` is the coordinate along the face's axis, `u` and `v` are those across it. Grid: `height` is that of
-// its top above its base; for a cube it is 0.
+// its top above its base; for a cube it is 0. `axis` and `cosine`: the axis of a spot's cone and the cosine of
+// its angle, below -1 for other lights.
 typedef struct CellFace {
   int size, first_cell;
   float reach;
   int along, u, v;
   float sign;
   float height;
+  CellPlanes axis;
+  float cosine;
 } CellFace;
-
-static inline CellFace cube_face(global const LightCellJob* job, int number) {
-  const int along = number / 2, size = (int)job->size;
-  const CellFace face = {.size = size,
-                         .first_cell = number * (size * size + 1),
-                         .reach = job->reach_m,
-                         .along = along,
-                         .u = along == 0 ? 1 : 0,
-                         .v = along == 2 ? 1 : 2,
-                         .sign = number % 2 ? -1.0f : 1.0f};
-  return face;
-}
-
-// The greatest value of a plane in cell (column, row): column * x + row * y + at.
-typedef struct CellPlanes {
-  real x, y, at;
-} CellPlanes;
 
 static inline CellPlanes greatest_in_cells(const real plane[3], const CellFace* f) {
   const float h = 2.0f / (float)f->size;
@@ -72,6 +63,21 @@ static inline CellPlanes greatest_in_cells(const real plane[3], const CellFace* 
                         c - a - b + (lane_max(a, REAL(0.0f)) + lane_max(b, REAL(0.0f))) * h +
                             PLANE_SLACK * (fabs(a) + fabs(b) + fabs(c)) + 1e-37f};
   return p;
+}
+
+static inline CellFace cube_face(global const LightCellJob* job, int number) {
+  const int along = number / 2, size = (int)job->size;
+  CellFace face = {.size = size,
+                   .first_cell = number * (size * size + 1),
+                   .reach = job->reach_m,
+                   .along = along,
+                   .u = along == 0 ? 1 : 0,
+                   .v = along == 2 ? 1 : 2,
+                   .sign = number % 2 ? -1.0f : 1.0f,
+                   .cosine = job->grid.top - CONE_SLACK};
+  const real axis[3] = {REAL(job->grid.toward[0]), REAL(job->grid.toward[1]), REAL(job->grid.toward[2])};
+  face.axis = greatest_in_cells(axis, &face);
+  return face;
 }
 
 static inline real plane_in_cells(const CellPlanes* p, real x, real y) {
@@ -91,7 +97,7 @@ static inline mask_t cells_of_boxes(real low, real high, real along_low, real al
   return (begin < size) & (end >= 0.0f);
 }
 
-// No shorter ray into the cell meets the triangle. A ray along d reaches the plane at -offset |d| / (normal .
+// No shorter ray into the cell meets the triangle; infinite in cells outside of a spot's cone. A ray along d reaches the plane at -offset |d| / (normal .
 // d). The bound takes the shortest d in the cell and the greatest product, `rising`. In the grid, `rising` is
 // the plane's greatest height above the base.
 static inline real near_in_cells(const CellFace* f, real x, real y, real offset, real rising, real box_near) {
@@ -99,7 +105,11 @@ static inline real near_in_cells(const CellFace* f, real x, real y, real offset,
   const float h = 2.0f / (float)f->size;
   const real u = lane_max(fabs(fma(x, REAL(h), REAL(0.5f * h - 1.0f))) - 0.5f * h, REAL(0.0f)),
              v = lane_max(fabs(fma(y, REAL(h), REAL(0.5f * h - 1.0f))) - 0.5f * h, REAL(0.0f));
-  return lane_max(-offset * 0.999f * sqrt(fma(u, u, fma(v, v, REAL(1.0f)))) / rising, box_near);
+  const real shortest = sqrt(fma(u, u, fma(v, v, REAL(1.0f)))),
+             near = lane_max(-offset * 0.999f * shortest / rising, box_near);
+  if (f->cosine < -1.0f) return near;
+  const real least = f->cosine * (f->cosine > 0.0f ? shortest : REAL(1.7321f));
+  return plane_in_cells(&f->axis, x, y) >= least ? near : REAL(INFINITY);
 }
 
 // The four planes in a face's cells, and the box's cells.

@@ -44,6 +44,13 @@ static inline void see_boxes(SeenTriangles* s, global const LightCellJob* job, c
     squared = fma(away, away, squared);
   }
   s->near = sqrt(squared) * 0.9999f;
+  if (job->grid.top < -1.0f) return;
+  real center[3], radius = REAL(0.0f);
+  for (int k = 0; k < 3; ++k) {
+    const real half_size = 0.5f * (s->high[k] - s->low[k]);
+    center[k] = 0.5f * (s->low[k] + s->high[k]), radius = fma(half_size, half_size, radius);
+  }
+  s->near = misses_cone(job, center, sqrt(radius) * 1.001f) ? REAL(INFINITY) : s->near;
 }
 
 // The plane through two corners along the light's direction.

@@ -26,7 +26,7 @@ void ViewLightCells::look(Work& work, const std::vector<ShadowLight>& records,
   lights_.clear();
   for (size_t i = 0; i < records.size(); ++i) {
     const ShadowLight& r = records[i];
-    lights_.push_back({r.x, r.y, r.z, lights[i].radius_m, r.w == 0});
+    lights_.push_back({r.x, r.y, r.z, lights[i].radius_m, r.w == 0, r.axis_x, r.axis_y, r.axis_z, r.cos_outer});
   }
 }
 
