@@ -379,7 +379,7 @@ class LightCellSequence {
     return compared_with_tree(scene_, cells_, q, lights_);
   }
 
-  // Of the last step: whether a light that moved has lists, and how many lights have some.
+  // For the last step: whether a light that moved has lists, and how many lights have some.
   bool moved_has_lists() const { return moved_ < 10 && cells_.tables(lights_)[size_t(moved_)].size != 0; }
   size_t listed() const {
     return size_t(std::ranges::count_if(cells_.tables(lights_), [](const auto& t) { return t.size != 0; }));
