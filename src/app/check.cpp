@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/write_file.h"
+#include "plan/settings/model.h"
 #include "report/limits_page.h"
 #include "results/flip.h"
 #include "results/metrics.h"
@@ -279,7 +280,7 @@ std::string text_of(const ordered_json& json) {
 void check_settings(const Settings& settings, bool pictures) {
   if (pictures) return check_given_settings(settings, techniques());
   const std::array read = {"range", "cutoff", "window", "alpha", "light-seed"};
-  for (const std::string& key : settings.given)
+  for (const std::string& key : given_keys(settings))
     if (std::ranges::count(read, key) == 0)
       throw input_error(
           "set {}: check does not read it without --html, and it would change nothing; it reads {}", key,
@@ -296,7 +297,7 @@ int check(CheckOptions o) {
   o.scene.device = o.devices.device;
   const WarningCollector warnings;
   CheckedScene checked(o.scene);
-  const std::vector<LimitResult> results = counted(limits, settings.ranges, checked, o.shorten);
+  const std::vector<LimitResult> results = counted(limits, ranges_of(settings), checked, o.shorten);
   const Scene& scene = checked.chosen.scene;
   if (!o.json.empty())
     write_json(o.json, text_of(check_json(results, checked, o.engine, warnings.warnings())));

@@ -12,6 +12,7 @@
 #include "frontier/answer.h"
 #include "frontier/brute_force.h"
 #include "frontier/view_figures.h"
+#include "plan/settings/samples.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -82,7 +83,7 @@ SceneRequest request_of_scene(const FrontierCommand& o, bool casts, const Settin
   SceneRequest request{{}, chosen_truth(common, casts, own), casts};
   const auto shadows = casts ? std::optional(request.truth) : std::nullopt;
   request.points = points_of(o, common, opengl, shadows);
-  const auto has_samples = [](const ChosenPoint& p) { return p.contestant.settings.samples > 1; };
+  const auto has_samples = [](const ChosenPoint& p) { return p.contestant.settings[setting::samples] > 1; };
   const bool areas = choice == TruthChoice::area ||
                      (choice == TruthChoice::called_for && std::ranges::any_of(request.points, has_samples));
   request.truth = chosen_truth(common, casts, own, areas);
@@ -161,7 +162,7 @@ std::vector<bool> check_request(const FrontierCommand& o, const Externals& exter
 FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Shard& shard) {
   FrontierJob job;
   job.common = chosen_settings(o.scene);
-  if (!job.common.given.contains("samples")) job.common = with_samples(std::move(job.common), 1);
+  if (!job.common.given(setting::samples)) job.common = with_samples(std::move(job.common), 1);
   job.baseline = baseline_point(job.common, renderer.gl != nullptr, o.baseline);
   job.views = o.views;
   job.seed = o.scene.seed;

@@ -16,6 +16,8 @@
 #include "capture/frame_lists.h"
 #include "capture/list_accuracy.h"
 #include "inspect/inspect.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/samples.h"
 #include "session/contestants.h"
 #include "session/frame_shadows.h"
 #include "session/shadow_truth.h"
@@ -195,7 +197,7 @@ int compare_settings(const InspectOptions& o, const Subject& subject, OpenCl& de
       throw input_error("inspect: --compare supports grids of one slice and no z-bins, not {} slices",
                         grid.lists.slices);
     }
-    rows.push_back({c.compared, measure_lists(truth, c.settings.tile, lists_of_cells(grid.lists))});
+    rows.push_back({c.compared, measure_lists(truth, c.settings[setting::tile], lists_of_cells(grid.lists))});
     lost += rows.back().accuracy.lost;
     if (o.json != "-") std::fputs(accuracy_line(rows.back()).c_str(), stdout);
   }

@@ -8,6 +8,8 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "plan/coarse_shadows.h"
+#include "plan/settings/model.h"
+#include "plan/settings/samples.h"
 #include "scene/lights_file.h"
 #include "session/contestants.h"
 #include "session/edge_share.h"
@@ -55,11 +57,11 @@ int plan(PlanOptions o) {
   const ChosenScene chosen = load_chosen_scene(o.scene);
   const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
   std::optional<Leaks> leaks;
-  if (o.leaks || !o.groups.empty()) leaks = find_leaks(chosen.scene, chosen.view, settings.ranges);
+  if (o.leaks || !o.groups.empty()) leaks = find_leaks(chosen.scene, chosen.view, ranges_of(settings));
   const GroupProposal proposal = leaks ? propose_groups(*leaks, chosen.scene) : GroupProposal();
   if (!o.groups.empty()) write_json(o.groups, lights_file_text(with_groups(chosen.scene, proposal)));
   std::optional<EdgeShare> edges;
-  if (const int samples = plan.settings.samples; samples > 1)
+  if (const int samples = plan.settings[setting::samples]; samples > 1)
     edges = find_edge_share(chosen.scene, chosen.view, samples);
   if (o.json.empty()) {
     std::fputs(describe(plan, chosen.scene).c_str(), stdout);
@@ -89,7 +91,7 @@ int plan(PlanOptions o) {
                                {"volume", by("shadow volumes")},
                                {"why", words_of(light, chosen.scene)}});
   }
-  const CoarseShadows coarse = coarse_shadows(chosen.scene, plan.settings.ranges);
+  const CoarseShadows coarse = coarse_shadows(chosen.scene, ranges_of(plan.settings));
   if (coarse.lights + coarse.instances > 0)
     json["coarse_shadows"] = {{"lights", coarse.lights},
                               {"first_light", coarse.first_light},

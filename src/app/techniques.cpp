@@ -15,7 +15,7 @@ namespace {
 std::string with_defaults(const std::vector<const char*>& keys) {
   std::vector<std::string> words;
   for (const char* key : keys) {
-    for (const SettingHelp& s : setting_help()) {
+    for (const SettingRow& s : setting_rows()) {
       if (s.key == key) words.push_back(s.key + "=" + s.values.front());
     }
   }
@@ -32,9 +32,9 @@ void print_techniques() {
   fmt::print("{:<{}}settings: {}\n", "(all of them)", column, with_defaults(common_settings()));
   fmt::print(
       "\nSettings: --set KEY=VALUE, or NAME:KEY=VALUE in compare -t; the first value is the default:\n");
-  for (const SettingHelp& s : setting_help()) {
-    fmt::print("{:<{}}{}{}: {}\n", s.key, column, fmt::join(s.values, " "), s.any_number ? " or any number" : "",
-               s.meaning);
+  for (const SettingRow& s : setting_rows()) {
+    fmt::print("{:<{}}{}{}: {}\n", s.key, column, fmt::join(s.values, " "),
+               s.flags.any_number ? " or any number" : "", s.meaning);
   }
 }
 

@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "bench/runs.h"
+#include "plan/settings/cull_test.h"
+#include "plan/settings/grid.h"
 #include "scene/builtin.h"
 #include "shared/cull_tests.h"
 
@@ -47,8 +49,8 @@ KernelWork work_of(const CapturedFrame& frame, const CullingRun& run) {
   work.tiles = size_t(grid.cells_x) * grid.cells_y, work.cells = grid.cell_bytes / 8;
   work.bins = ((grid.cells_x + bin - 1) / bin) * ((grid.cells_y + bin - 1) / bin);
   work.indices = grid.index_count, work.index_bytes = grid.index_bytes;
-  work.mask_bytes = grid.mask_bytes, work.z_bins = size_t(run.settings().z_bins);
-  work.exact = row_of(run.settings().cull_test).distance;
+  work.mask_bytes = grid.mask_bytes, work.z_bins = size_t(run.settings()[setting::z_bins]);
+  work.exact = row_of(run.settings()[setting::cull_test]).distance;
   for (const Light& light : frame.lights) work.cones |= has_cone(light);
   return work;
 }
@@ -90,8 +92,8 @@ std::vector<BenchRow> measure_case(ClDevice& device, ProgramCache& programs, con
   const cl::Buffer depth = upload_depth(device, frame);
   std::vector<BenchContestant> contestants = options.contestants;
   for (BenchContestant& contestant : contestants) {
-    if (c.tile) contestant.settings.tile = c.tile;
-    if (c.captured && options.own_tile) contestant.settings.tile = frame.tile;
+    if (c.tile) contestant.settings.set(setting::tile, c.tile);
+    if (c.captured && options.own_tile) contestant.settings.set(setting::tile, frame.tile);
     runs.push_back(std::make_unique<CullingRun>(device, programs, frame, depth, contestant.settings));
   }
   const MeasuredFrame measured = measure_in_turn(device, programs, runs, rounds_of(options, c));

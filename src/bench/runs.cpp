@@ -1,6 +1,7 @@
 #include "bench/runs.h"
 
 #include "cl/transfer.h"
+#include "plan/settings/kernels.h"
 #include "scene/camera.h"
 #include "shared/raster_params.h"
 
@@ -51,7 +52,8 @@ const std::vector<std::string>& raster_rows() {
 RasterRun::RasterRun(ClDevice& device, ProgramCache& programs, const Scene& scene, int width, int height,
                      const Settings& settings)
     : geometry_(device),
-      raster_(geometry_, programs, {.shape = settings.kernel_shape, .portable = settings.portable}) {
+      raster_(geometry_, programs,
+              {.shape = settings[setting::kernel_shape], .portable = settings[setting::portable]}) {
   std::vector<RasterMesh> meshes;
   for (const Mesh& mesh : scene.meshes) meshes.push_back({mesh.positions, mesh.indices});
   std::vector<RasterInstance> instances;

@@ -6,12 +6,13 @@
 
 #include "bench/measure.h"
 #include "cl/error.h"
+#include "plan/settings/kernels.h"
 
 namespace lightgrid {
 namespace {
 
 std::vector<std::string> values_of(const std::string& key) {
-  for (const SettingHelp& help : setting_help()) {
+  for (const SettingRow& help : setting_rows()) {
     if (help.key != key) continue;
     std::vector<std::string> values = help.values;
     std::erase(values, "auto");
@@ -73,7 +74,7 @@ TuneResult tune_kernels(ClDevice& device, const TuneOptions& options) {
   TuneResult result;
   Settings settings;
   for (const std::string& key : tunable_settings()) {
-    if (key == "group-size" && settings.kernel_shape != KernelShape::group)
+    if (key == "group-size" && settings[setting::kernel_shape] != KernelShape::group)
       continue;  // applies to that shape alone
     std::vector<Candidate> candidates = candidates_of(key, settings);
     for (size_t i = 0; i < frames.size(); ++i) {

@@ -1,6 +1,8 @@
 #include "c_api/handles.h"
 #include "c_api/images.h"
 #include "capture/frame_culler.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/surfaces.h"
 #include "session/contestants.h"
 
 struct lightgrid_lists {
@@ -88,7 +90,7 @@ lightgrid_status lightgrid_cull(lightgrid_device* device, const lightgrid_projec
     const Settings chosen = frame_settings(frame, set);
     const TechniqueNeeds needs = grid_needs(name, chosen);
     check_given_settings(chosen, {&find_technique(name)}, true);
-    if (!depth && chosen.depth_bounds != DepthBoundsMode::none)
+    if (!depth && chosen[setting::depth_bounds] != DepthBoundsMode::none)
       throw wrong("depth", "is null, which needs the setting depth-bounds=none");
     const Turn turn(on);
     FrameCuller culler(*on.renderer().cl, *on.renderer().kernels, frame, chosen, needs);

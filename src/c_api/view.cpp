@@ -1,6 +1,7 @@
 #include "c_api/handles.h"
 #include "c_api/images.h"
 #include "plan/plan_changes.h"
+#include "plan/settings/picture.h"
 #include "session/contestants.h"
 #include "session/oracle.h"
 
@@ -11,7 +12,7 @@ std::shared_ptr<TechniqueRun> make_run(const lightgrid_view& v, const View& view
   return std::make_shared<TechniqueRun>(v.device->renderer(), *v.gpu, view, v.settings, *v.technique);
 }
 
-bool draws_bytes(const lightgrid_view& v) { return v.settings.picture == PictureFormat::bytes; }
+bool draws_bytes(const lightgrid_view& v) { return v.settings[setting::picture] == PictureFormat::bytes; }
 
 // The run, for the scene as it now is.
 TechniqueRun& follow(lightgrid_view& v) {

@@ -5,6 +5,9 @@
 #include "passes/depth_prepass.h"
 #include "passes/rasterize.h"
 #include "passes/read_outs.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/model.h"
+#include "plan/settings/samples.h"
 
 namespace lightgrid {
 
@@ -31,9 +34,9 @@ CapturedFrame SceneCapture::frame(const View& view, const SceneChanges& changes)
   const Settings& settings = view_.plan.settings;
   return {scene.name,
           view,
-          settings.tile,
+          settings[setting::tile],
           view_.plan.slice_far_m,
-          lights_with_ranges(scene, settings.ranges),
+          lights_with_ranges(scene, ranges_of(settings)),
           std::move(depth)};
 }
 

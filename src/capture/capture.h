@@ -2,6 +2,7 @@
 #pragma once
 
 #include "capture/frame_file.h"
+#include "plan/settings/grid.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -9,7 +10,7 @@ namespace lightgrid {
 // Frames of one scene, which is uploaded once.
 class SceneCapture {
  public:
-  // `view`: any view of the scene. settings.tile becomes the frames' tile size. The renderer and the scene
+  // `view`: any view of the scene. The setting tile becomes the frames' tile size. The renderer and the scene
   // outlive it.
   SceneCapture(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
                const Technique& technique);

@@ -7,6 +7,9 @@
 #include "capture/frame_lists.h"
 #include "cl/transfer.h"
 #include "culling/cull_pipeline.h"
+#include "plan/settings/cull_test.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
 #include "reference/position.h"
 #include "renderer/render_view.h"
 #include "techniques/technique.h"
@@ -31,42 +34,44 @@ double far_of_surfaces(const CapturedFrame& frame) {
 
 Settings frame_settings(const CapturedFrame& frame, const std::vector<std::string>& set) {
   Settings settings;
-  settings.tile = frame.tile;
+  settings.set(setting::tile, frame.tile);
   for (const std::string& assignment : set) apply_setting(settings, assignment);
   return settings;
 }
 
 CullerOptions culler_options(const Settings& settings) {
   CullerOptions options;
-  options.cull_test = settings.cull_test;
-  options.depth_bounds = settings.depth_bounds;
-  options.shape = settings.kernel_shape;
-  options.tile = settings.tile;
-  options.portable = settings.portable;
-  options.group_size = settings.group_size;
-  options.lists = settings.grid_lists;
+  options.cull_test = settings[setting::cull_test];
+  options.depth_bounds = settings[setting::depth_bounds];
+  options.shape = settings[setting::kernel_shape];
+  options.tile = settings[setting::tile];
+  options.portable = settings[setting::portable];
+  options.group_size = settings[setting::group_size];
+  options.lists = settings[setting::grid_lists];
   return options;
 }
 
 TechniqueNeeds grid_needs(const std::string& technique, const Settings& settings) {
   TechniqueNeeds needs = find_technique(technique).needs;
   if (!needs.light_grid) throw input_error("technique {}: shades from no light grid", technique);
-  needs.slices |= settings.given.contains("slices"), needs.z_bins |= settings.given.contains("z-bins");
+  needs.slices |= settings.given(setting::slices), needs.z_bins |= settings.given(setting::z_bins);
   return needs;
 }
 
 Settings grid_settings(Settings settings, const TechniqueNeeds& needs) {
-  if (!needs.slices) settings.slices = 1;
-  if (!needs.z_bins) settings.z_bins = 1;
+  if (!needs.slices) settings.set(setting::slices, 1);
+  if (!needs.z_bins) settings.set(setting::z_bins, 1);
   return settings;
 }
 
 CullView cull_view_of(const CapturedFrame& frame, const Settings& settings) {
   CullView view = cull_view(frame.view);
-  if (settings.slices == 1 && settings.z_bins == 1) return view;
+  if (settings[setting::slices] == 1 && settings[setting::z_bins] == 1) return view;
   const double far_m = far_of_surfaces(frame);
-  view.slice_edges = slice_edges(settings.slice_spacing, settings.slices, frame.view.near_m, far_m);
-  view.z_bin_edges = slice_edges(settings.slice_spacing, settings.z_bins, frame.view.near_m, far_m);
+  view.slice_edges =
+      slice_edges(settings[setting::slice_spacing], settings[setting::slices], frame.view.near_m, far_m);
+  view.z_bin_edges =
+      slice_edges(settings[setting::slice_spacing], settings[setting::z_bins], frame.view.near_m, far_m);
   return view;
 }
 
@@ -112,7 +117,7 @@ void FrameCuller::run() {
 FrameGrid FrameCuller::grid() {
   FrameGrid grid;
   grid.lists = read_grid(device_, grid_, storage_);
-  grid.tile = settings_.tile;
+  grid.tile = settings_[setting::tile];
   grid.slice_edges = view_.slice_edges, grid.z_bin_edges = view_.z_bin_edges;
   grid.settings = to_strings(settings_);
   return grid;

@@ -6,6 +6,7 @@
 #include "cl/program_cache.h"
 #include "culling/light_culler.h"
 #include "plan/frame_plan.h"
+#include "plan/settings/grid.h"
 
 namespace lightgrid {
 
@@ -35,8 +36,8 @@ std::vector<CullLight> cull_lights_of(const CapturedFrame& frame);
 
 class FrameCuller {
  public:
-  // Settings that are not given take the device's tuned values. settings.tile is used, not the frame's own.
-  // Uploads depth and lights; the frame may be destroyed afterwards.
+  // Settings that are not given take the device's tuned values. The setting tile is used, not the frame's
+  // own. Uploads depth and lights; the frame may be destroyed afterwards.
   FrameCuller(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame, const Settings& settings,
               const TechniqueNeeds& needs = {});
 

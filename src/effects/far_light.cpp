@@ -9,32 +9,34 @@
 
 #include "cl/transfer.h"
 #include "plan/light_plan.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
 #include "renderer/loop_inputs.h"
 #include "scene/light_readers.h"
 
 namespace lightgrid {
 namespace {
 
-extern const OwnSetting<int> far_samples;
+extern const Setting<int> far_samples;
 
 // Far light gives back what ranges take away.
 void mean_ranges_without_end(Settings& s) {
-  if (far_samples.of(s) > 0) s.ranges.range = LightRange::infinite, far_samples.set_default(s);
+  if (s[far_samples] > 0) s.set(setting::range, LightRange::infinite), s.reset(far_samples);
 }
 
-const OwnSetting<int> far_samples{
+const Setting<int> far_samples{
+    70,
     "far-light",
-    "cull-test",
     "samples of a coarse volume that adds what lights send beyond their ranges",
     {{"off", 0}, {"512", 512}, {"4096", 4096}, {"32768", 32768}, {"262144", 262144}},
     {.model = true,
      .common = true,
-     .shown = [](const Settings& s) { return far_samples.of(s) > 0; },
+     .shown = [](const Settings& s) { return s[far_samples] > 0; },
      .mean = mean_ranges_without_end}};
 
 std::optional<EffectNeed> decide(const Scene& scene, const FramePlan& plan) {
-  if (far_samples.of(plan.settings) == 0) return {};
-  const LightRanges& ranges = plan.settings.ranges;
+  if (plan.settings[far_samples] == 0) return {};
+  const LightRanges ranges = ranges_of(plan.settings);
   if (ranges.range == LightRange::stochastic)
     return EffectNeed{false, "the mean of random ranges is that of none"};
   const auto first = std::ranges::find_if(
@@ -87,7 +89,7 @@ std::vector<ViewLight> lights_from(const glm::dvec3& origin, const Seen& seen) {
   View along;
   along.view_from_world = glm::dmat4(1);
   along.eye = origin;
-  std::vector<ViewLight> lights = lights_in_view(seen.scene, along, seen.plan.settings.ranges);
+  std::vector<ViewLight> lights = lights_in_view(seen.scene, along, ranges_of(seen.plan.settings));
   for (ViewLight& light : lights) {
     const bool of_surface = light.share.of_surface || light.groups != all_groups;
     light.radiant_intensity = of_surface ? glm::dvec3(0) : largest_intensity(light);
@@ -110,12 +112,12 @@ class FarLightVolume : public EffectState {
   bool follow(Work& work) override {
     const WorldBox box = world_box(work.scene);
     const glm::dvec3 at = box.empty() ? work.view.eye : 0.5 * (box.min + box.max);
-    FarGrid placed = grid_of(box.empty() ? WorldBox{at, at} : box, at, far_samples.of(work.plan.settings));
+    FarGrid placed = grid_of(box.empty() ? WorldBox{at, at} : box, at, work.plan.settings[far_samples]);
     placed.lights = uint(work.plan.local.size());
     std::vector<ViewLight> found = lights_from(at, work);
     std::string defines;
     for (const char* define : light_table_defines(work.plan)) defines += fmt::format(" -D{}", define);
-    if (kernels_.lanes && work.plan.settings.portable) defines += " -DPORTABLE";
+    if (kernels_.lanes && work.plan.settings[setting::portable]) defines += " -DPORTABLE";
     const bool rebuilt = kernels_.use(defines);
     const bool moved = at != origin_ || std::memcmp(&placed, &grid_, sizeof grid_) != 0 ||
                        !std::ranges::equal(found, lights_, sends_alike);

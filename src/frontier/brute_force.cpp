@@ -4,6 +4,10 @@
 #include <limits>
 #include <tuple>
 
+#include "plan/settings/grid.h"
+#include "plan/settings/model.h"
+#include "plan/settings/samples.h"
+#include "plan/settings/shadows.h"
 #include "results/error_measures.h"
 #include "results/metrics.h"
 #include "scene/random.h"
@@ -23,14 +27,14 @@ constexpr int rays_of_truth = 256;  // to a sphere; docs/shadows.md has their er
 FrontierTruth chosen_truth(const Settings& common, bool casts, std::optional<bool> own_ranges, bool areas) {
   FrontierTruth truth{.own_ranges = own_ranges.value_or(casts || areas)};
   if (areas) truth.places = places_a_side * places_a_side;
-  const bool spheres = common.given.contains("shadow-source") || common.shadow_rays > 1;
-  if (casts && spheres && common.shadow_source_m > 0)
-    truth.source_m = common.shadow_source_m, truth.shadow_rays = rays_of_truth;
+  const bool spheres = common.given(setting::shadow_source_m) || common[setting::shadow_rays] > 1;
+  if (casts && spheres && common[setting::shadow_source_m] > 0)
+    truth.source_m = common[setting::shadow_source_m], truth.shadow_rays = rays_of_truth;
   return truth;
 }
 
 bool counts_shadow_pairs(const Settings& settings, const FrontierTruth& truth) {
-  return truth.source_m == 0 && !settings.soft_shadows() && !settings.picks_shadows();
+  return truth.source_m == 0 && !soft_shadows(settings) && !picks_shadows(settings);
 }
 
 View part_of_view(const View& view, int x, int y, int width, int height, int scale) {
@@ -62,20 +66,23 @@ void BruteForce::look(const View& view) {
 
 Settings BruteForce::meaning(const Settings& settings, double source_m) const {
   Settings meaning = meant_by(with_model(common_, settings));
-  meaning = with_samples(std::move(meaning), truth_.places ? settings.samples : 1);
-  meaning.samples_masks = settings.samples_masks, meaning.samples_resolve = settings.samples_resolve;
-  meaning.lights = ShadedLights::all;
-  meaning.shadow_rays = source_m > 0 ? rays_of_truth : 1, meaning.shadow_source_m = source_m;
+  meaning = with_samples(std::move(meaning), truth_.places ? settings[setting::samples] : 1);
+  meaning.set(setting::samples_masks, settings[setting::samples_masks]),
+      meaning.set(setting::samples_resolve, settings[setting::samples_resolve]);
+  meaning.set(setting::lights, ShadedLights::all);
+  meaning.set(setting::shadow_rays, source_m > 0 ? rays_of_truth : 1),
+      meaning.set(setting::shadow_source_m, source_m);
   return meaning;
 }
 
 const Image& BruteForce::kept(const Settings& meaning) {
   const auto samples_of = [](const Settings& s) {
-    return s.samples == 1 ? std::tuple(1, SampleMasks(), SamplesResolve())
-                          : std::tuple(s.samples, s.samples_masks, s.samples_resolve);
+    return s[setting::samples] == 1
+               ? std::tuple(1, SampleMasks(), SamplesResolve())
+               : std::tuple(s[setting::samples], s[setting::samples_masks], s[setting::samples_resolve]);
   };
   for (const auto& [of, image] : pictures_) {
-    if (same_model(of, meaning) && of.shadow_source_m == meaning.shadow_source_m &&
+    if (same_model(of, meaning) && of[setting::shadow_source_m] == meaning[setting::shadow_source_m] &&
         samples_of(of) == samples_of(meaning))
       return image;
   }
@@ -92,7 +99,7 @@ Image BruteForce::drawn(const Settings& meaning) {
 // pixel. Textures are filtered with a place's share of the pixel.
 Image BruteForce::mean_over_areas(const Settings& meaning) {
   Settings settings = with_samples(meaning, 1);
-  settings.lights = ShadedLights::grid;
+  settings.set(setting::lights, ShadedLights::grid);
   const int width = (view_.width + places_a_side - 1) / places_a_side,
             height = (view_.height + places_a_side - 1) / places_a_side;
   const auto part_at = [&](int x, int y) { return part_of_view(view_, x, y, width, height, places_a_side); };
@@ -117,7 +124,7 @@ Image BruteForce::mean_over_areas(const Settings& meaning) {
 
 static double source_of(const Settings& settings, const FrontierTruth& truth) {
   if (truth.source_m > 0) return truth.source_m;
-  return settings.soft_shadows() ? settings.shadow_source_m : 0;
+  return soft_shadows(settings) ? settings[setting::shadow_source_m] : 0;
 }
 
 const Image& BruteForce::picture(const Settings& settings) {
@@ -132,7 +139,8 @@ const Image& BruteForce::picture_of_points(const Settings& settings) { return ke
 
 Settings BruteForce::meaning_of_truth() const {
   Settings settings = common_;
-  if (!truth_.own_ranges) settings.ranges = {.range = LightRange::infinite, .effects = common_.ranges.effects};
+  if (!truth_.own_ranges)
+    set_ranges(settings, {.range = LightRange::infinite, .effects = ranges_of(common_).effects});
   return meaning(settings, truth_.source_m);
 }
 

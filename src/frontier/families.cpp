@@ -12,6 +12,8 @@
 #include "frontier/brute_force.h"
 #include "frontier/rounds.h"
 #include "frontier/view_figures.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/model.h"
 #include "reference/lit_set.h"
 #include "reference/position.h"
 #include "results/error_measures.h"
@@ -130,8 +132,9 @@ class FamilySweep {
   // them. By lists, where these hold every light that reaches a pixel.
   Image truth_of(const View& view, const LightRanges& ranges, bool own_surfaces) {
     Settings settings = job_.common;
-    settings.ranges = ranges;
-    settings.lights = ranges.range == LightRange::infinite ? ShadedLights::all : ShadedLights::grid;
+    set_ranges(settings, ranges);
+    settings.set(setting::lights,
+                 ranges.range == LightRange::infinite ? ShadedLights::all : ShadedLights::grid);
     const char* technique = own_surfaces ? "visibility" : "deferred_tiled";
     TechniqueRun run(renderer_, gpu_, view, settings, find_technique(technique));
     run.run_frame(true);
@@ -156,7 +159,7 @@ class FamilySweep {
           notice(fmt::format("no picture of {} lights without ranges: {}", scene_.lights.size(),
                              failure->what()));
       }
-      Image authored = truth_of(view, job_.common.ranges, own_surfaces);
+      Image authored = truth_of(view, ranges_of(job_.common), own_surfaces);
       if (!exposure) exposure = chosen_exposure(choice_, authored);
       truths.authored.emplace(std::move(authored), *exposure);
     }
@@ -222,7 +225,7 @@ class FamilySweep {
       const uint32_t cell = lists.cell_of_pixel.empty() ? 0 : lists.cell_of_pixel[pixel];
       if (cell < lists.count.size()) pairs += lists.count[cell];
     }
-    if (run.view().plan.settings.ranges.range == LightRange::infinite)
+    if (run.view().plan.settings[setting::range] == LightRange::infinite)
       pairs = std::max(pairs, double(covered.size()) * double(record.lights));
     if (pairs > most_counted_pairs) {
       const auto count = size_t(double(covered.size()) * most_counted_pairs / pairs);

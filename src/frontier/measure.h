@@ -7,6 +7,7 @@
 
 #include "frontier/points.h"
 #include "frontier/record_file.h"
+#include "plan/settings/model.h"
 #include "session/scene_choice.h"
 
 namespace lightgrid {
@@ -51,7 +52,7 @@ struct FrontierJob {
 
 // The truth's lights have no ranges, and those of the settings have: pictures are compared with both.
 inline bool has_authored(const FrontierJob& job) {
-  return !job.truth.own_ranges && job.common.ranges.range != LightRange::infinite;
+  return !job.truth.own_ranges && job.common[setting::range] != LightRange::infinite;
 }
 
 // Appends to `file` a record for each point and view, and for each point of a series. Points whose records

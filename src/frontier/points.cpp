@@ -10,6 +10,10 @@
 #include "base/text.h"
 #include "base/timer.h"
 #include "cl/error.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/model.h"
+#include "plan/settings/picture.h"
+#include "plan/settings/shadows.h"
 #include "results/metrics.h"
 #include "scene/random.h"
 #include "session/contestants.h"
@@ -259,10 +263,10 @@ std::vector<ChosenPoint> family_points(const Settings& common, bool opengl) {
 std::string label_of(const Contestant& contestant, int frames) {
   const auto own = settings_of(*contestant.technique, contestant.settings), plain = to_strings(Settings{});
   std::string differing;
-  for (const SettingHelp& help : setting_help()) {
+  for (const SettingRow& help : setting_rows()) {
     const std::string key = json_key(help.key);
     const auto found = own.find(key);
-    const bool given = contestant.settings.given.contains(help.key);
+    const bool given = contestant.settings.given(help);
     if (found == own.end() || (found->second == plain.at(key) && !(given && key == "slices"))) continue;
     differing += (differing.empty() ? "" : ",") + help.key + "=" + found->second;
   }
@@ -293,9 +297,9 @@ bool times_bytes(const Renderer& renderer) { return !renderer.cl->info().cpu; }
 static Settings timed_settings(const Renderer& renderer, const ChosenPoint& point) {
   Settings settings = point.contestant.settings;
   if (!times_bytes(renderer) || point.frames > 1) return settings;
-  if (!settings.display_ev && settings.shadow_threshold > 0) return settings;
-  settings.picture = PictureFormat::bytes;
-  settings.display_ev = settings.display_ev.value_or(0);
+  if (!settings[setting::display_ev] && settings[setting::shadow_threshold] > 0) return settings;
+  settings.set(setting::picture, PictureFormat::bytes);
+  settings.set(setting::display_ev, settings[setting::display_ev].value_or(0));
   return settings;
 }
 
@@ -328,10 +332,10 @@ bool PointRun::is_random() const {
 uint32_t PointRun::seed(int frame) const {
   const Settings& settings = point_.contestant.settings;
   const auto in_a_row = uint32_t(frame_ * point_.frames + frame);
-  if (has_random_ranges()) return settings.ranges.seed + in_a_row;
-  if (numbers_ == NumbersOfFrames::in_a_row) return settings.list_seed + in_a_row;
+  if (has_random_ranges()) return settings[setting::light_seed] + in_a_row;
+  if (numbers_ == NumbersOfFrames::in_a_row) return settings[setting::list_seed] + in_a_row;
   const auto picture = uint32_t(frame_ == 0 ? 0 : Random::mix(uint64_t(frame_)));
-  return settings.list_seed + picture + uint32_t(frame);
+  return settings[setting::list_seed] + picture + uint32_t(frame);
 }
 
 void PointRun::go_to_frame(int number, NumbersOfFrames numbers) {

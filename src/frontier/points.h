@@ -11,6 +11,7 @@
 #include "frontier/external.h"
 #include "frontier/external_process.h"
 #include "frontier/record.h"
+#include "plan/settings/model.h"
 #include "renderer/device_clock.h"
 #include "session/compare.h"
 #include "session/technique_run.h"
@@ -93,7 +94,9 @@ class PointRun {
   void refuse(const std::string& why);
   // For the frame of that number: random numbers, if there are any, are others in each.
   void go_to_frame(int number, NumbersOfFrames numbers = NumbersOfFrames::independent);
-  bool has_random_ranges() const { return point_.contestant.settings.ranges.range == LightRange::stochastic; }
+  bool has_random_ranges() const {
+    return point_.contestant.settings[setting::range] == LightRange::stochastic;
+  }
   // Random ranges or lists: no two frames are alike.
   bool is_random() const;
 

@@ -8,6 +8,7 @@
 #include "base/embedded.h"
 #include "base/error.h"
 #include "cl/error.h"
+#include "plan/settings/model.h"
 #include "results/error_measures.h"
 #include "results/metrics.h"
 #include "scene/builtin.h"
@@ -392,7 +393,7 @@ double ViewFigures::flicker_of_brute_force(const ChosenPoint& point, Truths& tru
   ChangeOfError change;
   change.add(first, truths.brute.truth());
   for (size_t frame = 1; frame < turn_.size(); ++frame) {
-    ++settings.ranges.seed;  // as PointRun::go_to_frame has it
+    settings.set(setting::light_seed, settings[setting::light_seed] + 1);  // as PointRun::go_to_frame has it
     BruteForce& turned = truths.turned[frame - 1];
     change.add(turned.draw(settings), turned.truth());
   }

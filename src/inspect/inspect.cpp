@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "capture/frame_lists.h"
+#include "plan/settings/cull_test.h"
+#include "plan/settings/grid.h"
 #include "reference/attenuation.h"
 #include "reference/cell.h"
 #include "reference/lit_set.h"
@@ -107,8 +109,9 @@ double pieces_margin(const Cell& cell, const std::vector<DepthInterval>& pieces,
     Cell part = cell;
     part.near = piece.near, part.far = piece.far;
     const TestMargins m = margins_of(part, light);
-    const bool mask = settings.depth_bounds == DepthBoundsMode::mask32;
-    best = std::max(best, mask ? m.interval : least(margins_in_use(m, settings.cull_test)).margin_m);
+    const bool mask = settings[setting::depth_bounds] == DepthBoundsMode::mask32;
+    best =
+        std::max(best, mask ? m.interval : least(margins_in_use(m, settings[setting::cull_test])).margin_m);
   }
   return best;
 }
@@ -216,7 +219,7 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
   const bool empty = !(pixel.near_m <= pixel.far_m);
   const Cell cell = cell_of_pixels(frame.view, pixel.x0 + cell_inset, pixel.y0 + cell_inset,
                                    pixel.x1 - cell_inset, pixel.y1 - cell_inset, pixel.near_m, pixel.far_m);
-  const std::vector<DepthInterval> pieces = pieces_of(cell, surfaces, settings.depth_bounds);
+  const std::vector<DepthInterval> pieces = pieces_of(cell, surfaces, settings[setting::depth_bounds]);
   const glm::dvec3 here = pixel.covered ? position_from_depth(frame.view, x, y, pixel.depth) : glm::dvec3(0);
   for (uint32_t i = 0; i < lights.size(); ++i) {
     LightVerdict& v = pixel.lights.emplace_back();
@@ -232,7 +235,7 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
     }
     v.margins = margins_of(cell, bounds);
     if (!pieces.empty()) v.margins.pieces = pieces_margin(cell, pieces, bounds, settings);
-    const NamedMargin decided = deciding(margins_in_use(v.margins, settings.cull_test), v.listed);
+    const NamedMargin decided = deciding(margins_in_use(v.margins, settings[setting::cull_test]), v.listed);
     v.test = decided.test, v.margin_m = decided.margin_m;
     v.touches = touches_cell(cell, bounds);
     if (v.listed && !grid.z_bin_edges.empty() && !bins_hold(grid.lists.z_bins[i], bin)) {

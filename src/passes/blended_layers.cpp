@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "cl/transfer.h"
+#include "plan/settings/kernels.h"
 #include "raster/raster_samples.h"
 #include "renderer/drawing/draw.h"
 #include "scene/host_shadows.h"
@@ -91,7 +92,7 @@ class FragmentLayers : public PassCache {
     }
     if (!cleared || !kernels_.lanes) fill_buffer(device, "clearing layers", most, 0, tiles * sizeof(cl_uint));
     kernels_.use(sample_defines(work.grid().samples) +
-                 (kernels_.lanes && work.plan.settings.portable ? " -DPORTABLE" : ""));
+                 (kernels_.lanes && work.plan.settings[setting::portable] ? " -DPORTABLE" : ""));
     const PixelRange pixels = over_pixels(work, kernels_.lanes, 8, 16);
     kernels_.of("blended_layers")
         .launch(device, "blended_layers", kernels_.lanes ? cl::NDRange(tiles) : pixels.items,

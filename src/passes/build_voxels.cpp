@@ -11,6 +11,9 @@
 #include "cl/launch.h"
 #include "cl/transfer.h"
 #include "passes/voxels/voxel_inputs.h"
+#include "passes/voxels/voxel_settings.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/surfaces.h"
 #include "renderer/upload/lights.h"
 
 namespace lightgrid {
@@ -38,13 +41,13 @@ bool same(const FilledWith& a, const FilledWith& b) {
 
 }  // namespace
 
-static const OwnSetting<int> voxel_bits{"voxel-bits",
-                                        "voxel-lights-exact",
-                                        "bits of a value in the voxel light buffer, float in both cases",
-                                        {{"32", 32}, {"16", 16}}};
-static const OwnSetting<bool> voxel_reuse{
+static const Setting<int> voxel_bits{500,
+                                     "voxel-bits",
+                                     "bits of a value in the voxel light buffer, float in both cases",
+                                     {{"32", 32}, {"16", 16}}};
+static const Setting<bool> voxel_reuse{
+    520,
     "voxel-reuse",
-    "world-grid",
     "the voxel light buffer is filled in each frame, or only where its place or a light changed",
     {{"off", false}, {"on", true}}};
 
@@ -53,7 +56,7 @@ class VoxelBuffers : public PassCache {
   explicit VoxelBuffers(Work& work) : kernels(work, "voxels") { follow(work); }
 
   bool follow(Work& work) override {
-    axes = voxel_axes(work.view, work.plan.settings.voxel_space);
+    axes = voxel_axes(work.view, work.plan.settings[setting::voxel_space]);
     lights.update(work, axes);
     if (kernels.use(defines_of(work))) filled.reset();
     return true;
@@ -66,7 +69,7 @@ class VoxelBuffers : public PassCache {
   }
 
   std::string lookup_defines(const Seen& seen) const {
-    return fmt::format(" -DVOXEL_BITS={}{}", voxel_bits.of(seen.plan.settings),
+    return fmt::format(" -DVOXEL_BITS={}{}", seen.plan.settings[voxel_bits],
                        axes.log_depth ? " -DVOXELS_LOG" : "");
   }
 
@@ -87,7 +90,7 @@ class VoxelBuffers : public PassCache {
  private:
   std::string defines_of(const Seen& seen) const {
     std::string defines = lookup_defines(seen);
-    if (kernels.lanes && seen.plan.settings.portable) defines += " -DPORTABLE";
+    if (kernels.lanes && seen.plan.settings[setting::portable]) defines += " -DPORTABLE";
     for (const char* define : light_table_defines(seen.plan)) defines += fmt::format(" -D{}", define);
     return defines;
   }
@@ -96,8 +99,8 @@ class VoxelBuffers : public PassCache {
 namespace {
 
 size_t volume_bytes(const Seen& seen) {
-  const glm::uvec3 size = voxel_size(seen.plan.settings.voxel_size);
-  return size_t(size.x) * size.y * size.z * 4 * size_t(voxel_bits.of(seen.plan.settings)) / 8;
+  const glm::uvec3 size = voxel_size(seen.plan.settings[setting::voxel_size]);
+  return size_t(size.x) * size.y * size.z * 4 * size_t(seen.plan.settings[voxel_bits]) / 8;
 }
 
 // A power of two, so that it rounds nothing. In half precision the brightest light at its core is well below
@@ -113,7 +116,7 @@ float stored_scale(const VoxelBuffers& s, int bits) {
 void place(Work& work, VoxelBuffers& s, const TileDistances& distances) {
   auto pass = work.timer.pass("place_voxels", "cl");
   s.placed = place_voxels(work, s.axes, visible_box(work, distances));
-  const int bits = voxel_bits.of(work.plan.settings);
+  const int bits = work.plan.settings[voxel_bits];
   VoxelGrid& grid = s.placed.grid;
   grid.groups = s.lights.groups();
   grid.scale = stored_scale(s, bits);
@@ -139,12 +142,12 @@ VoxelVolume build_voxels(Work& work, Cached<VoxelBuffers>& cache, const TileDist
   place(work, s, distances);
   const size_t bytes = volume_bytes(work);
   const BridgeKind bridge =
-      work.plan.settings.raster == RasterApi::opencl ? BridgeKind::none : work.renderer.bridge;
+      work.plan.settings[setting::raster] == RasterApi::opencl ? BridgeKind::none : work.renderer.bridge;
   if (!s.irradiance) s.irradiance.emplace(*work.renderer.cl, bridge, bytes);
   if (!s.directions) s.directions.emplace(*work.renderer.cl, bridge, bytes);
   VoxelVolume volume{&*s.irradiance, &*s.directions, s.lookup.buffer(), s.lookup_defines(work), 2 * bytes};
   FilledWith needed{s.placed.grid, s.placed.slices, s.lights.version()};
-  if (voxel_reuse.of(work.plan.settings) && s.filled && same(*s.filled, needed)) return volume;
+  if (work.plan.settings[voxel_reuse] && s.filled && same(*s.filled, needed)) return volume;
   auto pass = work.timer.pass("build_voxels", "cl");
   const VoxelGrid& g = s.placed.grid;
   const cl::NDRange bricks(g.size_x / VOXEL_BRICK_X, g.size_y / VOXEL_BRICK_Y, g.size_z / VOXEL_BRICK_Z);
@@ -170,7 +173,7 @@ static void voxels_to_gl(Work& work, const VoxelVolume& volume, VoxelBuffers& s)
   if (!s.lookup_stale) return;
   auto pass = work.timer.pass("voxels_to_gl", "gl");
   const VoxelGrid& g = s.placed.grid;
-  const bool half = voxel_bits.of(work.plan.settings) == 16;
+  const bool half = work.plan.settings[voxel_bits] == 16;
   if (!s.irradiance_texture) {
     const auto make_volume = [&] {
       return make_texture_3d(half ? GL_RGBA16F : GL_RGBA32F, int(g.size_x), int(g.size_y), int(g.size_z));
@@ -202,7 +205,7 @@ static ListedLights listed_of_voxels(Work& work, Cached<VoxelBuffers>& cache) {
 
 LightSource from_voxels(Work& work, Cached<VoxelBuffers>& cache, const VoxelVolume& volume,
                         const LightSource* grid) {
-  const std::string exact = std::to_string(work.plan.settings.voxel_lights_exact);
+  const std::string exact = std::to_string(work.plan.settings[setting::voxel_lights_exact]);
   const auto in_gl = [&work, &cache, volume, exact, grid = grid ? std::optional(*grid) : std::nullopt] {
     VoxelBuffers& s = cache.of(work);
     voxels_to_gl(work, volume, s);
@@ -233,7 +236,7 @@ ReadVoxels read_voxels(Work& work, Cached<VoxelBuffers>& cache) {
   const size_t samples = size_t(s.placed.grid.size_x) * s.placed.grid.size_y * s.placed.grid.size_z;
   const auto values = [&](SharedBuffer& from) {
     std::vector<glm::vec4> all(samples);
-    if (voxel_bits.of(work.plan.settings) == 32) {
+    if (work.plan.settings[voxel_bits] == 32) {
       read_buffer(*work.renderer.cl, "reading voxels", from.cl_buffer(), all.data(), samples * sizeof all[0]);
     } else {
       std::vector<uint64_t> halves(samples);

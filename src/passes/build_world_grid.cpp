@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "passes/common/world_grid_settings.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "renderer/upload/culler_input.h"
 #include "shared/pixel_position.h"
 
@@ -13,8 +16,8 @@ class ViewOfWorldGrid : public PassCache {
 
   bool follow(Work& work) override {
     const Settings& s = work.plan.settings;
-    const WorldGridKey key{s.world_grid, s.world_cell, work.plan.index_bits, s.ranges,
-                           s.raster == RasterApi::opengl};
+    const WorldGridKey key{s[setting::world_grid], s[setting::world_cell], work.plan.index_bits, ranges_of(s),
+                           s[setting::raster] == RasterApi::opengl};
     if (!grid || key != key_) grid = work.gpu.world_grid(work.renderer, key);
     key_ = key;
     return true;
@@ -61,7 +64,7 @@ bool update_world_grid(Work& work, SharedWorldGrid& grid) {
     moved.push_back(uint32_t(found - local.begin())), of_scene.push_back(light);
   }
   auto pass = work.timer.pass("update_world_grid", "cl");
-  const std::vector<CullLight> lights = cull_lights_of(work.scene, of_scene, work.plan.settings.ranges);
+  const std::vector<CullLight> lights = cull_lights_of(work.scene, of_scene, ranges_of(work.plan.settings));
   if (!grid.update(moved, lights, work.gpu.lights_version())) return false;
   pass.moves(moved.size() * 16 + grid.list_bytes(), grid.list_bytes());
   return true;
@@ -136,7 +139,7 @@ LightSource build_world_grid(Work& work, Cached<ViewOfWorldGrid>& cache) {
   // A build has a time where passes are timed.
   if (work.timer.enabled || (!right && !update_world_grid(work, grid))) {
     auto pass = work.timer.pass("build_world_grid", "cl");
-    cull_lights_of(work.scene, work.plan.local, work.plan.settings.ranges, state.lights);
+    cull_lights_of(work.scene, work.plan.local, ranges_of(work.plan.settings), state.lights);
     grid.build(state.lights, world_box(work.scene), work.view, work.gpu.lights_version());
     pass.moves(work.plan.local.size() * 16, grid.list_bytes());
   }

@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "cl/launch.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/model.h"
 #include "renderer/pass_programs.h"
 #include "renderer/upload/culler_input.h"
 #include "renderer/upload/lights.h"
@@ -60,12 +62,12 @@ class ListCaps : public PassCache {
   void cap(Work& work, const CullParams& tiles, const TileBounds& bounds, const ViewGrid& grid) {
     ClDevice& device = *work.renderer.cl;
     const Settings& s = work.plan.settings;
-    const bool samples = s.samples_lists();
+    const bool samples = samples_lists(s);
     std::string defines = grid.index_bits == 32 ? " -DINDEX_32" : "";
     if (samples)
       for (const char* define : light_table_defines(work.plan)) defines += fmt::format(" -D{}", define);
     else
-      defines += fmt::format(" -DORDER={}", int(s.list_cap_order));
+      defines += fmt::format(" -DORDER={}", int(s[setting::list_cap_order]));
     NamedKernel& kernel = samples ? sampled("sample_lists", defines) : capped(work, defines);
     if (grid.index_count == 0) return;  // after the kernel is built, which other views need
     if (stale_) upload(work, tiles);
@@ -74,16 +76,16 @@ class ListCaps : public PassCache {
     ClArguments arguments = {{"cells", grid.storage->cells(grid.cell_bytes)},
                              {"indices", grid.storage->indices(grid.index_bytes)},
                              {"cell_count", cl_uint(cells)},
-                             {"cap", cl_uint(s.list_cap)}};
+                             {"cap", cl_uint(s[setting::list_cap])}};
     if (samples)
-      arguments =
-          arguments +
-          ClArguments{{"seed", cl_uint(s.list_seed)}, {"factors", grid.storage->factors(grid.factor_bytes)}} +
-          work.cl_lights().columns() + of_cells(bounds);
-    if (s.list_cap_order == ListCapOrder::distance)
+      arguments = arguments +
+                  ClArguments{{"seed", cl_uint(s[setting::list_seed])},
+                              {"factors", grid.storage->factors(grid.factor_bytes)}} +
+                  work.cl_lights().columns() + of_cells(bounds);
+    if (s[setting::list_cap_order] == ListCapOrder::distance)
       arguments =
           arguments + ClArguments{{"high", high_bits(work.plan.local.size())}, {"ranks", lights_.buffer()}};
-    if (s.list_cap_order == ListCapOrder::brightest)
+    if (s[setting::list_cap_order] == ListCapOrder::brightest)
       arguments =
           arguments + ClArguments{{"high", cl_uint(28)}, {"lights", lights_.buffer()}} + of_cells(bounds);
     if (samples) return launch_sampling(device, "cap_lists", kernel, cells, arguments);
@@ -94,8 +96,8 @@ class ListCaps : public PassCache {
   void draw(Work& work, const CullParams& tiles, const TileBounds& bounds, const ViewGrid& grid) {
     ClDevice& device = *work.renderer.cl;
     const Settings& s = work.plan.settings;
-    NamedKernel& kernel = sampled(
-        "sample_tree", fmt::format("-DCAP={}{}", s.list_cap, grid.index_bits == 32 ? " -DINDEX_32" : ""));
+    NamedKernel& kernel = sampled("sample_tree", fmt::format("-DCAP={}{}", s[setting::list_cap],
+                                                             grid.index_bits == 32 ? " -DINDEX_32" : ""));
     if (stale_) upload(work, tiles);
     stale_ = false;
     const size_t cells = grid.cell_bytes / sizeof(cl_uint2);
@@ -103,7 +105,7 @@ class ListCaps : public PassCache {
                     ClArguments{{"cells", grid.storage->cells(grid.cell_bytes)},
                                 {"indices", grid.storage->indices(grid.index_bytes)},
                                 {"cell_count", cl_uint(cells)},
-                                {"seed", cl_uint(s.list_seed)},
+                                {"seed", cl_uint(s[setting::list_seed])},
                                 {"factors", grid.storage->factors(grid.factor_bytes)},
                                 {"nodes", nodes_.buffer()},
                                 {"lights", leaves_.buffer()},
@@ -147,7 +149,7 @@ class ListCaps : public PassCache {
       View world;
       world.view_from_world = glm::dmat4(1);
       const LightTree tree =
-          light_tree(lights_in_view(work.scene, world, work.plan.settings.ranges, work.plan.local));
+          light_tree(lights_in_view(work.scene, world, ranges_of(work.plan.settings), work.plan.local));
       nodes_.put(device, "uploading a tree of lights", tree.nodes);
       leaves_.put(device, "uploading a tree of lights", tree.lights);
       leaf_count_ = tree.lights.size(), tree_of_ = work.gpu.lights_version();
@@ -162,13 +164,13 @@ class ListCaps : public PassCache {
     ClDevice& device = *work.renderer.cl;
     const FramePlan& plan = work.plan;
     const auto lights = [&] {
-      return lights_in_view(work.scene, work.view, plan.settings.ranges, plan.local);
+      return lights_in_view(work.scene, work.view, ranges_of(plan.settings), plan.local);
     };
-    if (plan.settings.list_cap_order == ListCapOrder::index) return;
-    if (plan.settings.list_cap_order == ListCapOrder::distance)
+    if (plan.settings[setting::list_cap_order] == ListCapOrder::index) return;
+    if (plan.settings[setting::list_cap_order] == ListCapOrder::distance)
       return lights_.put(device, "uploading ranks of lights", ranks_by_distance(lights()));
     if (plan.light_tree) upload_tree(work);
-    if (plan.settings.list_cap_order == ListCapOrder::brightest) {
+    if (plan.settings[setting::list_cap_order] == ListCapOrder::brightest) {
       std::vector<cl_float4> uploaded;
       for (const ViewLight& light : lights()) {
         const glm::vec4 at(light.position, over_intensity(1, light));
@@ -177,7 +179,7 @@ class ListCaps : public PassCache {
       lights_.put(device, "uploading lights to choose from", uploaded);
     }
     std::vector<float> edges =
-        slice_edges(plan.settings.slice_spacing, plan.slices, plan.slice_near_m, plan.slice_far_m);
+        slice_edges(plan.settings[setting::slice_spacing], plan.slices, plan.slice_near_m, plan.slice_far_m);
     edges.insert(edges.begin(), -FAR_AWAY);
     edges.push_back(FAR_AWAY);
     edges_.put(device, "uploading edges of slices", edges);
@@ -196,8 +198,8 @@ class ListCaps : public PassCache {
 
 void cap_lists(Work& work, Cached<ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
                ViewGrid& grid) {
-  const bool samples = work.plan.settings.samples_lists();
-  if (work.plan.settings.list_cap == 0 || (samples && !work.plan.sampled_lists)) return;
+  const bool samples = samples_lists(work.plan.settings);
+  if (work.plan.settings[setting::list_cap] == 0 || (samples && !work.plan.sampled_lists)) return;
   if (samples) grid.factor_bytes = std::max<size_t>(grid.index_count, 1) * sizeof(cl_float);
   ListCaps& caps = cache.of(work);
   auto pass = work.timer.pass("cap_lists", "cl");
@@ -214,7 +216,7 @@ ViewGrid lists_of_tree(Work& work, Cached<ListCaps>& cache, const CullParams& ti
   grid.storage = &storage;
   grid.cells_x = int(tiles.tiles_x), grid.cells_y = int(tiles.tiles_y), grid.slices = plan.slices;
   const size_t cells = size_t(tiles.tiles_x) * tiles.tiles_y * size_t(plan.slices);
-  grid.index_count = cells * size_t(plan.settings.list_cap), grid.index_bits = plan.index_bits;
+  grid.index_count = cells * size_t(plan.settings[setting::list_cap]), grid.index_bits = plan.index_bits;
   grid.cell_bytes = cells * sizeof(cl_uint2);
   grid.index_bytes = grid.index_count * size_t(plan.index_bits / 8);
   grid.factor_bytes = grid.index_count * sizeof(cl_float);
@@ -226,14 +228,15 @@ ViewGrid lists_of_tree(Work& work, Cached<ListCaps>& cache, const CullParams& ti
 
 void cap_list(const Settings& settings, const std::vector<ViewLight>& lights, const glm::dvec3& middle,
               std::vector<uint32_t>& list) {
-  const size_t cap = size_t(settings.list_cap);
+  const size_t cap = size_t(settings[setting::list_cap]);
   if (cap == 0 || list.size() <= cap) return;
-  if (settings.list_cap_order != ListCapOrder::index) {
+  if (settings[setting::list_cap_order] != ListCapOrder::index) {
     std::ranges::stable_sort(list, {}, [&](uint32_t i) {
       const glm::dvec3 away = lights[i].position - middle;
       const double distance2 = glm::dot(away, away);
-      return settings.list_cap_order == ListCapOrder::distance ? distance2
-                                                               : over_intensity(distance2, lights[i]);
+      return settings[setting::list_cap_order] == ListCapOrder::distance
+                 ? distance2
+                 : over_intensity(distance2, lights[i]);
     });
   }
   list.resize(cap);

@@ -3,6 +3,7 @@
 
 #include "cl/transfer.h"
 #include "passes/read_outs.h"
+#include "plan/settings/grid.h"
 #include "scene/grid_lists.h"
 
 namespace lightgrid {
@@ -81,7 +82,7 @@ void add_lists(Work& work, const ViewGrid& grid, size_t cells, ListedLights& lis
 ListedLights listed_of_grid(Work& work, const ViewGrid& grid, const std::vector<float>& depth) {
   ListedLights lists;
   const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
-  if (work.plan.settings.grid_lists == GridLists::masks) {
+  if (work.plan.settings[setting::grid_lists] == GridLists::masks) {
     add_masks(read_shared<uint32_t>(work, grid.storage->masks_, cells * grid.mask_words), cells, lists);
   } else {
     add_lists(work, grid, cells, lists);

@@ -1,6 +1,8 @@
 // Hands the depth image to OpenCL, which reduces it to an interval of distances a tile.
 #include "passes/depth_bounds.h"
 
+#include "plan/settings/grid.h"
+
 namespace lightgrid {
 
 DepthBuffer depth_to_cl(Work& work, const DepthImage& depth) {
@@ -15,7 +17,7 @@ DepthBuffer depth_to_cl(Work& work, const DepthImage& depth) {
 }
 
 DepthBounds depth_bounds(Work& work, LightCuller& culler, const DepthBuffer& depth) {
-  if (work.plan.settings.depth_bounds == DepthBoundsMode::none) return culler.depth_bounds({});
+  if (work.plan.settings[setting::depth_bounds] == DepthBoundsMode::none) return culler.depth_bounds({});
   auto pass = work.timer.pass("depth_bounds", "cl");
   pass.moves(work.grid().values() * 4, size_t(work.params.tiles_x) * work.params.tiles_y * 8);
   return culler.depth_bounds({depth.values});
@@ -23,7 +25,7 @@ DepthBounds depth_bounds(Work& work, LightCuller& culler, const DepthBuffer& dep
 
 TileDistances tile_distances(Work& work, LightCuller& culler, const DepthBounds& bounds) {
   TileDistances distances;
-  if (work.plan.settings.depth_bounds == DepthBoundsMode::none) return distances;
+  if (work.plan.settings[setting::depth_bounds] == DepthBoundsMode::none) return distances;
   auto pass = work.timer.pass("tile_distances", "cl");
   distances.intervals = culler.read_bounds(bounds.opaque);
   const size_t bytes = distances.intervals.size() * sizeof(DepthInterval);

@@ -4,6 +4,9 @@
 
 #include "base/error.h"
 #include "cl/launch.h"
+#include "passes/common/prepass_settings.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "raster/raster_samples.h"
 #include "renderer/upload/lights.h"
 
@@ -13,8 +16,9 @@ namespace {
 std::string defines_of_light_buffer(const Seen& seen, bool lanes) {
   const Settings& s = seen.plan.settings;
   // The same kernel for both BRDFs with a specular lobe.
-  std::string defines = light_defines(seen, lanes, s.brdf == Brdf::lambert ? Brdf::lambert : Brdf::ggx);
-  defines += fmt::format(" -DBUFFER_BITS={}", s.buffer_bits);
+  std::string defines =
+      light_defines(seen, lanes, s[setting::brdf] == Brdf::lambert ? Brdf::lambert : Brdf::ggx);
+  defines += fmt::format(" -DBUFFER_BITS={}", s[setting::buffer_bits]);
   if (normal_layout(s).define) defines += fmt::format(" -D{}", normal_layout(s).define);
   if (has_fifth_term(s)) defines += " -DPREPASS_FIFTH_TERM";
   defines += group_number_define(seen.plan);
@@ -76,7 +80,7 @@ LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const No
                 ClArguments{{"normals", normals.image->cl_buffer()},
                             {"sums", buffer.first->cl_buffer()},
                             {"other_sums", buffer.second ? buffer.second->cl_buffer() : cl::Buffer()},
-                            {"exponent", cl_float(work.plan.settings.prepass_shininess)},
+                            {"exponent", cl_float(work.plan.settings[setting::prepass_shininess])},
                             {"inverse_scale", cl_float(1 / stored_scale(work))},
                             {"depth", depth.values}} +
                     group_number_arguments(work.plan, normals.group_numbers) + work.light_arguments() +

@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 #include "cl/transfer.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/samples.h"
+#include "plan/settings/shadows.h"
 #include "raster/raster_samples.h"
 
 namespace lightgrid {
@@ -28,10 +31,10 @@ class PixelEdges : public PassCache {
                               edges_.at_least(device, (pixels + 15) / 16 * 2)};
     const Settings& settings = work.plan.settings;
     // Whatever shadows the plan leaves out, which changes no image.
-    const bool shadowed = settings.shadows != ShadowMethod::none &&
+    const bool shadowed = settings[setting::shadows] != ShadowMethod::none &&
                           std::ranges::any_of(work.scene.lights, &Light::casts_shadow);
-    kernels_.use(sample_defines(settings.samples) + (shadowed ? " -DSHADOWED" : "") +
-                 (kernels_.lanes && settings.portable ? " -DPORTABLE" : ""));
+    kernels_.use(sample_defines(settings[setting::samples]) + (shadowed ? " -DSHADOWED" : "") +
+                 (kernels_.lanes && settings[setting::portable] ? " -DPORTABLE" : ""));
     const auto items = [&](size_t of) { return (pixels + of - 1) / of; };
     kernels_.of("find_edges")
         .launch(device, "find_edges",

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "passes/cap_lists.h"
+#include "plan/settings/model.h"
 #include "scene/light_groups.h"
 
 namespace lightgrid {
@@ -41,7 +42,7 @@ void ObjectLights::update(Work& work, const DrawList& list) {
   lights_.clear();
   reaches_.clear();
   const std::vector<ViewLight> lights =
-      lights_in_view(work.scene, work.view, work.plan.settings.ranges, work.plan.local);
+      lights_in_view(work.scene, work.view, ranges_of(work.plan.settings), work.plan.local);
   for (const ViewLight& light : lights) reaches_.emplace_back(bounds_of(light));
   std::vector<uint32_t> every_light(reaches_.size());
   std::iota(every_light.begin(), every_light.end(), 0u);

@@ -17,6 +17,9 @@
 #include "passes/shadows/triangle_numbers.h"
 #include "passes/shadows/view_light_cells.h"
 #include "passes/shadows/view_shadow_maps.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/shadows.h"
+#include "plan/settings/surfaces.h"
 #include "renderer/upload/lights.h"
 #include "shared/shadow_bits.h"
 #include "shared/shadow_records.h"
@@ -29,9 +32,9 @@ constexpr size_t groups_a_tile = 4;
 
 constexpr size_t least_bytes = 64;  // of a buffer
 
-const OwnSetting<bool> shadow_reuse{
+const Setting<bool> shadow_reuse{
+    670,
     "shadow-reuse",
-    "portable",
     "shadows are found in each frame, or only where the camera, a light or a surface changed",
     {{"off", false}, {"on", true}},
     {.common = true, .shown_if_given = true}};
@@ -53,8 +56,8 @@ class ShadowBits : public PassCache {
 
   // Whether the bits of the frame before are this frame's too. The view's next frame must then not find them.
   bool unchanged(Work& work) {
-    unchanged_ = work.plan.shadows && shadow_reuse.of(work.plan.settings) &&
-                 !work.plan.settings.everything_on && found_for_ &&
+    unchanged_ = work.plan.shadows && work.plan.settings[shadow_reuse] &&
+                 !work.plan.settings[setting::everything_on] && found_for_ &&
                  (followed_ || *found_for_ == shadow_inputs(work, scene(work)));
     if (unchanged_ && work.grid().samples > 1) hand_over_rays(work);
     return unchanged_;
@@ -98,7 +101,7 @@ class ShadowBits : public PassCache {
       images.push_back({layers.numbers[i], layers.depths[i],
                         blended ? blended->raster.triangle_instance : cl::Buffer(),
                         blended ? blended_offsets_.buffer() : cl::Buffer(),
-                        work.plan.settings.blended_casters() == BlendedCasters::opaque});
+                        blended_casters(work.plan.settings) == BlendedCasters::opaque});
     }
     if (band_ == 0) {
       std::vector<cl::Buffer> depths;
@@ -118,7 +121,7 @@ class ShadowBits : public PassCache {
       again_ = [this, images](Work& of, const ShadowBand& band) { launch(of, images, band); };
     hand_over(work, room_.table_bytes, bit_bytes);
     if (work.grid().samples > 1) hand_over_rays(work);
-    if (shadow_reuse.of(work.plan.settings) && bands_.bands.size() == 1)
+    if (work.plan.settings[shadow_reuse] && bands_.bands.size() == 1)
       found_for_ = shadow_inputs(work, *scene_);
   }
 
@@ -135,7 +138,7 @@ class ShadowBits : public PassCache {
   }
 
   const RayScene& scene(Work& work) {
-    scene_ = work.gpu.in_rays(work.plan.settings.texels, work.plan.settings.blended_casters());
+    scene_ = work.gpu.in_rays(work.plan.settings[setting::texels], blended_casters(work.plan.settings));
     return *scene_;
   }
 
@@ -191,7 +194,7 @@ class ShadowBits : public PassCache {
   void make_room(Work& work, size_t bit_bytes) {
     ShadowMemory& shadows = work.shadows;
     if (std::max(shadows.tiles.bytes(), room_.table_bytes) + std::max(shadows.bits.bytes(), bit_bytes) >
-        work.plan.settings.shadow_memory)
+        work.plan.settings[setting::shadow_memory])
       shadows.tiles = {}, shadows.bits = {};
     at_least(work, shadows.tiles, room_.table_bytes, GL_RG32UI);
     at_least(work, shadows.bits, bit_bytes, GL_R32UI);
@@ -201,7 +204,7 @@ class ShadowBits : public PassCache {
   void launch(Work& work, const std::vector<ReceiverImage>& images, const ShadowBand& band) {
     ClDevice& device = *work.renderer.cl;
     // Drawn lights serve all lights of a tile.
-    const size_t groups_here = kernels_.lanes || work.plan.settings.picks_shadows() ? 1 : groups_a_tile;
+    const size_t groups_here = kernels_.lanes || picks_shadows(work.plan.settings) ? 1 : groups_a_tile;
     parts_ = lists_.tiles() * images.size() * groups_here;
     const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
     const cl::NDRange lanes(band.tiles), groups(band.tiles * SHADOW_TILE * SHADOW_TILE, groups_here);
@@ -286,9 +289,9 @@ class ShadowBits : public PassCache {
   void prepare(Work& work, const VisibilityBuffer* visible, const BlendedTriangles* blended) {
     const RayScene& rays = scene(work);
     const Settings& settings = work.plan.settings;
-    if (settings.shadows == ShadowMethod::map) {
+    if (settings[setting::shadows] == ShadowMethod::map) {
       if (!maps_) maps_.emplace(work);
-      if (!followed_) maps_->look(work, rays, work.plan.shadowed, shadow_reuse.of(settings));
+      if (!followed_) maps_->look(work, rays, work.plan.shadowed, settings[shadow_reuse]);
     }
     if (followed_) return;
     if (picks_by_groups(work)) put_groups(work, rays);
@@ -310,7 +313,7 @@ class ShadowBits : public PassCache {
   }
 
   static bool picks_by_groups(const Work& work) {
-    return work.plan.settings.picks_shadows() && work.plan.groups;
+    return picks_shadows(work.plan.settings) && work.plan.groups;
   }
 
   // Instances keep their groups; their triangles' numbers change only when the tree is rebuilt.
@@ -341,13 +344,13 @@ class ShadowBits : public PassCache {
     const Settings& settings = work.plan.settings;
     std::string defines = scene_->defines();
     for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
-    if (settings.soft_shadows()) defines += fmt::format(" -DSHADOW_RAYS={}", settings.shadow_rays);
-    if (settings.picks_shadows()) defines += fmt::format(" -DSHADOW_PICK={}", settings.shadow_pick);
+    if (soft_shadows(settings)) defines += fmt::format(" -DSHADOW_RAYS={}", settings[setting::shadow_rays]);
+    if (picks_shadows(settings)) defines += fmt::format(" -DSHADOW_PICK={}", settings[setting::shadow_pick]);
     if (picks_by_groups(work)) defines += " -DSHADOW_GROUPS";
     if (!visible) defines += " -DNUMBERED";
     if (shadow_light_count(work.plan) > 65536) defines += " -DINDEX_32";
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
-    if (kernels_.lanes && settings.portable) defines += " -DPORTABLE";
+    if (kernels_.lanes && settings[setting::portable]) defines += " -DPORTABLE";
     if (maps_) defines += maps_->defines();
     if (cells_) defines += " -DSHADOW_CELLS";
     return defines;

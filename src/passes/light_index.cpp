@@ -8,22 +8,24 @@
 #include "passes/light_index/blending.h"
 #include "passes/light_index/draw_order.h"
 #include "passes/light_index/index_shadows.h"
+#include "passes/light_index/lidr_settings.h"
+#include "plan/settings/shadows.h"
 #include "renderer/drawing/draw.h"
 
 namespace lightgrid {
 
 namespace {
 
-const OwnSetting<bool> unpack_in_float{
+const Setting<bool> unpack_in_float{
+    330,
     "lidr-unpack",
-    "lidr-types",
     "light indices are unpacked with integers, or in float as the article does",
     {{"integer", false}, {"float", true}}};
 
 // Returns whether each sample has its own indices and is shaded separately: the article's technique 1 with
 // samples. In technique 2 a pixel has one list, of the lights in front of its farthest sample.
 bool has_samples(const Seen& seen) {
-  return seen.grid().samples > 1 && seen.plan.settings.lidr_volumes == LidrVolumes::stencil;
+  return seen.grid().samples > 1 && seen.plan.settings[setting::lidr_volumes] == LidrVolumes::stencil;
 }
 
 struct IndexImages {
@@ -67,7 +69,7 @@ void clear(const LightIndexLayout& layout, GLuint framebuffer, GLint stencil) {
 
 // Returns whether lights are not written where they are hidden.
 bool drops_hidden(const Seen& seen) {
-  return seen.plan.own_shadows && seen.plan.settings.lidr_shadows != LidrShadows::final_pass;
+  return seen.plan.own_shadows && seen.plan.settings[setting::lidr_shadows] != LidrShadows::final_pass;
 }
 
 // Where the stencil marks what is inside, hidden pixels get no mark. Discarding them later would leave one.
@@ -79,7 +81,7 @@ IndexDrawing::Programs programs_of(Work& work, const LightIndexLayout& layout, c
   };
   if (!shadows) return {program({}), program({})};
   // A share is found once more where it is written.
-  const bool marked = work.plan.settings.lidr_volumes == LidrVolumes::stencil && !layout.share_bits;
+  const bool marked = work.plan.settings[setting::lidr_volumes] == LidrVolumes::stencil && !layout.share_bits;
   return {program(shadows->defines), program(marked ? std::vector<std::string>() : shadows->defines)};
 }
 
@@ -111,7 +113,9 @@ void draw_volumes(Work& work, const LightIndexOrder& state, const LightVolumes& 
   glDisable(GL_STENCIL_TEST), glCullFace(GL_BACK);
 }
 
-bool may_repeat(const Seen& seen) { return seen.plan.settings.lidr_volumes != LidrVolumes::stencil; }
+bool may_repeat(const Seen& seen) {
+  return seen.plan.settings[setting::lidr_volumes] != LidrVolumes::stencil;
+}
 
 // shadows: of lights that are listed where they are hidden too.
 GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::vector<GLuint>& images,
@@ -125,7 +129,7 @@ GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::ve
   for (std::string& define : layout.defines()) loop.defines.push_back(std::move(define));
   loop.defines.emplace_back("LIGHTS_LIDR");
   if (points_alone) loop.defines.emplace_back("NO_CONES");
-  if (unpack_in_float.of(seen.plan.settings)) loop.defines.emplace_back("LIDR_FLOAT");
+  if (seen.plan.settings[unpack_in_float]) loop.defines.emplace_back("LIDR_FLOAT");
   if (may_repeat(seen)) loop.defines.emplace_back("LIDR_REPEATS");
   if (has_samples(seen)) loop.defines.emplace_back("PER_SAMPLE");
   for (size_t i = 0; i < images.size(); ++i)
@@ -203,7 +207,7 @@ LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<Light
     draw_volumes(work, state, volumes, framebuffer, dropping, which);
   };
   const bool finds_depth =
-      images.own_depth && number == 0 && work.plan.settings.lidr_volumes != LidrVolumes::no_prepass;
+      images.own_depth && number == 0 && work.plan.settings[setting::lidr_volumes] != LidrVolumes::no_prepass;
   if (finds_depth) draw_farthest_depth(work, images.own_depth);
   draw(number, images.framebuffer);
   const PixelGrid grid = work.grid();

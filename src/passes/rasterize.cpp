@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include "cl/buffers.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/samples.h"
+#include "plan/settings/surfaces.h"
 
 namespace lightgrid {
 namespace {
@@ -58,17 +61,17 @@ void set_surface_instances(const Seen& seen, std::span<const int> instances,
 class InstanceRasterizer {
  public:
   InstanceRasterizer(Work& work, bool drawing_order)
-      : scene(work.gpu.in_raster(work.plan.settings.texels)),
+      : scene(work.gpu.in_raster(work.plan.settings[setting::texels])),
         raster(*scene, *work.renderer.kernels,
-               {.shape = work.plan.settings.kernel_shape,
-                .portable = work.plan.settings.portable,
+               {.shape = work.plan.settings[setting::kernel_shape],
+                .portable = work.plan.settings[setting::portable],
                 .drawing_order = drawing_order,
-                .masks = work.plan.settings.samples_masks}) {}
+                .masks = work.plan.settings[setting::samples_masks]}) {}
 
   // Draws those of `listed` that are in `drawn`. Both have the same order. Triangle numbers, and what is
   // uploaded for them, stay as long as `listed` does. `listed` stays in place until the next follow().
   void follow(Work& work, std::span<const int> listed, std::span<const int> drawn) {
-    work.gpu.in_raster(work.plan.settings.texels);  // brings `scene` up to date
+    work.gpu.in_raster(work.plan.settings[setting::texels]);  // brings `scene` up to date
     if (shape_version_ != work.gpu.shape_version() || instances_version_ != work.gpu.instances_version() ||
         !std::ranges::equal(listed, known_)) {
       set_instances(work, listed);

@@ -4,7 +4,12 @@
 #include <fmt/format.h>
 
 #include "cl/launch.h"
+#include "passes/common/prepass_settings.h"
 #include "passes/resolve_samples.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
+#include "plan/settings/samples.h"
+#include "plan/settings/surfaces.h"
 #include "raster/raster_samples.h"
 #include "renderer/upload/lights.h"
 
@@ -49,7 +54,7 @@ class Resolver : public PassCache {
   }
 
   const ClScene& scene(Work& work) {
-    const ClScene& scene = work.gpu.in_cl(work.plan.settings.texels);
+    const ClScene& scene = work.gpu.in_cl(work.plan.settings[setting::texels]);
     scene_bytes_ = scene.memory_bytes();
     return scene;
   }
@@ -87,16 +92,18 @@ class Resolver : public PassCache {
  private:
   // Material code by what the scene has, not the view: a camera that turns compiles nothing.
   std::string resolve_defines(Work& work) {
-    std::string defines = light_defines(work, lanes(), work.plan.settings.brdf);
+    std::string defines = light_defines(work, lanes(), work.plan.settings[setting::brdf]);
     if (work.plan.directional) defines += " -DDIRECTIONAL";
     for (const Effect* effect : work.plan.effects) {
       if (!effect->reach) defines += " -D" + define_of(*effect);
     }
     if (work.plan.light_grid && work.plan.slices > 1) defines += " -DSLICES";
-    const uint32_t of_scene = work.plan.settings.everything_on ? feature_all : scene(work).features();
-    if (work.plan.settings.texels == TexelLayout::packed_8) defines += " -DSMALL_TEXELS";
-    const uint32_t features = features_read(of_scene, work.plan.settings.brdf);
-    const bool large = scene(work).texture_bytes() > cached_texture_bytes || work.plan.settings.everything_on;
+    const uint32_t of_scene =
+        work.plan.settings[setting::everything_on] ? feature_all : scene(work).features();
+    if (work.plan.settings[setting::texels] == TexelLayout::packed_8) defines += " -DSMALL_TEXELS";
+    const uint32_t features = features_read(of_scene, work.plan.settings[setting::brdf]);
+    const bool large =
+        scene(work).texture_bytes() > cached_texture_bytes || work.plan.settings[setting::everything_on];
     if (lanes() && large && features & feature_textured) defines += " -DFETCH_AHEAD";
     for (const auto& [bit, define] : {std::pair<uint32_t, const char*>(feature_textured, " -DTEXTURED"),
                                       {feature_uv1, " -DUV1"},
@@ -262,16 +269,16 @@ ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const Visibil
                               const LightBufferInCl& sums) {
   Resolver& r = resolving(work, cache);
   const Settings& s = work.plan.settings;
-  const bool apart = visible.pixels && s.samples_shading == SamplesShading::all;
+  const bool apart = visible.pixels && s[setting::samples_shading] == SamplesShading::all;
   const ResolveOutput output{
       "resolve_materials",
-      fmt::format(" -DOUTPUT_SUMS -DBUFFER_BITS={}{}{}{}", s.buffer_bits, specular_define(s),
+      fmt::format(" -DOUTPUT_SUMS -DBUFFER_BITS={}{}{}{}", s[setting::buffer_bits], specular_define(s),
                   sample_defines(work.grid().samples), apart ? " -DSAMPLES_APART" : ""),
       {{"background", background(work)},
        {"first", sums.first->cl_buffer()},
        {"second", sums.second ? sums.second->cl_buffer() : cl::Buffer()},
        {"scale", cl_float(stored_scale(work))},
-       {"exponent", cl_float(s.prepass_shininess)},
+       {"exponent", cl_float(s[setting::prepass_shininess])},
        {"reference", cl_float(reference_light(work.scene, work.plan))},
        {"image", r.image.cl_buffer()}},
       work.grid().pixels() * 8 + work.grid().values() * sums.bytes(),

@@ -1,11 +1,12 @@
 #include "passes/resolve_samples.h"
 
+#include "plan/settings/samples.h"
 #include "renderer/drawing/draw.h"
 
 namespace lightgrid {
 
 const char* average_define(const Settings& settings) {
-  switch (settings.samples_resolve) {
+  switch (settings[setting::samples_resolve]) {
     case SamplesResolve::linear:
       return nullptr;
     case SamplesResolve::tonemapped:

@@ -6,6 +6,7 @@
 #include "cl/buffers.h"
 #include "cl/launch.h"
 #include "passes/common/group_numbers.h"
+#include "plan/settings/samples.h"
 #include "raster/raster_samples.h"
 
 namespace lightgrid {
@@ -81,7 +82,7 @@ cl::Buffer sample_edges(Work& work, Cached<SampleEdges>& cache, const StoredSurf
                         const DepthBuffer& depth, size_t bytes_a_sample, Frame& frame) {
   if (work.grid().samples == 1) return {};
   cl::Buffer edges;
-  if (work.plan.settings.samples_shading == SamplesShading::edges)
+  if (work.plan.settings[setting::samples_shading] == SamplesShading::edges)
     edges = surfaces.edges() ? surfaces.edges : cache.of(work).find(work, surfaces, depth);
   size_t bytes = work.grid().values() * bytes_a_sample;
   // find_edges adds a triangle a sample, and a triangle and a depth a pixel.

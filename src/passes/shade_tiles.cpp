@@ -3,6 +3,8 @@
 #include "cl/launch.h"
 #include "passes/resolve_samples.h"
 #include "passes/sample_edges.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "raster/raster_samples.h"
 #include "renderer/upload/lights.h"
 #include "renderer/upload/scene_surfaces.h"
@@ -41,8 +43,8 @@ class TileShading : public PassCache {
  private:
   std::string defines_of(const Seen& seen) const {
     const Settings& settings = seen.plan.settings;
-    std::string defines = fmt::format("-DBUFFER_BITS={}", settings.buffer_bits) +
-                          light_defines(seen, kernels.lanes, settings.brdf);
+    std::string defines = fmt::format("-DBUFFER_BITS={}", settings[setting::buffer_bits]) +
+                          light_defines(seen, kernels.lanes, settings[setting::brdf]);
     defines += group_number_define(seen.plan);
     if (seen.plan.clearcoat) defines += " -DCLEARCOAT";
     if (seen.plan.specular) defines += " -DSPECULAR";

@@ -6,6 +6,7 @@
 #include "passes/resolve.h"
 #include "passes/shade_forward.h"
 #include "passes/tile_groups.h"
+#include "plan/settings/grid.h"
 
 namespace lightgrid {
 
@@ -53,7 +54,7 @@ const DepthBuffer& depth_of(RenderView& v, Surfaces& surfaces) {
 
 const DepthBounds& bounds_of(RenderView& v, Surfaces& surfaces) {
   if (surfaces.bounds) return *surfaces.bounds;
-  const bool read = v.plan.settings.depth_bounds != DepthBoundsMode::none;
+  const bool read = v.plan.settings[setting::depth_bounds] != DepthBoundsMode::none;
   return surfaces.bounds.emplace(depth_bounds(v, v.culler(), read ? depth_of(v, surfaces) : DepthBuffer()));
 }
 

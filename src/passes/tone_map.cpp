@@ -4,6 +4,7 @@
 #include "base/image.h"
 #include "cl/buffers.h"
 #include "cl/launch.h"
+#include "plan/settings/picture.h"
 #include "renderer/drawing/draw.h"
 
 namespace lightgrid {
@@ -57,13 +58,13 @@ static void draw(Work& work, GLuint image, float scale, GLuint framebuffer) {
 }
 
 void check_picture(const Settings& settings) {
-  if (settings.picture == PictureFormat::bytes && !settings.display_ev)
+  if (settings[setting::picture] == PictureFormat::bytes && !settings[setting::display_ev])
     throw input_error(
         "set picture=bytes: an automatic exposure needs the finished picture; give --exposure a number");
 }
 
 DisplayedImage tone_map(Work& work, Cached<ToneMap>& cache, const ShadedImage& image) {
-  const float scale = Exposure{*work.plan.settings.display_ev}.scale();
+  const float scale = Exposure{*work.plan.settings[setting::display_ev]}.scale();
   const size_t pixels = work.grid().pixels();
   DisplayedImage displayed;
   auto pass = work.timer.pass("tone_map", image.in_cl ? "cl" : "gl");

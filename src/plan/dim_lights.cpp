@@ -6,6 +6,9 @@
 
 #include "base/error.h"
 #include "plan/instance_boxes.h"
+#include "plan/settings/model.h"
+#include "plan/settings/picture.h"
+#include "plan/settings/shadows.h"
 #include "shared/shading_point.h"
 
 namespace lightgrid {
@@ -30,8 +33,8 @@ Additions additions_of(const GrownLightBounds& reach, const Light& light, const 
     const double beside_m = errors.displaced_m(reach, r.box);
     if (r.reflected == 0 || !may_reach(reach.grown(beside_m), r.box)) continue;
     const double nearest_m = distance_to(r.box, reach.light.position) - reach.slack_m - beside_m;
-    all.emplace_back(
-        i, rounding * r.reflected * most_irradiance(light, reach.light.radius_m, settings.ranges, nearest_m));
+    all.emplace_back(i, rounding * r.reflected *
+                            most_irradiance(light, reach.light.radius_m, ranges_of(settings), nearest_m));
   }
   return all;
 }
@@ -74,19 +77,20 @@ double most_irradiance(const Light& light, double range_m, const LightRanges& ra
 double leave_out_dim_lights(const Scene& scene, const View& view, const Settings& settings,
                             const std::vector<int>& opaque, const std::vector<int>& blended,
                             std::vector<LightShadow>& casting) {
-  if (settings.shadow_threshold == 0 || casting.empty()) return 0;
-  if (!settings.display_ev)
+  if (settings[setting::shadow_threshold] == 0 || casting.empty()) return 0;
+  if (!settings[setting::display_ev])
     throw input_error(
         "set shadow-threshold: counts steps of the exposed picture, whose exposure is chosen from the "
         "picture itself; give --exposure a number");
-  const double step = display_step(*settings.display_ev), most = settings.shadow_threshold * step;
+  const double step = display_step(*settings[setting::display_ev]),
+               most = settings[setting::shadow_threshold] * step;
   const PixelErrors errors(view);
   std::vector<Receiver> receivers;
   double farthest_m = 0;  // from the eye
   for (const auto* instances : {&opaque, &blended}) {
     for (const int i : *instances) {
-      Receiver& r =
-          receivers.emplace_back(Receiver{box_of(scene, i, view), most_reflected(scene, i, settings.brdf)});
+      Receiver& r = receivers.emplace_back(
+          Receiver{box_of(scene, i, view), most_reflected(scene, i, settings[setting::brdf])});
       farthest_m = std::max(farthest_m, farthest_from(r.box, view.eye));
     }
   }
@@ -99,7 +103,7 @@ double leave_out_dim_lights(const Scene& scene, const View& view, const Settings
   for (LightShadow& of : casting) {
     const Light& light = scene.lights[size_t(of.light)];
     if (of.need != ShadowNeed::rays || is_directional(light)) continue;
-    const LightBounds bounds = bounds_of(light, range_of(light, size_t(of.light), settings.ranges));
+    const LightBounds bounds = bounds_of(light, range_of(light, size_t(of.light), ranges_of(settings)));
     const double slack_m = (farthest_m + glm::length(light.position - view.eye)) * 0x1p-19;
     Additions additions = additions_of({bounds, slack_m}, light, settings, receivers, errors);
     const double of_light = largest(additions);

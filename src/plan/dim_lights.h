@@ -2,6 +2,7 @@
 #pragma once
 
 #include "plan/frame_plan.h"
+#include "plan/settings/shadows.h"
 
 namespace lightgrid {
 
@@ -21,7 +22,7 @@ double most_reflected(const Scene& scene, int instance, Brdf brdf);
 double most_irradiance(const Light& light, double range_m, const LightRanges& ranges, double nearest_m);
 
 // Those of `casting` whose need is `rays` become too_dim, the dimmest first, as long as all of them together
-// add less than `settings.shadow_threshold` steps to any instance in view. Returns how many steps they may
+// add less than shadow-threshold steps to any instance in view. Returns how many steps they may
 // add. light_prepass's own reflection is not bounded by it. Throws Error(input) if the exposure is not known.
 double leave_out_dim_lights(const Scene& scene, const View& view, const Settings& settings,
                             const std::vector<int>& opaque, const std::vector<int>& blended,

@@ -13,7 +13,7 @@
 namespace lightgrid {
 
 struct FramePlan;
-struct Settings;
+class Settings;
 struct View;
 struct Surface;  // reference/shading.h
 struct Work;

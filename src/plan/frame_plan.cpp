@@ -8,6 +8,12 @@
 #include "plan/coarse_shadows.h"
 #include "plan/dim_lights.h"
 #include "plan/light_plan.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
+#include "plan/settings/samples.h"
+#include "plan/settings/shadows.h"
+#include "plan/settings/surfaces.h"
 #include "plan/visibility.h"
 #include "scene/hidden.h"
 
@@ -98,8 +104,8 @@ void plan_models(const Scene& scene, FramePlan& plan) {
     if (m.unlit || m.alpha_mode == AlphaMode::blend) continue;
     plan.skin = plan.skin || m.model.skin();
     plan.minnaert = plan.minnaert || m.model.minnaert();
-    plan.specular =
-        plan.specular || (has_specular(m) && features_read(feature_specular, plan.settings.brdf) != 0);
+    plan.specular = plan.specular ||
+                    (has_specular(m) && features_read(feature_specular, plan.settings[setting::brdf]) != 0);
   }
 }
 
@@ -122,7 +128,7 @@ double plan_surfaces(const Scene& scene, const View& view, PlannedInstances inst
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
     const glm::dmat4 to_view = view_from_object(view, scene.instances[i].world_from_object);
     if (mesh.indices.empty() || !planned(i, to_view)) continue;
-    const uint32_t features = features_read(material_features(scene, mesh), plan.settings.brdf);
+    const uint32_t features = features_read(material_features(scene, mesh), plan.settings[setting::brdf]);
     farthest_m = std::max(farthest_m, farthest_of_box(to_view, mesh.bounds));
     plan.features_of_instance[i] = features;
     plan.features |= features;
@@ -146,7 +152,7 @@ double plan_surfaces(const Scene& scene, const View& view, PlannedInstances inst
        plan.blend ? instance_witness(scene, *std::min_element(plan.blended.begin(), plan.blended.end()))
                   : "no blended material in view"});
   for (size_t f = 0; f < std::size(feature_names); ++f) {
-    const bool left_out = features_read(feature_names[f].bit, plan.settings.brdf) == 0;
+    const bool left_out = features_read(feature_names[f].bit, plan.settings[setting::brdf]) == 0;
     plan.decisions.push_back({feature_names[f].effect, first_with[f] >= 0,
                               first_with[f] >= 0 ? instance_witness(scene, first_with[f])
                               : left_out         ? "brdf=lambert has no lobes"
@@ -188,7 +194,7 @@ void take_own_shadows(const Scene& scene, const View& view, const TechniqueNeeds
   for (size_t i = 0; i < plan.local.size(); ++i)
     if (plan.own_shadowed[i]) shadowed.push_back(i);
   if (shadowed.size() > needs.most_own_shadows) {
-    const std::vector<ViewLight> lights = lights_in_view(scene, view, plan.settings.ranges, plan.local);
+    const std::vector<ViewLight> lights = lights_in_view(scene, view, ranges_of(plan.settings), plan.local);
     std::ranges::stable_sort(shadowed, std::greater(), [&](size_t i) { return influence_of(lights[i]); });
     for (size_t i = needs.most_own_shadows; i < shadowed.size(); ++i) {
       plan.own_shadowed[shadowed[i]] = 0;
@@ -204,15 +210,15 @@ void take_own_shadows(const Scene& scene, const View& view, const TechniqueNeeds
 // After surfaces and lights.
 void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& needs,
                   PlannedInstances instances, FramePlan& plan) {
-  if (plan.settings.shadows == ShadowMethod::none) {
+  if (plan.settings[setting::shadows] == ShadowMethod::none) {
     plan.decisions.push_back({"shadows", false, "shadows=none"});
     return;
   }
   if (needs.shadows) shadow_all(scene, plan);
-  plan.casting = plan_light_shadows(scene, view, plan.settings.ranges, plan.opaque, plan.blended,
-                                    plan.settings.soft_shadows() ? plan.settings.shadow_source_m : 0,
-                                    plan.settings.blended_casters());
-  if (!plan.settings.everything_on)
+  plan.casting = plan_light_shadows(scene, view, ranges_of(plan.settings), plan.opaque, plan.blended,
+                                    soft_shadows(plan.settings) ? plan.settings[setting::shadow_source_m] : 0,
+                                    blended_casters(plan.settings));
+  if (!plan.settings[setting::everything_on])
     plan.dim_steps =
         leave_out_dim_lights(scene, view, plan.settings, plan.opaque, plan.blended, plan.casting);
   if (instances == PlannedInstances::in_view && plan.shadows) {
@@ -224,7 +230,7 @@ void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& ne
     }
     if (!plan.shadows) plan.shadowed.clear();
   }
-  plan.shadows_by = plan.settings.shadows == ShadowMethod::map ? "maps" : "rays";
+  plan.shadows_by = plan.settings[setting::shadows] == ShadowMethod::map ? "maps" : "rays";
   if (needs.own_shadows) take_own_shadows(scene, view, needs, plan);
   // Shadows of directional lights are found by the pass.
   if (!plan.own_shadowed.empty()) plan.shadows_by = needs.shadows_by;
@@ -241,11 +247,11 @@ void plan_shadows(const Scene& scene, const View& view, const TechniqueNeeds& ne
 
 // From the near plane to the farthest surface in view.
 void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_m, FramePlan& plan) {
-  plan.slices = needs.slices ? plan.settings.slices : 1;
+  plan.slices = needs.slices ? plan.settings[setting::slices] : 1;
   const double far_m = std::min(farthest_m, view.far_m);
   plan.slice_near_m = view.near_m;
   plan.slice_far_m = far_m > view.near_m ? far_m : view.near_m + 1;
-  plan.z_bins = needs.z_bins && plan.light_grid ? plan.settings.z_bins : 1;
+  plan.z_bins = needs.z_bins && plan.light_grid ? plan.settings[setting::z_bins] : 1;
   const bool needed = plan.light_grid && plan.slices > 1;
   plan.decisions.push_back(
       {"depth slices", needed,
@@ -264,19 +270,19 @@ void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_
 const char* shadows_of_one_sample(const TechniqueNeeds& needs, const FramePlan& plan) {
   if (!plan.light_reaches && !plan.own_shadows) return nullptr;
   const Settings& s = plan.settings;
-  return plan.opengl                      ? "shadows where OpenGL draws"
-         : needs.stored_surfaces          ? "shadows of stored surfaces"
-         : s.shadows == ShadowMethod::map ? "shadow maps"
-         : s.soft_shadows()               ? "shadows of shadow-rays"
-         : s.picks_shadows()              ? "shadows of shadow-pick"
-                                          : nullptr;
+  return plan.opengl                                ? "shadows where OpenGL draws"
+         : needs.stored_surfaces                    ? "shadows of stored surfaces"
+         : s[setting::shadows] == ShadowMethod::map ? "shadow maps"
+         : soft_shadows(s)                          ? "shadows of shadow-rays"
+         : picks_shadows(s)                         ? "shadows of shadow-pick"
+                                                    : nullptr;
 }
 
 // Why one sample a pixel is drawn, although the scene asks for more; empty: they are drawn. The same for
 // every view of the scene.
 std::string why_one_sample(const Scene& scene, const TechniqueNeeds& needs, const FramePlan& plan) {
-  const auto& given = plan.settings.given;
-  if (given.contains("samples")) return fmt::format("samples={}", plan.settings.samples);
+  if (plan.settings.given(setting::samples))
+    return fmt::format("samples={}", plan.settings[setting::samples]);
   if (scene.samples > needs.most_samples)
     return fmt::format("the technique with these settings takes {}", needs.most_samples);
   if (plan.opengl && !needs.opengl_samples) return "OpenGL on this machine cannot draw them";
@@ -286,11 +292,11 @@ std::string why_one_sample(const Scene& scene, const TechniqueNeeds& needs, cons
 
 // After shadows.
 void plan_samples(const Scene& scene, const TechniqueNeeds& needs, FramePlan& plan) {
-  int& samples = plan.settings.samples;
+  int samples = plan.settings[setting::samples];
   const bool own = samples > 1;
   if (!own && scene.samples > 1) {
     const std::string why_one = why_one_sample(scene, needs, plan);
-    if (why_one.empty()) samples = scene.samples;
+    if (why_one.empty()) samples = scene.samples, plan.settings.set(setting::samples, samples);
     plan.decisions.push_back({"samples", why_one.empty(),
                               fmt::format("the scene asks for {} a pixel{}{}", scene.samples,
                                           why_one.empty() ? "" : "; ", why_one)});
@@ -299,7 +305,7 @@ void plan_samples(const Scene& scene, const TechniqueNeeds& needs, FramePlan& pl
   if (own) plan.decisions.push_back({"samples", true, fmt::format("samples={}", samples)});
   const auto masked = std::ranges::find_if(
       plan.opaque, [&](int i) { return (plan.features_of_instance[size_t(i)] & feature_mask) != 0; });
-  const bool at_samples = plan.settings.samples_masks != SampleMasks::centre;
+  const bool at_samples = plan.settings[setting::samples_masks] != SampleMasks::centre;
   plan.decisions.push_back({"masks of samples", at_samples && masked != plan.opaque.end(),
                             !at_samples                   ? "samples-masks=centre"
                             : masked == plan.opaque.end() ? "no masked material in view"
@@ -320,13 +326,13 @@ void turn_everything_on(const Scene& scene, const View& view, FramePlan& plan, c
       plan.mask = true;
   number_groups(scene, plan);
   plan_group_tiles(needs, plan);
-  if (needs.shadows && plan.settings.shadows != ShadowMethod::none) {
+  if (needs.shadows && plan.settings[setting::shadows] != ShadowMethod::none) {
     shadow_all(scene, plan);
     if (needs.own_shadows) take_own_shadows(scene, view, needs, plan);
     plan.light_reaches = true;
   }
   plan.index_bits = 32;
-  plan.features = features_read(feature_all, plan.settings.brdf);
+  plan.features = features_read(feature_all, plan.settings[setting::brdf]);
   plan.clearcoat = plan.features & feature_clearcoat;
   plan.skin = plan.minnaert = true;
   plan.specular = plan.features & feature_specular;
@@ -384,7 +390,7 @@ uint32_t material_features(const Scene& scene, const Mesh& mesh) {
 }
 
 bool draws_with_opengl(const TechniqueNeeds& needs, const Settings& settings) {
-  return needs.opengl && !(needs.chosen_raster && settings.raster == RasterApi::opencl);
+  return needs.opengl && !(needs.chosen_raster && settings[setting::raster] == RasterApi::opencl);
 }
 
 FramePlan plan_frame(const Scene& scene, const View& view, const Settings& settings, TechniqueNeeds needs,
@@ -397,8 +403,8 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan.decisions.reserve(std::size(feature_names) + 16);
   plan.reversed_triangles = needs.reversed_triangles;
   plan.stencil = needs.stencil;
-  if (needs.lists) plan.settings.grid_lists = GridLists::lists;
-  if (!needs.capped_lists) plan.settings.list_cap = plan.settings.view_cap = 0;
+  if (needs.lists) plan.settings.set(setting::grid_lists, GridLists::lists);
+  if (!needs.capped_lists) plan.settings.reset(setting::list_cap).reset(setting::view_cap);
   check_capped_lists(needs, plan.settings);
   const double farthest_m = plan_surfaces(scene, view, instances, plan);
   plan_models(scene, plan);
@@ -406,7 +412,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan_effects(scene, needs.effects, plan);
   plan_base_lighting(scene, plan);
   plan.light_grid = needs.light_grid && plan.local_lights;
-  const bool bounded = settings.depth_bounds != DepthBoundsMode::none;
+  const bool bounded = settings[setting::depth_bounds] != DepthBoundsMode::none;
   plan.blend_grid = plan.light_grid && plan.blend && bounded;
   plan.decisions.push_back({"light grid", plan.light_grid,
                             !needs.light_grid    ? needs.no_light_grid
@@ -429,10 +435,11 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   plan_groups(scene, needs, plan);
   plan_shadows(scene, view, needs, instances, plan);
   plan_samples(scene, needs, plan);
-  plan.shadow_bytes = settings.soft_shadows() || settings.picks_shadows() ||
-                      (settings.shadows == ShadowMethod::map && settings.shadow_taps > 1) ||
-                      (plan.light_reaches && has_veils(scene, settings.blended_casters()));
-  if (settings.everything_on) turn_everything_on(scene, view, plan, needs);
+  plan.shadow_bytes =
+      soft_shadows(settings) || picks_shadows(settings) ||
+      (settings[setting::shadows] == ShadowMethod::map && settings[setting::shadow_taps] > 1) ||
+      (plan.light_reaches && has_veils(scene, blended_casters(settings)));
+  if (settings[setting::everything_on]) turn_everything_on(scene, view, plan, needs);
   return plan;
 }
 
@@ -444,7 +451,7 @@ std::string describe(const FramePlan& plan, const Scene& scene) {
   for (const Decision& d : plan.decisions)
     text += fmt::format("  {} {}: {}\n", d.needed ? "yes" : " no", d.effect, d.why);
   text += describe_shadows(plan.casting, scene, plan.shadows_by);
-  const std::string coarse = describe(coarse_shadows(scene, plan.settings.ranges), scene);
+  const std::string coarse = describe(coarse_shadows(scene, ranges_of(plan.settings)), scene);
   return coarse.empty() ? text : fmt::format("{}  {}\n", text, coarse);
 }
 

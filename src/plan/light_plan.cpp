@@ -5,6 +5,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/groups.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "plan/visibility.h"
 #include "scene/hidden.h"
 #include "scene/light_groups.h"
@@ -14,7 +18,7 @@ namespace {
 
 // Leaves out all lights but the nearest of those whose range the view sees, `seen` by index into `local`.
 void cap_view(const std::vector<ViewLight>& lights, std::vector<size_t> seen, FramePlan& plan) {
-  const size_t cap = size_t(plan.settings.view_cap);
+  const size_t cap = size_t(plan.settings[setting::view_cap]);
   if (cap == 0) return;
   if (seen.size() > cap) {
     std::ranges::stable_sort(seen, {}, [&](size_t i) {
@@ -45,19 +49,20 @@ std::string group_witness(const Scene& scene, size_t masks) {
 }
 
 void check_sampled_lists(const TechniqueNeeds& needs, const Settings& s) {
-  if (!s.samples_lists()) return;
-  const bool tree = s.list_cap_order == ListCapOrder::tree;
+  if (!samples_lists(s)) return;
+  const bool tree = s[setting::list_cap_order] == ListCapOrder::tree;
   if (!needs.sampled_lists)
     throw input_error(
         "set list-cap-order={}: the technique's lists do not say how many times a light counts; choose "
         "forward_plus, clustered, forward_plus_compute, deferred_tiled or visibility, or another order",
         tree ? "tree" : "sampled");
-  if (tree && needs.z_bins && s.z_bins > 1)
+  if (tree && needs.z_bins && s[setting::z_bins] > 1)
     throw input_error(
-        "set z-bins={}: with list-cap-order=tree no light is sorted into bins; choose z-bins=off", s.z_bins);
-  if (tree && s.view_cap > 0)
+        "set z-bins={}: with list-cap-order=tree no light is sorted into bins; choose z-bins=off",
+        s[setting::z_bins]);
+  if (tree && s[setting::view_cap] > 0)
     throw input_error("set view-cap={}: list-cap-order=tree draws from all lights; choose view-cap=off",
-                      s.view_cap);
+                      s[setting::view_cap]);
 }
 
 }  // namespace
@@ -74,7 +79,7 @@ bool counts_as_seen(PlannedLights planned, const ViewLight& light, bool in_view)
 
 void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
   const Frustum frustum = frustum_of(view);
-  const std::vector<ViewLight> lights = lights_in_view(scene, view, plan.settings.ranges);
+  const std::vector<ViewLight> lights = lights_in_view(scene, view, ranges_of(plan.settings));
   std::vector<size_t> seen_local;
   int first_spot = -1, first_virtual = -1;
   for (int i = 0; i < int(lights.size()); ++i) {
@@ -113,21 +118,21 @@ void plan_lights(const Scene& scene, const View& view, FramePlan& plan) {
 }
 
 void check_capped_lists(const TechniqueNeeds& needs, const Settings& s) {
-  if (needs.light_grid && s.list_cap > 0 && s.grid_lists == GridLists::masks)
+  if (needs.light_grid && s[setting::list_cap] > 0 && s[setting::grid_lists] == GridLists::masks)
     throw input_error(
         "set list-cap={}: masks have a bit for each light, and no length; choose grid-lists=lists, or "
         "view-cap",
-        s.list_cap);
+        s[setting::list_cap]);
   if (needs.capped_lists) check_sampled_lists(needs, s);
 }
 
 void plan_sampled_lists(FramePlan& plan) {
-  if (!plan.settings.samples_lists()) return;
-  plan.sampled_lists = plan.light_grid && plan.local.size() > size_t(plan.settings.list_cap);
-  plan.decisions.push_back(
-      {"sampled lists", plan.sampled_lists,
-       fmt::format("list-cap={}, {} point and spot lights", plan.settings.list_cap, plan.local.size())});
-  plan.light_tree = plan.sampled_lists && plan.settings.list_cap_order == ListCapOrder::tree;
+  if (!samples_lists(plan.settings)) return;
+  plan.sampled_lists = plan.light_grid && plan.local.size() > size_t(plan.settings[setting::list_cap]);
+  plan.decisions.push_back({"sampled lists", plan.sampled_lists,
+                            fmt::format("list-cap={}, {} point and spot lights",
+                                        plan.settings[setting::list_cap], plan.local.size())});
+  plan.light_tree = plan.sampled_lists && plan.settings[setting::list_cap_order] == ListCapOrder::tree;
   plan.decisions.push_back({"light tree", plan.light_tree,
                             plan.light_tree      ? "list-cap-order=tree, in place of culling"
                             : plan.sampled_lists ? "list-cap-order=sampled"
@@ -142,15 +147,15 @@ void number_groups(const Scene& scene, FramePlan& plan) {
 
 void plan_group_tiles(const TechniqueNeeds& needs, FramePlan& plan) {
   const Settings& s = plan.settings;
-  plan.group_tiles = plan.groups && plan.light_grid && needs.group_tiles && s.group_tiles &&
-                     (!plan.opengl || plan.group_masks.size() <= size_t(1) << s.group_bits);
+  plan.group_tiles = plan.groups && plan.light_grid && needs.group_tiles && s[setting::group_tiles] &&
+                     (!plan.opengl || plan.group_masks.size() <= size_t(1) << s[setting::group_bits]);
 }
 
 void plan_groups(const Scene& scene, const TechniqueNeeds& needs, FramePlan& plan) {
   if (calls_for_groups(scene)) number_groups(scene, plan);
   if (plan.groups && needs.group_stencil) {
-    plan.group_stencil =
-        std::min(plan.settings.group_stencil, most_stencil_groups(plan.settings.volume_culling));
+    plan.group_stencil = std::min(plan.settings[setting::group_stencil],
+                                  most_stencil_groups(plan.settings[setting::volume_culling]));
     plan.stencil = plan.stencil || plan.group_stencil > 0;
   }
   plan_group_tiles(needs, plan);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "plan/frame_plan.h"
+#include "plan/settings/kernels.h"
 
 namespace lightgrid {
 
@@ -19,7 +20,7 @@ std::vector<PlanChange> plan_changes(const std::vector<Decision>& before, const 
 
 void PathPlans::add(const FramePlan& plan) {
   const size_t frame = frames_++;
-  if (plan.settings.everything_on) return;
+  if (plan.settings[setting::everything_on]) return;
   for (PlanChange& change : plan_changes(before_, plan.decisions, frame))
     changes_.push_back(std::move(change));
   before_ = plan.decisions;

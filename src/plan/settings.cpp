@@ -1,30 +1,79 @@
 #include "plan/settings.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "base/error.h"
 #include "base/text.h"
-#include "plan/setting_rows.h"
+// Rows that every program has which applies settings.
+#include "plan/settings/cull_test.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/groups.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
+#include "plan/settings/picture.h"
+#include "plan/settings/samples.h"
+#include "plan/settings/shadows.h"
+#include "plan/settings/surfaces.h"
 
 namespace lightgrid {
+namespace {
 
 constexpr double least_number = 1e-9, most_number = 1e9;
 
-void add_own_setting(const char* key, const char* before, const char* meaning,
-                     const std::vector<std::string>& names, const SettingFlags& flags) {
-  const auto own = [of_lights = flags.of_lights](auto& s) -> auto& {
-    return of_lights ? s.ranges.effects : s.own;
-  };
-  const auto number_of = [=](const Settings& s) { return own(s).contains(key) ? own(s).at(key) : 0; };
-  SettingValues values{
-      .copy = [=](Settings& to, const Settings& from) { own(to)[key] = number_of(from); },
-      .same = [=](const Settings& a, const Settings& b) { return number_of(a) == number_of(b); }};
-  for (size_t i = 0; i < names.size(); ++i) {
-    values.choices.push_back({names[i], [=](Settings& s) { own(s)[key] = i; },
-                              [=](const Settings& s) { return number_of(s) == i; }});
+// Only static objects change it, before main or while a library is loaded.
+std::vector<SettingRow>& rows() {
+  static std::vector<SettingRow> all;
+  return all;
+}
+
+std::vector<std::string> keys_of(const auto& holds) {
+  std::vector<std::string> keys;
+  for (const SettingRow& row : rows()) {
+    if (holds(row)) keys.push_back(row.key);
   }
-  all_settings().insert(std::ranges::find(all_settings(), before, &SettingRow::key),
-                        {key, meaning, std::move(values), flags});
+  return keys;
+}
+
+std::vector<std::string> keys_with(bool SettingFlags::*flag) {
+  return keys_of([=](const SettingRow& row) { return row.flags.*flag; });
+}
+
+// Whether the value has that name.
+bool set_named(Settings& settings, const SettingRow& row, const std::string& value) {
+  const auto named = std::ranges::find(row.values, value);
+  if (named == row.values.end()) return false;
+  settings.set_difference(row, row.bits[size_t(named - row.values.begin())] ^ row.bits.front());
+  return true;
+}
+
+bool set_number(Settings& settings, const SettingRow& row, const std::string& value) {
+  const auto number = row.flags.any_number ? parse_number<double>(value) : std::nullopt;
+  if (!number || !(*number >= least_number && *number <= most_number)) return false;
+  settings.set_difference(row, setting_bits(*number) ^ row.bits.front());
+  return true;
+}
+
+std::string string_of(const Settings& settings, const SettingRow& row) {
+  const uint64_t bits = settings.difference(row) ^ row.bits.front();
+  const auto named = std::ranges::find(row.bits, bits);
+  if (named != row.bits.end()) return row.values[size_t(named - row.bits.begin())];
+  return row.flags.any_number ? fmt::format("{}", FromSettingBits<double>::value(bits)) : "";
+}
+
+}  // namespace
+
+SettingNumber add_unlisted_setting() {
+  static size_t count = 0;
+  if (count == Settings::most_settings) std::abort();
+  return {count++};
+}
+
+SettingNumber add_setting(SettingRow row) {
+  row.number = add_unlisted_setting().number;
+  const SettingNumber added = row;
+  rows().insert(std::ranges::upper_bound(rows(), row.place, {}, &SettingRow::place), std::move(row));
+  return added;
 }
 
 void apply_setting(Settings& settings, const std::string& assignment) {
@@ -35,41 +84,26 @@ void apply_setting(Settings& settings, const std::string& assignment) {
         "set {}: shadow-kept was removed: it saved no time while the camera moved, and shadows leaked; "
         "shadow-reuse=on keeps shadows while nothing changes",
         assignment);
-  const auto& all = all_settings();
-  const auto setting =
-      std::find_if(all.begin(), all.end(), [&](const SettingRow& s) { return s.key == key; });
-  if (equals == std::string::npos || setting == all.end()) {
-    std::vector<std::string> keys;
-    for (const SettingRow& s : all) keys.push_back(s.key);
+  const auto row = std::ranges::find(rows(), key, &SettingRow::key);
+  if (equals == std::string::npos || row == rows().end()) {
+    const std::vector<std::string> keys = keys_of([](const SettingRow&) { return true; });
     throw input_error("set {}: not KEY=VALUE with a known key{}; keys are {}", assignment,
                       did_you_mean(key, keys), fmt::join(keys, ", "));
   }
   const std::string value = assignment.substr(equals + 1);
-  std::vector<std::string> values;
-  for (const SettingChoice& c : setting->values.choices) {
-    if (c.value == value) {
-      settings.given.insert(key);
-      return c.set(settings);
-    }
-    values.push_back(c.value);
-  }
-  const auto number = setting->values.number ? parse_number<double>(value) : std::nullopt;
-  if (number && *number >= least_number && *number <= most_number) {
-    settings.given.insert(key);
-    settings.ranges.*setting->values.number = *number;
+  if (set_named(settings, *row, value) || set_number(settings, *row, value)) {
+    settings.give(*row);
     return;
   }
-  if (setting->values.number)
+  if (row->flags.any_number)
     throw input_error("set {}: {} is a number from {:g} to {:g}", assignment, key, least_number, most_number);
   throw input_error("set {}: \"{}\" is not a value of {}{}; values are {}", assignment, value, key,
-                    did_you_mean(value, values), fmt::join(values, ", "));
+                    did_you_mean(value, row->values), fmt::join(row->values, ", "));
 }
 
-static std::vector<std::string> keys_with(bool SettingFlags::*flag) {
-  std::vector<std::string> keys;
-  for (const SettingRow& s : all_settings()) {
-    if (s.flags.*flag) keys.push_back(s.key);
-  }
+std::vector<std::string> given_keys(const Settings& settings) {
+  std::vector<std::string> keys = keys_of([&](const SettingRow& row) { return settings.given(row); });
+  std::ranges::sort(keys);
   return keys;
 }
 
@@ -79,40 +113,29 @@ const std::vector<std::string>& model_settings() {
 }
 
 bool same_model(const Settings& a, const Settings& b) {
-  return std::ranges::all_of(all_settings(),
-                             [&](const SettingRow& s) { return !s.flags.model || s.values.same(a, b); });
+  return std::ranges::all_of(rows(), [&](const SettingRow& row) {
+    return !row.flags.model || a.difference(row) == b.difference(row);
+  });
 }
 
 Settings with_model(Settings settings, const Settings& model) {
-  for (const SettingRow& s : all_settings()) {
-    if (s.flags.model) s.values.copy(settings, model);
+  for (const SettingRow& row : rows()) {
+    if (row.flags.model) settings.copy(row, model);
   }
   return settings;
 }
 
 Settings meant_by(Settings settings) {
-  for (const SettingRow& s : all_settings()) {
-    if (s.flags.mean) s.flags.mean(settings);
+  for (const SettingRow& row : rows()) {
+    if (row.flags.mean) row.flags.mean(settings);
   }
   return settings;
 }
 
 Settings only_with(Settings settings, const std::function<bool(const std::string&)>& keeps) {
-  for (const SettingRow& s : all_settings()) {
-    if (!keeps(s.key)) s.values.copy(settings, Settings{});
+  for (const SettingRow& row : rows()) {
+    if (!keeps(row.key)) settings.reset(row);
   }
-  return settings;
-}
-
-int most_stencil_groups(VolumeCulling culling) { return culling == VolumeCulling::stencil ? 7 : 8; }
-
-Settings with_samples(Settings settings, int samples) {
-  settings.samples = samples, settings.given.insert("samples");
-  return settings;
-}
-
-Settings with_exact_shadows(Settings settings) {
-  settings.shadows = ShadowMethod::exact, settings.shadow_threshold = 0;
   return settings;
 }
 
@@ -122,12 +145,10 @@ const std::vector<std::string>& tunable_settings() {
 }
 
 Settings with_tuned(Settings settings, const std::map<std::string, std::string>& tuned) {
-  for (const SettingRow& s : all_settings()) {
-    const auto found = tuned.find(s.key);
-    if (found == tuned.end() || settings.given.contains(s.key) || !s.flags.tunable) continue;
-    for (const SettingChoice& c : s.values.choices) {
-      if (c.value == found->second) c.set(settings);
-    }
+  for (const SettingRow& row : rows()) {
+    const auto found = tuned.find(row.key);
+    if (found != tuned.end() && !settings.given(row) && row.flags.tunable)
+      set_named(settings, row, found->second);
   }
   return settings;
 }
@@ -139,26 +160,31 @@ std::string json_key(std::string setting) {
 
 std::map<std::string, std::string> to_strings(const Settings& settings) {
   std::map<std::string, std::string> strings;
-  for (const SettingRow& s : all_settings()) {
-    if (s.values.number) strings[json_key(s.key)] = fmt::format("{}", settings.ranges.*s.values.number);
-    for (const SettingChoice& c : s.values.choices) {
-      if (c.is_set(settings)) strings[json_key(s.key)] = c.value;
-    }
+  for (const SettingRow& row : rows()) {
+    std::string value = string_of(settings, row);
+    if (!value.empty()) strings[json_key(row.key)] = std::move(value);
   }
   return strings;
 }
 
-const std::vector<SettingHelp>& setting_help() {
-  static const auto help = [] {
-    std::vector<SettingHelp> rows;
-    for (const SettingRow& s : all_settings()) {
-      SettingHelp& row =
-          rows.emplace_back(SettingHelp{s.key, {}, s.meaning, s.values.number != nullptr, s.flags});
-      for (const SettingChoice& c : s.values.choices) row.values.push_back(c.value);
-    }
-    return rows;
-  }();
-  return help;
+LightRanges ranges_of(const Settings& s) {
+  LightRanges ranges{s[setting::range], s[setting::window], s[setting::cutoff], s[setting::alpha],
+                     s[setting::light_seed]};
+  for (const SettingRow& row : rows()) {
+    if (row.flags.of_lights && s.difference(row) != 0) ranges.effects[row.key] = s.difference(row);
+  }
+  return ranges;
 }
+
+void set_ranges(Settings& s, const LightRanges& ranges) {
+  s.set(setting::range, ranges.range).set(setting::window, ranges.window).set(setting::cutoff, ranges.cutoff);
+  s.set(setting::alpha, ranges.alpha).set(setting::light_seed, ranges.seed);
+  for (const SettingRow& row : rows()) {
+    const auto found = ranges.effects.find(row.key);
+    if (row.flags.of_lights) s.set_difference(row, found == ranges.effects.end() ? 0 : found->second);
+  }
+}
+
+const std::vector<SettingRow>& setting_rows() { return rows(); }
 
 }  // namespace lightgrid

@@ -7,6 +7,7 @@
 #include "cl/error.h"
 #include "cl/transfer.h"
 #include "plan/frame_plan.h"
+#include "plan/settings/surfaces.h"
 #include "renderer/upload/scene_surfaces.h"
 
 namespace lightgrid {

@@ -7,6 +7,7 @@
 
 #include "cl/device.h"
 #include "plan/settings.h"
+#include "plan/settings/surfaces.h"
 #include "scene/animation.h"
 #include "scene/scene.h"
 #include "shared/surface_records.h"

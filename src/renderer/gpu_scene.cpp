@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cl/transfer.h"
+#include "plan/settings/surfaces.h"
 #include "renderer/shared_light_cells.h"
 #include "renderer/upload/scene_surfaces.h"
 #include "scene/ray_origin.h"

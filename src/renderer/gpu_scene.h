@@ -7,11 +7,13 @@
 #include <memory>
 #include <optional>
 
+#include "plan/settings/surfaces.h"
 #include "raster/raster_scene.h"
 #include "rays/ray_scene.h"
 #include "renderer/cl_scene.h"
 #include "renderer/gl_scene.h"
 #include "renderer/shared_grids.h"
+#include "scene/blended_casters.h"
 
 namespace lightgrid {
 

@@ -1,6 +1,7 @@
 #include "renderer/pass_programs.h"
 
 #include "plan/frame_plan.h"
+#include "plan/settings/kernels.h"
 #include "renderer/work.h"
 
 namespace lightgrid {
@@ -31,7 +32,7 @@ const SceneProgram& ScenePrograms::of(uint32_t features) {
 }
 
 static bool shades_in_lanes(const Work& work) {
-  const KernelShape shape = work.plan.settings.kernel_shape;
+  const KernelShape shape = work.plan.settings[setting::kernel_shape];
   return shape == KernelShape::lanes || (shape == KernelShape::automatic && work.renderer.cl->info().cpu);
 }
 

@@ -4,12 +4,14 @@
 
 #include "gl/objects.h"
 #include "plan/settings.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/model.h"
 
 namespace lightgrid {
 namespace {
 
 ViewParams params_of(const View& view, const FramePlan& plan, const glm::vec3& ambient) {
-  ViewParams p = view_params(cull_view(view), plan.settings.tile);
+  ViewParams p = view_params(cull_view(view), plan.settings[setting::tile]);
   p.light_count = uint(plan.local.size());
   p.directional_count = uint(plan.directional_lights.size());
   p.ambient_r = ambient.r;
@@ -117,16 +119,16 @@ void RenderView::drop_caches() {
 
 void RenderView::lights_changed() {
   if (!culler_ || !plan.light_grid) return;
-  std::vector<CullLight> lights = cull_lights_of(scene, plan.local, plan.settings.ranges);
+  std::vector<CullLight> lights = cull_lights_of(scene, plan.local, ranges_of(plan.settings));
   for (size_t i = 0; i < plan.left_out.size(); ++i)
     if (plan.left_out[i]) lights[i].radius_m = -1;  // listed nowhere
   culler_->set_lights(lights);
 }
 
 void RenderView::draw_random(uint32_t seed) {
-  settings_.list_seed = plan.settings.list_seed = seed;
-  if (plan.settings.ranges.range != LightRange::stochastic) return;
-  settings_.ranges.seed = seed;
+  settings_.set(setting::list_seed, seed), plan.settings.set(setting::list_seed, seed);
+  if (plan.settings[setting::range] != LightRange::stochastic) return;
+  settings_.set(setting::light_seed, seed);
   look(view);
   lights_changed();
 }

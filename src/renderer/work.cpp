@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "cl/transfer.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/samples.h"
 #include "raster/raster_samples.h"
 
 namespace lightgrid {
@@ -40,13 +42,14 @@ std::vector<std::string> Work::view_defines(std::vector<std::string> defines) {
   if (view.orthographic) defines.emplace_back("ORTHOGRAPHIC");
   const bool samples = plan.opengl && grid().samples > 1;
   if (samples) defines.push_back(fmt::format("SAMPLES {}", grid().samples));
-  if (const std::string masks = mask_define(plan.settings.samples_masks); samples && !masks.empty()) {
+  if (const std::string masks = mask_define(plan.settings[setting::samples_masks]);
+      samples && !masks.empty()) {
     std::string offsets;
     for (const glm::ivec2& place : sample_places())
       offsets += fmt::format("{}vec2({}, {}) / 256.0", offsets.empty() ? "" : ", ", place.x, place.y);
     defines.push_back(masks), defines.push_back("SAMPLE_OFFSETS " + offsets);
   }
-  if (plan.settings.everything_on) defines.emplace_back("EVERYTHING_ON");
+  if (plan.settings[setting::everything_on]) defines.emplace_back("EVERYTHING_ON");
   return defines;
 }
 

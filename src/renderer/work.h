@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "plan/settings/samples.h"
 #include "renderer/drawing/draw_list.h"
 #include "renderer/effect_state.h"
 #include "renderer/gpu_scene.h"
@@ -28,7 +29,7 @@ struct Seen {
   DrawList opaque, blended;                   // nearest first; back to front. Empty unless OpenGL draws
 
   // Of images that triangles are drawn into, with the setting samples.
-  PixelGrid grid() const { return {view.width, view.height, plan.settings.samples}; }
+  PixelGrid grid() const { return {view.width, view.height, plan.settings[setting::samples]}; }
 };
 
 // Beside what is seen, the machine, the scene in its memory, and the view's images, programs and clock.

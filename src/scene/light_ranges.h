@@ -28,9 +28,9 @@ struct LightRanges {
   double alpha =
       0.01;  // a light whose irradiance at a point is f reaches it with the probability min(f / alpha, 1)
   uint32_t seed = 1;  // seed of the random ranges
-  // Settings of effects that change how much of a light reaches surfaces, as Settings::own
-  // (SettingFlags::of_lights).
-  std::map<std::string, size_t> effects{};
+  // Settings of effects that change how much of a light reaches surfaces, by key: the difference from the
+  // default (SettingFlags::of_lights).
+  std::map<std::string, uint64_t> effects{};
   bool operator==(const LightRanges&) const = default;
 };
 

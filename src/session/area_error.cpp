@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "plan/settings/model.h"
+#include "plan/settings/shadows.h"
 #include "session/oracle_sample.h"
 
 namespace lightgrid {
@@ -12,12 +14,12 @@ AreaTruth area_truth(const Seen& v, SceneOcclusion& occlusion, size_t most_at_ed
   constexpr size_t classified = 8192;
   constexpr int places_to_classify = 16;
   const bool casts = std::ranges::any_of(v.scene.lights, &Light::casts_shadow) &&
-                     v.plan.settings.shadows != ShadowMethod::none;
-  const AreaOracle oracle(v.scene, v.view, meant_by(v.plan.settings).ranges,
-                          {.brdf = v.plan.settings.brdf,
+                     v.plan.settings[setting::shadows] != ShadowMethod::none;
+  const AreaOracle oracle(v.scene, v.view, ranges_of(meant_by(v.plan.settings)),
+                          {.brdf = v.plan.settings[setting::brdf],
                            .ambient = v.scene.ambient,
                            .base = base_terms(v.scene, v.view, v.plan)},
-                          casts ? &occlusion.get(v.plan.settings.shadow_blended) : nullptr);
+                          casts ? &occlusion.get(v.plan.settings[setting::shadow_blended]) : nullptr);
   std::vector<uint32_t> all(v.view.grid().values());
   std::iota(all.begin(), all.end(), 0u);
   const std::vector<uint32_t> sample = sample_pixels(all, classified);

@@ -127,7 +127,7 @@ void take_own_settings(std::string& technique, std::vector<std::string>& set) {
 
 void check_given_settings(const Settings& settings, const std::vector<const Technique*>& techniques,
                           bool grid) {
-  for (const std::string& key : settings.given) {
+  for (const std::string& key : given_keys(settings)) {
     const auto reads = [&](const Technique* technique) { return reads_setting(*technique, key); };
     if (std::ranges::any_of(techniques, reads)) continue;
     if (grid && std::ranges::count(culling_settings(), key) > 0) continue;

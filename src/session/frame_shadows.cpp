@@ -1,5 +1,6 @@
 #include "session/frame_shadows.h"
 
+#include "plan/settings/shadows.h"
 #include "session/oracle.h"
 #include "session/shadow_truth.h"
 #include "session/surfaces_in_double.h"
@@ -16,7 +17,8 @@ PixelShadows FrameShadows::at(int x, int y, SceneOcclusion& occlusion) const {
 
 FrameShadows read_frame_shadows(TechniqueRun& run) {
   const RenderView& v = run.view();
-  FrameShadows frame{v.view, read_depth(run), shown_triangles(run), {}, v.plan.settings.shadow_blended};
+  FrameShadows frame{
+      v.view, read_depth(run), shown_triangles(run), {}, v.plan.settings[setting::shadow_blended]};
   if (run.frame().shadows) frame.shaded = run.frame().shadows();
   return frame;
 }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "plan/settings/grid.h"
+#include "plan/settings/samples.h"
 #include "reference/position.h"
 #include "results/metrics.h"
 #include "results/speedup.h"
@@ -53,9 +55,10 @@ ImageError error_of(const Image& image, const Measured& m) {
 }  // namespace
 
 SampledBy sampled_by(bool own_surfaces, const Settings& settings) {
-  const bool several = settings.samples > 1;
-  return {own_surfaces, settings.samples, several ? settings.samples_masks : SampleMasks::centre,
-          several ? settings.samples_resolve : SamplesResolve::linear};
+  const bool several = settings[setting::samples] > 1;
+  return {own_surfaces, settings[setting::samples],
+          several ? settings[setting::samples_masks] : SampleMasks::centre,
+          several ? settings[setting::samples_resolve] : SamplesResolve::linear};
 }
 
 // Every light on the surfaces of this run; empty: it was not drawn.
@@ -68,7 +71,7 @@ const Image& every_light_of(const TechniqueRun& run, const Measured& m) {
 
 // The contestant's, with as many samples as its run draws.
 Settings planned_settings(const ContestantRun& e) {
-  return with_samples(e.contestant->settings, e.run->view().plan.settings.samples);
+  return with_samples(e.contestant->settings, e.run->view().plan.settings[setting::samples]);
 }
 
 // With the samples of each row on these surfaces that has others than `drawn`.
@@ -117,7 +120,7 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
   const auto failure = failure_of([&] {
     // With the reference's samples: surfaces are held against the same number of them.
     const Settings settings =
-        with_samples(own->contestant->settings, m.reference.run().view().plan.settings.samples);
+        with_samples(own->contestant->settings, m.reference.run().view().plan.settings[setting::samples]);
     const std::unique_ptr<TechniqueRun> run = make_run_of_every_light(compared, settings, true);
     run->run_frame(true);
     time_every_light(*run, compared, m, *report.own_surfaces);
@@ -168,7 +171,7 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   const Reference& reference = m.reference;
   const bool is_reference = &run == &reference.run();
   if (!is_reference) run.run_frame(true);
-  m.has_samples |= run.view().plan.settings.samples > 1;
+  m.has_samples |= run.view().plan.settings[setting::samples] > 1;
   const Image& image = is_reference ? reference.image : run.image();
   RunResult row = is_reference ? m.result : run.result();
   row.own_surfaces = run.frame().triangles.has_value();
@@ -183,8 +186,8 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
     if (!reference.run().frame().triangles && !reference.sampled())
       row.error->silhouettes = silhouette_error(image, own, reference.image, m.triangles.shown);
   }
-  const bool other_depth =
-      run.frame().depth || run.view().plan.settings.samples != reference.run().view().plan.settings.samples;
+  const bool other_depth = run.frame().depth || run.view().plan.settings[setting::samples] !=
+                                                    reference.run().view().plan.settings[setting::samples];
   const std::vector<float> own_depth = other_depth ? read_depth(run) : std::vector<float>();
   const std::vector<float>& depth = other_depth ? own_depth : m.depth;
   if (!row.own_surfaces && other_depth) {
@@ -200,11 +203,13 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   if (run.limits_lists()) {
     row.overflow = pairs.lost;
     if (!reference.sampled() && !every_light.pixels.empty())
-      row.limited = {missing_light(image, every_light),
-                     error_steps(image, every_light, run.view().plan.settings.tile, report.brightest)};
+      row.limited = {
+          missing_light(image, every_light),
+          error_steps(image, every_light, run.view().plan.settings[setting::tile], report.brightest)};
   }
   // Lists of blended surfaces, whose pairs are not counted, may have lost theirs all the same.
-  const bool capped = run.view().plan.settings.list_cap > 0 || run.view().plan.settings.view_cap > 0;
+  const bool capped =
+      run.view().plan.settings[setting::list_cap] > 0 || run.view().plan.settings[setting::view_cap] > 0;
   if (pairs.lost == 0 && !capped && !run.approximate() && !reference.sampled() && !every_light.pixels.empty())
     row.unshaded = missing_light(image, every_light);
   Image taken = run.take_image();

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "plan/settings/samples.h"
 #include "results/flip.h"
 #include "session/runs.h"
 #include "session/shadow_truth.h"

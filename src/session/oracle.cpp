@@ -1,6 +1,7 @@
 #include "session/oracle.h"
 
 #include "cl/transfer.h"
+#include "plan/settings/model.h"
 #include "reference/position.h"
 #include "reference/seen_pairs.h"
 #include "results/metrics.h"
@@ -53,7 +54,7 @@ std::vector<float> read_depth(TechniqueRun& run) {
 }
 
 std::vector<ViewLight> local_lights(const Seen& v) {
-  return lights_in_view(v.scene, v.view, v.plan.settings.ranges, v.plan.local);
+  return lights_in_view(v.scene, v.view, ranges_of(v.plan.settings), v.plan.local);
 }
 
 ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/settings/model.h"
 #include "reference/attenuation.h"
 #include "reference/position.h"
 #include "results/metrics.h"
@@ -35,7 +36,7 @@ SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth, Sha
     : v_(v),
       depth_(depth),
       surfaces_(read_surfaces(v)),
-      lights_(lights_in_view(v.scene, v.view, meant_by(v.plan.settings).ranges)),
+      lights_(lights_in_view(v.scene, v.view, ranges_of(meant_by(v.plan.settings)))),
       own_shadows_(shadows ? nullptr : std::make_unique<ShadowTruth>(v.scene, 0)),
       shadows_(shadows ? shadows : own_shadows_.get()) {
   if (shadows_->casts() || v.plan.groups) {
@@ -68,7 +69,8 @@ std::vector<glm::dvec3> SurfaceOracle::shade(const std::vector<uint32_t>& pixels
     if (!groups_.empty()) surface.groups = groups_[pixel];
     return surface;
   };
-  ShadeSettings settings{.brdf = v_.plan.settings.brdf, .ambient = v_.scene.ambient, .window = window};
+  ShadeSettings settings{
+      .brdf = v_.plan.settings[setting::brdf], .ambient = v_.scene.ambient, .window = window};
   settings.base = base_terms(v_.scene, v_.view, v_.plan);
   const std::unique_ptr<SeenPairs> seen = shadows_->at_pixels(v_, depth_, triangles_, pixels, window);
   if (seen) settings.hidden = seen->hidden();

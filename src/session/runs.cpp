@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "plan/settings/grid.h"
+#include "plan/settings/samples.h"
+#include "plan/settings/shadows.h"
 #include "results/words.h"
 
 namespace lightgrid {
@@ -10,13 +13,15 @@ namespace {
 
 // The settings of exact shadows that decide which share of a light is hidden.
 auto shares_of(const Settings& s) {
-  const bool spheres = s.shadow_rays > 1 && s.shadow_source_m > 0;
-  return std::tuple(spheres ? s.shadow_rays : 1, spheres ? s.shadow_source_m : 0.0, s.shadow_pick);
+  const bool spheres = s[setting::shadow_rays] > 1 && s[setting::shadow_source_m] > 0;
+  return std::tuple(spheres ? s[setting::shadow_rays] : 1, spheres ? s[setting::shadow_source_m] : 0.0,
+                    s[setting::shadow_pick]);
 }
 
 Settings with_reference_shadows(const Compared& c, Settings settings) {
   settings = with_exact_shadows(std::move(settings));
-  if (c.every_light.point_shadows) settings.shadow_rays = 1, settings.shadow_pick = 0;
+  if (c.every_light.point_shadows)
+    settings.set(setting::shadow_rays, 1), settings.set(setting::shadow_pick, 0);
   return settings;
 }
 
@@ -25,7 +30,7 @@ std::unique_ptr<TechniqueRun> make_own_run(const Compared& c) {
   Settings common =
       c.contestants.empty() ? Settings{} : with_reference_shadows(c, c.contestants.front().settings);
   common = with_samples(std::move(common), 1);
-  if (c.every_light.chosen_lights) common.lights = ShadedLights::all;
+  if (c.every_light.chosen_lights) common.set(setting::lights, ShadedLights::all);
   return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, common, *c.every_light.technique);
 }
 
@@ -49,7 +54,7 @@ EveryLight every_light_technique(const Renderer& renderer, const std::vector<Con
 
 std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& c, Settings settings,
                                                       bool own_surfaces) {
-  settings.lights = ShadedLights::all;
+  settings.set(setting::lights, ShadedLights::all);
   return std::make_unique<TechniqueRun>(c.renderer, c.gpu, c.view, with_reference_shadows(c, settings),
                                         find_technique(own_surfaces ? "visibility" : "forward"));
 }

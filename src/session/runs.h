@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "cl/error.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/samples.h"
+#include "plan/settings/shadows.h"
 #include "session/compare.h"
 #include "session/reference_sample.h"
 #include "session/technique_run.h"
@@ -23,9 +26,10 @@ struct EveryLight {
 
   bool is(const Technique& other, const Settings& settings) const {
     return other.name == std::string(technique->name) &&
-           (!chosen_lights || settings.lights == ShadedLights::all) &&
-           (!point_shadows || (!settings.soft_shadows() && !settings.picks_shadows())) &&
-           settings.shadows == ShadowMethod::exact && settings.shadow_threshold == 0 && settings.samples == 1;
+           (!chosen_lights || settings[setting::lights] == ShadedLights::all) &&
+           (!point_shadows || (!soft_shadows(settings) && !picks_shadows(settings))) &&
+           settings[setting::shadows] == ShadowMethod::exact && settings[setting::shadow_threshold] == 0 &&
+           settings[setting::samples] == 1;
   }
   bool is(const TechniqueRun& run) const { return is(run.technique(), run.view().plan.settings); }
   std::string name() const { return technique->name + std::string(chosen_lights ? ":lights=all" : ""); }

@@ -9,6 +9,8 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "plan/coarse_shadows.h"
+#include "plan/settings/model.h"
+#include "plan/settings/picture.h"
 #include "scene/builtin.h"
 #include "scene/camera_path.h"
 #include "scene/light_motion.h"
@@ -78,7 +80,7 @@ void tell_endless_lights(const Scene& scene, const SceneChoice& choice) {
   constexpr ptrdiff_t many = 32;
   const auto endless = std::ranges::count_if(
       scene.lights, [](const Light& l) { return !is_directional(l) && std::isinf(l.radius_m); });
-  if (endless < many || chosen_settings(choice).ranges.range != LightRange::scene) return;
+  if (endless < many || chosen_settings(choice)[setting::range] != LightRange::scene) return;
   const std::vector<CutoffEffect> help = helpful_cutoffs(scene);
   const std::string line =
       fmt::format("{}: {} of {} lights have no range: every technique lists them at any distance",
@@ -329,7 +331,7 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
   place_virtual_lights(scene, choice);
   if (const auto casters = chosen_casters(choice.shadows)) choose_shadow_casters(scene, *casters);
   tell_endless_lights(scene, choice);
-  if (const std::string coarse = describe(coarse_shadows(scene, chosen_settings(choice).ranges), scene);
+  if (const std::string coarse = describe(coarse_shadows(scene, ranges_of(chosen_settings(choice))), scene);
       !coarse.empty())
     log_warning("{}: {}", choice.scene, coarse);
   return view;
@@ -385,7 +387,7 @@ Settings chosen_settings(const SceneChoice& choice) {
   Settings settings;
   for (const std::string& assignment : choice.set) apply_setting(settings, assignment);
   if (!choice.brdf.empty()) apply_setting(settings, "brdf=" + choice.brdf);
-  settings.display_ev = parse_exposure(choice);
+  settings.set(setting::display_ev, parse_exposure(choice));
   return settings;
 }
 

@@ -4,6 +4,8 @@
 #include <map>
 #include <numeric>
 
+#include "plan/settings/model.h"
+#include "plan/settings/shadows.h"
 #include "reference/lit_set.h"
 #include "reference/position.h"
 #include "reference/shading.h"
@@ -82,8 +84,8 @@ std::unique_ptr<SeenPairs> ShadowTruth::at_pixels(const Seen& v, const std::vect
   if (!casts()) return nullptr;
   std::vector<int> all(scene_.lights.size());
   std::iota(all.begin(), all.end(), 0);
-  const CastingLights lights = casting_lights(scene_, v.view, v.plan.settings.ranges, all);
-  return std::make_unique<SeenPairs>(occlusion_->get(v.plan.settings.shadow_blended),
+  const CastingLights lights = casting_lights(scene_, v.view, ranges_of(v.plan.settings), all);
+  return std::make_unique<SeenPairs>(occlusion_->get(v.plan.settings[setting::shadow_blended]),
                                      ShownSurfaces{v.view, depth, triangles}, lights, pixels, in_range);
 }
 

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "passes/read_outs.h"
+#include "plan/settings/model.h"
+#include "plan/settings/shadows.h"
 #include "reference/seen_pairs.h"
 #include "renderer/work.h"
 #include "session/scene_occlusion.h"
@@ -54,7 +56,9 @@ class ShadowTruth {
     BlendedCasters by_blended = BlendedCasters::none;
     bool operator==(const Model&) const = default;
   };
-  static Model model_of(const Seen& v) { return {v.plan.settings.ranges, v.plan.settings.shadow_blended}; }
+  static Model model_of(const Seen& v) {
+    return {ranges_of(v.plan.settings), v.plan.settings[setting::shadow_blended]};
+  }
   struct Decided {
     Model model;
     std::vector<float> depth;

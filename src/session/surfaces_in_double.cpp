@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cl/transfer.h"
+#include "plan/settings/model.h"
 #include "reference/scene_surfaces.h"
 #include "results/metrics.h"
 #include "session/oracle_sample.h"
@@ -29,7 +30,7 @@ SurfacesInDouble surfaces_in_double(const RenderView& v, const std::vector<Scene
     surfaces.push_back(scene.surface_at(triangle, centre));
     found.pixels.push_back(pixel);
   }
-  ShadeSettings settings{.brdf = v.plan.settings.brdf, .ambient = v.scene.ambient};
+  ShadeSettings settings{.brdf = v.plan.settings[setting::brdf], .ambient = v.scene.ambient};
   settings.base = base_terms(v.scene, v.view, v.plan);
   ShadowTruth own_shadows(v.scene, 0);
   if (!shadows) shadows = &own_shadows;
@@ -41,7 +42,7 @@ SurfacesInDouble surfaces_in_double(const RenderView& v, const std::vector<Scene
   }
   found.radiance = shade_pixels(
       v.view, depth, [&](uint32_t pixel) { return surfaces[place[pixel]]; },
-      lights_in_view(v.scene, v.view, meant_by(v.plan.settings).ranges), settings, found.pixels);
+      lights_in_view(v.scene, v.view, ranges_of(meant_by(v.plan.settings))), settings, found.pixels);
   return found;
 }
 

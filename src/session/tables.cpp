@@ -12,9 +12,9 @@ nlohmann::ordered_json techniques_json() {
     json["techniques"].push_back(
         {{"name", t->name}, {"summary", t->summary}, {"source", t->source}, {"settings", t->settings}});
   }
-  for (const SettingHelp& s : setting_help()) {
+  for (const SettingRow& s : setting_rows()) {
     json["settings"].push_back(
-        {{"key", s.key}, {"values", s.values}, {"meaning", s.meaning}, {"any_number", s.any_number}});
+        {{"key", s.key}, {"values", s.values}, {"meaning", s.meaning}, {"any_number", s.flags.any_number}});
   }
   return json;
 }

@@ -7,6 +7,9 @@
 #include "gl/bindings.h"
 #include "gl/gl.h"
 #include "passes/tone_map.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/picture.h"
+#include "plan/settings/samples.h"
 #include "results/metrics.h"
 
 namespace lightgrid {
@@ -21,7 +24,7 @@ static Frame draw(const Technique& technique, RenderView& view) {
   const bool opengl = view.renderer.gl != nullptr;
   if (opengl) reset_gl_state();
   Frame frame = draw_frame(technique, view);
-  if (view.plan.settings.picture == PictureFormat::bytes)
+  if (view.plan.settings[setting::picture] == PictureFormat::bytes)
     frame.displayed = tone_map(view, view.caches.tone_map, frame.image);
   if (opengl) check_gl(technique.name);
   return frame;
@@ -62,7 +65,7 @@ static const View& fitting(Renderer& renderer, GpuScene& gpu, const View& view, 
   const double pixels = double(view.grid().pixels()), usable = double(usable_memory());
   const bool in_host = renderer.cl->info().cpu || (renderer.gl && renderer.gl->software);
   if (std::max(view.width, view.height) <= counted_side ||
-      pixels * most_bytes * (1 + settings.samples) + spare_bytes < usable)
+      pixels * most_bytes * (1 + settings[setting::samples]) + spare_bytes < usable)
     return view;
   const std::string size = fmt::format("size {}x{}", view.width, view.height);
   double per_pixel = image_bytes + picture_bytes;
@@ -200,7 +203,7 @@ static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Fr
     unchanged = figures.unchanged;
   }
   result.dim_steps = plan.dim_steps;
-  if (plan.settings.everything_on) return result;
+  if (plan.settings[setting::everything_on]) return result;
   for (const LightShadow& light : plan.casting) {
     const bool needed = light.need == ShadowNeed::rays;
     if (!needed || unchanged)

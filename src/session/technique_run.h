@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "passes/read_back.h"
+#include "plan/settings/picture.h"
 #include "results/results.h"
 #include "techniques/technique.h"
 
@@ -62,7 +63,7 @@ class TechniqueRun {
   const Image& image() const { return image_; }
   // With picture=bytes: what srgb_bytes makes of the image, RGBA, row 0 at the bottom; else empty.
   const std::vector<glm::u8vec4>& picture() const { return picture_; }
-  bool draws_bytes() const { return view_.plan.settings.picture == PictureFormat::bytes; }
+  bool draws_bytes() const { return view_.plan.settings[setting::picture] == PictureFormat::bytes; }
   Image take_image() { return std::exchange(image_, {}); }    // image() is empty until the next run_frame()
   void reuse(Image&& memory) { image_ = std::move(memory); }  // for the next frame's image
   RenderView& view() { return view_; }

@@ -6,6 +6,9 @@
 #include "cl/transfer.h"
 #include "passes/rasterize.h"
 #include "passes/resolve.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
+#include "plan/settings/shadows.h"
 
 namespace lightgrid {
 namespace {
@@ -15,10 +18,10 @@ constexpr size_t most_pixels = size_t(1) << 21;
 constexpr int widest = 256, narrowest = 16;
 
 Settings settings_of_views(Settings s) {
-  s.shadows = ShadowMethod::none;
-  s.shadow_threshold = 0;
-  s.everything_on = false;
-  if (s.ranges.range == LightRange::stochastic) s.ranges.range = LightRange::infinite;
+  s.set(setting::shadows, ShadowMethod::none);
+  s.set(setting::shadow_threshold, 0);
+  s.set(setting::everything_on, false);
+  if (s[setting::range] == LightRange::stochastic) s.set(setting::range, LightRange::infinite);
   return s;
 }
 

@@ -3,6 +3,7 @@
 #include "passes/find_object_lights.h"
 #include "passes/shade_forward.h"
 #include "passes/shade_light_volumes.h"
+#include "plan/settings/surfaces.h"
 #include "techniques/recipes.h"
 
 namespace lightgrid {
@@ -16,7 +17,7 @@ static Frame render(RenderView& v) {
 }
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
-  needs.stencil = settings.volume_culling == VolumeCulling::stencil;
+  needs.stencil = settings[setting::volume_culling] == VolumeCulling::stencil;
 }
 
 extern const Technique deferred{

@@ -4,7 +4,9 @@
 #include "passes/depth_prepass.h"
 #include "passes/find_object_lights.h"
 #include "passes/light_index.h"
+#include "passes/light_index/lidr_settings.h"
 #include "passes/shade_forward.h"
+#include "plan/settings/shadows.h"
 #include "techniques/recipes.h"
 
 namespace lightgrid {
@@ -13,20 +15,21 @@ namespace lightgrid {
 // for all that lie before them.
 static void refuse_impossible(const FramePlan& plan) {
   const Settings& settings = plan.settings;
-  const bool front_faces = settings.lidr_volumes != LidrVolumes::stencil;
-  if (settings.lidr_shadows == LidrShadows::volumes && front_faces) {
+  const bool front_faces = settings[setting::lidr_volumes] != LidrVolumes::stencil;
+  if (settings[setting::lidr_shadows] == LidrShadows::volumes && front_faces) {
     throw input_error(
         "lidr: shadow volumes mark opaque surfaces, but lidr-volumes=front-faces lists lights for all that "
         "lies before them; use lidr-volumes=stencil, or lidr-shadows=prepass");
   }
-  const bool sorted =
-      settings.lidr_packing == LidrPacking::sort || settings.lidr_packing == LidrPacking::maxblend_sort;
-  if (sorted && settings.lidr_sort == LidrSort::still && front_faces) {
+  const bool sorted = settings[setting::lidr_packing] == LidrPacking::sort ||
+                      settings[setting::lidr_packing] == LidrPacking::maxblend_sort;
+  if (sorted && settings[setting::lidr_sort] == LidrSort::still && front_faces) {
     throw input_error(
         "lidr: behind front faces, lights of a group must not touch on the screen, which depends on the "
         "camera; use lidr-sort=view, or lidr-volumes=stencil");
   }
-  if (settings.lidr_volumes == LidrVolumes::no_prepass && (plan.light_reaches || plan.own_shadows)) {
+  if (settings[setting::lidr_volumes] == LidrVolumes::no_prepass &&
+      (plan.light_reaches || plan.own_shadows)) {
     throw input_error(
         "lidr: shadows are found at the surfaces of a depth prepass; use lidr-volumes=front-faces, or "
         "shadows=none");
@@ -35,7 +38,8 @@ static void refuse_impossible(const FramePlan& plan) {
 
 static Frame render(RenderView& v) {
   refuse_impossible(v.plan);
-  const bool prepass = v.plan.settings.lidr_volumes != LidrVolumes::no_prepass || v.plan.local.empty();
+  const bool prepass =
+      v.plan.settings[setting::lidr_volumes] != LidrVolumes::no_prepass || v.plan.local.empty();
   const Surfaces surfaces =
       prepass ? find_surfaces(v) : Surfaces{.image = no_depth_yet(v), .drawn = v.opaque};
   if (v.plan.local.empty()) return shade_every_light(v, surfaces);
@@ -50,9 +54,10 @@ static Frame render(RenderView& v) {
   for (uint32_t pass = 1; pass < passes; ++pass)
     add_lights_forward(v, surfaces.drawn, lights_of(pass), image);
   // Stencil marks opaque surfaces only, and only from these are lights hidden.
-  const bool as_opaque = !v.plan.own_shadows || v.plan.settings.lidr_shadows == LidrShadows::final_pass;
+  const bool as_opaque =
+      !v.plan.own_shadows || v.plan.settings[setting::lidr_shadows] == LidrShadows::final_pass;
   // A blended surface takes all its lights at once, and images have those of one pass.
-  if (v.plan.settings.lidr_volumes != LidrVolumes::stencil && as_opaque && passes == 1) {
+  if (v.plan.settings[setting::lidr_volumes] != LidrVolumes::stencil && as_opaque && passes == 1) {
     blend(v, surfaces, lights, image);
   } else {
     shade_blended(v, image, find_blended_object_lights(v, v.caches.blended_object_lights));
@@ -62,20 +67,21 @@ static Frame render(RenderView& v) {
   return frame;
 }
 
-static const OwnSetting<int> lights_with_maps{
+static const Setting<int> lights_with_maps{
+    390,
     "lidr-maps",
-    "volume-mesh",
     "lights with shadow maps, with lidr-shadows=final: those of most influence",
     {{"4", 4}, {"1", 1}, {"16", 16}, {"64", 64}, {"256", 256}},
-    {.shown = [](const Settings& s) { return s.lidr_shadows == LidrShadows::final_pass; }}};
+    {.shown = [](const Settings& s) { return s[setting::lidr_shadows] == LidrShadows::final_pass; }}};
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
-  needs.reversed_triangles = settings.lidr_passes > 1 || settings.lidr_types == LidrTypes::passes;
-  const LidrShadows way = settings.lidr_shadows;
+  needs.reversed_triangles =
+      settings[setting::lidr_passes] > 1 || settings[setting::lidr_types] == LidrTypes::passes;
+  const LidrShadows way = settings[setting::lidr_shadows];
   if (way == LidrShadows::pass) return;
   needs.own_shadows = true, needs.shadows_by = way == LidrShadows::volumes ? "shadow volumes" : "maps";
   if (way == LidrShadows::none) needs.most_own_shadows = 0;
-  if (way == LidrShadows::final_pass) needs.most_own_shadows = size_t(lights_with_maps.of(settings));
+  if (way == LidrShadows::final_pass) needs.most_own_shadows = size_t(settings[lights_with_maps]);
 }
 
 extern const Technique lidr{

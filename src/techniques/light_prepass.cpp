@@ -9,15 +9,16 @@
 #include "passes/sample_edges.h"
 #include "passes/shade_forward.h"
 #include "passes/shade_light_volumes.h"
+#include "plan/settings/surfaces.h"
 #include "techniques/recipes.h"
 
 namespace lightgrid {
 
 enum class PrepassLights { tiles, volumes };
 
-static const OwnSetting<PrepassLights> prepass_lights{
+static const Setting<PrepassLights> prepass_lights{
+    240,
     "prepass-lights",
-    "prepass-specular",
     "who adds up the light buffer: OpenCL from lists of tiles, or OpenGL, a light's volume after the other",
     {{"tiles", PrepassLights::tiles}, {"volumes", PrepassLights::volumes}}};
 
@@ -66,7 +67,7 @@ static Frame from_tiles(RenderView& v) {
 }
 
 static Frame render(RenderView& v) {
-  const bool volumes = prepass_lights.of(v.plan.settings) == PrepassLights::volumes;
+  const bool volumes = v.plan.settings[prepass_lights] == PrepassLights::volumes;
   if (volumes && !v.plan.opengl)
     throw input_error(
         "light_prepass: OpenGL draws light volumes, so prepass-lights=volumes needs raster=opengl");
@@ -75,9 +76,9 @@ static Frame render(RenderView& v) {
 }
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
-  if (prepass_lights.of(settings) == PrepassLights::tiles) return;
+  if (settings[prepass_lights] == PrepassLights::tiles) return;
   needs.light_grid = needs.capped_lists = false, needs.no_light_grid = "prepass-lights=volumes";
-  needs.stencil = settings.volume_culling == VolumeCulling::stencil, needs.group_stencil = true;
+  needs.stencil = settings[setting::volume_culling] == VolumeCulling::stencil, needs.group_stencil = true;
 }
 
 extern const Technique light_prepass{

@@ -8,6 +8,7 @@
 #include "passes/shade_forward.h"
 #include "passes/shade_objects.h"
 #include "passes/shade_tiles.h"
+#include "plan/settings/samples.h"
 
 namespace lightgrid {
 namespace {
@@ -78,7 +79,7 @@ void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaqu
 }
 
 void adapt_shade_tiled(TechniqueNeeds& needs, Settings& settings) {
-  if (settings.samples_resolve != SamplesResolve::linear) needs.most_samples = 1;
+  if (settings[setting::samples_resolve] != SamplesResolve::linear) needs.most_samples = 1;
 }
 
 Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {

@@ -5,6 +5,8 @@
 #include "base/text.h"
 #include "passes/find_shadows.h"
 #include "passes/resolve_samples.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/samples.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -33,7 +35,7 @@ Settings read_by(const Technique& technique, const Settings& settings) {
 bool meets(const Technique& technique, const Settings& settings,
            SettingFlags::Condition SettingFlags::*condition) {
   const Settings read = read_by(technique, settings);
-  return std::ranges::any_of(setting_help(), [&](const SettingHelp& row) {
+  return std::ranges::any_of(setting_rows(), [&](const SettingRow& row) {
     return row.flags.*condition && reads_setting(technique, row.key) && (row.flags.*condition)(read);
   });
 }
@@ -68,7 +70,7 @@ const Technique& find_technique(const std::string& name) {
 const std::vector<const char*>& common_settings() {
   static const std::vector<const char*> keys = [] {
     std::vector<const char*> all;
-    for (const SettingHelp& row : setting_help()) {
+    for (const SettingRow& row : setting_rows()) {
       if (row.flags.common) all.push_back(row.key.c_str());
     }
     return all;
@@ -83,7 +85,7 @@ bool reads_setting(const Technique& technique, const std::string& key) {
 }
 
 bool limits_lists(const Technique& technique, const Settings& settings) {
-  return technique.limited_lists || ((settings.list_cap > 0 || settings.view_cap > 0) &&
+  return technique.limited_lists || ((settings[setting::list_cap] > 0 || settings[setting::view_cap] > 0) &&
                                      adapted_needs(technique, settings).capped_lists);
 }
 
@@ -113,24 +115,24 @@ int most_samples(const Technique& technique, const Settings& settings) {
 
 void check_samples(const Technique& technique, const Settings& settings) {
   const int most = most_samples(technique, settings);
-  if (settings.samples > 1 && settings.samples_resolve != SamplesResolve::linear &&
+  if (settings[setting::samples] > 1 && settings[setting::samples_resolve] != SamplesResolve::linear &&
       !holds(technique.settings, "samples-resolve"))
     throw input_error(
         "set samples-resolve: {} averages light where it shades tiles; choose "
         "samples-resolve=linear",
         technique.name);
-  if (settings.samples <= most) return;
-  throw input_error("set samples={}: {} with these settings takes {} a pixel", settings.samples,
+  if (settings[setting::samples] <= most) return;
+  throw input_error("set samples={}: {} with these settings takes {} a pixel", settings[setting::samples],
                     technique.name, most);
 }
 
 std::map<std::string, std::string> settings_of(const Technique& technique, const Settings& settings) {
   std::map<std::string, std::string> all = to_strings(settings), own;
   const Settings read = read_by(technique, settings);
-  for (const SettingHelp& row : setting_help()) {
+  for (const SettingRow& row : setting_rows()) {
     const bool listed = row.flags.common || holds(technique.settings, row.key);
     const bool shown = !row.flags.shown || row.flags.shown(read);
-    if (listed && shown && (!row.flags.shown_if_given || settings.given.contains(row.key)))
+    if (listed && shown && (!row.flags.shown_if_given || settings.given(row)))
       own[json_key(row.key)] = all.at(json_key(row.key));
   }
   return own;

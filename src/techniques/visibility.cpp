@@ -1,13 +1,14 @@
 // Triangle numbers first, in OpenCL; then attributes, textures and light of each pixel in one pass, from its
 // tile's list.
+#include "plan/settings/grid.h"
 #include "techniques/recipes.h"
 
 namespace lightgrid {
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
-  needs.slices = settings.given.contains("slices");
-  if (!needs.slices) settings.slices = 1, needs.no_slices = "slices is not given";
-  if (settings.lights == ShadedLights::all)
+  needs.slices = settings.given(setting::slices);
+  if (!needs.slices) settings.set(setting::slices, 1), needs.no_slices = "slices is not given";
+  if (settings[setting::lights] == ShadedLights::all)
     needs.light_grid = needs.capped_lists = false, needs.no_light_grid = "lights=all";
 }
 

@@ -1,6 +1,7 @@
 // Lights are added up at the samples of a volume; surfaces read the volume, however many lights there are.
 #include "passes/build_voxels.h"
 #include "passes/cull_lights.h"
+#include "passes/voxels/voxel_settings.h"
 #include "techniques/recipes.h"
 
 namespace lightgrid {
@@ -30,7 +31,7 @@ static Frame render(RenderView& v) {
 }
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
-  if (settings.voxel_lights_exact != 0) return;
+  if (settings[setting::voxel_lights_exact] != 0) return;
   needs.light_grid = false, needs.no_light_grid = "voxel-lights-exact=0";
   needs.shadows = false, needs.no_shadows = "lights are added up where no pixel asks for one";
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "plan/settings/grid.h"
 #include "reference/position.h"
 #include "scene/view_lights.h"
 #include "verify/check.h"
@@ -99,12 +100,12 @@ CapTrials compared(const Scene& scene, const View& view, const GroupImage& whole
     const auto by_distance = [&](uint32_t i) { return glm::dot(lights[i].position, lights[i].position); };
     const auto by_dimness = [&](uint32_t i) { return dimness(view, tile, lights[i]); };
     bool right = std::ranges::is_sorted(kept) && std::ranges::includes(all, kept);
-    if (settings.list_cap_order == ListCapOrder::index)
-      right &= std::ranges::equal(kept, least(all, settings.list_cap, by_index));
-    if (settings.list_cap_order == ListCapOrder::distance)
-      right &= std::ranges::equal(kept, least(all, settings.list_cap, by_distance));
-    if (settings.list_cap_order == ListCapOrder::brightest) {
-      const std::vector<uint32_t> expected = least(all, settings.list_cap, by_dimness);
+    if (settings[setting::list_cap_order] == ListCapOrder::index)
+      right &= std::ranges::equal(kept, least(all, settings[setting::list_cap], by_index));
+    if (settings[setting::list_cap_order] == ListCapOrder::distance)
+      right &= std::ranges::equal(kept, least(all, settings[setting::list_cap], by_distance));
+    if (settings[setting::list_cap_order] == ListCapOrder::brightest) {
+      const std::vector<uint32_t> expected = least(all, settings[setting::list_cap], by_dimness);
       right &= alike ? std::ranges::equal(kept, expected) : as_dim(kept, expected, by_dimness);
     }
     trials.wrong += !right;

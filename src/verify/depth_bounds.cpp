@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "verify/check.h"
+#include "plan/settings/samples.h"
 #include "shared/cull_tests.h"
+#include "verify/check.h"
 
 namespace lightgrid::verify {
 namespace {

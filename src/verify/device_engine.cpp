@@ -11,6 +11,7 @@
 #include "passes/rasterize.h"
 #include "passes/read_outs.h"
 #include "passes/surfaces.h"
+#include "plan/settings/grid.h"
 #include "techniques/technique.h"
 #include "verify/engine.h"
 
@@ -233,7 +234,7 @@ class DeviceEngine : public CullEngine {
       if (renderer.gl) reset_gl_state();
       const Frame frame = technique.render(v);
       GroupImage& image = images.emplace_back();
-      image.lights = v.plan.local, image.tile = v.plan.settings.tile;
+      image.lights = v.plan.local, image.tile = v.plan.settings[setting::tile];
       image.pixels = read_pixels(v, frame.image);
       image.depths = depths_of(v, frame);
       image.lists =

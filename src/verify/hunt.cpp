@@ -15,6 +15,9 @@
 #include "capture/frame_file.h"
 #include "culling/view_depth.h"
 #include "plan/settings.h"
+#include "plan/settings/cull_test.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
 #include "verify/check.h"
 #include "verify/chosen_by_name.h"
 
@@ -96,9 +99,11 @@ CapturedFrame frame_of(const HuntSetting& setting, const HuntView& h, const Shru
 FrameGrid grid_of(const HuntSetting& setting, const HuntView& h, const ShrunkLoss& loss) {
   const CullerOptions& o = setting.options;
   Settings s;
-  s.cull_test = o.cull_test, s.depth_bounds = o.depth_bounds, s.tile = o.tile, s.grid_lists = o.lists;
-  s.slices = setting.slices, s.slice_spacing = setting.spacing, s.z_bins = setting.z_bins;
-  s.kernel_shape = o.shape, s.portable = o.portable;
+  s.set(setting::cull_test, o.cull_test), s.set(setting::depth_bounds, o.depth_bounds),
+      s.set(setting::tile, o.tile), s.set(setting::grid_lists, o.lists);
+  s.set(setting::slices, setting.slices), s.set(setting::slice_spacing, setting.spacing),
+      s.set(setting::z_bins, setting.z_bins);
+  s.set(setting::kernel_shape, o.shape), s.set(setting::portable, o.portable);
   return {loss.grid, o.tile, h.view.slice_edges, h.view.z_bin_edges, to_strings(s)};
 }
 

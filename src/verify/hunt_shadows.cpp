@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/timer.h"
+#include "plan/settings/kernels.h"
 #include "verify/hunt_sequences.h"
 
 namespace lightgrid::verify {
@@ -53,13 +54,15 @@ class ShadowHunt {
   bool compare(ShadowHuntTally& tally, const HuntedScene& made, uint64_t seed) {
     Random random(seed);
     Settings settings;
-    settings.everything_on = random.next() % 4 == 0, settings.portable = random.next() % 4 == 0;
+    settings.set(setting::everything_on, random.next() % 4 == 0),
+        settings.set(setting::portable, random.next() % 4 == 0);
     const std::vector<ShadowImage> images = engine_.shadows(made.scene, made.views, settings);
     if (images.empty()) throw input_error("the engine finds no shadows");
     std::vector<ShadowImage> by_others;
     if (random.next() % 16 == 0) {
       Settings lanes = settings, group = settings;
-      lanes.kernel_shape = KernelShape::lanes, group.kernel_shape = KernelShape::group;
+      lanes.set(setting::kernel_shape, KernelShape::lanes),
+          group.set(setting::kernel_shape, KernelShape::group);
       by_others = engine_.shadows(made.scene, made.views, lanes);
       for (ShadowImage& image : engine_.shadows(made.scene, made.views, group))
         by_others.push_back(std::move(image));
@@ -88,7 +91,8 @@ class ShadowHunt {
     const std::span<const SequenceKind> kinds = sequence_kinds();
     const SequenceKind& kind = kinds[random.next() % kinds.size()];
     Settings settings = settings_of(kind);
-    settings.portable = random.next() % 8 == 0, settings.everything_on = random.next() % 16 == 0;
+    settings.set(setting::portable, random.next() % 8 == 0),
+        settings.set(setting::everything_on, random.next() % 16 == 0);
     SequenceReport report = compare_sequence(engine_, made, kind, settings, options_.frames, random);
     tally.frames += report.frames, tally.stale += report.stale;
     if (report.stale > 0 && tally.refusal.empty())

@@ -9,6 +9,8 @@
 
 #include <fmt/ranges.h>
 
+#include "passes/light_index/lidr_settings.h"
+#include "plan/settings/surfaces.h"
 #include "reference/lit_set.h"
 #include "reference/position.h"
 #include "scene/view_lights.h"
@@ -48,9 +50,10 @@ void light_indices(Check& c, Scene scene, const std::vector<View>& views,
     Settings settings;
     std::istringstream words(listing.settings);
     for (std::string word; words >> word;) apply_setting(settings, word);
-    const bool box = settings.volume_mesh == VolumeMeshes::box;
-    const bool behind = settings.lidr_volumes == LidrVolumes::front_faces;
-    const bool anywhere = settings.lidr_volumes == LidrVolumes::no_prepass;  // along the sight, or past it
+    const bool box = settings[setting::volume_mesh] == VolumeMeshes::box;
+    const bool behind = settings[setting::lidr_volumes] == LidrVolumes::front_faces;
+    const bool anywhere =
+        settings[setting::lidr_volumes] == LidrVolumes::no_prepass;  // along the sight, or past it
     const std::vector<ListImage> images = c.engine.lists(scene, "lidr", views, settings);
     if (images.empty()) return c.skip("the engine draws no light volumes");
     for (size_t i = 0; i < views.size(); ++i) {

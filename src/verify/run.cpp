@@ -14,6 +14,7 @@
 #include "capture/frame_lists.h"
 #include "cl/build_error.h"
 #include "cl/error.h"
+#include "plan/settings/grid.h"
 #include "reference/lit_set.h"
 #include "renderer/render_view.h"
 #include "shared/cull_tests.h"
@@ -284,15 +285,15 @@ std::vector<CullView> replayed_views(const CapturedFrame& frame, const std::opti
     views.back().z_bin_edges = own->z_bin_edges;
   }
   Settings settings = frame_settings(frame, set);
-  for (const std::string& key : settings.given) {
+  for (const std::string& key : given_keys(settings)) {
     if (key != "slices" && key != "z-bins" && key != "slice-spacing")
       throw input_error(
           "verify: --replay already runs every value of the other settings; --set {} is not one of slices, "
           "z-bins and slice-spacing",
           key);
   }
-  const TechniqueNeeds needs{.slices = settings.given.contains("slices"),
-                             .z_bins = settings.given.contains("z-bins")};
+  const TechniqueNeeds needs{.slices = settings.given(setting::slices),
+                             .z_bins = settings.given(setting::z_bins)};
   if (needs.slices || needs.z_bins) views.push_back(cull_view_of(frame, grid_settings(settings, needs)));
   return views;
 }

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <functional>
 
+#include "plan/settings/cull_test.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/samples.h"
 #include "reference/lit_set.h"
 #include "reference/position.h"
 #include "scene/view_lights.h"
@@ -305,31 +309,32 @@ void edge_lists(Check& c, Random& random) {
   const View view = shadow_view(eye, target, 1 + int(random.next() % 120), 1 + int(random.next() % 90),
                                 random.uniform(0.1f, 2));
   Settings settings;
-  settings.samples = samples, settings.tile = 8 << random.next() % 3;
+  settings.set(setting::samples, samples), settings.set(setting::tile, 8 << random.next() % 3);
   const CullTestRow& row = cull_tests[random.next() % std::size(cull_tests)];
-  settings.cull_test = row.test;
-  settings.depth_bounds = depth_bounds_modes[random.next() % std::size(depth_bounds_modes)].mode;
-  settings.kernel_shape = random.next() % 2 ? KernelShape::lanes : KernelShape::group;
+  settings.set(setting::cull_test, row.test);
+  settings.set(setting::depth_bounds, depth_bounds_modes[random.next() % std::size(depth_bounds_modes)].mode);
+  settings.set(setting::kernel_shape, random.next() % 2 ? KernelShape::lanes : KernelShape::group);
   const std::vector<ListImage> images = c.engine.lists(scene, "visibility", {&view, 1}, settings);
   if (images.empty()) return c.skip("the engine draws no samples");
   const std::vector<ViewLight> lights = lights_in_view(scene, view);
   const ListedLights& lists = images[0].lists;
   const std::vector<Place> at = places(samples);
-  const int across = (view.width + settings.tile - 1) / settings.tile;
+  const int across = (view.width + settings[setting::tile] - 1) / settings[setting::tile];
   for (size_t i = 0; i < images[0].of_samples.size(); ++i) {
     const double depth = images[0].of_samples[i];
     if (!(depth > 0)) continue;
     const int pixel = int(i) / samples, x = pixel % view.width, y = pixel / view.width;
     const Place& p = at[i % size_t(samples)];
     const dvec3 position = position_at(view, x + 0.5 + p.x, y + 0.5 + p.y, depth);
-    const size_t cell = size_t(y / settings.tile) * size_t(across) + size_t(x / settings.tile);
+    const size_t cell =
+        size_t(y / settings[setting::tile]) * size_t(across) + size_t(x / settings[setting::tile]);
     const auto first = lists.indices.begin() + std::ptrdiff_t(lists.first.at(cell));
     for (uint32_t light = 0; light < lights.size(); ++light) {
       if (!is_lit(lights[light], position)) continue;
       c.trials(1), c.contacts(1);
       if (std::find(first, first + lists.count[cell], light) == first + lists.count[cell])
-        c.lost("samples={}, tile={}, {}: light {} reaches sample {} of pixel {} {}", samples, settings.tile,
-               row.name, light, i % size_t(samples), x, y);
+        c.lost("samples={}, tile={}, {}: light {} reaches sample {} of pixel {} {}", samples,
+               settings[setting::tile], row.name, light, i % size_t(samples), x, y);
     }
   }
 }

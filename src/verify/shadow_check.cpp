@@ -1,5 +1,7 @@
 #include "verify/shadow_check.h"
 
+#include "plan/settings/kernels.h"
+
 #include <algorithm>
 
 namespace lightgrid::verify {
@@ -7,15 +9,15 @@ namespace lightgrid::verify {
 std::vector<ShadowImage> shadows(Check& c, const Scene& scene, const std::vector<View>& views,
                                  const Shows& shows) {
   Settings settings;
-  settings.kernel_shape = KernelShape::lanes;
+  settings.set(setting::kernel_shape, KernelShape::lanes);
   std::vector<ShadowImage> images = c.engine.shadows(scene, views, settings);
   if (images.empty()) {
     c.skip("the engine finds no shadows");
     return images;
   }
-  settings.everything_on = true;
+  settings.set(setting::everything_on, true);
   const std::vector<ShadowImage> of_all_lights = c.engine.shadows(scene, views, settings);
-  settings = {}, settings.kernel_shape = KernelShape::group;
+  settings = {}, settings.set(setting::kernel_shape, KernelShape::group);
   const std::vector<ShadowImage> by_groups = c.engine.shadows(scene, views, settings);
   const Occlusion occlusion(scene);
   ShadowPairs all;

@@ -116,7 +116,7 @@ std::string render_command(const std::string& scene_words, int width, int height
   line += time_words + " -t " + side.technique;
   const auto values = to_strings(side.settings);
   const Technique& technique = find_technique(side.technique);
-  for (const std::string& key : side.settings.given) {
+  for (const std::string& key : given_keys(side.settings)) {
     if (!reads_setting(technique, key)) continue;
     line += fmt::format(" --set {}={}", key, values.at(json_key(key)));
   }

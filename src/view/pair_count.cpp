@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "plan/settings/grid.h"
+#include "plan/settings/model.h"
 #include "reference/position.h"
 #include "session/oracle.h"
 #include "session/shadow_truth.h"
@@ -12,8 +14,8 @@ namespace lightgrid {
 ListedFrame read_listed_frame(TechniqueRun& run) {
   const RenderView& v = run.view();
   const Settings& settings = v.plan.settings;
-  ListedFrame listed{{v.scene.name, v.view, settings.tile, v.plan.slice_far_m,
-                      lights_with_ranges(v.scene, settings.ranges), read_depth(run)},
+  ListedFrame listed{{v.scene.name, v.view, settings[setting::tile], v.plan.slice_far_m,
+                      lights_with_ranges(v.scene, ranges_of(settings)), read_depth(run)},
                      local_lights(v),
                      {}};
   listed.lists = listed_lights(run, listed.frame.depth);
@@ -30,7 +32,7 @@ void PairCount::count_light_alone(Job& job, const TechniqueRun& run) {
     const auto& all = v.plan.directional_lights;
     const auto place = std::ranges::find(all, light);
     for (const int i : std::span(all.begin(), place + (place != all.end()))) job.places.push_back(i);
-    job.listed.lights = lights_in_view(v.scene, v.view, v.plan.settings.ranges, job.places);
+    job.listed.lights = lights_in_view(v.scene, v.view, ranges_of(v.plan.settings), job.places);
   }
   const auto index = uint32_t(directional ? job.places.size() - 1 : size_t(kept - job.places.begin()));
   for (size_t i = 0; i < job.listed.lights.size(); ++i) {

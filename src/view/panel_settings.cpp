@@ -22,7 +22,7 @@ void choose_technique(SideControls& side) {
     side.technique = names[*chosen];
 }
 
-void choose_setting(SideControls& side, const SettingHelp& setting) {
+void choose_setting(SideControls& side, const SettingRow& setting) {
   const std::vector<std::string> values(setting.values.begin(), setting.values.end());
   const auto chosen =
       combo(("##" + setting.key).c_str(), to_strings(side.settings).at(json_key(setting.key)), values);
@@ -86,7 +86,7 @@ void show_techniques(Controls& controls, const Shown& shown) {
 
 void show_settings(Controls& controls, bool of_shadows) {
   if (!begin_table("settings")) return;
-  for (const SettingHelp& setting : setting_help()) {
+  for (const SettingRow& setting : setting_rows()) {
     if (setting.key.starts_with("shadow") != of_shadows) continue;
     if (!reads(controls.sides[0], setting.key) && !reads(controls.sides[1], setting.key)) continue;
     row_name(setting.key.c_str(), setting.meaning);

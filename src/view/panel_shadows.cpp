@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "plan/settings/kernels.h"
+#include "plan/settings/shadows.h"
 #include "view/panels.h"
 
 namespace lightgrid {
@@ -12,11 +14,11 @@ namespace {
 constexpr float casting_lines_high = 9;  // height of the list
 
 bool has_shadows_found(const LightShadow& light, const FramePlan& plan) {
-  return plan.light_reaches && (plan.settings.everything_on || light.need == ShadowNeed::rays);
+  return plan.light_reaches && (plan.settings[setting::everything_on] || light.need == ShadowNeed::rays);
 }
 
 const char* found_by(const FramePlan& plan) {
-  return plan.settings.shadows == ShadowMethod::map ? "maps" : "rays";
+  return plan.settings[setting::shadows] == ShadowMethod::map ? "maps" : "rays";
 }
 
 std::string why_none(const FramePlan& plan) {

@@ -8,6 +8,7 @@
 
 #include "capture/frame_culler.h"
 #include "passes/read_back.h"
+#include "plan/settings/samples.h"
 #include "reference/position.h"
 #include "session/runs.h"
 
@@ -168,7 +169,7 @@ void MapOfSide::show_edges(const MapChoice& wanted, Side& side) {
                           figures.edge_pixels, figures.shadings, figures.covered);
   } else {
     figures.surfaces.resize(size_t(side.width()) * size_t(side.height()));
-    legend_ = side.run().view().plan.settings.samples > 1
+    legend_ = side.run().view().plan.settings[setting::samples] > 1
                   ? "edges: OpenGL does not tell which pixels have several surfaces"
                   : "edges: one sample a pixel sees one surface";
   }

@@ -167,7 +167,7 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
 // Without an oracle an effect that is wrong would pass: techniques would only be compared with each other.
 TEST(Adding, EveryHookOfAnEffectHasItsOracle) {
   std::vector<std::string> keys_that_mean;
-  for (const SettingHelp& setting : setting_help()) {
+  for (const SettingRow& setting : setting_rows()) {
     if (setting.flags.mean) keys_that_mean.push_back(setting.key);
   }
   for (const Effect* effect : all_effects) EXPECT_EQ(missing_oracle(*effect, keys_that_mean), "") << effect->name;
@@ -191,8 +191,8 @@ TEST(Adding, AnEffectThatASettingStandsForIsNotInThePictureThatIsMeant) {
   for (const Effect* effect : all_effects) {
     if (!effect->base || !effect->base->meant_by) continue;
     bool ever_drawn = false;
-    const auto setting = std::ranges::find(setting_help(), effect->base->meant_by, &SettingHelp::key);
-    ASSERT_NE(setting, setting_help().end());
+    const auto setting = std::ranges::find(setting_rows(), effect->base->meant_by, &SettingRow::key);
+    ASSERT_NE(setting, setting_rows().end());
     for (const std::string& value : setting->values) {
       FramePlan plan{.local = {0}};
       apply_setting(plan.settings, setting->key + "=" + value);
@@ -204,6 +204,31 @@ TEST(Adding, AnEffectThatASettingStandsForIsNotInThePictureThatIsMeant) {
   }
 }
 
+// Its row, which no list of settings names.
+TEST(Adding, ASettingTakesOneRow) {
+  const std::regex row("Setting<[\\w:<>]+> (\\w+)\\{\\s*\\d+,\\s*\"([^\"]+)\"");
+  std::map<std::string, std::vector<std::string>> files_of;
+  std::vector<std::string> names;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::filesystem::path(source_folder) / "src")) {
+    if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+    const std::string code = code_of(file_bytes(entry.path()));
+    for (std::sregex_iterator at(code.begin(), code.end(), row), end; at != end; ++at) {
+      files_of[(*at)[2]].push_back(entry.path().string());
+      names.push_back((*at)[1]);
+    }
+  }
+  std::vector<std::string> keys;
+  for (const SettingRow& setting : setting_rows()) {
+    EXPECT_THAT(files_of[setting.key], testing::SizeIs(1)) << setting.key;
+    keys.push_back('"' + setting.key + '"');
+  }
+  const std::string all = code_of(text_at("src/plan/settings.h")) + code_of(text_at("src/plan/settings.cpp"));
+  for (const std::string& key : keys) EXPECT_THAT(all, testing::Not(testing::HasSubstr(key)));
+  for (const std::string& name : names)
+    EXPECT_FALSE(std::regex_search(all, std::regex("setting::" + name + "\\b"))) << name;
+}
+
 // Its key, its values and its effect on the plan stand in the technique's own file, which `lightgrid
 // techniques`,
 // --set and JSON files follow.
@@ -211,13 +236,13 @@ TEST(Adding, ASettingOfATechniqueTakesItsFile) {
   std::map<std::string, std::vector<std::string>> texts;
   Naming expected = {{"src/verify/group_cases.cpp", {"prepass-lights"}},  // of the ways that it compares
                      {"src/frontier/points.cpp", {"lidr-maps"}}};         // of what it varies
-  const std::regex own("OwnSetting<(\\w+)> (\\w+)\\{\\s*\"([^\"]+)\"");
+  const std::regex own("Setting<(\\w+)> (\\w+)\\{\\s*\\d+,\\s*\"([^\"]+)\"");
   for (const Technique* t : techniques()) {
     const std::string path = std::string("src/techniques/") + t->name + ".cpp", text = code_of(text_at(path));
     for (std::sregex_iterator at(text.begin(), text.end(), own), end; at != end; ++at) {
       const std::string key = (*at)[3];
       EXPECT_TRUE(reads_setting(*t, key)) << key;
-      texts[key] = {'"' + key + '"', '"' + key + '=', (*at)[1].str() + "::", (*at)[2].str() + ".of("};
+      texts[key] = {'"' + key + '"', '"' + key + '=', (*at)[1].str() + "::", '[' + (*at)[2].str() + ']'};
       expected[path].insert(key);
     }
   }

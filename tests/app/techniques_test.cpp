@@ -73,7 +73,7 @@ TEST(Techniques, ArePagesThatNameEverySettingOfTheirs) {
 
 // The lists are those of runs: SettingsRead in techniques_tests.
 TEST(Techniques, ReadEverySetting) {
-  for (const SettingHelp& s : setting_help()) {
+  for (const SettingRow& s : setting_rows()) {
     EXPECT_TRUE(std::ranges::any_of(techniques(), [&](auto* t) { return reads_setting(*t, s.key); }))
         << s.key;
   }
@@ -109,7 +109,7 @@ TEST(Techniques, AreNamedByTheHelpOfWhatTakesThem) {
 }
 
 // The beginning of a setting's row: "| `tile` | `16` `8` `32` `64` |".
-std::string row_of(const SettingHelp& s) {
+std::string row_of(const SettingRow& s) {
   std::string row = "| `" + s.key + "` |";
   for (const std::string& value : s.values) row += " `" + value + "`";
   return row + " |";
@@ -120,7 +120,7 @@ std::string row_of(const SettingHelp& s) {
 std::string with_settings_rows(std::string page) {
   const size_t begin = page.find("| setting | values | |");
   size_t after = page.find("| --- |", begin);
-  for (const SettingHelp& s : setting_help()) {
+  for (const SettingRow& s : setting_rows()) {
     const std::string key = "\n| `" + s.key + "` |";
     const size_t found = page.find(key, begin);
     if (found == page.npos) {
@@ -140,7 +140,7 @@ TEST(Settings, StandInTheCommandLinesTableWithTheirValuesTheDefaultFirst) {
   const std::string page = text_of(docs / "command_line.md");
   if (std::getenv("UPDATE_SETTINGS"))
     std::ofstream(docs / "command_line.md", std::ios::binary) << with_settings_rows(page);
-  for (const SettingHelp& s : setting_help()) {
+  for (const SettingRow& s : setting_rows()) {
     EXPECT_NE(text_of(docs / "command_line.md").find('\n' + row_of(s)), page.npos)
         << "docs/command_line.md: no row begins with " << row_of(s)
         << "; UPDATE_SETTINGS=1 with this test writes it";
@@ -150,8 +150,8 @@ TEST(Settings, StandInTheCommandLinesTableWithTheirValuesTheDefaultFirst) {
 TEST(Settings, RowsOfTheTableAreWrittenWhereTheyAreMissing) {
   const std::string page = text_of(docs / "command_line.md");
   EXPECT_TRUE(with_settings_rows(page) == page);
-  const SettingHelp* tile = nullptr;
-  for (const SettingHelp& s : setting_help()) tile = s.key == "tile" ? &s : tile;
+  const SettingRow* tile = nullptr;
+  for (const SettingRow& s : setting_rows()) tile = s.key == "tile" ? &s : tile;
   const size_t row = page.find("| `tile` |", page.find("| setting |")), end = page.find('\n', row) + 1;
   std::string changed = page;
   changed.replace(row, row_of(*tile).size(), "| `tile` | `1` |");
@@ -165,7 +165,7 @@ TEST(Settings, RowsOfTheTableAreWrittenWhereTheyAreMissing) {
 
 TEST(Settings, StartWithTheDefault) {
   const auto defaults = to_strings(Settings{});
-  for (const SettingHelp& s : setting_help()) {
+  for (const SettingRow& s : setting_rows()) {
     std::string key = s.key;
     std::replace(key.begin(), key.end(), '-', '_');
     EXPECT_EQ(defaults.at(key), s.values.front()) << s.key;

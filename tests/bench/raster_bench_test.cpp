@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "bench/bench.h"
 #include "bench/runs.h"
+#include "plan/settings/kernels.h"
 #include "scene/builtin.h"
 
 namespace lightgrid {
@@ -39,7 +40,7 @@ TEST(RasterBench, HasARowForEachKernelWithItsBytes) {
   }
   ClDevice device;
   BenchOptions options{.cases = {{"raster-small", {.width = 200, .height = 100}, {}, 0, "spheres"}},
-                       .contestants = {{"", {.kernel_shape = KernelShape::lanes}}},
+                       .contestants = {{"", {{setting::kernel_shape, KernelShape::lanes}}}},
                        .filter = "^raster-small/",
                        .frames = 2,
                        .warmup = 1};

@@ -3,6 +3,7 @@
 //   samples [SCENE...]        hall, street and gallery by default
 #include <fmt/format.h>
 
+#include "plan/settings/samples.h"
 #include "session/scene_choice.h"
 #include "support/fine_truth.h"
 
@@ -41,7 +42,7 @@ void tell(Renderer& renderer, const std::string& name) {
   const auto add = [&](const Technique* technique, const char* way) {
     for (const int samples : {1, 2, 4, 8}) {
       Settings settings;
-      settings.samples = samples;
+      settings.set(setting::samples, samples);
       if (way) apply_setting(settings, way);
       if (samples > most_samples(*technique, settings)) continue;
       const std::string called = way ? fmt::format("{} {}", technique->name, way) : technique->name;

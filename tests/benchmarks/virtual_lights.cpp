@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/timer.h"
+#include "plan/settings/model.h"
 #include "session/contestants.h"
 #include "session/scene_choice.h"
 #include "support/virtual_light_error.h"

@@ -15,6 +15,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "passes/common/world_grid_settings.h"
+#include "plan/settings/model.h"
 #include "renderer/upload/culler_input.h"
 #include "scene/builtin.h"
 #include "scene/grid_lists.h"
@@ -51,7 +53,7 @@ double elapsed_ms() {
 void measure(Renderer& renderer, GpuScene& gpu, const View& view, WorldGridShape shape, const char* name,
              double cell, int frames) {
   Settings settings;
-  settings.world_grid = shape, settings.world_cell = cell;
+  settings.set(setting::world_grid, shape), settings.set(setting::world_cell, cell);
   TechniqueRun run(renderer, gpu, view, settings, find_technique("world_grid"));
   run.run_frame(true);
   const LitPairs pairs = count_listed_pairs(run, read_depth(run));
@@ -60,7 +62,7 @@ void measure(Renderer& renderer, GpuScene& gpu, const View& view, WorldGridShape
   const double frame = (processor_ms() - before) / frames;
   const FramePlan& plan = run.view().plan;
   const std::shared_ptr<SharedWorldGrid> grid =
-      gpu.world_grid(renderer, {shape, cell, plan.index_bits, plan.settings.ranges});
+      gpu.world_grid(renderer, {shape, cell, plan.index_bits, ranges_of(plan.settings)});
   const WorldBox bounds = world_box(gpu.scene());
   const double start = processor_ms();
   std::vector<double> elapsed;

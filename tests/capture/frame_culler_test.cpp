@@ -10,6 +10,7 @@
 #include "capture/captured_frame.h"
 #include "capture/frame_lists.h"
 #include "inspect/inspect.h"
+#include "plan/settings/grid.h"
 #include "reference/position.h"
 #include "session/oracle.h"
 #include "support/render.h"
@@ -176,8 +177,8 @@ TEST(FrameCuller, AFrameReadFromFilesHasTheGridOfTheOneInMemory) {
 TEST(FrameCuller, SettingsAreTheFramesTileThenWhatIsGiven) {
   CapturedFrame frame = small_frame();
   frame.tile = 32;
-  EXPECT_EQ(frame_settings(frame, {}).tile, 32);
-  EXPECT_EQ(frame_settings(frame, {"tile=8"}).tile, 8);
+  EXPECT_EQ(frame_settings(frame, {})[setting::tile], 32);
+  EXPECT_EQ(frame_settings(frame, {"tile=8"})[setting::tile], 8);
   EXPECT_EQ(cull(frame, frame_settings(frame, {})).lists.cells_x, 2);
 }
 
@@ -189,7 +190,8 @@ TEST(FrameCuller, LosesNothingInSlicesAndZBins) {
       uint64_t listed[2];
       for (const GridLists lists : {GridLists::lists, GridLists::masks}) {
         const FrameGrid grid =
-            cull(frame, {.slices = 8, .z_bins = 64, .grid_lists = lists}, {.slices = true, .z_bins = true});
+            cull(frame, {{setting::slices, 8}, {setting::z_bins, 64}, {setting::grid_lists, lists}},
+                 {.slices = true, .z_bins = true});
         EXPECT_EQ(grid.lists.slices, 8);
         EXPECT_EQ(grid.slice_edges.size(), 7u);
         EXPECT_EQ(grid.z_bin_edges.size(), 63u);
@@ -216,7 +218,7 @@ TEST(FrameCuller, GridsHaveWhatTheTechniqueAndTheSettingsAskFor) {
   EXPECT_TRUE(grid_needs("forward_plus", given).z_bins) << "where the setting says so";
   EXPECT_TRUE(grid_needs("clustered", {}).slices);
   EXPECT_THROW(grid_needs("forward", {}), Error);
-  const FrameGrid grid = cull(small_frame(), {.slices = 8, .z_bins = 16});
+  const FrameGrid grid = cull(small_frame(), {{setting::slices, 8}, {setting::z_bins, 16}});
   EXPECT_EQ(grid.lists.slices, 1);
   EXPECT_EQ(grid.settings.at("slices"), "1");
   EXPECT_EQ(grid.settings.at("z_bins"), "off");
@@ -258,11 +260,11 @@ TEST_P(CaptureOf, HasTheGridThatTheRendererShadesFrom) {
 INSTANTIATE_TEST_SUITE_P(
     Techniques, CaptureOf,
     testing::Values(std::pair("forward_plus", Settings{}), std::pair("clustered", Settings{}),
-                    std::pair("forward_plus", Settings{.z_bins = 64}),
-                    std::pair("clustered", Settings{.slices = 8,
-                                                    .slice_spacing = SliceSpacing::linear,
-                                                    .z_bins = 16,
-                                                    .grid_lists = GridLists::masks})),
+                    std::pair("forward_plus", Settings{{setting::z_bins, 64}}),
+                    std::pair("clustered", Settings{{setting::slices, 8},
+                                                    {setting::slice_spacing, SliceSpacing::linear},
+                                                    {setting::z_bins, 16},
+                                                    {setting::grid_lists, GridLists::masks}})),
     [](const auto& info) { return std::to_string(info.index) + info.param.first; });
 
 }  // namespace

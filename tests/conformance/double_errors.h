@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <string>
 
+#include "plan/settings/model.h"
 #include "session/oracle.h"
 #include "session/surfaces_in_double.h"
 #include "support/devices.h"
@@ -64,8 +65,8 @@ inline DoubleErrors errors_against_double(const Scene& scene, const View& view,
   const auto lights = lights_in_view(scene, view);
   const auto shaded_at = [&](const std::vector<float>& depths) {
     const auto surface_at = [&](uint32_t pixel) { return seen.at(pixel); };
-    return shade_pixels(view, depths, surface_at, lights, {.brdf = settings.brdf, .ambient = scene.ambient},
-                        pixels);
+    return shade_pixels(view, depths, surface_at, lights,
+                        {.brdf = settings[setting::brdf], .ambient = scene.ambient}, pixels);
   };
   const auto radiance = shaded_at(depth), at_own_depth = shaded_at(read_depth(visibility));
   double brightest = 0;

@@ -8,6 +8,7 @@
 #include "base/image.h"
 #include "conformance/double_errors.h"
 #include "conformance/picture.h"
+#include "plan/settings/kernels.h"
 #include "support/gltf_builder.h"
 
 namespace lightgrid {
@@ -87,7 +88,7 @@ inline void expect_visibility_agrees(const Scene& scene, const View& view) {
   for (const Instance& instance : scene.instances) {
     if (scene.materials[scene.meshes[instance.mesh].material].alpha_mode == AlphaMode::blend) return;
   }
-  const DoubleErrors e = errors_against_double(scene, view, {.everything_on = true});
+  const DoubleErrors e = errors_against_double(scene, view, {{setting::everything_on, true}});
   EXPECT_LE(e.elsewhere, size_t(2 * own_size));
   EXPECT_LT(e.mean, 1e-6);
   EXPECT_LT(e.largest, 2e-5);

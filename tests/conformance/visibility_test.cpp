@@ -3,6 +3,7 @@
 
 #include "conformance/double_errors.h"
 #include "conformance/picture.h"
+#include "plan/settings/kernels.h"
 
 namespace lightgrid {
 namespace {
@@ -26,7 +27,7 @@ TEST_P(VisibilityModel, IsNoFurtherFromDoubleThanForward) {
     scene.lights = std::move(added.lights);
     scene.ambient = added.ambient;
   }
-  const DoubleErrors e = errors_against_double(scene, view, {.everything_on = true});
+  const DoubleErrors e = errors_against_double(scene, view, {{setting::everything_on, true}});
   fmt::print(
       "{}: {} of {} pixels compared; mean error {:.2g} ({:.2g} at its own depth), forward's {:.2g}; largest "
       "{:.2g}, {:.2g}; other "

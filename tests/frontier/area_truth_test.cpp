@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "frontier/brute_force.h"
+#include "plan/settings/samples.h"
 #include "reference/pixel_area.h"
 #include "results/metrics.h"
 #include "support/devices.h"
@@ -52,7 +53,7 @@ TEST(TruthOfAreas, IsTheOraclesMeanOfEachPixel) {
     // Along an axis its rows lie 16 times as dense as centres do; across slanted edges more so.
     EXPECT_LT(16 * truth.rmse, centres.rmse);
     // The picture that settings mean has their samples.
-    const Differences four = against(brute.picture({.samples = 4}));
+    const Differences four = against(brute.picture({{setting::samples, 4}}));
     EXPECT_LT(2 * four.rmse, centres.rmse);
     EXPECT_LT(truth.rmse, four.rmse);
   }

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "hard_cases/library_engine.h"
+#include "plan/settings/samples.h"
 #include "verify/hunt_cases.h"
 
 namespace lightgrid::verify {
@@ -25,9 +26,9 @@ struct AlteredLibrary : LibraryEngine {
   std::vector<ListImage> lists(const Scene& scene, const std::string& technique, std::span<const View> views,
                                const Settings& settings) override {
     std::vector<ListImage> images = library->lists(scene, technique, views, settings);
-    if (lists_of_centres && settings.samples > 1) {
+    if (lists_of_centres && settings[setting::samples] > 1) {
       Settings one = settings;
-      one.samples = 1;
+      one.set(setting::samples, 1);
       const std::vector<ListImage> centres = library->lists(scene, technique, views, one);
       for (size_t i = 0; i < images.size(); ++i) images[i].lists = centres[i].lists;
     }

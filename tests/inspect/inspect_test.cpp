@@ -121,7 +121,7 @@ TEST(Inspect, AgreesWithTheListsTheOracleAndItself) {
   const CapturedFrame frame = small_frame(61, 37);
   const std::vector<ViewLight> lights = local_lights(frame);
   int kept = 0, dropped = 0;
-  for (const SettingHelp& setting : setting_help()) {
+  for (const SettingRow& setting : setting_rows()) {
     const char* const keys[] = {"cull-test", "tile", "depth-bounds", "slices", "z-bins", "grid-lists"};
     if (std::ranges::find(keys, setting.key) == std::end(keys)) continue;
     for (const std::string& value : setting.values) {

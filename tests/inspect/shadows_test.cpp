@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "inspect/inspect.h"
+#include "plan/settings/shadows.h"
 #include "session/frame_shadows.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
@@ -115,8 +116,8 @@ TEST(InspectedShadows, KnowWhatBlendedSurfacesHide) {
         ++by_several;
       }
     }
-    EXPECT_EQ(by_pane > 50, settings.shadow_blended == BlendedCasters::opaque) << by_pane;
-    EXPECT_EQ(by_several > 50, settings.shadow_blended == BlendedCasters::alpha) << by_several;
+    EXPECT_EQ(by_pane > 50, settings[setting::shadow_blended] == BlendedCasters::opaque) << by_pane;
+    EXPECT_EQ(by_several > 50, settings[setting::shadow_blended] == BlendedCasters::alpha) << by_several;
   }
 }
 

@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "plan/settings/surfaces.h"
 #include "renderer/gpu_scene.h"
+#include "scene/blended_casters.h"
 #include "scene/builtin/compose.h"
 #include "scene/builtin/shapes.h"
 #include "scene/random.h"

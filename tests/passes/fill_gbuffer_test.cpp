@@ -8,6 +8,7 @@
 
 #include "passes/read_outs.h"
 #include "passes/surfaces.h"
+#include "plan/settings/surfaces.h"
 #include "shared/model_records.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
@@ -30,7 +31,7 @@ struct Surfaces {
 
 Surfaces surfaces_of(const Scene& scene, const View& view, int bits, bool after_prepass = false) {
   GpuScene gpu(test_devices(), scene);
-  RenderView v(test_devices(), gpu, view, {.buffer_bits = bits}, {});
+  RenderView v(test_devices(), gpu, view, {{setting::buffer_bits, bits}}, {});
   if (after_prepass) {
     fill_gbuffer(v, find_surfaces(v).drawn);
   } else {
@@ -221,7 +222,7 @@ TEST(FillGbuffer, ReadsAsThePlainBytesThatItsTableExplains) {
   const Scene scene = wall_of_normals(16, 2);
   const View view = wide_view(32, 32);
   GpuScene gpu(test_devices(), scene);
-  RenderView v(test_devices(), gpu, view, {.buffer_bits = 16}, {});
+  RenderView v(test_devices(), gpu, view, {{setting::buffer_bits, 16}}, {});
   const GBuffer g = fill_gbuffer(v);
   std::vector<glm::u16vec4> stored(32 * 32);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, g.framebuffer);

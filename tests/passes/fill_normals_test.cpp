@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/common/prepass_settings.h"
 #include "passes/read_outs.h"
 #include "renderer/render_view.h"
 #include "support/devices.h"
@@ -42,7 +43,7 @@ TEST(FillNormals, KeepsEveryDirectionWithinItsSteps) {
   for (const auto& [format, front_deg, all_deg] :
        {std::tuple(NormalFormat::floats, 0.0, 0.0), std::tuple(NormalFormat::octahedral, 0.0038, 0.0038),
         std::tuple(NormalFormat::spheremap, 0.0036, 0.8), std::tuple(NormalFormat::xyz8, 0.4, 0.4)}) {
-    RenderView v(test_devices(), gpu, view, {.normals = format}, {});
+    RenderView v(test_devices(), gpu, view, {{setting::normals, format}}, {});
     const NormalImage normals = fill_normals(v);
     std::vector<glm::vec4> stored(v.grid().values());
     glBindFramebuffer(GL_READ_FRAMEBUFFER, normals.framebuffer);

@@ -5,10 +5,12 @@
 #include <cmath>
 
 #include "cl/transfer.h"
+#include "passes/common/prepass_settings.h"
 #include "passes/cull_lights.h"
 #include "passes/depth_bounds.h"
 #include "passes/fill_light_buffer.h"
 #include "passes/pass_cases.h"
+#include "plan/settings/surfaces.h"
 #include "reference/attenuation.h"
 #include "reference/light_sums.h"
 #include "reference/position.h"
@@ -46,8 +48,8 @@ PrepassInput wall_input(const View& view, const glm::vec3& normal = {0, 0, 1}) {
 std::vector<SixSums> filled_sums(Renderer& renderer, const Scene& scene, const View& view,
                                  const PrepassInput& input) {
   Settings settings;
-  settings.raster = RasterApi::opencl;
-  settings.prepass_specular = PrepassSpecular::fifth_term;
+  settings.set(setting::raster, RasterApi::opencl);
+  settings.set(setting::prepass_specular, PrepassSpecular::fifth_term);
   GpuScene gpu(renderer, scene);
   RenderView v(renderer, gpu, view, settings,
                {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true});

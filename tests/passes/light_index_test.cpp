@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "passes/light_index/blending.h"
 #include "passes/light_index/layout.h"
+#include "passes/light_index/lidr_settings.h"
 #include "passes/light_index/light_groups.h"
 #include "scene/random.h"
 #include "shared/light_index.h"
@@ -15,7 +16,9 @@ namespace lightgrid {
 namespace {
 
 LightIndexLayout layout_of(LidrPacking packing, int overlap, int lights) {
-  return light_index_layout({.lidr_packing = packing, .lidr_overlap = overlap, .lidr_lights = lights}, 1);
+  return light_index_layout(
+      {{setting::lidr_packing, packing}, {setting::lidr_overlap, overlap}, {setting::lidr_lights, lights}},
+      1);
 }
 
 TEST(LightIndexLayout, ByHand) {
@@ -102,7 +105,7 @@ TEST(LightIndexLayout, LeavesOpenIsTheLeastAndTheMost) {
   EXPECT_EQ(light_index_layout({}, 15).name(), "bitshift, 16 overlaps of 15 lights");
   EXPECT_EQ(light_index_layout({}, 16).name(), "bitshift, 16 overlaps of 255 lights");
   EXPECT_EQ(light_index_layout({}, 256).name(), "bitshift, 8 overlaps of 65535 lights");
-  EXPECT_EQ(light_index_layout({.lidr_packing = LidrPacking::maxblend}, 256).name(),
+  EXPECT_EQ(light_index_layout({{setting::lidr_packing, LidrPacking::maxblend}}, 256).name(),
             "maxblend, 4 overlaps of 65535 lights");
 }
 
@@ -164,7 +167,7 @@ TEST(LightIndexLayout, HasRoomForSharesOrIsRefused) {
                          {2, 65535, 8},
                          {4, 65535, 12},
                          {8, 65535, 0}}) {
-    const Settings settings{.lidr_overlap = row.overlap, .lidr_lights = row.lights};
+    const Settings settings{{setting::lidr_overlap, row.overlap}, {setting::lidr_lights, row.lights}};
     if (row.bytes == 0) {
       EXPECT_THROW(light_index_layout(settings, 1, 4), Error);
       continue;
@@ -182,7 +185,7 @@ TEST(LightIndexLayout, HasRoomForSharesOrIsRefused) {
     EXPECT_EQ(lights, std::vector<uint32_t>{10}) << layout.name();
   }
   EXPECT_EQ(light_index_layout({}, 16, 4).name(), "bitshift, 8 overlaps of 255 lights with 4 bits of shadow");
-  EXPECT_THROW(light_index_layout({.lidr_packing = LidrPacking::maxblend}, 1, 4), Error);
+  EXPECT_THROW(light_index_layout({{setting::lidr_packing, LidrPacking::maxblend}}, 1, 4), Error);
 }
 
 // A quarter as 63 / 255, an ulp short, and truncated; 0.25 rounded; the article's 0.251 rounded and

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "plan/settings/surfaces.h"
 #include "scene/random.h"
 
 namespace lightgrid {

@@ -6,6 +6,8 @@
 #include "cl/transfer.h"
 #include "passes/read_back.h"
 #include "passes/resolve.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/surfaces.h"
 #include "renderer/render_view.h"
 #include "results/metrics.h"
 #include "support/devices.h"
@@ -36,7 +38,7 @@ Filled filled(const Scene& scene, const View& view, const Settings& settings) {
   RenderView v(test_devices(), gpu, view, settings, gbuffer_needs);
   const VisibilityBuffer visible = rasterize(v, v.caches);
   const GBufferInCl g = resolve_gbuffer(v, v.caches.resolver, visible, BaseLighting::in_image);
-  EXPECT_EQ(g.layout->bits, settings.buffer_bits);
+  EXPECT_EQ(g.layout->bits, settings[setting::buffer_bits]);
   Filled f;
   for (const size_t i : g.images) {
     f.bytes[i].resize(v.grid().values() * g.layout->images[i].bytes);
@@ -135,8 +137,10 @@ TEST(ResolveGbuffer, HoldsTheSurfacesInDouble) {
 TEST(ResolveGbuffer, HasTheSameBytesInBothShapes) {
   const Scene scene = scene_of_all_effects();
   for (const int bits : {32, 16, 8}) {
-    const Filled lanes = filled(scene, odd_view(), {.buffer_bits = bits, .kernel_shape = KernelShape::lanes});
-    const Filled group = filled(scene, odd_view(), {.buffer_bits = bits, .kernel_shape = KernelShape::group});
+    const Filled lanes = filled(scene, odd_view(),
+                                {{setting::buffer_bits, bits}, {setting::kernel_shape, KernelShape::lanes}});
+    const Filled group = filled(scene, odd_view(),
+                                {{setting::buffer_bits, bits}, {setting::kernel_shape, KernelShape::group}});
     for (size_t i = 0; i < gbuffer_most_images; ++i)
       EXPECT_TRUE(lanes.bytes[i] == group.bytes[i]) << bits << ' ' << i;
     EXPECT_TRUE(compare_images(lanes.image, group.image).bit_identical) << bits;
@@ -148,7 +152,7 @@ TEST(ResolveGbuffer, HasTheSameBytesInBothShapes) {
 template <typename Channel>
 void expect_rounded(const Scene& scene, int bits, double steps, double one, double angle_deg) {
   const Filled exact = filled(scene, odd_view(), {}),
-               rounded = filled(scene, odd_view(), {.buffer_bits = bits});
+               rounded = filled(scene, odd_view(), {{setting::buffer_bits, bits}});
   const double half = 0.502 / one;
   double largest = 0;
   for (size_t i = 0; i < exact.depth.size(); ++i) {
@@ -186,8 +190,8 @@ TEST(ResolveGbuffer, RoundsTo16And8BitsAsTheLayoutSays) {
 TEST(ResolveGbuffer, TexelsOf8BytesAreOffByHalfAStepOfAColorsRoot) {
   SmallScene s = small_scene();
   for (const char* name : {"base_color_map", "metallic_roughness_map", "normal_map"}) effect(name).add(s);
-  const Filled exact = filled(s.scene, odd_view(), {.texels = TexelLayout::separate});
-  const Filled small = filled(s.scene, odd_view(), {.texels = TexelLayout::packed_8});
+  const Filled exact = filled(s.scene, odd_view(), {{setting::texels, TexelLayout::separate}});
+  const Filled small = filled(s.scene, odd_view(), {{setting::texels, TexelLayout::packed_8}});
   double largest = 0;
   for (size_t i = 0; i < exact.depth.size(); ++i) {
     const glm::dvec4 a = exact.texel<float>(1, i), b = small.texel<float>(1, i);

@@ -9,6 +9,10 @@
 #include "passes/cull_lights.h"
 #include "passes/depth_bounds.h"
 #include "passes/read_back.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "renderer/render_view.h"
 #include "results/metrics.h"
 #include "scene/builtin.h"
@@ -23,8 +27,8 @@ constexpr TechniqueNeeds needs{.light_grid = true,
                                .lists = true,
                                .z_bins = true,
                                .adapt = [](TechniqueNeeds& needs, Settings& settings) {
-                                 needs.slices = settings.given.contains("slices");
-                                 needs.light_grid = settings.lights == ShadedLights::grid;
+                                 needs.slices = settings.given(setting::slices);
+                                 needs.light_grid = settings[setting::lights] == ShadedLights::grid;
                                }};
 
 struct Resolved {
@@ -99,7 +103,7 @@ Errors errors_of(const Scene& scene, const View& view, const Settings& settings 
     place[pixel] = surfaces.size(), surfaces.push_back(oracle.surface_at(pixel));
   const auto radiance = shade_pixels(
       view, r.depth, [&](uint32_t pixel) { return surfaces[place.at(pixel)]; }, lights_in_view(scene, view),
-      {.brdf = settings.brdf, .ambient = scene.ambient}, pixels);
+      {.brdf = settings[setting::brdf], .ambient = scene.ambient}, pixels);
   double brightest = 0;
   for (const glm::dvec3& c : radiance) brightest = std::max({brightest, c.r, c.g, c.b});
   for (size_t i = 0; i < pixels.size(); ++i) {
@@ -122,7 +126,7 @@ TEST_P(Resolve, HasTheRadianceOfTheSurfacesInDouble) {
   SmallScene s = small_scene();
   effect(GetParam()).add(s);
   for (const TexelLayout layout : {TexelLayout::packed, TexelLayout::separate}) {
-    const Errors e = errors_of(s.scene, small_view(79, 45), {.texels = layout});
+    const Errors e = errors_of(s.scene, small_view(79, 45), {{setting::texels, layout}});
     EXPECT_GT(e.compared, e.pixels / 4);
     EXPECT_LT(double(e.elsewhere), 0.005 * double(e.pixels));
     EXPECT_LT(e.mean, 1e-6);
@@ -132,7 +136,7 @@ TEST_P(Resolve, HasTheRadianceOfTheSurfacesInDouble) {
 
 // The ball is a metal: black if glTF's diffuse part were what remains.
 TEST(ResolveLambert, HasTheRadianceOfTheSurfacesInDouble) {
-  const Errors e = errors_of(small_scene().scene, small_view(79, 45), {.brdf = Brdf::lambert});
+  const Errors e = errors_of(small_scene().scene, small_view(79, 45), {{setting::brdf, Brdf::lambert}});
   EXPECT_GT(e.compared, e.pixels / 4);
   EXPECT_LT(e.mean, 1e-6);
   EXPECT_LT(e.largest, 2e-5);
@@ -189,7 +193,7 @@ View floor_view() { return make_view(look_at({0, 0, 0}, {0.2, -0.35, -1}), 96, 5
 void expect_floor(const Texture& sampler, glm::ivec2 size, bool maps_alike = true, bool steps = false) {
   const Scene scene = floor_scene(sampler, size, maps_alike);
   for (const TexelLayout layout : {TexelLayout::packed, TexelLayout::separate}) {
-    const Errors e = errors_of(scene, floor_view(), {.texels = layout});
+    const Errors e = errors_of(scene, floor_view(), {{setting::texels, layout}});
     EXPECT_GT(e.compared, e.pixels / 2);
     EXPECT_LT(double(e.elsewhere), 0.005 * double(e.pixels));
     EXPECT_LT(e.mean, steps ? 1e-4 : 5e-5);
@@ -240,11 +244,12 @@ TEST(ResolveKernels, HaveTheSameBytesInEveryShape) {
   const VisibilityBuffer visible = rasterize(drawn, drawn.caches);
   std::vector<Image> images;
   for (const Settings& settings :
-       {Settings{}, Settings{.portable = true}, Settings{.tile = 8},
-        Settings{.kernel_shape = KernelShape::lanes}, Settings{.kernel_shape = KernelShape::group},
-        Settings{.slices = 8, .z_bins = 64, .given = {"slices"}},
-        Settings{.slices = 8, .kernel_shape = KernelShape::group, .given = {"slices"}},
-        Settings{.tile = 64, .lights = ShadedLights::all}}) {
+       {Settings{}, Settings{{setting::portable, true}}, Settings{{setting::tile, 8}},
+        Settings{{setting::kernel_shape, KernelShape::lanes}},
+        Settings{{setting::kernel_shape, KernelShape::group}},
+        Settings{{setting::slices, 8}, {setting::z_bins, 64}}.give(setting::slices),
+        Settings{{setting::slices, 8}, {setting::kernel_shape, KernelShape::group}}.give(setting::slices),
+        Settings{{setting::tile, 64}, {setting::lights, ShadedLights::all}}}) {
     RenderView v(test_devices(), gpu, view, settings, needs);
     std::optional<ViewGrid> grid;
     if (v.plan.light_grid)

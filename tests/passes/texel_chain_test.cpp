@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "plan/settings/surfaces.h"
 #include "renderer/upload/scene_surfaces.h"
 #include "scene/builtin/compose.h"
 

@@ -9,6 +9,7 @@
 #include "base/image.h"
 #include "cl/transfer.h"
 #include "passes/read_back.h"
+#include "plan/settings/picture.h"
 #include "renderer/render_view.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
@@ -41,7 +42,7 @@ struct Given {
         view(renderer, gpu, small_view(width, height), bytes_at(ev), {.opengl = renderer.gl != nullptr}) {}
   static Settings bytes_at(double ev) {
     Settings settings;
-    settings.picture = PictureFormat::bytes, settings.display_ev = ev;
+    settings.set(setting::picture, PictureFormat::bytes), settings.set(setting::display_ev, ev);
     return settings;
   }
   std::vector<glm::u8vec4> picture(const ShadedImage& image) {
@@ -119,9 +120,9 @@ TEST(ToneMapPass, HasTheBytesOfTheHostsInOpenGl) {
 TEST(ToneMapPass, NeedsAnExposure) {
   Settings settings = Given::bytes_at(0);
   check_picture(settings);
-  settings.display_ev.reset();
+  settings.set(setting::display_ev, std::nullopt);
   EXPECT_THROW(check_picture(settings), Error);
-  settings.picture = PictureFormat::floats;
+  settings.set(setting::picture, PictureFormat::floats);
   check_picture(settings);
 }
 

@@ -7,6 +7,9 @@
 
 #include "passes/build_voxels.h"
 #include "passes/pass_cases.h"
+#include "passes/voxels/voxel_settings.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/surfaces.h"
 #include "reference/light_sums.h"
 #include "renderer/render_view.h"
 #include "scene/random.h"
@@ -64,10 +67,10 @@ struct VoxelCase {
 
 FilledVoxels filled_voxels(Renderer& renderer, const VoxelCase& of, VoxelSpace space) {
   Settings settings;
-  settings.raster = RasterApi::opencl;
-  settings.depth_bounds = DepthBoundsMode::none;
-  settings.voxel_size = VoxelSize::s16x16x4;
-  settings.voxel_space = space;
+  settings.set(setting::raster, RasterApi::opencl);
+  settings.set(setting::depth_bounds, DepthBoundsMode::none);
+  settings.set(setting::voxel_size, VoxelSize::s16x16x4);
+  settings.set(setting::voxel_space, space);
   Scene scene = of.scene;
   scene.lights.reserve(of.scene.lights.size() * size_t(of.repeated) + 1);
   for (double i = 1; i < of.repeated; ++i)

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/samples.h"
 #include "support/small_scene.h"
 
 namespace lightgrid {
@@ -109,7 +112,7 @@ TEST(FramePlan, TakesTheSamplesThatTheSceneAsksForOrSaysWhyNot) {
     Settings settings;
     for (const std::string& assignment : set) apply_setting(settings, assignment);
     const FramePlan plan = plan_frame(s.scene, small_view(32, 18), settings, needs);
-    EXPECT_EQ(plan.settings.samples, samples) << why;
+    EXPECT_EQ(plan.settings[setting::samples], samples) << why;
     EXPECT_EQ(decision(plan, "samples").why, why);
     EXPECT_EQ(decision(plan, "samples").needed, samples > 1) << why;
   };
@@ -160,7 +163,7 @@ TEST(FramePlan, SlicesReachFromTheNearPlaneToTheFarthestThingInView) {
   SmallScene s = small_scene();
   constexpr TechniqueNeeds clusters{.light_grid = true, .slices = true};
   const View view = small_view(17, 9);
-  const FramePlan plan = plan_frame(s.scene, view, {.slices = 8}, clusters);
+  const FramePlan plan = plan_frame(s.scene, view, {{setting::slices, 8}}, clusters);
   EXPECT_EQ(plan.slices, 8);
   EXPECT_EQ(plan.slice_near_m, 0.1);
   EXPECT_NEAR(plan.slice_far_m, 4, 1e-6);  // the wall
@@ -170,7 +173,7 @@ TEST(FramePlan, SlicesReachFromTheNearPlaneToTheFarthestThingInView) {
   EXPECT_NEAR(plan_frame(s.scene, make_view(near_far, 17, 9), {}, clusters).slice_far_m, 3.5, 1e-6);
   EXPECT_EQ(plan_of(s.scene).slices, 1);
   EXPECT_EQ(decision(plan_of(s.scene), "depth slices").why, "the technique uses none");
-  EXPECT_FALSE(decision(plan_frame(s.scene, view, {.slices = 1}, clusters), "depth slices").needed);
+  EXPECT_FALSE(decision(plan_frame(s.scene, view, {{setting::slices, 1}}, clusters), "depth slices").needed);
   EXPECT_FALSE(decision(plan_frame(small_scene(false).scene, view, {}, clusters), "depth slices").needed);
   const FramePlan empty = plan_frame({}, view, {}, clusters);
   EXPECT_GT(empty.slice_far_m, empty.slice_near_m);
@@ -179,7 +182,7 @@ TEST(FramePlan, SlicesReachFromTheNearPlaneToTheFarthestThingInView) {
 TEST(FramePlan, WithoutDepthBoundsOneGridServesAll) {
   SmallScene s = small_scene();
   effect("blend").add(s);
-  const FramePlan plan = plan_of(s.scene, {.depth_bounds = DepthBoundsMode::none});
+  const FramePlan plan = plan_of(s.scene, {{setting::depth_bounds, DepthBoundsMode::none}});
   EXPECT_TRUE(plan.blend && plan.light_grid);
   EXPECT_FALSE(plan.blend_grid);
   EXPECT_EQ(decision(plan, "blended light grid").why, "without depth bounds, one grid serves all surfaces");
@@ -206,7 +209,7 @@ TEST(FramePlan, IndicesGrowTo32BitsPast65536Lights) {
 }
 
 TEST(FramePlan, EverythingOnTurnsEveryEffectOn) {
-  const FramePlan plan = plan_of(small_scene().scene, {.everything_on = true});
+  const FramePlan plan = plan_of(small_scene().scene, {{setting::everything_on, true}});
   EXPECT_TRUE(plan.light_grid && plan.blend_grid && plan.local_lights && plan.spots && plan.directional &&
               plan.blend && plan.mask);
   EXPECT_EQ(plan.index_bits, 32);

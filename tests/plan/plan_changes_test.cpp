@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
 #include "scene/camera_path.h"
 #include "support/small_scene.h"
 
@@ -78,8 +80,8 @@ TEST(PlanChanges, AnEffectThatAnotherSurfaceStillNeedsStays) {
 }
 
 TEST(PlanChanges, WhatASettingLeavesOutDoesNotChange) {
-  EXPECT_THAT(with_effect("clearcoat", {.brdf = Brdf::lambert}), IsEmpty());
-  EXPECT_THAT(with_effect("clearcoat", {.everything_on = true}), IsEmpty());
+  EXPECT_THAT(with_effect("clearcoat", {{setting::brdf, Brdf::lambert}}), IsEmpty());
+  EXPECT_THAT(with_effect("clearcoat", {{setting::everything_on, true}}), IsEmpty());
 }
 
 TEST(PlanChanges, OfTwoPlansNameTheFrame) {

@@ -1,10 +1,17 @@
 #include "plan/settings.h"
 
 #include <algorithm>
+#include <set>
 
 #include <gmock/gmock.h>
 
 #include "base/error.h"
+#include "plan/settings/cull_test.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
+#include "plan/settings/picture.h"
+#include "plan/settings/shadows.h"
 #include "shared/cull_tests.h"
 
 namespace lightgrid {
@@ -25,7 +32,7 @@ std::string message_of(const std::string& assignment) {
 }
 
 TEST(Settings, EveryValueOfEveryKeyIsTakenAndToldBack) {
-  for (const SettingHelp& help : setting_help()) {
+  for (const SettingRow& help : setting_rows()) {
     const std::string key = json_key(help.key);
     EXPECT_EQ(to_strings(Settings{}).at(key), help.values.front()) << "the default stands first";
     for (const std::string& value : help.values) {
@@ -39,15 +46,42 @@ TEST(Settings, EveryValueOfEveryKeyIsTakenAndToldBack) {
   }
 }
 
+TEST(Settings, EachRowHasItsKeyItsPlaceAndItsNumber) {
+  std::set<std::string> keys;
+  std::set<size_t> numbers;
+  int last = 0;
+  for (const SettingRow& row : setting_rows()) {
+    EXPECT_GT(row.place, last) << row.key;
+    last = row.place;
+    EXPECT_TRUE(keys.insert(row.key).second) << row.key;
+    EXPECT_TRUE(numbers.insert(row.number).second) << row.key;
+    EXPECT_LT(row.number, Settings::most_settings) << row.key;
+  }
+}
+
+TEST(Settings, ValuesWithoutANameAreKept) {
+  Settings settings{{setting::shadow_memory, 12345}, {setting::shadow_source_m, 0.07}};
+  EXPECT_EQ(settings[setting::shadow_memory], 12345u);
+  EXPECT_EQ(settings[setting::shadow_source_m], 0.07);
+  EXPECT_EQ(to_strings(settings).count("shadow_memory"), 0u);
+  EXPECT_EQ(settings[setting::display_ev], 0);
+  settings.set(setting::display_ev, std::nullopt);
+  EXPECT_EQ(settings[setting::display_ev], std::nullopt);
+  settings.set(setting::display_ev, -1.5);
+  EXPECT_EQ(settings[setting::display_ev], -1.5);
+  settings.reset(setting::display_ev).reset(setting::shadow_memory).reset(setting::shadow_source_m);
+  EXPECT_EQ(settings, Settings());
+}
+
 TEST(Settings, CutoffAndAlphaAreNumbers) {
   Settings settings;
   apply_setting(settings, "cutoff=20");
   apply_setting(settings, "alpha=3.5e-4");
-  EXPECT_EQ(settings.ranges.cutoff, 20);
-  EXPECT_EQ(settings.ranges.alpha, 3.5e-4);
+  EXPECT_EQ(settings[setting::cutoff], 20);
+  EXPECT_EQ(settings[setting::alpha], 3.5e-4);
   EXPECT_EQ(to_strings(settings).at("cutoff"), "20");
   EXPECT_EQ(to_strings(settings).at("alpha"), "0.00035");
-  EXPECT_TRUE(settings.given.contains("cutoff"));
+  EXPECT_TRUE(settings.given(setting::cutoff));
   apply_setting(settings, "cutoff=0.50");
   EXPECT_EQ(to_strings(settings).at("cutoff"), "0.5");
   for (const char* wrong : {"cutoff=0", "cutoff=-1", "cutoff=1e10", "alpha=nan", "alpha=inf", "cutoff=much"})
@@ -60,7 +94,7 @@ TEST(Settings, UnknownWordsAreToldTheNearest) {
 }
 
 TEST(Settings, TheModelIsMadeOfTheSettingsThatItNames) {
-  for (const SettingHelp& help : setting_help()) {
+  for (const SettingRow& help : setting_rows()) {
     Settings settings;
     apply_setting(settings, help.key + "=" + help.values.back());
     const bool names = std::ranges::count(model_settings(), help.key) > 0;
@@ -89,7 +123,7 @@ TEST(Settings, ThePictureThatIsMeantHasNoApproximations) {
 
 TEST(Settings, OnlyTheKeysThatAreKeptKeepTheirValues) {
   Settings settings;
-  for (const SettingHelp& help : setting_help()) apply_setting(settings, help.key + "=" + help.values.back());
+  for (const SettingRow& help : setting_rows()) apply_setting(settings, help.key + "=" + help.values.back());
   auto expected = to_strings(Settings{});
   expected["tile"] = "64", expected["cutoff"] = "0.0001";
   EXPECT_EQ(
@@ -103,10 +137,10 @@ TEST(Settings, ValuesMeanWhatTheySay) {
   apply_setting(settings, "cull-test=sphere");
   apply_setting(settings, "depth-bounds=none");
   apply_setting(settings, "kernel-shape=group");
-  EXPECT_EQ(settings.tile, 64);
-  EXPECT_EQ(settings.cull_test, CullTest::sphere);
-  EXPECT_EQ(settings.depth_bounds, DepthBoundsMode::none);
-  EXPECT_EQ(settings.kernel_shape, KernelShape::group);
+  EXPECT_EQ(settings[setting::tile], 64);
+  EXPECT_EQ(settings[setting::cull_test], CullTest::sphere);
+  EXPECT_EQ(settings[setting::depth_bounds], DepthBoundsMode::none);
+  EXPECT_EQ(settings[setting::kernel_shape], KernelShape::group);
 }
 
 TEST(Settings, TakeWhatWasTunedWhereNothingElseIsSaid) {
@@ -115,10 +149,10 @@ TEST(Settings, TakeWhatWasTunedWhereNothingElseIsSaid) {
   apply_setting(settings, "tile=32");
   const Settings tuned =
       with_tuned(settings, {{"kernel-shape", "group"}, {"portable", "on"}, {"group-size", "128"}});
-  EXPECT_EQ(tuned.kernel_shape, KernelShape::automatic) << "said";
-  EXPECT_TRUE(tuned.portable);
-  EXPECT_EQ(tuned.group_size, 128);
-  EXPECT_EQ(tuned.tile, 32);
+  EXPECT_EQ(tuned[setting::kernel_shape], KernelShape::automatic) << "said";
+  EXPECT_TRUE(tuned[setting::portable]);
+  EXPECT_EQ(tuned[setting::group_size], 128);
+  EXPECT_EQ(tuned[setting::tile], 32);
   const Settings wrong =
       with_tuned({}, {{"tile", "64"}, {"portable", "perhaps"}, {"no-such", "1"}, {"group-size", "100"}});
   EXPECT_EQ(to_strings(wrong), to_strings(Settings{}))

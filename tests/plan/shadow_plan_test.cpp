@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "plan/frame_plan.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
 #include "scene/builtin/compose.h"
 #include "scene/builtin/shapes.h"
 
@@ -109,7 +111,7 @@ TEST(ShadowPlan, LightLoopsAskInEveryViewOfASceneWithALightThatCasts) {
   plan = plan_frame(room.scene, room.view, {}, {}, PlannedInstances::every);
   EXPECT_TRUE(plan.shadows && plan.light_reaches);
   EXPECT_THAT(plan.shadowed, ElementsAre(1));
-  plan = room.plan({.everything_on = true});
+  plan = room.plan({{setting::everything_on, true}});
   EXPECT_TRUE(plan.shadows && plan.light_reaches);
   EXPECT_THAT(plan.shadowed, ElementsAre(1));
 }
@@ -167,7 +169,7 @@ TEST(ShadowPlan, CastersOutOfRangeDoNotCount) {
   EXPECT_EQ(room.need(), ShadowNeed::no_caster);
   room.lamp({0, 1, 0}, 1e-3f);
   EXPECT_EQ(room.need(), ShadowNeed::no_caster);
-  EXPECT_EQ(room.need({.ranges = {.range = LightRange::infinite}}), ShadowNeed::rays)
+  EXPECT_EQ(room.need({{setting::range, LightRange::infinite}}), ShadowNeed::rays)
       << "the range is that of the settings";
 }
 
@@ -177,7 +179,7 @@ TEST(ShadowPlan, AHiddenLightCastsNothing) {
   room.put(room.ball, {0, 1, 0});
   room.lamp({0, 1, 0}, 0);
   EXPECT_TRUE(room.plan().casting.empty());
-  EXPECT_TRUE(room.plan({.ranges = {.range = LightRange::infinite}}).casting.empty());
+  EXPECT_TRUE(room.plan({{setting::range, LightRange::infinite}}).casting.empty());
 }
 
 TEST(ShadowPlan, RoundingMayMoveACasterIntoRange) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "plan/settings/samples.h"
 #include "session/compare.h"
 #include "support/devices.h"
 #include "support/fine_truth.h"
@@ -42,7 +43,7 @@ SmallScene in_the_sun() {
 
 CompareReport compared_samples(const Scene& scene, const std::vector<int>& samples) {
   std::vector<Contestant> contestants;
-  for (const int n : samples) contestants.push_back({&find_technique("visibility"), {.samples = n}});
+  for (const int n : samples) contestants.push_back({&find_technique("visibility"), {{setting::samples, n}}});
   return compare_techniques(software_devices(), scene, small_view(67, 41), contestants,
                             {.frames = 1, .warmup = 0, .shaded_samples = 100});
 }
@@ -50,8 +51,8 @@ CompareReport compared_samples(const Scene& scene, const std::vector<int>& sampl
 // Rows are those of the setting; the reference has one sample a pixel, whatever the scene asks for.
 TEST(AreaError, OfRowsWhoseSceneAsksForSamples) {
   Scene scene = in_the_sun().scene;
-  const std::vector<Contestant> plain = {{&find_technique("forward"), {.samples = 4}},
-                                         {&find_technique("visibility"), {.samples = 4}},
+  const std::vector<Contestant> plain = {{&find_technique("forward"), {{setting::samples, 4}}},
+                                         {&find_technique("visibility"), {{setting::samples, 4}}},
                                          {&find_technique("visibility"), {}}};
   const std::vector<Contestant> of_scene = {{&find_technique("forward"), {}},
                                             {&find_technique("visibility"), {}},

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "passes/light_index/lidr_settings.h"
 #include "passes/surfaces.h"
 #include "results/metrics.h"
 #include "results/results.h"
@@ -139,9 +140,9 @@ TEST(CompareTechniques, CountsLightsThatATechniqueHasNoPlaceFor) {
   for (int i = 0; i < 40; ++i) add_point(s.scene, "lamp", {0.01f * i, 0.4f, -3.5f}, {1, 1, 1}, 1, 2);
   const CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 10};
   const Technique& lidr = find_technique("lidr");
-  const CompareReport report =
-      compare_techniques(software_devices(), s.scene, small_view(17, 9),
-                         {{&lidr, {.lidr_overlap = 4}}, {&find_technique("forward_plus"), {}}}, options);
+  const CompareReport report = compare_techniques(
+      software_devices(), s.scene, small_view(17, 9),
+      {{&lidr, {{setting::lidr_overlap, 4}}}, {&find_technique("forward_plus"), {}}}, options);
   ASSERT_EQ(report.rows.size(), 2u);
   EXPECT_GT(report.rows[0].overflow, 0u);
   EXPECT_EQ(report.rows[0].overflow, report.rows[0].pairs->lost);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "plan/settings/samples.h"
 #include "session/technique_run.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
@@ -15,7 +16,8 @@ TEST(EdgeShare, IsAboutWhatVisibilityFinds) {
   const SmallScene s = small_scene();
   const View view = small_view(64, 40);
   for (const int samples : {4, 8}) {
-    TechniqueRun run(software_devices(), s.scene, view, {.samples = samples}, find_technique("visibility"));
+    TechniqueRun run(software_devices(), s.scene, view, {{setting::samples, samples}},
+                     find_technique("visibility"));
     run.run_frame();
     const SampleResult found = *run.result().samples;
     const EdgeShare share = find_edge_share(s.scene, view, samples);

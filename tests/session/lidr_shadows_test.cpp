@@ -2,6 +2,7 @@
 // differ from one with exact shadows only where a pair is wrong.
 #include <map>
 
+#include "plan/settings/shadows.h"
 #include "reference/lit_set.h"
 #include "reference/position.h"
 #include "techniques/shadow_stage.h"
@@ -223,7 +224,7 @@ TEST(LidrShadows, SharesNeedRoom) {
 TEST(LidrShadows, FollowEveryChange) {
   for (const LidrShadows way : {LidrShadows::volumes, LidrShadows::final_pass}) {
     SCOPED_TRACE(int(way));
-    const Settings settings{.lidr_shadows = way};
+    const Settings settings{{setting::lidr_shadows, way}};
     ShadowStage moving{shadowed_scene(), small_view(61, 37)};
     TechniqueRun run(test_devices(), moving.gpu, moving.view, settings, find_technique("lidr"));
     run.prepare();
@@ -258,7 +259,7 @@ TEST(LidrShadows, FollowEveryChange) {
 
 // Where the sun's shadows are those of the frame before, other views have drawn into the shared images since.
 TEST(LidrShadows, AreThoseOfTheirViewWhereTheSunsAreReused) {
-  Settings settings{.lidr_shadows = LidrShadows::final_pass};
+  Settings settings{{setting::lidr_shadows, LidrShadows::final_pass}};
   apply_setting(settings, "lidr-maps=256");
   apply_setting(settings, "shadow-reuse=on");
   const auto pool = std::make_shared<TargetPool>();
@@ -299,7 +300,8 @@ TEST(LidrShadows, CostNothingWhereNoLightCasts) {
   plain.run_frame();
   for (const LidrShadows way : {LidrShadows::volumes, LidrShadows::prepass, LidrShadows::prepass_soft,
                                 LidrShadows::final_pass, LidrShadows::none}) {
-    TechniqueRun run(test_devices(), scene, stage().view, {.lidr_shadows = way}, find_technique("lidr"));
+    TechniqueRun run(test_devices(), scene, stage().view, {{setting::lidr_shadows, way}},
+                     find_technique("lidr"));
     run.run_frame();
     EXPECT_TRUE(identical(run.image(), plain.image()));
     EXPECT_EQ(run.result().memory_total, plain.result().memory_total);

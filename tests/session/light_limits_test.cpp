@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "plan/frame_plan.h"
+#include "plan/settings/grid.h"
 #include "plan/visibility.h"
 #include "scene/builtin/compose.h"
 #include "scene/builtin/shapes.h"
@@ -389,7 +390,7 @@ TEST(LightLimits, TheNearestOfAViewAreThoseOfViewCap) {
     level.point(at, random.uniform(0.5f, 3));
   }
   Settings settings;
-  settings.view_cap = 256;
+  settings.set(setting::view_cap, 256);
   const FramePlan plan = plan_frame(level.scene, level.view, settings, find_technique("visibility").needs);
   ASSERT_EQ(plan.left_out.size(), plan.local.size());
   const LimitResult result = result_of(level, "filament/view");

@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 
+#include "plan/settings/surfaces.h"
 #include "results/metrics.h"
 #include "results/path_changes.h"
 #include "scene/builtin.h"
@@ -124,7 +125,7 @@ TEST(Moving, BuildsNothingForWhatEntersTheView) {
     GpuScene gpu(devices, scene);
     std::vector<Contestant> contestants;
     for (const Technique* technique : techniques()) contestants.push_back({technique, {}});
-    contestants.push_back({&find_technique("deferred_tiled"), {.raster = RasterApi::opencl}});
+    contestants.push_back({&find_technique("deferred_tiled"), {{setting::raster, RasterApi::opencl}}});
     for (const auto& [technique, settings] : contestants) {
       TechniqueRun run(devices, gpu, start, settings, *technique);
       std::vector<RunResult> rows(1);
@@ -141,7 +142,7 @@ TEST(Moving, BuildsNothingForWhatEntersTheView) {
 TEST(Moving, ErrorsAreThoseOfThePathsFrames) {
   const Scene scene = small_scene().scene;
   const std::vector<Contestant> contestants = {{&find_technique("forward"), {}},
-                                               {&find_technique("deferred"), {.buffer_bits = 8}}};
+                                               {&find_technique("deferred"), {{setting::buffer_bits, 8}}}};
   CompareOptions options{.frames = 1, .warmup = 0, .shaded_samples = 10};
   options.path = camera_path(scene, small_view(48, 32), "dolly:3");
   const CompareReport report =

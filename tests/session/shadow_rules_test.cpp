@@ -4,6 +4,7 @@
 #include <map>
 
 #include "plan/frame_plan.h"
+#include "plan/settings/shadows.h"
 #include "session/leaks.h"
 #include "support/random_rooms.h"
 
@@ -14,7 +15,7 @@ namespace {
 void expect_left_out_are_seen(const char* rays, double source_m) {
   Random random(2030);
   Settings settings;
-  settings.shadow_source_m = source_m;
+  settings.set(setting::shadow_source_m, source_m);
   apply_setting(settings, rays);
   std::map<ShadowNeed, int> lights;
   uint64_t lit = 0, leaked_with_rays = 0;
@@ -27,8 +28,7 @@ void expect_left_out_are_seen(const char* rays, double source_m) {
       ++lights[light.need];
       Scene& of = light.need == ShadowNeed::rays ? with_rays : left_out;
       of.lights[size_t(light.light)].casts_shadow = false;
-      if (settings.soft_shadows())
-        of.lights[size_t(light.light)].position += any_direction(within) * source_m;
+      if (soft_shadows(settings)) of.lights[size_t(light.light)].position += any_direction(within) * source_m;
     }
     const Leaks leaks = find_leaks(left_out, room.view, {});
     lit += leaks.lit;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "plan/settings/model.h"
 #include "session/compare.h"
 #include "session/oracle.h"
 #include "session/oracle_sample.h"
@@ -65,7 +66,7 @@ TEST(ShadowTruth, IsOfTheRangesOfTheRun) {
   Shown gl(s.scene, "forward");
   const uint64_t in_range = truth.pairs(gl.run.view(), gl.depth, gl.triangles)->pairs();
   Settings endless;
-  endless.ranges.range = LightRange::infinite;
+  endless.set(setting::range, LightRange::infinite);
   TechniqueRun run(software_devices(), s.scene, small_view(131, 77), endless, find_technique("forward"));
   run.run_frame();
   EXPECT_GT(truth.pairs(run.view(), gl.depth, gl.triangles)->pairs(), in_range);

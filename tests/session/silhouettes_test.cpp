@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "passes/light_index/lidr_settings.h"
+#include "plan/settings/surfaces.h"
 #include "results/metrics.h"
 #include "session/compare.h"
 #include "support/devices.h"
@@ -120,7 +122,7 @@ TEST(SilhouetteErrors, AreCountedApartByCompare) {
                          {{&find_technique("forward_plus"), {}},
                           {&find_technique("visibility"), {}},
                           {&find_technique("deferred_tiled"), {}},
-                          {&find_technique("deferred_tiled"), {.raster = RasterApi::opencl}}},
+                          {&find_technique("deferred_tiled"), {{setting::raster, RasterApi::opencl}}}},
                          options);
   EXPECT_FALSE(report.rows[2].error->silhouettes.has_value());
   ASSERT_TRUE(report.rows[3].error->silhouettes.has_value());
@@ -143,8 +145,8 @@ TEST(SameSurfaces, JudgeTheLightOfATechniqueApartFromItsSurfaces) {
   const std::vector<Contestant> contestants = {
       {&find_technique("forward_plus"), {}},
       {&find_technique("visibility"), {}},
-      {&find_technique("deferred_tiled"), {.raster = RasterApi::opencl}},
-      {&find_technique("lidr"), {.lidr_overlap = 1}}};
+      {&find_technique("deferred_tiled"), {{setting::raster, RasterApi::opencl}}},
+      {&find_technique("lidr"), {{setting::lidr_overlap, 1}}}};
   const View view = small_view(131, 77);
   const CompareReport report = compare_techniques(software_devices(), s.scene, view, contestants, options);
   ASSERT_TRUE(report.own_surfaces && report.own_surfaces->error);

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "plan/settings/surfaces.h"
 #include "session/compare.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
@@ -42,7 +43,7 @@ CompareReport compared(const Scene& scene, const View& view) {
   return compare_techniques(software_devices(), scene, view,
                             {{&find_technique("forward"), {}},
                              {&find_technique("visibility"), {}},
-                             {&deferred, {.buffer_bits = 8}}},
+                             {&deferred, {{setting::buffer_bits, 8}}}},
                             {.frames = 1, .warmup = 0, .shaded_samples = 3000});
 }
 

@@ -3,6 +3,8 @@
 
 #include "base/error.h"
 #include "gl/objects.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/surfaces.h"
 #include "results/metrics.h"
 #include "session/compare.h"
 #include "session/technique_run.h"
@@ -51,8 +53,9 @@ TEST(RendererWithoutOpenGl, ComparesWithEveryLightAlongAPath) {
   CompareOptions options{.frames = 1, .warmup = 0};
   options.path = {small_view(33, 19), make_view(look_at({0.1, 0, 0}, {0, 0, -1}), 33, 19),
                   small_view(33, 19)};
-  const CompareReport report = compare_techniques(
-      opencl_alone(), scene, small_view(33, 19), {{&visibility, {.texels = TexelLayout::separate}}}, options);
+  const CompareReport report =
+      compare_techniques(opencl_alone(), scene, small_view(33, 19),
+                         {{&visibility, {{setting::texels, TexelLayout::separate}}}}, options);
   EXPECT_EQ(report.reference, "visibility:lights=all");
   EXPECT_FALSE(report.reference_errors.has_value());
   ASSERT_EQ(report.rows.size(), 1u);
@@ -77,7 +80,7 @@ TEST(RendererWithOpenGl, UploadsNothingOfTheSceneForVisibility) {
   Renderer& devices = software_devices();
   const GlCounts before = gl_counts();
   GpuScene gpu(devices, scene);
-  TechniqueRun run(devices, gpu, small_view(71, 37), {.lights = ShadedLights::all},
+  TechniqueRun run(devices, gpu, small_view(71, 37), {{setting::lights, ShadedLights::all}},
                    find_technique("visibility"));
   run.run_frame();
   for (const GlKind kind : {GlKind::buffer, GlKind::texture, GlKind::vertex_array, GlKind::framebuffer}) {

@@ -6,6 +6,7 @@
 #ifdef LIGHTGRID_EMBREE
 #include <optional>
 
+#include "plan/settings/model.h"
 #include "session/surfaces_in_double.h"
 #include "session/technique_run.h"
 #include "session/virtual_lights.h"
@@ -40,7 +41,7 @@ class OneBounceView {
     for (uint32_t p = 0; p < shown.size(); ++p)
       if (shown[p].instance >= 0) covered.push_back(p);
     pixels_ = sample_pixels(covered, pixels);
-    OneBounce truth(scene_, settings_.brdf);
+    OneBounce truth(scene_, settings_[setting::brdf]);
     for (const uint32_t p : pixels_) {
       const auto half = [&](uint64_t seed) {
         return truth.radiance(view_, int(p % uint32_t(view_.width)), int(p / uint32_t(view_.width)),
@@ -57,7 +58,7 @@ class OneBounceView {
   // Draws virtual lights from here on; visibility unless set.
   void set_technique(const char* technique) { technique_ = technique; }
   // The ranges of virtual lights from here on.
-  void set_ranges(const LightRanges& ranges) { settings_.ranges = ranges; }
+  void set_ranges(const LightRanges& ranges) { lightgrid::set_ranges(settings_, ranges); }
 
   double truth_mean() const { return mean_; }
   double truth_noise() const { return std::sqrt(noise_) / mean_; }  // noise of one pixel

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "plan/settings/model.h"
 #include "reference/scene_surfaces.h"
 #include "session/oracle.h"
 #include "session/shadow_truth.h"
@@ -32,7 +33,7 @@ inline BlendedInDouble blended_in_double(TechniqueRun& run, ShadowTruth& truth) 
   std::map<int, size_t> order;  // of drawing, by instance
   for (const int i : v.plan.blended) order.emplace(i, order.size());
   SceneSurfaces surfaces(v.scene, v.view);
-  const std::vector<ViewLight> lights = lights_in_view(v.scene, v.view, v.plan.settings.ranges);
+  const std::vector<ViewLight> lights = lights_in_view(v.scene, v.view, ranges_of(v.plan.settings));
   struct Fragment {
     glm::dvec3 radiance;
     double alpha;
@@ -65,7 +66,8 @@ inline BlendedInDouble blended_in_double(TechniqueRun& run, ShadowTruth& truth) 
     const auto seen = truth.at_pixels(v, depth, triangles, pixels);
     const std::vector<glm::dvec3> radiance = shade_pixels(
         v.view, depth, [&](uint32_t p) { return at.at(p); }, lights,
-        {.brdf = v.plan.settings.brdf, .ambient = v.scene.ambient, .hidden = seen->hidden()}, pixels);
+        {.brdf = v.plan.settings[setting::brdf], .ambient = v.scene.ambient, .hidden = seen->hidden()},
+        pixels);
     for (size_t i = 0; i < pixels.size(); ++i) {
       const uint32_t p = pixels[i];
       if (seen->has_either(p)) undecided.insert(p);

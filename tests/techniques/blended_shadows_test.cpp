@@ -1,5 +1,7 @@
 // Shadows on blended surfaces, in every technique: each pair of a fragment and a light against the oracle,
 // and the picture in double.
+#include "plan/settings/kernels.h"
+#include "plan/settings/surfaces.h"
 #include "techniques/blended_in_double.h"
 #include "techniques/glazed_stage.h"
 
@@ -43,7 +45,7 @@ struct BlendedShadows : testing::TestWithParam<ShadowWay> {};
 TEST_P(BlendedShadows, AreTheOraclesInEachPairAndInThePicture) {
   const auto [technique, raster] = GetParam();
   Glazed& stage = glazed();
-  const Settings settings{.raster = raster};
+  const Settings settings{{setting::raster, raster}};
   TechniqueRun run(test_devices(), stage.gpu, stage.view, settings, *technique);
   run.run_frame();
   const BlendedPairs found = blended_pairs(stage, run);
@@ -116,7 +118,7 @@ TEST(BlendedShadowBits, HoldNothingOfEarlierFrames) {
   Glazed& stage = glazed();
   for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
     SCOPED_TRACE(int(shape));
-    const Settings settings{.kernel_shape = shape};
+    const Settings settings{{setting::kernel_shape, shape}};
     TechniqueRun run(test_devices(), stage.gpu, stage.view, settings, find_technique("visibility"));
     size_t fragments = 0;
     for (const auto& [eye, target, width] :

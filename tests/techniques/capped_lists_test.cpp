@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "plan/settings/grid.h"
 #include "reference/position.h"
 #include "support/small_scene.h"
 #include "techniques/many_lights.h"
@@ -57,7 +58,7 @@ struct Listed {
 // The distances from `near` to `far` of a pixel's cell, from the depth of the tile's pixels alone.
 std::pair<double, double> interval_at(const Listed& listed, const View& view, int x, int y) {
   const FramePlan& plan = listed.plan();
-  const int tile = plan.settings.tile, x0 = x / tile * tile, y0 = y / tile * tile;
+  const int tile = plan.settings[setting::tile], x0 = x / tile * tile, y0 = y / tile * tile;
   const auto distance = [&](int px, int py) {
     return -position_from_depth(view, px, py, listed.depth[size_t(py) * width + size_t(px)]).z;
   };
@@ -90,7 +91,7 @@ std::vector<double> keys_at(const Listed& listed, const View& view, const std::v
     for (const ViewLight& light : lights) keys.push_back(glm::length(light.position));
     return keys;
   }
-  const int tile = listed.plan().settings.tile;
+  const int tile = listed.plan().settings[setting::tile];
   const auto [near, far] = interval_at(listed, view, x, y);
   // The pixels' middle: between the centres of the tile's first and last.
   const double mx = 0.5 * (x / tile * tile + std::min(x / tile * tile + tile, width)),

@@ -2,6 +2,9 @@
 #include <cmath>
 
 #include "passes/read_outs.h"
+#include "plan/settings/cull_test.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
 #include "shared/cull_tests.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
@@ -30,24 +33,24 @@ INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinClustered, testing::Values("hall", "sphe
 
 // Each test, bound, spacing and shape, in few combinations, because each needs kernel builds.
 const Settings some_of_each[] = {
-    {.cull_test = CullTest::exact,
-     .depth_bounds = DepthBoundsMode::halfz,
-     .slices = 8,
-     .slice_spacing = SliceSpacing::linear},
-    {.cull_test = CullTest::sphere,
-     .depth_bounds = DepthBoundsMode::halfz_modified,
-     .tile = 64,
-     .slices = 64,
-     .kernel_shape = KernelShape::group},
-    {.cull_test = CullTest::aabb,
-     .depth_bounds = DepthBoundsMode::mask32,
-     .tile = 8,
-     .slices = 2,
-     .grid_lists = GridLists::masks},
-    {.cull_test = CullTest::planes,
-     .depth_bounds = DepthBoundsMode::none,
-     .slices = 32,
-     .slice_spacing = SliceSpacing::linear},
+    {{setting::cull_test, CullTest::exact},
+     {setting::depth_bounds, DepthBoundsMode::halfz},
+     {setting::slices, 8},
+     {setting::slice_spacing, SliceSpacing::linear}},
+    {{setting::cull_test, CullTest::sphere},
+     {setting::depth_bounds, DepthBoundsMode::halfz_modified},
+     {setting::tile, 64},
+     {setting::slices, 64},
+     {setting::kernel_shape, KernelShape::group}},
+    {{setting::cull_test, CullTest::aabb},
+     {setting::depth_bounds, DepthBoundsMode::mask32},
+     {setting::tile, 8},
+     {setting::slices, 2},
+     {setting::grid_lists, GridLists::masks}},
+    {{setting::cull_test, CullTest::planes},
+     {setting::depth_bounds, DepthBoundsMode::none},
+     {setting::slices, 32},
+     {setting::slice_spacing, SliceSpacing::linear}},
 };
 
 // The small scene with glass, a spot and many lamps.
@@ -76,7 +79,7 @@ TEST(Clustered, HasTheBytesUnderSomeOfEachSetting) {
 TEST(Clustered, OneSliceIsForwardPlus) {
   const Scene scene = crowded_scene();
   const View view = small_view(127, 73);
-  TechniqueRun one(test_devices(), scene, view, {.slices = 1}, find_technique("clustered"));
+  TechniqueRun one(test_devices(), scene, view, {{setting::slices, 1}}, find_technique("clustered"));
   TechniqueRun plus(test_devices(), scene, view, {}, find_technique("forward_plus"));
   one.run_frame(), plus.run_frame();
   EXPECT_EQ(one.frame().grid.value().cell_bytes, plus.frame().grid.value().cell_bytes);
@@ -95,9 +98,10 @@ TEST(GridMasks, HaveTheBytesOfEveryLightAtEveryPixel) {
       add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.2f + 0.03f * i}, {1, 1, 1}, 0.3f, 0.8f);
     const View view = small_view(127, 73);
     const Image forward = render(s.scene, view, "forward");
-    expect_exact(s.scene, view, {.grid_lists = GridLists::masks}, forward);
-    expect_exact(s.scene, view, {.grid_lists = GridLists::masks}, forward, "clustered");
-    expect_exact(s.scene, view, {.depth_bounds = DepthBoundsMode::none, .grid_lists = GridLists::masks},
+    expect_exact(s.scene, view, {{setting::grid_lists, GridLists::masks}}, forward);
+    expect_exact(s.scene, view, {{setting::grid_lists, GridLists::masks}}, forward, "clustered");
+    expect_exact(s.scene, view,
+                 {{setting::depth_bounds, DepthBoundsMode::none}, {setting::grid_lists, GridLists::masks}},
                  forward, "clustered");
   }
 }
@@ -109,7 +113,7 @@ TEST(GridMasks, HaveTheBytesOnBuiltinScenes) {
     const View view = default_view(scene, 95, 53);
     const Image forward = render(scene, view, "forward");
     for (const char* technique : {"forward_plus", "clustered"}) {
-      expect_exact(scene, view, {.grid_lists = GridLists::masks}, forward, technique);
+      expect_exact(scene, view, {{setting::grid_lists, GridLists::masks}}, forward, technique);
     }
   }
 }
@@ -118,9 +122,10 @@ TEST(GridMasks, OfNoLightsAreNothingAndEverythingOnChangesNoByte) {
   const View view = small_view(17, 9);
   for (const Scene& scene : {small_scene(false).scene, crowded_scene()}) {
     for (const bool everything : {false, true}) {
-      EXPECT_TRUE(identical(
-          render(scene, view, "clustered", {.grid_lists = GridLists::masks, .everything_on = everything}),
-          render(scene, view, "forward")));
+      EXPECT_TRUE(
+          identical(render(scene, view, "clustered",
+                           {{setting::grid_lists, GridLists::masks}, {setting::everything_on, everything}}),
+                    render(scene, view, "forward")));
     }
   }
 }
@@ -156,8 +161,8 @@ TEST(Clustered, OrthographicViewsFiniteFarPlanesAndGlass) {
     const Image forward = render(s.scene, view, "forward");
     EXPECT_GT(brightest_channel(forward), 0.2f);
     for (const DepthBoundsMode bounds : {DepthBoundsMode::minmax, DepthBoundsMode::none}) {
-      expect_exact(s.scene, view, {.depth_bounds = bounds}, forward, "clustered");
-      expect_exact(s.scene, view, {.depth_bounds = bounds}, forward);
+      expect_exact(s.scene, view, {{setting::depth_bounds, bounds}}, forward, "clustered");
+      expect_exact(s.scene, view, {{setting::depth_bounds, bounds}}, forward);
     }
   }
 }
@@ -168,7 +173,7 @@ TEST(Clustered, WithoutDepthBoundsOneGridServesGlassToo) {
   effect("blend").add(s);
   const View view = small_view(127, 73);
   for (const char* technique : {"clustered", "forward_plus"}) {
-    TechniqueRun run(test_devices(), s.scene, view, {.depth_bounds = DepthBoundsMode::none},
+    TechniqueRun run(test_devices(), s.scene, view, {{setting::depth_bounds, DepthBoundsMode::none}},
                      find_technique(technique));
     run.run_frame();
     EXPECT_FALSE(run.view().plan.blend_grid);
@@ -206,7 +211,8 @@ TEST(Clustered, ShadingFindsTheCellOfEveryPixelThatTheOracleTakes) {
                                                  {&small, orthographic_small_view(0)}};
   for (const auto& [scene, view] : cases) {
     for (const int slices : {1, 24, 64}) {
-      TechniqueRun run(test_devices(), *scene, view, {.slices = slices}, find_technique("clustered"));
+      TechniqueRun run(test_devices(), *scene, view, {{setting::slices, slices}},
+                       find_technique("clustered"));
       run.run_frame();
       RenderView& v = run.view();
       const std::vector<float> depth = read_depth(v);

@@ -2,6 +2,8 @@
 // picture. RayCaster.ForwardHasItsRadianceUnderSpotsWithHardEdges says that forward's is right.
 #include <numbers>
 
+#include "plan/settings/cull_test.h"
+#include "plan/settings/grid.h"
 #include "reference/position.h"
 #include "session/oracle_sample.h"
 #include "shared/cull_tests.h"
@@ -50,7 +52,7 @@ TEST(ConeEdges, AreInTheListsOfEveryCullTest) {
   const Image forward = render(s.scene, view, "forward");
   for (const CullTestRow& row : cull_tests) {
     Settings settings;
-    settings.cull_test = row.test, settings.tile = 8;
+    settings.set(setting::cull_test, row.test), settings.set(setting::tile, 8);
     EXPECT_TRUE(same_bytes(render(s.scene, view, "forward_plus", settings), forward)) << row.name;
   }
 }

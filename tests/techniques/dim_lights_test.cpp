@@ -6,6 +6,8 @@
 
 #include "base/image.h"
 #include "plan/dim_lights.h"
+#include "plan/settings/picture.h"
+#include "plan/settings/shadows.h"
 #include "support/random_rooms.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
@@ -39,13 +41,13 @@ TEST(DimLights, MoveNoPixelByMoreThanTheyMay) {
       for (Light& light : room.scene.lights)
         light.intensity *= float(display_step(ev) * threshold * std::exp2(double(random.uniform(-6, 4))));
       Settings settings;
-      settings.display_ev = ev, settings.shadow_threshold = threshold;
+      settings.set(setting::display_ev, ev), settings.set(setting::shadow_threshold, threshold);
       if (i % 4 == 0) apply_setting(settings, "brdf=lambert");
       if (i % 5 == 0) apply_setting(settings, "window=smooth");
       GpuScene gpu(test_devices(), room.scene);
       TechniqueRun run(test_devices(), gpu, room.view, settings, find_technique("visibility"));
       run.run_frame();
-      settings.shadow_threshold = 0;
+      settings.set(setting::shadow_threshold, 0);
       TechniqueRun exact(test_devices(), gpu, room.view, settings, find_technique("visibility"));
       exact.run_frame();
       const FramePlan& plan = run.view().plan;
@@ -113,7 +115,7 @@ TEST(DimLights, ABoundIsNotMuchTooWide) {
   Settings settings;
   apply_setting(settings, "brdf=lambert");
   const Image exact = render(dark.scene, dark.view, "visibility", settings);
-  settings.shadow_threshold = 1;
+  settings.set(setting::shadow_threshold, 1);
   const double moved = largest_step(render(dark.scene, dark.view, "visibility", settings), exact, 0);
   EXPECT_LT(moved, 1);
   EXPECT_GT(moved, 0.75);
@@ -122,7 +124,7 @@ TEST(DimLights, ABoundIsNotMuchTooWide) {
 TEST(DimLights, ManyOfThemTogetherAddNoMoreThanOneMay) {
   DarkWall dark;
   Settings settings;
-  apply_setting(settings, "brdf=lambert"), settings.shadow_threshold = 4;
+  apply_setting(settings, "brdf=lambert"), settings.set(setting::shadow_threshold, 4);
   const auto dim = [&](double share_of_a_step) {
     Light light = dark.scene.lights.at(0);
     light.intensity = float(share_of_a_step / dark.steps());
@@ -141,9 +143,9 @@ TEST(DimLights, NeedAnExposureThatIsKnown) {
   Random random(9);
   const RandomRoom room = random_room(random, 45, 31);
   Settings settings;
-  settings.shadow_threshold = 1, settings.display_ev.reset();
+  settings.set(setting::shadow_threshold, 1), settings.set(setting::display_ev, std::nullopt);
   EXPECT_THROW(plan_frame(room.scene, room.view, settings, {}), Error);
-  settings.shadow_threshold = 0;
+  settings.set(setting::shadow_threshold, 0);
   EXPECT_NO_THROW(plan_frame(room.scene, room.view, settings, {}));
 }
 

@@ -3,6 +3,8 @@
 #include "effects/far_light.h"
 
 #include "plan/frame_plan.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
 #include "scene/random.h"
 #include "support/small_scene.h"
 #include "techniques/lidr_scenes.h"
@@ -15,7 +17,7 @@ constexpr double far_pi = 3.14159265358979323846;
 
 Settings with_far_light(int samples, double cutoff = 0.5) {
   Settings settings;
-  settings.ranges = {.range = LightRange::cutoff, .cutoff = cutoff};
+  set_ranges(settings, {.range = LightRange::cutoff, .cutoff = cutoff});
   apply_setting(settings, samples > 0 ? "far-light=" + std::to_string(samples) : "far-light=off");
   return settings;
 }
@@ -61,7 +63,7 @@ struct FarLightWindows : testing::TestWithParam<RangeWindow> {};
 TEST_P(FarLightWindows, FillTheVolumeWithWhatTheyTakeAway) {
   const Scene scene = many_lights(7);
   Settings settings = with_far_light(512);
-  settings.ranges.window = GetParam();
+  settings.set(setting::window, GetParam());
   TechniqueRun run(test_devices(), scene, small_view(31, 23), settings, find_technique("visibility"));
   run.run_frame();
   const ReadFarLight read = read_far_light(run.view());
@@ -80,7 +82,7 @@ TEST_P(FarLightWindows, FillTheVolumeWithWhatTheyTakeAway) {
       const glm::dvec3 to_light = glm::dvec3(light.position) - at;
       const double d = glm::length(to_light);
       const glm::dvec3 l = to_light / d;
-      const double range = std::sqrt(brightest_intensity(light) / settings.ranges.cutoff);
+      const double range = std::sqrt(brightest_intensity(light) / settings[setting::cutoff]);
       const double beyond = (1 - kept_by_window(GetParam(), d / range)) / (d * d) * kept_by_cone(light, -l);
       const glm::dvec3 e = glm::dvec3(light.color) * double(light.intensity) * beyond;
       for (int c = 0; c < 3; ++c) {
@@ -111,7 +113,7 @@ TEST(FarLight, BothShapesFillTheSameBytes) {
   const Scene scene = many_lights(8);
   const auto volume = [&](KernelShape shape) {
     Settings settings = with_far_light(4096);
-    settings.kernel_shape = shape;
+    settings.set(setting::kernel_shape, shape);
     TechniqueRun run(test_devices(), scene, small_view(31, 23), settings, find_technique("visibility"));
     run.run_frame();
     return std::pair(read_far_light(run.view()).moments, run.image());
@@ -146,11 +148,11 @@ TEST(FarLight, GivesBackWhatACutoffTakes) {
   for (const char* technique : {"forward", "visibility"}) {
     SCOPED_TRACE(technique);
     Settings endless;
-    endless.brdf = Brdf::lambert, endless.ranges.range = LightRange::infinite;
+    endless.set(setting::brdf, Brdf::lambert), endless.set(setting::range, LightRange::infinite);
     const Image truth = render(scene, view, technique, endless);
     const auto lost = [&](int samples) {
       Settings settings = with_far_light(samples, 0.2);
-      settings.brdf = Brdf::lambert;
+      settings.set(setting::brdf, Brdf::lambert);
       return light_lost(render(scene, view, technique, settings), truth);
     };
     const LightLost bare = lost(0), coarse = lost(512), fine = lost(32768);
@@ -170,7 +172,7 @@ TEST(FarLight, KeepsTheEnergyOfSpecularLobes) {
   scene.ambient = glm::vec3(0);
   const View view = default_view(scene, 95, 53);
   Settings endless;
-  endless.ranges.range = LightRange::infinite;
+  endless.set(setting::range, LightRange::infinite);
   const Image truth = render(scene, view, "visibility", endless);
   const LightLost bare = light_lost(render(scene, view, "visibility", with_far_light(0, 0.2)), truth),
                   with = light_lost(render(scene, view, "visibility", with_far_light(4096, 0.2)), truth);
@@ -224,9 +226,9 @@ TEST(FarLight, IsKeptWhileLightsRest) {
 
 TEST(FarLight, MeansThePictureWithoutRanges) {
   Settings meant = meant_by(with_far_light(512));
-  EXPECT_EQ(meant.ranges.range, LightRange::infinite);
+  EXPECT_EQ(meant[setting::range], LightRange::infinite);
   EXPECT_EQ(to_strings(meant).at("far_light"), "off");
-  EXPECT_EQ(meant_by(with_far_light(0)).ranges.range, LightRange::cutoff);
+  EXPECT_EQ(meant_by(with_far_light(0))[setting::range], LightRange::cutoff);
   EXPECT_TRUE(std::ranges::count(model_settings(), "far-light"));
 }
 
@@ -246,7 +248,7 @@ TEST(FarLight, IsNothingWhereNoLightEnds) {
   const View view = small_view(31, 23);
   for (const LightRange range : {LightRange::infinite, LightRange::stochastic}) {
     Settings without = with_far_light(0), with = with_far_light(512);
-    without.ranges.range = with.ranges.range = range;
+    without.set(setting::range, range), with.set(setting::range, range);
     TechniqueRun run(test_devices(), scene, view, with, find_technique("visibility"));
     EXPECT_EQ(fills(run), 0);
     EXPECT_TRUE(identical(run.image(), render(scene, view, "visibility", without)));

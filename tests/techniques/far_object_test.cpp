@@ -1,5 +1,6 @@
 // An object far away changes no shadow near the lights. The oracle here knows nothing of it, so that its
 // bounds on rounding are those of the near scene.
+#include "plan/settings/surfaces.h"
 #include "techniques/shadow_stage.h"
 
 namespace lightgrid {
@@ -27,7 +28,7 @@ class FarObject : public testing::TestWithParam<RasterApi> {};
 
 TEST_P(FarObject, ChangesNoShadowNearTheLights) {
   const Technique& technique = find_technique("forward_plus");
-  const Settings settings{.raster = GetParam()};
+  const Settings settings{{setting::raster, GetParam()}};
   Near& stage = near_stage();
   TechniqueRun alone(test_devices(), stage.gpu, stage.view, settings, technique);
   alone.run_frame();

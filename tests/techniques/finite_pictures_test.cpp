@@ -1,6 +1,8 @@
 // No pixel is NaN, infinite or negative, in any technique, of planes that contain the eye and of other
 // triangles without area on the screen: some pixels are covered that lie far outside of the triangle in its
 // own coordinates. Nor of vertices whose attributes have no direction and no place.
+#include "plan/settings/kernels.h"
+#include "plan/settings/surfaces.h"
 #include "scene/random.h"
 #include "support/small_scene.h"
 #include "support/technique_tiers.h"
@@ -101,9 +103,9 @@ TEST_P(FinitePictures, OfSliversWithVertexColours) { expect_slivers(GetParam()->
 TEST_P(FinitePictures, OfSliversWithEveryEffect) { expect_slivers(GetParam()->name, every_effect, 3, {}); }
 
 TEST_P(FinitePictures, OfSliversDrawnByOpenCl) {
-  expect_slivers(GetParam()->name, colours_alone, 3, {.raster = RasterApi::opencl});
+  expect_slivers(GetParam()->name, colours_alone, 3, {{setting::raster, RasterApi::opencl}});
   expect_slivers(GetParam()->name, every_effect, 2,
-                 {.kernel_shape = KernelShape::group, .raster = RasterApi::opencl});
+                 {{setting::kernel_shape, KernelShape::group}, {setting::raster, RasterApi::opencl}});
 }
 
 TEST_P(FinitePictures, OfAttributesWithoutDirectionOrPlace) {
@@ -126,7 +128,7 @@ TEST_P(FinitePictures, OfAttributesWithoutDirectionOrPlace) {
     }
   }
   for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
-    const Settings settings{.kernel_shape = shape, .raster = RasterApi::opencl};
+    const Settings settings{{setting::kernel_shape, shape}, {setting::raster, RasterApi::opencl}};
     EXPECT_EQ(impossible_pixels(render(s.scene, small_view(63, 37), GetParam()->name, settings)), 0u);
   }
   EXPECT_EQ(impossible_pixels(render(s.scene, small_view(63, 37), GetParam()->name)), 0u);

@@ -1,9 +1,12 @@
 // Forward+ gives the bytes of the brute-force image, under every setting.
 #include <cmath>
 
+#include "plan/settings/cull_test.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
+#include "shared/cull_tests.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
-#include "shared/cull_tests.h"
 
 namespace lightgrid {
 namespace {
@@ -27,8 +30,8 @@ TEST_P(BuiltinForwardPlus, HasTheBytesOfEveryLightAtEveryPixel) {
 TEST_P(BuiltinForwardPlus, EveryEffectOnChangesNoByte) {
   const View view = default_view(scene, 160, 90);
   for (const char* technique : {"forward", "forward_plus"}) {
-    EXPECT_TRUE(
-        identical(render(scene, view, technique, {.everything_on = true}), render(scene, view, technique)))
+    EXPECT_TRUE(identical(render(scene, view, technique, {{setting::everything_on, true}}),
+                          render(scene, view, technique)))
         << technique;
   }
 }
@@ -41,7 +44,8 @@ TEST_P(BuiltinForwardPlus, HasTheBytesThroughEveryCamera) {
     const Image forward = render(scene, view, "forward");
     expect_exact(scene, view, {}, forward);
     // Without depth bounds nothing is treated as hidden.
-    EXPECT_TRUE(identical(render(scene, view, "forward", {.depth_bounds = DepthBoundsMode::none}), forward));
+    EXPECT_TRUE(
+        identical(render(scene, view, "forward", {{setting::depth_bounds, DepthBoundsMode::none}}), forward));
   }
 }
 
@@ -63,7 +67,7 @@ TEST(ForwardPlus, HasTheBytesUnderEverySetting) {
        {CullTest::sphere, CullTest::planes, CullTest::aabb, CullTest::planes_aabb, CullTest::exact}) {
     for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
       SCOPED_TRACE(fmt::format("test {} shape {}", int(test), int(shape)));
-      expect_exact(scene, view, {.cull_test = test, .kernel_shape = shape}, forward);
+      expect_exact(scene, view, {{setting::cull_test, test}, {setting::kernel_shape, shape}}, forward);
     }
   }
   constexpr DepthBoundsMode modes[] = {DepthBoundsMode::minmax, DepthBoundsMode::none, DepthBoundsMode::halfz,
@@ -71,13 +75,13 @@ TEST(ForwardPlus, HasTheBytesUnderEverySetting) {
   for (const DepthBoundsMode mode : modes) {
     for (const KernelShape shape : {KernelShape::lanes, KernelShape::group}) {
       SCOPED_TRACE(fmt::format("bounds {} shape {}", int(mode), int(shape)));
-      expect_exact(scene, view, {.depth_bounds = mode, .kernel_shape = shape}, forward);
+      expect_exact(scene, view, {{setting::depth_bounds, mode}, {setting::kernel_shape, shape}}, forward);
     }
   }
   for (const int tile : {8, 32, 64}) {
     for (const DepthBoundsMode mode : {DepthBoundsMode::minmax, DepthBoundsMode::none}) {
       SCOPED_TRACE(fmt::format("tile {} bounds {}", tile, int(mode)));
-      expect_exact(scene, view, {.depth_bounds = mode, .tile = tile}, forward);
+      expect_exact(scene, view, {{setting::depth_bounds, mode}, {setting::tile, tile}}, forward);
     }
   }
 }
@@ -194,7 +198,7 @@ TEST(ForwardPlus, ASceneOfNothingShowsItsBackground) {
   scene.background = {0.25f, 0.5f, 0.75f};
   for (const char* technique : {"forward", "forward_plus"}) {
     for (const bool everything : {false, true}) {
-      const Image image = render(scene, small_view(17, 9), technique, {.everything_on = everything});
+      const Image image = render(scene, small_view(17, 9), technique, {{setting::everything_on, everything}});
       for (const glm::vec4& pixel : image.pixels) ASSERT_EQ(glm::vec3(pixel), scene.background) << technique;
     }
   }

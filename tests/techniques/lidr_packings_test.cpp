@@ -4,7 +4,9 @@
 
 #include "base/error.h"
 #include "passes/light_index/layout.h"
+#include "passes/light_index/lidr_settings.h"
 #include "passes/light_volumes/light_volumes.h"
+#include "plan/settings/surfaces.h"
 #include "reference/position.h"
 #include "techniques/lidr_scenes.h"
 
@@ -83,7 +85,7 @@ void expect_no_wrong_light(const Scene& scene, const View& view, const Settings&
   const ListedLights lists = listed_lights(run, depth);
   std::vector<ViewLight> lights = lights_in_view(scene, view);
   std::vector<const LightVolume*> volume_of(lights.size(), nullptr);
-  const auto volumes = light_volumes(view, lights, settings.volume_mesh, 4);
+  const auto volumes = light_volumes(view, lights, settings[setting::volume_mesh], 4);
   for (const LightVolume& v : volumes) volume_of[v.light] = &v;
   size_t listed = 0;
   for (uint32_t pixel : covered_pixels(depth)) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/light_index/lidr_settings.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -11,7 +12,10 @@ namespace lightgrid {
 
 inline Settings lidr_settings(LidrPacking packing, int overlap = 0, int lights = 0,
                               LidrVolumes volumes = LidrVolumes::stencil) {
-  return {.lidr_packing = packing, .lidr_overlap = overlap, .lidr_lights = lights, .lidr_volumes = volumes};
+  return {{setting::lidr_packing, packing},
+          {setting::lidr_overlap, overlap},
+          {setting::lidr_lights, lights},
+          {setting::lidr_volumes, volumes}};
 }
 
 // Clusters of lights on the wall, `overlap` each, which neither touch nor cover each other on screen;

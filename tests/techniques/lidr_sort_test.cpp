@@ -1,5 +1,6 @@
 // Sorted packings: further passes for lights that find no group, and groups that are kept for still lights.
 #include "base/error.h"
+#include "passes/light_index/lidr_settings.h"
 #include "techniques/lidr_scenes.h"
 
 namespace lightgrid {
@@ -7,7 +8,7 @@ namespace {
 
 Settings sorted_settings(LidrPacking packing, int overlap, int passes, LidrSort sort = LidrSort::view) {
   Settings settings = lidr_settings(packing, overlap);
-  settings.lidr_passes = passes, settings.lidr_sort = sort;
+  settings.set(setting::lidr_passes, passes), settings.set(setting::lidr_sort, sort);
   return settings;
 }
 
@@ -21,11 +22,11 @@ TEST(LidrSort, MorePassesHaveTheLightsThatFoundNoGroup) {
   for (const LidrPacking packing : sorted_packings) {
     for (const LidrVolumes volumes : {LidrVolumes::stencil, LidrVolumes::front_faces}) {
       Settings settings = sorted_settings(packing, 2, 4);
-      settings.lidr_volumes = volumes;
+      settings.set(setting::lidr_volumes, volumes);
       expect_within_limit(scene, view, settings, 8, forward);
       uint64_t before = ~0ull;
       for (const int passes : {1, 2}) {
-        settings.lidr_passes = passes;
+        settings.set(setting::lidr_passes, passes);
         const Pairs p = pairs_of(scene, view, settings);
         EXPECT_EQ(p.pairs.wrong, 0u);
         EXPECT_GT(p.pairs.lost, 0u);
@@ -49,7 +50,7 @@ TEST(LidrSort, MorePassesAddNothingTwice) {
   for (const LidrPacking packing : sorted_packings) {
     for (const LidrVolumes volumes : {LidrVolumes::stencil, LidrVolumes::front_faces}) {
       Settings settings = sorted_settings(packing, 1, 16);
-      settings.lidr_volumes = volumes;
+      settings.set(setting::lidr_volumes, volumes);
       expect_within_limit(s.scene, view, settings, 16, forward);
     }
   }
@@ -83,7 +84,7 @@ TEST(LidrTypes, APassForEachTypeHasRoomForEach) {
       SCOPED_TRACE(fmt::format("packing {}, volumes {}", int(packing), int(volumes)));
       Settings settings = lidr_settings(packing, 4, 0, volumes);
       EXPECT_GT(pairs_of(s.scene, view, settings).pairs.lost, 0u);
-      settings.lidr_types = LidrTypes::passes;
+      settings.set(setting::lidr_types, LidrTypes::passes);
       expect_within_limit(s.scene, view, settings, 8, forward);
     }
   }
@@ -95,7 +96,7 @@ TEST(LidrTypes, OneTypeTakesOnePass) {
   apply_setting(settings, "lidr-order=scene");
   const Scene scene = clustered_lights(4, 40);
   const Image flag = render(scene, small_view(96, 64), "lidr", settings);
-  settings.lidr_types = LidrTypes::passes;
+  settings.set(setting::lidr_types, LidrTypes::passes);
   EXPECT_TRUE(identical(render(scene, small_view(96, 64), "lidr", settings), flag));
 }
 
@@ -169,7 +170,7 @@ TEST(LidrSort, StillGroupsOfAwkwardLights) {
 
 TEST(LidrSort, StillGroupsBehindFrontFacesAreRefused) {
   Settings settings = sorted_settings(LidrPacking::sort, 4, 1, LidrSort::still);
-  settings.lidr_volumes = LidrVolumes::front_faces;
+  settings.set(setting::lidr_volumes, LidrVolumes::front_faces);
   EXPECT_THROW(render(clustered_lights(4, 20), small_view(32, 32), "lidr", settings), Error);
 }
 

@@ -1,6 +1,7 @@
 // lidr: any number of lights, equal frames, and the memory computed on its page.
 #include "base/error.h"
 #include "passes/light_index/layout.h"
+#include "passes/light_index/lidr_settings.h"
 #include "techniques/lidr_scenes.h"
 
 namespace lightgrid {

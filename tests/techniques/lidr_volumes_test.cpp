@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "passes/light_index/lidr_settings.h"
 #include "passes/light_volumes/light_volumes.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "reference/position.h"
 #include "scene/random.h"
 #include "techniques/lidr_scenes.h"
@@ -26,7 +30,7 @@ TEST(Lidr, LightsAboutTheEyeTheNearPlaneAndEverything) {
            {VolumeMeshes::automatic, VolumeMeshes::icosahedron, VolumeMeshes::box}) {
         SCOPED_TRACE(fmt::format("near {} volumes {} mesh {}", view.near_m, int(volumes), int(meshes)));
         Settings settings = lidr_settings(LidrPacking::bitshift, 16, 255, volumes);
-        settings.volume_mesh = meshes;
+        settings.set(setting::volume_mesh, meshes);
         expect_within_limit(scene, view, settings, 16, forward);
       }
     }
@@ -37,9 +41,9 @@ TEST(Lidr, WithEveryEffectsCodeAndWithBlinnPhong) {
   const View view = small_view(64, 48);
   for (const Scene& scene : {awkward_lights(), small_scene(false).scene}) {
     Settings settings;
-    settings.everything_on = true;
+    settings.set(setting::everything_on, true);
     expect_within_limit(scene, view, settings, 16, render(scene, view, "forward"));
-    settings = {.brdf = Brdf::blinn};
+    settings = {{setting::brdf, Brdf::blinn}};
     expect_within_limit(scene, view, settings, 16, render(scene, view, "forward", settings));
   }
 }
@@ -125,7 +129,7 @@ TEST(Lidr, LosesNothingOfRandomLightsInRandomViews) {
     const View view = random_view(random);
     for (const LidrVolumes volumes : {LidrVolumes::stencil, LidrVolumes::front_faces}) {
       Settings settings = lidr_settings(LidrPacking::bitshift, 16, 255, volumes);
-      settings.volume_mesh = VolumeMeshes(trial % 3);
+      settings.set(setting::volume_mesh, VolumeMeshes(trial % 3));
       const Pairs p = pairs_of(scene, view, settings);
       ASSERT_LE(p.most_listed, 16u);
       ASSERT_EQ(p.pairs.lost, 0u) << "trial " << trial << " volumes " << int(volumes);
@@ -173,7 +177,7 @@ TEST(Lidr, LosesNothingOfLightsTangentToTheirMeshes) {
         random, view, meshes == VolumeMeshes::box ? box_mesh() : ball_mesh(0), read_depth(empty));
     for (const LidrVolumes volumes : {LidrVolumes::stencil, LidrVolumes::front_faces}) {
       Settings settings = lidr_settings(LidrPacking::bitshift, 16, 255, volumes);
-      settings.volume_mesh = meshes;
+      settings.set(setting::volume_mesh, meshes);
       const Pairs p = pairs_of(scene, view, settings);
       ASSERT_EQ(p.pairs.lost, 0u) << "trial " << trial << " volumes " << int(volumes);
       ASSERT_EQ(p.pairs.wrong, 0u) << "trial " << trial << " volumes " << int(volumes);

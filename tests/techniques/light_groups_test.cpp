@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "base/error.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/groups.h"
+#include "plan/settings/shadows.h"
 #include "session/surfaces_in_double.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
@@ -131,7 +134,7 @@ size_t entries_outside(const Scene& scene, const char* technique, const std::str
   run.run_frame();
   const std::vector<float> depth = read_depth(run);
   const ListedLights lists = listed_lights(run, depth);
-  const int tile = run.view().plan.settings.tile, across = (rooms_width + tile - 1) / tile;
+  const int tile = run.view().plan.settings[setting::tile], across = (rooms_width + tile - 1) / tile;
   const std::vector<uint32_t> groups =
       groups_of_tiles(groups_of_pixels(run.view().plan, scene, shown_triangles(run)), tile);
   size_t outside = 0;
@@ -190,7 +193,7 @@ TEST(TileGroups, MoreMasksThanNumbersAreRefusedByName) {
   }
   const Image forward = render(scene, view, "forward");
   EXPECT_TRUE(identical(render(scene, view, "forward_plus"), forward));
-  EXPECT_TRUE(identical(render(scene, view, "forward_plus", {.group_bits = 16}), forward));
+  EXPECT_TRUE(identical(render(scene, view, "forward_plus", {{setting::group_bits, 16}}), forward));
   EXPECT_TRUE(identical(render(scene, view, "deferred", assigned("group-ids=16")),
                         render(scene, view, "deferred", assigned("group-ids=16 volume-culling=scissor"))));
   EXPECT_TRUE(identical(render(scene, view, "visibility"),
@@ -219,7 +222,7 @@ TEST(GroupsAndShadows, AreOnePictureInEveryTechnique) {
     light.casts_shadow = light.name.starts_with("hall") || light.name.starts_with("moon");
   const View view = view_of(scene, "doors");
   const Image forward = render(scene, view, "forward");
-  EXPECT_FALSE(same_bytes(forward, render(scene, view, "forward", {.shadows = ShadowMethod::none})));
+  EXPECT_FALSE(same_bytes(forward, render(scene, view, "forward", {{setting::shadows, ShadowMethod::none}})));
   for (const char* technique : {"forward_plus", "clustered", "world_grid"})
     expect_exact(scene, view, {}, forward, technique);
   const Image in_opencl = render(scene, view, "visibility");

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "passes/common/light_buffer.h"
+#include "passes/common/prepass_settings.h"
+#include "plan/settings/model.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -16,9 +18,9 @@ inline constexpr const char* variant_names[] = {"plain", "fifth-term", "luminanc
 
 inline Settings volumes(PrepassSpecular specular, Brdf brdf = Brdf::blinn) {
   Settings s;
-  s.brdf = brdf;
+  s.set(setting::brdf, brdf);
   apply_setting(s, "prepass-lights=volumes");
-  s.prepass_specular = specular;
+  s.set(setting::prepass_specular, specular);
   return s;
 }
 

@@ -2,6 +2,10 @@
 #include <functional>
 
 #include "base/error.h"
+#include "passes/common/prepass_settings.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "scene/random.h"
 #include "techniques/light_prepass_by_hand.h"
 
@@ -31,7 +35,7 @@ TEST(LightPrepass, AddsTheSameLightFromListsAndFromVolumes) {
     const Image by_volumes = render(scene, view, "light_prepass", volumes(PrepassSpecular::fifth_term));
     expect_close(scene, view, tiles(), by_volumes, "light_prepass");
     Settings settings = tiles();
-    settings.kernel_shape = KernelShape::group;
+    settings.set(setting::kernel_shape, KernelShape::group);
     if (size.x > 1) expect_close(scene, view, settings, by_volumes, "light_prepass");
   }
 }
@@ -42,7 +46,9 @@ TEST(LightPrepass, RoundsSumsOfListsOnce) {
   const View view = small_view(71, 37);
   const double scale = reference_light(scene, plan_frame(scene, view, {}, {.light_grid = true}));
   const Image exact = render(scene, view, "light_prepass", volumes(PrepassSpecular::plain, Brdf::lambert));
-  Settings settings{.brdf = Brdf::lambert, .buffer_bits = 8, .normals = NormalFormat::octahedral};
+  Settings settings{{setting::brdf, Brdf::lambert},
+                    {setting::buffer_bits, 8},
+                    {setting::normals, NormalFormat::octahedral}};
   const double error = compare_images(render(scene, view, "light_prepass", settings), exact).max_abs;
   EXPECT_LE(error, 0.5 * scale / 255 / pi + 1e-4 * brightest_channel(exact));
   EXPECT_GE(error, 0.1 * scale / 255 / pi);
@@ -54,7 +60,7 @@ TEST(LightPrepass, DrawsWithOpenClAlone) {
   const View view = small_view(71, 37);
   const Image with_gl = render(scene, view, "light_prepass", tiles());
   Settings settings = tiles();
-  settings.raster = RasterApi::opencl;
+  settings.set(setting::raster, RasterApi::opencl);
   expect_close(scene, view, settings, with_gl, "light_prepass");
   EXPECT_LT(distance_of(render(scene, view, "light_prepass", settings), with_gl).median, 1e-5);
   apply_setting(settings, "prepass-lights=volumes");
@@ -124,13 +130,13 @@ TEST(LightPrepass, HardCases) {
     effect("spot").add(s);
     hard.add(s);
     Settings stencil = volumes(PrepassSpecular::fifth_term);
-    stencil.volume_culling = VolumeCulling::stencil;
+    stencil.set(setting::volume_culling, VolumeCulling::stencil);
     expect_close(s.scene, view, stencil, render(s.scene, view, "light_prepass", tiles()), "light_prepass");
     expect_close(s.scene, view, tiles(), render(s.scene, view, "light_prepass", stencil), "light_prepass");
     for (const PrepassSpecular specular : variants) {
       for (const int bits : hard.in_all_formats ? std::vector{8, 16} : std::vector<int>()) {
         Settings settings = volumes(specular);
-        settings.buffer_bits = bits, settings.normals = NormalFormat::xyz8;
+        settings.set(setting::buffer_bits, bits), settings.set(setting::normals, NormalFormat::xyz8);
         EXPECT_EQ(count_nan_pixels(render(s.scene, view, "light_prepass", settings)), 0u) << bits;
       }
     }
@@ -159,11 +165,11 @@ TEST(LightPrepass, TakesTheMemoryThatItsPageSays) {
     for (const auto& [format, normal] :
          {std::pair<NormalFormat, size_t>(NormalFormat::floats, 16), {NormalFormat::spheremap, 4}}) {
       Settings settings = volumes(PrepassSpecular::plain, Brdf::ggx);
-      settings.buffer_bits = bits, settings.normals = format;
+      settings.set(setting::buffer_bits, bits), settings.set(setting::normals, format);
       EXPECT_EQ(result_of("light_prepass", settings).memory_gbuffer, pixels * (normal + sums));
       EXPECT_EQ(result_of("light_prepass", settings).memory_total,
                 scene_bytes + pixels * (normal + sums + 16 + 4));
-      settings.prepass_specular = PrepassSpecular::fifth_term;
+      settings.set(setting::prepass_specular, PrepassSpecular::fifth_term);
       EXPECT_EQ(result_of("light_prepass", settings).memory_gbuffer, pixels * (normal + sums + sums / 2));
     }
   }
@@ -177,7 +183,7 @@ TEST(LightPrepass, TakesTheMemoryThatItsPageSays) {
 TEST(LightPrepass, EverythingOnChangesNoByte) {
   const Scene scene = small_scene().scene;
   const View view = small_view(33, 19);
-  EXPECT_TRUE(identical(render(scene, view, "light_prepass", {.everything_on = true}),
+  EXPECT_TRUE(identical(render(scene, view, "light_prepass", {{setting::everything_on, true}}),
                         render(scene, view, "light_prepass")));
 }
 

@@ -1,5 +1,8 @@
 // light_prepass: its equations evaluated in double at pixels of a wall, and forward's image where they are
 // exact.
+#include "passes/common/prepass_settings.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "techniques/light_prepass_by_hand.h"
 
 namespace lightgrid {
@@ -17,7 +20,7 @@ TEST(LightPrepass, IsForwardsImageOfOneLightAndItsShininess) {
       const bool fifth = variants[i] == PrepassSpecular::fifth_term;
       const auto error_on = [&](glm::vec3 color, float metallic, int lamps = 1) {
         const Scene scene = lit_wall(lamps, white, color, metallic, 32);
-        const Image forward = render(scene, view, "forward", {.brdf = Brdf::blinn});
+        const Image forward = render(scene, view, "forward", {{setting::brdf, Brdf::blinn}});
         return compare_images(render(scene, view, "light_prepass", volumes(variants[i])), forward).max_rel;
       };
       if (!white) {
@@ -40,7 +43,7 @@ TEST(LightPrepass, IsItsEquationsForAnyNumberOfLights) {
   for (const int lamps : {1, 2, 4, 8}) {
     for (const bool white : {true, false}) {
       const Scene scene = lit_wall(lamps, white, {0.8f, 0.7f, 0.6f}, 0.5f, 200);
-      const Image forward = render(scene, view, "forward", {.brdf = Brdf::blinn});
+      const Image forward = render(scene, view, "forward", {{setting::brdf, Brdf::blinn}});
       for (size_t i = 0; i < std::size(variants); ++i) {
         const Image image = render(scene, view, "light_prepass", volumes(variants[i]));
         EXPECT_LT(error_by_hand(scene, view, image, variants[i]), 2e-5)
@@ -66,7 +69,7 @@ TEST(LightPrepass, GivesMaterialsTheirSpecularReflectance) {
   scene = lit_wall(1, true, {0.8f, 0.7f, 0.6f}, 0.25f, 200);
   scene.materials[0].ior = 2.42f;
   EXPECT_LT(compare_images(render(scene, view, "light_prepass", volumes(PrepassSpecular::fifth_term)),
-                           render(scene, view, "forward", {.brdf = Brdf::blinn}))
+                           render(scene, view, "forward", {{setting::brdf, Brdf::blinn}}))
                 .max_rel,
             1e-5);
 }
@@ -94,11 +97,11 @@ TEST(LightPrepass, GivesModelsTheLuminanceOfTheSums) {
 TEST(LightPrepass, OfLambertIsForwardsImage) {
   const Scene scene = find_builtin_scene("street")->make();
   const View view = default_view(scene, 79, 45);
-  const Image forward = render(scene, view, "forward", {.brdf = Brdf::lambert});
+  const Image forward = render(scene, view, "forward", {{setting::brdf, Brdf::lambert}});
   for (const VolumeCulling culling : {VolumeCulling::back_faces, VolumeCulling::stencil,
                                       VolumeCulling::scissor, VolumeCulling::depth_bounds}) {
     Settings settings = volumes(PrepassSpecular::plain, Brdf::lambert);
-    settings.volume_culling = culling;
+    settings.set(setting::volume_culling, culling);
     expect_close(scene, view, settings, forward, "light_prepass");
   }
 }
@@ -110,7 +113,7 @@ TEST(LightPrepass, OfLambertIsForwardsImageWithEveryEffect) {
     SmallScene s = small_scene();
     effect.add(s);
     if (effect.name == "skin" || effect.name == "minnaert") continue;  // models of each light: approximate
-    const Image forward = render(s.scene, view, "forward", {.brdf = Brdf::lambert});
+    const Image forward = render(s.scene, view, "forward", {{setting::brdf, Brdf::lambert}});
     expect_close(s.scene, view, volumes(PrepassSpecular::plain, Brdf::lambert), forward, "light_prepass");
   }
 }
@@ -128,7 +131,7 @@ TEST(LightPrepass, RoundsSumsByTheStepsOfItsBits) {
   const double brightest = brightest_channel(exact);
   ASSERT_LT(brightest, scale / pi) << "nothing is cut off";
   for (const auto& [bits, step] : {std::pair(8, scale / 255 / pi), {16, brightest * 0x1p-10}}) {
-    settings.buffer_bits = bits;
+    settings.set(setting::buffer_bits, bits);
     const double error = compare_images(render(scene, view, "light_prepass", settings), exact).max_abs;
     EXPECT_LE(error, lamps * 0.5 * step + 1e-6) << bits;
     EXPECT_GE(error, 0.25 * step) << bits;

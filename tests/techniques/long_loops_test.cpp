@@ -1,5 +1,6 @@
 // More lights than the iterations after which llvmpipe ends a shader's loops (65,535): no sum may lack a
 // light in silence.
+#include "plan/settings/grid.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -21,8 +22,8 @@ Scene with_many_lights() {
 // One list for many pixels, with all lights in it.
 Settings one_long_list() {
   Settings settings;
-  settings.tile = 64;
-  settings.depth_bounds = DepthBoundsMode::none;
+  settings.set(setting::tile, 64);
+  settings.set(setting::depth_bounds, DepthBoundsMode::none);
   return settings;
 }
 
@@ -46,7 +47,7 @@ TEST_F(LongLoops, OverAListAreWhole) {
 // A mask's loop takes an iteration a light: where the driver ends it, pixels are NaN.
 TEST_F(LongLoops, OverMasksAreWholeOrNaN) {
   Settings settings = one_long_list();
-  settings.grid_lists = GridLists::masks;
+  settings.set(setting::grid_lists, GridLists::masks);
   const Image image = render(scene, view, "forward_plus", settings);
   size_t whole = 0, not_a_number = 0;
   for (size_t i = 0; i < image.pixels.size(); ++i) {

@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "passes/find_object_lights.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "scene/lights_file.h"
 #include "scene/load_gltf.h"
 #include "scene/random.h"
@@ -25,10 +28,10 @@ struct Way {
 const Way ways[] = {
     {"multipass", "forward_multipass", {}},
     {"zprepass", "forward_zprepass", {}},
-    {"back_faces", "deferred", {.volume_culling = VolumeCulling::back_faces}},
-    {"stencil", "deferred", {.volume_culling = VolumeCulling::stencil}},
-    {"scissor", "deferred", {.volume_culling = VolumeCulling::scissor}},
-    {"depth_bounds", "deferred", {.volume_culling = VolumeCulling::depth_bounds}},
+    {"back_faces", "deferred", {{setting::volume_culling, VolumeCulling::back_faces}}},
+    {"stencil", "deferred", {{setting::volume_culling, VolumeCulling::stencil}}},
+    {"scissor", "deferred", {{setting::volume_culling, VolumeCulling::scissor}}},
+    {"depth_bounds", "deferred", {{setting::volume_culling, VolumeCulling::depth_bounds}}},
     {"tiled", "deferred_tiled", {}},
     {"compute", "forward_plus_compute", {}},
 };
@@ -200,7 +203,7 @@ TEST_P(OneByOneEffect, IsThereAsInForwardAndWithEverythingOn) {
       if (everything_on && way.name != std::string("zprepass") && way.name != std::string("back_faces"))
         continue;
       Settings settings = way.settings;
-      settings.everything_on = everything_on;
+      settings.set(setting::everything_on, everything_on);
       expect_close(s.scene, view, settings, forward, way.technique);
     }
   }
@@ -213,11 +216,11 @@ TEST(OneByOne, BlinnPhongAndLambert) {
   const Scene scene = lamps(40, 1.5f);
   const View view = small_view(63, 37);
   for (const Brdf brdf : {Brdf::blinn, Brdf::lambert}) {
-    const Image forward = render(scene, view, "forward", {.brdf = brdf});
+    const Image forward = render(scene, view, "forward", {{setting::brdf, brdf}});
     for (const Way& way : ways) {
       SCOPED_TRACE(way.name);
       Settings settings = way.settings;
-      settings.brdf = brdf;
+      settings.set(setting::brdf, brdf);
       expect_close(scene, view, settings, forward, way.technique);
     }
   }
@@ -254,8 +257,8 @@ TEST(OneByOne, TakesTheMemoryThatThePagesSay) {
     if (way.technique != std::string("deferred")) continue;
     for (const int bits : {8, 16, 32}) {
       Settings settings = way.settings;
-      settings.buffer_bits = bits;
-      const size_t depth = way.settings.volume_culling == VolumeCulling::stencil ? 5 : 4;
+      settings.set(setting::buffer_bits, bits);
+      const size_t depth = way.settings[setting::volume_culling] == VolumeCulling::stencil ? 5 : 4;
       EXPECT_EQ(memory_of(scene, view, "deferred", settings),
                 pixels * (size_t(bits) + 16 + depth) + lights + 6 * 68 + light_mesh_bytes + 4 * blended_pairs)
           << way.name << " " << bits;

@@ -1,13 +1,17 @@
 // raster=opencl: deferred_tiled and forward_plus_compute with triangles and surfaces of OpenCL, against
 // visibility, which has the same surfaces and adds the same lights without a geometry buffer.
 #include "base/error.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/samples.h"
+#include "plan/settings/surfaces.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
 namespace lightgrid {
 namespace {
 
-const Settings opencl{.raster = RasterApi::opencl};
+const Settings opencl{{setting::raster, RasterApi::opencl}};
 
 struct Drawn {
   Image image;
@@ -94,10 +98,10 @@ TEST(RasterInOpenCl, NoSettingOfTheListsChangesABit) {
   const Scene scene = every_effect();
   const View view = small_view(71, 37);
   const Image image = render(scene, view, "deferred_tiled", opencl);
-  for (Settings settings :
-       {Settings{.depth_bounds = DepthBoundsMode::none}, Settings{.texels = TexelLayout::separate},
-        Settings{.kernel_shape = KernelShape::group}}) {
-    settings.raster = RasterApi::opencl;
+  for (Settings settings : {Settings{{setting::depth_bounds, DepthBoundsMode::none}},
+                            Settings{{setting::texels, TexelLayout::separate}},
+                            Settings{{setting::kernel_shape, KernelShape::group}}}) {
+    settings.set(setting::raster, RasterApi::opencl);
     EXPECT_TRUE(identical(render(scene, view, "deferred_tiled", settings), image));
   }
 }
@@ -110,7 +114,8 @@ TEST(RasterInOpenCl, BufferBitsTradeAccuracyForBytes) {
   const Image visibility = render(scene, view, "visibility");
   double before = 0;
   for (const auto& [bits, bytes] : {std::pair<int, size_t>(32, 64), {16, 32}, {8, 16}}) {
-    const Drawn d = drawn("deferred_tiled", scene, view, {.buffer_bits = bits, .raster = RasterApi::opencl});
+    const Drawn d = drawn("deferred_tiled", scene, view,
+                          {{setting::buffer_bits, bits}, {setting::raster, RasterApi::opencl}});
     constexpr size_t group_number = 1;  // of the surface's mask of light groups
     EXPECT_EQ(d.result.memory_gbuffer, pixels * (bytes + group_number)) << bits;
     const double apart = compare_images(d.image, visibility).max_rel;
@@ -127,7 +132,7 @@ TEST(RasterInOpenCl, DrawsTheSameBytesWithoutOpenGl) {
   const View view = small_view(71, 37);
   for (const char* technique : {"deferred_tiled", "forward_plus_compute"}) {
     for (const int samples : {1, 4}) {
-      const Settings of{.raster = RasterApi::opencl, .samples = samples};
+      const Settings of{{setting::raster, RasterApi::opencl}, {setting::samples, samples}};
       EXPECT_TRUE(
           identical(render(*opencl_alone, scene, view, technique, of), render(scene, view, technique, of)))
           << technique << ' ' << samples;

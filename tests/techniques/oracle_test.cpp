@@ -1,4 +1,5 @@
 // The shaders against the oracle in double, pixel by pixel.
+#include "plan/settings/model.h"
 #include "report/report.h"
 #include "scene/random.h"
 #include "session/oracle_sample.h"
@@ -37,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Shading,
 // some hundred times its distance from a lamp: 2 * 100 * 1e-7. Measured: 2.4e-5.
 TEST(LambertShading, InFloatIsTheOraclesWithinItsRounding) {
   const Scene scene = find_builtin_scene("spheres")->make();
-  TechniqueRun run(test_devices(), scene, default_view(scene, 160, 90), {.brdf = Brdf::lambert},
+  TechniqueRun run(test_devices(), scene, default_view(scene, 160, 90), {{setting::brdf, Brdf::lambert}},
                    find_technique("forward"));
   run.run_frame();
   const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run), 4000);
@@ -178,12 +179,12 @@ TEST(CoatShading, LambertHasNone) {
   Scene bare = scene;
   for (Material& m : bare.materials) m.clearcoat = 0;
   const View view = view_at(1, 95, 53);
-  EXPECT_TRUE(identical(render(scene, view, "forward", {.brdf = Brdf::lambert}),
-                        render(bare, view, "forward", {.brdf = Brdf::lambert})));
+  EXPECT_TRUE(identical(render(scene, view, "forward", {{setting::brdf, Brdf::lambert}}),
+                        render(bare, view, "forward", {{setting::brdf, Brdf::lambert}})));
 }
 
 TEST(PolishedBlinnPhong, EveryTechniqueIsAsExactAsForward) {
-  expect_each_exact(polished(1, 0.1f, 10), view_at(1, 192, 108), {.brdf = Brdf::blinn});
+  expect_each_exact(polished(1, 0.1f, 10), view_at(1, 192, 108), {{setting::brdf, Brdf::blinn}});
 }
 
 // Skin, Minnaert's of k below and above 1, one under a coat, and Lambert's.
@@ -267,7 +268,7 @@ TEST(SpecularShading, InFloatIsTheOraclesWithinItsRounding) {
   const Scene scene = balls_of_all_reflectances();
   const View view = view_at(1, 192, 108);
   for (const Brdf brdf : {Brdf::ggx, Brdf::blinn}) {
-    TechniqueRun run(test_devices(), scene, view, {.brdf = brdf}, find_technique("forward"));
+    TechniqueRun run(test_devices(), scene, view, {{setting::brdf, brdf}}, find_technique("forward"));
     run.run_frame();
     EXPECT_EQ(count_nan_pixels(run.image()), 0u);
     const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run), 4000);
@@ -276,7 +277,8 @@ TEST(SpecularShading, InFloatIsTheOraclesWithinItsRounding) {
     Scene bare = scene;
     for (Material& m : bare.materials)
       m.ior = 1.5f, m.specular = 1, m.specular_color = {1, 1, 1}, m.specular_map = m.specular_color_map = {};
-    EXPECT_GT(compare_images(run.image(), render(bare, view, "forward", {.brdf = brdf})).max_rel, 0.1)
+    EXPECT_GT(compare_images(run.image(), render(bare, view, "forward", {{setting::brdf, brdf}})).max_rel,
+              0.1)
         << "the reflectances are seen";
   }
 }
@@ -288,8 +290,8 @@ TEST(SpecularShading, LambertHasNone) {
     m.ior = 1.5f, m.specular = 1, m.specular_color = {1, 1, 1}, m.specular_map = m.specular_color_map = {};
   const View view = view_at(1, 95, 53);
   for (const char* technique : {"forward", "deferred_tiled", "visibility"})
-    EXPECT_TRUE(identical(render(scene, view, technique, {.brdf = Brdf::lambert}),
-                          render(bare, view, technique, {.brdf = Brdf::lambert})))
+    EXPECT_TRUE(identical(render(scene, view, technique, {{setting::brdf, Brdf::lambert}}),
+                          render(bare, view, technique, {{setting::brdf, Brdf::lambert}})))
         << technique;
 }
 
@@ -322,11 +324,12 @@ TEST(SpecularShading, ChangesNoBitOfASurfaceOfTheDefaultReflectance) {
 TEST(ModelShading, WithLambertIsTheOraclesInTheShadersOfForwardAndDeferred) {
   const Scene scene = balls_of_all_models();
   const View view = view_at(1, 160, 90);
-  TechniqueRun run(test_devices(), scene, view, {.brdf = Brdf::lambert}, find_technique("forward"));
+  TechniqueRun run(test_devices(), scene, view, {{setting::brdf, Brdf::lambert}}, find_technique("forward"));
   run.run_frame();
   EXPECT_LT(measure_reference_errors(run.view(), run.image(), read_depth(run), 4000).precision.max_rel, 5e-5);
-  EXPECT_LT(compare_images(run.image(), render(scene, view, "deferred", {.brdf = Brdf::lambert})).max_rel,
-            1e-5);
+  EXPECT_LT(
+      compare_images(run.image(), render(scene, view, "deferred", {{setting::brdf, Brdf::lambert}})).max_rel,
+      1e-5);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Radiance past float's range: pixels are infinite and counted, and none is NaN.
+#include "plan/settings/surfaces.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -59,7 +60,7 @@ TEST(Overflow, BehindABlendedSurfaceOfAlpha1DoesNotCount) {
   for (const Technique* technique : techniques()) {
     for (const RasterApi raster : {RasterApi::opengl, RasterApi::opencl}) {
       SCOPED_TRACE(fmt::format("{} {}", technique->name, int(raster)));
-      const Settings settings{.raster = raster};
+      const Settings settings{{setting::raster, raster}};
       const Image image = render(scene, view, technique->name, settings);
       EXPECT_EQ(count_nan_pixels(image), 0u);
       const Image without = render(dark, view, technique->name, settings);

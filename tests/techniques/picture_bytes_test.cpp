@@ -1,4 +1,5 @@
 // With picture=bytes a frame ends with the bytes of the display, and nothing else changes.
+#include "plan/settings/picture.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -25,7 +26,7 @@ TEST_P(PictureBytes, AreThoseOfTheImage) {
   for (const SceneEffect& effect : effects()) effect.add(small);
   const View view = small_view(71, 37);
   const Image image = render(small.scene, view, name, settings);
-  settings.picture = PictureFormat::bytes, settings.display_ev = -1.5;
+  settings.set(setting::picture, PictureFormat::bytes), settings.set(setting::display_ev, -1.5);
   TechniqueRun run(test_devices(), small.scene, view, settings, find_technique(name));
   for (const bool both : {true, false, true}) {
     const double ms = both ? run.run_frame() : run.run_picture();
@@ -60,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(Of, PictureBytes,
 TEST(PictureBytes, FollowTheView) {
   const SmallScene small = small_scene();
   Settings settings;
-  settings.picture = PictureFormat::bytes;
+  settings.set(setting::picture, PictureFormat::bytes);
   for (const char* name : {"visibility", "forward_plus"}) {
     TechniqueRun run(test_devices(), small.scene, small_view(33, 19), settings, find_technique(name));
     run.prepare();

@@ -1,6 +1,7 @@
 // Effects that the plan does not name are not built, allocated or launched; omitting them changes no byte.
 #include <gmock/gmock.h>
 
+#include "plan/settings/kernels.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -21,7 +22,8 @@ TEST_P(EachEffect, HasTheBytesOfEverythingOn) {
   const View view = small_view(127, 73);
   for (const char* technique : {"forward", "forward_plus"}) {
     const Image planned = render(s.scene, view, technique);
-    EXPECT_TRUE(identical(render(s.scene, view, technique, {.everything_on = true}), planned)) << technique;
+    EXPECT_TRUE(identical(render(s.scene, view, technique, {{setting::everything_on, true}}), planned))
+        << technique;
     EXPECT_FALSE(same_bytes(planned, render(without.scene, view, technique))) << "the effect is seen";
   }
 }
@@ -45,7 +47,8 @@ std::ostream& operator<<(std::ostream& out, const WorkCounts& w) {
 
 // In the shape and form whose kernels are the same on every device.
 WorkCounts work_of(const Scene& scene,
-                   const Settings& settings = {.kernel_shape = KernelShape::lanes, .portable = true}) {
+                   const Settings& settings = {{setting::kernel_shape, KernelShape::lanes},
+                                               {setting::portable, true}}) {
   Renderer devices("", GlBackend::automatic);  // with no program compiled yet
   const ClProfiler& profiler = devices.cl->profiler();
   const GlCounts before = gl_counts();
@@ -156,7 +159,7 @@ TEST(PlannedWork, AnOpaqueMaterialIgnoresItsAlpha) {
   const Image solid = render(s.scene, view, "forward_plus");
   s.scene.materials[s.wall_material].base_color.a = 0.25f;
   EXPECT_TRUE(identical(render(s.scene, view, "forward_plus"), solid));
-  EXPECT_TRUE(identical(render(s.scene, view, "forward_plus", {.everything_on = true}), solid));
+  EXPECT_TRUE(identical(render(s.scene, view, "forward_plus", {{setting::everything_on, true}}), solid));
 }
 
 TEST(PlannedWork, NoLightsAndNoEffectsHaveTheBytesOfEverythingOn) {
@@ -164,7 +167,7 @@ TEST(PlannedWork, NoLightsAndNoEffectsHaveTheBytesOfEverythingOn) {
   for (const bool lights : {false, true}) {
     const SmallScene s = small_scene(lights);
     for (const char* technique : {"forward", "forward_plus"}) {
-      EXPECT_TRUE(identical(render(s.scene, view, technique, {.everything_on = true}),
+      EXPECT_TRUE(identical(render(s.scene, view, technique, {{setting::everything_on, true}}),
                             render(s.scene, view, technique)));
     }
   }

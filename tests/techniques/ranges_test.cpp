@@ -1,5 +1,6 @@
 // Where lights end (scene/light_ranges.h): every technique draws forward's picture, forward the oracle's; and
 // the mean over random ranges is the picture without ranges.
+#include "plan/settings/model.h"
 #include "session/oracle_sample.h"
 #include "support/small_scene.h"
 #include "techniques/lidr_scenes.h"
@@ -13,7 +14,7 @@ const LightRanges random_ranges{.range = LightRange::stochastic, .alpha = 1, .se
 
 Settings with(const LightRanges& ranges) {
   Settings settings;
-  settings.ranges = ranges;
+  set_ranges(settings, ranges);
   return settings;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "plan/settings/surfaces.h"
 #include "techniques/rendering.h"
 
 namespace lightgrid {
@@ -31,7 +32,7 @@ struct RoundingLoss {
 // rounded. The rest of the error must equal that of the oracle's shading of the surfaces as stored.
 inline RoundingLoss rounding_loss(const char* technique, const Scene& scene, const View& view,
                                   const Image& forward, int bits) {
-  TechniqueRun run(test_devices(), scene, view, {.buffer_bits = bits}, find_technique(technique));
+  TechniqueRun run(test_devices(), scene, view, {{setting::buffer_bits, bits}}, find_technique(technique));
   run.run_frame();
   RenderView& v = run.view();
   const std::vector<float> depth = read_depth(v);

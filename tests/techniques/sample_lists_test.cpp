@@ -7,6 +7,8 @@
 #include <set>
 
 #include "base/error.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/samples.h"
 #include "raster/raster_samples.h"
 #include "reference/position.h"
 #include "reference/primary_rays.h"
@@ -88,7 +90,7 @@ EdgePairs pairs_at_edges(const Scene& scene, const View& view, std::vector<ViewL
 
 // Of these pairs, those that the tiles' lists of the run's last frame lack.
 size_t count_lost(TechniqueRun& run, const EdgePairs& edges) {
-  const int width = run.view().view.width, tile = run.view().plan.settings.tile;
+  const int width = run.view().view.width, tile = run.view().plan.settings[setting::tile];
   const ListedLights lists = listed_lights(run, read_depth(run));
   return size_t(std::ranges::count_if(edges.pairs, [&](const auto& pair) {
     const auto [pixel, light] = pair;
@@ -107,7 +109,7 @@ TEST_P(EdgeLists, HoldEveryLightOfEachSurface) {
   const View view = default_view(scene, 64, 36);
   const auto drawn = [&](const char* technique, int samples, int tile) {
     Settings settings;
-    settings.samples = samples, settings.tile = tile;
+    settings.set(setting::samples, samples), settings.set(setting::tile, tile);
     auto run =
         std::make_unique<TechniqueRun>(test_devices(), scene, view, settings, find_technique(technique));
     run->run_frame();

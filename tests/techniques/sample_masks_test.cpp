@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "plan/settings/samples.h"
 #include "support/fine_truth.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
@@ -11,7 +12,7 @@ namespace {
 
 Image drawn(const Scene& scene, const char* technique, int samples, const char* masks) {
   Settings settings;
-  settings.samples = samples;
+  settings.set(setting::samples, samples);
   apply_setting(settings, std::string("samples-masks=") + masks);
   return render(scene, small_view(67, 41), technique, settings);
 }
@@ -110,7 +111,7 @@ TEST(SampleMasks, ChangeNothingWithoutAMaskInView) {
     SmallScene s = small_scene();
     if (mask) effect("mask").add(s);
     Settings settings;
-    settings.samples = 4, settings.samples_masks = SampleMasks::samples;
+    settings.set(setting::samples, 4), settings.set(setting::samples_masks, SampleMasks::samples);
     const FramePlan plan = plan_frame(s.scene, small_view(67, 41), settings, {});
     const auto decision = std::ranges::find(plan.decisions, "masks of samples", &Decision::effect);
     ASSERT_NE(decision, plan.decisions.end());

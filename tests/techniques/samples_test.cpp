@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/error.h"
+#include "plan/settings/samples.h"
 #include "support/fine_truth.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
@@ -138,7 +139,7 @@ class SamplesResolve : public testing::Test {
   }
   Image draw(const char* resolve, const char* shape = "lanes", const char* technique = "visibility") const {
     Settings settings;
-    settings.samples = 4;
+    settings.set(setting::samples, 4);
     apply_setting(settings, std::string("samples-resolve=") + resolve);
     if (shape == std::string("group")) apply_setting(settings, "kernel-shape=group");
     return render(s_.scene, small_view(41, 29), technique, settings);
@@ -237,7 +238,7 @@ class SamplesOfOpenGl : public testing::Test {
   Image draw(const char* technique, int samples, const char* shading = "edges", const char* shape = "auto",
              std::initializer_list<const char*> more = {}) const {
     Settings settings;
-    settings.samples = samples;
+    settings.set(setting::samples, samples);
     apply_setting(settings, std::string("samples-shading=") + shading);
     apply_setting(settings, std::string("kernel-shape=") + shape);
     for (const char* each : more) apply_setting(settings, each);

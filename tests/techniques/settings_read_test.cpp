@@ -1,6 +1,8 @@
 // Technique::settings and common_settings() against runs: a declared setting changes something that a run
 // shows, and all others together change nothing.
 #include <fmt/ranges.h>
+#include <set>
+
 #include <gmock/gmock.h>
 
 #include "support/long_tests.h"
@@ -116,7 +118,7 @@ bool is_refused_unread(const std::string& key) { return key == "samples" || key 
 // All settings that the technique does not declare, at their value of this number or their last.
 Assignments not_declared(const Technique& technique, size_t value) {
   Assignments others;
-  for (const SettingHelp& s : setting_help()) {
+  for (const SettingRow& s : setting_rows()) {
     if (!reads_setting(technique, s.key) && !is_refused_unread(s.key))
       others.insert(s.key + "=" + s.values[std::min(value, s.values.size() - 1)]);
   }
@@ -144,7 +146,7 @@ std::map<std::string, std::string> read_but_not_declared(const Technique& techni
 }
 
 // Whether a value of the setting changes what a run shows, beyond refusing to run.
-bool shows(const Technique& technique, const SettingHelp& setting) {
+bool shows(const Technique& technique, const SettingRow& setting) {
   const bool shadows =
       setting.key.starts_with("shadow") || setting.key == "lidr-shadows" || setting.key == "lidr-maps";
   for (size_t i = 1; i < setting.values.size(); ++i) {
@@ -163,8 +165,8 @@ bool shows(const Technique& technique, const SettingHelp& setting) {
 std::vector<std::string> declared_but_not_read(const Technique& technique) {
   std::vector<std::string> found;
   const auto is_wrong = [&](const std::string& key) {
-    const auto setting = std::ranges::find(setting_help(), key, &SettingHelp::key);
-    if (setting == setting_help().end()) return true;
+    const auto setting = std::ranges::find(setting_rows(), key, &SettingRow::key);
+    if (setting == setting_rows().end()) return true;
     return !shows(technique, *setting);
   };
   for (const std::string key : technique.settings) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "passes/shadows/bands.h"
+#include "plan/settings/shadows.h"
 #include "scene/light_rigs.h"
 #include "techniques/shadow_stage.h"
 
@@ -95,7 +96,7 @@ TEST(ShadowMemory, BandsHaveThePictureAndTheBitsOfOne) {
     SCOPED_TRACE(fmt::format("{} {}", way.technique, fmt::join(way.settings, " ")));
     Settings settings = settings_of(way);
     TechniqueRun whole(test_devices(), stage.gpu, stage.view, settings, find_technique(way.technique));
-    settings.shadow_memory = way.bytes;
+    settings.set(setting::shadow_memory, way.bytes);
     TechniqueRun banded(test_devices(), stage.gpu, stage.view, settings, find_technique(way.technique));
     for (const View* view : {&stage.view, &stage.view, &turned}) {
       whole.look(*view), banded.look(*view);
@@ -119,7 +120,7 @@ TEST(ShadowMemory, LetsMapsGetSmallerAndRefusesWhereTheyCannot) {
   Settings settings;
   apply_setting(settings, "shadows=map");
   const auto figures = [&](size_t bytes) {
-    settings.shadow_memory = bytes;
+    settings.set(setting::shadow_memory, bytes);
     TechniqueRun run(test_devices(), stage.gpu, stage.view, settings, find_technique("visibility"));
     run.run_frame();
     return run.frame().shadow_figures();
@@ -140,13 +141,13 @@ TEST(ShadowMemory, HoldsTenThousandLights) {
   for (Light& light : s.scene.lights) light.casts_shadow = true;
   ShadowStage stage{s.scene, small_view(160, 90), GpuScene(test_devices(), s.scene)};
   Settings settings;
-  settings.shadow_memory = 176 << 10;  // one tile alone needs 162 KiB
+  settings.set(setting::shadow_memory, 176 << 10);  // one tile alone needs 162 KiB
   TechniqueRun whole(test_devices(), stage.gpu, stage.view, {}, find_technique("visibility")),
       banded(test_devices(), stage.gpu, stage.view, settings, find_technique("visibility"));
   whole.run_frame(), banded.run_frame();
   EXPECT_GT(whole.frame().shadow_figures().lights, 2500u);
   EXPECT_GT(banded.frame().shadow_figures().bands, 1u);
-  EXPECT_LE(bytes_in_bound(banded), settings.shadow_memory);
+  EXPECT_LE(bytes_in_bound(banded), settings[setting::shadow_memory]);
   EXPECT_TRUE(identical(banded.image(), whole.image()));
   ShadowTruth sampled(stage.scene, 50'000);
   const std::vector<float> depth = read_depth(banded);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <numbers>
+#include <set>
 
 #include "reference/position.h"
 #include "scene/shadow_casters.h"

@@ -1,6 +1,7 @@
 // A small scene in which most lights cast, and what a run's shadows are according to the oracle.
 #pragma once
 
+#include "plan/settings/surfaces.h"
 #include "session/shadow_truth.h"
 #include "session/surfaces_in_double.h"
 #include "support/small_scene.h"

@@ -1,5 +1,6 @@
 // Shadows in every technique's picture: each pair of a pixel and a light against the oracle, and radiance in
 // double.
+#include "plan/settings/surfaces.h"
 #include "reference/position.h"
 #include "scene/rig.h"
 #include "session/oracle_sample.h"
@@ -45,7 +46,7 @@ bool sums_as_forward(const std::string& name) {
 
 TEST_P(Shadows, AreTheOraclesInEachPairAndInThePicture) {
   const auto [technique, raster] = GetParam();
-  const Settings settings{.raster = raster};
+  const Settings settings{{setting::raster, raster}};
   const bool own = own_surfaces(*technique, settings);
   for (const char* name : {"small", "hall"}) {
     if (technique->limited_lists && std::string(name) == "hall") continue;  // it has places for few lights

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "base/error.h"
+#include "plan/settings/samples.h"
+#include "plan/settings/shadows.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -19,8 +21,8 @@ class ShadowedSamples : public testing::TestWithParam<int> {
   Image draw(const Scene& scene, const std::string& more = "", const char* technique = "visibility",
              size_t shadow_memory = 0) const {
     Settings settings;
-    settings.samples = GetParam();
-    if (shadow_memory > 0) settings.shadow_memory = shadow_memory;
+    settings.set(setting::samples, GetParam());
+    if (shadow_memory > 0) settings.set(setting::shadow_memory, shadow_memory);
     for (size_t begin = 0; begin < more.size();) {
       const size_t end = std::min(more.find(' ', begin), more.size());
       apply_setting(settings, more.substr(begin, end - begin));
@@ -107,7 +109,7 @@ Scene trough(bool casts) {
 
 TEST_P(ShadowedSamples, HideNoHollowFromALampThatSeesAllOfIt) {
   Settings settings;
-  settings.samples = GetParam();
+  settings.set(setting::samples, GetParam());
   const View view = make_view(look_at({0, 1.5, 0}, {0, -0.6, -6}), 160, 90);
   const Image lit = render(trough(false), view, "visibility", settings);
   EXPECT_GT(brightest_channel(lit), 0.1);
@@ -120,7 +122,7 @@ TEST(ShadowedSamplesRefused, ByNameWhereShadowsAreFoundForOneSample) {
   const SmallScene s = small_scene_of_casters();
   const auto refusal = [&](const char* technique, std::initializer_list<const char*> chosen) -> std::string {
     Settings settings;
-    settings.samples = 4;
+    settings.set(setting::samples, 4);
     for (const char* each : chosen) apply_setting(settings, each);
     try {
       render(s.scene, small_view(17, 9), technique, settings);

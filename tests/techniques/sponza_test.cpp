@@ -1,4 +1,5 @@
 // A third-party scene, with lights to match: the techniques with a light grid give the bytes of `forward`.
+#include "plan/settings/grid.h"
 #include "scene/lights_file.h"
 #include "scene/load_gltf.h"
 #include "support/shared_files.h"
@@ -18,7 +19,8 @@ TEST(Sponza, HasTheBytesOfEveryLightAtEveryPixel) {
       make_view(choose_camera(scene, camera_of_lights_file(shared_folder() / lights)), 320, 180);
   const Image forward = render(scene, view, "forward");
   EXPECT_GT(brightest_channel(forward), 0.1f);
-  for (const Settings& settings : {Settings{}, Settings{.z_bins = 64, .grid_lists = GridLists::masks}}) {
+  for (const Settings& settings :
+       {Settings{}, Settings{{setting::z_bins, 64}, {setting::grid_lists, GridLists::masks}}}) {
     SCOPED_TRACE(testing::PrintToString(to_strings(settings)));
     expect_exact(scene, view, settings, forward, "forward_plus");
     expect_exact(scene, view, settings, forward, "clustered");

@@ -1,6 +1,7 @@
 // The square: 2.8 million triangles by instances, too many for the tests that draw every built-in scene.
 #include <set>
 
+#include "plan/settings/grid.h"
 #include "techniques/rendering.h"
 
 namespace lightgrid {
@@ -55,7 +56,8 @@ TEST(Square, LosesNoLightAndShowsForwardsPicture) {
   EXPECT_EQ(pairs.lost, 0u);
   EXPECT_EQ(pairs.wrong, 0u);
   EXPECT_GT(pairs.lit, 2 * 160 * 90u);
-  EXPECT_TRUE(identical(run.image(), render(scene, view, "visibility", {.lights = ShadedLights::all})));
+  EXPECT_TRUE(
+      identical(run.image(), render(scene, view, "visibility", {{setting::lights, ShadedLights::all}})));
 }
 
 }  // namespace

@@ -1,4 +1,8 @@
 // deferred_tiled and forward_plus_compute: the light loop in OpenCL against forward's in OpenGL.
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 #include "techniques/rounding_loss.h"
@@ -46,7 +50,7 @@ TEST(TiledLight, InEverySizeAndTile) {
     const View view = default_view(scene, width, height);
     const Image forward = render(scene, view, "forward");
     for (int tile : {8, 16, 64}) {
-      EXPECT_LT(error_of("deferred_tiled", scene, view, forward, {.tile = tile}), exact_enough)
+      EXPECT_LT(error_of("deferred_tiled", scene, view, forward, {{setting::tile, tile}}), exact_enough)
           << width << ' ' << tile;
     }
   }
@@ -56,9 +60,9 @@ TEST(TiledLight, OfBothKernelShapesAndEveryLoop) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 79, 45);
   for (const Settings& settings :
-       {Settings{.kernel_shape = KernelShape::group}, Settings{.portable = true},
-        Settings{.brdf = Brdf::blinn}, Settings{.depth_bounds = DepthBoundsMode::none}}) {
-    const Image forward = render(scene, view, "forward", {.brdf = settings.brdf});
+       {Settings{{setting::kernel_shape, KernelShape::group}}, Settings{{setting::portable, true}},
+        Settings{{setting::brdf, Brdf::blinn}}, Settings{{setting::depth_bounds, DepthBoundsMode::none}}}) {
+    const Image forward = render(scene, view, "forward", {{setting::brdf, settings[setting::brdf]}});
     EXPECT_LT(error_of("deferred_tiled", scene, view, forward, settings), exact_enough);
   }
 }
@@ -85,7 +89,7 @@ TEST(TiledLight, TakesTheMemoryThatItsPageSays) {
   const Scene scene = find_builtin_scene("spheres")->make();
   const View view = default_view(scene, 64, 40);
   const auto result_of = [&](const char* technique, int bits) {
-    TechniqueRun run(test_devices(), scene, view, {.buffer_bits = bits}, find_technique(technique));
+    TechniqueRun run(test_devices(), scene, view, {{setting::buffer_bits, bits}}, find_technique(technique));
     run.run_frame();
     return run.result();
   };

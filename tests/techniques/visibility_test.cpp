@@ -1,5 +1,8 @@
 // visibility: its image near forward's, its lists against every light, and no further from surfaces in double
 // than forward.
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/surfaces.h"
 #include "support/double_surfaces.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
@@ -38,13 +41,13 @@ TEST(VisibilityBuffer, ListsAndEveryLightHaveTheSameBytes) {
     SCOPED_TRACE(builtin.name);
     const Scene scene = builtin.make();
     const View view = default_view(scene, 95, 53);
-    const Image all = render(scene, view, "visibility", {.lights = ShadedLights::all});
+    const Image all = render(scene, view, "visibility", {{setting::lights, ShadedLights::all}});
     EXPECT_TRUE(identical(render(scene, view, "visibility"), all));
     if (builtin.name != std::string("hall"))
       continue;  // with every effect; each setting is a kernel to compile
-    for (const Settings& settings :
-         {Settings{.tile = 8, .everything_on = true}, Settings{.z_bins = 64, .everything_on = true},
-          Settings{.depth_bounds = DepthBoundsMode::none}}) {
+    for (const Settings& settings : {Settings{{setting::tile, 8}, {setting::everything_on, true}},
+                                     Settings{{setting::z_bins, 64}, {setting::everything_on, true}},
+                                     Settings{{setting::depth_bounds, DepthBoundsMode::none}}}) {
       EXPECT_TRUE(identical(render(scene, view, "visibility", settings), all));
     }
   }
@@ -54,9 +57,9 @@ TEST(VisibilityBuffer, ListsAndEveryLightHaveTheSameBytes) {
 TEST(VisibilityBuffer, SlicesHaveTheSameBytesAndListLess) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 95, 53);
-  const Image all = render(scene, view, "visibility", {.lights = ShadedLights::all});
+  const Image all = render(scene, view, "visibility", {{setting::lights, ShadedLights::all}});
   uint64_t listed[2];
-  const Settings of[2] = {{}, {.slices = 16, .given = {"slices"}}};
+  const Settings of[2] = {{}, Settings{{setting::slices, 16}}.give(setting::slices)};
   for (int i = 0; i < 2; ++i) {
     TechniqueRun run(test_devices(), scene, view, of[i], find_technique("visibility"));
     run.run_frame();
@@ -75,7 +78,8 @@ TEST(VisibilityBuffer, InEverySize) {
   for (const auto& [width, height] : {std::pair(1, 1), {17, 9}, {3, 31}, {129, 70}}) {
     const View view = default_view(scene, width, height);
     const Image image = render(scene, view, "visibility");
-    EXPECT_TRUE(identical(render(scene, view, "visibility", {.lights = ShadedLights::all}), image)) << width;
+    EXPECT_TRUE(identical(render(scene, view, "visibility", {{setting::lights, ShadedLights::all}}), image))
+        << width;
     EXPECT_LT(distance_of(image, render(scene, view, "forward")).median, 1e-3) << width;
   }
 }
@@ -96,7 +100,7 @@ TEST(VisibilityBuffer, LaysBlendedSurfacesOverOneAnotherInForwardsOrder) {
   const Image forward = render(s.scene, view, "forward"), image = render(s.scene, view, "visibility");
   const double apart = compare_images(image, forward).rmse;
   expect_near(image, forward);
-  EXPECT_TRUE(identical(render(s.scene, view, "visibility", {.lights = ShadedLights::all}), image));
+  EXPECT_TRUE(identical(render(s.scene, view, "visibility", {{setting::lights, ShadedLights::all}}), image));
   s.scene.instances.resize(2);
   EXPECT_GT(compare_images(render(s.scene, view, "visibility"), forward).rmse, 20 * apart) << "glass is seen";
 }
@@ -112,7 +116,8 @@ TEST(VisibilityBuffer, BlendsByTheAlphaOfATexture) {
   const Image image = render(s.scene, view, "visibility");
   expect_near(image, render(s.scene, view, "forward"));
   EXPECT_LT(
-      compare_images(image, render(s.scene, view, "visibility", {.texels = TexelLayout::separate})).max_rel,
+      compare_images(image, render(s.scene, view, "visibility", {{setting::texels, TexelLayout::separate}}))
+          .max_rel,
       1e-5);
 }
 

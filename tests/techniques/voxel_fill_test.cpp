@@ -1,5 +1,8 @@
 // voxel_lights: what its volume holds: one light by hand, the same bytes of both kernel shapes, memory,
 // reuse.
+#include "passes/voxels/voxel_settings.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/surfaces.h"
 #include "scene/random.h"
 #include "techniques/voxel_volume.h"
 
@@ -60,7 +63,7 @@ TEST(VoxelLights, BothShapesFillTheSameBytes) {
   const View view = small_view(31, 23);
   Settings settings = sized(VoxelSize::s32x32x8);
   const auto volume = [&](KernelShape shape, int bits) {
-    settings.kernel_shape = shape, apply_setting(settings, "voxel-bits=" + std::to_string(bits));
+    settings.set(setting::kernel_shape, shape), apply_setting(settings, "voxel-bits=" + std::to_string(bits));
     TechniqueRun run(test_devices(), scene, view, settings, find_technique("voxel_lights"));
     run.run_frame();
     return read_voxels(run.view(), run.view().caches.voxels);
@@ -99,7 +102,7 @@ TEST(VoxelLights, BothShapesFillTheSameBytesUnderThousandsOfLights) {
   for (const VoxelSpace space : {VoxelSpace::world, VoxelSpace::view}) {
     Settings settings = sized(coarse, space);
     const auto volume = [&](KernelShape shape) {
-      settings.kernel_shape = shape;
+      settings.set(setting::kernel_shape, shape);
       TechniqueRun run(test_devices(), s.scene, small_view(31, 23), settings, find_technique("voxel_lights"));
       run.run_frame();
       return read_voxels(run.view(), run.view().caches.voxels);
@@ -126,7 +129,7 @@ TEST(VoxelLights, TakesTheMemoryThatItsPageSays) {
     for (const int bits : {32, 16}) {
       const auto bytes = [&](VoxelSize size) {
         Settings settings = sized(size);
-        settings.raster = raster, apply_setting(settings, "voxel-bits=" + std::to_string(bits));
+        settings.set(setting::raster, raster), apply_setting(settings, "voxel-bits=" + std::to_string(bits));
         TechniqueRun run(test_devices(), scene, view, settings, find_technique("voxel_lights"));
         run.run_frame();
         return run.result().memory_total;

@@ -1,5 +1,8 @@
 // voxel_lights: its picture against forward's, and where it must hold. `lightgrid verify --filter voxels/`
 // holds samples to the formulas in double (src/verify/voxels.cpp).
+#include "passes/voxels/voxel_settings.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "techniques/voxel_volume.h"
 
 namespace lightgrid {
@@ -91,11 +94,11 @@ TEST(VoxelLights, ErrorFallsWithResolutionToItsBound) {
   add_point(s.scene, "lamp", glm::vec3(lamp), {1, 1, 1}, float(candela), float(radius));
   const View view = make_view(look_at({1.4, 0.9, 0}, {0.2, 0, -4}), 61, 43);
   Settings settings;
-  settings.brdf = Brdf::lambert;
+  settings.set(setting::brdf, Brdf::lambert);
   const Image forward = render(s.scene, view, "forward", settings);
   double last = 1e9;
   for (const VoxelSize size : {coarse, VoxelSize::s32x32x8, VoxelSize::s64x64x16, VoxelSize::s128x128x32}) {
-    settings.voxel_size = size;
+    settings.set(setting::voxel_size, size);
     TechniqueRun run(test_devices(), s.scene, view, settings, find_technique("voxel_lights"));
     run.run_frame();
     const Volume volume(run.view());
@@ -146,12 +149,12 @@ TEST(VoxelLights, AreNearForwardAndLeakIsCounted) {
   const Scene scene = small_scene().scene;
   const View view = small_view(61, 43);
   Settings settings;
-  settings.brdf = Brdf::lambert;
+  settings.set(setting::brdf, Brdf::lambert);
   const Image forward = render(scene, view, "forward", settings);
   double last = 1e9;
   uint64_t leaked = ~uint64_t(0);
   for (const VoxelSize size : {coarse, VoxelSize::s64x64x16}) {
-    settings.voxel_size = size;
+    settings.set(setting::voxel_size, size);
     const DrawnVoxels d = drawn(scene, view, settings);
     EXPECT_EQ(d.pairs.lost, 0u);
     EXPECT_LT(d.pairs.listed - d.pairs.lit, leaked);
@@ -201,7 +204,7 @@ TEST(VoxelLights, ExactLightsLeaveNothingOfThemselves) {
     for (const VoxelSpace space : {VoxelSpace::world, VoxelSpace::view}) {
       Settings settings = sized(coarse, space);
       EXPECT_GT(compare_images(render(s.scene, view, "voxel_lights", settings), forward).max_rel, 1e-3);
-      settings.voxel_lights_exact = 1;
+      settings.set(setting::voxel_lights_exact, 1);
       EXPECT_LT(compare_images(render(s.scene, view, "voxel_lights", settings), forward).max_rel, 1e-4)
           << spot << ' ' << int(space);
     }
@@ -211,7 +214,7 @@ TEST(VoxelLights, ExactLightsLeaveNothingOfThemselves) {
   double last = 1e9;
   for (const int exact : {0, 1, 4}) {
     Settings settings = sized(VoxelSize::s32x32x8);
-    settings.voxel_lights_exact = exact;
+    settings.set(setting::voxel_lights_exact, exact);
     const double error = compare_images(render(six, view, "voxel_lights", settings), forward).rmse;
     EXPECT_LT(error, last) << exact;
     last = error;
@@ -224,9 +227,9 @@ TEST(VoxelLights, RasterOfOpenClShowsTheSame) {
   effect("blend").add(s);
   const View view = small_view(61, 43);
   Settings settings = sized(VoxelSize::s32x32x8, VoxelSpace::view);
-  settings.voxel_lights_exact = 1;
+  settings.set(setting::voxel_lights_exact, 1);
   const Image opengl = render(s.scene, view, "voxel_lights", settings);
-  settings.raster = RasterApi::opencl;
+  settings.set(setting::raster, RasterApi::opencl);
   const DrawnVoxels opencl = drawn(s.scene, view, settings);
   expect_near(opencl.image, opengl);
   EXPECT_EQ(opencl.pairs.lost, 0u);

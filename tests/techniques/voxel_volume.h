@@ -2,6 +2,7 @@
 #pragma once
 
 #include "passes/build_voxels.h"
+#include "passes/voxels/voxel_settings.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -35,7 +36,7 @@ struct Volume {
 
 inline Settings sized(VoxelSize size, VoxelSpace space = VoxelSpace::world) {
   Settings settings;
-  settings.voxel_size = size, settings.voxel_space = space;
+  settings.set(setting::voxel_size, size), settings.set(setting::voxel_space, space);
   return settings;
 }
 

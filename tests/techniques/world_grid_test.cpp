@@ -3,6 +3,10 @@
 #include <optional>
 
 #include "base/error.h"
+#include "passes/common/world_grid_settings.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -24,7 +28,7 @@ TEST(WorldGridTechnique, IsForwardsPictureToTheBit) {
   const View view = small_view(47, 31);
   const Image forward = render(s.scene, view, "forward");
   for (const WorldGridShape shape : shapes) {
-    expect_exact(s.scene, view, {.world_grid = shape}, forward, "world_grid");
+    expect_exact(s.scene, view, {{setting::world_grid, shape}}, forward, "world_grid");
   }
 }
 
@@ -39,7 +43,7 @@ TEST(WorldGridTechnique, SharesListsAmongViewsAndFollowsLights) {
     EXPECT_TRUE(identical(run.image(), render(scene, view, "forward")));
   };
   const std::shared_ptr<SharedWorldGrid> grid =
-      gpu.world_grid(test_devices(), {WorldGridShape::cubes, std::nullopt, 16, Settings().ranges});
+      gpu.world_grid(test_devices(), {WorldGridShape::cubes, std::nullopt, 16, ranges_of(Settings())});
   expect_forwards(first, views[0]);
   expect_forwards(second, views[1]);
   first.look(views[1]);
@@ -82,9 +86,10 @@ TEST(WorldGridTechnique, InOpenClIsVisibilitysPictureOfEveryLight) {
   s.scene.materials[size_t(s.ball_material)].alpha_mode = AlphaMode::blend;
   s.scene.materials[size_t(s.ball_material)].base_color.a = 0.5f;
   const View view = small_view(47, 31);
-  const Image every = render(s.scene, view, "visibility", {.lights = ShadedLights::all});
+  const Image every = render(s.scene, view, "visibility", {{setting::lights, ShadedLights::all}});
   for (const WorldGridShape shape : shapes) {
-    TechniqueRun run(test_devices(), s.scene, view, {.raster = RasterApi::opencl, .world_grid = shape},
+    TechniqueRun run(test_devices(), s.scene, view,
+                     {{setting::raster, RasterApi::opencl}, {setting::world_grid, shape}},
                      find_technique("world_grid"));
     run.run_frame();
     EXPECT_TRUE(identical(run.image(), every));

@@ -1,4 +1,6 @@
 // z-bins: shading skips lights of its list, and the image keeps the bytes of every light at every pixel.
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -14,8 +16,8 @@ TEST_P(BuiltinZBins, HaveTheBytesOfEveryLightAtEveryPixelThroughEveryCamera) {
     SCOPED_TRACE(camera.name);
     const View view = make_view(camera, 95, 53);
     const Image forward = render(scene, view, "forward");
-    expect_exact(scene, view, {.z_bins = 64}, forward);
-    expect_exact(scene, view, {.z_bins = 256}, forward, "clustered");
+    expect_exact(scene, view, {{setting::z_bins, 64}}, forward);
+    expect_exact(scene, view, {{setting::z_bins, 256}}, forward, "clustered");
   }
 }
 
@@ -27,7 +29,7 @@ void expect_the_bytes_of_none(const Scene& scene, const View& view, Settings set
                               Renderer& devices = test_devices()) {
   SCOPED_TRACE(testing::PrintToString(to_strings(settings)) + technique);
   TechniqueRun on(devices, scene, view, settings, find_technique(technique));
-  settings.z_bins = 1;
+  settings.set(setting::z_bins, 1);
   TechniqueRun off(devices, scene, view, settings, find_technique(technique));
   on.run_frame(), off.run_frame();
   EXPECT_TRUE(identical(on.image(), off.image()));
@@ -42,8 +44,9 @@ void expect_the_bytes_of_none(const Scene& scene, const View& view, Settings set
 TEST_P(BuiltinZBins, LeaveTheLightPassInOpenClItsBytes) {
   const View view = default_view(scene, 95, 53);
   for (const char* technique : in_opencl) {
-    expect_the_bytes_of_none(scene, view, {.z_bins = 256}, technique);
-    expect_the_bytes_of_none(scene, view, {.z_bins = 16, .kernel_shape = KernelShape::group}, technique);
+    expect_the_bytes_of_none(scene, view, {{setting::z_bins, 256}}, technique);
+    expect_the_bytes_of_none(scene, view,
+                             {{setting::z_bins, 16}, {setting::kernel_shape, KernelShape::group}}, technique);
   }
 }
 
@@ -56,7 +59,7 @@ TEST(ZBins, AreCountedWhereOpenGlHasACopy) {
     const Scene scene = find_builtin_scene("hall")->make();
     const View view = default_view(scene, 95, 53);
     for (const char* technique : in_opencl)
-      expect_the_bytes_of_none(scene, view, {.z_bins = 64}, technique, staged);
+      expect_the_bytes_of_none(scene, view, {{setting::z_bins, 64}}, technique, staged);
   }
   test_devices().gl->make_current();
 }
@@ -85,10 +88,11 @@ TEST(ZBins, HaveTheBytesWithGlassMasksLinearBinsAndNoDepthBounds) {
   for (const View& view : {small_view(127, 73), small_view(1, 1), make_view(camera, 127, 73)}) {
     const Image forward = render(scene, view, "forward");
     for (const Settings& settings :
-         {Settings{.slice_spacing = SliceSpacing::linear, .z_bins = 16},
-          Settings{.z_bins = 256, .grid_lists = GridLists::masks},
-          Settings{
-              .depth_bounds = DepthBoundsMode::none, .z_bins = 64, .kernel_shape = KernelShape::group}}) {
+         {Settings{{setting::slice_spacing, SliceSpacing::linear}, {setting::z_bins, 16}},
+          Settings{{setting::z_bins, 256}, {setting::grid_lists, GridLists::masks}},
+          Settings{{setting::depth_bounds, DepthBoundsMode::none},
+                   {setting::z_bins, 64},
+                   {setting::kernel_shape, KernelShape::group}}}) {
       SCOPED_TRACE(testing::PrintToString(to_strings(settings)));
       expect_exact(scene, view, settings, forward);
       expect_exact(scene, view, settings, forward, "clustered");
@@ -102,8 +106,10 @@ TEST(ZBins, KeepOpenClsBytesWithGlassSmallTilesAndNoDepthBounds) {
   camera.orthographic = true;
   camera.half_width_m = camera.half_height_m = 2;
   camera.near_m = -3, camera.far_m = 10;
-  const Settings in_small_tiles{.tile = 8, .slice_spacing = SliceSpacing::linear, .z_bins = 64};
-  const Settings everywhere{.depth_bounds = DepthBoundsMode::none, .z_bins = 256, .portable = true};
+  const Settings in_small_tiles{
+      {setting::tile, 8}, {setting::slice_spacing, SliceSpacing::linear}, {setting::z_bins, 64}};
+  const Settings everywhere{
+      {setting::depth_bounds, DepthBoundsMode::none}, {setting::z_bins, 256}, {setting::portable, true}};
   for (const View& view : {small_view(127, 73), small_view(1, 1)}) {
     expect_the_bytes_of_none(scene, view, in_small_tiles, "deferred_tiled");
   }
@@ -122,25 +128,26 @@ TEST(ZBins, LeaveLongListsTheirOrder) {
   for (Light& light : scene.lights) light.radius_m = 4;
   const View view = default_view(scene, 47, 31);
   EXPECT_GT(listed(scene, view, {}), 47u * 31 * 65) << "more than 64 a pixel";
-  expect_the_bytes_of_none(scene, view, {.z_bins = 64}, "deferred_tiled");
+  expect_the_bytes_of_none(scene, view, {{setting::z_bins, 64}}, "deferred_tiled");
 }
 
 TEST(ZBins, PassOverMoreTheFinerTheyAre) {
   const Scene scene = find_builtin_scene("spheres")->make();
   const View view = default_view(scene, 160, 90);
-  const uint64_t off = listed(scene, view, {}), coarse = listed(scene, view, {.z_bins = 16});
-  const uint64_t fine = listed(scene, view, {.z_bins = 64}), finest = listed(scene, view, {.z_bins = 256});
+  const uint64_t off = listed(scene, view, {}), coarse = listed(scene, view, {{setting::z_bins, 16}});
+  const uint64_t fine = listed(scene, view, {{setting::z_bins, 64}}),
+                 finest = listed(scene, view, {{setting::z_bins, 256}});
   EXPECT_LT(coarse, off / 2);  // tiles with a sphere in front of a far floor
   EXPECT_LT(fine, coarse);
   EXPECT_LT(finest, fine);
-  EXPECT_EQ(listed(scene, view, {.z_bins = 64, .grid_lists = GridLists::masks}), fine);
+  EXPECT_EQ(listed(scene, view, {{setting::z_bins, 64}, {setting::grid_lists, GridLists::masks}}), fine);
 }
 
 TEST(ZBins, AreNeitherBuiltNorKeptWhereTheyAreOff) {
   const Scene scene = small_scene().scene;
   const View view = small_view(17, 9);
   TechniqueRun off(test_devices(), scene, view, {}, find_technique("forward_plus"));
-  TechniqueRun on(test_devices(), scene, view, {.z_bins = 16}, find_technique("forward_plus"));
+  TechniqueRun on(test_devices(), scene, view, {{setting::z_bins, 16}}, find_technique("forward_plus"));
   off.run_frame(), on.run_frame();
   EXPECT_EQ(off.frame().grid.value().z_bin_bytes, 0u);
   EXPECT_EQ(on.frame().grid.value().z_bin_bytes, 4 * on.view().plan.local.size());

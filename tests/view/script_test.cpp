@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "base/error.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/model.h"
 
 namespace lightgrid {
 namespace {
@@ -57,10 +59,10 @@ TEST(Script, ChoosesForOneSideOrBoth) {
   script.play(0, controls, input);
   EXPECT_EQ(controls.sides[0].technique, "clustered");
   EXPECT_EQ(controls.sides[1].technique, "forward");
-  EXPECT_EQ(controls.sides[0].settings.tile, 32);
-  EXPECT_EQ(controls.sides[1].settings.tile, 32);
-  EXPECT_EQ(controls.sides[0].settings.brdf, Brdf::ggx);
-  EXPECT_EQ(controls.sides[1].settings.brdf, Brdf::blinn);
+  EXPECT_EQ(controls.sides[0].settings[setting::tile], 32);
+  EXPECT_EQ(controls.sides[1].settings[setting::tile], 32);
+  EXPECT_EQ(controls.sides[0].settings[setting::brdf], Brdf::ggx);
+  EXPECT_EQ(controls.sides[1].settings[setting::brdf], Brdf::blinn);
   EXPECT_EQ(controls.sides[0].map, SideMap::picture);
   EXPECT_EQ(controls.sides[1].map, SideMap::lost);
   EXPECT_EQ(controls.line, 0.25);

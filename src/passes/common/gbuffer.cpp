@@ -3,13 +3,15 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "plan/settings/surfaces.h"
 #include "shared/model_records.h"
 
 namespace lightgrid {
 
 const GBufferLayout& gbuffer_layout(const Settings& settings) {
-  return *std::find_if(std::begin(gbuffer_layouts), std::end(gbuffer_layouts),
-                       [&](const GBufferLayout& layout) { return layout.bits == settings.buffer_bits; });
+  return *std::find_if(
+      std::begin(gbuffer_layouts), std::end(gbuffer_layouts),
+      [&](const GBufferLayout& layout) { return layout.bits == settings[setting::buffer_bits]; });
 }
 
 std::vector<const char*> model_defines(const FramePlan& plan) {

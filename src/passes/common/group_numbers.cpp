@@ -3,12 +3,14 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "plan/settings/groups.h"
+#include "plan/settings/surfaces.h"
 #include "scene/light_groups.h"
 
 namespace lightgrid {
 
 const GroupNumberFormat& group_number_format(const Settings& settings) {
-  return *std::ranges::find(group_number_formats, settings.group_bits, &GroupNumberFormat::bits);
+  return *std::ranges::find(group_number_formats, settings[setting::group_bits], &GroupNumberFormat::bits);
 }
 
 bool has_group_numbers(const FramePlan& plan) { return plan.groups && plan.group_stencil == 0; }
@@ -20,7 +22,7 @@ size_t group_number_bytes(const FramePlan& plan) {
 namespace {
 
 void require_numbers_of(const Seen& seen) {
-  const int bits = seen.plan.settings.group_bits;
+  const int bits = seen.plan.settings[setting::group_bits];
   if (seen.plan.group_masks.size() <= size_t(1) << bits) return;
   throw input_error(
       "scene \"{}\": instances have {} different masks of light groups; group-ids={} numbers {}: use {}",
@@ -66,7 +68,7 @@ ClArguments group_number_arguments(const FramePlan& plan, SharedBuffer* numbers)
 }
 
 std::string group_number_define(const FramePlan& plan) {
-  return has_group_numbers(plan) ? fmt::format(" -DGROUP_BITS={}", plan.settings.group_bits) : "";
+  return has_group_numbers(plan) ? fmt::format(" -DGROUP_BITS={}", plan.settings[setting::group_bits]) : "";
 }
 
 namespace {
@@ -109,8 +111,8 @@ StencilGroups stencil_groups(const Seen& seen) {
   if (out.bits > plan.group_stencil)
     throw input_error(
         "scene \"{}\": its light groups need {} bits of a stencil, and group-stencil={} has {}: use {}",
-        seen.scene.name, out.bits, plan.settings.group_stencil, plan.group_stencil,
-        out.bits <= most_stencil_groups(plan.settings.volume_culling)
+        seen.scene.name, out.bits, plan.settings[setting::group_stencil], plan.group_stencil,
+        out.bits <= most_stencil_groups(plan.settings[setting::volume_culling])
             ? fmt::format("group-stencil={}", out.bits <= 6 ? 6 : 8)
             : "group-stencil=off");
   for (size_t g = 0; g < groups.size(); ++g) {

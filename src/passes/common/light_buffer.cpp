@@ -5,21 +5,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/common/prepass_settings.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "scene/light_ranges.h"
 
 namespace lightgrid {
 
 const NormalLayout& normal_layout(const Settings& settings) {
-  return *std::ranges::find(normal_layouts, settings.normals, &NormalLayout::format);
+  return *std::ranges::find(normal_layouts, settings[setting::normals], &NormalLayout::format);
 }
 
 const LightBufferLayout& light_buffer_layout(const Settings& settings) {
-  return *std::ranges::find(light_buffer_layouts, settings.buffer_bits, &LightBufferLayout::bits);
+  return *std::ranges::find(light_buffer_layouts, settings[setting::buffer_bits], &LightBufferLayout::bits);
 }
 
 const char* prepass_define(const Settings& settings) {
-  if (settings.brdf == Brdf::lambert) return nullptr;
-  switch (settings.prepass_specular) {
+  if (settings[setting::brdf] == Brdf::lambert) return nullptr;
+  switch (settings[setting::prepass_specular]) {
     case PrepassSpecular::plain:
       return nullptr;
     case PrepassSpecular::fifth_term:
@@ -33,7 +36,8 @@ const char* prepass_define(const Settings& settings) {
 }
 
 bool has_fifth_term(const Settings& settings) {
-  return settings.prepass_specular == PrepassSpecular::fifth_term && settings.brdf != Brdf::lambert;
+  return settings[setting::prepass_specular] == PrepassSpecular::fifth_term &&
+         settings[setting::brdf] != Brdf::lambert;
 }
 
 size_t bytes_of_light_buffer(const Settings& settings) {
@@ -45,7 +49,7 @@ double reference_light(const Scene& scene, const FramePlan& plan) {
   double brightest = 0;
   for (const int i : plan.local) {
     const Light& light = scene.lights[size_t(i)];
-    const double range = range_of(light, size_t(i), plan.settings.ranges);
+    const double range = range_of(light, size_t(i), ranges_of(plan.settings));
     const double from = std::isfinite(range) && range > 0 ? range / 8 : 1;
     const double irradiance = brightest_intensity(light) / (from * from);
     if (std::isfinite(irradiance)) brightest = std::max(brightest, irradiance);
@@ -55,13 +59,14 @@ double reference_light(const Scene& scene, const FramePlan& plan) {
 }
 
 double stored_scale(const Seen& seen) {
-  return seen.plan.settings.buffer_bits == 32 ? 1 : reference_light(seen.scene, seen.plan);
+  return seen.plan.settings[setting::buffer_bits] == 32 ? 1 : reference_light(seen.scene, seen.plan);
 }
 
 std::vector<std::string> light_buffer_defines(const Seen& seen) {
   const Settings& s = seen.plan.settings;
-  std::vector<std::string> defines = {fmt::format("LIGHT_EXPONENT {:.1f}", double(s.prepass_shininess)),
-                                      fmt::format("LIGHT_SCALE {:.17e}", stored_scale(seen))};
+  std::vector<std::string> defines = {
+      fmt::format("LIGHT_EXPONENT {:.1f}", double(s[setting::prepass_shininess])),
+      fmt::format("LIGHT_SCALE {:.17e}", stored_scale(seen))};
   if (const char* define = prepass_define(s)) defines.emplace_back(define);
   return defines;
 }
@@ -105,8 +110,8 @@ LightSource from_light_buffer(const Seen& seen, const LightBuffer& buffer) {
     if (buffer.in_a_row) loop.defines.emplace_back("SAMPLES_IN_A_ROW");
     for (std::string& define : light_buffer_defines(seen)) loop.defines.push_back(std::move(define));
     // Where nothing reads it, lights of another brightness need no other program.
-    const bool read =
-        seen.plan.settings.prepass_specular == PrepassSpecular::bent || seen.plan.skin || seen.plan.minnaert;
+    const bool read = seen.plan.settings[setting::prepass_specular] == PrepassSpecular::bent ||
+                      seen.plan.skin || seen.plan.minnaert;
     loop.defines.push_back(
         fmt::format("LIGHT_REFERENCE {:.17e}", read ? reference_light(seen.scene, seen.plan) : 1.0));
     loop.textures = {{Sampler::light_buffer, buffer.first}};

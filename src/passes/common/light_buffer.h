@@ -4,6 +4,7 @@
 
 #include "passes/common/group_numbers.h"
 #include "passes/common/light_source.h"
+#include "passes/common/prepass_settings.h"
 
 namespace lightgrid {
 

@@ -1,5 +1,6 @@
 #include "passes/common/light_source.h"
 
+#include "plan/settings/model.h"
 #include "renderer/upload/lights.h"
 
 namespace lightgrid {
@@ -16,8 +17,8 @@ void GlLightLoop::bind(Work& work) const {
 
 GlLightLoop base_lighting(const Seen& seen) {
   GlLightLoop loop;
-  if (seen.plan.settings.brdf == Brdf::blinn) loop.defines.emplace_back("BLINN");
-  if (seen.plan.settings.brdf == Brdf::lambert) loop.defines.emplace_back("LAMBERT");
+  if (seen.plan.settings[setting::brdf] == Brdf::blinn) loop.defines.emplace_back("BLINN");
+  if (seen.plan.settings[setting::brdf] == Brdf::lambert) loop.defines.emplace_back("LAMBERT");
   if (seen.plan.directional) loop.defines.emplace_back("DIRECTIONAL");
   for (const std::string& define : reach_defines(seen.plan)) loop.defines.push_back(define);
   for (const Effect* effect : seen.plan.effects) {

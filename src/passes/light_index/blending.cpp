@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "passes/light_index/lidr_settings.h"
 #include "shared/light_index.h"
 
 namespace lightgrid {

@@ -1,5 +1,7 @@
 #include "passes/light_index/caster_draws.h"
 
+#include "plan/settings/model.h"
+
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -8,7 +10,7 @@ namespace lightgrid {
 CasterDraws::CasterDraws(Work&) : array_(make_vertex_array()) {}
 
 void CasterDraws::make_volumes(Work& work, const RayScene& rays) {
-  const LightRanges& ranges = work.plan.settings.ranges;
+  const LightRanges ranges = ranges_of(work.plan.settings);
   const int shape = work.gpu.shape_version(), instances = work.gpu.instances_version(),
             lights = work.gpu.lights_version();
   if (shape == shape_ && instances == instances_ && lights == lights_ && ranges_ == ranges) return;

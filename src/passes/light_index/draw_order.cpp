@@ -8,13 +8,16 @@
 
 #include "passes/light_index/blending.h"
 #include "passes/light_index/index_shadows.h"
+#include "passes/light_index/lidr_settings.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 
 namespace lightgrid {
 namespace {
 
-const OwnSetting<bool> by_priority{
+const Setting<bool> by_priority{
+    370,
     "lidr-order",
-    "lidr-shadows",
     "the lights kept if a pixel has too many: those of most influence, or the scene's first",
     {{"priority", true}, {"scene", false}}};
 
@@ -25,7 +28,7 @@ LightExtent extent_on_screen(const LightVolume& v) {
   return {glm::dvec3(v.low_px, 0), glm::dvec3(v.high_px, 0)};
 }
 
-bool on_screen(const Seen& seen) { return seen.plan.settings.lidr_volumes != LidrVolumes::stencil; }
+bool on_screen(const Seen& seen) { return seen.plan.settings[setting::lidr_volumes] != LidrVolumes::stencil; }
 
 // Contains every mesh that a view draws for a light, whatever its distance, as long as slack is at most 1/64
 // of the range (light_volumes.cpp). The coarsest ball has its corners at 1.263 of the radius; a box, and a
@@ -41,10 +44,10 @@ double still_radius(const LightBounds& bounds, VolumeMeshes meshes) {
 std::vector<LightExtent> still_extents(const Seen& seen) {
   std::vector<LightExtent> extents;
   const Settings& settings = seen.plan.settings;
-  const auto lights = lights_in_view(seen.scene, seen.view, settings.ranges, seen.plan.local);
+  const auto lights = lights_in_view(seen.scene, seen.view, ranges_of(settings), seen.plan.local);
   for (size_t i = 0; i < lights.size(); ++i) {
     const glm::dvec3 at = seen.scene.lights[size_t(seen.plan.local[i])].position;
-    const double radius = still_radius(bounds_of(lights[i]), settings.volume_mesh);
+    const double radius = still_radius(bounds_of(lights[i]), settings[setting::volume_mesh]);
     extents.push_back({at - radius, at + radius, at, radius});
   }
   return extents;
@@ -73,15 +76,16 @@ bool LightIndexOrder::follow(Work& work) {
 void LightIndexOrder::find_influence(const Seen& seen) {
   influence_.clear(), type_.clear();
   for (const ViewLight& light :
-       lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local)) {
+       lights_in_view(seen.scene, seen.view, ranges_of(seen.plan.settings), seen.plan.local)) {
     influence_.push_back(influence_of(light));
-    type_.push_back(seen.plan.settings.lidr_types == LidrTypes::passes && light.type == LightType::spot);
+    type_.push_back(seen.plan.settings[setting::lidr_types] == LidrTypes::passes &&
+                    light.type == LightType::spot);
   }
 }
 
 // Groups in all passes of a type.
 static uint32_t groups_of_type(const LightIndexLayout& layout, const Seen& seen) {
-  return layout.groups * uint32_t(seen.plan.settings.lidr_passes);
+  return layout.groups * uint32_t(seen.plan.settings[setting::lidr_passes]);
 }
 
 // The groups of all lights in the scene. False if a volume is larger than its extent there: far away, where
@@ -89,7 +93,7 @@ static uint32_t groups_of_type(const LightIndexLayout& layout, const Seen& seen)
 bool LightIndexOrder::put_in_still_groups(const Seen& seen, const std::vector<LightVolume>& volumes) {
   const Settings& settings = seen.plan.settings;
   for (const LightVolume& v : volumes) {
-    if (!contains(v, still_radius(v.bounds, settings.volume_mesh))) return false;
+    if (!contains(v, still_radius(v.bounds, settings[setting::volume_mesh]))) return false;
   }
   const std::vector<LightExtent> extents = still_extents(seen);
   const uint32_t groups = groups_of_type(layout_, seen);
@@ -98,7 +102,7 @@ bool LightIndexOrder::put_in_still_groups(const Seen& seen, const std::vector<Li
     for (uint32_t i = 0; i < type_.size(); ++i) {
       if (type_[i] == type) order.push_back(i);
     }
-    if (by_priority.of(settings))
+    if (settings[by_priority])
       std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) { return before(a, b); });
     const std::vector<uint32_t>& found = still_[type].of(extents, order, groups, layout_.slots);
     for (const uint32_t i : order)
@@ -127,7 +131,8 @@ void LightIndexOrder::put_in_groups_of_view(const Seen& seen, const std::vector<
 // rectangles on screen must not touch.
 void LightIndexOrder::put_in_groups(const Seen& seen, std::vector<LightVolume>& volumes) {
   if (on_screen(seen) || !grouped_) {
-    const bool still = seen.plan.settings.lidr_sort == LidrSort::still && put_in_still_groups(seen, volumes);
+    const bool still =
+        seen.plan.settings[setting::lidr_sort] == LidrSort::still && put_in_still_groups(seen, volumes);
     if (!still) put_in_groups_of_view(seen, volumes);
   }
   grouped_ = true;
@@ -151,7 +156,7 @@ std::vector<uint32_t> LightIndexOrder::rounds_of(const Seen& seen,
 void LightIndexOrder::order(const Seen& seen, std::vector<LightVolume> volumes) {
   const bool sorted = layout_.sorted();
   // Most influence first if lidr-order says so, else scene order.
-  if (by_priority.of(seen.plan.settings)) {
+  if (seen.plan.settings[by_priority]) {
     std::stable_sort(volumes.begin(), volumes.end(),
                      [&](const LightVolume& a, const LightVolume& b) { return before(a.light, b.light); });
   }
@@ -188,7 +193,7 @@ void LightIndexOrder::order(const Seen& seen, std::vector<LightVolume> volumes) 
     ++batches_.batches.back().count;
     batches_.volumes.push_back(volumes[order[i]]);
     batches_.passes.back().points_alone &=
-        seen.plan.settings.lidr_types == LidrTypes::passes && type_[volumes[order[i]].light] == 0;
+        seen.plan.settings[setting::lidr_types] == LidrTypes::passes && type_[volumes[order[i]].light] == 0;
   }
 }
 

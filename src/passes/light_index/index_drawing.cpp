@@ -1,6 +1,7 @@
 #include "passes/light_index/index_drawing.h"
 
 #include "passes/light_index/blending.h"
+#include "passes/light_index/lidr_settings.h"
 
 namespace lightgrid {
 
@@ -15,8 +16,8 @@ IndexDrawing::IndexDrawing(const Seen& seen, const LightIndexLayout& layout, con
     : layout_(layout),
       volumes_(volumes),
       programs_(programs),
-      inside_(seen.plan.settings.lidr_volumes == LidrVolumes::stencil),
-      before_depth_(seen.plan.settings.lidr_volumes == LidrVolumes::no_prepass) {}
+      inside_(seen.plan.settings[setting::lidr_volumes] == LidrVolumes::stencil),
+      before_depth_(seen.plan.settings[setting::lidr_volumes] == LidrVolumes::no_prepass) {}
 
 GLint IndexDrawing::cleared_stencil() const {
   if (layout_.sorted()) return 255;

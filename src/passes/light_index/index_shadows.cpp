@@ -6,6 +6,9 @@
 
 #include "base/error.h"
 #include "passes/shadows/triangle_numbers.h"
+#include "plan/settings/model.h"
+#include "plan/settings/shadows.h"
+#include "plan/settings/surfaces.h"
 
 namespace lightgrid {
 namespace {
@@ -13,19 +16,23 @@ namespace {
 constexpr size_t least_table_bytes = 64;  // least size of a buffer
 constexpr size_t corner_bytes = 16;
 
-bool reads_maps(const Seen& seen) { return seen.plan.settings.lidr_shadows != LidrShadows::volumes; }
+bool reads_maps(const Seen& seen) {
+  return seen.plan.settings[setting::lidr_shadows] != LidrShadows::volumes;
+}
 
 // A hard shadow is decided by one texel.
 int taps_of(const Settings& settings) {
-  return settings.lidr_shadows == LidrShadows::prepass ? 1 : settings.shadow_taps;
+  return settings[setting::lidr_shadows] == LidrShadows::prepass ? 1 : settings[setting::shadow_taps];
 }
 
 GLenum texel_format(const Settings& settings) {
-  return settings.shadow_bits == 32 ? GL_R32F : settings.shadow_bits == 24 ? GL_R32UI : GL_R16UI;
+  return settings[setting::shadow_bits] == 32   ? GL_R32F
+         : settings[setting::shadow_bits] == 24 ? GL_R32UI
+                                                : GL_R16UI;
 }
 
 size_t most_texel_bytes(const Settings& settings) {
-  return most_texture_bytes(settings.shadow_bits == 16 ? GL_R16UI : GL_R32UI);
+  return most_texture_bytes(settings[setting::shadow_bits] == 16 ? GL_R16UI : GL_R32UI);
 }
 
 void add(std::vector<uint32_t>& words, const float (&v)[3]) {
@@ -46,7 +53,7 @@ std::vector<uint32_t> light_words(const Seen& seen, const glm::dvec3& origin, co
     const size_t number = size_t(plan.local[i]);
     const Light& light = seen.scene.lights[number];
     const glm::vec3 at(light.position - origin);
-    const float range = std::min(float(range_of(light, number, plan.settings.ranges)), 1e18f);
+    const float range = std::min(float(range_of(light, number, ranges_of(plan.settings))), 1e18f);
     add(words, {at.x, at.y, at.z}), words.push_back(std::bit_cast<uint32_t>(range));
     words.push_back(has_own_shadow(plan, i));
     words.push_back(atlas ? atlas->lights[i][0] : 0), words.push_back(atlas ? atlas->lights[i][1] : 0);
@@ -103,9 +110,9 @@ size_t IndexShadows::memory_bytes() const {
 
 void IndexShadows::find(Work& work, bool numbered) {
   // A map has no share of a light for alpha to hide.
-  const bool opaque = work.plan.settings.shadow_blended == BlendedCasters::opaque;
-  scene_ =
-      work.gpu.in_rays(work.plan.settings.texels, opaque ? BlendedCasters::opaque : BlendedCasters::none);
+  const bool opaque = work.plan.settings[setting::shadow_blended] == BlendedCasters::opaque;
+  scene_ = work.gpu.in_rays(work.plan.settings[setting::texels],
+                            opaque ? BlendedCasters::opaque : BlendedCasters::none);
   upload_corners(work);
   if (!view_uploaded_) upload_view(work);
   view_uploaded_ = true;
@@ -189,7 +196,7 @@ GlLightLoop IndexShadows::input(Work& work) const {
   }
   loop.textures.push_back({Sampler::shadow_faces, faces_.texture.name()});
   loop.textures.push_back({Sampler::shadow_texels, texels_.texture.name()});
-  loop.defines.push_back(fmt::format("SHADOW_BITS {}", work.plan.settings.shadow_bits));
+  loop.defines.push_back(fmt::format("SHADOW_BITS {}", work.plan.settings[setting::shadow_bits]));
   loop.defines.push_back(fmt::format("SHADOW_TAPS {}", taps_of(work.plan.settings)));
   return loop;
 }

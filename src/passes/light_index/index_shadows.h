@@ -6,6 +6,7 @@
 #include "passes/common/light_source.h"
 #include "passes/light_index/caster_draws.h"
 #include "passes/shadows/view_shadow_maps.h"
+#include "plan/settings/shadows.h"
 
 namespace lightgrid {
 
@@ -15,7 +16,7 @@ constexpr uint32_t shadow_share_bits = 4;
 
 // 0: the view's light index images have no shares.
 inline uint32_t share_bits_of(const Seen& seen) {
-  return seen.plan.own_shadows && seen.plan.settings.lidr_shadows == LidrShadows::prepass_soft
+  return seen.plan.own_shadows && seen.plan.settings[setting::lidr_shadows] == LidrShadows::prepass_soft
              ? shadow_share_bits
              : 0;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "passes/light_index/lidr_settings.h"
 #include "shared/light_index.h"
 
 namespace lightgrid {
@@ -100,18 +101,18 @@ std::string LightIndexLayout::name() const {
 
 LightIndexLayout light_index_layout(const Settings& settings, size_t lights, uint32_t share_bits) {
   const uint32_t most_lights =
-      settings.lidr_lights ? uint32_t(settings.lidr_lights) : least_that_holds(lights);
+      settings[setting::lidr_lights] ? uint32_t(settings[setting::lidr_lights]) : least_that_holds(lights);
   if (lights > most_lights) {
     throw input_error("lidr: {} point and spot lights are more than the {} that have an index{}", lights,
                       most_lights, most_lights < 65535 ? "; use lidr-lights=auto" : "");
   }
-  uint32_t overlap = uint32_t(settings.lidr_overlap);
+  uint32_t overlap = uint32_t(settings[setting::lidr_overlap]);
   if (!overlap) {
     for (overlap = 16; overlap > 1; overlap /= 2) {
-      if (why_not(row_of(settings.lidr_packing, overlap, most_lights, share_bits)).empty()) break;
+      if (why_not(row_of(settings[setting::lidr_packing], overlap, most_lights, share_bits)).empty()) break;
     }
   }
-  const LightIndexLayout row = row_of(settings.lidr_packing, overlap, most_lights, share_bits);
+  const LightIndexLayout row = row_of(settings[setting::lidr_packing], overlap, most_lights, share_bits);
   if (const std::string why = why_not(row); !why.empty())
     throw input_error("lidr: no images hold {}: {}", row.name(), why);
   return row;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gl/gl.h"
+#include "passes/light_index/lidr_settings.h"
 #include "plan/settings.h"
 
 namespace lightgrid {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/light_index/index_shadows.h"
+#include "plan/settings/shadows.h"
 
 namespace lightgrid {
 namespace {
@@ -56,9 +57,9 @@ void add_shares(const LightVolume& volume, const std::vector<uint8_t>& shares, i
 
 // Lights may be hidden in part.
 bool filtered(const Seen& seen) {
-  const LidrShadows way = seen.plan.settings.lidr_shadows;
+  const LidrShadows way = seen.plan.settings[setting::lidr_shadows];
   return (way == LidrShadows::prepass_soft || way == LidrShadows::final_pass) &&
-         seen.plan.settings.shadow_taps > 1;
+         seen.plan.settings[setting::shadow_taps] > 1;
 }
 
 }  // namespace
@@ -99,7 +100,7 @@ HostShadows IndexShadows::read(Work& work, const LightVolumes& volumes) const {
     }
   }
   all.local_alone = true;
-  all.drops_hidden = work.plan.settings.lidr_shadows != LidrShadows::final_pass;
+  all.drops_hidden = work.plan.settings[setting::lidr_shadows] != LidrShadows::final_pass;
   return all;
 }
 

@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "passes/common/group_numbers.h"
+#include "plan/settings/model.h"
+#include "plan/settings/surfaces.h"
 #include "plan/visibility.h"
 
 namespace lightgrid {
@@ -250,11 +252,11 @@ bool LightVolumes::follow(Work& work) {
 
 const std::vector<LightVolume>& LightVolumes::update(const Seen& seen) {
   const std::vector<ViewLight> lights =
-      lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges, seen.plan.local);
+      lights_in_view(seen.scene, seen.view, ranges_of(seen.plan.settings), seen.plan.local);
   const PlannedLights planned = seen.plan.planned_lights;
   std::vector<LightVolume> volumes =
       planned == PlannedLights::in_view
-          ? light_volumes(seen.view, lights, seen.plan.settings.volume_mesh, subpixel_bits_)
+          ? light_volumes(seen.view, lights, seen.plan.settings[setting::volume_mesh], subpixel_bits_)
           : whole_screens(seen.view, lights, planned);
   if (seen.plan.group_stencil > 0) {
     const std::vector<uint8_t> groups = stencil_groups(seen).of_light;

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "plan/settings/surfaces.h"
 #include "renderer/work.h"
 #include "scene/view_lights.h"
 

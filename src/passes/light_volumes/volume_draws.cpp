@@ -17,6 +17,8 @@
 // pixels in the light's groups alone. Behind a surface inside the volume there is an odd number of faces.
 #include "passes/light_volumes/volume_draws.h"
 
+#include "plan/settings/surfaces.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,7 +27,7 @@ namespace lightgrid {
 
 VolumeDraws::VolumeDraws(Work& work, LightVolumes& volumes, const char* fragment,
                          std::vector<std::string> defines)
-    : seen_(work), culling_(work.plan.settings.volume_culling), volumes_(volumes) {
+    : seen_(work), culling_(work.plan.settings[setting::volume_culling]), volumes_(volumes) {
   if (culling_ == VolumeCulling::depth_bounds) defines.emplace_back("DEPTH_BOUNDS");
   if (drawn_as_volumes()) defines.emplace_back("LIGHT_VOLUME");
   if (work.plan.group_stencil > 0) defines.emplace_back("EARLY_TESTS");

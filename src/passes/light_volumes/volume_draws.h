@@ -4,6 +4,7 @@
 
 #include "passes/common/group_numbers.h"
 #include "passes/light_volumes/light_volumes.h"
+#include "plan/settings/surfaces.h"
 
 namespace lightgrid {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "plan/settings/model.h"
+#include "plan/settings/shadows.h"
 #include "renderer/upload/culler_input.h"
 #include "shared/shadow_bits.h"
 
@@ -53,7 +55,7 @@ size_t shadow_entry_bytes(const FramePlan& plan) {
 }
 
 std::vector<CullLight> shining_lights(const Seen& seen) {
-  std::vector<CullLight> lights = cull_lights_of(seen.scene, seen.plan.local, seen.plan.settings.ranges);
+  std::vector<CullLight> lights = cull_lights_of(seen.scene, seen.plan.local, ranges_of(seen.plan.settings));
   for (const int i : seen.plan.directional_lights)
     lights.push_back({.direction = glm::dvec3(seen.scene.lights[size_t(i)].direction)});
   return lights;
@@ -73,10 +75,10 @@ std::vector<ShadowLight> shadow_light_records(const Seen& seen, const std::vecto
   for (size_t i = 0; i < seen.plan.local.size(); ++i) {
     ShadowLight& record = records.emplace_back(shadow_light(shadowed[i], seen.view, origin));
     const Light& light = seen.scene.lights[size_t(seen.plan.local[i])];
-    if (settings.soft_shadows()) record.source_m = float(source_of(light, settings.shadow_source_m));
+    if (soft_shadows(settings)) record.source_m = float(source_of(light, settings[setting::shadow_source_m]));
     record.groups = light.groups;
     record.luminance = light.intensity * glm::dot(light.color, glm::vec3(0.2126f, 0.7152f, 0.0722f)) *
-                       float(share_of(seen.scene, light, settings.ranges).largest);
+                       float(share_of(seen.scene, light, ranges_of(settings)).largest);
   }
   for (const int i : seen.plan.directional_lights)
     records.push_back(shadow_light(seen.scene.lights[size_t(i)]));

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "cl/transfer.h"
 #include "passes/shadows/shadow_lights.h"
+#include "plan/settings/shadows.h"
 #include "renderer/upload/culler_input.h"
 #include "renderer/upload/lights.h"
 #include "shared/shadow_bits.h"
@@ -64,7 +65,7 @@ HostGrid ShadowLists::read(ClDevice& device, size_t image) {
 
 ShadowBands ShadowLists::bands(Work& work, ShadowRoom& room) {
   const FramePlan& plan = work.plan;
-  const size_t most_bytes = plan.settings.shadow_memory, entry = shadow_entry_bytes(plan),
+  const size_t most_bytes = plan.settings[setting::shadow_memory], entry = shadow_entry_bytes(plan),
                words = shadow_table_words(plan) * images();
   const auto most = [&](GLenum format) {
     return plan.opengl ? most_texture_bytes(format) : std::numeric_limits<size_t>::max();

@@ -1,28 +1,30 @@
 #include "passes/shadows/view_light_cells.h"
 
+#include "plan/settings/shadows.h"
+
 namespace lightgrid {
 namespace {
 
-const OwnSetting<bool> shadow_cells{"shadow-cells",
-                                    "portable",
-                                    "on CPUs exact hard shadows of lights at rest come from lists of the "
-                                    "triangles around each light, "
-                                    "or all from the tree",
-                                    {{"on", true}, {"off", false}},
-                                    {.common = true, .shown_if_given = true}};
+const Setting<bool> shadow_cells{660,
+                                 "shadow-cells",
+                                 "on CPUs exact hard shadows of lights at rest come from lists of the "
+                                 "triangles around each light, "
+                                 "or all from the tree",
+                                 {{"on", true}, {"off", false}},
+                                 {.common = true, .shown_if_given = true}};
 
 }  // namespace
 
 bool ViewLightCells::serve(const Work& work, bool lanes) {
   const Settings& settings = work.plan.settings;
-  return lanes && work.renderer.cl->info().cpu && shadow_cells.of(settings) &&
-         settings.shadows == ShadowMethod::exact && !settings.soft_shadows();
+  return lanes && work.renderer.cl->info().cpu && settings[shadow_cells] &&
+         settings[setting::shadows] == ShadowMethod::exact && !soft_shadows(settings);
 }
 
 // With a light's own range, and not with what a view's rounding adds to it: lists then serve all views.
 void ViewLightCells::look(Work& work, const std::vector<ShadowLight>& records,
                           const std::vector<CullLight>& lights) {
-  shared_ = work.gpu.light_cells(work.plan.settings.blended_casters());
+  shared_ = work.gpu.light_cells(blended_casters(work.plan.settings));
   lights_.clear();
   for (size_t i = 0; i < records.size(); ++i) {
     const ShadowLight& r = records[i];
@@ -31,7 +33,7 @@ void ViewLightCells::look(Work& work, const std::vector<ShadowLight>& records,
 }
 
 void ViewLightCells::make(Work& work, const RayScene& rays) {
-  shared_->make(work.gpu, rays, lights_, work.plan.settings.shadow_memory);
+  shared_->make(work.gpu, rays, lights_, work.plan.settings[setting::shadow_memory]);
 }
 
 ClArguments ViewLightCells::arguments(ClDevice& device) {

@@ -4,6 +4,9 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
+#include "plan/settings/shadows.h"
 
 namespace lightgrid {
 namespace {
@@ -21,11 +24,11 @@ bool may_see(const ShadowFace& face, const WorldBox& box, const glm::dvec3& orig
 }  // namespace
 
 static ShadowMapOptions options_of(const Settings& settings, int taps, size_t most_bytes) {
-  return {.size = settings.shadow_size,
-          .bits = settings.shadow_bits,
+  return {.size = settings[setting::shadow_size],
+          .bits = settings[setting::shadow_bits],
           .taps = taps,
-          .most_bytes = std::min(settings.shadow_memory, most_bytes),
-          .shape = settings.kernel_shape};
+          .most_bytes = std::min(settings[setting::shadow_memory], most_bytes),
+          .shape = settings[setting::kernel_shape]};
 }
 
 ViewShadowMaps::ViewShadowMaps(Work& work, int taps, size_t most_bytes)
@@ -42,7 +45,7 @@ void ViewShadowMaps::look(const Work& work, const RayScene& rays, const std::vec
   for (size_t i = 0; i < numbers.size(); ++i) {
     if (!shadowed[i]) continue;
     Light& light = lights.emplace_back(work.scene.lights[numbers[i]]);
-    light.radius_m = float(range_of(light, numbers[i], plan.settings.ranges));
+    light.radius_m = float(range_of(light, numbers[i], ranges_of(plan.settings)));
   }
   const std::vector<ShadowFace> before = std::move(atlas_.faces);
   atlas_ = plan_shadow_atlas(lights, work.view, origin, world_box(work.scene), options_);

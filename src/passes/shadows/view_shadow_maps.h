@@ -2,6 +2,7 @@
 // find_shadows (shadow_maps/shadow_maps.h). Each light whose shadows the plan calls for has its maps.
 #pragma once
 
+#include "plan/settings/shadows.h"
 #include "renderer/moved_instances.h"
 #include "renderer/work.h"
 #include "shadow_maps/shadow_maps.h"
@@ -11,7 +12,7 @@ namespace lightgrid {
 class ViewShadowMaps {
  public:
   // With the settings of the view's plan, which stay as they are, but for `taps` and the most bytes.
-  explicit ViewShadowMaps(Work& work) : ViewShadowMaps(work, work.plan.settings.shadow_taps) {}
+  explicit ViewShadowMaps(Work& work) : ViewShadowMaps(work, work.plan.settings[setting::shadow_taps]) {}
   ViewShadowMaps(Work& work, int taps, size_t most_bytes = ~size_t(0));
 
   // When the view, lights or surfaces moved: which maps, and their sizes. shadowed: as FramePlan's, whether a

@@ -1,5 +1,8 @@
 #include "passes/voxels/voxel_inputs.h"
 
+#include "passes/voxels/voxel_settings.h"
+#include "plan/settings/model.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -211,11 +214,11 @@ VoxelAxes voxel_axes(const View& view, VoxelSpace space) {
 
 PlacedVoxels place_voxels(const Seen& seen, const VoxelAxes& axes, const VisibleBox& box) {
   PlacedVoxels placed{};
-  const glm::uvec3 size = voxel_size(seen.plan.settings.voxel_size);
+  const glm::uvec3 size = voxel_size(seen.plan.settings[setting::voxel_size]);
   placed.grid.size_x = size.x, placed.grid.size_y = size.y, placed.grid.size_z = size.z;
   placed.lookup.last_x = float(size.x - 1), placed.lookup.last_y = float(size.y - 1),
   placed.lookup.last_z = float(size.z - 1);
-  if (seen.plan.settings.voxel_space == VoxelSpace::world) {
+  if (seen.plan.settings[setting::voxel_space] == VoxelSpace::world) {
     place_in_world(placed, axes, seen.view, box, size);
   } else if (axes.log_depth) {
     place_in_projection(placed, seen, box, size);
@@ -277,7 +280,7 @@ void GroupedLights::sort(const Seen& seen) {
   for (const int i : seen.plan.local) {
     const Light& light = seen.scene.lights[i];
     by.emplace_back(light.position,
-                    std::min(range_of(light, size_t(i), seen.plan.settings.ranges), longest_radius_m));
+                    std::min(range_of(light, size_t(i), ranges_of(seen.plan.settings)), longest_radius_m));
   }
   if (by == sorted_by_) return;
   sorted_by_ = std::move(by);
@@ -289,7 +292,7 @@ void GroupedLights::update(Work& work, const VoxelAxes& axes) {
   View along;
   along.view_from_world = glm::dmat4(axes.from_world);
   along.eye = axes.origin;
-  const std::vector<ViewLight> lights = lights_in_view(work.scene, along, work.plan.settings.ranges);
+  const std::vector<ViewLight> lights = lights_in_view(work.scene, along, ranges_of(work.plan.settings));
   groups_ = uint32_t((order_.size() + group - 1) / group);
   const size_t padded = (groups_ + group - 1) / group * group;  // boxes are read by as many at once
   std::vector<float> places(4 * group * groups_, far_off), boxes(6 * padded, far_off);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cl/buffers.h"
+#include "passes/voxels/voxel_settings.h"
 #include "renderer/work.h"
 #include "shared/voxel_volume.h"
 

@@ -4,6 +4,10 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "plan/settings/cull_test.h"
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/samples.h"
 
 namespace lightgrid {
 
@@ -14,9 +18,9 @@ CullView cull_view(const View& view) {
 CullView cull_view(const View& view, const FramePlan& plan) {
   CullView culled = cull_view(view);
   culled.slice_edges =
-      slice_edges(plan.settings.slice_spacing, plan.slices, plan.slice_near_m, plan.slice_far_m);
+      slice_edges(plan.settings[setting::slice_spacing], plan.slices, plan.slice_near_m, plan.slice_far_m);
   culled.z_bin_edges =
-      slice_edges(plan.settings.slice_spacing, plan.z_bins, plan.slice_near_m, plan.slice_far_m);
+      slice_edges(plan.settings[setting::slice_spacing], plan.z_bins, plan.slice_near_m, plan.slice_far_m);
   return culled;
 }
 
@@ -52,15 +56,15 @@ void cull_lights_of(const Scene& scene, std::span<const int> indices, const Ligh
 
 CullerOptions culler_options(const FramePlan& plan) {
   CullerOptions options;
-  options.cull_test = plan.settings.cull_test;
-  options.depth_bounds = plan.settings.depth_bounds;
-  options.shape = plan.settings.kernel_shape;
-  options.tile = plan.settings.tile;
-  options.samples = plan.settings.samples;
-  options.portable = plan.settings.portable;
-  options.group_size = plan.settings.group_size;
+  options.cull_test = plan.settings[setting::cull_test];
+  options.depth_bounds = plan.settings[setting::depth_bounds];
+  options.shape = plan.settings[setting::kernel_shape];
+  options.tile = plan.settings[setting::tile];
+  options.samples = plan.settings[setting::samples];
+  options.portable = plan.settings[setting::portable];
+  options.group_size = plan.settings[setting::group_size];
   options.blend = plan.blend_grid;
-  options.lists = plan.settings.grid_lists;
+  options.lists = plan.settings[setting::grid_lists];
   options.index_bits = plan.index_bits;
   return options;
 }

@@ -7,6 +7,9 @@
 #include <limits>
 #include <span>
 
+#include "plan/settings/grid.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
 #include "renderer/upload/culler_input.h"
 #include "renderer/work.h"
 
@@ -105,7 +108,7 @@ LightTable light_table(const FramePlan& plan, std::span<const ViewLight> lights)
 }
 
 LightTable light_table(const Seen& seen) {
-  return light_table(seen.plan, lights_in_view(seen.scene, seen.view, seen.plan.settings.ranges));
+  return light_table(seen.plan, lights_in_view(seen.scene, seen.view, ranges_of(seen.plan.settings)));
 }
 
 }  // namespace
@@ -114,7 +117,7 @@ std::vector<const char*> light_table_defines(const FramePlan& plan) {
   std::vector<const char*> defines;
   if (plan.spots) defines.push_back("SPOTS");
   if (plan.virtual_lights) defines.push_back("VIRTUAL_LIGHTS");
-  const LightRanges& ranges = plan.settings.ranges;
+  const LightRanges ranges = ranges_of(plan.settings);
   if (window_of(ranges) == RangeWindow::smooth) defines.push_back("WINDOW_SMOOTH");
   if (window_of(ranges) == RangeWindow::none) defines.push_back("WINDOW_NONE");
   if (ranges.range == LightRange::stochastic) defines.push_back("LEAST_FALLOFF");
@@ -259,8 +262,8 @@ ClArguments ShadowMemory::arguments() {
 
 std::string light_defines(const Seen& seen, bool lanes, Brdf brdf) {
   std::string defines;
-  if (lanes) defines += fmt::format(" -DTILE={}", seen.plan.settings.tile);
-  if (lanes && seen.plan.settings.portable) defines += " -DPORTABLE";
+  if (lanes) defines += fmt::format(" -DTILE={}", seen.plan.settings[setting::tile]);
+  if (lanes && seen.plan.settings[setting::portable]) defines += " -DPORTABLE";
   if (seen.plan.index_bits == 32) defines += " -DINDEX_32";
   if (seen.plan.z_bins > 1) defines += " -DZ_BINS";
   for (const char* define : light_table_defines(seen.plan)) defines += fmt::format(" -D{}", define);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "plan/settings/surfaces.h"
 #include "renderer/upload/texel_chain.h"
 
 namespace lightgrid {

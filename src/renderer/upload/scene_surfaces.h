@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plan/settings.h"
+#include "plan/settings/surfaces.h"
 #include "scene/scene.h"
 #include "shared/model_records.h"
 #include "shared/surface_records.h"

@@ -1,0 +1,67 @@
+// How surfaces and the volumes of lights are drawn and stored.
+#pragma once
+
+#include "plan/settings.h"
+
+namespace lightgrid {
+
+// How deferred light volumes skip pixels out of a light's reach (passes/shade_light_volumes.cpp).
+enum class VolumeCulling { back_faces, stencil, scissor, depth_bounds };
+
+// What stands for a light's ball: docs/light_volumes.md.
+enum class VolumeMeshes { automatic, icosahedron, box };
+
+// Who rasterises, in techniques that leave the choice: OpenGL, or OpenCL (raster/raster_view.h), which then
+// needs no OpenGL.
+enum class RasterApi { opengl, opencl };
+
+// How the resolve passes keep a material's maps (upload/scene_surfaces.h).
+enum class TexelLayout { packed, packed_8, separate };
+
+}  // namespace lightgrid
+
+namespace lightgrid::setting {
+
+inline const Setting<int> buffer_bits{
+    190,
+    "buffer-bits",
+    "bits of a channel of the geometry buffer: 32 is float, fewer are fixed point; of light_prepass its "
+    "light buffer, with half floats in 16 bits",
+    {"32", "16", "8"}};
+
+inline const Setting<VolumeCulling> volume_culling{200,
+                                                   "volume-culling",
+                                                   "how deferred lights skip pixels that they do not reach",
+                                                   {{"back-faces", VolumeCulling::back_faces},
+                                                    {"stencil", VolumeCulling::stencil},
+                                                    {"scissor", VolumeCulling::scissor},
+                                                    {"depth-bounds", VolumeCulling::depth_bounds}}};
+
+inline const Setting<VolumeMeshes> volume_mesh{
+    400,
+    "volume-mesh",
+    "the mesh of a light's volume; auto: more faces if it is larger on screen",
+    {{"auto", VolumeMeshes::automatic},
+     {"icosahedron", VolumeMeshes::icosahedron},
+     {"box", VolumeMeshes::box}}};
+
+inline const Setting<RasterApi> raster{410,
+                                       "raster",
+                                       "who draws triangles: OpenGL, or OpenCL alone, as visibility does",
+                                       {{"opengl", RasterApi::opengl}, {"opencl", RasterApi::opencl}}};
+
+inline const Setting<TexelLayout> texels{
+    460,
+    "texels",
+    "textures in OpenCL: the maps of a material in one texel of 16 or 8 bytes where their sizes agree, or "
+    "each its own",
+    {{"16", TexelLayout::packed}, {"8", TexelLayout::packed_8}, {"separate", TexelLayout::separate}}};
+
+}  // namespace lightgrid::setting
+
+namespace lightgrid {
+
+// The most bits that group-stencil may use: counting faces needs one of the 8.
+inline int most_stencil_groups(VolumeCulling culling) { return culling == VolumeCulling::stencil ? 7 : 8; }
+
+}  // namespace lightgrid
