@@ -167,24 +167,6 @@ std::map<std::string, std::string> to_strings(const Settings& settings) {
   return strings;
 }
 
-LightRanges ranges_of(const Settings& s) {
-  LightRanges ranges{s[setting::range], s[setting::window], s[setting::cutoff], s[setting::alpha],
-                     s[setting::light_seed]};
-  for (const SettingRow& row : rows()) {
-    if (row.flags.of_lights && s.difference(row) != 0) ranges.effects[row.key] = s.difference(row);
-  }
-  return ranges;
-}
-
-void set_ranges(Settings& s, const LightRanges& ranges) {
-  s.set(setting::range, ranges.range).set(setting::window, ranges.window).set(setting::cutoff, ranges.cutoff);
-  s.set(setting::alpha, ranges.alpha).set(setting::light_seed, ranges.seed);
-  for (const SettingRow& row : rows()) {
-    const auto found = ranges.effects.find(row.key);
-    if (row.flags.of_lights) s.set_difference(row, found == ranges.effects.end() ? 0 : found->second);
-  }
-}
-
 const std::vector<SettingRow>& setting_rows() { return rows(); }
 
 }  // namespace lightgrid
