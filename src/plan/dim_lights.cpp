@@ -22,7 +22,7 @@ struct Receiver {
   double added = 0;  // by lights without shadows: radiance
 };
 
-// What the light may add to a receiver, by its number.
+// The light's possible additions to receivers, by their numbers.
 using Additions = std::vector<std::pair<size_t, double>>;
 
 Additions additions_of(const GrownLightBounds& reach, const Light& light, const Settings& settings,

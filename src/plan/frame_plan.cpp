@@ -266,7 +266,7 @@ void plan_slices(const View& view, const TechniqueNeeds& needs, double farthest_
                                               : "no light grid"});
 }
 
-// What finds shadows for one sample a pixel alone, if anything does here. After shadows.
+// Names the shadows that are found for only one sample per pixel, if there are any here. After shadows.
 const char* shadows_of_one_sample(const TechniqueNeeds& needs, const FramePlan& plan) {
   if (!plan.light_reaches && !plan.own_shadows) return nullptr;
   const Settings& s = plan.settings;

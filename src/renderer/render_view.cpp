@@ -68,7 +68,7 @@ void RenderView::look(const View& next, PlannedInstances instances, PlannedLight
   follow_plan(before);
 }
 
-// Those of which a scene has lights.
+// The kinds of lights that a scene has.
 static std::vector<PlannedLights> kinds_of_lights(const FramePlan& plan, const Scene& scene) {
   if (!plan.local_lights) return {PlannedLights::every};
   const bool points = std::ranges::any_of(

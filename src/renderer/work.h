@@ -28,7 +28,7 @@ struct Seen {
   std::vector<InstanceTransform> transforms;  // by instance; set for those in the plan
   DrawList opaque, blended;                   // nearest first; back to front. Empty unless OpenGL draws
 
-  // Of images that triangles are drawn into, with the setting samples.
+  // The grid of images that triangles are drawn into, with the setting samples.
   PixelGrid grid() const { return {view.width, view.height, plan.settings[setting::samples]}; }
 };
 

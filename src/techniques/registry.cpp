@@ -31,7 +31,7 @@ Settings read_by(const Technique& technique, const Settings& settings) {
   return only_with(settings, [&](const std::string& key) { return reads_setting(technique, key); });
 }
 
-// Whether a setting that the technique reads meets its condition.
+// Returns whether a setting that the technique reads meets its condition.
 bool meets(const Technique& technique, const Settings& settings,
            SettingFlags::Condition SettingFlags::*condition) {
   const Settings read = read_by(technique, settings);

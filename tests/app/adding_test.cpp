@@ -49,7 +49,7 @@ Naming files_that_name(const std::vector<std::string>& folders,
   return found;
 }
 
-// What one of the two says and the other does not: lines "FILE: NAME".
+// The names that only one of the two has: lines "FILE: NAME".
 std::set<std::string> differences(const Naming& found, const Naming& expected) {
   std::set<std::string> lines[2], apart;
   for (const Naming* naming : {&found, &expected}) {
@@ -104,11 +104,11 @@ TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
         "forward_zprepass", "lidr", "light_prepass", "visibility", "world_grid"}},
       // Lists that hard cases cut.
       {"src/verify/cap_cases.cpp", {"forward_plus", "visibility"}},
-      // What keeps state between frames.
+      // Techniques that keep state between frames.
       {"src/verify/hunt_sequences.cpp",
        {"deferred", "deferred_tiled", "forward_plus", "lidr", "light_prepass", "visibility", "voxel_lights",
         "world_grid"}},
-      // What is varied, and a sentence about two.
+      // Variations, and a sentence about two techniques.
       {"src/frontier/points.cpp",
        {"clustered", "deferred_tiled", "forward_plus", "forward_zprepass", "lidr", "visibility",
         "voxel_lights", "world_grid"}},
@@ -329,7 +329,7 @@ TEST(Adding, AnErrorMeasureTakesItsFieldAndItsRow) {
   }
   const Naming expected = {
       {"src/results/error_measures.cpp", all},
-      // What the frontier tells of two pictures beside the one that a sample is of.
+      // Figures of the frontier about two pictures, next to the one that a sample is of.
       {"src/frontier/answer_csv.cpp", {"max_rel"}},
       // Figures of the oracle and of surfaces have these names too.
       {"src/report/report.cpp", {"max_rel", "rmse_rel"}},

@@ -318,7 +318,7 @@ struct LitPane : Room {
   ShadowNeed with_caster(int mesh, glm::dvec3 position) {
     scene.instances.resize(1);
     put(mesh, position);
-    // What is in view is given, so that the caster is not a receiver.
+    // The instances in view are given, so that the caster is not a receiver.
     return plan_light_shadows(scene, view, {}, {}, {0}).at(0).need;
   }
 };

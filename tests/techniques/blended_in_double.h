@@ -1,4 +1,4 @@
-// What blended surfaces make of a picture, in double: which fragments a pixel has comes from the run's own
+// A picture with blended surfaces, in double: which fragments a pixel has comes from the run's own
 // layers, all else from the scene.
 #pragma once
 

@@ -93,7 +93,7 @@ TEST(BlendedShadowBits, AreTheSameUnderEverySetting) {
   }
 }
 
-// What a view shows after the camera and the glass moved is what a new one shows.
+// A view shows the same after the camera and the glass moved as a new one does.
 TEST(BlendedShadowBits, FollowTheSceneAndTheCamera) {
   for (const char* technique : {"forward_plus", "visibility"}) {
     SCOPED_TRACE(technique);

@@ -78,7 +78,7 @@ std::pair<double, double> interval_at(const Listed& listed, const View& view, in
   return {near, far};
 }
 
-// What each light is sorted by, least first.
+// The keys by which lights are sorted, least first.
 std::vector<double> keys_at(const Listed& listed, const View& view, const std::vector<ViewLight>& lights,
                             const std::string& order, int x, int y) {
   std::vector<double> keys;

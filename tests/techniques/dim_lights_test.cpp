@@ -37,7 +37,7 @@ TEST(DimLights, MoveNoPixelByMoreThanTheyMay) {
     for (int i = 0; i < 25; ++i) {
       RandomRoom room = random_room(random, 45, 31);
       const double ev = i % 3 - 1;
-      // Of all brightnesses around what a threshold lets pass.
+      // Brightnesses lie around the threshold.
       for (Light& light : room.scene.lights)
         light.intensity *= float(display_step(ev) * threshold * std::exp2(double(random.uniform(-6, 4))));
       Settings settings;

@@ -56,7 +56,7 @@ TEST(LidrSort, MorePassesAddNothingTwice) {
   }
 }
 
-// Of surfaces of one depth, in one mesh and in two, the last is shown and lit.
+// If surfaces have one depth, in one mesh and in two, the last is shown and lit.
 TEST(LidrSort, MorePassesLightTheLastOfEqualSurfaces) {
   SmallScene s = small_scene();
   const int red = add_material(s.scene, "red", {0.9f, 0.1f, 0.1f}, 0, 0.8f);

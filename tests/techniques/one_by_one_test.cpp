@@ -226,7 +226,7 @@ TEST(OneByOne, BlinnPhongAndLambert) {
   }
 }
 
-// Of the scene's own memory, nothing; of triangles in reverse order, only that they are one more index
+// Without the scene's own memory; triangles in reverse order must only be one more index
 // buffer.
 size_t memory_of(const Scene& scene, const View& view, const char* technique, const Settings& settings = {}) {
   TechniqueRun run(test_devices(), scene, view, settings, find_technique(technique));

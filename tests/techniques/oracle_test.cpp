@@ -320,7 +320,7 @@ TEST(SpecularShading, ChangesNoBitOfASurfaceOfTheDefaultReflectance) {
   }
 }
 
-// What GGX does not reach: the models without a lobe. In OpenGL alone; gallery has the kernels.
+// Models without a lobe, which GGX does not reach. Only in OpenGL; gallery has the kernels.
 TEST(ModelShading, WithLambertIsTheOraclesInTheShadersOfForwardAndDeferred) {
   const Scene scene = balls_of_all_models();
   const View view = view_at(1, 160, 90);

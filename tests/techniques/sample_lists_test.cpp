@@ -32,8 +32,8 @@ class SampleRays {
   SampleRays(const Scene& scene, const View& view)
       : scene_(scene), view_(view), large_(in_units(view)), rays_(scene, large_), surfaces_(scene, view) {}
 
-  // What a sample certainly sees: an instance, and places around it there. Empty near a silhouette, where a
-  // rasteriser, whose corners are snapped to a unit, may see another one.
+  // The surface that a sample certainly sees: an instance, and places around it there. Empty near a
+  // silhouette, where a rasteriser, whose corners are snapped to a unit, may see another one.
   struct Seen {
     int instance = -1;
     std::vector<dvec3> positions;
@@ -88,7 +88,7 @@ EdgePairs pairs_at_edges(const Scene& scene, const View& view, std::vector<ViewL
   return found;
 }
 
-// Of these pairs, those that the tiles' lists of the run's last frame lack.
+// Counts those of these pairs that are missing in the tiles' lists of the run's last frame.
 size_t count_lost(TechniqueRun& run, const EdgePairs& edges) {
   const int width = run.view().view.width, tile = run.view().plan.settings[setting::tile];
   const ListedLights lists = listed_lights(run, read_depth(run));

@@ -101,9 +101,9 @@ TEST_F(SamplesOfVisibility, HaveTheSameBytesInEveryShapeTileAndListOfLights) {
   }
 }
 
-// Of a scene whose edges are all silhouettes: masks and blended surfaces cover pixels by their centres. In
-// the sun alone: a lamp close to the ball lights a spot of less than a pixel, which is no edge and would
-// outweigh them.
+// The scene's edges are all silhouettes: masks and blended surfaces cover pixels by their centres. Only in
+// the sun: a lamp close to the ball lights a spot of less than a pixel, which is no edge and would outweigh
+// them.
 TEST_F(SamplesOfVisibility, HaveErrorsThatFallAtEdgesAndStayInside) {
   s_ = small_scene(false);
   effect("directional").add(s_);
@@ -115,7 +115,7 @@ TEST_F(SamplesOfVisibility, HaveErrorsThatFallAtEdgesAndStayInside) {
     at_edges.push_back(truth.error(image, true)), inside.push_back(truth.error(image, false));
     RecordProperty(samples, fmt::format("edges {:.5f}, inside {:.5f}", at_edges.back(), inside.back()));
   }
-  // Of random places errors would fall by the square root of 2 a step; these places are spread evenly.
+  // With random places errors would fall by the square root of 2 per step; these places are spread evenly.
   for (size_t i = 1; i < at_edges.size(); ++i) EXPECT_LT(at_edges[i], at_edges[i - 1] / std::sqrt(2.0)) << i;
   const double slope = std::log2(at_edges.back() / at_edges.front()) / 3;
   EXPECT_LT(slope, -0.6) << fmt::format("{}", fmt::join(at_edges, " "));

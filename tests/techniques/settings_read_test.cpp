@@ -145,7 +145,7 @@ std::map<std::string, std::string> read_but_not_declared(const Technique& techni
   return found;
 }
 
-// Whether a value of the setting changes what a run shows, beyond refusing to run.
+// Returns whether a value of the setting changes a run's output, beyond refusing to run.
 bool shows(const Technique& technique, const SettingRow& setting) {
   const bool shadows =
       setting.key.starts_with("shadow") || setting.key == "lidr-shadows" || setting.key == "lidr-maps";

@@ -36,7 +36,7 @@ TEST(ShadowBandsByHand, TheTableTakesHalfAtMostAndBitsTheRest) {
   EXPECT_EQ(whole.tiles, 10u);
   EXPECT_EQ(whole.table_bytes, 12 * pair_bytes);
   EXPECT_EQ(whole.bit_bytes, 1000 - 12 * pair_bytes);
-  // Of 313 words, 3 rows of tiles fit into half of 20,000 bytes, with an empty one.
+  // With 313 words, 3 rows of tiles fit into half of 20,000 bytes, with an empty one.
   const ShadowRoom half = shadow_room(10, 313, 200, entry_bytes, 20'000, 1 << 20, 1 << 20);
   EXPECT_EQ(half.tiles, 2u);
   EXPECT_EQ(half.table_bytes, (1 + 3 * 313) * pair_bytes);
@@ -46,7 +46,7 @@ TEST(ShadowBandsByHand, TheTableTakesHalfAtMostAndBitsTheRest) {
   EXPECT_EQ(bits.tiles, 1u);
   EXPECT_GE(bits.bit_bytes, 450 * entry_bytes);
   EXPECT_LE(bits.bit_bytes + bits.table_bytes, 20'000u);
-  // What a device allows counts too.
+  // The device's limits count too.
   EXPECT_EQ(shadow_room(10, 1, 5, entry_bytes, 1000, 40, 1 << 20).tiles, 3u);
   EXPECT_EQ(shadow_room(10, 1, 5, entry_bytes, 1000, 1 << 20, 200).bit_bytes, 200u);
 }

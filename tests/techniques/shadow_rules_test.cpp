@@ -1,5 +1,5 @@
-// What the plan's rules leave out of the shadows' work (plan/shadow_plan.h): the picture has the same bits as
-// with all of it, and what is left out costs no pass, ray or memory.
+// The plan's rules leave out work for shadows (plan/shadow_plan.h): the picture has the same bits as with all
+// of it, and the work left out costs no pass, ray or memory.
 #include <gmock/gmock.h>
 
 #include <numbers>
@@ -127,7 +127,7 @@ const RuleCase rule_cases[] = {
 
 struct ShadowRule : testing::TestWithParam<RuleCase> {};
 
-// What a run shows of its shadows' work.
+// The work for shadows of a run.
 struct ShadowWork {
   std::set<std::string> passes, programs;
   ShadowFigures figures;

@@ -50,7 +50,7 @@ inline Scene shadowed_scene() {
   return scene;
 }
 
-// What runs of one scene and view share. It is never freed (support/devices.h).
+// Shared by runs of one scene and view. It is never freed (support/devices.h).
 struct ShadowStage {
   Scene scene;
   View view;

@@ -18,7 +18,7 @@ Scene hall_of_casters() {
   return scene;
 }
 
-// Of each rasteriser a first picture, which is compared with radiance in double; the others with it.
+// The first picture of each rasteriser is compared with radiance in double; the others with it.
 struct Pictures : ShadowStage {
   TechniqueRun forward{test_devices(), gpu, view, {}, find_technique("forward")},
       visibility{test_devices(), gpu, view, {}, find_technique("visibility")};
@@ -246,7 +246,7 @@ TEST(ShadowBits, AreTheOraclesInViewsOfAFewPixels) {
   }
 }
 
-// What a run shows after a change is what a run that begins with it shows.
+// A run shows the same after a change as a run that begins with it.
 TEST(ShadowBits, FollowEveryChange) {
   for (const auto& [technique, reuse] :
        {std::pair("forward_plus", "on"), {"visibility", "off"}, {"visibility", "on"}}) {

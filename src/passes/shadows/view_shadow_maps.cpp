@@ -11,7 +11,7 @@
 namespace lightgrid {
 namespace {
 
-// Whether a face may show what the box holds. slack: rounding of positions to float.
+// Returns whether a face may show the contents of the box. slack: rounding of positions to float.
 bool may_see(const ShadowFace& face, const WorldBox& box, const glm::dvec3& origin) {
   if (box.empty()) return false;
   if (face.parallel) return true;

@@ -24,8 +24,8 @@ class ViewShadowMaps {
   void draw(const RayScene& rays, const cl::Buffer& texels = {});
   size_t drawn_lights() const { return drawn_lights_; }  // of the last frame
 
-  // What kernels need to look them up: -DSHADOW_MAP, and what ShadowMaps has. Lights are in
-  // the order of FramePlan::shadowed.
+  // Options of kernels that look them up: -DSHADOW_MAP, and those of ShadowMaps. Lights are in the order of
+  // FramePlan::shadowed.
   std::string defines() const { return " -DSHADOW_MAP " + maps_.defines(); }
   ClArguments arguments() const { return maps_.arguments(); }
 

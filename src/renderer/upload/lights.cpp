@@ -81,7 +81,7 @@ LightColumn column(T (*value)(const ViewLight&), bool needed, Sampler sampler,
   return made;
 }
 
-// What follows the column of groups.
+// Adds the groups that follow the column.
 void add_other_groups(std::span<const ViewLight> lights, const FramePlan& plan, LightColumn& column) {
   std::vector<uint32_t> more;
   for (const int i : plan.directional_lights) more.push_back(lights[size_t(i)].groups);

@@ -107,7 +107,7 @@ class TexelWriter {
     return {m.base_color_map.texture, m.metallic_roughness_map.texture, m.normal_map.texture};
   }
 
-  // Of a texture's chain.
+  // The number of texels in a texture's chain.
   size_t texels_of(int texture) const {
     const Bitmap& bitmap = scene_.bitmaps[scene_.textures[texture].bitmap];
     size_t texels = 0;
