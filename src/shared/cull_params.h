@@ -27,7 +27,7 @@ typedef struct CullParams {
   // (depth_b - depth) * depth_a.
   float depth_a, depth_a_rest, depth_b;
   float depth_step;             // one step of the depth format, if coarser than the slack covers; else 0
-  float near_distance;
+  float near_distance;          // from the eye to the near plane
   // Slack for the rounding of tile sides (docs/hard_cases.md#slack): perspective, of a
   // distance; orthographic, metres.
   float side_slack, side_slack_m;
