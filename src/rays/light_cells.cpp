@@ -15,9 +15,11 @@ constexpr uint32_t max_triangles = 1 << 18;  // in reach of a light with lists
 // Entries in a directional light's list, averaged over entries: with more the tree is faster.
 constexpr float longest_list = 256;
 
-// About 0.7 cells per triangle: the fastest frames in five scenes, or within their noise (docs/rays.md).
+// About 0.7 cells per triangle: the fastest frames in five scenes, or within their noise (docs/rays.md). The
+// triangles of a spot lie in the cells of its cone, a part of the cube.
 uint32_t cells_across(const CellLight& light, uint32_t triangles) {
-  const long eighths = std::lround(std::sqrt((light.directional ? 0.72 : 0.12) * triangles) / 8);
+  const double part = light.directional ? 1 : std::clamp((1 - light.cos_outer) / 2, 0.01, 1.0);
+  const long eighths = std::lround(std::sqrt((light.directional ? 0.72 : 0.12) * triangles / part) / 8);
   return uint32_t(std::clamp(8 * eighths, 8L, light.directional ? 256L : 96L));
 }
 
