@@ -63,7 +63,7 @@ static inline __attribute__((always_inline)) mask_t meets_seen(global const Ligh
   return lane_min(lane_min(u, v), lane_min(w, lane_min(past, rays->end))) >= 0.0f;
 }
 
-// Of lanes that meet the triangle, those that it hides. A blended triangle adds to their *veil instead.
+// Returns the lanes that meet the triangle and are hidden by it. A blended triangle adds to their *veil instead.
 RAYS_CALL uint hidden_by_met(const RayScene* scene, RaySource light, Real3 to, real gap, whole own, int place,
                              uint met, whole* veil) {
   RayPacket p;

@@ -117,14 +117,10 @@ static inline void fetch_child(const RayScene* scene, int child, int count) {
   else FETCH(scene->triangles + child);
 }
 
-// Lanes with the bits `live`, whose segments go the same way along each axis.
-static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene, RayPacket* p,
-                                                          const bool point, whole own, uint live,
-                                                          int* last_blocker) {
-  mask_t hidden = (mask_t)(0);
-  if (*last_blocker >= 0 && ray_met(scene, p, point, *last_blocker, own, &hidden) &&
-      lane_bits(hidden) == live)
-    return hidden;
+// Walks the tree for the lanes that trace() names.
+static inline __attribute__((always_inline)) void walk_tree(const RayScene* scene, RayPacket* p,
+                                                            const bool point, whole own, uint live,
+                                                            mask_t* hidden, int* last_blocker) {
   // A node is 12 floats: indices of the planes where segments enter the first box and where they leave it.
   const int in_x = p->down & 1 ? 3 : 0, in_y = p->down & 2 ? 4 : 1, in_z = p->down & 4 ? 5 : 2;
   const int out_x = 3 - in_x, out_y = 5 - in_y, out_z = 7 - in_z;
@@ -140,20 +136,20 @@ static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene,
                                    f[out_z + 6]))
                    << 16;
     if (met == 0) {
-      if (height == 0) return hidden;
+      if (height == 0) return;
       at = stack[--height];
       continue;
     }
     bool go_0 = (met & 0xffffu) != 0, go_1 = met >> 16 != 0;
     if (go_0 && n->count_0 != 0) {
       go_0 = false;
-      if (leaf_blocked(scene, p, point, n->child_0, n->count_0, own, live, &hidden, last_blocker))
-        return hidden;
+      if (leaf_blocked(scene, p, point, n->child_0, n->count_0, own, live, hidden, last_blocker))
+        return;
     }
     if (go_1 && n->count_1 != 0) {
       go_1 = false;
-      if (leaf_blocked(scene, p, point, n->child_1, n->count_1, own, live, &hidden, last_blocker))
-        return hidden;
+      if (leaf_blocked(scene, p, point, n->child_1, n->count_1, own, live, hidden, last_blocker))
+        return;
     }
     if (go_0) {
       at = n->child_0;
@@ -163,11 +159,23 @@ static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene,
     } else if (height != 0) {
       at = stack[--height];
     } else {
-      return hidden;
+      return;
     }
   }
 }
 #endif
+
+// Returns which of the lanes `live` are hidden. Their segments go the same way along each axis.
+static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene, RayPacket* p,
+                                                          const bool point, whole own, uint live,
+                                                          int* last_blocker) {
+  mask_t hidden = (mask_t)(0);
+  if (*last_blocker >= 0 && ray_met(scene, p, point, *last_blocker, own, &hidden) &&
+      lane_bits(hidden) == live)
+    return hidden;
+  walk_tree(scene, p, point, own, live, &hidden, last_blocker);
+  return hidden;
+}
 
 // Which way each lane's segment goes along each axis.
 typedef struct RayOctants {

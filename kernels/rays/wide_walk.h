@@ -57,14 +57,10 @@ static inline real last_out(const BeamAxis* b, global const float* planes) {
                   fma(at, REAL(b->greatest), REAL(b->after_out)));
 }
 
-// Lanes with the bits `live`, whose segments go the same way along each axis.
-static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene, RayPacket* p,
-                                                          const bool point, whole own, uint live,
-                                                          int* last_blocker) {
-  mask_t hidden = (mask_t)(0);
-  if (*last_blocker >= 0 && ray_met(scene, p, point, *last_blocker, own, &hidden) &&
-      lane_bits(hidden) == live)
-    return hidden;
+// Walks the tree for the lanes that trace() names.
+static inline __attribute__((always_inline)) void walk_tree(const RayScene* scene, RayPacket* p,
+                                                            const bool point, whole own, uint live,
+                                                            mask_t* hidden, int* last_blocker) {
   const int in_x = p->down & 1 ? 3 : 0, in_y = p->down & 2 ? 4 : 1, in_z = p->down & 4 ? 5 : 2;
   const int out_x = 3 - in_x, out_y = 5 - in_y, out_z = 7 - in_z;
   const Beam beam = beam_of(p, point, lanes_of(live));
@@ -81,7 +77,7 @@ static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene,
     uint left = lane_bits(enter <= leave * BEAM_SLACK);
     for (;;) {
       while (left == 0) {
-        if (height == 0) return hidden;
+        if (height == 0) return;
         at = nodes_above[--height], left = left_above[height], n = scene->wide_nodes + at;
       }
       const uint k = lowest_bit(left);
@@ -94,8 +90,8 @@ static inline __attribute__((always_inline)) mask_t trace(const RayScene* scene,
         at = n->child[k];
         break;
       }
-      if (leaf_blocked(scene, p, point, n->child[k], n->count[k], own, live, &hidden, last_blocker))
-        return hidden;
+      if (leaf_blocked(scene, p, point, n->child[k], n->count[k], own, live, hidden, last_blocker))
+        return;
     }
   }
 }

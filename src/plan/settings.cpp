@@ -39,7 +39,7 @@ std::vector<std::string> keys_with(bool SettingFlags::*flag) {
   return keys_of([=](const SettingRow& row) { return row.flags.*flag; });
 }
 
-// Whether the value has that name.
+// Returns whether the value has that name.
 bool set_named(Settings& settings, const SettingRow& row, const std::string& value) {
   const auto named = std::ranges::find(row.values, value);
   if (named == row.values.end()) return false;

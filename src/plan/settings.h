@@ -108,7 +108,7 @@ class Setting : public SettingNumber {
 
   // A value's difference from the default, 0 for the default itself.
   uint64_t difference(const T& value) const { return setting_bits(value) ^ default_bits_; }
-  // Of a setting with `of_lights`, from LightRanges.
+  // The value of a setting with `of_lights`, from LightRanges.
   T of(const auto& ranges) const {
     const auto found = ranges.effects.find(key_);
     return value(found == ranges.effects.end() ? 0 : found->second);
@@ -182,7 +182,7 @@ class Settings {
     return *this;
   }
 
-  // Whether apply_setting has set it, whatever the value.
+  // Returns whether apply_setting has set it, to any value.
   bool given(SettingNumber setting) const { return given_[setting.number]; }
   Settings& give(SettingNumber setting) {
     given_.set(setting.number);

@@ -28,7 +28,7 @@ typedef struct SeenBox {
 static inline float larger(float a, float b) { return a > b ? a : b; }
 static inline float smaller(float a, float b) { return a < b ? a : b; }
 
-// Whether balls lie outside of a spot's cone, with room for rounding.
+// Returns whether balls lie outside of a spot's cone, with room for rounding.
 static inline mask_t misses_cone(global const LightCellJob* job, const real at[3], real radius) {
   const float cosine = job->grid.top - CONE_SLACK, sine = sqrt(fmax(1.0f - cosine * cosine, 0.0f));
   global const float* axis = job->grid.toward;

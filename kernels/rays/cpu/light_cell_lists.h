@@ -97,9 +97,9 @@ static inline mask_t cells_of_boxes(real low, real high, real along_low, real al
   return (begin < size) & (end >= 0.0f);
 }
 
-// No shorter ray into the cell meets the triangle; infinite in cells outside of a spot's cone. A ray along d reaches the plane at -offset |d| / (normal .
-// d). The bound takes the shortest d in the cell and the greatest product, `rising`. In the grid, `rising` is
-// the plane's greatest height above the base.
+// Returns a bound: no shorter ray into the cell meets the triangle. It is infinite in cells outside of a spot's
+// cone. A ray along d reaches the plane at -offset |d| / (normal . d). The bound takes the shortest d in the
+// cell and the greatest product, `rising`. In the grid, `rising` is the plane's greatest height above the base.
 static inline real near_in_cells(const CellFace* f, real x, real y, real offset, real rising, real box_near) {
   if (f->height != 0.0f) return lane_max(f->height - rising, box_near);
   const float h = 2.0f / (float)f->size;

@@ -3,13 +3,12 @@
 //
 // STORED_ARGUMENTS  images in and out: kernels/resolve/stored.h
 // depth           reversed depth of each sample, row 0 at the bottom
-// GROUP_NUMBER_ARGUMENTS  kernels/resolve/group_numbers.h; with -DGROUPS alone
+// GROUP_NUMBER_ARGUMENTS  kernels/resolve/group_numbers.h, only with -DGROUPS
 // LIGHT_ARGUMENTS  of lights (shared/light_table.h)
 // cells, indices  light grid (shared/light_grid.h)
-// light_bins, bin_edges  z-bins of each light, and the depth keys between them (shared/slices.h); with
-// -DZ_BINS
-//                 alone
-// FACTOR_ARGUMENTS  kernels/resolve/shade_pixels.h; with -DLIST_FACTORS alone
+// light_bins, bin_edges  z-bins of each light, and the depth keys between them (shared/slices.h),
+//                 only with -DZ_BINS
+// FACTOR_ARGUMENTS  kernels/resolve/shade_pixels.h, only with -DLIST_FACTORS
 // edges           pixels whose samples are shaded apart (kernels/resolve/sample_edges.h); null: all pixels
 // -DTILE          pixels a side, a multiple of 8 (default 16)
 // -DSTORED_…, and what kernels/resolve/shade_pixels.h and stored_batch.h name

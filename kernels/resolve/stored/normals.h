@@ -3,10 +3,12 @@
 //
 // normals        row 0 at the bottom (shared/stored_normal.h)
 // sums           out: four channels for each sample, diffuse red, green, blue and the specular term
-// other_sums     out: two channels, the fifth term and the specular one's rim; with -DPREPASS_FIFTH_TERM
-// alone exponent       of the lights inverse_scale  what sums are multiplied by before they are stored
-// -DNORMALS_OCTAHEDRAL, -DNORMALS_SPHEREMAP, -DNORMALS_XYZ8  the format of normals (shared/stored_normal.h);
-// without, floats
+// other_sums     out, only with -DPREPASS_FIFTH_TERM: two channels, the fifth term and the specular term's rim
+// exponent       the lights' specular exponent
+// inverse_scale  factor of stored sums
+//
+// -DNORMALS_OCTAHEDRAL, -DNORMALS_SPHEREMAP, -DNORMALS_XYZ8  the format of normals; without, floats
+//
 // -DBUFFER_BITS, -DPREPASS_FIFTH_TERM  kernels/resolve/light_sums.h
 #pragma once
 

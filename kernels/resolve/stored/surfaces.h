@@ -1,14 +1,12 @@
 // The light that the surfaces of a geometry buffer reflect, into an image. The light pass of Lauritzen,
 // "Deferred Rendering for Current and Future Rendering Pipelines" (SIGGRAPH 2010).
 //
-// first, second, coats, specular  geometry buffer, row 0 at the bottom (kernels/resolve/gbuffer.h); coats
-// with
-//             -DCLEARCOAT alone, specular with -DSPECULAR
-// models      of materials by number (shared/model_records.h); with -DSKIN or -DMINNAERT alone
+// first, second, coats, specular  geometry buffer, row 0 at the bottom (kernels/resolve/gbuffer.h); coats only
+//             with -DCLEARCOAT, specular only with -DSPECULAR
+// models      records of materials by number (shared/model_records.h), only with -DSKIN or -DMINNAERT
 // image       RGBA per pixel, the mean of its samples. With -DBASE_LIGHTING it holds what surfaces show
-// without
-//             these lights, which are added
-// background  of pixels without a surface; without -DBASE_LIGHTING alone
+//             without these lights, which are added
+// background  colour of pixels without a surface, only without -DBASE_LIGHTING
 #pragma once
 
 #include "kernels/common/fetch.h"

@@ -30,7 +30,7 @@ inline const Setting<int> prepass_shininess{260,
 
 inline const Setting<NormalFormat> normals{270,
                                            "normals",
-                                           "the image of normals: floats, or 32 bits a pixel: two of 16 "
+                                           "the image of normals: floats, or 32 bits per pixel: two of 16 "
                                            "(octahedral, or a sphere map), or three of 8",
                                            {{"float", NormalFormat::floats},
                                             {"octahedral", NormalFormat::octahedral},

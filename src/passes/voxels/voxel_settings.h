@@ -33,8 +33,8 @@ inline const Setting<VoxelSpace> voxel_space{
 
 inline const Setting<int> voxel_lights_exact{510,
                                              "voxel-lights-exact",
-                                             "lights a pixel that are shaded by themselves, from a light "
-                                             "grid: those that matter most. The rest is the volume's",
+                                             "lights per pixel that are shaded exactly, from a light grid: "
+                                             "the most important ones. The volume has the others",
                                              {"0", "1", "2", "4", "8"}};
 
 }  // namespace lightgrid::setting

@@ -28,7 +28,7 @@ inline const Setting<int> tile{100, "tile", "tile size in pixels", {"16", "8", "
 
 inline const Setting<int> slices{110,
                                  "slices",
-                                 "depth slices a tile, of clustered; of visibility where it is given",
+                                 "depth slices per tile, of clustered; of visibility if it is given",
                                  {"24", "1", "2", "4", "8", "16", "32", "64"}};
 
 inline const Setting<SliceSpacing> slice_spacing{
@@ -69,7 +69,8 @@ inline const Setting<ListCapOrder> list_cap_order{
     "list-cap-order",
     "the lights that a longer list keeps: the scene's first, the nearest to the eye or to the object's "
     "middle, those that add the most to the cell's or the object's middle; or lights drawn at random, from "
-    "the list or a tree of all lights, which count so often that the expected picture is that of whole lists",
+    "the list or a tree of all lights, which count so often that the expected picture is that of complete "
+    "lists",
     {{"index", ListCapOrder::index},
      {"distance", ListCapOrder::distance},
      {"brightest", ListCapOrder::brightest},

@@ -6,10 +6,7 @@
 namespace lightgrid::setting {
 
 inline const Setting<int> group_bits{
-    210,
-    "group-ids",
-    "bits of the number that a pixel's mask of light groups has beside its surface",
-    {"8", "16"}};
+    210, "group-ids", "bits per pixel for the light-group number in the geometry buffer", {"8", "16"}};
 
 inline const Setting<int> group_stencil{
     220,

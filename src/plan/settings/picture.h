@@ -5,7 +5,8 @@
 
 namespace lightgrid {
 
-// What of a frame goes to the host: linear light, or the bytes that a display shows (passes/tone_map.h).
+// The part of a frame that goes to the host: linear light, or the bytes that a display shows
+// (passes/tone_map.h).
 enum class PictureFormat { floats, bytes };
 
 }  // namespace lightgrid

@@ -1,4 +1,4 @@
-// Several samples a pixel (docs/samples.md).
+// Several samples per pixel (docs/samples.md).
 #pragma once
 
 #include "plan/settings.h"
@@ -25,7 +25,7 @@ inline const Setting<int> samples{420,
 inline const Setting<SamplesShading> samples_shading{
     430,
     "samples-shading",
-    "of surfaces that are stored for each sample: samples are shaded apart at edges alone, or everywhere",
+    "where surfaces are stored for each sample: samples are shaded separately only at edges, or everywhere",
     {{"edges", SamplesShading::edges}, {"all", SamplesShading::all}},
     {.shown = several_samples}};
 
@@ -53,7 +53,7 @@ namespace lightgrid {
 
 inline bool several_samples(const Settings& s) { return s[setting::samples] > 1; }
 
-// With so many samples a pixel, whatever the scene asks for.
+// With this number of samples per pixel, whatever the scene requests.
 inline Settings with_samples(Settings settings, int samples) {
   return settings.set(setting::samples, samples).give(setting::samples);
 }

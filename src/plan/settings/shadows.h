@@ -30,7 +30,7 @@ inline const Setting<LidrShadows> lidr_shadows{
     380,
     "lidr-shadows",
     "shadows of point and spot lights: exact, by the pass of all techniques; none; or where light volumes "
-    "are drawn by shadow volumes or shadow maps, hard or as a share beside each index, or by shadow maps of "
+    "are drawn by shadow volumes or shadow maps, hard or as a share next to each index, or by shadow maps of "
     "a few lights where surfaces are shaded",
     {{"pass", LidrShadows::pass},
      {"none", LidrShadows::none},

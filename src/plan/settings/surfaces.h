@@ -8,7 +8,7 @@ namespace lightgrid {
 // How deferred light volumes skip pixels out of a light's reach (passes/shade_light_volumes.cpp).
 enum class VolumeCulling { back_faces, stencil, scissor, depth_bounds };
 
-// What stands for a light's ball: docs/light_volumes.md.
+// The mesh that stands for a light's ball: docs/light_volumes.md.
 enum class VolumeMeshes { automatic, icosahedron, box };
 
 // Who rasterises, in techniques that leave the choice: OpenGL, or OpenCL (raster/raster_view.h), which then
@@ -45,10 +45,11 @@ inline const Setting<VolumeMeshes> volume_mesh{
      {"icosahedron", VolumeMeshes::icosahedron},
      {"box", VolumeMeshes::box}}};
 
-inline const Setting<RasterApi> raster{410,
-                                       "raster",
-                                       "who draws triangles: OpenGL, or OpenCL alone, as visibility does",
-                                       {{"opengl", RasterApi::opengl}, {"opencl", RasterApi::opencl}}};
+inline const Setting<RasterApi> raster{
+    410,
+    "raster",
+    "the API that draws triangles: OpenGL, or only OpenCL, as in visibility",
+    {{"opengl", RasterApi::opengl}, {"opencl", RasterApi::opencl}}};
 
 inline const Setting<TexelLayout> texels{
     460,
