@@ -2,7 +2,7 @@
 set(text "#include \"base/embedded.h\"\n\nnamespace lightgrid {\nconst std::map<std::string, std::string, std::less<>>& embedded_files() {\n  static const std::map<std::string, std::string, std::less<>> files = {\n")
 foreach(file IN LISTS FILES)
   file(RELATIVE_PATH key ${ROOT} ${file})
-  string(REGEX REPLACE "^src/" "" key ${key})
+  string(REGEX REPLACE "^src/[a-z]+/" "" key ${key})
   file(READ ${file} content)
   # A raw string is limited in length by some compilers: cut it into pieces that the compiler joins.
   string(LENGTH "${content}" length)

@@ -17,7 +17,7 @@ from setuptools.command.build_py import build_py
 from wheel.bdist_wheel import bdist_wheel
 
 here = pathlib.Path(__file__).resolve().parent
-header = next(h for h in (here / "../src/c_api/lightgrid.h", here / "lightgrid_render/lightgrid.h") if h.exists())
+header = next(h for h in (here / "../src/apps/c_api/lightgrid.h", here / "lightgrid_render/lightgrid.h") if h.exists())
 bundle = os.environ.get("LIGHTGRID_BUNDLE") == "1"
 of_every_system = re.compile(r"(ld-linux.*|linux-vdso|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+|z|OpenCL))\.so.*")
 

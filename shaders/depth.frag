@@ -1,5 +1,5 @@
 // The depth prepass writes depth alone; masked surfaces first test their mask.
-// LIMIT: the radiance that may lie behind a blended surface whose alpha is 1: src/passes/shade_forward.cpp.
+// LIMIT: the radiance that may lie behind a blended surface whose alpha is 1: src/engine/passes/shade_forward.cpp.
 //   GROUP_LOCATION: as in gbuffer.frag
 //   MASKS_OF_CENTRES: shaders/common/material.glsl
 #if defined(LIMIT) || defined(MASK)

@@ -5,7 +5,7 @@
 // BLEND: output is multiplied by coverage, for blending over the image.
 // PER_SAMPLE: runs once for each sample, with that sample's lights.
 // FIRST_OF_DRAWS, ADDED: the first of an object's draws, and a further one that only adds light. For the use
-// of alpha see src/passes/shade_objects.cpp.
+// of alpha see src/engine/passes/shade_objects.cpp.
 
 #include "shaders/common/surface.glsl"
 #include "shaders/common/position.glsl"

@@ -1,4 +1,4 @@
-// The picture of a window (src/view): the left image left of the line, the right image from there on.
+// The picture of a window (src/apps/view): the left image left of the line, the right image from there on.
 #include "shared/tone_map.h"
 
 uniform sampler2D left_image;   // linear RGB

@@ -1,4 +1,4 @@
-// Corners and normals of the triangles of instances that moved: the bytes that src/rays/ray_arrays.cpp makes
+// Corners and normals of the triangles of instances that moved: the bytes that src/engine/rays/ray_arrays.cpp makes
 // of them.
 //
 // moved      RayMoved an instance

@@ -1,4 +1,4 @@
-// The surface of LANES pixels, read from the geometry buffer and written to it (src/passes/common/gbuffer.h).
+// The surface of LANES pixels, read from the geometry buffer and written to it (src/engine/passes/common/gbuffer.h).
 //
 // -DCLEARCOAT    with a third image, of coats
 // -DSPECULAR     with another image, of the dielectric's specular reflectance

@@ -1,5 +1,5 @@
 // The light groups of pixels whose instance is not known: an image of the numbers of masks
-// (src/passes/common/group_numbers.h), and the masks behind the lights' groups (shared/light_table.h).
+// (src/engine/passes/common/group_numbers.h), and the masks behind the lights' groups (shared/light_table.h).
 //
 // -DGROUPS       there are groups
 // -DGROUP_BITS   8 or 16: bits of a number

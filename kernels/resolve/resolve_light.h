@@ -3,7 +3,7 @@
 //
 // -DDIRECTIONAL  there are directional lights
 // -DDIRECTIONAL_SHADOWS  some of them casts a shadow
-// -DEFFECT_NAME  the effect of src/effects/NAME.cpp adds light or takes it away (shared/effects/NAME.h)
+// -DEFFECT_NAME  the effect of src/engine/effects/NAME.cpp adds light or takes it away (shared/effects/NAME.h)
 // -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
 // -DLIGHTS_VOXELS  point and spot lights come from a voxel light buffer
 //                  (kernels/voxels/voxel_lookup.h), not from lists

@@ -40,7 +40,7 @@ class Cancelled(LightgridError):
 
 def _declarations() -> str:
     """lightgrid.h without what only a preprocessor reads."""
-    places = (_here / "lightgrid.h", _here / "../../src/c_api/lightgrid.h", pathlib.Path("/usr/include/lightgrid.h"))
+    places = (_here / "lightgrid.h", _here / "../../src/apps/c_api/lightgrid.h", pathlib.Path("/usr/include/lightgrid.h"))
     header = next((p for p in places if p.exists()), None)
     if header is None:
         raise ImportError("lightgrid_render: lightgrid.h is neither in the package nor in /usr/include")

@@ -1,4 +1,4 @@
-// The geometry buffer: two images of four channels, the position left to depth (src/passes/common/gbuffer.h).
+// The geometry buffer: two images of four channels, the position left to depth (src/engine/passes/common/gbuffer.h).
 //   GBUFFER_8, GBUFFER_16: channels of 0 to 1 in that many bits; else 32-bit float
 //   8 and 16 bits  first   octahedral normal (2), perceptual roughness, metallic
 //                  second  base color (3), 1 where lights reach: 0 for unlit surfaces and where nothing is.

@@ -1,5 +1,5 @@
 // The light groups of a pixel whose instance is not known, from the image of the numbers of masks
-// (src/passes/common/group_numbers.h). After shaders/lights/punctual.glsl and per_sample.glsl.
+// (src/engine/passes/common/group_numbers.h). After shaders/lights/punctual.glsl and per_sample.glsl.
 //   GROUPS: there is one; else a pixel has every group
 #ifdef GROUPS
 uniform frame_usampler2D group_numbers;

@@ -1,5 +1,5 @@
 // A light's index as channels of the light index images; the colour mask selects the group of channels.
-// Packings and defines: src/passes/light_index/layout.h.
+// Packings and defines: src/engine/passes/light_index/layout.h.
 #include "shared/light_index.h"
 
 vec4 channels_of(uint index, uint target) {

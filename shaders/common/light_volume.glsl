@@ -1,4 +1,4 @@
-// The corners of a light's volume (src/passes/light_volumes/light_volumes.h), one light an instance. Near and
+// The corners of a light's volume (src/engine/passes/light_volumes/light_volumes.h), one light an instance. Near and
 // far do not clip (GL_DEPTH_CLAMP). A clip plane of our own cuts off parts nearer than the near plane: their
 // clamped depth would be meaningless, and a stencil count of faces behind a surface does not need them.
 layout(location = 0) in vec3 position;

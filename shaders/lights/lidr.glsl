@@ -1,5 +1,5 @@
 // The lights in the pixel's light index images, oldest first. Packings and defines:
-// src/passes/light_index/layout.h, and
+// src/engine/passes/light_index/layout.h, and
 //   LIDR_SHIFTED: bitshift; LIDR_GREATEST: maxblend; else sort
 //   LIDR_FLOAT: unpacks as the article does, without integers
 //   LIDR_REPEATS: one light may occur twice in a row, and counts once

@@ -94,7 +94,7 @@ class Attacked(unittest.TestCase):
     def test_light_under_a_nearly_rigid_matrix_is_listed_or_refused(self):
         with tempfile.TemporaryDirectory() as out:
             folder = pathlib.Path(LIBRARY).parent
-            subprocess.run(["cc", "-I", ROOT / "src/c_api", CASES / "not_quite_rigid.c", LIBRARY, "-lm", f"-Wl,-rpath,{folder}",
+            subprocess.run(["cc", "-I", ROOT / "src/apps/c_api", CASES / "not_quite_rigid.c", LIBRARY, "-lm", f"-Wl,-rpath,{folder}",
                             "-o", f"{out}/a.out"], check=True)
             ran = subprocess.run([f"{out}/a.out", "0", "2.4e-6", "3.5e-6", "4.9e-6"], text=True, capture_output=True)
             lines = ran.stdout.splitlines()

@@ -1,4 +1,4 @@
-// visibility against surfaces in double (support/double_surfaces.h, reference/scene_surfaces.h), which have
+// visibility against surfaces in double (support/double_surfaces.h, oracle/scene_surfaces.h), which have
 // their own rasteriser, attributes and texture filter; and forward against the same.
 #pragma once
 
@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <string>
 
+#include "compare/oracle.h"
+#include "compare/surfaces_in_double.h"
 #include "plan/settings/model.h"
-#include "session/oracle.h"
-#include "session/surfaces_in_double.h"
 #include "support/devices.h"
 #include "support/double_surfaces.h"
 

@@ -228,8 +228,8 @@ TEST(OwnGeometry, ARotatedInstance) {
   expect_quarters(shown(made), {black, white, black, white});
   const int floats = add_floats(made, {0, 0, 3, 3}, "VEC4", 1);
   expect_quarters(turned_by(floats), {white, white, black, black});
-  const int shorts = made.accessor(made.view(bytes_of(std::vector<int16_t>{0, 0, 23170, 23170})), "VEC4", i16,
-                                   1, true);
+  const int shorts =
+      made.accessor(made.view(bytes_of(std::vector<int16_t>{0, 0, 23170, 23170})), "VEC4", i16, 1, true);
   expect_quarters(turned_by(shorts), {white, white, black, black});
   const int bytes =
       made.accessor(made.view(bytes_of(std::vector<int8_t>{0, 0, -90, 90})), "VEC4", i8, 1, true);

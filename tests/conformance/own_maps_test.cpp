@@ -1,7 +1,7 @@
 // Strong normal maps: a filter that rounds to 8 bits errs where their scale multiplies its steps.
 #include "conformance/own_model.h"
-#include "scene/builtin/shapes.h"
 #include "scene/random.h"
+#include "scenes/shapes.h"
 
 namespace lightgrid {
 namespace {

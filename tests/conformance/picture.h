@@ -6,9 +6,9 @@
 #include <string>
 
 #include "base/log.h"
+#include "measures/metrics.h"
 #include "scene/light_rigs.h"
 #include "scene/load_gltf.h"
-#include "results/metrics.h"
 #include "support/render.h"
 #include "support/shared_files.h"
 

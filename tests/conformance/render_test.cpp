@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "conformance/picture.h"
 #include "scene/light_rigs.h"
 #include "scene/load_gltf.h"
-#include "conformance/picture.h"
 #include "support/render.h"
 #include "support/shared_files.h"
 
@@ -16,8 +16,8 @@ namespace {
 constexpr int width = 400, height = 300;
 
 struct Spot {
-  float u, v;      // relative to the image's width and height, v from the top
-  int r, g, b;     // sRGB bytes
+  float u, v;   // relative to the image's width and height, v from the top
+  int r, g, b;  // sRGB bytes
 };
 
 struct Model {

@@ -8,7 +8,7 @@
 
 #include "base/image.h"
 #include "base/write_file.h"
-#include "scene/builtin.h"
+#include "scenes/builtin.h"
 #include "support/paths.h"
 #include "support/render.h"
 

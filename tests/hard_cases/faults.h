@@ -37,10 +37,10 @@ enum class Fault {
   last_z_bin_closed,
   cones_without_position_error,  // positions as float relative to the lights' median; only the radius is
                                  // grown for that
-  dropped_by_the_median,  // lights farther than 10^18 m from the lights' median
-  edges_not_widened,      // slices and z-bins end on their edges, not on the edges' rounded depths
-  mask_of_stored_depth,   // mask bits at the stored depths, without the format's step
-  mask_in_float,          // mask bits from distances in float, even where these cancel
+  dropped_by_the_median,         // lights farther than 10^18 m from the lights' median
+  edges_not_widened,             // slices and z-bins end on their edges, not on the edges' rounded depths
+  mask_of_stored_depth,          // mask bits at the stored depths, without the format's step
+  mask_in_float,                 // mask bits from distances in float, even where these cancel
   slopes_in_float,        // tile sides from scale * pixel + offset in float; slack only from the light's
                           // coordinates
   squares_underflow,      // the box test in float: slack, but no absolute term

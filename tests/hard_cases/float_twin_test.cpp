@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "shared/cull_tests.h"
 #include "verify/check.h"
 #include "verify/inputs.h"
-#include "shared/cull_tests.h"
 
 namespace lightgrid::verify {
 namespace {

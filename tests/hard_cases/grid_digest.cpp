@@ -3,9 +3,9 @@
 // threads.
 #include <cstdio>
 
+#include "shared/cull_tests.h"
 #include "verify/check.h"
 #include "verify/inputs.h"
-#include "shared/cull_tests.h"
 
 using namespace lightgrid;
 using namespace lightgrid::verify;

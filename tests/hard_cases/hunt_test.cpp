@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "capture/frame_lists.h"
-#include "reference/lit_set.h"
-#include "reference/position.h"
+#include "frames/frame_lists.h"
+#include "oracle/lit_set.h"
+#include "oracle/position.h"
 #include "support/read_files.h"
 #include "support/run_program.h"
 #include "support/temp_folder.h"

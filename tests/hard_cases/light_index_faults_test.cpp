@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "hard_cases/library_engine.h"
-#include "reference/position.h"
+#include "oracle/position.h"
 #include "verify/run.h"
 
 namespace lightgrid::verify {

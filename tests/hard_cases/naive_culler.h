@@ -14,7 +14,7 @@
 #include "hard_cases/naive_depth.h"
 #include "hard_cases/naive_light_test.h"
 #include "hard_cases/naive_rasterizer.h"
-#include "reference/position.h"
+#include "oracle/position.h"
 #include "verify/views.h"
 
 namespace lightgrid::verify {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "hard_cases/faults.h"
-#include "reference/cell.h"
+#include "oracle/cell.h"
 #include "verify/views.h"
 
 namespace lightgrid::verify {

@@ -1,5 +1,5 @@
 // A rasteriser that tests every pixel of a triangle's box, with 64-bit edges and depth in double; right, or
-// with one fault. What it cuts and where it snaps to is the oracle's (reference/coverage.h), so that its
+// with one fault. What it cuts and where it snaps to is the oracle's (oracle/coverage.h), so that its
 // images can be compared with it.
 #pragma once
 
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hard_cases/faults.h"
+#include "oracle/coverage.h"
 #include "raster/raster_samples.h"
-#include "reference/coverage.h"
 #include "verify/engine.h"
 
 namespace lightgrid::verify {

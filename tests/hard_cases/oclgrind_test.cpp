@@ -22,7 +22,8 @@ TEST(WholeGridDigest, IsTheSameWithAnyNumberOfThreads) {
 TEST(GridDigest, IsTheSameInEachFormOfTheKernelsAndFromOneThread) {
   const CommandOutcome own = digest("", "lanes");
   ASSERT_EQ(own.status, 0) << own.output;
-  for (const char* form : {"avx512", "avx2", "sse2"})  // forms of PoCL: tests/app/kernel_forms_test.cpp
+  for (const char* form :
+       {"avx512", "avx2", "sse2"})  // forms of PoCL: tests/apps/command_line/kernel_forms_test.cpp
     EXPECT_EQ(digest(std::string("POCL_KERNELLIB_NAME=") + form, "lanes").output, own.output) << form;
   EXPECT_EQ(digest("POCL_MAX_PTHREAD_COUNT=1", "lanes").output, own.output) << "one thread";
 }

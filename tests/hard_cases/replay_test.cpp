@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "capture/captured_frame.h"
-#include "capture/frame_culler.h"
+#include "frames/captured_frame.h"
+#include "frames/frame_culler.h"
 #include "hard_cases/naive_culler.h"
-#include "reference/lit_set.h"
+#include "oracle/lit_set.h"
 #include "support/devices.h"
 #include "support/run_program.h"
 #include "support/temp_folder.h"

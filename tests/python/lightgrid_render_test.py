@@ -342,8 +342,8 @@ class Wheel(unittest.TestCase):
 def copied(source, folder):
     """The package's folder, without what a build leaves in it, beside the files of the checkout that it reads."""
     shutil.copytree(source / "python", f"{folder}/tree/python")
-    os.makedirs(f"{folder}/tree/src/c_api")
-    for name in ("CMakeLists.txt", "src/c_api/lightgrid.h"):
+    os.makedirs(f"{folder}/tree/src/apps/c_api")
+    for name in ("CMakeLists.txt", "src/apps/c_api/lightgrid.h"):
         shutil.copyfile(source / name, f"{folder}/tree/{name}")
     return f"{folder}/tree/python"
 

@@ -1,5 +1,5 @@
 // Which triangle of a scene is nearest at each pixel, in double, and its surface there
-// (reference/scene_surfaces.h). Shares the plain structs that describe a scene with the renderer, and nothing
+// (oracle/scene_surfaces.h). Shares the plain structs that describe a scene with the renderer, and nothing
 // else. Blended surfaces are left out.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "reference/scene_surfaces.h"
+#include "oracle/scene_surfaces.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "session/surfaces_in_double.h"
-#include "session/technique_run.h"
+#include "compare/surfaces_in_double.h"
+#include "compare/technique_run.h"
 
 namespace lightgrid {
 

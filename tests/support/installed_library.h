@@ -1,4 +1,5 @@
-// The libraries as other programs use them: installed, found by CMake, linked into an example of docs/examples.
+// The libraries as other programs use them: installed, found by CMake, linked into an example of
+// docs/examples.
 #pragma once
 
 #include <fmt/format.h>

@@ -15,8 +15,8 @@
 #include <numbers>
 #include <vector>
 
-#include "reference/attenuation.h"
-#include "reference/scene_surfaces.h"
+#include "oracle/attenuation.h"
+#include "oracle/scene_surfaces.h"
 #include "scene/random.h"
 
 namespace lightgrid {

@@ -2,10 +2,10 @@
 // (plan/shadow_plan.h).
 #pragma once
 
-#include "scene/builtin/compose.h"
-#include "scene/builtin/shapes.h"
 #include "scene/camera.h"
 #include "scene/random.h"
+#include "scenes/compose.h"
+#include "scenes/shapes.h"
 
 namespace lightgrid {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "compare/technique_run.h"
 #include "scene/camera.h"
-#include "session/technique_run.h"
 #include "support/devices.h"
 
 namespace lightgrid {

@@ -18,6 +18,6 @@ inline std::filesystem::path shared_folder() {
 }  // namespace lightgrid
 
 // First line of a test that needs it: skips with a message if it is absent.
-#define LIGHTGRID_NEEDS_SHARED(relative)                                           \
-  if (!std::filesystem::exists(lightgrid::shared_folder() / (relative)))           \
+#define LIGHTGRID_NEEDS_SHARED(relative)                                 \
+  if (!std::filesystem::exists(lightgrid::shared_folder() / (relative))) \
   GTEST_SKIP() << "needs " << lightgrid::shared_folder() / (relative) << ", which is absent"

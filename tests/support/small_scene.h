@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/builtin/compose.h"
-#include "scene/builtin/shapes.h"
 #include "scene/camera.h"
+#include "scenes/compose.h"
+#include "scenes/shapes.h"
 
 namespace lightgrid {
 

@@ -6,18 +6,18 @@
 #ifdef LIGHTGRID_EMBREE
 #include <optional>
 
+#include "compare/surfaces_in_double.h"
+#include "compare/technique_run.h"
+#include "compare/virtual_lights.h"
 #include "plan/settings/model.h"
-#include "session/surfaces_in_double.h"
-#include "session/technique_run.h"
-#include "session/virtual_lights.h"
 
 namespace lightgrid {
 
 // Relative to the mean of the truth. Channels count alike.
 struct VirtualLightError {
-  double bias = 0;    // error of the sum over all pixels
+  double bias = 0;      // error of the sum over all pixels
   double mean_abs = 0;  // mean over pixels, for single placements; with the truth's noise
-  double rms = 0;     // over pixels, of single placements; without the truth's own noise
+  double rms = 0;       // over pixels, of single placements; without the truth's own noise
   double spread = 0;  // the part of it that changes from one placement to the next: the root of the variance
 };
 

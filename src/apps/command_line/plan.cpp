@@ -1,0 +1,124 @@
+// lightgrid plan SCENE: the effects that this view needs, and why.
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "command_line/commands.h"
+#include "command_line/options.h"
+#include "compare/contestants.h"
+#include "compare/edge_share.h"
+#include "compare/group_proposal.h"
+#include "plan/coarse_shadows.h"
+#include "plan/settings/model.h"
+#include "plan/settings/samples.h"
+#include "scene/lights_file.h"
+#include "techniques/technique.h"
+
+namespace lightgrid {
+namespace {
+
+struct PlanOptions {
+  SceneChoice scene;
+  std::string technique = "forward_plus", json, groups;
+  bool leaks = false;
+};
+
+nlohmann::ordered_json leaks_json(const Leaks& leaks, const GroupProposal& proposal, const Scene& scene) {
+  nlohmann::ordered_json json = {{"pixels", leaks.pixels},
+                                 {"lit", leaks.lit},
+                                 {"leaked", leaks.leaked},
+                                 {"either", leaks.either},
+                                 {"through", nlohmann::ordered_json::array()}};
+  for (const Leak& leak : leaks.leaks) {
+    json["through"].push_back({{"light", leak.light},
+                               {"name", scene.lights[size_t(leak.light)].name},
+                               {"node", leak.instance},
+                               {"node_name", scene.instances[size_t(leak.instance)].name},
+                               {"pixels", leak.pixels}});
+  }
+  json["groups"] = nlohmann::ordered_json::array();
+  for (const ProposedGroup& group : proposal.groups)
+    json["groups"].push_back(
+        {{"lights", group.lights}, {"exclude", group.exclude}, {"leaked", group.leaked}});
+  json["leaked_with_groups"] = proposal.left;
+  return json;
+}
+
+int plan(PlanOptions o) {
+  take_own_settings(o.technique, o.scene.set);
+  const Technique& technique = find_technique(o.technique);
+  const Settings settings = chosen_settings(o.scene);
+  check_given_settings(settings, {&technique});
+  check_samples(technique, settings);
+  if (!o.json.empty()) check_output_file("--json", o.json);
+  if (!o.groups.empty()) check_output_file("--propose-groups", o.groups);
+  const ChosenScene chosen = load_chosen_scene(o.scene);
+  const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
+  std::optional<Leaks> leaks;
+  if (o.leaks || !o.groups.empty()) leaks = find_leaks(chosen.scene, chosen.view, ranges_of(settings));
+  const GroupProposal proposal = leaks ? propose_groups(*leaks, chosen.scene) : GroupProposal();
+  if (!o.groups.empty()) write_json(o.groups, lights_file_text(with_groups(chosen.scene, proposal)));
+  std::optional<EdgeShare> edges;
+  if (const int samples = plan.settings[setting::samples]; samples > 1)
+    edges = find_edge_share(chosen.scene, chosen.view, samples);
+  if (o.json.empty()) {
+    std::fputs(describe(plan, chosen.scene).c_str(), stdout);
+    if (edges) std::fputs(describe(*edges, chosen.view).c_str(), stdout);
+    constexpr size_t most_leaks = 20;
+    if (leaks) {
+      std::fputs(describe(*leaks, chosen.scene, most_leaks).c_str(), stdout);
+      std::fputs(describe(proposal, chosen.scene).c_str(), stdout);
+    }
+    return 0;
+  }
+  nlohmann::ordered_json json = {{"scene", chosen.scene.name},
+                                 {"technique", technique.name},
+                                 {"decisions", nlohmann::ordered_json::array()}};
+  if (plan.virtual_lights) json["lights_virtual"] = plan.virtual_count;
+  for (const Decision& d : plan.decisions) {
+    json["decisions"].push_back({{"effect", d.effect}, {"needed", d.needed}, {"why", d.why}});
+  }
+  for (const LightShadow& light : plan.casting) {
+    const auto by = [&](const char* what) {
+      return light.need == ShadowNeed::rays && plan.shadows_by == std::string(what);
+    };
+    json["shadows"].push_back({{"light", light.light},
+                               {"name", chosen.scene.lights[size_t(light.light)].name},
+                               {"rays", by("rays")},
+                               {"map", by("maps")},
+                               {"volume", by("shadow volumes")},
+                               {"why", words_of(light, chosen.scene)}});
+  }
+  const CoarseShadows coarse = coarse_shadows(chosen.scene, ranges_of(plan.settings));
+  if (coarse.lights + coarse.instances > 0)
+    json["coarse_shadows"] = {{"lights", coarse.lights},
+                              {"first_light", coarse.first_light},
+                              {"instances", coarse.instances},
+                              {"first_instance", coarse.first_instance},
+                              {"gap_m", coarse.gap_m}};
+  if (edges)
+    json["edges"] = {{"samples", edges->samples}, {"pixels", edges->pixels},   {"edge_pixels", edges->edges},
+                     {"covered", edges->covered}, {"shadings", edges->shaded}, {"saved", edges->saved()}};
+  if (leaks) json["leaks"] = leaks_json(*leaks, proposal, chosen.scene);
+  write_json(o.json, json.dump(1));
+  return 0;
+}
+
+}  // namespace
+
+void add_plan(CommandLine& line) {
+  auto o = std::make_shared<PlanOptions>();
+  Subcommand command =
+      line.add("plan", "the effects that this view needs, and why", [o] { return plan(*o); });
+  add_scene_options(command, o->scene);
+  add_technique_option(command, o->technique, technique_names());
+  add_exposure_option(command, o->scene);
+  command.flag("--leaks", o->leaks, "lists the light that goes through walls, by light and wall");
+  command.option("--propose-groups", o->groups,
+                 "writes a lights file with light groups that keep this light out; lists it too");
+  command.option("--json", o->json, "as JSON into a file, - for stdout");
+}
+
+}  // namespace lightgrid

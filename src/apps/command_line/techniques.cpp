@@ -1,0 +1,59 @@
+// lightgrid techniques: each with its summary, source and settings.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "command_line/commands.h"
+#include "command_line/options.h"
+#include "compare/tables.h"
+#include "techniques/technique.h"
+
+namespace lightgrid {
+namespace {
+
+// "tile=16 slices=24": the keys with their defaults.
+std::string with_defaults(const std::vector<const char*>& keys) {
+  std::vector<std::string> words;
+  for (const char* key : keys) {
+    for (const SettingRow& s : setting_rows()) {
+      if (s.key == key) words.push_back(s.key + "=" + s.values.front());
+    }
+  }
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+void print_techniques() {
+  constexpr int column = 22;
+  for (const Technique* t : techniques()) {
+    fmt::print("{:<{}}{}\n", t->name, column, t->summary);
+    fmt::print("{:<{}}source: {}\n", "", column, t->source);
+    if (!t->settings.empty()) fmt::print("{:<{}}settings: {}\n", "", column, with_defaults(t->settings));
+  }
+  fmt::print("{:<{}}settings: {}\n", "(all of them)", column, with_defaults(common_settings()));
+  fmt::print(
+      "\nSettings: --set KEY=VALUE, or NAME:KEY=VALUE in compare -t; the first value is the default:\n");
+  for (const SettingRow& s : setting_rows()) {
+    fmt::print("{:<{}}{}{}: {}\n", s.key, column, fmt::join(s.values, " "),
+               s.flags.any_number ? " or any number" : "", s.meaning);
+  }
+}
+
+int list_techniques(const std::string& json) {
+  if (json.empty()) {
+    print_techniques();
+  } else {
+    write_json(json, techniques_json().dump(1));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_techniques(CommandLine& line) {
+  auto json = std::make_shared<std::string>();
+  Subcommand command = line.add("techniques", "the available techniques and settings",
+                                [json] { return list_techniques(*json); });
+  command.option("--json", *json, "as JSON into a file, - for stdout");
+}
+
+}  // namespace lightgrid

@@ -1,0 +1,65 @@
+// An effect: its name, whether a frame needs it, what it keeps for a view, and the oracle of each hook that
+// its text answers. src/engine/effects has one file for each, shared/effects the text that kernels and
+// shaders read.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/effect_terms.h"
+
+namespace lightgrid {
+
+struct FramePlan;
+class Settings;
+struct View;
+struct Surface;  // oracle/shading.h
+struct Work;
+struct LightReader;  // scene/light_readers.h
+class EffectState;   // renderer/effect_state.h
+
+struct EffectNeed {
+  bool needed = false;
+  std::string why;  // the witness, or why not
+};
+
+// The radiance that an effect adds to a surface at this point of view space.
+using BaseTerm = std::function<glm::dvec3(const Surface&, const glm::dvec3& position)>;
+
+// The hook NAME_base: the same in double, or the key of the setting whose `.mean` takes the effect's place in
+// the picture that is meant.
+struct BaseOracle {
+  BaseTerm (*term)(const Scene&, const View&, const Settings&) = nullptr;
+  const char* meant_by = nullptr;
+};
+
+struct Effect {
+  const char* name;  // of its files: "far_light"
+  // Called after the plan has the lights. Must depend on the scene and the settings only, so that a camera
+  // that turns compiles nothing. Returns none if the settings leave the effect out: the plan does not mention
+  // it.
+  std::optional<EffectNeed> (*decide)(const Scene&, const FramePlan&);
+  std::unique_ptr<EffectState> (*make)(Work&);
+  // The hooks that its text answers, one or both.
+  std::optional<BaseOracle> base{};
+  std::optional<ReachOracle> reach{};
+  const LightReader* reader = nullptr;  // what it reads of lights, if it does
+};
+
+using Effects = std::span<const Effect* const>;
+
+// Its name in a plan ("far light"), and the define of programs that have it ("EFFECT_FAR_LIGHT").
+std::string words_of(const Effect& effect);
+std::string define_of(const Effect& effect);
+
+// Lists the hooks of an effect that have no oracle: "base has no oracle: ..."; empty if nothing is missing.
+// `keys_that_mean`: keys of the settings with `.mean`.
+std::string missing_oracle(const Effect& effect, std::span<const std::string> keys_that_mean);
+
+// The terms of planned effects that add to the light of surfaces.
+std::vector<BaseTerm> base_terms(const Scene& scene, const View& view, const FramePlan& plan);
+
+}  // namespace lightgrid

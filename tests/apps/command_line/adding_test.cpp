@@ -1,0 +1,489 @@
+// The places that an effect, a technique, its setting, a light source, a cull test, an error measure, a
+// column of the light table and an answer of light_reaches need: the source files that name them are counted
+// (docs/overview.md#how-to-add).
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "effects/effects.h"
+#include "measures/error_measures.h"
+#include "scene/light_readers.h"
+#include "shared/cull_tests.h"
+#include "support/paths.h"
+#include "support/read_files.h"
+#include "techniques/technique.h"
+
+namespace lightgrid {
+namespace {
+
+using testing::IsEmpty;
+using Naming = std::map<std::string, std::set<std::string>>;  // of each file what it names
+
+// Comments may name anything.
+std::string code_of(const std::string& text) { return std::regex_replace(text, std::regex("//[^\n]*"), ""); }
+
+std::string text_at(const std::string& path) {
+  return file_bytes(std::filesystem::path(source_folder) / path);
+}
+
+// Files of these folders of the checkout in which one of an item's texts stands.
+Naming files_that_name(const std::vector<std::string>& folders,
+                       const std::map<std::string, std::vector<std::string>>& texts) {
+  const std::filesystem::path root = source_folder;
+  Naming found;
+  for (const std::string& folder : folders) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+      if (!entry.is_regular_file()) continue;
+      const std::string code = code_of(file_bytes(entry.path()));
+      for (const auto& [item, own_texts] : texts) {
+        if (std::ranges::any_of(own_texts, [&](auto& text) { return code.find(text) != code.npos; }))
+          found[entry.path().lexically_relative(root).generic_string()].insert(item);
+      }
+    }
+  }
+  return found;
+}
+
+// The names that only one of the two has: lines "FILE: NAME".
+std::set<std::string> differences(const Naming& found, const Naming& expected) {
+  std::set<std::string> lines[2], apart;
+  for (const Naming* naming : {&found, &expected}) {
+    for (const auto& [file, names] : *naming) {
+      for (const std::string& name : names) lines[naming == &expected].insert(file + ": " + name);
+    }
+  }
+  std::ranges::set_symmetric_difference(lines[0], lines[1], std::inserter(apart, apart.end()));
+  return apart;
+}
+
+std::vector<std::string> mentions(const std::string& text, const std::string& word) {
+  const std::regex whole("\\b" + word + "\\b");
+  std::vector<std::string> all;
+  for (std::sregex_iterator at(text.begin(), text.end(), whole), end; at != end; ++at)
+    all.push_back(at->str());
+  return all;
+}
+
+// Its own file, a declaration and a row in registry.cpp, and its page (Techniques.HaveAPageEach…). Files that
+// name a technique as text do so by choice; none of them needs a new one.
+TEST(Adding, ATechniqueTakesItsFileAndTheRegistry) {
+  std::map<std::string, std::vector<std::string>> texts;
+  Naming expected = {
+      // Defaults of commands, and the techniques that stand in for others without OpenGL.
+      {"src/apps/command_line/cull.cpp", {"forward_plus"}},
+      {"src/apps/command_line/inspect.cpp", {"forward_plus"}},
+      {"src/apps/command_line/plan.cpp", {"forward_plus"}},
+      {"src/apps/command_line/view.cpp", {"forward_plus", "visibility"}},
+      {"src/apps/c_api/grids.cpp", {"forward_plus"}},
+      {"src/laboratory/bench/runs.cpp", {"forward_plus"}},
+      {"src/apps/command_line/golden.cpp", {"visibility"}},
+      {"src/laboratory/frames/capture.cpp", {"forward_plus", "visibility"}},
+      {"src/laboratory/compare/light_limits.cpp", {"forward_zprepass", "visibility"}},
+      {"src/laboratory/compare/comparison.cpp", {"forward", "forward_plus", "visibility"}},
+      {"src/laboratory/compare/scene_choice.cpp", {"forward_plus", "visibility"}},
+      // The reference.
+      {"src/laboratory/frontier/brute_force.cpp", {"forward", "forward_plus", "visibility"}},
+      {"src/laboratory/frontier/families.cpp", {"deferred_tiled", "visibility"}},
+      {"src/laboratory/measures/results.cpp", {"forward", "visibility"}},
+      {"src/laboratory/compare/runs.cpp", {"forward", "visibility"}},
+      // Messages of its own passes.
+      {"src/engine/passes/light_index/blending.cpp", {"lidr"}},
+      {"src/engine/passes/light_index/layout.cpp", {"lidr"}},
+      // Its hard cases.
+      {"src/laboratory/verify/light_index_cases.cpp", {"lidr"}},
+      {"src/laboratory/verify/samples.cpp", {"visibility"}},
+      {"src/laboratory/verify/shadow_contacts.cpp", {"visibility"}},
+      // Ways to draw light groups that hard cases compare.
+      {"src/laboratory/verify/group_cases.cpp",
+       {"clustered", "deferred", "deferred_tiled", "forward", "forward_multipass", "forward_plus",
+        "forward_zprepass", "lidr", "light_prepass", "visibility", "world_grid"}},
+      // Lists that hard cases cut.
+      {"src/laboratory/verify/cap_cases.cpp", {"forward_plus", "visibility"}},
+      // Techniques that keep state between frames.
+      {"src/laboratory/verify/hunt_sequences.cpp",
+       {"deferred", "deferred_tiled", "forward_plus", "lidr", "light_prepass", "visibility", "voxel_lights",
+        "world_grid"}},
+      // Variations, and a sentence about two techniques.
+      {"src/laboratory/frontier/points.cpp",
+       {"clustered", "deferred_tiled", "forward_plus", "forward_zprepass", "lidr", "visibility",
+        "voxel_lights", "world_grid"}},
+      {"src/laboratory/report/overview.cpp", {"clustered", "forward_plus"}},
+  };
+  const std::string registry = code_of(text_at("src/engine/techniques/registry.cpp"));
+  for (const Technique* t : techniques()) {
+    const std::string name = t->name;
+    texts[name] = {'"' + name + '"', '"' + name + ':', "extern const Technique " + name + "{"};
+    expected["src/engine/techniques/" + name + ".cpp"] = {name};
+    EXPECT_EQ(mentions(registry, name).size(), 2u) << name;
+  }
+  EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
+}
+
+std::string without_underscores(std::string name, const std::string& instead) {
+  return std::regex_replace(name, std::regex("_"), instead);
+}
+
+// Its own files, at most five, and a declaration and a row in effects.cpp.
+TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
+  std::map<std::string, std::vector<std::string>> texts;
+  std::map<std::string, size_t> own;
+  Naming expected = {
+      // Points and sequences that have it by choice.
+      {"src/laboratory/frontier/points.cpp", {"far_light"}},
+      {"src/laboratory/verify/hunt_sequences.cpp", {"far_light"}},
+  };
+  const std::string table = code_of(text_at("src/engine/effects/effects.cpp"));
+  for (const Effect* effect : all_effects) {
+    const std::string name = effect->name, key = without_underscores(name, "-");
+    texts[name] = {'"' + key, key + "=", '"' + without_underscores(name, " "), define_of(*effect)};
+    for (const char* after : {" ", ",", ";", ".", "(", ")", "/", "_", "->", "\""})
+      texts[name].push_back(name + after);
+    expected["src/engine/effects/effects.cpp"].insert(name);
+    EXPECT_EQ(mentions(table, name).size(), 2u) << name;
+  }
+  ASSERT_FALSE(texts.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(all_effects, {}, [](const Effect* e) { return std::string(e->name); }));
+  Naming others;
+  for (const auto& [file, names] : files_that_name({"src", "shaders", "kernels"}, texts)) {
+    for (const std::string& name : names) {
+      const bool is_own = file.starts_with("src/engine/effects/" + name + ".") ||
+                          file == "src/engine/shared/effects/" + name + ".h" ||
+                          file.starts_with("kernels/" + name + "/");
+      if (is_own)
+        ++own[name];
+      else
+        others[file].insert(name);
+    }
+  }
+  EXPECT_THAT(differences(others, expected), IsEmpty());
+  for (const auto& [name, files] : own) EXPECT_LE(files, 5u) << name;
+}
+
+// Without an oracle an effect that is wrong would pass: techniques would only be compared with each other.
+TEST(Adding, EveryHookOfAnEffectHasItsOracle) {
+  std::vector<std::string> keys_that_mean;
+  for (const SettingRow& setting : setting_rows()) {
+    if (setting.flags.mean) keys_that_mean.push_back(setting.key);
+  }
+  for (const Effect* effect : all_effects)
+    EXPECT_EQ(missing_oracle(*effect, keys_that_mean), "") << effect->name;
+}
+
+// The hooks with an oracle are those that the text answers.
+TEST(Adding, AnEffectsTextAnswersTheHooksThatHaveAnOracle) {
+  for (const Effect* effect : all_effects) {
+    const std::string name = effect->name, define = define_of(*effect), upper = define.substr(7);
+    const std::string text = text_at("src/engine/shared/effects/" + name + ".h");
+    const auto lists = [&](const std::string& hook) {
+      return text.find("#define " + upper + hook + "_INPUTS(") != text.npos;
+    };
+    EXPECT_EQ(lists("_BASE"), effect->base.has_value()) << name;
+    EXPECT_EQ(lists("_REACH"), effect->reach.has_value()) << name;
+  }
+}
+
+TEST(Adding, AnEffectThatASettingStandsForIsNotInThePictureThatIsMeant) {
+  const Scene scene{.lights = {{.radius_m = 2}}};
+  for (const Effect* effect : all_effects) {
+    if (!effect->base || !effect->base->meant_by) continue;
+    bool ever_drawn = false;
+    const auto setting = std::ranges::find(setting_rows(), effect->base->meant_by, &SettingRow::key);
+    ASSERT_NE(setting, setting_rows().end());
+    for (const std::string& value : setting->values) {
+      FramePlan plan{.local = {0}};
+      apply_setting(plan.settings, setting->key + "=" + value);
+      ever_drawn = ever_drawn || effect->decide(scene, plan);
+      plan.settings = meant_by(plan.settings);
+      EXPECT_FALSE(effect->decide(scene, plan)) << setting->key << "=" << value;
+    }
+    EXPECT_TRUE(ever_drawn) << effect->name;
+  }
+}
+
+// Its row, which no list of settings names.
+TEST(Adding, ASettingTakesOneRow) {
+  const std::regex row("Setting<[\\w:<>]+> (\\w+)\\{\\s*\\d+,\\s*\"([^\"]+)\"");
+  std::map<std::string, std::vector<std::string>> files_of;
+  std::vector<std::string> names;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::filesystem::path(source_folder) / "src")) {
+    if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+    const std::string code = code_of(file_bytes(entry.path()));
+    for (std::sregex_iterator at(code.begin(), code.end(), row), end; at != end; ++at) {
+      files_of[(*at)[2]].push_back(entry.path().string());
+      names.push_back((*at)[1]);
+    }
+  }
+  std::vector<std::string> keys;
+  for (const SettingRow& setting : setting_rows()) {
+    EXPECT_THAT(files_of[setting.key], testing::SizeIs(1)) << setting.key;
+    keys.push_back('"' + setting.key + '"');
+  }
+  const std::string all =
+      code_of(text_at("src/engine/plan/settings.h")) + code_of(text_at("src/engine/plan/settings.cpp"));
+  for (const std::string& key : keys) EXPECT_THAT(all, testing::Not(testing::HasSubstr(key)));
+  for (const std::string& name : names)
+    EXPECT_FALSE(std::regex_search(all, std::regex("setting::" + name + "\\b"))) << name;
+}
+
+// Its key, its values and its effect on the plan stand in the technique's own file, which `lightgrid
+// techniques`,
+// --set and JSON files follow.
+TEST(Adding, ASettingOfATechniqueTakesItsFile) {
+  std::map<std::string, std::vector<std::string>> texts;
+  Naming expected = {
+      {"src/laboratory/verify/group_cases.cpp", {"prepass-lights"}},  // of the ways that it compares
+      {"src/laboratory/frontier/points.cpp", {"lidr-maps"}}};         // of what it varies
+  const std::regex own("Setting<(\\w+)> (\\w+)\\{\\s*\\d+,\\s*\"([^\"]+)\"");
+  for (const Technique* t : techniques()) {
+    const std::string path = std::string("src/engine/techniques/") + t->name + ".cpp",
+                      text = code_of(text_at(path));
+    for (std::sregex_iterator at(text.begin(), text.end(), own), end; at != end; ++at) {
+      const std::string key = (*at)[3];
+      EXPECT_TRUE(reads_setting(*t, key)) << key;
+      texts[key] = {'"' + key + '"', '"' + key + '=', (*at)[1].str() + "::", '[' + (*at)[2].str() + ']'};
+      expected[path].insert(key);
+    }
+  }
+  EXPECT_THAT(texts, testing::Contains(testing::Key("prepass-lights")));
+  EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
+}
+
+// Its builder, which makes the LightSource, and the choice of a loop in forward.frag; and that of kernels
+// where they read it too. The loop's own text names nothing.
+TEST(Adding, ALightSourceTakesItsBuilderAndTheChoiceOfItsLoop) {
+  std::map<std::string, std::vector<std::string>> texts = {
+      {"-DWORLD_GRID", {"-DWORLD_GRID\"", "#ifdef WORLD_GRID", "defined(WORLD_GRID)"}}};
+  std::set<std::string> in_glsl;
+  const std::string choice = code_of(text_at("shaders/forward.frag"));
+  const std::regex define("defined\\((LIGHTS_\\w+)\\)");
+  for (std::sregex_iterator at(choice.begin(), choice.end(), define), end; at != end; ++at) {
+    in_glsl.insert((*at)[1]);
+    texts[(*at)[1]] = {(*at)[1]};
+  }
+  const Naming expected = {
+      {"shaders/forward.frag", in_glsl},
+      {"kernels/resolve/resolve_light.h", {"-DWORLD_GRID", "LIGHTS_VOXELS"}},
+      {"src/engine/passes/build_voxels.cpp", {"LIGHTS_VOXELS"}},
+      {"src/engine/passes/build_world_grid.cpp", {"-DWORLD_GRID", "LIGHTS_WORLD"}},
+      {"src/engine/passes/common/light_buffer.cpp", {"LIGHTS_BUFFER"}},
+      {"src/engine/passes/cull_lights.cpp", {"LIGHTS_GRID", "LIGHTS_MASKS"}},
+      {"src/engine/passes/find_object_lights.cpp", {"LIGHTS_OBJECT"}},
+      {"src/engine/passes/light_index.cpp", {"LIGHTS_LIDR"}},
+  };
+  EXPECT_THAT(differences(files_that_name({"src", "shaders", "kernels"}, texts), expected), IsEmpty());
+}
+
+// Its row with its number, and its function in light_cell_tests.h, where tests of planes share one.
+TEST(Adding, ACullTestTakesItsRowAndItsFunction) {
+  std::map<std::string, std::vector<std::string>> texts;
+  std::set<std::string> all;
+  const std::string numbers = text_at("src/engine/shared/cull_tests.h");
+  const std::regex number("#define CULL_(\\w+) \\d");
+  for (std::sregex_iterator at(numbers.begin(), numbers.end(), number), end; at != end; ++at) {
+    std::string upper = (*at)[1], lower = upper;
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    all.insert(lower);
+    for (const char* after : {"\n", " ", ")", ",", "}", ";"}) {
+      texts[lower].push_back("CullTest::" + lower + after);
+      texts[lower].push_back("CULL_" + upper + after);
+    }
+  }
+  EXPECT_EQ(all.size(), std::size(cull_tests));
+  const Naming expected = {
+      {"src/engine/shared/cull_tests.h", all},
+      // Kernels that compute more, or less, for one test.
+      {"kernels/culling/bin_cells.h", {"exact"}},
+      {"kernels/culling/bin_tiles.h", {"exact"}},
+      {"kernels/culling/cell.h", {"exact"}},
+      {"kernels/culling/project.h", {"aabb", "planes_aabb", "sphere"}},
+      // Checks that hold between certain tests.
+      {"src/laboratory/verify/agreement.cpp", {"aabb", "exact", "planes", "planes_aabb"}},
+      {"src/laboratory/verify/camera.cpp", {"exact", "planes"}},
+      {"src/laboratory/verify/depth_bounds.cpp", {"exact"}},
+      {"src/laboratory/verify/lists.cpp", {"exact"}},
+  };
+  Naming found = files_that_name({"src", "kernels"}, texts);
+  const std::string text = "kernels/culling/light_cell_tests.h";
+  EXPECT_THAT(found[text], testing::IsSupersetOf({"exact", "planes", "sphere"}));
+  found.erase(text);  // any test may have a text of its own there
+  EXPECT_THAT(differences(found, expected), IsEmpty());
+}
+
+// Its field, and its function with its row in error_measures.cpp.
+TEST(Adding, AnErrorMeasureTakesItsFieldAndItsRow) {
+  std::map<std::string, std::vector<std::string>> texts;
+  std::set<std::string> all;
+  std::vector<ErrorMeasure> measures(error_measures().begin(), error_measures().end());
+  measures.insert(measures.end(), frontier_error_measures().begin(), frontier_error_measures().end());
+  for (const ErrorMeasure& measure : measures) {
+    const std::string key = measure.key;
+    all.insert(key);
+    texts[key] = {"ImageError::" + key + ",", '"' + key + "\", \""};
+    const std::string results = text_at("src/laboratory/measures/results.h");
+    const size_t begin = results.find("struct ImageError {");
+    const std::string fields = results.substr(begin, results.find("};", begin) - begin);
+    EXPECT_THAT(fields, testing::AnyOf(testing::HasSubstr("  double " + key + " = 0;"),
+                                       testing::HasSubstr("  double " + key + " = unknown_error;")));
+  }
+  const Naming expected = {
+      {"src/laboratory/measures/error_measures.cpp", all},
+      // Figures of the frontier about two pictures, next to the one that a sample is of.
+      {"src/laboratory/frontier/answer_csv.cpp", {"max_rel"}},
+      // Figures of the oracle and of surfaces have these names too.
+      {"src/laboratory/report/report.cpp", {"max_rel", "rmse_rel"}},
+  };
+  EXPECT_THAT(differences(files_that_name({"src"}, texts), expected), IsEmpty());
+}
+
+// Its row and its values, and each that computes with it; a fourth is the member of Light that it is made of.
+// Neither kernels' arguments, nor shaders' textures, nor uploads name a column.
+TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
+  const std::string table = text_at("src/engine/shared/light_table.h");
+  const std::regex row(R"(ROW\(IF_\w+, \w+, (\w+), (\w+), \w+\))");
+  std::map<std::string, std::vector<std::string>> texts;
+  std::set<std::string> all;
+  for (std::sregex_iterator at(table.begin(), table.end(), row), end; at != end; ++at) {
+    const std::string member = (*at)[1], array = (*at)[2];
+    all.insert(member);
+    texts[member] = {array, "glm::vec4 " + member + "(", "float " + member + "(const ViewLight"};
+  }
+  EXPECT_THAT(all, testing::IsSupersetOf({"position", "color", "cone", "most_falloff"}));
+  // All that names the newest columns. The others are read by every light loop.
+  texts["cone"].push_back("light.cone.");
+  texts["most_falloff"].push_back("REAL(light.most_falloff");
+  const Naming expected = {
+      {"src/engine/shared/light_table.h", all},
+      {"src/engine/renderer/upload/lights.cpp", all},
+      // Readers: the range alone; a cone's part in what arrives.
+      {"shaders/lights/blocks.glsl", {"position"}},
+      {"src/engine/shared/punctual_light.h", {"cone", "most_falloff"}},
+      {"src/engine/shared/voxel_exact.h", {"cone", "most_falloff"}},
+      // Groups of a light before it is read whole; of directional lights and of instances, which follow.
+      {"shaders/lights/punctual.glsl", {"groups"}},
+      {"shaders/lights/directional.glsl", {"groups"}},
+      {"shaders/common/groups_of_pixel.glsl", {"groups"}},
+      {"kernels/resolve/resolve_light.h", {"groups"}},
+      {"kernels/resolve/group_numbers.h", {"groups"}},
+      // A record of the culler's own, from LightBounds.
+      {"kernels/culling/gpu/cull_lights.cl", {"cone"}},
+  };
+  EXPECT_THAT(differences(files_that_name({"src", "kernels", "shaders"}, texts), expected), IsEmpty());
+}
+
+// Its text for all three languages, the same in double, and the effect of the plan that asks for it.
+TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
+  const std::map<std::string, std::vector<std::string>> texts = {
+      {"answers",
+       {"real light_reaches(", "double light_reaches(", "plan.light_reaches = ", "plan.groups = "}},
+  };
+  const Naming expected = {
+      {"src/engine/shared/light_table.h", {"answers"}},
+      {"src/laboratory/oracle/attenuation.h", {"answers"}},
+      // Shadows, and groups.
+      {"src/engine/plan/frame_plan.cpp", {"answers"}},
+      {"src/engine/plan/light_plan.cpp", {"answers"}},
+  };
+  EXPECT_THAT(differences(files_that_name({"src", "kernels", "shaders"}, texts), expected), IsEmpty());
+}
+
+std::set<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+bool names_one(const std::string& code, const std::vector<std::string>& texts) {
+  return std::ranges::any_of(texts, [&](const std::string& text) { return code.find(text) != code.npos; });
+}
+
+// Computing what arrives, or how bright a light is.
+const std::vector<std::string> reading = {
+    " arrival_at(",        "(arrival_at(",         " voxel_arrival(",         " attenuation(light",
+    " arrival_at_sample(", "arrival_beyond(",      "radiant_intensity",       "influence_of(",
+    "largest_intensity(",  "brightest_intensity(", "light_importance(",       "most_irradiance(",
+    "->luminance",         "record.luminance",     "double(light.intensity)", "= light.intensity * ",
+    "= n.intensity"};
+
+std::vector<LightReader> all_readers() {
+  std::vector<LightReader> all(std::begin(light_readers), std::end(light_readers));
+  for (const Effect* effect : all_effects) {
+    if (effect->reader) all.push_back(*effect->reader);
+  }
+  return all;
+}
+
+// A new reader of lights is listed with what it reads, or fails here.
+TEST(Adding, EveryReaderOfLightsIsListedInLightReaders) {
+  std::set<std::string> listed, found;
+  for (const LightReader& reader : all_readers()) listed.merge(words_of(reader.files));
+  // Declarations, the table's values, and checks of others' orders.
+  const std::set<std::string> no_readers = {"src/engine/scene/scene.cpp",
+                                            "src/engine/plan/dim_lights.h",
+                                            "src/engine/renderer/upload/lights.cpp",
+                                            "src/engine/scene/effect_terms.cpp",
+                                            "src/engine/scene/effect_terms.h",
+                                            "src/engine/scene/light_ranges.h",
+                                            "src/engine/scene/light_readers.h",
+                                            "src/engine/scene/shadow_casters.h",
+                                            "src/engine/scene/view_lights.cpp",
+                                            "src/engine/scene/view_lights.h",
+                                            "src/laboratory/verify/cap_cases.cpp",
+                                            "src/laboratory/verify/light_index_cases.cpp"};
+  for (const auto& [file, items] : files_that_name({"src", "kernels", "shaders"}, {{"reads", reading}})) {
+    if (!no_readers.contains(file)) found.insert(file);
+  }
+  EXPECT_EQ(found, listed);
+}
+
+// Texts by which a factor is read. Of a new one its own name.
+std::vector<std::string> marks_of(const std::string& factor) {
+  const std::vector<std::string> arrivals = {"arrival_at(", "arrival_beyond(", "attenuation(light",
+                                             "voxel_arrival("};
+  std::map<std::string, std::vector<std::string>> marks = {
+      {"position", {"position", "radius_m", "range_of(", "bounds_of(", "influence_of("}},
+      {"color", reading},
+      {"cone", {"has_cone(", "cos_outer", "bounds_of("}},
+      {"most_falloff", {"most_falloff"}},
+      {"groups", {"light_reaches(", "groups"}},
+      {"shadows", {"light_reaches("}},
+      {"effects", {"light_reaches(", "largest_intensity(", "influence_of(", "share_of("}}};
+  for (const char* of_distance : {"position", "color", "cone", "most_falloff"})
+    marks[of_distance].insert(marks[of_distance].end(), arrivals.begin(), arrivals.end());
+  const auto own = marks.find(factor);
+  return own == marks.end() ? std::vector<std::string>{factor} : own->second;
+}
+
+TEST(Adding, AReaderOfLightsReadsTheFactorsThatItClaims) {
+  for (const LightReader& reader : all_readers()) {
+    SCOPED_TRACE(reader.name);
+    EXPECT_TRUE(says_all(reader));
+    std::string code;
+    for (const std::string& file : words_of(reader.files)) {
+      code += code_of(text_at(file));
+      // Each light loop ends with the hook.
+      if (reader.groups == reads && reader.shadows == reads) {
+        EXPECT_TRUE(names_one(code_of(text_at(file)), {"light_reaches("})) << file;
+      }
+    }
+#define LIGHT_FACTOR(condition, type, member, array, texels)    \
+  if (reader.member == reads) {                                 \
+    EXPECT_TRUE(names_one(code, marks_of(#member))) << #member; \
+  }
+    LIGHT_TABLE(LIGHT_FACTOR)
+#undef LIGHT_FACTOR
+    if (reader.shadows == reads) {
+      EXPECT_TRUE(names_one(code, marks_of("shadows")));
+    }
+    if (reader.effects == reads) {
+      EXPECT_TRUE(names_one(code, marks_of("effects")));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid
