@@ -1,5 +1,5 @@
 // Converts the depth of a view with an oblique near plane to that of the same view with a straight one
-// (src/engine/culling/oblique_view.h), reversed; a work-item takes a sample.
+// (src/engine/culling/view_depth.h), reversed; a work-item takes a sample.
 //
 // depth     floats; rows of the view start `row` apart from `first` on
 // plane     tilt_x, tilt_y, offset, scale

@@ -42,7 +42,7 @@
 
 // Arguments of all kernels that resolve triangles, and the values of ResolveScene and ResolveLights. In
 // order: the records of a triangle number (raster/raster_view.h); surfaces, vertices and materials
-// (shared/surface_records.h); chains of texels (renderer/texel_chain.h); lights (shared/light_table.h),
+// (shared/surface_records.h); chains of texels (renderer/upload/texel_chain.h); lights (shared/light_table.h),
 // directional ones two float4 each; the inputs of effects (shared/effects.h); the light grid
 // (shared/light_grid.h), or null for every light at every pixel: the same sum, since a list leaves out only
 // zeros; with -DZ_BINS z-bins of each light; the data of another source of lights (voxels, the world grid:

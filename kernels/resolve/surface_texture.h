@@ -22,7 +22,7 @@
   convert_float8((ushort8)(((global const ushort4*)(p))[0], ((global const ushort4*)(p))[1]))
 #endif
 
-// Two packed texels (renderer/surface_texels.h), and what a step of a channel is then worth.
+// Two packed texels (renderer/upload/scene_surfaces.h), and what a step of a channel is then worth.
 #ifdef SMALL_TEXELS
 typedef uchar packed_t;
 #define PACKED_STEP (1.0f / 255.0f)

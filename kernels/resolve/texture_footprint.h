@@ -1,5 +1,5 @@
 // Where a texture filter reads, for LANES pixels that share a material: levels and texels of mip chains as
-// renderer/texel_chain.h lays them out, with OpenGL's wrap modes, magnification and minification filters
+// renderer/upload/texel_chain.h lays them out, with OpenGL's wrap modes, magnification and minification filters
 // (OpenGL 4.6, 8.14). The level of detail comes from exact derivatives, not from differences between pixels.
 // Arithmetic is IEEE's alone, and so the same on every device.
 #pragma once

@@ -22,7 +22,7 @@
 #define append_indices append_ushorts
 #endif
 
-#define BATCH 16u  // lights that are tested together: world_batch of renderer/world_blocks.h
+#define BATCH 16u  // lights that are tested together: world_batch of world_grid/world_blocks.h
 
 // Squared distances of lights from the cells along an axis. first: of their lanes in `sides`.
 #define SQUARES_ALONG(at, sides, first, cells, squares)                      \

@@ -5,7 +5,7 @@ uniform usamplerBuffer grid_cells;    // first, count
 uniform usamplerBuffer grid_indices;
 
 #ifdef LIST_FACTORS
-// How many times each light of a list counts: kernels/culling/sample_lists.cl.
+// How many times each light of a list counts: kernels/culling/sampled_list.h.
 uniform samplerBuffer list_factors;
 
 float factor_of_entry(uint entry) { return texelFetch(list_factors, int(entry)).r; }

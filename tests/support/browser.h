@@ -32,7 +32,7 @@ inline std::string without_entities(std::string text) {
 }
 
 // Returns what the script `controls` (a path below the source folder) writes as JSON into <pre id="outcome">
-// of folder/index.html, in a window of that size ("1280,900"); null and a failure if it writes nothing. The
+// of FOLDER/index.html, in a window of that size ("1280,900"); null and a failure if it writes nothing. The
 // script finds errors in the array `faults`.
 inline nlohmann::json seen_in_browser(const std::filesystem::path& folder, const std::string& controls,
                                       const std::string& window_size) {

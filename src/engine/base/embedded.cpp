@@ -53,7 +53,7 @@ class Expansion {
     if (std::ranges::any_of(earlier, encloses)) return;
     const bool guarded = !earlier.empty() || !branches_.empty();
     earlier.push_back(branches_);
-    std::string macro = "EXPANDED_";  // "a/b.h" and "a_b.h" have different ones
+    std::string macro = "EXPANDED_";  // "NAME/X.h" and "NAME_X.h" have different ones
     for (const char c : path) macro += std::isalnum(uint8_t(c)) ? std::string(1, c) : c == '/' ? "__" : "_";
     if (guarded) text += "#ifndef " + macro + "\n#define " + macro + '\n';
     append(path);

@@ -9,7 +9,7 @@
 namespace lightgrid {
 namespace {
 
-// From Mesa's GL/osmesa.h, which conflicts with glcorearb.h and is missing from newer Mesa packages.
+// From Mesa's header osmesa.h, which conflicts with glcorearb.h and is missing from newer Mesa packages.
 using OsmesaContext = struct OsmesaContextData*;
 constexpr int osmesa_format = 0x22, osmesa_depth_bits = 0x30, osmesa_stencil_bits = 0x31,
               osmesa_profile = 0x33, osmesa_core_profile = 0x34, osmesa_context_major_version = 0x36,

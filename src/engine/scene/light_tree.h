@@ -1,5 +1,5 @@
 // A tree over many lights, of which any cell draws some without looking at the others
-// (kernels/culling/sample_tree.cl).
+// (kernels/culling/sampled_tree.h).
 #pragma once
 
 #include <span>

@@ -54,7 +54,7 @@ typedef struct SurfaceVertex {
   float red, green, blue, alpha;
 } SurfaceVertex;
 
-// A texture as one material uses it: a chain of mip levels (renderer/texel_chain.h).
+// A texture as one material uses it: a chain of mip levels (renderer/upload/texel_chain.h).
 typedef struct SurfaceMap {
   uint base;           // first texel of the chain
   uint width, height;  // level 0, texels

@@ -14,7 +14,7 @@ struct Edges {
   std::vector<double> x, y, z;
 };
 
-// three.js, examples/jsm/tsl/lighting/ClusteredLightsNode.js: the image is rounded up to whole tiles, which
+// ClusteredLightsNode of three.js (folder examples/jsm/tsl/lighting): the image is rounded up to whole tiles, which
 // then divide all of clip space.
 Edges edges_of_three(const View& view) {
   constexpr int tile = 32, slices = 24;

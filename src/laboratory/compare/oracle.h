@@ -1,4 +1,4 @@
-// Compares the renderer's buffers with the oracle (reference/).
+// Compares the renderer's buffers with the oracle (oracle/).
 #pragma once
 
 #include "compare/technique_run.h"

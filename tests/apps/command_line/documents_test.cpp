@@ -1,5 +1,5 @@
-// The pages under docs/: their links, their contents page, and the references to them in comments; and how
-// comments begin.
+// The pages under docs/: their links, their contents page, and the references to them in comments. The files
+// and folders that pages, comments and scripts name. How comments begin.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -107,6 +107,107 @@ TEST(Documents, AreWhereCommentsSay) {
                   [&](const std::string& link) { expect_target(file, checkout, link); });
     }
   }
+}
+
+// The files of the checkout by every end of their path that begins with a folder's or the file's name.
+const std::set<std::string>& path_ends() {
+  static std::set<std::string> ends;
+  if (!ends.empty()) return ends;
+  for (const char* folder : {"src", "kernels", "shaders", "tests", "tools", "docs", "cmake", "python"}) {
+    for (const fs::path& file : files_under(checkout / folder)) {
+      const std::string path = file.lexically_relative(checkout).generic_string();
+      for (size_t at = 0; at != std::string::npos; at = path.find('/', at + 1))
+        ends.insert(path.substr(at == 0 ? 0 : at + 1));
+    }
+  }
+  return ends;
+}
+
+// Words in capitals stand for names: kernels/SUBJECT/NAME.cl. Two files are made by the program and by an
+// installation.
+bool is_placeholder(const std::string& path) {
+  return std::regex_search(path, std::regex("[A-Z]{2}")) || path == "shared/effects.h" ||
+         path == "include/lightgrid.h";
+}
+
+// The paths of sources in a text, from any folder, that no file has; and paths from the checkout, of files
+// (also without .md) and folders, that do not exist.
+std::set<std::string> missing_paths(const std::string& text) {
+  std::set<std::string> missing;
+  const auto require = [&](const std::string& path, bool exists) {
+    if (!exists && !is_placeholder(path)) missing.insert(path);
+  };
+  for_matches(text,
+              R"((?:^|[^\w/.$<{}*-])((?:[\w-]+/)+[\w-]+\.(?:h|cpp|cl|glsl|vert|frag|comp|py|sh))(?![\w/*{]))",
+              [&](const std::string& path) { require(path, path_ends().contains(path)); });
+  for_matches(
+      text,
+      R"re((?:^|[\s`("'])((?:src|kernels|shaders|tests|tools|docs|cmake|assets)/[\w./-]*\w)(?=\.?(?:$|[\s`,;:)"'\]])))re",
+      [&](const std::string& path) {
+        require(path, fs::exists(checkout / path) || fs::exists(checkout / (path + ".md")));
+      });
+  return missing;
+}
+
+TEST(Paths, InTextsAreFound) {
+  using testing::ElementsAre, testing::IsEmpty;
+  EXPECT_THAT(missing_paths("see cl/device.h, src/engine/cl/device.h and `src/engine/cl`."), IsEmpty());
+  EXPECT_THAT(missing_paths("see session/compare.h and src/session."),
+              ElementsAre("session/compare.h", "src/session"));
+  EXPECT_THAT(missing_paths("kernels/SUBJECT/NAME.cl, kernels/culling/*/sample_lists.cl, #include <GL/gl.h>"),
+              IsEmpty());
+}
+
+TEST(Paths, InCommentsExist) {
+  for (const char* folder : {"src", "kernels", "shaders", "tests", "tools"}) {
+    for (const fs::path& file : files_under(checkout / folder)) {
+      std::ifstream lines(file);
+      std::string comments;
+      for (std::string line; std::getline(lines, line);) {
+        if (const size_t comment = line.find("//"); comment != std::string::npos)
+          comments += line.substr(comment + 2) + '\n';
+      }
+      EXPECT_THAT(missing_paths(comments), testing::IsEmpty()) << file;
+    }
+  }
+}
+
+TEST(Paths, InPagesAndScriptsExist) {
+  for (const fs::path& page : all_pages()) {
+    const std::string prose = prose_of(page);
+    EXPECT_THAT(missing_paths(prose), testing::IsEmpty()) << page;
+    for_matches(prose, R"(`(\w+\.(?:h|cpp|glsl|vert|frag))`)", [&](const std::string& name) {
+      EXPECT_TRUE(path_ends().contains(name) || is_placeholder(name)) << page << ": " << name;
+    });
+  }
+  for (const char* folder : {"tools", "docs/examples", "cmake"}) {
+    for (const fs::path& script : files_under(checkout / folder)) {
+      if (script.extension() == ".py" || script.extension() == ".sh" || script.extension() == ".cmake") {
+        EXPECT_THAT(missing_paths(whole_text(script)), testing::IsEmpty()) << script;
+      }
+    }
+  }
+}
+
+// docs/overview.md lists the folders that src/CMakeLists.txt makes, below all that they include.
+TEST(Documents, ListFoldersBelowThoseThatTheyInclude) {
+  std::map<std::string, size_t> place;
+  for_matches(whole_text(checkout / "docs/overview.md"), R"(\n\| `(\w+)` \|)",
+              [&](const std::string& folder) { place.emplace(folder, place.size()); });
+  const std::string build = whole_text(checkout / "src/CMakeLists.txt");
+  const std::regex call(R"(\nlightgrid_folder\((\w+)([^)]*)\))");
+  size_t folders = 0;
+  for (std::sregex_iterator i(build.begin(), build.end(), call); i != std::sregex_iterator();
+       ++i, ++folders) {
+    const std::string name = (*i)[1], rest = (*i)[2];
+    ASSERT_TRUE(place.contains(name)) << name;
+    for_matches(rest, R"((\w+))", [&](const std::string& used) {
+      if (place.contains(used)) {
+        EXPECT_LT(place[used], place[name]) << name << " uses " << used;
+      }
+    });
+  }
+  EXPECT_EQ(folders, place.size());
 }
 
 // A comment's subject comes first: "The stored values of ...", "Returns whether ...".

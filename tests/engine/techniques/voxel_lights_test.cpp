@@ -1,5 +1,5 @@
-// voxel_lights: its picture against forward's, and where it must hold. `lightgrid verify --filter voxels/`
-// holds samples to the formulas in double (src/laboratory/verify/voxels.cpp).
+// voxel_lights: its picture against forward's, and where it must hold.
+// passes/voxel_cases_test.cpp checks samples against the formulas in double.
 #include "passes/voxels/voxel_settings.h"
 #include "plan/settings/model.h"
 #include "plan/settings/surfaces.h"

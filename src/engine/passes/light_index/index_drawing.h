@@ -16,8 +16,8 @@ struct VolumeBatch {
 
 class IndexDrawing {
  public:
-  // Programs of shaders/light_index.*. mark: draws the front faces that mark the inside; discarded fragments
-  // mark nothing.
+  // Programs of shaders/light_index.vert and light_index.frag. mark: draws the front faces that mark the
+  // inside; discarded fragments mark nothing.
   struct Programs {
     GLuint mark, write;
   };
