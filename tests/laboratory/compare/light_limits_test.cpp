@@ -86,9 +86,7 @@ TEST(LightLimits, StandInTheManual) {
   for (const EngineLimit& limit : engine_limits()) {
     EXPECT_THAT(page, testing::HasSubstr(fmt::format("\n| `{}` | {} ", id_of(limit), limit.most)));
     EXPECT_THAT(page, testing::HasSubstr(fmt::format("| {} | [source]({}) |", limit.versions, limit.source)));
-    if (*limit.not_verified) {
-      EXPECT_THAT(page, testing::HasSubstr(fmt::format("| `{}` | {} |", id_of(limit), limit.not_verified)));
-    }
+    
   }
   for (const UnlimitedEngine& engine : unlimited_engines())
     EXPECT_THAT(page, testing::HasSubstr(engine.source));
