@@ -49,7 +49,7 @@ TEST(FrontierOnSlurm, EndsWithTheSameFiguresAfterAKill) {
       << submit << wait;
   const CommandOutcome run =
       run_command("cd " + folder.path.string() + " && LIGHTGRID=" + lightgrid_program + " " + source_folder +
-                  "/tests/frontier/slurm_cluster.sh $PWD/cluster bash run.sh 2>&1");
+                  "/tests/laboratory/frontier/slurm_cluster.sh $PWD/cluster bash run.sh 2>&1");
   if (WIFEXITED(run.status) && WEXITSTATUS(run.status) == 77) GTEST_SKIP() << run.output;
   EXPECT_THAT(run.output, testing::HasSubstr("records-0-of-2.jsonl:1\nparts/records-1-of-2.jsonl:0"))
       << "shard 1 was not killed";

@@ -146,7 +146,7 @@ TEST(FrontierCommand, AnswersWhatAccuracyCostsResumesAndIsItsOwnGate) {
   EXPECT_FALSE(answer["growth"].empty());
 
   const auto recomputed = run_command("python3 " + std::string(source_folder) +
-                                      "/tests/frontier/recompute.py " + folder.path.string());
+                                      "/tests/laboratory/frontier/recompute.py " + folder.path.string());
   EXPECT_EQ(recomputed.status, 0) << recomputed.output;
 
   // Killed with SIGKILL while figures are measured, and again in the rounds: what it wrote stays, and the

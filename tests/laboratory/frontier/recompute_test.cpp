@@ -92,7 +92,7 @@ TEST(Recomputed, FrontsAndTimesAreThoseOfTheTables) {
   std::ofstream(folder.path / "culling.csv") << cull_csv_text(answer);
   const auto recompute = [&](const nlohmann::json& frontier) {
     std::ofstream(folder.path / "frontier.json") << frontier;
-    return run_command(std::string("python3 ") + source_folder + "/tests/frontier/recompute.py " +
+    return run_command(std::string("python3 ") + source_folder + "/tests/laboratory/frontier/recompute.py " +
                        folder.path.string() + " 2>&1");
   };
   const nlohmann::json stated = to_json(answer);

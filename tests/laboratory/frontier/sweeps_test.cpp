@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::UnorderedElementsAre;
 
-const std::string tests_folder = std::string(source_folder) + "/tests/frontier";
+const std::string tests_folder = std::string(source_folder) + "/tests/laboratory/frontier";
 const std::string examples_folder = std::string(source_folder) + "/docs/examples";
 
 std::vector<std::string> lines_of(const std::string& text) {

@@ -246,7 +246,7 @@ TEST(Flicker, IsThatOfTheScript) {
   const TempFolder folder;
   std::ofstream(folder.path / "sequence.json") << sequence.dump();
   const CommandOutcome run =
-      run_command("python3 " + std::string(source_folder) + "/tests/results/flicker.py " +
+      run_command("python3 " + std::string(source_folder) + "/tests/laboratory/measures/flicker.py " +
                   (folder.path / "sequence.json").string() + " 2>&1");
   ASSERT_EQ(run.status, 0) << run.output;
   const auto expected = nlohmann::json::parse(run.output);
