@@ -61,7 +61,7 @@ struct ReplayOptions {
 
 // With the frame's own lists, a case first that compares them with the oracle. Then one case per device.
 // Under the chosen settings, which include every cull test and every kind of depth bounds, on each view:
-// - bounds and lists have the float twin's bytes in both kernel shapes (float_twin.h; the library only);
+// - bounds and lists have the float twin's bytes in both kernel shapes (twin/twin.h; the library only);
 // - no pixel loses a light that the oracle in double (oracle/lit_set.h) says is lit there. `lost` of the
 //   outcome counts such (pixel, light) pairs, over all settings; one lost pair fails the case.
 VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engines, const CapturedFrame& frame,
