@@ -62,13 +62,13 @@ void measure(Renderer& renderer, GpuScene& gpu, const View& view, WorldGridShape
   const double frame = (processor_ms() - before) / frames;
   const FramePlan& plan = run.view().plan;
   const std::shared_ptr<SharedWorldGrid> grid =
-      gpu.world_grid(renderer, {shape, cell, plan.index_bits, ranges_of(plan.settings)});
+      gpu.world_grid(renderer, {shape, cell, plan.lights.index_bits, ranges_of(plan.settings)});
   const WorldBox bounds = world_box(gpu.scene());
   const double start = processor_ms();
   std::vector<double> elapsed;
   for (int i = 0; i < builds; ++i) {
     const double from = elapsed_ms();
-    grid->build(cull_lights_of(gpu.scene(), plan.local), bounds, view, gpu.lights_version());
+    grid->build(cull_lights_of(gpu.scene(), plan.lights.local), bounds, view, gpu.lights_version());
     renderer.cl->queue().finish();
     elapsed.push_back(elapsed_ms() - from);
   }
@@ -106,24 +106,25 @@ void measure_steps(Renderer& renderer, GpuScene& gpu, const View& view, WorldGri
                    const char* name, std::optional<double> cell) {
   constexpr int runs = 100;
   const Scene& scene = gpu.scene();
-  const FramePlan plan = plan_frame(scene, view, {}, {.world_grid = true});
+  const FramePlan plan = plan_frame(scene, view, {}, {.lists = {.world_grid = true}});
   const WorldBox bounds = world_box(scene);
-  SharedWorldGrid grid(renderer, shape, cell, plan.index_bits);
-  SharedWorldGrid of_cl(renderer, shape, cell, plan.index_bits, false);  // without memory that OpenGL shares
+  SharedWorldGrid grid(renderer, shape, cell, plan.lights.index_bits);
+  SharedWorldGrid of_cl(renderer, shape, cell, plan.lights.index_bits,
+                        false);  // without memory that OpenGL shares
   std::vector<CullLight> lights;
   WorldLayout layout;
   const auto build = [&] {
     grid.build(lights, bounds, view, 0);
     renderer.cl->queue().finish();
   };
-  const Elapsed of_lights = elapsed_of(runs, [&] { cull_lights_of(scene, plan.local, {}, lights); });
+  const Elapsed of_lights = elapsed_of(runs, [&] { cull_lights_of(scene, plan.lights.local, {}, lights); });
   // In memory of OpenCL first: that build compiles kernels, the second one of the same grid does not.
   const auto build_of = [&](SharedWorldGrid& made) {
     made.build(lights, bounds, view, 0);
     renderer.cl->queue().finish();
   };
   build_of(of_cl);
-  SharedWorldGrid again(renderer, shape, cell, plan.index_bits, false);
+  SharedWorldGrid again(renderer, shape, cell, plan.lights.index_bits, false);
   const double first_of_cl = elapsed_of(1, [&] { build_of(again); }).least();
   const double first = elapsed_of(1, build).least();
   const Elapsed whole = elapsed_of(runs, build);
@@ -163,11 +164,11 @@ void measure_steps(Renderer& renderer, GpuScene& gpu, const View& view, WorldGri
 void measure_moves(Renderer& renderer, GpuScene& gpu, const View& view, WorldGridShape shape,
                    const char* name, std::optional<double> cell) {
   const Scene& scene = gpu.scene();
-  const FramePlan plan = plan_frame(scene, view, {}, {.world_grid = true});
+  const FramePlan plan = plan_frame(scene, view, {}, {.lists = {.world_grid = true}});
   const WorldBox bounds = world_box(scene);
-  std::vector<CullLight> lights = cull_lights_of(scene, plan.local);
-  SharedWorldGrid updated(renderer, shape, cell, plan.index_bits, false),
-      built(renderer, shape, cell, plan.index_bits, false);
+  std::vector<CullLight> lights = cull_lights_of(scene, plan.lights.local);
+  SharedWorldGrid updated(renderer, shape, cell, plan.lights.index_bits, false),
+      built(renderer, shape, cell, plan.lights.index_bits, false);
   for (const size_t each : {1000u, 100u, 20u}) {
     std::vector<uint32_t> moved;
     for (size_t i = each / 2; i < lights.size(); i += each) moved.push_back(uint32_t(i));
@@ -196,8 +197,8 @@ void measure_moves(Renderer& renderer, GpuScene& gpu, const View& view, WorldGri
 
 void print_estimates(const GpuScene& gpu, const View& view) {
   const Scene& scene = gpu.scene();
-  const FramePlan plan = plan_frame(scene, view, {}, {.world_grid = true});
-  const std::vector<CullLight> lights = cull_lights_of(scene, plan.local);
+  const FramePlan plan = plan_frame(scene, view, {}, {.lists = {.world_grid = true}});
+  const std::vector<CullLight> lights = cull_lights_of(scene, plan.lights.local);
   const WorldBox bounds = world_box(scene);
   constexpr struct {
     WorldGridShape shape;

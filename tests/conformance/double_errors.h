@@ -39,10 +39,10 @@ inline DoubleErrors errors_against_double(const Scene& scene, const View& view,
   TechniqueRun forward(software_devices(), scene, view, settings, find_technique("forward"));
   visibility.run_frame();
   forward.run_frame();
-  EXPECT_TRUE(visibility.view().plan.blended.empty());
+  EXPECT_TRUE(visibility.view().plan.surfaces.blended.empty());
   const std::vector<SceneTriangle> own = own_triangles(visibility),
                                    drawn = read_triangles(forward.view()).opaque;
-  double_surfaces::Surfaces surfaces(scene, view, visibility.view().plan.opaque);
+  double_surfaces::Surfaces surfaces(scene, view, visibility.view().plan.surfaces.opaque);
 
   DoubleErrors e{.pixels = own.size()};
   std::vector<uint32_t> pixels;

@@ -1,5 +1,5 @@
 // Scenes of flat and solid pieces, some of them touching, with lights of which the plan leaves many out
-// (plan/shadow_plan.h).
+// (plan/light_shadows.h).
 #pragma once
 
 #include "scene/camera.h"

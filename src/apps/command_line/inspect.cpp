@@ -65,7 +65,7 @@ struct FrameAndTruth {
   PairShadows pairs() {
     const Seen& v = run.view();
     return {*truth.pairs(v, frame.depth, frame.shown), frame.shaded ? &*frame.shaded : nullptr,
-            uint32_t(v.plan.directional_lights.size())};
+            uint32_t(v.plan.lights.directional.size())};
   }
 
   static constexpr uint64_t most_pairs = 10'000'000;

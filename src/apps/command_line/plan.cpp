@@ -76,13 +76,13 @@ int plan(PlanOptions o) {
   nlohmann::ordered_json json = {{"scene", chosen.scene.name},
                                  {"technique", technique.name},
                                  {"decisions", nlohmann::ordered_json::array()}};
-  if (plan.virtual_lights) json["lights_virtual"] = plan.virtual_count;
+  if (plan.lights.any_virtual) json["lights_virtual"] = plan.lights.virtual_count;
   for (const Decision& d : plan.decisions) {
     json["decisions"].push_back({{"effect", d.effect}, {"needed", d.needed}, {"why", d.why}});
   }
-  for (const LightShadow& light : plan.casting) {
+  for (const LightShadow& light : plan.shadows.casting) {
     const auto by = [&](const char* what) {
-      return light.need == ShadowNeed::rays && plan.shadows_by == std::string(what);
+      return light.need == ShadowNeed::rays && plan.shadows.found_by == std::string(what);
     };
     json["shadows"].push_back({{"light", light.light},
                                {"name", chosen.scene.lights[size_t(light.light)].name},

@@ -14,7 +14,7 @@ namespace lightgrid {
 ListedFrame read_listed_frame(TechniqueRun& run) {
   const RenderView& v = run.view();
   const Settings& settings = v.plan.settings;
-  ListedFrame listed{{v.scene.name, v.view, settings[setting::tile], v.plan.slice_far_m,
+  ListedFrame listed{{v.scene.name, v.view, settings[setting::tile], v.plan.lists.far_m,
                       lights_with_ranges(v.scene, ranges_of(settings)), read_depth(run)},
                      local_lights(v),
                      {}};
@@ -29,7 +29,7 @@ void PairCount::count_light_alone(Job& job, const TechniqueRun& run) {
   const auto kept = std::ranges::find(job.places, light);
   const bool directional = kept == job.places.end();
   if (directional) {
-    const auto& all = v.plan.directional_lights;
+    const auto& all = v.plan.lights.directional;
     const auto place = std::ranges::find(all, light);
     for (const int i : std::span(all.begin(), place + (place != all.end()))) job.places.push_back(i);
     job.listed.lights = lights_in_view(v.scene, v.view, ranges_of(v.plan.settings), job.places);
@@ -57,11 +57,11 @@ void PairCount::start(TechniqueRun& run, const CountChoice& choice) {
   job_ = std::make_shared<Job>();
   job_->choice = choice;
   job_->listed = read_listed_frame(run);
-  job_->places = run.view().plan.local;
+  job_->places = run.view().plan.lights.local;
   if (choice.light)
     count_light_alone(*job_, run);
   else
-    job_->directional = run.view().plan.directional_lights;
+    job_->directional = run.view().plan.lights.directional;
   if (choice.shadows) {
     job_->shadows = read_frame_shadows(run);
     job_->tiles =

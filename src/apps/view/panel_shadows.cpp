@@ -14,7 +14,8 @@ namespace {
 constexpr float casting_lines_high = 9;  // height of the list
 
 bool has_shadows_found(const LightShadow& light, const FramePlan& plan) {
-  return plan.light_reaches && (plan.settings[setting::everything_on] || light.need == ShadowNeed::rays);
+  return plan.shadows.light_reaches &&
+         (plan.settings[setting::everything_on] || light.need == ShadowNeed::rays);
 }
 
 const char* found_by(const FramePlan& plan) {
@@ -40,10 +41,10 @@ void list_lights(Controls& controls, const FramePlan& plan, const Scene& scene) 
   ImGui::TextWrapped("%s", casting_summary(plan).c_str());
   ImGui::BeginChild("casting", {0, casting_lines_high * ImGui::GetTextLineHeightWithSpacing()});
   ImGuiListClipper rows;
-  rows.Begin(int(plan.casting.size()));
+  rows.Begin(int(plan.shadows.casting.size()));
   while (rows.Step()) {
     for (int i = rows.DisplayStart; i < rows.DisplayEnd; ++i) {
-      const LightShadow& light = plan.casting[size_t(i)];
+      const LightShadow& light = plan.shadows.casting[size_t(i)];
       const ImVec4 colour =
           has_shadows_found(light, plan) ? ImVec4(0.55f, 0.9f, 0.6f, 1) : ImVec4(0.55f, 0.55f, 0.55f, 1);
       const std::string line = casting_line(light, plan, scene);
@@ -59,20 +60,20 @@ void list_lights(Controls& controls, const FramePlan& plan, const Scene& scene) 
 }  // namespace
 
 std::string casting_summary(const FramePlan& plan) {
-  if (plan.casting.empty()) return "no light casts a shadow";
-  if (!plan.light_reaches)
-    return fmt::format("{} lights cast shadows: {}", plan.casting.size(), why_none(plan));
-  const auto found =
-      std::ranges::count_if(plan.casting, [&](const LightShadow& l) { return has_shadows_found(l, plan); });
-  return fmt::format("{} lights cast shadows: {} by {}, {} need none", plan.casting.size(), found,
-                     found_by(plan), plan.casting.size() - size_t(found));
+  if (plan.shadows.casting.empty()) return "no light casts a shadow";
+  if (!plan.shadows.light_reaches)
+    return fmt::format("{} lights cast shadows: {}", plan.shadows.casting.size(), why_none(plan));
+  const auto found = std::ranges::count_if(plan.shadows.casting,
+                                           [&](const LightShadow& l) { return has_shadows_found(l, plan); });
+  return fmt::format("{} lights cast shadows: {} by {}, {} need none", plan.shadows.casting.size(), found,
+                     found_by(plan), plan.shadows.casting.size() - size_t(found));
 }
 
 std::string casting_line(const LightShadow& light, const FramePlan& plan, const Scene& scene) {
   const bool found = has_shadows_found(light, plan);
-  const std::string how = !plan.light_reaches ? "none" : found ? found_by(plan) : "none";
+  const std::string how = !plan.shadows.light_reaches ? "none" : found ? found_by(plan) : "none";
   return fmt::format("{} \"{}\": {}, {}", light.light, scene.lights[size_t(light.light)].name, how,
-                     plan.light_reaches ? words_of(light, scene) : why_none(plan));
+                     plan.shadows.light_reaches ? words_of(light, scene) : why_none(plan));
 }
 
 void show_shadows(Controls& controls, const Shown& shown) {

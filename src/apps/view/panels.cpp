@@ -28,7 +28,7 @@ void show_status(Controls& controls, const Shown& shown) {
   if (const auto chosen = combo("##scene", current, shown.scenes, about_scene))
     controls.scene = shown.scenes[*chosen];
   ImGui::TextUnformatted(fmt::format("{}: {} lights, {} in view", shown.scene.name, shown.scene.lights.size(),
-                                     shown.sides[0]->run().view().plan.lights_in_view)
+                                     shown.sides[0]->run().view().plan.lights.in_view)
                              .c_str());
   ImGui::TextUnformatted(fmt::format("{} x {}{}", shown.picture_width, shown.picture_height,
                                      shown.rate > 0 ? ", window " + rate_words(shown.rate) : "")

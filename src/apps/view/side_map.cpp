@@ -43,7 +43,7 @@ PixelInspection lights_at(const ListedFrame& listed, PicturePixel pixel) {
 std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const CapturedFrame& frame,
                                              PicturePixel pixel) {
   RenderView& v = run.view();
-  if (!v.plan.light_grid) return {};
+  if (!v.plan.lists.light_grid) return {};
   const Settings& settings = v.plan.settings;
   FrameCuller culler(*v.renderer.cl, *v.renderer.kernels, frame, settings, run.technique().needs);
   culler.run();

@@ -91,7 +91,8 @@ void Viewer::write_casting(const std::string& file) {
     text += fmt::format("{} {}\n", i == 0 ? "left" : "right", controls_.sides[i].technique);
     const FramePlan& plan = side(i).run().view().plan;
     text += casting_summary(plan) + "\n";
-    for (const LightShadow& light : plan.casting) text += casting_line(light, plan, job_.scene) + "\n";
+    for (const LightShadow& light : plan.shadows.casting)
+      text += casting_line(light, plan, job_.scene) + "\n";
   }
   write_file(file, text);
 }

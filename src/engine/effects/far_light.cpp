@@ -39,9 +39,10 @@ std::optional<EffectNeed> decide(const Scene& scene, const FramePlan& plan) {
   const LightRanges ranges = ranges_of(plan.settings);
   if (ranges.range == LightRange::stochastic)
     return EffectNeed{false, "the mean of random ranges is that of none"};
-  const auto first = std::ranges::find_if(
-      plan.local, [&](int i) { return std::isfinite(range_of(scene.lights[size_t(i)], size_t(i), ranges)); });
-  if (first == plan.local.end()) return EffectNeed{false, "no light ends"};
+  const auto first = std::ranges::find_if(plan.lights.local, [&](int i) {
+    return std::isfinite(range_of(scene.lights[size_t(i)], size_t(i), ranges));
+  });
+  if (first == plan.lights.local.end()) return EffectNeed{false, "no light ends"};
   return EffectNeed{true, light_witness(scene, *first) + " has a range"};
 }
 
@@ -113,7 +114,7 @@ class FarLightVolume : public EffectState {
     const WorldBox box = world_box(work.scene);
     const glm::dvec3 at = box.empty() ? work.view.eye : 0.5 * (box.min + box.max);
     FarGrid placed = grid_of(box.empty() ? WorldBox{at, at} : box, at, work.plan.settings[far_samples]);
-    placed.lights = uint(work.plan.local.size());
+    placed.lights = uint(work.plan.lights.local.size());
     std::vector<ViewLight> found = lights_from(at, work);
     std::string defines;
     for (const char* define : light_table_defines(work.plan)) defines += fmt::format(" -D{}", define);

@@ -67,7 +67,7 @@ class FragmentLayers : public PassCache {
     work.shadows.layer_count = uint32_t(layers);
     BlendedLayers found = parts(work, layers);
     uint32_t first = 0;
-    for (const int i : work.plan.blended) {
+    for (const int i : work.plan.surfaces.blended) {
       found.first_numbers.emplace_back(blended ? first : work.shadows.first_triangles[size_t(i)], i);
       first += triangles_of(work.scene, i);
     }
@@ -186,7 +186,7 @@ class FragmentLayers : public PassCache {
 BlendedLayers find_layers(Work& work, Cached<FragmentLayers>& cache, const BlendedTriangles* blended,
                           const DepthBuffer& depth) {
   work.shadows.layer_count = 0;
-  if (work.plan.blended.empty()) return {};
+  if (work.plan.surfaces.blended.empty()) return {};
   auto pass = work.timer.pass("blended_layers", blended ? "cl" : "gl");
   const BlendedLayers layers = cache.of(work).find(work, blended, depth);
   pass.moves(work.grid().values() * 4, layers.bytes);

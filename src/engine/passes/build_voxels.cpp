@@ -157,7 +157,7 @@ VoxelVolume build_voxels(Work& work, Cached<VoxelBuffers>& cache, const TileDist
                 {{"boxes", s.lights.boxes.buffer()},
                  {"places", s.lights.places.buffer()},
                  {"colors", s.lights.colors.buffer()},
-                 {"cones", work.plan.spots ? s.lights.cones.buffer() : cl::Buffer()},
+                 {"cones", work.plan.lights.spots ? s.lights.cones.buffer() : cl::Buffer()},
                  {"grid", s.grid.buffer()},
                  {"slices", s.slices.buffer()},
                  {"irradiance", s.irradiance->cl_buffer()},

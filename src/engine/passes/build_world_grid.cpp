@@ -16,8 +16,8 @@ class ViewOfWorldGrid : public PassCache {
 
   bool follow(Work& work) override {
     const Settings& s = work.plan.settings;
-    const WorldGridKey key{s[setting::world_grid], s[setting::world_cell], work.plan.index_bits, ranges_of(s),
-                           s[setting::raster] == RasterApi::opengl};
+    const WorldGridKey key{s[setting::world_grid], s[setting::world_cell], work.plan.lights.index_bits,
+                           ranges_of(s), s[setting::raster] == RasterApi::opengl};
     if (!grid || key != key_) grid = work.gpu.world_grid(work.renderer, key);
     key_ = key;
     return true;
@@ -55,7 +55,7 @@ bool update_world_grid(Work& work, SharedWorldGrid& grid) {
   if (!grid.serves(work.view, grid.lights_version())) return false;
   const auto changed = work.gpu.lights_changed_since(grid.lights_version());
   if (!changed) return false;
-  const std::vector<int>& local = work.plan.local;
+  const std::vector<int>& local = work.plan.lights.local;
   std::vector<uint32_t> moved;  // numbers in lists
   std::vector<int> of_scene;
   for (const int light : *changed) {
@@ -139,9 +139,9 @@ LightSource build_world_grid(Work& work, Cached<ViewOfWorldGrid>& cache) {
   // A build has a time where passes are timed.
   if (work.timer.enabled || (!right && !update_world_grid(work, grid))) {
     auto pass = work.timer.pass("build_world_grid", "cl");
-    cull_lights_of(work.scene, work.plan.local, ranges_of(work.plan.settings), state.lights);
+    cull_lights_of(work.scene, work.plan.lights.local, ranges_of(work.plan.settings), state.lights);
     grid.build(state.lights, world_box(work.scene), work.view, work.gpu.lights_version());
-    pass.moves(work.plan.local.size() * 16, grid.list_bytes());
+    pass.moves(work.plan.lights.local.size() * 16, grid.list_bytes());
   }
   state.put_view(work);
   return LightSource([&work, &state] { return grid_to_gl(work, state); }, grid_in_cl(state),

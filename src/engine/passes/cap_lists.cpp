@@ -83,8 +83,8 @@ class ListCaps : public PassCache {
                               {"factors", grid.storage->factors(grid.factor_bytes)}} +
                   work.cl_lights().columns() + of_cells(bounds);
     if (s[setting::list_cap_order] == ListCapOrder::distance)
-      arguments =
-          arguments + ClArguments{{"high", high_bits(work.plan.local.size())}, {"ranks", lights_.buffer()}};
+      arguments = arguments + ClArguments{{"high", high_bits(work.plan.lights.local.size())},
+                                          {"ranks", lights_.buffer()}};
     if (s[setting::list_cap_order] == ListCapOrder::brightest)
       arguments =
           arguments + ClArguments{{"high", cl_uint(28)}, {"lights", lights_.buffer()}} + of_cells(bounds);
@@ -148,8 +148,8 @@ class ListCaps : public PassCache {
     if (tree_of_ != work.gpu.lights_version() || leaf_count_ == 0) {
       View world;
       world.view_from_world = glm::dmat4(1);
-      const LightTree tree =
-          light_tree(lights_in_view(work.scene, world, ranges_of(work.plan.settings), work.plan.local));
+      const LightTree tree = light_tree(
+          lights_in_view(work.scene, world, ranges_of(work.plan.settings), work.plan.lights.local));
       nodes_.put(device, "uploading a tree of lights", tree.nodes);
       leaves_.put(device, "uploading a tree of lights", tree.lights);
       leaf_count_ = tree.lights.size(), tree_of_ = work.gpu.lights_version();
@@ -164,12 +164,12 @@ class ListCaps : public PassCache {
     ClDevice& device = *work.renderer.cl;
     const FramePlan& plan = work.plan;
     const auto lights = [&] {
-      return lights_in_view(work.scene, work.view, ranges_of(plan.settings), plan.local);
+      return lights_in_view(work.scene, work.view, ranges_of(plan.settings), plan.lights.local);
     };
     if (plan.settings[setting::list_cap_order] == ListCapOrder::index) return;
     if (plan.settings[setting::list_cap_order] == ListCapOrder::distance)
       return lights_.put(device, "uploading ranks of lights", ranks_by_distance(lights()));
-    if (plan.light_tree) upload_tree(work);
+    if (plan.lists.light_tree) upload_tree(work);
     if (plan.settings[setting::list_cap_order] == ListCapOrder::brightest) {
       std::vector<cl_float4> uploaded;
       for (const ViewLight& light : lights()) {
@@ -178,8 +178,8 @@ class ListCaps : public PassCache {
       }
       lights_.put(device, "uploading lights to choose from", uploaded);
     }
-    std::vector<float> edges =
-        slice_edges(plan.settings[setting::slice_spacing], plan.slices, plan.slice_near_m, plan.slice_far_m);
+    std::vector<float> edges = slice_edges(plan.settings[setting::slice_spacing], plan.lists.slices,
+                                           plan.lists.near_m, plan.lists.far_m);
     edges.insert(edges.begin(), -FAR_AWAY);
     edges.push_back(FAR_AWAY);
     edges_.put(device, "uploading edges of slices", edges);
@@ -199,7 +199,7 @@ class ListCaps : public PassCache {
 void cap_lists(Work& work, Cached<ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
                ViewGrid& grid) {
   const bool samples = samples_lists(work.plan.settings);
-  if (work.plan.settings[setting::list_cap] == 0 || (samples && !work.plan.sampled_lists)) return;
+  if (work.plan.settings[setting::list_cap] == 0 || (samples && !work.plan.lists.sampled)) return;
   if (samples) grid.factor_bytes = std::max<size_t>(grid.index_count, 1) * sizeof(cl_float);
   ListCaps& caps = cache.of(work);
   auto pass = work.timer.pass("cap_lists", "cl");
@@ -214,11 +214,12 @@ ViewGrid lists_of_tree(Work& work, Cached<ListCaps>& cache, const CullParams& ti
   const FramePlan& plan = work.plan;
   ViewGrid grid;
   grid.storage = &storage;
-  grid.cells_x = int(tiles.tiles_x), grid.cells_y = int(tiles.tiles_y), grid.slices = plan.slices;
-  const size_t cells = size_t(tiles.tiles_x) * tiles.tiles_y * size_t(plan.slices);
-  grid.index_count = cells * size_t(plan.settings[setting::list_cap]), grid.index_bits = plan.index_bits;
+  grid.cells_x = int(tiles.tiles_x), grid.cells_y = int(tiles.tiles_y), grid.slices = plan.lists.slices;
+  const size_t cells = size_t(tiles.tiles_x) * tiles.tiles_y * size_t(plan.lists.slices);
+  grid.index_count = cells * size_t(plan.settings[setting::list_cap]),
+  grid.index_bits = plan.lights.index_bits;
   grid.cell_bytes = cells * sizeof(cl_uint2);
-  grid.index_bytes = grid.index_count * size_t(plan.index_bits / 8);
+  grid.index_bytes = grid.index_count * size_t(plan.lights.index_bits / 8);
   grid.factor_bytes = grid.index_count * sizeof(cl_float);
   auto pass = work.timer.pass("lists_of_tree", "cl");
   caps.draw(work, tiles, bounds, grid);

@@ -13,7 +13,7 @@ ViewGrid cull(Work& work, LightCuller& culler, const char* name, const TileBound
               SharedGridStorage& storage) {
   auto pass = work.timer.pass(name, "cl");
   const ViewGrid grid{culler.cull(bounds, storage), &storage};
-  pass.moves(work.plan.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8, grid.bytes());
+  pass.moves(work.plan.lights.local.size() * 16 + size_t(grid.cells_x) * grid.cells_y * 8, grid.bytes());
   return grid;
 }
 
@@ -24,8 +24,8 @@ GlLightLoop grid_to_gl(Work& work, const ViewGrid& grid) {
   SharedGridStorage& storage = *grid.storage;
   GlLightLoop loop = light_loop(work);
   loop.defines.emplace_back(grid.mask_bytes ? "LIGHTS_MASKS" : "LIGHTS_GRID");
-  if (work.plan.slices > 1) loop.defines.emplace_back("SLICES");
-  if (work.plan.z_bins > 1) loop.defines.emplace_back("Z_BINS");
+  if (work.plan.lists.slices > 1) loop.defines.emplace_back("SLICES");
+  if (work.plan.lists.z_bins > 1) loop.defines.emplace_back("Z_BINS");
   if (grid.z_bin_bytes) storage.z_bins_.buffer->hand_to_gl(grid.z_bin_bytes);
   if (grid.mask_bytes) {
     storage.masks_.buffer->hand_to_gl(grid.mask_bytes);

@@ -18,11 +18,11 @@ namespace {
 
 // The lights that the groups of the instance let in. All of them where nothing requires groups.
 std::vector<uint32_t> lights_of_groups(const Seen& seen, int instance, const std::vector<uint32_t>& all) {
-  if (!seen.plan.groups) return all;
+  if (!seen.plan.groups.needed) return all;
   const uint32_t groups = seen.scene.instances[size_t(instance)].groups;
   std::vector<uint32_t> met;
   std::ranges::copy_if(all, std::back_inserter(met), [&](uint32_t light) {
-    return groups_meet(seen.scene.lights[size_t(seen.plan.local[light])].groups, groups);
+    return groups_meet(seen.scene.lights[size_t(seen.plan.lights.local[light])].groups, groups);
   });
   return met;
 }
@@ -42,11 +42,11 @@ void ObjectLights::update(Work& work, const DrawList& list) {
   lights_.clear();
   reaches_.clear();
   const std::vector<ViewLight> lights =
-      lights_in_view(work.scene, work.view, ranges_of(work.plan.settings), work.plan.local);
+      lights_in_view(work.scene, work.view, ranges_of(work.plan.settings), work.plan.lights.local);
   for (const ViewLight& light : lights) reaches_.emplace_back(bounds_of(light));
   std::vector<uint32_t> every_light(reaches_.size());
   std::iota(every_light.begin(), every_light.end(), 0u);
-  if (const auto& left_out = work.plan.left_out; !left_out.empty())
+  if (const auto& left_out = work.plan.lights.left_out; !left_out.empty())
     std::erase_if(every_light, [&](uint32_t light) { return left_out[light] != 0; });
   for (const DrawItem& item : list) {
     const Aabb& bounds = work.scene.meshes[work.scene.instances[item.instance].mesh].bounds;
@@ -112,7 +112,7 @@ LightSource from_objects(Work& work, const ObjectLights& objects) {
 }
 
 static void count_bytes(const Seen& seen, const ObjectLights& objects, PassTimer::Scope& pass) {
-  pass.moves(seen.plan.local.size() * sizeof(LightReach) + objects.objects().size() * sizeof(ViewBox),
+  pass.moves(seen.plan.lights.local.size() * sizeof(LightReach) + objects.objects().size() * sizeof(ViewBox),
              objects.lights().size() * sizeof(uint32_t));
 }
 
@@ -126,7 +126,7 @@ const ObjectLights& find_object_lights(Work& work, Cached<ObjectLights>& cache, 
 
 const ObjectLights& find_blended_object_lights(Work& work, Cached<ObjectLights>& cache) {
   ObjectLights& objects = cache.of(work);
-  if (!work.plan.blend) return objects;
+  if (!work.plan.surfaces.blend) return objects;
   auto pass = work.timer.pass("find_blended_object_lights", "cpu");
   objects.update(work, work.blended);
   count_bytes(work, objects, pass);

@@ -48,7 +48,7 @@ class ObjectLights : public PassCache {
   void update(Work& work, const DrawList& list);
 
   const std::vector<Object>& objects() const { return objects_; }
-  const std::vector<uint32_t>& lights() const { return lights_; }  // indices into FramePlan::local
+  const std::vector<uint32_t>& lights() const { return lights_; }  // indices into LightPlan::local
   GLuint texture() const { return texture_.name(); }
 
  private:

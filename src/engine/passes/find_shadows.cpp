@@ -56,7 +56,7 @@ class ShadowBits : public PassCache {
 
   // Whether the bits of the frame before are this frame's too. The view's next frame must then not find them.
   bool unchanged(Work& work) {
-    unchanged_ = work.plan.shadows && work.plan.settings[shadow_reuse] &&
+    unchanged_ = work.plan.shadows.needed && work.plan.settings[shadow_reuse] &&
                  !work.plan.settings[setting::everything_on] && found_for_ &&
                  (followed_ || *found_for_ == shadow_inputs(work, scene(work)));
     if (unchanged_ && work.grid().samples > 1) hand_over_rays(work);
@@ -159,7 +159,7 @@ class ShadowBits : public PassCache {
       values.resize(shadows.indices.size() * entry_bytes / sizeof values[0]);
       read_bands(work, shadows, image, entry_bytes, reinterpret_cast<std::byte*>(values.data()));
     };
-    if (work.plan.shadow_bytes)
+    if (work.plan.shadows.bytes)
       read(shadows.shares), shadows.bits = hidden_bits(shadows.shares);
     else
       read(shadows.bits);
@@ -177,7 +177,7 @@ class ShadowBits : public PassCache {
     f.bytes = lists_.bytes() + work.shadows.bytes();
     if (lists_.pairs() == 0) return f;
     f.unchanged = unchanged_;
-    f.lights = size_t(std::ranges::count(work.plan.shadowed, 1)), f.bands = bands_.bands.size();
+    f.lights = size_t(std::ranges::count(work.plan.shadows.shadowed, 1)), f.bands = bands_.bands.size();
     std::vector<uint32_t> rays(parts_);
     read_buffer(*work.renderer.cl, "counting rays", rays_.get(), rays.data(), rays.size() * sizeof rays[0]);
     if (maps_) {
@@ -291,7 +291,7 @@ class ShadowBits : public PassCache {
     const Settings& settings = work.plan.settings;
     if (settings[setting::shadows] == ShadowMethod::map) {
       if (!maps_) maps_.emplace(work);
-      if (!followed_) maps_->look(work, rays, work.plan.shadowed, settings[shadow_reuse]);
+      if (!followed_) maps_->look(work, rays, work.plan.shadows.shadowed, settings[shadow_reuse]);
     }
     if (followed_) return;
     if (picks_by_groups(work)) put_groups(work, rays);
@@ -313,7 +313,7 @@ class ShadowBits : public PassCache {
   }
 
   static bool picks_by_groups(const Work& work) {
-    return picks_shadows(work.plan.settings) && work.plan.groups;
+    return picks_shadows(work.plan.settings) && work.plan.groups.needed;
   }
 
   // Instances keep their groups; their triangles' numbers change only when the tree is rebuilt.
@@ -399,15 +399,15 @@ const cl::Buffer& triangle_numbers_in_cl(Work& work, const RayScene& rays) {
 
 void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visible, const DepthBuffer& depth,
                   const BlendedTriangles* blended) {
-  if (!work.plan.light_reaches) return;
+  if (!work.plan.shadows.light_reaches) return;
   ShadowBits& shadows = caches.shadow_bits.of(work);
   work.shadows.layer_count = 0;
-  if (!work.plan.shadows) return shadows.clear(work);
+  if (!work.plan.shadows.needed) return shadows.clear(work);
   const RayScene& rays = shadows.scene(work);
   const cl::Buffer& numbers = visible ? visible->triangles().numbers : triangle_numbers_in_cl(work, rays);
-  if (!visible && work.plan.blend) {
+  if (!visible && work.plan.surfaces.blend) {
     work.shadows.first_triangles.assign(work.scene.instances.size(), 0);
-    for (const int i : work.plan.blended)
+    for (const int i : work.plan.surfaces.blended)
       work.shadows.first_triangles[size_t(i)] = rays.first_triangle(size_t(i));
   }
   const BlendedLayers layers = find_layers(work, caches.fragment_layers, blended, depth);
@@ -417,19 +417,19 @@ void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visibl
 }
 
 bool shadows_are_unchanged(Work& work, Cached<ShadowBits>& cache) {
-  return work.plan.light_reaches && cache.of(work).unchanged(work);
+  return work.plan.shadows.light_reaches && cache.of(work).unchanged(work);
 }
 
 void begin_shadow_bands(Work& work, Cached<ShadowBits>& cache) {
-  if (work.plan.light_reaches) cache.of(work).begin_bands();
+  if (work.plan.shadows.light_reaches) cache.of(work).begin_bands();
 }
 
 bool next_shadow_band(Work& work, Cached<ShadowBits>& cache, const ShadedImage& image) {
-  return work.plan.light_reaches && cache.of(work).next_band(work, image);
+  return work.plan.shadows.light_reaches && cache.of(work).next_band(work, image);
 }
 
 void tell_shadows(Work& work, Cached<ShadowBits>& cache, Frame& frame) {
-  if (!work.plan.light_reaches) return;
+  if (!work.plan.shadows.light_reaches) return;
   ShadowBits& shadows = cache.of(work);
   if (!frame.lights_in_volume && !frame.shadows) frame.shadows = [&] { return shadows.read(work); };
   frame.blended_shadows = [&] { return shadows.read_layers(work); };

@@ -69,7 +69,7 @@ void clear(const LightIndexLayout& layout, GLuint framebuffer, GLint stencil) {
 
 // Returns whether lights are not written where they are hidden.
 bool drops_hidden(const Seen& seen) {
-  return seen.plan.own_shadows && seen.plan.settings[setting::lidr_shadows] != LidrShadows::final_pass;
+  return seen.plan.shadows.own && seen.plan.settings[setting::lidr_shadows] != LidrShadows::final_pass;
 }
 
 // Where the stencil marks what is inside, hidden pixels get no mark. Discarding them later would leave one.
@@ -199,7 +199,7 @@ LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<Light
   const LightVolumes& volumes = volume_cache.of(work);
   const LightIndexLayout& layout = state.layout();
   const IndexImages images = index_images(work, layout);
-  IndexShadows* shadows = work.plan.own_shadows ? &shadow_cache.of(work) : nullptr;
+  IndexShadows* shadows = work.plan.shadows.own ? &shadow_cache.of(work) : nullptr;
   if (shadows && number == 0) shadows->find(work, numbered);
   const IndexShadows* dropping = drops_hidden(work) ? shadows : nullptr;
   auto pass = work.timer.pass("light_index", "gl");
@@ -224,7 +224,7 @@ LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<Light
 
 void tell_index_shadows(Work& work, Cached<IndexShadows>& shadow_cache, Cached<LightVolumes>& volume_cache,
                         Frame& frame) {
-  if (!work.plan.own_shadows) return;
+  if (!work.plan.shadows.own) return;
   const IndexShadows& shadows = shadow_cache.of(work);
   frame.shadows = [&] { return shadows.read(work, volume_cache.of(work)); };
   frame.shadow_figures = [&] { return shadows.figures(work); };

@@ -50,8 +50,8 @@ void set_surface_instances(const Seen& seen, std::span<const int> instances,
     }
     record.material = uint(mesh.material);
     record.flags = t.mirrored ? INSTANCE_MIRRORED : 0;
-    if (seen.plan.groups)
-      record.flags |= seen.plan.group_of_instance[size_t(instances[k])] << INSTANCE_GROUP_SHIFT;
+    if (seen.plan.groups.needed)
+      record.flags |= seen.plan.groups.of_instance[size_t(instances[k])] << INSTANCE_GROUP_SHIFT;
   }
 }
 
@@ -125,12 +125,14 @@ class OpaqueTriangles : public PassCache {
  public:
   explicit OpaqueTriangles(Work& work) : of(work, false), kept(kept_instances(work.scene)) { follow(work); }
   bool follow(Work& work) override {
-    of.follow(work, instances(work), work.plan.opaque);
+    of.follow(work, instances(work), work.plan.surfaces.opaque);
     return true;
   }
   void upload(Work& work) override { of.upload_surfaces(work); }
   size_t memory_bytes() const override { return of.memory_bytes() + of.scene->memory_bytes(); }
-  std::span<const int> instances(const Seen& seen) const { return kept.empty() ? seen.plan.opaque : kept; }
+  std::span<const int> instances(const Seen& seen) const {
+    return kept.empty() ? seen.plan.surfaces.opaque : kept;
+  }
 
   InstanceRasterizer of;
   const std::vector<int> kept;
@@ -141,7 +143,8 @@ class BlendedTriangleLists : public PassCache {
   explicit BlendedTriangleLists(Work& work) : of(work, true) { upload(work); }
   bool follow(Work&) override { return followed = false, true; }
   void upload(Work& work) override {
-    if (!followed) of.follow(work, work.plan.blended, work.plan.blended), of.upload_surfaces(work);
+    if (!followed)
+      of.follow(work, work.plan.surfaces.blended, work.plan.surfaces.blended), of.upload_surfaces(work);
     followed = true;
   }
   size_t memory_bytes() const override { return of.memory_bytes(); }
@@ -173,7 +176,7 @@ BlendedTriangles list_blended(Work& work, Cached<BlendedTriangleLists>& cache) {
   InstanceRasterizer& r = blended.of;
   const RasterLists lists = r.raster.list();
   pass.moves(r.scene->geometry_bytes(), r.raster.counts().tile_entries * 4);
-  return {lists, r.raster.buffers(), r.surfaces.buffer(), work.plan.blended};
+  return {lists, r.raster.buffers(), r.surfaces.buffer(), work.plan.surfaces.blended};
 }
 
 }  // namespace lightgrid

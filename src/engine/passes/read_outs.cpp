@@ -83,7 +83,7 @@ std::vector<uint32_t> indices_drawn(Work& work, const std::function<void()>& dra
 namespace {
 
 std::vector<std::string> slice_defines(const Seen& seen) {
-  return seen.plan.slices > 1 ? std::vector<std::string>{"SLICES"} : std::vector<std::string>{};
+  return seen.plan.lists.slices > 1 ? std::vector<std::string>{"SLICES"} : std::vector<std::string>{};
 }
 
 }  // namespace
@@ -211,9 +211,9 @@ SurfaceImages surface_images_of(MoreImages more, const Read& read) {
 }  // namespace
 
 SurfaceImages read_surfaces(Work& work) {
-  const MoreImages more{.coats = (work.plan.features & feature_clearcoat) != 0,
-                        .models = (work.plan.features & (feature_skin | feature_minnaert)) != 0,
-                        .specular = (work.plan.features & feature_specular) != 0};
+  const MoreImages more{.coats = (work.plan.surfaces.features & feature_clearcoat) != 0,
+                        .models = (work.plan.surfaces.features & (feature_skin | feature_minnaert)) != 0,
+                        .specular = (work.plan.surfaces.features & feature_specular) != 0};
   SurfaceTargets targets(work, more);
   glEnable(GL_DEPTH_TEST);
   std::vector<std::string> defines;
@@ -223,12 +223,14 @@ SurfaceImages read_surfaces(Work& work) {
   ScenePrograms& programs = work.programs({"shaders/scene.vert", "shaders/surfaces.frag", defines});
   glDepthFunc(GL_EQUAL);
   draw_list(work, work.opaque, DrawStreams::all, programs);
-  const auto read = [&](size_t i) { return work.plan.blended.empty() ? targets.take(i) : targets.read(i); };
+  const auto read = [&](size_t i) {
+    return work.plan.surfaces.blended.empty() ? targets.take(i) : targets.read(i);
+  };
   SurfaceImages surfaces = surface_images_of(more, read);
   surfaces.models = material_models(work.scene);
   // A pixel belongs to a blended surface if it differs from the cleared target.
   surfaces.blended.assign(surfaces.normal_roughness.pixels.size(), false);
-  if (!work.plan.blended.empty()) {
+  if (!work.plan.surfaces.blended.empty()) {
     targets.clear(0);
     glDepthFunc(GL_GEQUAL);
     draw_list(work, work.blended, DrawStreams::all, programs);
@@ -240,9 +242,9 @@ SurfaceImages read_surfaces(Work& work) {
 }
 
 SurfaceImages read_gbuffer_surfaces(Work& work) {
-  const MoreImages more{.coats = work.plan.clearcoat,
-                        .models = work.plan.skin || work.plan.minnaert,
-                        .specular = work.plan.specular};
+  const MoreImages more{.coats = work.plan.surfaces.clearcoat,
+                        .models = work.plan.surfaces.skin || work.plan.surfaces.minnaert,
+                        .specular = work.plan.surfaces.specular};
   SurfaceTargets targets(work, more);
   const GBuffer gbuffer = gbuffer_of(work);
   work.bind_lights();

@@ -93,11 +93,11 @@ class Resolver : public PassCache {
   // Material code by what the scene has, not the view: a camera that turns compiles nothing.
   std::string resolve_defines(Work& work) {
     std::string defines = light_defines(work, lanes(), work.plan.settings[setting::brdf]);
-    if (work.plan.directional) defines += " -DDIRECTIONAL";
+    if (work.plan.lights.any_directional) defines += " -DDIRECTIONAL";
     for (const Effect* effect : work.plan.effects) {
       if (!effect->reach) defines += " -D" + define_of(*effect);
     }
-    if (work.plan.light_grid && work.plan.slices > 1) defines += " -DSLICES";
+    if (work.plan.lists.light_grid && work.plan.lists.slices > 1) defines += " -DSLICES";
     const uint32_t of_scene =
         work.plan.settings[setting::everything_on] ? feature_all : scene(work).features();
     if (work.plan.settings[setting::texels] == TexelLayout::packed_8) defines += " -DSMALL_TEXELS";
@@ -318,8 +318,8 @@ void blend_resolved(Work& work, Cached<Resolver>& cache, const BlendedTriangles&
                   {"lists", blended.lists.lists},
                   {"tiles_x", cl_uint(blended.lists.tiles_x)},
                   {"depths", depth.values}} +
-          (work.plan.light_reaches ? ClArguments{{"shadow_layers", cl_uint(work.shadows.layer_count)}}
-                                   : ClArguments()) +
+          (work.plan.shadows.light_reaches ? ClArguments{{"shadow_layers", cl_uint(work.shadows.layer_count)}}
+                                           : ClArguments()) +
           r.arguments(work, blended.raster, blended.surfaces, *lights.in_cl) +
           ClArguments{{"image", r.image.cl_buffer()}});
   pass.moves(work.grid().values() * 20 + lights.bytes, work.grid().pixels() * 16);

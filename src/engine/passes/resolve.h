@@ -32,7 +32,7 @@ struct ReflectedLight {
   SharedBuffer *flux = nullptr, *places = nullptr;
 };
 
-// light: its place in FramePlan::local.
+// light: its place in LightPlan::local.
 ReflectedLight resolve_reflected(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                                  uint32_t light);
 

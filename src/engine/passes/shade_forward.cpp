@@ -74,14 +74,14 @@ void limit_behind_opaque(Work& work) {
     const int material = work.scene.meshes[work.scene.instances[item.instance].mesh].material;
     if (work.scene.materials[material].base_color.a < 1)
       continue;  // the factor of textures and vertex colours
-    drawer.bind(item.instance, programs.of(work.plan.features_of_instance[item.instance]));
+    drawer.bind(item.instance, programs.of(work.plan.surfaces.features_of_instance[item.instance]));
     drawer.draw(item.ranges);
   }
 }
 
 template <typename Draw>
 void blend(Work& work, const ShadedImage& image, const LightSource& lights, const Draw& draw) {
-  if (!work.plan.blend) return;
+  if (!work.plan.surfaces.blend) return;
   const GlLightLoop& loop = lights.in_gl();
   auto pass = work.timer.pass("shade_blended", "gl");
   glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
@@ -111,7 +111,7 @@ void shade_blended(Work& work, const ShadedImage& image, const ObjectLights& obj
   blend(work, image, from_objects(work, objects), [&](ScenePrograms& programs) {
     InstanceDrawer drawer(work, DrawStreams::all);
     for (const ObjectLights::Object& object : objects.objects()) {
-      const SceneProgram& program = programs.of(work.plan.features_of_instance[object.instance]);
+      const SceneProgram& program = programs.of(work.plan.surfaces.features_of_instance[object.instance]);
       drawer.bind(object.instance, program);
       glUniform2i(program.lights_of_draw, GLint(object.first_light), GLint(object.light_count));
       drawer.draw(object.ranges);

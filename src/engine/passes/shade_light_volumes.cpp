@@ -52,7 +52,7 @@ ListedLights read_pairs(Work& work, Cached<LightVolumes>& cache) {
   ListedLights lists;
   const size_t pixels = work.grid().pixels();
   lists.count.resize(pixels), lists.cell_of_pixel.resize(pixels);
-  if (!work.plan.local_lights) return list_every_light(0);
+  if (!work.plan.lights.any_local) return list_every_light(0);
   visit_pairs(work, cache, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
   std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
   place_lists(lists);
@@ -66,7 +66,7 @@ void add_lights(Work& work, LightVolumes& volumes, GLuint framebuffer, const cha
                 const std::vector<std::string>& defines, const auto& bind) {
   volumes.update(work);
   std::vector<std::string> all = light_loop(work).defines;
-  if (work.plan.group_stencil > 0) std::erase(all, "GROUPS");
+  if (work.plan.groups.stencil_bits > 0) std::erase(all, "GROUPS");
   all.insert(all.end(), defines.begin(), defines.end());
   begin_adding_lights(work, framebuffer);
   bind();
@@ -77,7 +77,7 @@ void add_lights(Work& work, LightVolumes& volumes, GLuint framebuffer, const cha
 }  // namespace
 
 void shade_light_volumes(Work& work, Cached<LightVolumes>& cache, const GBuffer& gbuffer) {
-  if (!work.plan.local_lights) return;
+  if (!work.plan.lights.any_local) return;
   auto pass = work.timer.pass("shade_light_volumes", "gl");
   add_lights(work, cache.of(work), gbuffer.image.framebuffer, "shaders/deferred_light.frag",
              gbuffer_defines(gbuffer), [&] { bind_gbuffer(gbuffer); });

@@ -72,7 +72,7 @@ class ObjectDraws {
 
  private:
   const SceneProgram& bind(ScenePrograms& programs, uint32_t first, uint32_t count) {
-    const SceneProgram& program = programs.of(work_.plan.features_of_instance[object_.instance]);
+    const SceneProgram& program = programs.of(work_.plan.surfaces.features_of_instance[object_.instance]);
     drawer_.bind(object_.instance, program);
     if (program.lights_of_draw >= 0)
       glUniform2i(program.lights_of_draw, GLint(object_.first_light + first), GLint(count));

@@ -24,7 +24,7 @@ class TileShading : public PassCache {
  public:
   explicit TileShading(Work& work) : kernels(work, "resolve") {
     follow(work);
-    if (work.plan.skin || work.plan.minnaert)
+    if (work.plan.surfaces.skin || work.plan.surfaces.minnaert)
       models.put(*work.renderer.cl, "uploading models of materials", model_records(work.scene));
   }
 
@@ -46,8 +46,8 @@ class TileShading : public PassCache {
     std::string defines = fmt::format("-DBUFFER_BITS={}", settings[setting::buffer_bits]) +
                           light_defines(seen, kernels.lanes, settings[setting::brdf]);
     defines += group_number_define(seen.plan);
-    if (seen.plan.clearcoat) defines += " -DCLEARCOAT";
-    if (seen.plan.specular) defines += " -DSPECULAR";
+    if (seen.plan.surfaces.clearcoat) defines += " -DCLEARCOAT";
+    if (seen.plan.surfaces.specular) defines += " -DSPECULAR";
     for (const char* define : model_defines(seen.plan)) defines += fmt::format(" -D{}", define);
     return defines;
   }
@@ -155,7 +155,7 @@ ShadedImage shade_tiles(Work& work, PassCaches& caches, const GBuffer& gbuffer, 
   for (const size_t i : in_cl.images) surfaces.images.push_back(in_cl.surfaces[i]);
   const cl::Buffer edges = sample_edges(work, caches.sample_edges, surfaces, depth, in_cl.bytes() + 4, frame);
   add_light(work, caches.tile_shading, in_cl, depth, lights, edges);
-  if (gbuffer.in_cl || !work.plan.blend) return {gbuffer.image.framebuffer, in_cl.image};
+  if (gbuffer.in_cl || !work.plan.surfaces.blend) return {gbuffer.image.framebuffer, in_cl.image};
   image_to_gl(work, *in_cl.image);
   return gbuffer.image;
 }

@@ -21,7 +21,7 @@ static Surfaces draw_with_groups(RenderView& v, bool depth_in_cl) {
 }
 
 Surfaces find_surfaces(RenderView& v, bool depth_in_cl, bool with_groups) {
-  if (v.plan.opengl && with_groups && v.plan.group_tiles) return draw_with_groups(v, depth_in_cl);
+  if (v.plan.opengl && with_groups && v.plan.groups.tiles) return draw_with_groups(v, depth_in_cl);
   if (v.plan.opengl) return surfaces_of(v, depth_prepass(v), depth_in_cl);
   Surfaces surfaces{.visible = rasterize(v, v.caches)};
   surfaces.depth = surfaces.visible->depth();
@@ -38,13 +38,13 @@ Surfaces surfaces_of(RenderView& v, const DepthImage& image, bool depth_in_cl) {
 }
 
 void find_shadows(RenderView& v, Surfaces& surfaces) {
-  if (!v.plan.light_reaches || shadows_are_unchanged(v, v.caches.shadow_bits)) return;
-  if (v.plan.shadows && surfaces.visible && !v.plan.blended.empty())
+  if (!v.plan.shadows.light_reaches || shadows_are_unchanged(v, v.caches.shadow_bits)) return;
+  if (v.plan.shadows.needed && surfaces.visible && !v.plan.surfaces.blended.empty())
     surfaces.blended = list_blended(v, v.caches.blended_triangles);
   find_shadows(v, v.caches, surfaces.visible ? &*surfaces.visible : nullptr,
-               v.plan.shadows ? depth_of(v, surfaces) : DepthBuffer(),
+               v.plan.shadows.needed ? depth_of(v, surfaces) : DepthBuffer(),
                surfaces.blended ? &*surfaces.blended : nullptr);
-  surfaces.numbered = v.plan.shadows && v.plan.opengl;
+  surfaces.numbered = v.plan.shadows.needed && v.plan.opengl;
 }
 
 const DepthBuffer& depth_of(RenderView& v, Surfaces& surfaces) {
@@ -60,7 +60,7 @@ const DepthBounds& bounds_of(RenderView& v, Surfaces& surfaces) {
 
 DepthBounds cull_bounds_of(RenderView& v, Surfaces& surfaces) {
   DepthBounds bounds = bounds_of(v, surfaces);
-  if (!v.plan.group_tiles) return bounds;
+  if (!v.plan.groups.tiles) return bounds;
   const CullParams& tiles = v.culler().params();
   bounds.opaque.groups = surfaces.visible ? tile_groups(v, v.caches.tile_groups, tiles, *surfaces.visible)
                                           : tile_groups(v, v.caches.tile_groups, tiles,
@@ -93,7 +93,7 @@ ShadedImage shade(RenderView& v, const Surfaces& surfaces, const LightSource& li
 
 void blend(RenderView& v, const Surfaces& surfaces, const LightSource& lights, const ShadedImage& image) {
   if (!surfaces.visible) return shade_blended(v, image, lights);
-  if (v.plan.blended.empty()) return;
+  if (v.plan.surfaces.blended.empty()) return;
   const BlendedTriangles blended =
       surfaces.blended ? *surfaces.blended : list_blended(v, v.caches.blended_triangles);
   blend_resolved(v, v.caches.resolver, blended, surfaces.depth, lights);

@@ -11,7 +11,7 @@ class TileGroups : public PassCache {
   explicit TileGroups(Work& work) { follow(work); }
 
   bool follow(Work& work) override {
-    masks_.put(*work.renderer.cl, "uploading masks of light groups", work.plan.group_masks);
+    masks_.put(*work.renderer.cl, "uploading masks of light groups", work.plan.groups.masks);
     return true;
   }
 
@@ -27,7 +27,7 @@ class TileGroups : public PassCache {
     auto pass = work.timer.pass("tile_groups", "cl");
     kernel_.launch(device, "tile_groups", cl::NDRange(all), cl::NullRange,
                    surfaces + ClArguments{{"masks", masks_.buffer()},
-                                          {"last", cl_uint(work.plan.group_masks.size() - 1)},
+                                          {"last", cl_uint(work.plan.groups.masks.size() - 1)},
                                           {"groups", groups_.at_least(device, all * sizeof(cl_uint))},
                                           {"width", cl_uint(tiles.width)},
                                           {"height", cl_uint(tiles.height)},

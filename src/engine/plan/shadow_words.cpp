@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "plan/shadow_plan.h"
+#include "plan/light_shadows.h"
 
 namespace lightgrid {
 

@@ -51,7 +51,7 @@ struct BlockInput {
   GlBuffer uniform;  // where OpenGL draws
 };
 
-// Values of the lights, in the order of FramePlan::local and then of FramePlan::directional_lights.
+// Values of the lights, in the order of LightPlan::local and then of LightPlan::directional.
 struct ColumnInput {
   ColumnInput(const char* name, const char*) : name(name), unit(unit_of_input(name)) {}
 

@@ -12,8 +12,8 @@ namespace {
 
 ViewParams params_of(const View& view, const FramePlan& plan, const glm::vec3& ambient) {
   ViewParams p = view_params(cull_view(view), plan.settings[setting::tile]);
-  p.light_count = uint(plan.local.size());
-  p.directional_count = uint(plan.directional_lights.size());
+  p.light_count = uint(plan.lights.local.size());
+  p.directional_count = uint(plan.lights.directional.size());
   p.ambient_r = ambient.r;
   p.ambient_g = ambient.g;
   p.ambient_b = ambient.b;
@@ -21,11 +21,12 @@ ViewParams params_of(const View& view, const FramePlan& plan, const glm::vec3& a
 }
 
 bool same_culler(const FramePlan& a, const FramePlan& b) {
-  return a.blend_grid == b.blend_grid && a.index_bits == b.index_bits && a.light_grid == b.light_grid;
+  return a.lists.blend_grid == b.lists.blend_grid && a.lights.index_bits == b.lights.index_bits &&
+         a.lists.light_grid == b.lists.light_grid;
 }
 
 TechniqueNeeds with_opengl_samples(TechniqueNeeds needs, const Renderer& renderer, const Scene& scene) {
-  if (scene.samples > 1 && renderer.gl) needs.opengl_samples = has_samples(scene.samples);
+  if (scene.samples > 1 && renderer.gl) needs.samples.opengl = has_samples(scene.samples);
   return needs;
 }
 
@@ -70,10 +71,10 @@ void RenderView::look(const View& next, PlannedInstances instances, PlannedLight
 
 // The kinds of lights that a scene has.
 static std::vector<PlannedLights> kinds_of_lights(const FramePlan& plan, const Scene& scene) {
-  if (!plan.local_lights) return {PlannedLights::every};
+  if (!plan.lights.any_local) return {PlannedLights::every};
   const bool points = std::ranges::any_of(
       scene.lights, [](const Light& light) { return !is_directional(light) && !has_cone(light); });
-  if (!points || !plan.spots) return {PlannedLights::every, PlannedLights::none};
+  if (!points || !plan.lights.spots) return {PlannedLights::every, PlannedLights::none};
   return {PlannedLights::every, PlannedLights::points, PlannedLights::spots, PlannedLights::none};
 }
 
@@ -88,7 +89,7 @@ void RenderView::prepare(const std::function<void()>& draw) {
       }
     };
     draw_planned(PlannedInstances::every);
-    const bool coats = plan.clearcoat, masks = plan.mask;
+    const bool coats = plan.surfaces.clearcoat, masks = plan.surfaces.mask;
     draw_planned(PlannedInstances::plain);
     if (masks) draw_planned(PlannedInstances::plain_or_masked);
     for (const PlannedInstances instances : {PlannedInstances::plain_or_coated, PlannedInstances::uncoated}) {
@@ -118,10 +119,10 @@ void RenderView::drop_caches() {
 }
 
 void RenderView::lights_changed() {
-  if (!culler_ || !plan.light_grid) return;
-  std::vector<CullLight> lights = cull_lights_of(scene, plan.local, ranges_of(plan.settings));
-  for (size_t i = 0; i < plan.left_out.size(); ++i)
-    if (plan.left_out[i]) lights[i].radius_m = -1;  // listed nowhere
+  if (!culler_ || !plan.lists.light_grid) return;
+  std::vector<CullLight> lights = cull_lights_of(scene, plan.lights.local, ranges_of(plan.settings));
+  for (size_t i = 0; i < plan.lights.left_out.size(); ++i)
+    if (plan.lights.left_out[i]) lights[i].radius_m = -1;  // listed nowhere
   culler_->set_lights(lights);
 }
 
@@ -135,7 +136,7 @@ void RenderView::draw_random(uint32_t seed) {
 
 void RenderView::follow_view() {
   transforms.resize(scene.instances.size());
-  for (const auto* instances : {&plan.opaque, &plan.blended}) {
+  for (const auto* instances : {&plan.surfaces.opaque, &plan.surfaces.blended}) {
     for (const int i : *instances) transforms[i] = instance_transform(view, scene.instances[i]);
   }
   cl_lights_stale_ = true;
@@ -146,18 +147,20 @@ void RenderView::follow_view() {
     return;
   }
   const GlScene& in_gl = gpu.in_gl();
-  opaque = make_draw_list(in_gl, view, plan.opaque, transforms, plan.slice_far_m, DrawOrder::front_to_back);
-  blended = make_draw_list(in_gl, view, plan.blended, transforms, plan.slice_far_m, DrawOrder::as_given);
+  opaque = make_draw_list(in_gl, view, plan.surfaces.opaque, transforms, plan.lists.far_m,
+                          DrawOrder::front_to_back);
+  blended =
+      make_draw_list(in_gl, view, plan.surfaces.blended, transforms, plan.lists.far_m, DrawOrder::as_given);
 }
 
 // Keeps resources that still fit; drops the others, to be created again at their next use.
 void RenderView::follow_plan(const FramePlan& before) {
   if (!same_culler(before, plan)) culler_.reset();
-  if (before.index_bits != plan.index_bits) {
+  if (before.lights.index_bits != plan.lights.index_bits) {
     for (auto& grid : grids_) grid.reset();
   }
-  if (!plan.blend_grid) grids_[1].reset();
-  if (before.left_out != plan.left_out) lights_changed();
+  if (!plan.lists.blend_grid) grids_[1].reset();
+  if (before.lights.left_out != plan.lights.left_out) lights_changed();
   if (culler_) culler_->set_view(cull_view(view, plan));
   caches.follow(*this);
   effects.follow(*this);
@@ -174,7 +177,7 @@ LightCuller& RenderView::culler() {
 
 SharedGridStorage& RenderView::grid_storage(bool blended) {
   std::optional<SharedGridStorage>& storage = grids_[blended];
-  return storage ? *storage : storage.emplace(renderer, plan.index_bits);
+  return storage ? *storage : storage.emplace(renderer, plan.lights.index_bits);
 }
 
 size_t RenderView::memory_bytes() const {

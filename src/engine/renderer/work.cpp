@@ -62,8 +62,8 @@ ScenePrograms& Work::programs(SurfaceShaders shaders) {
     found = programs_.try_emplace(key, renderer, shaders).first;
   }
   if (preparing_) {
-    for (const int i : shaders.blended ? plan.blended : plan.opaque)
-      found->second.of(plan.features_of_instance[i]);
+    for (const int i : shaders.blended ? plan.surfaces.blended : plan.surfaces.opaque)
+      found->second.of(plan.surfaces.features_of_instance[i]);
   }
   return found->second;
 }
@@ -112,7 +112,7 @@ const ClLights& Work::cl_lights() {
 
 ClArguments Work::light_arguments() {
   ClArguments arguments = cl_lights().columns() + effects.reach_arguments();
-  return plan.light_reaches ? std::move(arguments) + shadows.arguments() : arguments;
+  return plan.shadows.light_reaches ? std::move(arguments) + shadows.arguments() : arguments;
 }
 
 std::array<std::unique_ptr<PassCache>*, 19> PassCaches::all() {

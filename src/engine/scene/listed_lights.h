@@ -12,7 +12,7 @@ struct ListedLights {
   std::vector<uint32_t> cell_of_pixel;  // width * height, row 0 at the bottom
   std::vector<uint64_t> first;          // one a cell
   std::vector<uint32_t> count;          // one a cell
-  std::vector<uint32_t> indices;        // point and spot lights in scene order (FramePlan::local)
+  std::vector<uint32_t> indices;        // point and spot lights in scene order (LightPlan::local)
 };
 
 // Places lists of these counts one after the other: sets `first`, and sizes `indices`. Throws Error(machine)

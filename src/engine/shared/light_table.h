@@ -1,10 +1,10 @@
 // The light table: what shading reads of the point and spot lights, one array a column, lights in the order
-// of FramePlan::local. A row of LIGHT_TABLE is all that shaders, kernels and uploads know of a column; the
+// of LightPlan::local. A row of LIGHT_TABLE is all that shaders, kernels and uploads know of a column; the
 // function of its member's name in renderer/upload/lights.cpp makes its values.
 //   SPOTS: at least one light has a cone.
 //   VIRTUAL_LIGHTS: at least one of those is a virtual point light.
-//   SHADOWS: some light of the scene casts a shadow (FramePlan::light_reaches).
-//   GROUPS: some light or instance lacks a light group (FramePlan::groups).
+//   SHADOWS: some light of the scene casts a shadow (ShadowPlan::light_reaches).
+//   GROUPS: some light or instance lacks a light group (GroupPlan::needed).
 //   EFFECT_NAME: an effect answers NAME_reach (shared/inputs.h).
 #pragma once
 
@@ -46,7 +46,7 @@ namespace lightgrid {
 //   most_falloff  of a virtual light, which fades with the cone's cosine itself and not with its square: the
 //             most 1 / distance^2; 0 of other lights
 //   groups    a bit each. After all lights follow directional ones, and then the masks of instances, by
-//             FramePlan::group_masks
+//             GroupPlan::masks
 #define LIGHT_TABLE(ROW)                                           \
   ROW(IF_LIGHTS, Float4, position, light_positions, samplerBuffer) \
   ROW(IF_LIGHTS, Float4, color, light_colors, samplerBuffer)       \
@@ -87,8 +87,8 @@ SHARED_STRUCT(PunctualLight){LIGHT_TABLE(LIGHT_MEMBER) INDEX_MEMBER SHADOW_MEMBE
 
 // The end of every light loop: how much of a light reaches a point of a surface, 0 to 1, besides what
 // distance and cone let through. Shadows answer here, for the pixel that is shaded, light groups, and the
-// effects that answer NAME_reach (shared/inputs.h). The plan says who answers (FramePlan::light_reaches,
-// ::groups and ::effects); without any the factor is the constant 1, which compiles to nothing.
+// effects that answer NAME_reach (shared/inputs.h). The plan says who answers (ShadowPlan::light_reaches,
+// GroupPlan::needed, FramePlan::effects); without any the factor is the constant 1, which compiles to nothing.
 //   point: along the axes of light.position, which are the view's. to_light: of length 1, likewise.
 //   groups: the surface's. Forward shaders get them with each draw, resolve kernels from the instance's record,
 //   both by way of ShadingPoint; code that reads a geometry buffer, from the number that it holds.

@@ -17,14 +17,14 @@ static Frame render(RenderView& v) {
 }
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
-  needs.stencil = settings[setting::volume_culling] == VolumeCulling::stencil;
+  needs.surfaces.stencil = settings[setting::volume_culling] == VolumeCulling::stencil;
 }
 
 extern const Technique deferred{
     .name = "deferred",
     .summary = "geometry buffer, then light volumes",
     .source = "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009",
-    .needs = {.effects = all_effects, .group_stencil = true, .most_samples = 8, .adapt = adapt},
+    .needs = {.effects = all_effects, .groups = {.stencil = true}, .samples = {.most = 8}, .adapt = adapt},
     .settings = {"brdf", "buffer-bits", "volume-culling", "group-ids", "group-stencil", "volume-mesh",
                  "samples", "samples-masks", "samples-resolve"},
     .render = render,

@@ -7,7 +7,7 @@ extern const Technique forward{
     .name = "forward",
     .summary = "every light at every pixel",
     .source = "the baseline",
-    .needs = {.effects = all_effects, .most_samples = 8},
+    .needs = {.effects = all_effects, .samples = {.most = 8}},
     .settings = {"brdf", "depth-bounds", "tile", "samples", "samples-masks", "samples-resolve",
                  "kernel-shape"},
     .render = [](RenderView& v) { return shade_every_light(v, find_surfaces(v)); }};

@@ -29,7 +29,7 @@ static void refuse_impossible(const FramePlan& plan) {
         "camera; use lidr-sort=view, or lidr-volumes=stencil");
   }
   if (settings[setting::lidr_volumes] == LidrVolumes::no_prepass &&
-      (plan.light_reaches || plan.own_shadows)) {
+      (plan.shadows.light_reaches || plan.shadows.own)) {
     throw input_error(
         "lidr: shadows are found at the surfaces of a depth prepass; use lidr-volumes=front-faces, or "
         "shadows=none");
@@ -39,10 +39,10 @@ static void refuse_impossible(const FramePlan& plan) {
 static Frame render(RenderView& v) {
   refuse_impossible(v.plan);
   const bool prepass =
-      v.plan.settings[setting::lidr_volumes] != LidrVolumes::no_prepass || v.plan.local.empty();
+      v.plan.settings[setting::lidr_volumes] != LidrVolumes::no_prepass || v.plan.lights.local.empty();
   const Surfaces surfaces =
       prepass ? find_surfaces(v) : Surfaces{.image = no_depth_yet(v), .drawn = v.opaque};
-  if (v.plan.local.empty()) return shade_every_light(v, surfaces);
+  if (v.plan.lights.local.empty()) return shade_every_light(v, surfaces);
   const uint32_t passes = order_light_index(v, v.caches.light_index, v.caches.light_volumes);
   const auto lights_of = [&](uint32_t pass) {
     return light_index(v, v.caches.light_index, v.caches.light_volumes, v.caches.index_shadows,
@@ -55,7 +55,7 @@ static Frame render(RenderView& v) {
     add_lights_forward(v, surfaces.drawn, lights_of(pass), image);
   // Stencil marks opaque surfaces only, and only from these are lights hidden.
   const bool as_opaque =
-      !v.plan.own_shadows || v.plan.settings[setting::lidr_shadows] == LidrShadows::final_pass;
+      !v.plan.shadows.own || v.plan.settings[setting::lidr_shadows] == LidrShadows::final_pass;
   // A blended surface takes all its lights at once, and images have those of one pass.
   if (v.plan.settings[setting::lidr_volumes] != LidrVolumes::stencil && as_opaque && passes == 1) {
     blend(v, surfaces, lights, image);
@@ -75,20 +75,20 @@ static const Setting<int> lights_with_maps{
     {.shown = [](const Settings& s) { return s[setting::lidr_shadows] == LidrShadows::final_pass; }}};
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
-  needs.reversed_triangles =
+  needs.surfaces.reversed_triangles =
       settings[setting::lidr_passes] > 1 || settings[setting::lidr_types] == LidrTypes::passes;
   const LidrShadows way = settings[setting::lidr_shadows];
   if (way == LidrShadows::pass) return;
-  needs.own_shadows = true, needs.shadows_by = way == LidrShadows::volumes ? "shadow volumes" : "maps";
-  if (way == LidrShadows::none) needs.most_own_shadows = 0;
-  if (way == LidrShadows::final_pass) needs.most_own_shadows = size_t(settings[lights_with_maps]);
+  needs.shadows.own = true, needs.shadows.found_by = way == LidrShadows::volumes ? "shadow volumes" : "maps";
+  if (way == LidrShadows::none) needs.shadows.most_own = 0;
+  if (way == LidrShadows::final_pass) needs.shadows.most_own = size_t(settings[lights_with_maps]);
 }
 
 extern const Technique lidr{
     .name = "lidr",
     .summary = "light volumes drawn into images of light indices",
     .source = "Trebilco: Light-Indexed Deferred Rendering, ShaderX7 2.9, 2009",
-    .needs = {.effects = all_effects, .stencil = true, .most_samples = 8, .adapt = adapt},
+    .needs = {.effects = all_effects, .surfaces = {.stencil = true}, .samples = {.most = 8}, .adapt = adapt},
     .settings = {"brdf", "lidr-packing", "lidr-overlap", "lidr-lights", "lidr-volumes", "lidr-unpack",
                  "lidr-types", "lidr-sort", "lidr-passes", "lidr-order", "lidr-shadows", "lidr-maps",
                  "volume-mesh", "depth-bounds", "tile", "samples", "samples-masks", "samples-resolve",

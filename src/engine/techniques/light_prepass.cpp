@@ -71,14 +71,15 @@ static Frame render(RenderView& v) {
   if (volumes && !v.plan.opengl)
     throw input_error(
         "light_prepass: OpenGL draws light volumes, so prepass-lights=volumes needs raster=opengl");
-  if (!v.plan.local_lights) return shade_every_light(v, find_surfaces(v));
+  if (!v.plan.lights.any_local) return shade_every_light(v, find_surfaces(v));
   return volumes ? from_volumes(v) : from_tiles(v);
 }
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
   if (settings[prepass_lights] == PrepassLights::tiles) return;
-  needs.light_grid = needs.capped_lists = false, needs.no_light_grid = "prepass-lights=volumes";
-  needs.stencil = settings[setting::volume_culling] == VolumeCulling::stencil, needs.group_stencil = true;
+  needs.lists.light_grid = needs.lists.capped = false, needs.lists.no_light_grid = "prepass-lights=volumes";
+  needs.surfaces.stencil = settings[setting::volume_culling] == VolumeCulling::stencil,
+  needs.groups.stencil = true;
 }
 
 extern const Technique light_prepass{
@@ -86,14 +87,10 @@ extern const Technique light_prepass{
     .summary = "depth and normals, then a buffer of light, then materials",
     .source = "Engel: Designing a Renderer for Multiple Lights: The Light Pre-Pass Renderer, ShaderX7, 2009",
     .needs = {.effects = all_effects,
-              .light_grid = true,
-              .lists = true,
-              .z_bins = true,
-              .chosen_raster = true,
-              .group_tiles = true,
-              .capped_lists = true,
-              .most_samples = 8,
-              .stored_surfaces = true,
+              .surfaces = {.chosen_raster = true, .stored = true},
+              .lists = {.light_grid = true, .z_bins = true, .no_masks = true, .capped = true},
+              .groups = {.tiles = true},
+              .samples = {.most = 8},
               .adapt = adapt},
     .settings = {"brdf",          "prepass-lights", "prepass-specular", "prepass-shininess",
                  "buffer-bits",   "normals",        "volume-culling",   "group-ids",

@@ -15,13 +15,14 @@ namespace {
 
 // Without point and spot lights there is no light pass, and the image takes all.
 BaseLighting base_lighting_of(const RenderView& v) {
-  return v.plan.light_grid && !v.plan.base_lighting ? BaseLighting::in_light_pass : BaseLighting::in_image;
+  return v.plan.lists.light_grid && !v.plan.surfaces.base_lighting ? BaseLighting::in_light_pass
+                                                                   : BaseLighting::in_image;
 }
 
 }  // namespace
 
 GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces) {
-  if (!surfaces && v.plan.directional_shadows) surfaces = find_surfaces(v);
+  if (!surfaces && v.plan.shadows.directional) surfaces = find_surfaces(v);
   if (!surfaces) {
     const GBuffer gbuffer = fill_gbuffer(v, base_lighting_of(v));
     surfaces = Surfaces{.image = gbuffer.depth_image};
@@ -35,7 +36,7 @@ GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces) {
 }
 
 ViewGrid list_lights(RenderView& v, Surfaces& surfaces) {
-  if (v.plan.light_tree)
+  if (v.plan.lists.light_tree)
     return lists_of_tree(v, v.caches.list_caps, v.culler().params(), bounds_of(v, surfaces).opaque,
                          v.opaque_grid());
   const DepthBounds bounds = cull_bounds_of(v, surfaces);
@@ -46,7 +47,8 @@ ViewGrid list_lights(RenderView& v, Surfaces& surfaces) {
 
 Frame shade_from_light_grid(RenderView& v) {
   Surfaces surfaces = find_surfaces(v, false, true);
-  if (!v.plan.light_grid) return shade_every_light(v, surfaces);  // no light has a position: nothing to list
+  if (!v.plan.lists.light_grid)
+    return shade_every_light(v, surfaces);  // no light has a position: nothing to list
   Frame frame = frame_of(v, surfaces);
   frame.grid = list_lights(v, surfaces);
   const LightSource lights = from_grid(v, *frame.grid);
@@ -65,10 +67,10 @@ Frame shade_every_light(RenderView& v, const Surfaces& surfaces) {
 
 void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaque, Frame& frame) {
   frame.listed = opaque.listed;
-  if (surfaces.visible ? v.plan.blended.empty() : !v.plan.blend) return;
-  if (!v.plan.blend_grid) return blend(v, surfaces, opaque, frame.image);
+  if (surfaces.visible ? v.plan.surfaces.blended.empty() : !v.plan.surfaces.blend) return;
+  if (!v.plan.lists.blend_grid) return blend(v, surfaces, opaque, frame.image);
   const DepthBounds& bounds = bounds_of(v, surfaces);
-  if (v.plan.light_tree) {
+  if (v.plan.lists.light_tree) {
     frame.blend_grid =
         lists_of_tree(v, v.caches.list_caps, v.culler().params(), bounds.blend, v.blend_grid());
   } else {
@@ -79,16 +81,16 @@ void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaqu
 }
 
 void adapt_shade_tiled(TechniqueNeeds& needs, Settings& settings) {
-  if (settings[setting::samples_resolve] != SamplesResolve::linear) needs.most_samples = 1;
+  if (settings[setting::samples_resolve] != SamplesResolve::linear) needs.samples.most = 1;
 }
 
 Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
   // If no light has a position, nothing adds to a geometry buffer. OpenGL fills it all the same, for its
   // image.
-  if (!v.plan.light_grid && !v.plan.opengl) return shade_every_light(v, *surfaces);
+  if (!v.plan.lists.light_grid && !v.plan.opengl) return shade_every_light(v, *surfaces);
   const GBuffer gbuffer = fill_gbuffer(v, surfaces);
   Frame frame = frame_of(v, *surfaces);
-  if (!v.plan.light_grid) {
+  if (!v.plan.lists.light_grid) {
     frame.image = gbuffer.image;
     blend(v, *surfaces, every_light(v), frame.image);
     return frame;

@@ -30,17 +30,13 @@ GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces);
 // are laid over it. Without `surfaces`, OpenGL finds depth while it fills the geometry buffer.
 Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces);
 void adapt_shade_tiled(TechniqueNeeds& needs, Settings& settings);  // samples' light is averaged as it is
-inline const TechniqueNeeds needs_of_shade_tiled{.effects = all_effects,
-                                                 .light_grid = true,
-                                                 .lists = true,
-                                                 .z_bins = true,
-                                                 .chosen_raster = true,
-                                                 .group_tiles = true,
-                                                 .capped_lists = true,
-                                                 .sampled_lists = true,
-                                                 .most_samples = 8,
-                                                 .stored_surfaces = true,
-                                                 .adapt = adapt_shade_tiled};
+inline const TechniqueNeeds needs_of_shade_tiled{
+    .effects = all_effects,
+    .surfaces = {.chosen_raster = true, .stored = true},
+    .lists = {.light_grid = true, .z_bins = true, .no_masks = true, .capped = true, .sampled = true},
+    .groups = {.tiles = true},
+    .samples = {.most = 8},
+    .adapt = adapt_shade_tiled};
 inline const std::vector<const char*> settings_of_shade_tiled = {
     "brdf",         "buffer-bits",   "group-ids", "group-tiles",   "cull-test",       "depth-bounds",
     "tile",         "slice-spacing", "z-bins",    "list-cap",      "list-cap-order",  "list-seed",

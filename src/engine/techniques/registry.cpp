@@ -86,7 +86,7 @@ bool reads_setting(const Technique& technique, const std::string& key) {
 
 bool limits_lists(const Technique& technique, const Settings& settings) {
   return technique.limited_lists || ((settings[setting::list_cap] > 0 || settings[setting::view_cap] > 0) &&
-                                     adapted_needs(technique, settings).capped_lists);
+                                     adapted_needs(technique, settings).lists.capped);
 }
 
 bool is_random(const Technique& technique, const Settings& settings) {
@@ -110,7 +110,7 @@ Frame draw_frame(const Technique& technique, RenderView& v) {
 }
 
 int most_samples(const Technique& technique, const Settings& settings) {
-  return adapted_needs(technique, settings).most_samples;
+  return adapted_needs(technique, settings).samples.most;
 }
 
 void check_samples(const Technique& technique, const Settings& settings) {

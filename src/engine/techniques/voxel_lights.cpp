@@ -8,13 +8,13 @@ namespace lightgrid {
 
 static Frame render(RenderView& v) {
   Surfaces surfaces = find_surfaces(v);
-  if (!v.plan.local_lights) return shade_every_light(v, surfaces);
+  if (!v.plan.lights.any_local) return shade_every_light(v, surfaces);
   Frame frame = frame_of(v, surfaces);
   std::optional<LightSource> exact, exact_blended;  // without voxel-lights-exact there is no grid
-  if (v.plan.light_grid) {
+  if (v.plan.lists.light_grid) {
     const DepthBounds& bounds = bounds_of(v, surfaces);
     exact = from_grid(v, frame.grid.emplace(cull_lights(v, v.culler(), v.opaque_grid(), bounds)));
-    if (v.plan.blend_grid)
+    if (v.plan.lists.blend_grid)
       exact_blended = from_grid(
           v, frame.blend_grid.emplace(cull_lights_for_blended(v, v.culler(), v.blend_grid(), bounds)));
   }
@@ -32,8 +32,8 @@ static Frame render(RenderView& v) {
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
   if (settings[setting::voxel_lights_exact] != 0) return;
-  needs.light_grid = false, needs.no_light_grid = "voxel-lights-exact=0";
-  needs.shadows = false, needs.no_shadows = "lights are added up where no pixel asks for one";
+  needs.lists.light_grid = false, needs.lists.no_light_grid = "voxel-lights-exact=0";
+  needs.shadows.asked_for = false, needs.shadows.why_none = "lights are added up where no pixel asks for one";
 }
 
 extern const Technique voxel_lights{
@@ -41,13 +41,12 @@ extern const Technique voxel_lights{
     .summary = "a volume of irradiance and mean directions: lights cost by the sample, not by the pixel",
     .source = "Geldreich: Light Indexed Deferred Rendering, on Halo Wars, 2009",
     .needs = {.effects = all_effects,
-              .light_grid = true,
-              .lists = true,
-              .chosen_raster = true,
-              .most_samples = 8,
-              .adapt = adapt,
-              .groups_of =
-                  "; of directional and exact lights alone: the volume's light belongs to no surface"},
+              .surfaces = {.chosen_raster = true},
+              .lists = {.light_grid = true, .no_masks = true},
+              .groups = {.of = "; of directional and exact lights alone: the volume's light belongs to no "
+                               "surface"},
+              .samples = {.most = 8},
+              .adapt = adapt},
     .settings = {"brdf", "voxel-size", "voxel-space", "voxel-bits", "voxel-lights-exact", "voxel-reuse",
                  "cull-test", "depth-bounds", "tile", "raster", "samples", "samples-masks", "samples-resolve",
                  "texels", "kernel-shape", "portable", "group-size"},

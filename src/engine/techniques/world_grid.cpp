@@ -7,7 +7,7 @@ namespace lightgrid {
 
 static Frame render(RenderView& v) {
   const Surfaces surfaces = find_surfaces(v);
-  if (!v.plan.world_grid) return shade_every_light(v, surfaces);
+  if (!v.plan.lists.world_grid) return shade_every_light(v, surfaces);
   const LightSource lights = build_world_grid(v, v.caches.world_grid);
   Frame frame = frame_of(v, surfaces);
   frame.listed = lights.listed;
@@ -25,7 +25,10 @@ extern const Technique world_grid{
     .source =
         "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009; "
         "Tegelaers: Forward and Deferred Hashed Shading",
-    .needs = {.effects = all_effects, .chosen_raster = true, .world_grid = true, .most_samples = 8},
+    .needs = {.effects = all_effects,
+              .surfaces = {.chosen_raster = true},
+              .lists = {.world_grid = true},
+              .samples = {.most = 8}},
     .settings = {"brdf", "world-grid", "world-cell", "depth-bounds", "tile", "raster", "samples",
                  "samples-masks", "samples-resolve", "texels", "kernel-shape", "portable"},
     .render = render};

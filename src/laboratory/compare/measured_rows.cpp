@@ -308,7 +308,7 @@ void measure_errors(CompareReport& report, const Compared& compared, Measured& m
   // The oracle shades surfaces that OpenGL draws. Without it, what blended surfaces cover is not known.
   if (compared.renderer.gl) {
     measure_surfaces(report, m, measure_against_oracle(report, m, samples));
-  } else if (m.reference.run().view().plan.blended.empty()) {
+  } else if (m.reference.run().view().plan.surfaces.blended.empty()) {
     const size_t most = affordable_samples(samples, compared.gpu.scene());
     measure_surfaces(report, m, sample_pixels(covered_pixels(m.depth), most));
   }

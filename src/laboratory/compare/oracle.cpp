@@ -54,18 +54,18 @@ std::vector<float> read_depth(TechniqueRun& run) {
 }
 
 std::vector<ViewLight> local_lights(const Seen& v) {
-  return lights_in_view(v.scene, v.view, ranges_of(v.plan.settings), v.plan.local);
+  return lights_in_view(v.scene, v.view, ranges_of(v.plan.settings), v.plan.lights.local);
 }
 
 ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
   const HostLists& listed = run.frame().listed;
-  return listed ? listed(depth) : list_every_light(uint32_t(run.view().plan.local.size()));
+  return listed ? listed(depth) : list_every_light(uint32_t(run.view().plan.lights.local.size()));
 }
 
 std::vector<uint32_t> groups_of_pixels(const FramePlan& plan, const Scene& scene,
                                        const std::vector<SceneTriangle>& shown) {
   std::vector<uint32_t> groups;
-  if (!plan.groups) return groups;
+  if (!plan.groups.needed) return groups;
   for (const SceneTriangle& triangle : shown)
     groups.push_back(triangle.instance < 0 ? 0 : scene.instances[size_t(triangle.instance)].groups);
   return groups;
@@ -74,17 +74,17 @@ std::vector<uint32_t> groups_of_pixels(const FramePlan& plan, const Scene& scene
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, const SeenPairs* seen) {
   const Seen& v = run.view();
   std::vector<uint32_t> groups;
-  if (v.plan.groups) groups = groups_of_pixels(v.plan, v.scene, shown_triangles(run));
+  if (v.plan.groups.needed) groups = groups_of_pixels(v.plan, v.scene, shown_triangles(run));
   if (!seen) return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), nullptr, groups);
   std::optional<HostShadows> shaded;
   if (run.frame().shadows) shaded = run.frame().shadows();
-  const PairShadows shadows{*seen, shaded ? &*shaded : nullptr, uint32_t(v.plan.directional_lights.size())};
+  const PairShadows shadows{*seen, shaded ? &*shaded : nullptr, uint32_t(v.plan.lights.directional.size())};
   return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), &shadows, groups);
 }
 
 std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& truth) {
   const Seen& v = run.view();
-  if (!run.frame().blended_shadows || !truth.casts() || v.plan.blended.empty()) return {};
+  if (!run.frame().blended_shadows || !truth.casts() || v.plan.surfaces.blended.empty()) return {};
   LitPairs sum;
   for (const HostShadowLayer& layer : run.frame().blended_shadows()) {
     const SeenPairs* seen = truth.of_layer(v, layer);
@@ -92,8 +92,9 @@ std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& trut
     std::vector<uint32_t> groups;
     for (const glm::ivec2& triangle : layer.triangles)
       groups.push_back(triangle.x < 0 ? 0 : v.scene.instances[size_t(triangle.x)].groups);
-    const LitPairs pairs = count_pairs(v.view, layer.depth, local_lights(v),
-                                       list_every_light(uint32_t(v.plan.local.size())), &shadows, groups);
+    const LitPairs pairs =
+        count_pairs(v.view, layer.depth, local_lights(v),
+                    list_every_light(uint32_t(v.plan.lights.local.size())), &shadows, groups);
     sum.lit += pairs.lit, sum.leaked += pairs.leaked, sum.acned += pairs.acned, sum.either += pairs.either;
   }
   return sum;

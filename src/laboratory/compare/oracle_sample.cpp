@@ -39,7 +39,7 @@ SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth, Sha
       lights_(lights_in_view(v.scene, v.view, ranges_of(meant_by(v.plan.settings)))),
       own_shadows_(shadows ? nullptr : std::make_unique<ShadowTruth>(v.scene, 0)),
       shadows_(shadows ? shadows : own_shadows_.get()) {
-  if (shadows_->casts() || v.plan.groups) {
+  if (shadows_->casts() || v.plan.groups.needed) {
     const std::vector<SceneTriangle> shown = read_triangles(v).opaque;
     if (shadows_->casts()) triangles_ = casting_triangles(v.scene, shown);
     groups_ = groups_of_pixels(v.plan, v.scene, shown);

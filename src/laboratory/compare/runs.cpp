@@ -85,7 +85,7 @@ Reference choose_reference(const Compared& c, std::vector<ContestantRun>& entrie
   const CompareOptions& options = c.options;
   const bool automatic = options.reference == ReferencePixels::automatic;
   const size_t lights = c.gpu.scene().lights.size();
-  if (!c.every_light.technique->needs.opengl) {
+  if (!c.every_light.technique->needs.surfaces.opengl) {
     if (options.reference == ReferencePixels::sampled)
       throw machine_error("reference sampled: shades with OpenGL; {}", c.renderer.why_no_gl);
     return {};

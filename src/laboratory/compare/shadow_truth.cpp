@@ -66,8 +66,8 @@ const SeenPairs* ShadowTruth::pairs(const Seen& v, const std::vector<float>& dep
     if (d.pairs && d.model == model && d.depth == depth && d.triangles == triangles) return d.pairs.get();
   }
   const std::vector<CastingTriangle> casting = casting_triangles(scene_, triangles);
-  std::vector<int> places = v.plan.local;
-  places.insert(places.end(), v.plan.directional_lights.begin(), v.plan.directional_lights.end());
+  std::vector<int> places = v.plan.lights.local;
+  places.insert(places.end(), v.plan.lights.directional.begin(), v.plan.lights.directional.end());
   const CastingLights lights = casting_lights(scene_, v.view, model.ranges, places);
   const ShownSurfaces shown{v.view, depth, casting};
   Decided& d = decided_[next_];
@@ -97,7 +97,7 @@ const SeenPairs* ShadowTruth::of_layer(const Seen& v, const HostShadowLayer& lay
   }
   std::vector<CastingTriangle> triangles;
   for (const glm::ivec2& t : layer.triangles) triangles.push_back({t.x, uint32_t(t.y)});
-  const CastingLights lights = casting_lights(scene_, v.view, model.ranges, v.plan.local);
+  const CastingLights lights = casting_lights(scene_, v.view, model.ranges, v.plan.lights.local);
   const ShownSurfaces shown{v.view, layer.depth, triangles};
   if (layers_.size() >= most_layers) layers_.clear();
   layers_.push_back({model, layer.depth, layer.triangles,

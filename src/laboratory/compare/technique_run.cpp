@@ -191,7 +191,7 @@ static std::vector<KernelResult> kernel_results(const PassRecord& pass) {
 }
 
 static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Frame& frame) {
-  if (plan.casting.empty()) return {};
+  if (plan.shadows.casting.empty()) return {};
   ShadowResult result;
   bool unchanged = false;
   if (frame.shadow_figures) {
@@ -202,9 +202,9 @@ static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Fr
     result.halvings = figures.halvings, result.bands = figures.bands;
     unchanged = figures.unchanged;
   }
-  result.dim_steps = plan.dim_steps;
+  result.dim_steps = plan.shadows.dim_steps;
   if (plan.settings[setting::everything_on]) return result;
-  for (const LightShadow& light : plan.casting) {
+  for (const LightShadow& light : plan.shadows.casting) {
     const bool needed = light.need == ShadowNeed::rays;
     if (!needed || unchanged)
       result.skipped.push_back({light.light, needed ? unchanged_reason : reason_of(light.need)});
@@ -217,8 +217,8 @@ RunResult TechniqueRun::result() const {
   result.technique = technique_.name;
   result.settings = settings_of(technique_, view_.plan.settings);
   result.lights_total = int(view_.scene.lights.size());
-  result.lights_in_view = view_.plan.lights_in_view;
-  result.lights_virtual = view_.plan.virtual_count;
+  result.lights_in_view = view_.plan.lights.in_view;
+  result.lights_virtual = view_.plan.lights.virtual_count;
   result.frame_ms = spread_of(frame_ms_);
   for (const PassRecord& record : view_.timer.records()) {
     result.passes.push_back({record.name, record.on, spread_of(record.ms).median, record.bytes_read,

@@ -51,12 +51,13 @@ void VirtualLights::look(const Light& light, uint32_t number, int side, double n
     if (seen_) {
       seen_->look(view);
     } else {
-      const TechniqueNeeds needs{.opengl = false, .shadows = false};
+      const TechniqueNeeds needs{.surfaces = {.opengl = false}, .shadows = {.asked_for = false}};
       seen_ = std::make_unique<RenderView>(renderer_, gpu_, view, settings_, needs);
     }
     RenderView& v = *seen_;
     // A lamp's own surface does not hide its light.
-    if (std::erase_if(v.plan.opaque, [&](int i) { return !scene_.instances[size_t(i)].casts_shadow; }) > 0)
+    if (std::erase_if(v.plan.surfaces.opaque,
+                      [&](int i) { return !scene_.instances[size_t(i)].casts_shadow; }) > 0)
       v.caches.follow(v);
     const VisibilityBuffer visible = rasterize(v, v.caches);
     const ReflectedLight reflected = resolve_reflected(v, v.caches.resolver, visible, number);

@@ -35,7 +35,7 @@ CapturedFrame SceneCapture::frame(const View& view, const SceneChanges& changes)
   return {scene.name,
           view,
           settings[setting::tile],
-          view_.plan.slice_far_m,
+          view_.plan.lists.far_m,
           lights_with_ranges(scene, ranges_of(settings)),
           std::move(depth)};
 }

@@ -53,14 +53,15 @@ CullerOptions culler_options(const Settings& settings) {
 
 TechniqueNeeds grid_needs(const std::string& technique, const Settings& settings) {
   TechniqueNeeds needs = find_technique(technique).needs;
-  if (!needs.light_grid) throw input_error("technique {}: shades from no light grid", technique);
-  needs.slices |= settings.given(setting::slices), needs.z_bins |= settings.given(setting::z_bins);
+  if (!needs.lists.light_grid) throw input_error("technique {}: shades from no light grid", technique);
+  needs.lists.slices |= settings.given(setting::slices),
+      needs.lists.z_bins |= settings.given(setting::z_bins);
   return needs;
 }
 
 Settings grid_settings(Settings settings, const TechniqueNeeds& needs) {
-  if (!needs.slices) settings.set(setting::slices, 1);
-  if (!needs.z_bins) settings.set(setting::z_bins, 1);
+  if (!needs.lists.slices) settings.set(setting::slices, 1);
+  if (!needs.lists.z_bins) settings.set(setting::z_bins, 1);
   return settings;
 }
 

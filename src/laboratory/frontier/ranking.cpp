@@ -211,7 +211,8 @@ bool draws_in_opencl(const std::string& label) {
   for (const Technique* technique : techniques()) {
     if (technique->name != name) continue;
     const TechniqueNeeds& needs = technique->needs;
-    return !needs.opengl || (needs.chosen_raster && label.find("raster=opencl") != std::string::npos);
+    return !needs.surfaces.opengl ||
+           (needs.surfaces.chosen_raster && label.find("raster=opencl") != std::string::npos);
   }
   return false;
 }

@@ -135,7 +135,7 @@ class VariantSeconds {
 
 bool is_grown(const ChosenPoint& point) {
   return !point.external && point.label == point.contestant.technique->name &&
-         point.contestant.technique->needs.light_grid;
+         point.contestant.technique->needs.lists.light_grid;
 }
 
 int TimeRounds::run() {

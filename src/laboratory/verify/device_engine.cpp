@@ -60,7 +60,7 @@ std::vector<glm::vec4> read_pixels(RenderView& v, const ShadedImage& image) {
 
 // A frame's shadows, and its surfaces if OpenCL's rasteriser drew them.
 ShadowImage shadow_image(RenderView& v, const Frame& frame) {
-  ShadowImage image{.lights = v.plan.local};
+  ShadowImage image{.lights = v.plan.lights.local};
   if (frame.shadows) image.shadows = frame.shadows();
   if (!frame.triangles) return image;
   std::vector<uint32_t> numbers(v.view.grid().pixels());
@@ -176,7 +176,7 @@ class DeviceEngine : public CullEngine {
       renderer_->kernels->alter(alter_);
     }
     GpuScene gpu(*renderer_, scene);
-    RenderView v(*renderer_, gpu, views.front(), settings, {.opengl = false});
+    RenderView v(*renderer_, gpu, views.front(), settings, {.surfaces = {.opengl = false}});
     std::vector<ShadowImage> images;
     for (const View& view : views) {
       if (!images.empty()) v.look(view);
@@ -234,7 +234,7 @@ class DeviceEngine : public CullEngine {
       if (renderer.gl) reset_gl_state();
       const Frame frame = technique.render(v);
       GroupImage& image = images.emplace_back();
-      image.lights = v.plan.local, image.tile = v.plan.settings[setting::tile];
+      image.lights = v.plan.lights.local, image.tile = v.plan.settings[setting::tile];
       image.pixels = read_pixels(v, frame.image);
       image.depths = depths_of(v, frame);
       image.lists =

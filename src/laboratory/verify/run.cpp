@@ -292,9 +292,10 @@ std::vector<CullView> replayed_views(const CapturedFrame& frame, const std::opti
           "z-bins and slice-spacing",
           key);
   }
-  const TechniqueNeeds needs{.slices = settings.given(setting::slices),
-                             .z_bins = settings.given(setting::z_bins)};
-  if (needs.slices || needs.z_bins) views.push_back(cull_view_of(frame, grid_settings(settings, needs)));
+  const TechniqueNeeds needs{
+      .lists = {.slices = settings.given(setting::slices), .z_bins = settings.given(setting::z_bins)}};
+  if (needs.lists.slices || needs.lists.z_bins)
+    views.push_back(cull_view_of(frame, grid_settings(settings, needs)));
   return views;
 }
 

@@ -195,7 +195,7 @@ TEST(Adding, AnEffectThatASettingStandsForIsNotInThePictureThatIsMeant) {
     const auto setting = std::ranges::find(setting_rows(), effect->base->meant_by, &SettingRow::key);
     ASSERT_NE(setting, setting_rows().end());
     for (const std::string& value : setting->values) {
-      FramePlan plan{.local = {0}};
+      FramePlan plan{.lights = {.local = {0}}};
       apply_setting(plan.settings, setting->key + "=" + value);
       ever_drawn = ever_drawn || effect->decide(scene, plan);
       plan.settings = meant_by(plan.settings);
@@ -229,6 +229,24 @@ TEST(Adding, ASettingTakesOneRow) {
   for (const std::string& key : keys) EXPECT_THAT(all, testing::Not(testing::HasSubstr(key)));
   for (const std::string& name : names)
     EXPECT_FALSE(std::regex_search(all, std::regex("setting::" + name + "\\b"))) << name;
+}
+
+// The number of data members that a struct declares.
+size_t members_of(const std::string& file, const std::string& name) {
+  const std::string code = code_of(text_at(file)), head = "struct " + name + " {\n";
+  const size_t begin = code.find(head);
+  if (begin == code.npos) return SIZE_MAX;
+  const std::string body = code.substr(begin + head.size(), code.find("\n};", begin) - begin - head.size());
+  const std::string flat = std::regex_replace(body, std::regex("<[^;<>]*>|\\([^;()]*\\)|\\{[^;{}]*\\}"), "");
+  return size_t(std::ranges::count_if(flat, [](char c) { return c == ';' || c == ','; }));
+}
+
+// Parts, not effects: an effect adds a member to its own part, or none.
+TEST(Adding, ThePlanAndTheNeedsHaveAMemberForEachPart) {
+  EXPECT_LE(members_of("src/engine/plan/frame_plan.h", "FramePlan"), 20u);
+  EXPECT_LE(members_of("src/engine/plan/technique_needs.h", "TechniqueNeeds"), 8u);
+  EXPECT_EQ(members_of("src/engine/plan/group_plan.h", "GroupPlan"), 5u) << "what is counted";
+  EXPECT_EQ(members_of("src/engine/plan/instance_boxes.h", "InstanceBox"), 10u) << "of lists as well";
 }
 
 // Its key, its values and its effect on the plan stand in the technique's own file, which `lightgrid
@@ -380,14 +398,14 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
 TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
   const std::map<std::string, std::vector<std::string>> texts = {
       {"answers",
-       {"real light_reaches(", "double light_reaches(", "plan.light_reaches = ", "plan.groups = "}},
+       {"real light_reaches(", "double light_reaches(", "plan.light_reaches = ", "plan.needed = "}},
   };
   const Naming expected = {
       {"src/engine/shared/light_table.h", {"answers"}},
       {"src/laboratory/oracle/attenuation.h", {"answers"}},
       // Shadows, and groups.
-      {"src/engine/plan/frame_plan.cpp", {"answers"}},
-      {"src/engine/plan/light_plan.cpp", {"answers"}},
+      {"src/engine/plan/shadow_plan.cpp", {"answers"}},
+      {"src/engine/plan/group_plan.cpp", {"answers"}},
   };
   EXPECT_THAT(differences(files_that_name({"src", "kernels", "shaders"}, texts), expected), IsEmpty());
 }

@@ -51,9 +51,10 @@ std::vector<SixSums> filled_sums(Renderer& renderer, const Scene& scene, const V
   settings.set(setting::raster, RasterApi::opencl);
   settings.set(setting::prepass_specular, PrepassSpecular::fifth_term);
   GpuScene gpu(renderer, scene);
-  RenderView v(renderer, gpu, view, settings,
-               {.light_grid = true, .lists = true, .z_bins = true, .chosen_raster = true});
-  if (!v.plan.light_grid) return std::vector<SixSums>(v.grid().values(), SixSums{});
+  RenderView v(
+      renderer, gpu, view, settings,
+      {.surfaces = {.chosen_raster = true}, .lists = {.light_grid = true, .z_bins = true, .no_masks = true}});
+  if (!v.plan.lists.light_grid) return std::vector<SixSums>(v.grid().values(), SixSums{});
   ClDevice& device = *renderer.cl;
   SharedBuffer& depth = v.shared_samples("depth", 4);
   write_buffer(device, "writing depth", depth.cl_buffer(), input.depth.data(), v.grid().values() * 4);

@@ -17,7 +17,8 @@
 namespace lightgrid {
 namespace {
 
-constexpr TechniqueNeeds gbuffer_needs{.light_grid = true, .lists = true, .z_bins = true, .opengl = false};
+constexpr TechniqueNeeds gbuffer_needs{.surfaces = {.opengl = false},
+                                       .lists = {.light_grid = true, .z_bins = true, .no_masks = true}};
 
 struct Filled {
   std::vector<uint8_t> bytes[gbuffer_most_images];
@@ -48,7 +49,7 @@ Filled filled(const Scene& scene, const View& view, const Settings& settings) {
   read_back(v, {0, g.image}, f.image);
   f.depth.resize(v.grid().values());
   read_buffer(*v.renderer.cl, "reading depth", visible.image.depth, f.depth.data(), f.depth.size() * 4);
-  f.opaque = v.plan.opaque;
+  f.opaque = v.plan.surfaces.opaque;
   return f;
 }
 

@@ -23,12 +23,10 @@
 namespace lightgrid {
 namespace {
 
-constexpr TechniqueNeeds needs{.light_grid = true,
-                               .lists = true,
-                               .z_bins = true,
+constexpr TechniqueNeeds needs{.lists = {.light_grid = true, .z_bins = true, .no_masks = true},
                                .adapt = [](TechniqueNeeds& needs, Settings& settings) {
-                                 needs.slices = settings.given(setting::slices);
-                                 needs.light_grid = settings[setting::lights] == ShadedLights::grid;
+                                 needs.lists.slices = settings.given(setting::slices);
+                                 needs.lists.light_grid = settings[setting::lights] == ShadedLights::grid;
                                }};
 
 struct Resolved {
@@ -42,7 +40,7 @@ std::vector<double_surfaces::Hit> hits_of(const RenderView& v, const std::vector
   for (uint32_t triangle : triangles) {
     double_surfaces::Hit& hit = hits.emplace_back();
     if (triangle == no_triangle) continue;
-    for (const int instance : v.plan.opaque) {
+    for (const int instance : v.plan.surfaces.opaque) {
       const uint32_t count = uint32_t(v.scene.meshes[v.scene.instances[instance].mesh].indices.size() / 3);
       if (triangle < count) {
         hit.instance = instance, hit.triangle = triangle;
@@ -59,7 +57,7 @@ Resolved resolved(const Scene& scene, const View& view, const Settings& settings
   RenderView v(test_devices(), gpu, view, settings, needs);
   const VisibilityBuffer visible = rasterize(v, v.caches);
   std::optional<ViewGrid> grid;
-  if (v.plan.light_grid)
+  if (v.plan.lists.light_grid)
     grid = cull_lights(v, v.culler(), v.opaque_grid(), depth_bounds(v, v.culler(), visible.depth()));
   Resolved r;
   read_back(v, resolve(v, v.caches.resolver, visible, grid ? from_grid(v, *grid) : every_light(v)), r.image);
@@ -85,7 +83,7 @@ struct Errors {
 Errors errors_of(const Scene& scene, const View& view, const Settings& settings = {}) {
   const Resolved r = resolved(scene, view, settings);
   const FramePlan plan = plan_frame(scene, view, settings, needs);
-  double_surfaces::Surfaces oracle(scene, view, plan.opaque);
+  double_surfaces::Surfaces oracle(scene, view, plan.surfaces.opaque);
   std::vector<uint32_t> pixels;
   Errors e{.pixels = r.hits.size()};
   for (uint32_t i = 0; i < r.hits.size(); ++i) {
@@ -252,7 +250,7 @@ TEST(ResolveKernels, HaveTheSameBytesInEveryShape) {
         Settings{{setting::tile, 64}, {setting::lights, ShadedLights::all}}}) {
     RenderView v(test_devices(), gpu, view, settings, needs);
     std::optional<ViewGrid> grid;
-    if (v.plan.light_grid)
+    if (v.plan.lists.light_grid)
       grid = cull_lights(v, v.culler(), v.opaque_grid(), depth_bounds(v, v.culler(), visible.depth()));
     read_back(v, resolve(v, v.caches.resolver, visible, grid ? from_grid(v, *grid) : every_light(v)),
               images.emplace_back());

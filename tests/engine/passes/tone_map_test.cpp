@@ -39,7 +39,8 @@ struct Given {
   Given(Renderer& renderer, int width, int height, double ev)
       : scene(small_scene().scene),
         gpu(renderer, scene),
-        view(renderer, gpu, small_view(width, height), bytes_at(ev), {.opengl = renderer.gl != nullptr}) {}
+        view(renderer, gpu, small_view(width, height), bytes_at(ev),
+             {.surfaces = {.opengl = renderer.gl != nullptr}}) {}
   static Settings bytes_at(double ev) {
     Settings settings;
     settings.set(setting::picture, PictureFormat::bytes), settings.set(setting::display_ev, ev);

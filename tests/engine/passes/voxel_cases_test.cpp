@@ -79,7 +79,8 @@ FilledVoxels filled_voxels(Renderer& renderer, const VoxelCase& of, VoxelSpace s
   add_spot(scene, "far", glm::vec3(of.view.eye + glm::dvec3(0, 1e6, 0)), glm::vec3(of.view.eye), {1, 1, 1}, 1,
            1, 10, 20);
   GpuScene gpu(renderer, scene);
-  RenderView v(renderer, gpu, of.view, settings, {.lists = true, .chosen_raster = true});
+  RenderView v(renderer, gpu, of.view, settings,
+               {.surfaces = {.chosen_raster = true}, .lists = {.no_masks = true}});
   build_voxels(v, v.caches.voxels, {});
   FilledVoxels filled{read_voxels(v, v.caches.voxels), {}, most_slope(of.view)};
   View along;

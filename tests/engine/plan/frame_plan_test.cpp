@@ -13,7 +13,8 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-constexpr TechniqueNeeds with_grid{.light_grid = true}, without_grid{.light_grid = false};
+constexpr TechniqueNeeds with_grid{.lists = {.light_grid = true}},
+    without_grid{.lists = {.light_grid = false}};
 
 const Decision& decision(const FramePlan& plan, const std::string& effect) {
   for (const Decision& d : plan.decisions) {
@@ -33,11 +34,12 @@ TEST(FramePlan, ThePlainSceneNeedsItsPointLightsAndNothingElse) {
     EXPECT_EQ(d.needed, d.effect == "point and spot lights" || d.effect == "light grid")
         << d.effect << ": " << d.why;
   }
-  EXPECT_EQ(plan.features, 0u);
-  EXPECT_EQ(plan.opaque, (std::vector<int>{0, 1}));
-  EXPECT_TRUE(plan.light_grid && plan.local_lights);
-  EXPECT_FALSE(plan.spots || plan.directional || plan.blend || plan.blend_grid || plan.mask);
-  EXPECT_EQ(plan.lights_in_view, 6);
+  EXPECT_EQ(plan.surfaces.features, 0u);
+  EXPECT_EQ(plan.surfaces.opaque, (std::vector<int>{0, 1}));
+  EXPECT_TRUE(plan.lists.light_grid && plan.lights.any_local);
+  EXPECT_FALSE(plan.lights.spots || plan.lights.any_directional || plan.surfaces.blend ||
+               plan.lists.blend_grid || plan.surfaces.mask);
+  EXPECT_EQ(plan.lights.in_view, 6);
 }
 
 TEST(FramePlan, EachEffectComesWithItsWitness) {
@@ -50,13 +52,13 @@ TEST(FramePlan, EachEffectComesWithItsWitness) {
     EXPECT_THAT(d.why, StartsWith(effect.witness)) << effect.name;
     EXPECT_THAT(describe(plan, s.scene), HasSubstr("yes " + effect.decision + ": " + effect.witness));
     if (!effect.define.empty()) {
-      EXPECT_THAT(defines_of(plan.features), testing::Contains(effect.define));
+      EXPECT_THAT(defines_of(plan.surfaces.features), testing::Contains(effect.define));
     }
-    EXPECT_EQ(plan.blend_grid, effect.name == "blend");
+    EXPECT_EQ(plan.lists.blend_grid, effect.name == "blend");
     EXPECT_EQ(decision(plan, "blended light grid").needed, effect.name == "blend");
-    EXPECT_EQ(plan.spots, effect.name == "spot");
-    EXPECT_EQ(plan.directional, effect.name == "directional");
-    EXPECT_EQ(plan.mask, effect.name == "mask");
+    EXPECT_EQ(plan.lights.spots, effect.name == "spot");
+    EXPECT_EQ(plan.lights.any_directional, effect.name == "directional");
+    EXPECT_EQ(plan.surfaces.mask, effect.name == "mask");
   }
 }
 
@@ -72,17 +74,19 @@ TEST(FramePlan, OfEveryInstanceAndOfPlainOnes) {
   const auto plan = [&](PlannedInstances instances) {
     return plan_frame(s.scene, small_view(320, 180), {}, with_grid, instances);
   };
-  EXPECT_TRUE(plan(PlannedInstances::in_view).opaque.empty());
+  EXPECT_TRUE(plan(PlannedInstances::in_view).surfaces.opaque.empty());
   const FramePlan every = plan(PlannedInstances::every), some = plan(PlannedInstances::plain);
-  EXPECT_EQ(every.opaque, (std::vector<int>{0, 1}));
-  EXPECT_EQ(every.blended, std::vector<int>{2});
-  EXPECT_EQ(some.opaque, std::vector<int>{1});
-  EXPECT_TRUE(every.blend && every.blend_grid && every.mask && every.base_lighting);
-  EXPECT_FALSE(some.blend || some.blend_grid || some.mask || some.base_lighting);
+  EXPECT_EQ(every.surfaces.opaque, (std::vector<int>{0, 1}));
+  EXPECT_EQ(every.surfaces.blended, std::vector<int>{2});
+  EXPECT_EQ(some.surfaces.opaque, std::vector<int>{1});
+  EXPECT_TRUE(every.surfaces.blend && every.lists.blend_grid && every.surfaces.mask &&
+              every.surfaces.base_lighting);
+  EXPECT_FALSE(some.surfaces.blend || some.lists.blend_grid || some.surfaces.mask ||
+               some.surfaces.base_lighting);
   s.scene.materials[s.scene.meshes[s.scene.instances[1].mesh].material].alpha_mode = AlphaMode::mask;
-  EXPECT_EQ(plan(PlannedInstances::plain).opaque, std::vector<int>{});
-  EXPECT_EQ(plan(PlannedInstances::plain_or_masked).opaque, std::vector<int>{1});
-  EXPECT_EQ(plan(PlannedInstances::plain_or_coated).opaque, std::vector<int>{1});
+  EXPECT_EQ(plan(PlannedInstances::plain).surfaces.opaque, std::vector<int>{});
+  EXPECT_EQ(plan(PlannedInstances::plain_or_masked).surfaces.opaque, std::vector<int>{1});
+  EXPECT_EQ(plan(PlannedInstances::plain_or_coated).surfaces.opaque, std::vector<int>{1});
 }
 
 // All effects added one after the other: none removes what another requires.
@@ -104,9 +108,9 @@ TEST(FramePlan, WhatIsAddedTakesNothingAway) {
 TEST(FramePlan, TakesTheSamplesThatTheSceneAsksForOrSaysWhyNot) {
   SmallScene s = small_scene();
   s.scene.samples = 4;
-  constexpr TechniqueNeeds of_opengl{.light_grid = true, .most_samples = 8}, of_one{.light_grid = true},
-      without_four{.most_samples = 8, .opengl_samples = false},
-      of_opencl{.opengl = false, .most_samples = 8, .opengl_samples = false};
+  constexpr TechniqueNeeds of_opengl{.lists = {.light_grid = true}, .samples = {.most = 8}},
+      of_one{.lists = {.light_grid = true}}, without_four{.samples = {.most = 8, .opengl = false}},
+      of_opencl{.surfaces = {.opengl = false}, .samples = {.most = 8, .opengl = false}};
   const auto expect = [&](const TechniqueNeeds& needs, const std::vector<std::string>& set, int samples,
                           const std::string& why) {
     Settings settings;
@@ -136,9 +140,9 @@ TEST(FramePlan, WhatIsOutOfViewDoesNotCount) {
     for (Instance& instance : s.scene.instances)
       instance.world_from_object = placed({0, 0, 20}) * instance.world_from_object;
     const FramePlan plan = plan_of(s.scene);
-    EXPECT_TRUE(plan.opaque.empty() && plan.blended.empty());
-    EXPECT_EQ(plan.features, 0u) << effect.name;
-    EXPECT_FALSE(plan.blend || plan.blend_grid || plan.mask) << effect.name;
+    EXPECT_TRUE(plan.surfaces.opaque.empty() && plan.surfaces.blended.empty());
+    EXPECT_EQ(plan.surfaces.features, 0u) << effect.name;
+    EXPECT_FALSE(plan.surfaces.blend || plan.lists.blend_grid || plan.surfaces.mask) << effect.name;
   }
 }
 
@@ -147,44 +151,44 @@ TEST(FramePlan, BlendedInstancesGoBackToFront) {
   effect("blend").add(s);
   const int pane = s.scene.instances.back().mesh;
   for (const double z : {-1.0, 0.5, -0.5}) add_instance(s.scene, "pane", pane, placed({0, 0, z}));
-  EXPECT_EQ(plan_of(s.scene).blended, (std::vector<int>{3, 5, 2, 4}));
+  EXPECT_EQ(plan_of(s.scene).surfaces.blended, (std::vector<int>{3, 5, 2, 4}));
 }
 
 TEST(FramePlan, ATechniqueWithoutAGridHasNone) {
   SmallScene s = small_scene();
   effect("blend").add(s);
   const FramePlan plan = plan_frame(s.scene, small_view(17, 9), {}, without_grid);
-  EXPECT_FALSE(plan.light_grid || plan.blend_grid);
-  EXPECT_TRUE(plan.blend && plan.local_lights);
+  EXPECT_FALSE(plan.lists.light_grid || plan.lists.blend_grid);
+  EXPECT_TRUE(plan.surfaces.blend && plan.lights.any_local);
   EXPECT_EQ(decision(plan, "light grid").why, "the technique reads none");
 }
 
 TEST(FramePlan, SlicesReachFromTheNearPlaneToTheFarthestThingInView) {
   SmallScene s = small_scene();
-  constexpr TechniqueNeeds clusters{.light_grid = true, .slices = true};
+  constexpr TechniqueNeeds clusters{.lists = {.light_grid = true, .slices = true}};
   const View view = small_view(17, 9);
   const FramePlan plan = plan_frame(s.scene, view, {{setting::slices, 8}}, clusters);
-  EXPECT_EQ(plan.slices, 8);
-  EXPECT_EQ(plan.slice_near_m, 0.1);
-  EXPECT_NEAR(plan.slice_far_m, 4, 1e-6);  // the wall
+  EXPECT_EQ(plan.lists.slices, 8);
+  EXPECT_EQ(plan.lists.near_m, 0.1);
+  EXPECT_NEAR(plan.lists.far_m, 4, 1e-6);  // the wall
   EXPECT_EQ(decision(plan, "depth slices").why, "8 from 0.1 m to 4 m");
   Camera near_far = look_at({0, 0, 0}, {0, 0, -1});
   near_far.far_m = 3.5;
-  EXPECT_NEAR(plan_frame(s.scene, make_view(near_far, 17, 9), {}, clusters).slice_far_m, 3.5, 1e-6);
-  EXPECT_EQ(plan_of(s.scene).slices, 1);
+  EXPECT_NEAR(plan_frame(s.scene, make_view(near_far, 17, 9), {}, clusters).lists.far_m, 3.5, 1e-6);
+  EXPECT_EQ(plan_of(s.scene).lists.slices, 1);
   EXPECT_EQ(decision(plan_of(s.scene), "depth slices").why, "the technique uses none");
   EXPECT_FALSE(decision(plan_frame(s.scene, view, {{setting::slices, 1}}, clusters), "depth slices").needed);
   EXPECT_FALSE(decision(plan_frame(small_scene(false).scene, view, {}, clusters), "depth slices").needed);
   const FramePlan empty = plan_frame({}, view, {}, clusters);
-  EXPECT_GT(empty.slice_far_m, empty.slice_near_m);
+  EXPECT_GT(empty.lists.far_m, empty.lists.near_m);
 }
 
 TEST(FramePlan, WithoutDepthBoundsOneGridServesAll) {
   SmallScene s = small_scene();
   effect("blend").add(s);
   const FramePlan plan = plan_of(s.scene, {{setting::depth_bounds, DepthBoundsMode::none}});
-  EXPECT_TRUE(plan.blend && plan.light_grid);
-  EXPECT_FALSE(plan.blend_grid);
+  EXPECT_TRUE(plan.surfaces.blend && plan.lists.light_grid);
+  EXPECT_FALSE(plan.lists.blend_grid);
   EXPECT_EQ(decision(plan, "blended light grid").why, "without depth bounds, one grid serves all surfaces");
 }
 
@@ -192,8 +196,8 @@ TEST(FramePlan, WithoutALightThatHasAPlaceThereIsNoGrid) {
   SmallScene s = small_scene(false);
   s.scene.lights.emplace_back().type = LightType::directional;
   const FramePlan plan = plan_of(s.scene);
-  EXPECT_FALSE(plan.light_grid || plan.local_lights || plan.spots);
-  EXPECT_TRUE(plan.directional);
+  EXPECT_FALSE(plan.lists.light_grid || plan.lights.any_local || plan.lights.spots);
+  EXPECT_TRUE(plan.lights.any_directional);
   EXPECT_EQ(decision(plan, "light grid").why, "no light has a place");
 }
 
@@ -201,26 +205,26 @@ TEST(FramePlan, IndicesGrowTo32BitsPast65536Lights) {
   SmallScene s = small_scene(false);
   s.scene.lights.resize(65536);
   s.scene.lights.emplace_back().type = LightType::directional;  // is in no list
-  EXPECT_EQ(plan_of(s.scene).index_bits, 16);
+  EXPECT_EQ(plan_of(s.scene).lights.index_bits, 16);
   s.scene.lights.emplace_back();
   const FramePlan plan = plan_of(s.scene);
-  EXPECT_EQ(plan.index_bits, 32);
+  EXPECT_EQ(plan.lights.index_bits, 32);
   EXPECT_EQ(decision(plan, "32-bit light indices").why, "65537 point and spot lights");
 }
 
 TEST(FramePlan, EverythingOnTurnsEveryEffectOn) {
   const FramePlan plan = plan_of(small_scene().scene, {{setting::everything_on, true}});
-  EXPECT_TRUE(plan.light_grid && plan.blend_grid && plan.local_lights && plan.spots && plan.directional &&
-              plan.blend && plan.mask);
-  EXPECT_EQ(plan.index_bits, 32);
-  EXPECT_EQ(plan.features, uint32_t(feature_all));
-  EXPECT_EQ(plan.features_of_instance, (std::vector<uint32_t>{feature_all, feature_all}));
+  EXPECT_TRUE(plan.lists.light_grid && plan.lists.blend_grid && plan.lights.any_local && plan.lights.spots &&
+              plan.lights.any_directional && plan.surfaces.blend && plan.surfaces.mask);
+  EXPECT_EQ(plan.lights.index_bits, 32);
+  EXPECT_EQ(plan.surfaces.features, uint32_t(feature_all));
+  EXPECT_EQ(plan.surfaces.features_of_instance, (std::vector<uint32_t>{feature_all, feature_all}));
 }
 
 TEST(FramePlan, ASceneOfNothing) {
   const Scene empty;
   const FramePlan plan = plan_of(empty);
-  EXPECT_TRUE(plan.opaque.empty() && plan.blended.empty() && plan.local.empty());
+  EXPECT_TRUE(plan.surfaces.opaque.empty() && plan.surfaces.blended.empty() && plan.lights.local.empty());
   for (const Decision& d : plan.decisions) EXPECT_FALSE(d.needed) << d.effect;
 }
 

@@ -15,7 +15,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr TechniqueNeeds reads_grid{.light_grid = true}, reads_no_grid{};
+constexpr TechniqueNeeds reads_grid{.lists = {.light_grid = true}}, reads_no_grid{};
 
 // Ahead, left, behind, right, and the same again: frames 0 and 4 show the scene.
 std::vector<PlanChange> along_two_turns(const Scene& scene, const Settings& settings = {},

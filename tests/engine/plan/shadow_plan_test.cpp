@@ -52,7 +52,7 @@ struct Room {
     add_instance(scene, scene.meshes[size_t(mesh)].name, mesh, placed(position, degrees));
   }
   FramePlan plan(const Settings& settings = {}) const { return plan_frame(scene, view, settings, {}); }
-  ShadowNeed need(const Settings& settings = {}) const { return plan(settings).casting.at(0).need; }
+  ShadowNeed need(const Settings& settings = {}) const { return plan(settings).shadows.casting.at(0).need; }
 };
 
 Room over_floor() {
@@ -66,8 +66,8 @@ TEST(ShadowPlan, NothingIsPlannedForLightsThatCastNothing) {
   room.put(room.box, {1, 0, 0});
   room.scene.lights[0].casts_shadow = false;
   const FramePlan plan = room.plan();
-  EXPECT_TRUE(plan.casting.empty() && plan.shadowed.empty());
-  EXPECT_FALSE(plan.shadows || plan.light_reaches);
+  EXPECT_TRUE(plan.shadows.casting.empty() && plan.shadows.shadowed.empty());
+  EXPECT_FALSE(plan.shadows.needed || plan.shadows.light_reaches);
   EXPECT_EQ(plan.decisions.back().why, "no light casts one");
 }
 
@@ -75,9 +75,9 @@ TEST(ShadowPlan, ACasterBetweenLightAndReceiverTakesRays) {
   Room room = over_floor();
   room.put(room.box, {1, 0, 0});
   const FramePlan plan = room.plan();
-  EXPECT_EQ(plan.casting.at(0).need, ShadowNeed::rays);
-  EXPECT_TRUE(plan.shadows && plan.light_reaches);
-  EXPECT_THAT(plan.shadowed, ElementsAre(1));
+  EXPECT_EQ(plan.shadows.casting.at(0).need, ShadowNeed::rays);
+  EXPECT_TRUE(plan.shadows.needed && plan.shadows.light_reaches);
+  EXPECT_THAT(plan.shadows.shadowed, ElementsAre(1));
   EXPECT_EQ(plan.decisions.back().why, "light 0 \"lamp\" reaches material 0 \"plaster\" on node 0 \"floor\"");
 }
 
@@ -92,9 +92,9 @@ TEST(ShadowPlan, LightsAreMarkedByTheirPlaceAmongPointAndSpotLightsThenDirection
   far.position.z = 100;
   room.scene.lights = {sun, dark, far, sun, lamp};
   const FramePlan plan = room.plan();
-  EXPECT_THAT(plan.shadowed, ElementsAre(0, 0, 1, 1, 1));
+  EXPECT_THAT(plan.shadows.shadowed, ElementsAre(0, 0, 1, 1, 1));
   std::vector<std::pair<int, ShadowNeed>> casting;
-  for (const LightShadow& light : plan.casting) casting.emplace_back(light.light, light.need);
+  for (const LightShadow& light : plan.shadows.casting) casting.emplace_back(light.light, light.need);
   EXPECT_THAT(casting, ElementsAre(std::pair(0, ShadowNeed::rays), std::pair(2, ShadowNeed::no_receiver),
                                    std::pair(3, ShadowNeed::rays), std::pair(4, ShadowNeed::rays)));
 }
@@ -105,15 +105,15 @@ TEST(ShadowPlan, LightLoopsAskInEveryViewOfASceneWithALightThatCasts) {
   room.put(room.box, {1, 0, 0});
   room.view = make_view(look_at({0, 2, 8}, {0, 2, 20}), 64, 64);
   FramePlan plan = room.plan();
-  EXPECT_FALSE(plan.shadows);
-  EXPECT_TRUE(plan.shadowed.empty() && plan.light_reaches);
+  EXPECT_FALSE(plan.shadows.needed);
+  EXPECT_TRUE(plan.shadows.shadowed.empty() && plan.shadows.light_reaches);
   EXPECT_EQ(plan.decisions.back().why, "light 0 \"lamp\": no receiver in view within its range");
   plan = plan_frame(room.scene, room.view, {}, {}, PlannedInstances::every);
-  EXPECT_TRUE(plan.shadows && plan.light_reaches);
-  EXPECT_THAT(plan.shadowed, ElementsAre(1));
+  EXPECT_TRUE(plan.shadows.needed && plan.shadows.light_reaches);
+  EXPECT_THAT(plan.shadows.shadowed, ElementsAre(1));
   plan = room.plan({{setting::everything_on, true}});
-  EXPECT_TRUE(plan.shadows && plan.light_reaches);
-  EXPECT_THAT(plan.shadowed, ElementsAre(1));
+  EXPECT_TRUE(plan.shadows.needed && plan.shadows.light_reaches);
+  EXPECT_THAT(plan.shadows.shadowed, ElementsAre(1));
 }
 
 // No caster.
@@ -178,8 +178,8 @@ TEST(ShadowPlan, AHiddenLightCastsNothing) {
   Room room;
   room.put(room.ball, {0, 1, 0});
   room.lamp({0, 1, 0}, 0);
-  EXPECT_TRUE(room.plan().casting.empty());
-  EXPECT_TRUE(room.plan({{setting::range, LightRange::infinite}}).casting.empty());
+  EXPECT_TRUE(room.plan().shadows.casting.empty());
+  EXPECT_TRUE(room.plan({{setting::range, LightRange::infinite}}).shadows.casting.empty());
 }
 
 TEST(ShadowPlan, RoundingMayMoveACasterIntoRange) {
@@ -357,7 +357,7 @@ TEST(ShadowPlan, ManyReceiversAreNotLookedAt) {
   for (int i = 0; i < 8; ++i) room.put(room.pane, {0, 0, -0.1 * i - 1});
   room.put(room.ball, {0, 1, 1.5});
   const auto need = [&] {
-    return plan_light_shadows(room.scene, room.view, {}, {}, room.plan().blended).at(0).need;
+    return plan_light_shadows(room.scene, room.view, {}, {}, room.plan().surfaces.blended).at(0).need;
   };
   EXPECT_EQ(need(), ShadowNeed::casters_behind);
   room.put(room.pane, {0, 0, -2});
@@ -368,14 +368,14 @@ TEST(ShadowPlan, DirectionalLightsNeedACasterAndAReceiver) {
   Room room = over_floor();
   room.scene.lights[0].type = LightType::directional;
   FramePlan plan = room.plan();
-  EXPECT_EQ(plan.casting.at(0).need, ShadowNeed::rays) << "the floor hides its own back";
-  EXPECT_TRUE(plan.shadows && plan.light_reaches && plan.directional_shadows);
+  EXPECT_EQ(plan.shadows.casting.at(0).need, ShadowNeed::rays) << "the floor hides its own back";
+  EXPECT_TRUE(plan.shadows.needed && plan.shadows.light_reaches && plan.shadows.directional);
   room.view = make_view(look_at({0, 2, 8}, {0, 2, 20}), 64, 64);
   plan = room.plan();
-  EXPECT_EQ(plan.casting.at(0).need, ShadowNeed::no_receiver);
-  EXPECT_TRUE(!plan.shadows && plan.light_reaches && plan.directional_shadows);
+  EXPECT_EQ(plan.shadows.casting.at(0).need, ShadowNeed::no_receiver);
+  EXPECT_TRUE(!plan.shadows.needed && plan.shadows.light_reaches && plan.shadows.directional);
   room.scene.instances.clear();
-  EXPECT_EQ(room.plan().casting.at(0).need, ShadowNeed::no_caster);
+  EXPECT_EQ(room.plan().shadows.casting.at(0).need, ShadowNeed::no_caster);
 }
 
 TEST(ShadowPlan, IsDescribedWithTheFirstLightOfEachKind) {
@@ -389,7 +389,7 @@ TEST(ShadowPlan, IsDescribedWithTheFirstLightOfEachKind) {
   EXPECT_THAT(describe(room.plan(), room.scene),
               HasSubstr("         3 no receiver in view within its range: light 0 \"hidden\", …\n"));
   room.scene.lights.clear();
-  EXPECT_EQ(describe_shadows(room.plan().casting, room.scene), "");
+  EXPECT_EQ(describe_shadows(room.plan().shadows.casting, room.scene), "");
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ void add_shares(TechniqueRun& run, const HostShadowLayer& layer, Shares& sum) {
     const Receiver receiver =
         stage.by_alpha.receiver(v.view, x, y, double(layer.depth[p]), {own.x, uint32_t(own.y)});
     for (uint32_t i = 0; i < lights.size(); ++i) {
-      const Light& light = v.scene.lights[size_t(v.plan.local[i])];
+      const Light& light = v.scene.lights[size_t(v.plan.lights.local[i])];
       if (!light.casts_shadow || !is_lit(lights[i], position_from_depth(v.view, x, y, layer.depth[p])))
         continue;
       const Sight sight = stage.without.sight(light, receiver).sight;
@@ -137,7 +137,7 @@ TEST(BlendedCasters, CostNothingWhereNothingBlendedCasts) {
       alpha(test_devices(), scene, view, by_alpha, find_technique("visibility"));
   none.run_frame(), alpha.run_frame();
   EXPECT_TRUE(identical(none.image(), alpha.image()));
-  EXPECT_FALSE(alpha.view().plan.shadow_bytes);
+  EXPECT_FALSE(alpha.view().plan.shadows.bytes);
   EXPECT_EQ(alpha.view().shadows.bytes(), none.view().shadows.bytes());
 }
 

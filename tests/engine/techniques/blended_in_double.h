@@ -31,7 +31,7 @@ inline BlendedInDouble blended_in_double(TechniqueRun& run, ShadowTruth& truth) 
   under.run_frame();
 
   std::map<int, size_t> order;  // of drawing, by instance
-  for (const int i : v.plan.blended) order.emplace(i, order.size());
+  for (const int i : v.plan.surfaces.blended) order.emplace(i, order.size());
   SceneSurfaces surfaces(v.scene, v.view);
   const std::vector<ViewLight> lights = lights_in_view(v.scene, v.view, ranges_of(v.plan.settings));
   struct Fragment {

@@ -32,7 +32,7 @@ BlendedPairs blended_pairs(Glazed& stage, TechniqueRun& run) {
     const auto seen = stage.truth.of_layer(run.view(), layer);
     ++all.layers;
     for (uint32_t pixel = 0; pixel < layer.depth.size(); ++pixel) {
-      for (uint32_t light = 0; light < run.view().plan.local.size(); ++light)
+      for (uint32_t light = 0; light < run.view().plan.lights.local.size(); ++light)
         all.hidden += seen->at(pixel, light) == Sight::hidden;
     }
   }

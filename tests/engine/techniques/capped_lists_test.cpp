@@ -69,9 +69,9 @@ std::pair<double, double> interval_at(const Listed& listed, const View& view, in
       near = std::min(near, distance(px, py)), far = std::max(far, distance(px, py));
     }
   }
-  const double here = distance(x, y), ratio = plan.slice_far_m / plan.slice_near_m;
-  for (int i = 1; i < plan.slices; ++i) {
-    const double edge = plan.slice_near_m * std::pow(ratio, double(i) / plan.slices);
+  const double here = distance(x, y), ratio = plan.lists.far_m / plan.lists.near_m;
+  for (int i = 1; i < plan.lists.slices; ++i) {
+    const double edge = plan.lists.near_m * std::pow(ratio, double(i) / plan.lists.slices);
     if (edge <= here) near = std::max(near, edge);
     if (edge > here) far = std::min(far, edge);
   }

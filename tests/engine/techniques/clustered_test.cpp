@@ -176,7 +176,7 @@ TEST(Clustered, WithoutDepthBoundsOneGridServesGlassToo) {
     TechniqueRun run(test_devices(), s.scene, view, {{setting::depth_bounds, DepthBoundsMode::none}},
                      find_technique(technique));
     run.run_frame();
-    EXPECT_FALSE(run.view().plan.blend_grid);
+    EXPECT_FALSE(run.view().plan.lists.blend_grid);
     EXPECT_FALSE(run.frame().blend_grid);
     EXPECT_TRUE(identical(run.image(), render(s.scene, view, "forward")));
   }

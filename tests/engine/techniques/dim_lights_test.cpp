@@ -52,12 +52,12 @@ TEST(DimLights, MoveNoPixelByMoreThanTheyMay) {
       exact.run_frame();
       const FramePlan& plan = run.view().plan;
       const double here = largest_step(run.image(), exact.image(), ev);
-      EXPECT_LE(here, plan.dim_steps) << "room " << i;
-      EXPECT_LT(plan.dim_steps, threshold) << "room " << i;
-      most = std::max(most, here), told = std::max(told, plan.dim_steps);
-      dim += size_t(std::ranges::count(plan.casting, ShadowNeed::too_dim, &LightShadow::need));
-      shadowed += size_t(std::ranges::count(plan.casting, ShadowNeed::rays, &LightShadow::need));
-      EXPECT_EQ(run.result().shadows->dim_steps, plan.dim_steps);
+      EXPECT_LE(here, plan.shadows.dim_steps) << "room " << i;
+      EXPECT_LT(plan.shadows.dim_steps, threshold) << "room " << i;
+      most = std::max(most, here), told = std::max(told, plan.shadows.dim_steps);
+      dim += size_t(std::ranges::count(plan.shadows.casting, ShadowNeed::too_dim, &LightShadow::need));
+      shadowed += size_t(std::ranges::count(plan.shadows.casting, ShadowNeed::rays, &LightShadow::need));
+      EXPECT_EQ(run.result().shadows->dim_steps, plan.shadows.dim_steps);
     }
     EXPECT_GT(dim, 15u) << threshold;
     EXPECT_GT(shadowed, 15u) << threshold;
@@ -130,7 +130,7 @@ TEST(DimLights, ManyOfThemTogetherAddNoMoreThanOneMay) {
     light.intensity = float(share_of_a_step / dark.steps());
     dark.scene.lights.assign(40, light);
     const FramePlan plan = plan_frame(dark.scene, dark.view, settings, {});
-    return std::ranges::count(plan.casting, ShadowNeed::too_dim, &LightShadow::need);
+    return std::ranges::count(plan.shadows.casting, ShadowNeed::too_dim, &LightShadow::need);
   };
   EXPECT_EQ(dim(0.9), 4);
   EXPECT_EQ(dim(0.09), 40);

@@ -240,7 +240,7 @@ TEST(FarLight, IsPlannedForTechniquesThatHaveIt) {
     return plan_frame(scene, view, with_far_light(512), needs).effects.size();
   };
   EXPECT_EQ(effects_with(find_technique("visibility").needs), 1u);
-  EXPECT_EQ(effects_with({.opengl = false, .shadows = false}), 0u);
+  EXPECT_EQ(effects_with({.surfaces = {.opengl = false}, .shadows = {.asked_for = false}}), 0u);
 }
 
 TEST(FarLight, IsNothingWhereNoLightEnds) {

@@ -144,7 +144,7 @@ size_t entries_outside(const Scene& scene, const char* technique, const std::str
       if (!(depth[pixel] > 0)) continue;
       const size_t cell = lists.cell_of_pixel[pixel];
       for (uint32_t k = 0; k < lists.count[cell]; ++k) {
-        const int light = run.view().plan.local[lists.indices[lists.first[cell] + k]];
+        const int light = run.view().plan.lights.local[lists.indices[lists.first[cell] + k]];
         outside += !(scene.lights[size_t(light)].groups & groups[size_t(y / tile * across + x / tile)]);
       }
     }

@@ -116,7 +116,7 @@ inline glm::dvec3 radiance_by_hand(const Scene& scene, const View& view, int x, 
 
 inline double error_by_hand(const Scene& scene, const View& view, const Image& image,
                             PrepassSpecular variant) {
-  const double scale = reference_light(scene, plan_frame(scene, view, {}, {.light_grid = true}));
+  const double scale = reference_light(scene, plan_frame(scene, view, {}, {.lists = {.light_grid = true}}));
   double most = 0, brightest = 0;
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {

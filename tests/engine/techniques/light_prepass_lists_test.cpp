@@ -44,7 +44,7 @@ TEST(LightPrepass, AddsTheSameLightFromListsAndFromVolumes) {
 TEST(LightPrepass, RoundsSumsOfListsOnce) {
   const Scene scene = with_effects({"normal_map", "spot"});
   const View view = small_view(71, 37);
-  const double scale = reference_light(scene, plan_frame(scene, view, {}, {.light_grid = true}));
+  const double scale = reference_light(scene, plan_frame(scene, view, {}, {.lists = {.light_grid = true}}));
   const Image exact = render(scene, view, "light_prepass", volumes(PrepassSpecular::plain, Brdf::lambert));
   Settings settings{{setting::brdf, Brdf::lambert},
                     {setting::buffer_bits, 8},

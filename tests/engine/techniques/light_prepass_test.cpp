@@ -124,7 +124,7 @@ TEST(LightPrepass, RoundsSumsByTheStepsOfItsBits) {
   constexpr int lamps = 4;
   const Scene scene = lit_wall(lamps, false, {1, 1, 1}, 0, 200);
   const View view = small_view(63, 37);
-  const double scale = reference_light(scene, plan_frame(scene, view, {}, {.light_grid = true}));
+  const double scale = reference_light(scene, plan_frame(scene, view, {}, {.lists = {.light_grid = true}}));
   EXPECT_EQ(scale, 8) << "3 cd at 6 m / 8: 5.3 lx";
   Settings settings = volumes(PrepassSpecular::plain, Brdf::lambert);
   const Image exact = render(scene, view, "light_prepass", settings);

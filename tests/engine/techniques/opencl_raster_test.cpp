@@ -77,7 +77,7 @@ TEST(RasterInOpenCl, IsVisibilitysPictureWithoutBaseLighting) {
   Scene scene = small_scene().scene;
   scene.ambient = {0.03f, 0.02f, 0.04f};
   const View view = small_view(47, 31);
-  ASSERT_FALSE(plan_frame(scene, view, {}, find_technique("deferred_tiled").needs).base_lighting);
+  ASSERT_FALSE(plan_frame(scene, view, {}, find_technique("deferred_tiled").needs).surfaces.base_lighting);
   expect_visibilitys_picture(scene, view);
 }
 

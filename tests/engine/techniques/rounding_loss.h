@@ -14,7 +14,7 @@ inline std::vector<glm::dvec3> shade_in_double(const RenderView& v, const Surfac
                                                const std::vector<uint32_t>& pixels) {
   const std::vector<ViewLight> all = lights_in_view(v.scene, v.view);
   std::vector<ViewLight> local;
-  for (int i : v.plan.local) local.push_back(all[i]);
+  for (int i : v.plan.lights.local) local.push_back(all[i]);
   const auto surface_at = [&](uint32_t pixel) {
     Surface surface = surface_of(surfaces, pixel);
     surface.emissive = {}, surface.unlit = false;

@@ -293,7 +293,7 @@ TEST(SampledLists, WithRoomForEveryLightNoByteChanges) {
       TechniqueRun run(test_devices(), scene, view_of(), assigned(sampled + std::string(cap)),
                        find_technique(technique));
       run.run_frame();
-      EXPECT_EQ(run.view().plan.sampled_lists, std::string(cap) == "64");
+      EXPECT_EQ(run.view().plan.lists.sampled, std::string(cap) == "64");
       EXPECT_TRUE(identical(run.image(), plain)) << technique << " " << cap;
       EXPECT_EQ(count_listed_pairs(run, read_depth(run)).lost, 0u);
     }

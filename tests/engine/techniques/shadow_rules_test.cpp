@@ -1,5 +1,5 @@
-// The plan's rules leave out work for shadows (plan/shadow_plan.h): the picture has the same bits as with all
-// of it, and the work left out costs no pass, ray or memory.
+// The plan's rules leave out work for shadows (plan/light_shadows.h): the picture has the same bits as with
+// all of it, and the work left out costs no pass, ray or memory.
 #include <gmock/gmock.h>
 
 #include <numbers>
@@ -22,9 +22,10 @@ using testing::Not;
 // Until the next look(): rays for every light that casts, whatever the rules say.
 void trace_all(TechniqueRun& run) {
   FramePlan& plan = run.view().plan;
-  plan.shadowed.clear();
-  for (const int i : plan.local) plan.shadowed.push_back(run.view().scene.lights[size_t(i)].casts_shadow);
-  plan.shadows = true;
+  plan.shadows.shadowed.clear();
+  for (const int i : plan.lights.local)
+    plan.shadows.shadowed.push_back(run.view().scene.lights[size_t(i)].casts_shadow);
+  plan.shadows.needed = true;
 }
 
 // A view of a scene with the rules, and the same with all rays.
@@ -58,7 +59,7 @@ TEST(ShadowRulesPicture, HasTheBitsOfAllRays) {
       SCOPED_TRACE(fmt::format("scene {}, {}, step {}", i, technique, step));
       both.draw();
       EXPECT_TRUE(identical(both.ruled.image(), both.full.image()));
-      for (const LightShadow& light : both.ruled.view().plan.casting) ++lights[light.need];
+      for (const LightShadow& light : both.ruled.view().plan.shadows.casting) ++lights[light.need];
       ruled += both.rays(both.ruled), full += both.rays(both.full);
       view.eye += double(random.uniform(0, 1)) * any_direction(random);
       both.ruled.look(view), both.full.look(view);
@@ -156,7 +157,7 @@ TEST_P(ShadowRule, LeavesOutAllWorkAndNoBit) {
   for (const char* technique : {"forward_plus", "visibility"}) {
     SCOPED_TRACE(technique);
     Ruled both(scene, view, technique);
-    ASSERT_EQ(both.ruled.view().plan.casting.at(0).need, GetParam().need);
+    ASSERT_EQ(both.ruled.view().plan.shadows.casting.at(0).need, GetParam().need);
     const ShadowWork ruled = work_of_shadows(both.ruled);
     trace_all(both.full);
     const ShadowWork full = work_of_shadows(both.full);
@@ -194,7 +195,7 @@ TEST(ShadowRulesPicture, HasNoShadowsOfTheFrameBefore) {
     gpu.update(changes);
     run.look(view, changes);
     run.run_frame();
-    EXPECT_FALSE(run.view().plan.shadows);
+    EXPECT_FALSE(run.view().plan.shadows.needed);
     EXPECT_TRUE(identical(run.image(), render(scene, view, technique))) << technique;
   }
 }

@@ -145,7 +145,7 @@ TEST(ShadowPicture, OfVoxelLightsHasNone) {
   TechniqueRun run(test_devices(), pictures.gpu, pictures.view, {}, find_technique("voxel_lights"));
   run.run_frame();
   EXPECT_FALSE(run.frame().shadows);
-  EXPECT_FALSE(run.view().plan.light_reaches);
+  EXPECT_FALSE(run.view().plan.shadows.light_reaches);
   EXPECT_GT(pictures.pairs(run).leaked, 1000u);
 }
 

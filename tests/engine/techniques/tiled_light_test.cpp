@@ -70,7 +70,7 @@ TEST(TiledLight, OfBothKernelShapesAndEveryLoop) {
 TEST(TiledLight, LosesIn16And8BitsJustWhatTheGeometryBufferRounds) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 95, 53);
-  ASSERT_TRUE(plan_frame(scene, view, {}, {}).base_lighting) << "ambient light would be rounded too";
+  ASSERT_TRUE(plan_frame(scene, view, {}, {}).surfaces.base_lighting) << "ambient light would be rounded too";
   expect_rounding_explains_the_loss("deferred_tiled", scene, view);
 }
 

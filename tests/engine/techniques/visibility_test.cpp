@@ -133,7 +133,7 @@ Distances distances_from_double(const Scene& scene, const View& view) {
   run.run_frame();
   const Image forward = render(scene, view, "forward");
   const std::vector<float> depth = read_depth(run);
-  double_surfaces::Surfaces surfaces(scene, view, run.view().plan.opaque);
+  double_surfaces::Surfaces surfaces(scene, view, run.view().plan.surfaces.opaque);
   const auto& hits = surfaces.hits();
   std::vector<uint32_t> inside;
   for (int y = 1; y + 1 < view.height; ++y) {

@@ -150,7 +150,7 @@ TEST(ZBins, AreNeitherBuiltNorKeptWhereTheyAreOff) {
   TechniqueRun on(test_devices(), scene, view, {{setting::z_bins, 16}}, find_technique("forward_plus"));
   off.run_frame(), on.run_frame();
   EXPECT_EQ(off.frame().grid.value().z_bin_bytes, 0u);
-  EXPECT_EQ(on.frame().grid.value().z_bin_bytes, 4 * on.view().plan.local.size());
+  EXPECT_EQ(on.frame().grid.value().z_bin_bytes, 4 * on.view().plan.lights.local.size());
   EXPECT_FALSE(off.view().opaque_grid().z_bins_.buffer);
 }
 

@@ -390,16 +390,16 @@ TEST(LightLimits, TheNearestOfAViewAreThoseOfViewCap) {
   Settings settings;
   settings.set(setting::view_cap, 256);
   const FramePlan plan = plan_frame(level.scene, level.view, settings, find_technique("visibility").needs);
-  ASSERT_EQ(plan.left_out.size(), plan.local.size());
+  ASSERT_EQ(plan.lights.left_out.size(), plan.lights.local.size());
   const LimitResult result = result_of(level, "filament/view");
   ASSERT_FALSE(result.holds());
   std::vector<int> left_out;
   const std::vector<ViewLight> lights = lights_in_view(level.scene, level.view);
   const Frustum frustum = frustum_of(level.view);
-  for (size_t i = 0; i < plan.local.size(); ++i) {
-    const ViewLight& light = lights[size_t(plan.local[i])];
-    if (plan.left_out[i] && may_see_sphere(frustum, light.position, light.radius_m))
-      left_out.push_back(plan.local[i]);
+  for (size_t i = 0; i < plan.lights.local.size(); ++i) {
+    const ViewLight& light = lights[size_t(plan.lights.local[i])];
+    if (plan.lights.left_out[i] && may_see_sphere(frustum, light.position, light.radius_m))
+      left_out.push_back(plan.lights.local[i]);
   }
   EXPECT_EQ(dropped(result), left_out);
   EXPECT_EQ(result.lost.size(), left_out.size());

@@ -114,7 +114,7 @@ TEST(Moving, BuildsNothingForWhatEntersTheView) {
   const View start = make_view(choose_camera(scene, ""), 48, 27);
   const auto effects_in = [&](const View& view) {
     const FramePlan plan = plan_frame(scene, view, {}, find_technique("deferred_tiled").needs);
-    return plan.blend + plan.base_lighting + plan.mask;
+    return plan.surfaces.blend + plan.surfaces.base_lighting + plan.surfaces.mask;
   };
   const std::vector<View> around = camera_path(scene, start, "turn:12");
   const auto [fewest, most] = std::ranges::minmax_element(around, {}, effects_in);

@@ -24,7 +24,7 @@ void expect_left_out_are_seen(const char* rays, double source_m) {
     const FramePlan plan = plan_frame(room.scene, room.view, settings, {});
     Scene left_out = room.scene, with_rays = room.scene;
     Random within(uint64_t(i) + 1);
-    for (const LightShadow& light : plan.casting) {
+    for (const LightShadow& light : plan.shadows.casting) {
       ++lights[light.need];
       Scene& of = light.need == ShadowNeed::rays ? with_rays : left_out;
       of.lights[size_t(light.light)].casts_shadow = false;

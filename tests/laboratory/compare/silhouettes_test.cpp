@@ -61,7 +61,7 @@ TEST(SilhouetteErrors, BothRasterisersTrianglesAreThoseInDouble) {
   TechniqueRun forward(software_devices(), s.scene, view, {}, find_technique("forward"));
   visibility.run_frame();
   forward.run_frame();
-  const auto expected = in_double(s.scene, view, visibility.view().plan.opaque);
+  const auto expected = in_double(s.scene, view, visibility.view().plan.surfaces.opaque);
   const auto own = own_triangles(visibility);
   const ShownTriangles shown = read_triangles(forward.view());
   EXPECT_LT(differing(own, expected), expected.size() / 200);

@@ -41,7 +41,7 @@ TEST(RendererWithoutOpenGl, DrawsVisibilitysBytes) {
 TEST(RendererWithoutOpenGl, RefusesTechniquesThatDrawWithIt) {
   const Scene scene = scene_with_glass();
   for (const Technique* technique : techniques()) {
-    if (!technique->needs.opengl) continue;
+    if (!technique->needs.surfaces.opengl) continue;
     EXPECT_THROW(TechniqueRun(opencl_alone(), scene, small_view(17, 9), {}, *technique), Error)
         << technique->name;
   }

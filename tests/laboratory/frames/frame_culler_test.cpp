@@ -191,7 +191,7 @@ TEST(FrameCuller, LosesNothingInSlicesAndZBins) {
       for (const GridLists lists : {GridLists::lists, GridLists::masks}) {
         const FrameGrid grid =
             cull(frame, {{setting::slices, 8}, {setting::z_bins, 64}, {setting::grid_lists, lists}},
-                 {.slices = true, .z_bins = true});
+                 {.lists = {.slices = true, .z_bins = true}});
         EXPECT_EQ(grid.lists.slices, 8);
         EXPECT_EQ(grid.slice_edges.size(), 7u);
         EXPECT_EQ(grid.z_bin_edges.size(), 63u);
@@ -212,11 +212,11 @@ TEST(FrameCuller, LosesNothingInSlicesAndZBins) {
 TEST(FrameCuller, GridsHaveWhatTheTechniqueAndTheSettingsAskFor) {
   Settings given;
   apply_setting(given, "tile=8");
-  EXPECT_FALSE(grid_needs("forward_plus", given).slices);
+  EXPECT_FALSE(grid_needs("forward_plus", given).lists.slices);
   apply_setting(given, "slices=8");
-  EXPECT_TRUE(grid_needs("forward_plus", given).slices);
-  EXPECT_TRUE(grid_needs("forward_plus", given).z_bins) << "where the setting says so";
-  EXPECT_TRUE(grid_needs("clustered", {}).slices);
+  EXPECT_TRUE(grid_needs("forward_plus", given).lists.slices);
+  EXPECT_TRUE(grid_needs("forward_plus", given).lists.z_bins) << "where the setting says so";
+  EXPECT_TRUE(grid_needs("clustered", {}).lists.slices);
   EXPECT_THROW(grid_needs("forward", {}), Error);
   const FrameGrid grid = cull(small_frame(), {{setting::slices, 8}, {setting::z_bins, 16}});
   EXPECT_EQ(grid.lists.slices, 1);

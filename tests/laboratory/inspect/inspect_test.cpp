@@ -127,7 +127,8 @@ TEST(Inspect, AgreesWithTheListsTheOracleAndItself) {
     for (const std::string& value : setting.values) {
       SCOPED_TRACE(setting.key + "=" + value);
       const Settings settings = frame_settings(frame, {setting.key + "=" + value});
-      const TechniqueNeeds needs{.slices = setting.key == "slices", .z_bins = setting.key == "z-bins"};
+      const TechniqueNeeds needs{
+          .lists = {.slices = setting.key == "slices", .z_bins = setting.key == "z-bins"}};
       FrameCuller culler(*software_devices().cl, *software_devices().kernels, frame, settings, needs);
       culler.run();
       const FrameGrid grid = culler.grid();

@@ -16,15 +16,15 @@ const GBufferLayout& gbuffer_layout(const Settings& settings) {
 
 std::vector<const char*> model_defines(const FramePlan& plan) {
   std::vector<const char*> defines;
-  if (plan.skin) defines.push_back("SKIN");
-  if (plan.minnaert) defines.push_back("MINNAERT");
+  if (plan.surfaces.skin) defines.push_back("SKIN");
+  if (plan.surfaces.minnaert) defines.push_back("MINNAERT");
   return defines;
 }
 
 namespace {
 
 void require_numbers(const Seen& seen) {
-  if (!seen.plan.skin && !seen.plan.minnaert) return;
+  if (!seen.plan.surfaces.skin && !seen.plan.surfaces.minnaert) return;
   const size_t models = material_models(seen.scene).size() - 1;
   if (models <= MOST_MODELS) return;
   throw input_error(
@@ -35,8 +35,8 @@ void require_numbers(const Seen& seen) {
 
 std::vector<size_t> images_of(const FramePlan& plan) {
   std::vector<size_t> images = {0, 1};
-  if (plan.clearcoat) images.push_back(gbuffer_coat);
-  if (plan.specular) images.push_back(gbuffer_specular);
+  if (plan.surfaces.clearcoat) images.push_back(gbuffer_coat);
+  if (plan.surfaces.specular) images.push_back(gbuffer_specular);
   return images;
 }
 

@@ -29,10 +29,10 @@ struct GBufferImage {
 //   [0]  normal x, y, z in view space; perceptual roughness
 //   [1]  base color red, green, blue; 1 + metallic + 2 * the model's number, -1 - metallic for unlit
 //        surfaces, 0 where nothing is
-// With FramePlan::clearcoat a third image:
+// With SurfacePlan::clearcoat a third image:
 //   [2]  of the coat: octahedral normal u, v in view space; perceptual roughness; factor, 0 where there is
 //        none. In 32 bits a negative factor: the normal is that of [0], stored without loss
-// With FramePlan::specular another one:
+// With SurfacePlan::specular another one:
 //   [3]  of the dielectric part: reflectance at normal incidence red, green, blue, as their square roots in 8
 //        and 16 bits; at grazing incidence
 // With light groups an image of its own has the numbers of masks (group_numbers.h).
@@ -76,7 +76,7 @@ inline constexpr GBufferLayout gbuffer_layouts[] = {
 
 // Where base lighting (ambient, emissive, directional, unlit color) is added. in_image: by the geometry pass;
 // light passes add to the image. in_light_pass: by the light pass, possible only for plain ambient light
-// (FramePlan::base_lighting); the geometry pass then writes no image.
+// (SurfacePlan::base_lighting); the geometry pass then writes no image.
 enum class BaseLighting { in_image, in_light_pass };
 
 // The same surfaces as plain bytes in OpenCL's memory, row 0 at the bottom: copied from OpenGL, or written

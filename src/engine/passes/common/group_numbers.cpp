@@ -13,7 +13,7 @@ const GroupNumberFormat& group_number_format(const Settings& settings) {
   return *std::ranges::find(group_number_formats, settings[setting::group_bits], &GroupNumberFormat::bits);
 }
 
-bool has_group_numbers(const FramePlan& plan) { return plan.groups && plan.group_stencil == 0; }
+bool has_group_numbers(const FramePlan& plan) { return plan.groups.needed && plan.groups.stencil_bits == 0; }
 
 size_t group_number_bytes(const FramePlan& plan) {
   return has_group_numbers(plan) ? group_number_format(plan.settings).bytes : 0;
@@ -23,10 +23,10 @@ namespace {
 
 void require_numbers_of(const Seen& seen) {
   const int bits = seen.plan.settings[setting::group_bits];
-  if (seen.plan.group_masks.size() <= size_t(1) << bits) return;
+  if (seen.plan.groups.masks.size() <= size_t(1) << bits) return;
   throw input_error(
       "scene \"{}\": instances have {} different masks of light groups; group-ids={} numbers {}: use {}",
-      seen.scene.name, seen.plan.group_masks.size(), bits, size_t(1) << bits,
+      seen.scene.name, seen.plan.groups.masks.size(), bits, size_t(1) << bits,
       bits == 8 ? "group-ids=16" : "forward techniques or visibility, which take any number");
 }
 
@@ -64,7 +64,7 @@ SharedBuffer& group_numbers_to_cl(Work& work, GLuint framebuffer, int attachment
 
 ClArguments group_number_arguments(const FramePlan& plan, SharedBuffer* numbers) {
   if (!numbers) return {};
-  return {{"group_numbers", numbers->cl_buffer()}, {"last_group", cl_uint(plan.group_masks.size() - 1)}};
+  return {{"group_numbers", numbers->cl_buffer()}, {"last_group", cl_uint(plan.groups.masks.size() - 1)}};
 }
 
 std::string group_number_define(const FramePlan& plan) {
@@ -93,9 +93,9 @@ StencilGroups stencil_groups(const Seen& seen) {
   std::vector<Members> groups;
   for (int group = 0; group < most_groups; ++group) {
     Members m;
-    for (const int light : plan.local)
+    for (const int light : plan.lights.local)
       m.lights.push_back(seen.scene.lights[size_t(light)].groups >> group & 1);
-    for (const uint32_t mask : plan.group_masks) m.masks.push_back(mask >> group & 1);
+    for (const uint32_t mask : plan.groups.masks) m.masks.push_back(mask >> group & 1);
     // A group whose pairs another one has too decides nothing.
     const auto covers = [&](const Members& other) {
       return is_part_of(m.lights, other.lights) && is_part_of(m.masks, other.masks);
@@ -106,12 +106,12 @@ StencilGroups stencil_groups(const Seen& seen) {
     });
     groups.push_back(std::move(m));
   }
-  StencilGroups out{std::vector<uint8_t>(plan.local.size()), std::vector<uint8_t>(plan.group_masks.size()),
-                    int(groups.size())};
-  if (out.bits > plan.group_stencil)
+  StencilGroups out{std::vector<uint8_t>(plan.lights.local.size()),
+                    std::vector<uint8_t>(plan.groups.masks.size()), int(groups.size())};
+  if (out.bits > plan.groups.stencil_bits)
     throw input_error(
         "scene \"{}\": its light groups need {} bits of a stencil, and group-stencil={} has {}: use {}",
-        seen.scene.name, out.bits, plan.settings[setting::group_stencil], plan.group_stencil,
+        seen.scene.name, out.bits, plan.settings[setting::group_stencil], plan.groups.stencil_bits,
         out.bits <= most_stencil_groups(plan.settings[setting::volume_culling])
             ? fmt::format("group-stencil={}", out.bits <= 6 ? 6 : 8)
             : "group-stencil=off");

@@ -1,6 +1,6 @@
 // Light groups for light passes over pixels, which do not know the instance there (scene/light_groups.h). Two
 // ways of Stone, "The Dark Side of Deferred Shading: Light Groups" (2009): an image beside the surfaces' has
-// the number of each pixel's mask (FramePlan::group_masks), which a table leads to the mask; or the stencil
+// the number of each pixel's mask (GroupPlan::masks), which a table leads to the mask; or the stencil
 // has a few groups, and the hardware tests them.
 #pragma once
 
@@ -42,8 +42,8 @@ std::string group_number_define(const FramePlan& plan);
 
 // Groups as bits of a stencil. Groups that decide alike share a bit, and those that decide nothing have none.
 struct StencilGroups {
-  std::vector<uint8_t> of_light;  // by index into FramePlan::local
-  std::vector<uint8_t> of_mask;   // by index into FramePlan::group_masks
+  std::vector<uint8_t> of_light;  // by index into LightPlan::local
+  std::vector<uint8_t> of_mask;   // by index into GroupPlan::masks
   int bits = 0;                   // that are needed
 };
 // Throws Error(input) where they need more bits than the plan has.

@@ -47,7 +47,7 @@ size_t bytes_of_light_buffer(const Settings& settings) {
 
 double reference_light(const Scene& scene, const FramePlan& plan) {
   double brightest = 0;
-  for (const int i : plan.local) {
+  for (const int i : plan.lights.local) {
     const Light& light = scene.lights[size_t(i)];
     const double range = range_of(light, size_t(i), ranges_of(plan.settings));
     const double from = std::isfinite(range) && range > 0 ? range / 8 : 1;
@@ -111,7 +111,7 @@ LightSource from_light_buffer(const Seen& seen, const LightBuffer& buffer) {
     for (std::string& define : light_buffer_defines(seen)) loop.defines.push_back(std::move(define));
     // Where nothing reads it, lights of another brightness need no other program.
     const bool read = seen.plan.settings[setting::prepass_specular] == PrepassSpecular::bent ||
-                      seen.plan.skin || seen.plan.minnaert;
+                      seen.plan.surfaces.skin || seen.plan.surfaces.minnaert;
     loop.defines.push_back(
         fmt::format("LIGHT_REFERENCE {:.17e}", read ? reference_light(seen.scene, seen.plan) : 1.0));
     loop.textures = {{Sampler::light_buffer, buffer.first}};

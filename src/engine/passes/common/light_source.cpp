@@ -19,7 +19,7 @@ GlLightLoop base_lighting(const Seen& seen) {
   GlLightLoop loop;
   if (seen.plan.settings[setting::brdf] == Brdf::blinn) loop.defines.emplace_back("BLINN");
   if (seen.plan.settings[setting::brdf] == Brdf::lambert) loop.defines.emplace_back("LAMBERT");
-  if (seen.plan.directional) loop.defines.emplace_back("DIRECTIONAL");
+  if (seen.plan.lights.any_directional) loop.defines.emplace_back("DIRECTIONAL");
   for (const std::string& define : reach_defines(seen.plan)) loop.defines.push_back(define);
   for (const Effect* effect : seen.plan.effects) {
     if (!effect->reach) loop.defines.push_back(define_of(*effect));
@@ -29,9 +29,9 @@ GlLightLoop base_lighting(const Seen& seen) {
 
 GlLightLoop light_loop(const Seen& seen) {
   GlLightLoop loop = base_lighting(seen);
-  if (seen.plan.local_lights) loop.defines.emplace_back("LIGHTS");
+  if (seen.plan.lights.any_local) loop.defines.emplace_back("LIGHTS");
   for (const char* define : light_table_defines(seen.plan)) loop.defines.emplace_back(define);
-  if (seen.plan.local.size() > longest_plain_loop) loop.defines.emplace_back("LONG_LOOPS");
+  if (seen.plan.lights.local.size() > longest_plain_loop) loop.defines.emplace_back("LONG_LOOPS");
   return loop;
 }
 

@@ -16,7 +16,7 @@ void CasterDraws::make_volumes(Work& work, const RayScene& rays) {
   if (shape == shape_ && instances == instances_ && lights == lights_ && ranges_ == ranges) return;
   shape_ = shape, instances_ = instances, lights_ = lights, ranges_ = ranges;
   std::vector<CastingLight> casting;
-  for (const int i : work.plan.local) {
+  for (const int i : work.plan.lights.local) {
     const Light& light = work.scene.lights[size_t(i)];
     casting.push_back({light.position, light.casts_shadow ? range_of(light, size_t(i), ranges) : 0});
   }

@@ -7,9 +7,9 @@
 
 namespace lightgrid {
 
-// light: an index into FramePlan::local.
+// light: an index into LightPlan::local.
 inline bool has_own_shadow(const FramePlan& plan, size_t light) {
-  return !plan.own_shadowed.empty() && plan.own_shadowed[light];
+  return !plan.shadows.own_shadowed.empty() && plan.shadows.own_shadowed[light];
 }
 
 class CasterDraws {

@@ -44,9 +44,9 @@ double still_radius(const LightBounds& bounds, VolumeMeshes meshes) {
 std::vector<LightExtent> still_extents(const Seen& seen) {
   std::vector<LightExtent> extents;
   const Settings& settings = seen.plan.settings;
-  const auto lights = lights_in_view(seen.scene, seen.view, ranges_of(settings), seen.plan.local);
+  const auto lights = lights_in_view(seen.scene, seen.view, ranges_of(settings), seen.plan.lights.local);
   for (size_t i = 0; i < lights.size(); ++i) {
-    const glm::dvec3 at = seen.scene.lights[size_t(seen.plan.local[i])].position;
+    const glm::dvec3 at = seen.scene.lights[size_t(seen.plan.lights.local[i])].position;
     const double radius = still_radius(bounds_of(lights[i]), settings[setting::volume_mesh]);
     extents.push_back({at - radius, at + radius, at, radius});
   }
@@ -60,14 +60,14 @@ bool contains(const LightVolume& volume, double radius) {
 }  // namespace
 
 LightIndexOrder::LightIndexOrder(Work& work)
-    : layout_(light_index_layout(work.plan.settings, work.plan.local.size(), share_bits_of(work))),
-      group_of_light_(work.plan.local.size(), no_group) {
+    : layout_(light_index_layout(work.plan.settings, work.plan.lights.local.size(), share_bits_of(work))),
+      group_of_light_(work.plan.lights.local.size(), no_group) {
   require_exact_blending(work, layout_);
   find_influence(work);
 }
 
 bool LightIndexOrder::follow(Work& work) {
-  if (group_of_light_.size() != work.plan.local.size()) return false;
+  if (group_of_light_.size() != work.plan.lights.local.size()) return false;
   grouped_ = false;
   find_influence(work);
   return true;
@@ -76,7 +76,7 @@ bool LightIndexOrder::follow(Work& work) {
 void LightIndexOrder::find_influence(const Seen& seen) {
   influence_.clear(), type_.clear();
   for (const ViewLight& light :
-       lights_in_view(seen.scene, seen.view, ranges_of(seen.plan.settings), seen.plan.local)) {
+       lights_in_view(seen.scene, seen.view, ranges_of(seen.plan.settings), seen.plan.lights.local)) {
     influence_.push_back(influence_of(light));
     type_.push_back(seen.plan.settings[setting::lidr_types] == LidrTypes::passes &&
                     light.type == LightType::spot);

@@ -39,18 +39,18 @@ void add(std::vector<uint32_t>& words, const float (&v)[3]) {
   for (const float each : v) words.push_back(std::bit_cast<uint32_t>(each));
 }
 
-// As FramePlan::shadowed has them.
+// As ShadowPlan::shadowed has them.
 std::vector<uint8_t> shadowed_of(const FramePlan& plan) {
-  std::vector<uint8_t> shadowed = plan.own_shadowed;
-  shadowed.resize(plan.local.size() + plan.directional_lights.size());
+  std::vector<uint8_t> shadowed = plan.shadows.own_shadowed;
+  shadowed.resize(plan.lights.local.size() + plan.lights.directional.size());
   return shadowed;
 }
 
 std::vector<uint32_t> light_words(const Seen& seen, const glm::dvec3& origin, const ShadowAtlas* atlas) {
   const FramePlan& plan = seen.plan;
   std::vector<uint32_t> words;
-  for (size_t i = 0; i < plan.local.size(); ++i) {
-    const size_t number = size_t(plan.local[i]);
+  for (size_t i = 0; i < plan.lights.local.size(); ++i) {
+    const size_t number = size_t(plan.lights.local[i]);
     const Light& light = seen.scene.lights[number];
     const glm::vec3 at(light.position - origin);
     const float range = std::min(float(range_of(light, number, ranges_of(plan.settings))), 1e18f);
@@ -203,7 +203,7 @@ GlLightLoop IndexShadows::input(Work& work) const {
 
 ShadowFigures IndexShadows::figures(const Work& work) const {
   ShadowFigures f;
-  f.lights = size_t(std::ranges::count(work.plan.own_shadowed, 1));
+  f.lights = size_t(std::ranges::count(work.plan.shadows.own_shadowed, 1));
   constexpr size_t depth_stencil = 8;
   f.bytes = corners_.bytes() + work.grid().values() * 4;
   if (casters_) f.bytes += casters_->memory_bytes() + work.grid().values() * depth_stencil;

@@ -16,7 +16,7 @@ constexpr uint32_t shadow_share_bits = 4;
 
 // 0: the view's light index images have no shares.
 inline uint32_t share_bits_of(const Seen& seen) {
-  return seen.plan.own_shadows && seen.plan.settings[setting::lidr_shadows] == LidrShadows::prepass_soft
+  return seen.plan.shadows.own && seen.plan.settings[setting::lidr_shadows] == LidrShadows::prepass_soft
              ? shadow_share_bits
              : 0;
 }

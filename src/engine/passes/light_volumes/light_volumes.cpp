@@ -224,7 +224,7 @@ LightVolumes::LightVolumes(Work& work) : array_(make_vertex_array()) {
   }
   vertices_ = make_buffer(positions.size() * sizeof(glm::vec3), positions.data());
   indices_ = make_buffer(indices.size() * sizeof(uint16_t), indices.data());
-  instance_bytes_ = work.plan.local.size() * sizeof(VolumeInstance);
+  instance_bytes_ = work.plan.lights.local.size() * sizeof(VolumeInstance);
   instances_ = make_buffer(instance_bytes_, nullptr);
   mesh_bytes_ = positions.size() * sizeof(glm::vec3) + indices.size() * sizeof(uint16_t);
 
@@ -247,18 +247,18 @@ LightVolumes::LightVolumes(Work& work) : array_(make_vertex_array()) {
 size_t LightVolumes::memory_bytes() const { return mesh_bytes_ + instance_bytes_; }
 
 bool LightVolumes::follow(Work& work) {
-  return instance_bytes_ == work.plan.local.size() * sizeof(VolumeInstance);
+  return instance_bytes_ == work.plan.lights.local.size() * sizeof(VolumeInstance);
 }
 
 const std::vector<LightVolume>& LightVolumes::update(const Seen& seen) {
   const std::vector<ViewLight> lights =
-      lights_in_view(seen.scene, seen.view, ranges_of(seen.plan.settings), seen.plan.local);
-  const PlannedLights planned = seen.plan.planned_lights;
+      lights_in_view(seen.scene, seen.view, ranges_of(seen.plan.settings), seen.plan.lights.local);
+  const PlannedLights planned = seen.plan.lights.planned;
   std::vector<LightVolume> volumes =
       planned == PlannedLights::in_view
           ? light_volumes(seen.view, lights, seen.plan.settings[setting::volume_mesh], subpixel_bits_)
           : whole_screens(seen.view, lights, planned);
-  if (seen.plan.group_stencil > 0) {
+  if (seen.plan.groups.stencil_bits > 0) {
     const std::vector<uint8_t> groups = stencil_groups(seen).of_light;
     std::ranges::stable_sort(volumes, {}, [&](const LightVolume& v) { return groups[v.light]; });
   }

@@ -43,7 +43,7 @@ struct LightVolume {
   static constexpr uint32_t everything = 0;  // a mesh in clip space, for lights that no sphere or cone can
                                              // enclose
 
-  uint32_t light;             // index into the given lights, which are FramePlan::local's
+  uint32_t light;             // index into the given lights, which are LightPlan::local's
   LightBounds bounds;         // bounds of the light
   uint32_t mesh;              // index into light_meshes()
   glm::dmat4 view_from_mesh;  // unused for `everything`

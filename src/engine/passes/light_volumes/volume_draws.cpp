@@ -30,12 +30,12 @@ VolumeDraws::VolumeDraws(Work& work, LightVolumes& volumes, const char* fragment
     : seen_(work), culling_(work.plan.settings[setting::volume_culling]), volumes_(volumes) {
   if (culling_ == VolumeCulling::depth_bounds) defines.emplace_back("DEPTH_BOUNDS");
   if (drawn_as_volumes()) defines.emplace_back("LIGHT_VOLUME");
-  if (work.plan.group_stencil > 0) defines.emplace_back("EARLY_TESTS");
+  if (work.plan.groups.stencil_bits > 0) defines.emplace_back("EARLY_TESTS");
   program_ = &work.program(drawn_as_volumes() ? "shaders/light_volume.vert" : "shaders/screen.vert", fragment,
                            defines);
   if (culling_ == VolumeCulling::stencil)
     marking_ = &work.program("shaders/light_volume.vert", "shaders/depth.frag", {});
-  if (work.plan.group_stencil > 0) groups_ = stencil_groups(work).of_light;
+  if (work.plan.groups.stencil_bits > 0) groups_ = stencil_groups(work).of_light;
 }
 
 // True where (stencil & groups) != 0.
@@ -135,7 +135,7 @@ void VolumeDraws::draw_rectangles(size_t first, size_t end) {
 void begin_adding_lights(Work& work, GLuint framebuffer) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-  if (work.plan.stencil && work.plan.group_stencil == 0) {
+  if (work.plan.stencil && work.plan.groups.stencil_bits == 0) {
     const GLint nothing = 0;
     glStencilMask(0xff);
     glClearNamedFramebufferiv(framebuffer, GL_STENCIL, 0, &nothing);

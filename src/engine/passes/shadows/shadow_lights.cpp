@@ -45,25 +45,26 @@ ShadowLight shadow_light(const Light& directional) {
 }  // namespace
 
 size_t shadow_light_count(const FramePlan& plan) {
-  return plan.local.size() + plan.directional_lights.size();
+  return plan.lights.local.size() + plan.lights.directional.size();
 }
 
 size_t shadow_table_words(const FramePlan& plan) { return (shadow_light_count(plan) + 31) / 32; }
 
 size_t shadow_entry_bytes(const FramePlan& plan) {
-  return (plan.shadow_bytes ? SHADOW_WORDS_OF_BYTES : SHADOW_WORDS_OF_BITS) * sizeof(uint32_t);
+  return (plan.shadows.bytes ? SHADOW_WORDS_OF_BYTES : SHADOW_WORDS_OF_BITS) * sizeof(uint32_t);
 }
 
 std::vector<CullLight> shining_lights(const Seen& seen) {
-  std::vector<CullLight> lights = cull_lights_of(seen.scene, seen.plan.local, ranges_of(seen.plan.settings));
-  for (const int i : seen.plan.directional_lights)
+  std::vector<CullLight> lights =
+      cull_lights_of(seen.scene, seen.plan.lights.local, ranges_of(seen.plan.settings));
+  for (const int i : seen.plan.lights.directional)
     lights.push_back({.direction = glm::dvec3(seen.scene.lights[size_t(i)].direction)});
   return lights;
 }
 
 std::vector<CullLight> shadowed_lights(const Seen& seen, std::vector<CullLight> lights) {
   for (size_t i = 0; i < lights.size(); ++i) {
-    if (!seen.plan.shadowed[i]) lights[i].radius_m = -1;
+    if (!seen.plan.shadows.shadowed[i]) lights[i].radius_m = -1;
   }
   return lights;
 }
@@ -72,15 +73,15 @@ std::vector<ShadowLight> shadow_light_records(const Seen& seen, const std::vecto
                                               const glm::dvec3& origin) {
   const Settings& settings = seen.plan.settings;
   std::vector<ShadowLight> records;
-  for (size_t i = 0; i < seen.plan.local.size(); ++i) {
+  for (size_t i = 0; i < seen.plan.lights.local.size(); ++i) {
     ShadowLight& record = records.emplace_back(shadow_light(shadowed[i], seen.view, origin));
-    const Light& light = seen.scene.lights[size_t(seen.plan.local[i])];
+    const Light& light = seen.scene.lights[size_t(seen.plan.lights.local[i])];
     if (soft_shadows(settings)) record.source_m = float(source_of(light, settings[setting::shadow_source_m]));
     record.groups = light.groups;
     record.luminance = light.intensity * glm::dot(light.color, glm::vec3(0.2126f, 0.7152f, 0.0722f)) *
                        float(share_of(seen.scene, light, ranges_of(settings)).largest);
   }
-  for (const int i : seen.plan.directional_lights)
+  for (const int i : seen.plan.lights.directional)
     records.push_back(shadow_light(seen.scene.lights[size_t(i)]));
   for (size_t i = 0; i < records.size(); ++i)
     if (shadowed[i].radius_m < 0) records[i].reach_squared = -1;
@@ -102,7 +103,7 @@ ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
 }
 
 ShadowInputs shadow_inputs(Work& work, const RayScene& rays) {
-  ShadowInputs inputs{work.view, work.scene.lights, shining_lights(work), work.plan.shadowed,
+  ShadowInputs inputs{work.view, work.scene.lights, shining_lights(work), work.plan.shadows.shadowed,
                       {},        rays.builds()};
   for (const Instance& i : work.scene.instances)
     inputs.instances.emplace_back(i.world_from_object, work.gpu.mesh_version(i.mesh));

@@ -10,7 +10,7 @@
 
 namespace lightgrid {
 
-// In the order of FramePlan::shadowed: point and spot lights, then directional ones.
+// In the order of ShadowPlan::shadowed: point and spot lights, then directional ones.
 size_t shadow_light_count(const FramePlan& plan);
 size_t shadow_table_words(const FramePlan& plan);  // pairs of words a tile (shared/shadow_bits.h)
 size_t shadow_entry_bytes(const FramePlan& plan);  // bytes per pair of a tile and a light

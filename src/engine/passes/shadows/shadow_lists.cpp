@@ -74,7 +74,7 @@ ShadowBands ShadowLists::bands(Work& work, ShadowRoom& room) {
   if (room.table_bytes + room.bit_bytes <= most_bytes && room.table_bytes <= most(GL_RG32UI) &&
       room.bit_bytes <= most(GL_R32UI))
     return {{{0, tiles(), pairs()}}, {}};
-  room = shadow_room(tiles(), words, size_t(std::ranges::count(plan.shadowed, 1)) * images(), entry,
+  room = shadow_room(tiles(), words, size_t(std::ranges::count(plan.shadows.shadowed, 1)) * images(), entry,
                      most_bytes, most(GL_RG32UI), most(GL_R32UI));
   std::vector<std::vector<glm::uvec2>> listed;
   std::vector<glm::uvec2> together(tiles());

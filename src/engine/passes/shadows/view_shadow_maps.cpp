@@ -39,8 +39,8 @@ void ViewShadowMaps::look(const Work& work, const RayScene& rays, const std::vec
                           bool keeps) {
   const glm::dvec3 origin = rays.origin();
   const FramePlan& plan = work.plan;
-  std::vector<size_t> numbers(plan.local.begin(), plan.local.end());
-  numbers.insert(numbers.end(), plan.directional_lights.begin(), plan.directional_lights.end());
+  std::vector<size_t> numbers(plan.lights.local.begin(), plan.lights.local.end());
+  numbers.insert(numbers.end(), plan.lights.directional.begin(), plan.lights.directional.end());
   std::vector<Light> lights;
   for (size_t i = 0; i < numbers.size(); ++i) {
     if (!shadowed[i]) continue;
@@ -54,7 +54,7 @@ void ViewShadowMaps::look(const Work& work, const RayScene& rays, const std::vec
         "shadow maps: {} faces of {} x {} texels need {} bytes, more than shadow-memory allows ({}): raise "
         "it, or let fewer lights cast",
         atlas_.faces.size(), least_shadow_size, least_shadow_size, atlas_.bytes, options_.most_bytes);
-  // In the order of FramePlan::shadowed; those without shadows have no face, and no kernel asks for them.
+  // In the order of ShadowPlan::shadowed; those without shadows have no face, and no kernel asks for them.
   std::vector<std::array<uint32_t, 2>> by_number(numbers.size());
   for (size_t i = 0, next = 0; i < numbers.size(); ++i)
     if (shadowed[i]) by_number[i] = atlas_.lights[next++];

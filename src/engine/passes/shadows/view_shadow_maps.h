@@ -25,7 +25,7 @@ class ViewShadowMaps {
   size_t drawn_lights() const { return drawn_lights_; }  // of the last frame
 
   // Options of kernels that look them up: -DSHADOW_MAP, and those of ShadowMaps. Lights are in the order of
-  // FramePlan::shadowed.
+  // ShadowPlan::shadowed.
   std::string defines() const { return " -DSHADOW_MAP " + maps_.defines(); }
   ClArguments arguments() const { return maps_.arguments(); }
 

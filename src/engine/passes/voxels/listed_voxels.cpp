@@ -21,7 +21,7 @@ class VoxelLister {
     along.view_from_world = glm::dmat4(r_.axes.from_world);
     along.eye = r_.axes.origin;
     for (const ViewLight& light :
-         lights_in_view(seen.scene, along, ranges_of(seen.plan.settings), seen.plan.local))
+         lights_in_view(seen.scene, along, ranges_of(seen.plan.settings), seen.plan.lights.local))
       lights_.push_back(bounds_of(light));
   }
 

@@ -48,7 +48,7 @@ void add_part(VisibleBox& box, const glm::dmat3& world_from_view, const ViewPara
 void add_tiles(VisibleBox& box, const Seen& seen, const glm::dmat3& world_from_view,
                const TileDistances& distances) {
   const ViewParams& p = seen.params;
-  const double near = seen.view.near_m, far = seen.plan.slice_far_m;
+  const double near = seen.view.near_m, far = seen.plan.lists.far_m;
   for (uint y = 0; y < p.tiles_y; ++y) {
     for (uint x = 0; x < p.tiles_x; ++x) {
       const DepthInterval i = distances.intervals[size_t(y) * p.tiles_x + x];
@@ -78,7 +78,7 @@ void add_instances(VisibleBox& box, const Seen& seen, const glm::dmat3& world_fr
     }
   }
   const double near = std::max(seen.view.near_m, all.nearest_m),
-               far = std::min(seen.plan.slice_far_m, all.farthest_m);
+               far = std::min(seen.plan.lists.far_m, all.farthest_m);
   if (!(near < far)) return;
   add_part(view, world_from_view, seen.params, {0, 0, seen.params.width, seen.params.height}, near, far);
   const glm::dvec3 low = glm::max(all.low, view.low), high = glm::min(all.high, view.high);
@@ -192,11 +192,11 @@ VisibleBox visible_box(const Seen& seen, const TileDistances& distances) {
   VisibleBox box{glm::dvec3(none), glm::dvec3(-none), none, -none};
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(seen.view.view_from_world));
   if (distances.intervals.empty()) {
-    add_instances(box, seen, world_from_view, seen.plan.opaque);
+    add_instances(box, seen, world_from_view, seen.plan.surfaces.opaque);
   } else {
     add_tiles(box, seen, world_from_view, distances);
   }
-  add_instances(box, seen, world_from_view, seen.plan.blended);
+  add_instances(box, seen, world_from_view, seen.plan.surfaces.blended);
   if (!(box.low.x <= box.high.x))
     add_part(box, world_from_view, seen.params, glm::dvec4(0), seen.view.near_m, seen.view.near_m);
   return box;
@@ -276,8 +276,8 @@ std::vector<uint32_t> neighbours_first(const std::vector<glm::dvec4>& lights) {
 
 void GroupedLights::sort(const Seen& seen) {
   std::vector<glm::dvec4> by;
-  by.reserve(seen.plan.local.size());
-  for (const int i : seen.plan.local) {
+  by.reserve(seen.plan.lights.local.size());
+  for (const int i : seen.plan.lights.local) {
     const Light& light = seen.scene.lights[i];
     by.emplace_back(light.position,
                     std::min(range_of(light, size_t(i), ranges_of(seen.plan.settings)), longest_radius_m));
@@ -297,13 +297,13 @@ void GroupedLights::update(Work& work, const VoxelAxes& axes) {
   const size_t padded = (groups_ + group - 1) / group * group;  // boxes are read by as many at once
   std::vector<float> places(4 * group * groups_, far_off), boxes(6 * padded, far_off);
   std::vector<glm::vec4> colors(group * groups_, glm::vec4(0)), cones;
-  if (work.plan.spots) cones.assign(2 * group * groups_, glm::vec4(0));
+  if (work.plan.lights.spots) cones.assign(2 * group * groups_, glm::vec4(0));
   for (size_t i = 0; i < places.size(); ++i) {
     if (i / group % 4 == 3) places[i] = 0;
   }
   brightest_ = 0;
   for (size_t n = 0; n < order_.size(); ++n) {
-    const ViewLight& light = lights[size_t(work.plan.local[order_[n]])];
+    const ViewLight& light = lights[size_t(work.plan.lights.local[order_[n]])];
     const size_t g = n / group, lane = n % group;
     const double radius = std::min(light.radius_m, longest_radius_m);
     const glm::vec3 at(glm::clamp(light.position, -double(far_off), double(far_off)));

@@ -13,7 +13,7 @@ static constexpr GLsizei indices_per_flush = 3 * 25'000;
 void InstanceDrawer::bind(int index, const SceneProgram& program) {
   if (&program == program_ && index == instance_) return;
   const int material = work_.scene.meshes[work_.scene.instances[index].mesh].material;
-  const uint32_t features = work_.plan.features_of_instance[index];
+  const uint32_t features = work_.plan.surfaces.features_of_instance[index];
   const bool positions_only = streams_ == DrawStreams::positions_where_possible && !(features & feature_mask);
   if (&program != program_) {
     glUseProgram(program.name);
@@ -39,7 +39,7 @@ void InstanceDrawer::bind(int index, const SceneProgram& program) {
   if (program.groups_of_draw >= 0)
     glUniform1i(program.groups_of_draw, GLint(work_.scene.instances[size_t(index)].groups));
   if (program.group_number_of_draw >= 0)
-    glUniform1ui(program.group_number_of_draw, work_.plan.group_of_instance[size_t(index)]);
+    glUniform1ui(program.group_number_of_draw, work_.plan.groups.of_instance[size_t(index)]);
   work_.scene.materials[material].double_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
   glFrontFace(t.mirrored ? GL_CW : GL_CCW);
   program_ = &program;
@@ -59,7 +59,7 @@ void InstanceDrawer::draw(const IndexRanges& ranges) {
 void draw_list(Work& work, const DrawList& list, DrawStreams streams, ScenePrograms& programs) {
   InstanceDrawer drawer(work, streams);
   for (const DrawItem& item : list) {
-    drawer.bind(item.instance, programs.of(work.plan.features_of_instance[item.instance]));
+    drawer.bind(item.instance, programs.of(work.plan.surfaces.features_of_instance[item.instance]));
     drawer.draw(item.ranges);
   }
 }

@@ -17,10 +17,10 @@ CullView cull_view(const View& view) {
 
 CullView cull_view(const View& view, const FramePlan& plan) {
   CullView culled = cull_view(view);
-  culled.slice_edges =
-      slice_edges(plan.settings[setting::slice_spacing], plan.slices, plan.slice_near_m, plan.slice_far_m);
-  culled.z_bin_edges =
-      slice_edges(plan.settings[setting::slice_spacing], plan.z_bins, plan.slice_near_m, plan.slice_far_m);
+  culled.slice_edges = slice_edges(plan.settings[setting::slice_spacing], plan.lists.slices,
+                                   plan.lists.near_m, plan.lists.far_m);
+  culled.z_bin_edges = slice_edges(plan.settings[setting::slice_spacing], plan.lists.z_bins,
+                                   plan.lists.near_m, plan.lists.far_m);
   return culled;
 }
 
@@ -63,9 +63,9 @@ CullerOptions culler_options(const FramePlan& plan) {
   options.samples = plan.settings[setting::samples];
   options.portable = plan.settings[setting::portable];
   options.group_size = plan.settings[setting::group_size];
-  options.blend = plan.blend_grid;
+  options.blend = plan.lists.blend_grid;
   options.lists = plan.settings[setting::grid_lists];
-  options.index_bits = plan.index_bits;
+  options.index_bits = plan.lights.index_bits;
   return options;
 }
 

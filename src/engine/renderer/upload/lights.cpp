@@ -16,7 +16,7 @@
 namespace lightgrid {
 namespace {
 
-// A column's values, one a light of plan.local.
+// A column's values, one a light of plan.lights.local.
 struct LightColumn {
   bool needed = false;  // by the plan; no values if not
   Sampler sampler{};    // of its buffer texture
@@ -59,10 +59,10 @@ uint32_t groups(const ViewLight& light) { return light.groups; }
 float most_falloff(const ViewLight& light) { return float(light.most_falloff); }
 
 // The conditions of LIGHT_TABLE.
-constexpr bool FramePlan::*IF_LIGHTS = &FramePlan::local_lights;
-constexpr bool FramePlan::*IF_SPOTS = &FramePlan::spots;
-constexpr bool FramePlan::*IF_VIRTUAL = &FramePlan::virtual_lights;
-constexpr bool FramePlan::*IF_GROUPS = &FramePlan::groups;
+constexpr auto IF_LIGHTS = [](const FramePlan& plan) { return plan.lights.any_local; };
+constexpr auto IF_SPOTS = [](const FramePlan& plan) { return plan.lights.spots; };
+constexpr auto IF_VIRTUAL = [](const FramePlan& plan) { return plan.lights.any_virtual; };
+constexpr auto IF_GROUPS = [](const FramePlan& plan) { return plan.groups.needed; };
 
 constexpr GLenum format_of(const glm::vec4&) { return GL_RGBA32F; }
 constexpr GLenum format_of(float) { return GL_R32F; }
@@ -84,23 +84,23 @@ LightColumn column(T (*value)(const ViewLight&), bool needed, Sampler sampler,
 // Adds the groups that follow the column.
 void add_other_groups(std::span<const ViewLight> lights, const FramePlan& plan, LightColumn& column) {
   std::vector<uint32_t> more;
-  for (const int i : plan.directional_lights) more.push_back(lights[size_t(i)].groups);
-  more.insert(more.end(), plan.group_masks.begin(), plan.group_masks.end());
+  for (const int i : plan.lights.directional) more.push_back(lights[size_t(i)].groups);
+  more.insert(more.end(), plan.groups.masks.begin(), plan.groups.masks.end());
   const auto bytes = std::as_bytes(std::span(more));
   column.values.insert(column.values.end(), bytes.begin(), bytes.end());
 }
 
 LightTable light_table(const FramePlan& plan, std::span<const ViewLight> lights) {
 #define LIGHT_COLUMN(condition, type, member, array, texels) \
-  column(member, plan.*condition, Sampler::array, lights, plan.local),
+  column(member, (condition)(plan), Sampler::array, lights, plan.lights.local),
   LightTable table{{LIGHT_TABLE(LIGHT_COLUMN)}, {}};
 #undef LIGHT_COLUMN
-  if (plan.groups) {
+  if (plan.groups.needed) {
     const auto of_groups =
         std::ranges::find(table.columns, Sampler::light_group_masks, &LightColumn::sampler);
     add_other_groups(lights, plan, *of_groups);
   }
-  for (int i : plan.directional_lights) {
+  for (int i : plan.lights.directional) {
     table.directional.emplace_back(glm::vec3(-lights[i].direction), 0);
     table.directional.emplace_back(glm::vec3(lights[i].radiant_intensity), 0);
   }
@@ -115,8 +115,8 @@ LightTable light_table(const Seen& seen) {
 
 std::vector<const char*> light_table_defines(const FramePlan& plan) {
   std::vector<const char*> defines;
-  if (plan.spots) defines.push_back("SPOTS");
-  if (plan.virtual_lights) defines.push_back("VIRTUAL_LIGHTS");
+  if (plan.lights.spots) defines.push_back("SPOTS");
+  if (plan.lights.any_virtual) defines.push_back("VIRTUAL_LIGHTS");
   const LightRanges ranges = ranges_of(plan.settings);
   if (window_of(ranges) == RangeWindow::smooth) defines.push_back("WINDOW_SMOOTH");
   if (window_of(ranges) == RangeWindow::none) defines.push_back("WINDOW_NONE");
@@ -127,7 +127,7 @@ std::vector<const char*> light_table_defines(const FramePlan& plan) {
 std::vector<std::string> reach_defines(const FramePlan& plan) {
   const std::vector<const char*> shadows = shadow_defines(plan);
   std::vector<std::string> defines(shadows.begin(), shadows.end());
-  if (plan.groups) defines.emplace_back("GROUPS");
+  if (plan.groups.needed) defines.emplace_back("GROUPS");
   for (const Effect* effect : plan.effects) {
     if (effect->reach) defines.push_back(define_of(*effect));
   }
@@ -136,9 +136,9 @@ std::vector<std::string> reach_defines(const FramePlan& plan) {
 
 std::vector<const char*> shadow_defines(const FramePlan& plan) {
   std::vector<const char*> defines;
-  if (plan.light_reaches) defines.push_back("SHADOWS");
-  if (plan.directional_shadows) defines.push_back("DIRECTIONAL_SHADOWS");
-  if (plan.light_reaches && plan.shadow_bytes) defines.push_back("SHADOW_BYTES");
+  if (plan.shadows.light_reaches) defines.push_back("SHADOWS");
+  if (plan.shadows.directional) defines.push_back("DIRECTIONAL_SHADOWS");
+  if (plan.shadows.light_reaches && plan.shadows.bytes) defines.push_back("SHADOW_BYTES");
   return defines;
 }
 
@@ -165,8 +165,8 @@ void GlLights::upload(const Seen& seen) {
     for (const float key : keys) values.emplace_back(key, 0, 0, 0);
     block.put(values.size() * sizeof values[0], values.data());
   };
-  put_keys(slice_block_, plan.light_grid && plan.slices > 1, slice_keys(culled));
-  put_keys(z_bin_block_, plan.z_bins > 1, z_bin_keys(culled));
+  put_keys(slice_block_, plan.lists.light_grid && plan.lists.slices > 1, slice_keys(culled));
+  put_keys(z_bin_block_, plan.lists.z_bins > 1, z_bin_keys(culled));
   const LightTable table = light_table(seen);
   light_bytes_ = 0;
   const auto put_lights = [&](Lights& lights, bool needed, Sampler sampler, GLenum format,
@@ -185,8 +185,8 @@ void GlLights::upload(const Seen& seen) {
     const LightColumn& column = table.columns[i];
     put_lights(lights_[i], column.needed, column.sampler, column.format, column.values);
   }
-  put_lights(lights_[light_column_count], plan.directional, Sampler::directional_lights, GL_RGBA32F,
-             table.directional);
+  put_lights(lights_[light_column_count], plan.lights.any_directional, Sampler::directional_lights,
+             GL_RGBA32F, table.directional);
 }
 
 void GlLights::bind() const {
@@ -225,8 +225,8 @@ void ClLights::upload(ClDevice& device, const Seen& seen) {
     }
     to.put(device, what, edges);
   };
-  put_edges(bin_edges, seen.plan.z_bins, z_bin_keys);
-  put_edges(slice_edges, seen.plan.slices, slice_keys);
+  put_edges(bin_edges, seen.plan.lists.z_bins, z_bin_keys);
+  put_edges(slice_edges, seen.plan.lists.slices, slice_keys);
 }
 
 size_t ClLightColumns::memory_bytes() const {
@@ -264,8 +264,8 @@ std::string light_defines(const Seen& seen, bool lanes, Brdf brdf) {
   std::string defines;
   if (lanes) defines += fmt::format(" -DTILE={}", seen.plan.settings[setting::tile]);
   if (lanes && seen.plan.settings[setting::portable]) defines += " -DPORTABLE";
-  if (seen.plan.index_bits == 32) defines += " -DINDEX_32";
-  if (seen.plan.z_bins > 1) defines += " -DZ_BINS";
+  if (seen.plan.lights.index_bits == 32) defines += " -DINDEX_32";
+  if (seen.plan.lists.z_bins > 1) defines += " -DZ_BINS";
   for (const char* define : light_table_defines(seen.plan)) defines += fmt::format(" -D{}", define);
   for (const std::string& define : reach_defines(seen.plan)) defines += fmt::format(" -D{}", define);
   if (brdf == Brdf::blinn) defines += " -DBLINN";

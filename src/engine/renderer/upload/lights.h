@@ -62,7 +62,7 @@ class GlLights {
 
 class ClLightColumns {
  public:
-  // lights: of the scene, along any axes; those of plan.local are uploaded.
+  // lights: of the scene, along any axes; those of plan.lights.local are uploaded.
   void upload(ClDevice& device, const FramePlan& plan, std::span<const ViewLight> lights);
   size_t memory_bytes() const;
 
