@@ -138,7 +138,7 @@ TEST(HuntOfSequences, AnimatedVisibilityDoesNotShowWhatWasKept) {
   }
 }
 
-TEST(HuntOfSequences, HardCasesOfContactsFindFaultsAfterMotion) {
+TEST(HuntOfStaleSequences, HardCasesOfContactsFindFaultsAfterMotion) {
   Faulty lights, casters(&SceneChanges::instances);
   for (const HardCase* hard_case : chosen_cases("^shadows/lights_(beside_a_wall|inside_slivers)$")) {
     EXPECT_TRUE(fails(*hard_case, lights, 0)) << hard_case->name;
@@ -146,7 +146,7 @@ TEST(HuntOfSequences, HardCasesOfContactsFindFaultsAfterMotion) {
   }
 }
 
-TEST(HuntOfSequences, FaultsAreFound) {
+TEST(HuntOfStaleSequences, FaultsAreFound) {
   Faulty lights, instances(&SceneChanges::instances), meshes(&SceneChanges::meshes);
   for (Faulty* fault : {&lights, &instances, &meshes}) {
     for (const SequenceKind& kind : sequence_kinds().first(2)) {
@@ -157,7 +157,7 @@ TEST(HuntOfSequences, FaultsAreFound) {
   }
 }
 
-TEST(HuntOfSequences, AStaleFrameFailsTheHuntAndItsSeedShowsItAgain) {
+TEST(HuntOfStaleSequences, AStaleFrameFailsTheHuntAndItsSeedShowsItAgain) {
   Faulty engine(&SceneChanges::instances);
   const HuntOptions hunted{.contacts = 600'000, .seed = 1, .filter = "^instances$"};
   const ShadowHuntReport report = hunt_shadows(engine, hunted);

@@ -6,30 +6,11 @@
 #include "plan/settings/grid.h"
 #include "plan/settings/kernels.h"
 #include "shared/cull_tests.h"
-#include "support/small_scene.h"
+#include "techniques/crowded_scene.h"
 #include "techniques/rendering.h"
 
 namespace lightgrid {
 namespace {
-
-struct BuiltinClustered : testing::TestWithParam<const char*> {
-  const Scene scene = find_builtin_scene(GetParam())->make();
-};
-
-TEST_P(BuiltinClustered, HasTheBytesOfEveryLightAtEveryPixelThroughEveryCamera) {
-  for (const Camera& camera : scene.cameras) {
-    SCOPED_TRACE(camera.name);
-    const View view = make_view(camera, 95, 53);
-    expect_exact(scene, view, {}, render(scene, view, "forward"), "clustered");
-  }
-  for (const glm::ivec2 size : {glm::ivec2(17, 9), glm::ivec2(1, 1)}) {
-    const View view = default_view(scene, size.x, size.y);
-    expect_exact(scene, view, {}, render(scene, view, "forward"), "clustered");
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinClustered, testing::Values("hall", "spheres", "terrain", "street"),
-                         [](const auto& info) { return std::string(info.param); });
 
 // Each test, bound, spacing and shape, in few combinations, because each needs kernel builds.
 const Settings some_of_each[] = {
@@ -53,19 +34,6 @@ const Settings some_of_each[] = {
      {setting::slice_spacing, SliceSpacing::linear}},
 };
 
-// The small scene with glass, a spot and many lamps.
-Scene crowded_scene() {
-  SmallScene s = small_scene();
-  for (const SceneEffect& effect : effects()) {
-    if (effect.name == "blend" || effect.name == "spot") effect.add(s);
-  }
-  for (int i = 0; i < 60; ++i) {
-    add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.9f + 0.03f * i}, {1, 1, 1}, 0.3f,
-              0.2f + 0.01f * i);
-  }
-  return s.scene;
-}
-
 TEST(Clustered, HasTheBytesUnderSomeOfEachSetting) {
   const Scene scene = crowded_scene();
   const View view = small_view(127, 73);
@@ -85,37 +53,6 @@ TEST(Clustered, OneSliceIsForwardPlus) {
   EXPECT_EQ(one.frame().grid.value().cell_bytes, plus.frame().grid.value().cell_bytes);
   EXPECT_EQ(one.frame().grid.value().index_count, plus.frame().grid.value().index_count);
   EXPECT_TRUE(identical(one.image(), plus.image()));
-}
-
-// Bitmasks instead of lists, for opaque surfaces and for glass, by tiles and by clusters; with counts of
-// lights around the width of a word, and a distant light as the first one.
-TEST(GridMasks, HaveTheBytesOfEveryLightAtEveryPixel) {
-  for (const int more : {0, 1, 25, 26, 27, 60}) {
-    SCOPED_TRACE(more);
-    SmallScene s = small_scene();
-    effect("blend").add(s);
-    for (int i = 0; i < more; ++i)
-      add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.2f + 0.03f * i}, {1, 1, 1}, 0.3f, 0.8f);
-    const View view = small_view(127, 73);
-    const Image forward = render(s.scene, view, "forward");
-    expect_exact(s.scene, view, {{setting::grid_lists, GridLists::masks}}, forward);
-    expect_exact(s.scene, view, {{setting::grid_lists, GridLists::masks}}, forward, "clustered");
-    expect_exact(s.scene, view,
-                 {{setting::depth_bounds, DepthBoundsMode::none}, {setting::grid_lists, GridLists::masks}},
-                 forward, "clustered");
-  }
-}
-
-TEST(GridMasks, HaveTheBytesOnBuiltinScenes) {
-  for (const char* name : {"hall", "spheres"}) {
-    SCOPED_TRACE(name);
-    const Scene scene = find_builtin_scene(name)->make();
-    const View view = default_view(scene, 95, 53);
-    const Image forward = render(scene, view, "forward");
-    for (const char* technique : {"forward_plus", "clustered"}) {
-      expect_exact(scene, view, {{setting::grid_lists, GridLists::masks}}, forward, technique);
-    }
-  }
 }
 
 TEST(GridMasks, OfNoLightsAreNothingAndEverythingOnChangesNoByte) {
@@ -141,30 +78,6 @@ TEST(Clustered, ListsFewerLightsThanTilesWhereDepthHasGaps) {
     listed[i] = count_listed_pairs(run, read_depth(run)).listed;
   }
   EXPECT_LT(listed[1], 0.9 * double(listed[0]));
-}
-
-View orthographic_small_view(double near_m) {
-  Camera camera = look_at({0, 0, 0}, {0, 0, -1});
-  camera.orthographic = true;
-  camera.half_width_m = camera.half_height_m = 2;
-  camera.near_m = near_m, camera.far_m = 10;
-  return make_view(camera, 127, 73);
-}
-
-TEST(Clustered, OrthographicViewsFiniteFarPlanesAndGlass) {
-  SmallScene s = small_scene();
-  effect("blend").add(s);
-  Camera ends = look_at({0, 0, 0}, {0, 0, -1});
-  ends.far_m = 4.5;
-  for (const View& view :
-       {orthographic_small_view(0), orthographic_small_view(-3), make_view(ends, 127, 73)}) {
-    const Image forward = render(s.scene, view, "forward");
-    EXPECT_GT(brightest_channel(forward), 0.2f);
-    for (const DepthBoundsMode bounds : {DepthBoundsMode::minmax, DepthBoundsMode::none}) {
-      expect_exact(s.scene, view, {{setting::depth_bounds, bounds}}, forward, "clustered");
-      expect_exact(s.scene, view, {{setting::depth_bounds, bounds}}, forward);
-    }
-  }
 }
 
 // Opaque and blended surfaces at all depths use the cells of one grid.
@@ -208,7 +121,7 @@ std::vector<uint32_t> cells_at(const RenderView& v, const std::vector<float>& de
 TEST(Clustered, ShadingFindsTheCellOfEveryPixelThatTheOracleTakes) {
   const Scene hall = find_builtin_scene("hall")->make(), small = small_scene().scene;
   const std::pair<const Scene*, View> cases[] = {{&hall, default_view(hall, 127, 73)},
-                                                 {&small, orthographic_small_view(0)}};
+                                                 {&small, orthographic_view(0)}};
   for (const auto& [scene, view] : cases) {
     for (const int slices : {1, 24, 64}) {
       TechniqueRun run(test_devices(), *scene, view, {{setting::slices, slices}},

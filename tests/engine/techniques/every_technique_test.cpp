@@ -1,5 +1,4 @@
 // Every technique in the registry, including new ones, draws forward's picture.
-#include "support/long_tests.h"
 #include "support/small_scene.h"
 #include "techniques/lidr_scenes.h"
 #include "techniques/rendering.h"
@@ -33,19 +32,6 @@ TEST_P(EveryTechnique, DrawsForwardsPictureWithAllEffects) {
   SmallScene s = small_scene();
   for (const SceneEffect& effect : effects()) effect.add(s);
   expect_forwards_picture(s.scene, small_view(47, 31), *GetParam());
-}
-
-// Each effect alone has shaders and kernels of its own in each technique, which take a second to build: every
-// technique draws a third of them, and each third of the techniques draws all.
-TEST_P(EveryTechnique, DrawsForwardsPictureWithOneEffect) {
-  const size_t place = std::ranges::find(techniques(), GetParam()) - techniques().begin();
-  for (size_t i = 0; i < effects().size(); ++i) {
-    if ((i + place) % 3 != 0 && !long_tests()) continue;
-    SmallScene s = small_scene();
-    effects()[i].add(s);
-    SCOPED_TRACE(effects()[i].name);
-    expect_forwards_picture(s.scene, small_view(47, 31), *GetParam());
-  }
 }
 
 // The image offset by a fraction of a pixel, as in temporal antialiasing: all passes must use the same

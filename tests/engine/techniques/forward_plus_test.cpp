@@ -1,4 +1,5 @@
-// Forward+ gives the bytes of the brute-force image, under every setting.
+// Forward+ gives the bytes of the brute-force image, under every setting. every_way_test.cpp has the scenes
+// that it shares with other techniques.
 #include <cmath>
 
 #include "plan/settings/cull_test.h"
@@ -15,37 +16,12 @@ struct BuiltinForwardPlus : testing::TestWithParam<const char*> {
   const Scene scene = find_builtin_scene(GetParam())->make();
 };
 
-TEST_P(BuiltinForwardPlus, HasTheBytesOfEveryLightAtEveryPixel) {
-  for (const glm::ivec2 size : {glm::ivec2(160, 90), glm::ivec2(17, 9), glm::ivec2(1, 1)}) {
-    SCOPED_TRACE(size.x);
-    const View view = default_view(scene, size.x, size.y);
-    const Image forward = render(scene, view, "forward");
-    if (size.x > 1) {
-      EXPECT_GT(brightest_channel(forward), 0.05f);
-    }
-    expect_exact(scene, view, {}, forward);
-  }
-}
-
 TEST_P(BuiltinForwardPlus, EveryEffectOnChangesNoByte) {
   const View view = default_view(scene, 160, 90);
   for (const char* technique : {"forward", "forward_plus"}) {
     EXPECT_TRUE(identical(render(scene, view, technique, {{setting::everything_on, true}}),
                           render(scene, view, technique)))
         << technique;
-  }
-}
-
-TEST_P(BuiltinForwardPlus, HasTheBytesThroughEveryCamera) {
-  ASSERT_FALSE(scene.cameras.empty());
-  for (const Camera& camera : scene.cameras) {
-    SCOPED_TRACE(camera.name);
-    const View view = make_view(camera, 95, 53);
-    const Image forward = render(scene, view, "forward");
-    expect_exact(scene, view, {}, forward);
-    // Without depth bounds nothing is treated as hidden.
-    EXPECT_TRUE(
-        identical(render(scene, view, "forward", {{setting::depth_bounds, DepthBoundsMode::none}}), forward));
   }
 }
 
@@ -84,41 +60,6 @@ TEST(ForwardPlus, HasTheBytesUnderEverySetting) {
       expect_exact(scene, view, {{setting::depth_bounds, mode}, {setting::tile, tile}}, forward);
     }
   }
-}
-
-TEST(ForwardPlus, CameraInsideALightAndLightsPastTheFarPlane) {
-  SmallScene s = small_scene();
-  add_point(s.scene, "around the eye", {0.1f, 0, 0.1f}, {1, 1, 1}, 5, 30);
-  add_point(s.scene, "past far", {0, 0, -4.6f}, {1, 0, 0}, 5, 2);
-  add_point(s.scene, "in front, past far", {0, 0.5f, -12}, {0, 1, 0}, 50, 9);
-  Camera camera = look_at({0, 0, 0}, {0, 0, -1});
-  camera.far_m = 4.5;
-  const View view = make_view(camera, 127, 73);
-  expect_exact(s.scene, view, {}, render(s.scene, view, "forward"));
-}
-
-TEST(ForwardPlus, OrthographicViews) {
-  SmallScene s = small_scene();
-  effect("blend").add(s);
-  Camera camera = look_at({0, 0, 0}, {0, 0, -1});
-  camera.orthographic = true;
-  camera.half_width_m = camera.half_height_m = 2;
-  camera.near_m = 0, camera.far_m = 10;
-  const View view = make_view(camera, 127, 73);
-  const Image forward = render(s.scene, view, "forward");
-  EXPECT_GT(brightest_channel(forward), 0.2f);
-  expect_exact(s.scene, view, {}, forward);
-}
-
-TEST(ForwardPlus, LightsThatReachEverywhereOrNowhere) {
-  SmallScene s = small_scene();
-  for (const float radius : {0.0f, 1e-40f, 1e20f, std::numeric_limits<float>::infinity()}) {
-    add_point(s.scene, "strange", {0.3f, 0.4f, -3.9f}, {1, 1, 1}, 1, radius);
-  }
-  const View view = small_view(127, 73);
-  const Image forward = render(s.scene, view, "forward");
-  EXPECT_EQ(count_nan_pixels(forward), 0u);
-  expect_exact(s.scene, view, {}, forward);
 }
 
 TEST(ForwardPlus, ALightAtTheEyeAndLightsOnTheSurface) {

@@ -1,7 +1,7 @@
 // z-bins: shading skips lights of its list, and the image keeps the bytes of every light at every pixel.
 #include "plan/settings/grid.h"
 #include "plan/settings/kernels.h"
-#include "support/small_scene.h"
+#include "techniques/crowded_scene.h"
 #include "techniques/rendering.h"
 
 namespace lightgrid {
@@ -10,16 +10,6 @@ namespace {
 struct BuiltinZBins : testing::TestWithParam<const char*> {
   const Scene scene = find_builtin_scene(GetParam())->make();
 };
-
-TEST_P(BuiltinZBins, HaveTheBytesOfEveryLightAtEveryPixelThroughEveryCamera) {
-  for (const Camera& camera : scene.cameras) {
-    SCOPED_TRACE(camera.name);
-    const View view = make_view(camera, 95, 53);
-    const Image forward = render(scene, view, "forward");
-    expect_exact(scene, view, {{setting::z_bins, 64}}, forward);
-    expect_exact(scene, view, {{setting::z_bins, 256}}, forward, "clustered");
-  }
-}
 
 constexpr const char* in_opencl[] = {"deferred_tiled", "forward_plus_compute"};
 
@@ -67,45 +57,8 @@ TEST(ZBins, AreCountedWhereOpenGlHasACopy) {
 INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinZBins, testing::Values("hall", "spheres", "terrain", "street"),
                          [](const auto& info) { return std::string(info.param); });
 
-SmallScene scene_with_glass() {
-  SmallScene s = small_scene();
-  for (const SceneEffect& effect : effects()) {
-    if (effect.name == "blend" || effect.name == "spot") effect.add(s);
-  }
-  for (int i = 0; i < 60; ++i) {
-    add_point(s.scene, "lamp", {0.05f * i - 1.5f, 0.3f, -3.9f + 0.03f * i}, {1, 1, 1}, 0.3f,
-              0.2f + 0.01f * i);
-  }
-  return s;
-}
-
-TEST(ZBins, HaveTheBytesWithGlassMasksLinearBinsAndNoDepthBounds) {
-  const Scene scene = scene_with_glass().scene;
-  Camera camera = look_at({0, 0, 0}, {0, 0, -1});
-  camera.orthographic = true;
-  camera.half_width_m = camera.half_height_m = 2;
-  camera.near_m = -3, camera.far_m = 10;
-  for (const View& view : {small_view(127, 73), small_view(1, 1), make_view(camera, 127, 73)}) {
-    const Image forward = render(scene, view, "forward");
-    for (const Settings& settings :
-         {Settings{{setting::slice_spacing, SliceSpacing::linear}, {setting::z_bins, 16}},
-          Settings{{setting::z_bins, 256}, {setting::grid_lists, GridLists::masks}},
-          Settings{{setting::depth_bounds, DepthBoundsMode::none},
-                   {setting::z_bins, 64},
-                   {setting::kernel_shape, KernelShape::group}}}) {
-      SCOPED_TRACE(testing::PrintToString(to_strings(settings)));
-      expect_exact(scene, view, settings, forward);
-      expect_exact(scene, view, settings, forward, "clustered");
-    }
-  }
-}
-
 TEST(ZBins, KeepOpenClsBytesWithGlassSmallTilesAndNoDepthBounds) {
-  const Scene scene = scene_with_glass().scene;
-  Camera camera = look_at({0, 0, 0}, {0, 0, -1});
-  camera.orthographic = true;
-  camera.half_width_m = camera.half_height_m = 2;
-  camera.near_m = -3, camera.far_m = 10;
+  const Scene scene = crowded_scene();
   const Settings in_small_tiles{
       {setting::tile, 8}, {setting::slice_spacing, SliceSpacing::linear}, {setting::z_bins, 64}};
   const Settings everywhere{
@@ -113,7 +66,7 @@ TEST(ZBins, KeepOpenClsBytesWithGlassSmallTilesAndNoDepthBounds) {
   for (const View& view : {small_view(127, 73), small_view(1, 1)}) {
     expect_the_bytes_of_none(scene, view, in_small_tiles, "deferred_tiled");
   }
-  expect_the_bytes_of_none(scene, make_view(camera, 127, 73), everywhere, "deferred_tiled");
+  expect_the_bytes_of_none(scene, orthographic_view(-3), everywhere, "deferred_tiled");
 }
 
 uint64_t listed(const Scene& scene, const View& view, const Settings& settings) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <regex>
 
 #include "frontier/answer.h"
 #include "frontier/fields.h"
@@ -82,6 +83,19 @@ nlohmann::json& largest_probability(nlohmann::json& frontier, const char* fronts
   return *largest;
 }
 
+void flip(nlohmann::json& value) { value = !value.get<bool>(); }
+
+void scale(nlohmann::json& value, double factor) { value = value.get<double>() * factor; }
+
+// The lines of recompute.py end with "N differ" or "N points differ".
+std::vector<int> counts_of_differences(const std::string& output) {
+  const std::regex count(": (\\d+)( points)? differ\n");
+  std::vector<int> counts;
+  for (std::sregex_iterator at(output.begin(), output.end(), count), end; at != end; ++at)
+    counts.push_back(std::stoi((*at)[1]));
+  return counts;
+}
+
 TEST(Recomputed, FrontsAndTimesAreThoseOfTheTables) {
   if (run_command("python3 --version 2>&1").status != 0) GTEST_SKIP() << "Python is not installed";
   const TempFolder folder;
@@ -105,41 +119,26 @@ TEST(Recomputed, FrontsAndTimesAreThoseOfTheTables) {
   EXPECT_GE(with_interval, 6);
   EXPECT_THAT(run.output, HasSubstr(fmt::format("{} break-evens with intervals: 0 differ", with_interval)));
 
+  // Against each reference and by each clock: a time, a front and a probability.
   nlohmann::json wrong = stated;
+  flip(wrong["points"][7]["fronts"]["total"]["on"]);
+  flip(wrong["points"][8]["fronts"]["authored"]["on"]);
+  scale(wrong["points"][9]["relative_time"]["ci95"][1], 1.0001);
+  flip(wrong["points"][7]["device_fronts"]["total"]["on"]);
+  flip(wrong["points"][8]["device_fronts"]["authored"]["on"]);
+  scale(wrong["points"][9]["relative_device_time"]["estimate"], 1.0001);
+  for (const char* fronts : {"fronts", "device_fronts"}) {
+    for (const char* of : {"total", "authored"}) {
+      nlohmann::json& probability = largest_probability(wrong, fronts, of);
+      probability = std::abs(probability.get<double>() - 0.2);
+    }
+  }
   for (nlohmann::json& b : wrong["break_even"]) {
     if (b["rounds"] > 0) b["ci95"][1] = b["ci95"][1].get<double>() * 1.001 + 1e-6;
   }
-  EXPECT_THAT(recompute(wrong).output, HasSubstr(fmt::format(": {} differ", with_interval)));
-  wrong = stated;
-  nlohmann::json& on_front = wrong["points"][7]["fronts"]["total"]["on"];
-  on_front = !on_front.get<bool>();
-  EXPECT_THAT(recompute(wrong).output, HasSubstr(": 1 points differ"));
-  wrong = stated;
-  nlohmann::json& other_front = wrong["points"][7]["fronts"]["authored"]["on"];
-  other_front = !other_front.get<bool>();
-  EXPECT_THAT(recompute(wrong).output, HasSubstr(": 1 points differ"));
-  wrong = stated;
-  nlohmann::json& high = wrong["points"][7]["relative_time"]["ci95"][1];
-  high = high.get<double>() * 1.0001;
-  EXPECT_THAT(recompute(wrong).output, HasSubstr(": 1 points differ"));
-  wrong = stated;
-  nlohmann::json& device = wrong["points"][7]["relative_device_time"]["estimate"];
-  device = device.get<double>() * 1.0001;
-  EXPECT_THAT(recompute(wrong).output, HasSubstr("by the devices' clocks: 1 points differ"));
-  for (const char* of : {"total", "authored"}) {
-    wrong = stated;
-    nlohmann::json& front = wrong["points"][7]["device_fronts"][of];
-    front["on"] = !front["on"].get<bool>();
-    EXPECT_THAT(recompute(wrong).output, HasSubstr("by the devices' clocks: 1 points differ"));
-    wrong = stated;
-    nlohmann::json& probability = largest_probability(wrong, "device_fronts", of);
-    probability = std::abs(probability.get<double>() - 0.2);
-    EXPECT_THAT(recompute(wrong).output, HasSubstr("probabilities of the front: 1 differ"));
-  }
-  wrong = stated;
-  nlohmann::json& probability = largest_probability(wrong, "fronts", "total");
-  probability = std::abs(probability.get<double>() - 0.2);
-  EXPECT_THAT(recompute(wrong).output, HasSubstr("probabilities of the front: 1 differ"));
+  EXPECT_THAT(counts_of_differences(recompute(wrong).output),
+              testing::ElementsAre(2, 1, 2, 1, 2, 1, 2, 1, with_interval));
+
   wrong = stated;
   wrong["points"].erase(7);
   EXPECT_NE(recompute(wrong).status, 0);
