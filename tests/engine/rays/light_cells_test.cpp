@@ -1,18 +1,15 @@
-// Light cells: rays through them have the tree's answers to the bit, and each list holds every triangle that
-// a ray into its cell meets.
+// Light cells: rays through them have the tree's answers to the bit.
 #include "rays/light_cells.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cstring>
-#include <set>
 
 #include "base/embedded.h"
 #include "cl/transfer.h"
 #include "rays/ray_packets.h"
 #include "rays/ray_scenes.h"
-#include "shared/ray_records.h"
 #include "support/long_tests.h"
 
 namespace lightgrid {
@@ -194,120 +191,6 @@ TEST_P(LightCellsInSoups, HaveTheTreesAnswersFarFromTheOrigin) {
     EXPECT_EQ(c.different, 0u) << metres;
     EXPECT_GT(c.hidden, 100u) << metres;
   }
-}
-
-template <typename T>
-std::vector<T> read_pool(const ClArgument& argument) {
-  cl_mem memory;
-  std::memcpy(&memory, argument.value, sizeof memory);
-  const cl::Buffer buffer(memory, true);
-  std::vector<T> values(bytes_of(buffer) / sizeof(T));
-  read_buffer(rays_device(), "cells", buffer, values.data(), values.size() * sizeof(T));
-  return values;
-}
-
-class HostCells {
- public:
-  HostCells(const LightCells& cells, const std::vector<CellLight>& lights)
-      : lights_(lights),
-        tables_(cells.tables(lights)),
-        starts_(read_pool<uint32_t>(cells.arguments()[0])),
-        entries_(read_pool<LightCellEntry>(cells.arguments()[1])),
-        triangles_(read_pool<LightCellTriangle>(cells.arguments()[2])) {}
-
-  // to: the way from a point light to a point; for a directional light, where the ray begins.
-  bool serve(size_t light, const glm::dvec3& to) const {
-    const LightCellGrid& g = tables_[light].grid;
-    const double along = g.toward[0] * to.x + g.toward[1] * to.y + g.toward[2] * to.z;
-    return tables_[light].size != 0 && glm::dot(to, to) <= double(tables_[light].squared) &&
-           (lights_[light].directional || g.top < -1 || along >= g.top * glm::length(to));
-  }
-
-  double length(size_t light, const glm::dvec3& to) const {
-    const LightCellGrid& g = tables_[light].grid;
-    return lights_[light].directional ? g.top - (g.toward[0] * to.x + g.toward[1] * to.y + g.toward[2] * to.z)
-                                      : glm::length(to);
-  }
-
-  std::span<const LightCellEntry> list(size_t light, const glm::dvec3& to) const {
-    const LightCellTable& table = tables_[light];
-    const uint32_t cell = lights_[light].directional ? of_grid(table, to) : of_cube(table, to);
-    const uint32_t* start = &starts_[table.first_start + cell];
-    return std::span(entries_).subspan(start[0], start[1] - start[0]);
-  }
-
-  // The place of an entry's triangle among the scene's.
-  uint32_t place(size_t light, const LightCellEntry& entry) const {
-    return lights_[light].directional ? entry.triangle - tables_[light].first_triangle
-                                      : std::bit_cast<uint32_t>(triangles_[entry.triangle].edge_0[3]);
-  }
-
- private:
-  static uint32_t of_grid(const LightCellTable& table, const glm::dvec3& at) {
-    const auto cell = [&](const float* axis) {
-      const double x = axis[0] * at.x + axis[1] * at.y + axis[2] * at.z + axis[3];
-      return uint32_t(std::clamp(x, 0.0, table.size - 1.0));
-    };
-    return cell(table.grid.v) * table.size + cell(table.grid.u);
-  }
-
-  static uint32_t of_cube(const LightCellTable& table, const glm::dvec3& to) {
-    const glm::dvec3 size = glm::abs(to);
-    const int along = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
-    const auto cell = [&](int k) {
-      return uint32_t(std::clamp((to[k] / size[along] + 1) * 0.5 * table.size, 0.0, table.size - 1.0));
-    };
-    const uint32_t face = uint32_t(2 * along + (to[along] < 0));
-    return face * (table.size * table.size + 1) + cell(along == 2 ? 1 : 2) * table.size +
-           cell(along == 0 ? 1 : 0);
-  }
-
-  std::vector<CellLight> lights_;
-  std::vector<LightCellTable> tables_;
-  std::vector<uint32_t> starts_;
-  std::vector<LightCellEntry> entries_;
-  std::vector<LightCellTriangle> triangles_;
-};
-
-// Each triangle that the oracle says is met is listed, with a bound that is no longer than the ray.
-TEST_P(LightCellsInSoups, ListWhateverARayMeets) {
-  const std::vector<Corners> triangles = hard_soups()[size_t(GetParam())].triangles;
-  RandomNumbers random(4);
-  Queries q = queries_of(triangles, 12, 1, 21);
-  add_hard_points(q, triangles, random);
-  const RayScene scene = scene_of(placed(triangles), {.origin = glm::dvec3(0)});
-  const std::vector<CellLight> lights = cell_lights(q, random);
-  LightCells cells(rays_device(), rays_programs());
-  cells.make(scene, lights, enough);
-  const HostCells host(cells, lights);
-  const std::vector<RayTriangle> placed_triangles = read_pool<RayTriangle>(scene.arguments()[1]);
-  size_t met = 0, missing = 0, unsorted = 0;
-  for (const RayPacket& packet : q.packets) {
-    for (int lane = 0; lane < 16; ++lane) {
-      const RayPoint& point = q.points[packet.block * 16 + uint32_t(lane)];
-      const glm::dvec3 light(q.lights[packet.light]), at(point.position),
-          to = lights[packet.light].directional ? at + double(point.gap) * light : at - light;
-      if (!host.serve(packet.light, to)) continue;
-      const std::span<const LightCellEntry> list = host.list(packet.light, to);
-      std::set<uint32_t> near;
-      float last = 0;
-      for (const LightCellEntry& entry : list) {
-        unsorted += entry.near < last, last = entry.near;
-        if (double(entry.near) <= host.length(packet.light, to))
-          near.insert(placed_triangles[host.place(packet.light, entry)].number);
-      }
-      const RayOracle::Line line(q.lights[packet.light], point);
-      for (uint32_t i = 0; i < triangles.size(); ++i) {
-        if (line.is_far(triangles[i]) ||
-            RayOracle::one(triangles[i], q.lights[packet.light], point) != Answer::yes)
-          continue;
-        ++met, missing += !near.contains(i);
-      }
-    }
-  }
-  EXPECT_EQ(missing, 0u);
-  EXPECT_EQ(unsorted, 0u);
-  EXPECT_GT(met, 10u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Soups, LightCellsInSoups, testing::Range(0, 6),

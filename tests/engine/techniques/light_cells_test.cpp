@@ -5,6 +5,7 @@
 #include <set>
 
 #include "scenes/builtin.h"
+#include "support/long_tests.h"
 #include "techniques/rendering.h"
 
 namespace lightgrid {
@@ -43,7 +44,7 @@ using Forms = std::vector<std::vector<std::string>>;
 // `common`: settings of the tree's pictures and of those by cells.
 void expect_the_trees_bytes(const BuiltinScene& builtin, const std::vector<std::string>& common,
                             const Forms& forms) {
-  if (builtin.large) GTEST_SKIP() << "a scene of millions of triangles";
+  if (builtin.large && !long_tests()) GTEST_SKIP() << "a scene of millions of triangles";
   Scene scene = builtin.make();
   for (Light& light : scene.lights) light.casts_shadow = true;
   const View view = default_view(scene, 97, 61);

@@ -389,6 +389,28 @@ TEST_P(UnchangedShadows, CostNoKernelAndNoBit) {
 INSTANTIATE_TEST_SUITE_P(Of, UnchangedShadows, testing::Values("deferred", "forward_plus", "visibility"),
                          [](const auto& info) { return std::string(info.param); });
 
+TEST(KeptMaps, OnlyThoseOfAChangedLightAreDrawn) {
+  Scene scene = shadowed_scene();
+  GpuScene gpu(test_devices(), scene);
+  const View view = small_view(45, 31);
+  Settings maps;
+  apply_setting(maps, "shadows=map");
+  Settings reuse = maps;
+  apply_setting(reuse, "shadow-reuse=on");
+  TechniqueRun run(test_devices(), gpu, view, reuse, find_technique("visibility"));
+  run.run_frame();
+  ShadowFigures figures = run.frame().shadow_figures();
+  EXPECT_GT(figures.maps, 4u);
+  EXPECT_EQ(figures.drawn, figures.maps);
+  scene.lights[2].position.x += 1e-3;
+  const SceneChanges changes{.lights = {2}};
+  gpu.update(changes), run.look(view, changes), run.run_frame();
+  figures = run.frame().shadow_figures();
+  EXPECT_EQ(figures.drawn, 1u);
+  EXPECT_EQ(figures.kept, figures.maps - 1);
+  EXPECT_TRUE(identical(run.image(), render(scene, view, "visibility", maps)));
+}
+
 // Where no light casts.
 
 // The passes of each technique, in a scene with glass, masks, point and spot lights and a sun.
