@@ -111,7 +111,7 @@ TEST_P(FaultyShadows, Fail) {
     EXPECT_TRUE(fails(*chosen[0], *engine, 0)) << name;
   }
   if (fault.hunted) {
-    const ShadowHuntReport report = hunt_shadows(*engine, {.contacts = 300'000,
+    const ShadowHuntReport report = hunt_shadows(*engine, {.contacts = 2'000'000,
                                                            .seed = fault.seed,
                                                            .filter = std::string("^") + fault.hunted + "$",
                                                            .frames = 0});
@@ -124,14 +124,14 @@ TEST_P(FaultyShadows, Fail) {
 TEST(HuntOfShadows, FindsNothingWrongAndCountsTheSameForTheSameSeed) {
   const auto engine = device_engine("");
   const HuntOptions options{
-      .contacts = 1'000'000, .seed = 5, .filter = "rooms|boxes|foliage|far_soups", .frames = 0};
+      .contacts = 4'000'000, .seed = 5, .filter = "rooms|boxes|foliage|far_soups", .frames = 0};
   auto first = to_json(hunt_shadows(*engine, options)), second = to_json(hunt_shadows(*engine, options));
   for (auto* json : {&first, &second}) {
     json->erase("seconds");
     for (auto& tally : (*json)["classes"]) tally.erase("seconds");
   }
   EXPECT_EQ(first, second);
-  EXPECT_GE(first["pairs"], 1'000'000);
+  EXPECT_GE(first["pairs"], 4'000'000);
   EXPECT_GT(first["hidden"], 10'000);
   EXPECT_EQ(first["leaked"], 0);
   EXPECT_EQ(first["acned"], 0);

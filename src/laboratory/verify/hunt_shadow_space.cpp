@@ -190,7 +190,7 @@ void add_lamps(Scene& scene, const ShadowTriangles& triangles, Random& random) {
 }
 
 View random_shadow_view(const ShadowTriangles& triangles, Random& random) {
-  constexpr int sizes[][2] = {{64, 64}, {97, 61}, {128, 96}, {33, 17}, {160, 90}, {7, 120}};
+  constexpr int sizes[][2] = {{128, 128}, {193, 121}, {256, 192}, {33, 17}, {320, 180}, {7, 120}};
   const auto& size = sizes[random.next() % std::size(sizes)];
   const dvec3 target = on_triangle(random, triangles[size_t(random.next() % triangles.size())]);
   const dvec3 eye = random.next() % 3 ? in_cube(random, 4)
