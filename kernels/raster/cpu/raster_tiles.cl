@@ -59,24 +59,24 @@ static inline float least_lane(float16 v) {
 
 static inline int edge_gain(Edge e, int x, int y) { return e.a * x + e.b * y; }
 
-// At places (x, y) of the tile, 1/256 pixel from its first pixel's centre. dx and dy are exact: multiples of
-// 1/256 below 2^16.
-static inline float16 plane_depth(const TileRecord* r, int x, int y, float16 across, float16 up) {
-  const float16 dx = (float)(r->dx + x) * (1.0f / 256) + across,
-                dy = (float)(r->dy + y) * (1.0f / 256) + up;
+// At offsets from the anchor, pixels.
+static inline float16 plane_depth(const TileRecord* r, float16 dx, float16 dy) {
   return lane_min(fma((float16)(r->zx), dx, fma((float16)(r->zy), dy, (float16)(r->z0))),
                   (float16)(r->z_max));
 }
 
 static inline TileRecord in_tile(global const RasterRecord* r, int pixel_x, int pixel_y) {
   TileRecord t;
+#pragma unroll
   for (int k = 0; k < 3; ++k) {
     const int next = k == 2 ? 0 : k + 1;
     t.edges[k] = edge_at(r->x[k], r->y[k], r->x[next], r->y[next], pixel_x, pixel_y);
   }
+#pragma unroll
   for (int k = 0; k < 3; ++k) {
     t.in_block[k] = t.edges[k].a * LANE_X + t.edges[k].b * LANE_Y;
     t.most_c[k] = edge_of_samples(t.edges[k]);
+#pragma unroll
     for (int s = 0; s < SAMPLES; ++s) t.sample_c[k][s] = edge_of_sample(t.edges[k], s);
   }
   const int2 anchor = anchor_pixel(r->zx, r->zy, r->box_low, r->box_high);
@@ -86,56 +86,64 @@ static inline TileRecord in_tile(global const RasterRecord* r, int pixel_x, int 
   return t;
 }
 
+// Stores what the samples that are `shown` see. before: what they saw.
+static inline __attribute__((always_inline)) void show(const TileRecord* r, uint at, const int16* shown,
+                                                       const float16* depth, const float16* before,
+                                                       Tile* tile) {
+  float16 nearest = FLT_MAX;
+#pragma unroll
+  for (int s = 0; s < SAMPLES; ++s) {
+    const float16 now = shown[s] ? depth[s] : before[s];
+    tile->depth[at][s] = now;
+    tile->triangle[at][s] = shown[s] ? (uint16)(r->triangle) : tile->triangle[at][s];
+    nearest = lane_min(nearest, now);
+  }
+  ((float*)tile->least)[at] = least_lane(nearest);
+}
+
 static inline __attribute__((always_inline)) void draw_block(const TileRecord* r, int block_x, int block_y,
                                                              const Place* place, Tile* tile) {
   const uint at = block_place(block_x, block_y);
-  float* least = (float*)tile->least + at;
-  if (r->z_max < *least) return;
+  if (r->z_max < ((const float*)tile->least)[at]) return;
   const int x = block_x * 4, y = block_y * 4;
   int16 gain[3];  // each edge's gain from the tile's first pixel
+#pragma unroll
   for (int k = 0; k < 3; ++k) gain[k] = r->in_block[k] + edge_gain(r->edges[k], x, y);
 #if SAMPLES > 1
   const int16 some = (gain[0] + r->most_c[0]) | (gain[1] + r->most_c[1]) | (gain[2] + r->most_c[2]);
   if (mask_bits(some >= 0) == 0) return;
 #endif
+  // Exact, as are the samples' offsets: multiples of 1/256 below 2^16.
+  const float16 dx = (float)(r->dx + x * 256) * (1.0f / 256) + convert_float16(LANE_X),
+                dy = (float)(r->dy + y * 256) * (1.0f / 256) + convert_float16(LANE_Y);
   int16 shown[SAMPLES];
-  float16 depth[SAMPLES];
-  uint samples = 0;  // that show some of it, a bit each
+  float16 depth[SAMPLES], before[SAMPLES];
+  uint any = 0;
 #pragma unroll
   for (int s = 0; s < SAMPLES; ++s) {
     const int16 sides =
         (gain[0] + r->sample_c[0][s]) | (gain[1] + r->sample_c[1][s]) | (gain[2] + r->sample_c[2][s]);
-    depth[s] = lane_max(plane_depth(r, x * 256 + SAMPLE_UNITS_X(s), y * 256 + SAMPLE_UNITS_Y(s),
-                                    convert_float16(LANE_X), convert_float16(LANE_Y)),
-                        (float16)(r->z_min));
-    const float16 before = tile->depth[at][s];
-    shown[s] = (sides >= 0) & (depth[s] >= before);
-    if (mask_bits(shown[s]) == 0) continue;
+    depth[s] = lane_max(plane_depth(r, dx + SAMPLE_X(s), dy + SAMPLE_Y(s)), (float16)(r->z_min));
+    before[s] = tile->depth[at][s];
     // Signed: RASTER_NONE is below every number.
-    shown[s] &= (depth[s] > before) | ((int16)((int)r->triangle) > as_int16(tile->triangle[at][s]));
-    samples |= 1u << s;
+    shown[s] = (sides >= 0) & (depth[s] >= before[s]) &
+               ((depth[s] > before[s]) | ((int16)((int)r->triangle) > as_int16(tile->triangle[at][s])));
+    any |= mask_bits(shown[s]);
   }
-  if (samples == 0) return;
+  if (any == 0) return;
 #ifdef ALPHA_MASKS
   if (r->alpha_material >= 0) {
-    int16 any = shown[0];
-    for (int s = 1; s < SAMPLES; ++s) any |= shown[s];
-    if (mask_bits(any) == 0) return;
+    int16 left[SAMPLES];
+    for (int s = 0; s < SAMPLES; ++s) left[s] = shown[s];
     const MaskedTriangle masked =
         masked_triangle(&place->masks, r->triangle, r->instance, (uint)r->alpha_material,
                         (float)(place->pixel_x + x), (float)(place->pixel_y + y));
-    apply_mask(&masked, BLOCK_DX, BLOCK_DY, shown);
+    apply_mask(&masked, BLOCK_DX, BLOCK_DY, left);
+    show(r, at, left, depth, before, tile);
+    return;
   }
 #endif
-  float16 nearest = FLT_MAX;
-#pragma unroll
-  for (int s = 0; s < SAMPLES; ++s) {
-    const float16 now = shown[s] ? depth[s] : tile->depth[at][s];
-    tile->depth[at][s] = now;
-    tile->triangle[at][s] = shown[s] ? (uint16)(r->triangle) : tile->triangle[at][s];
-    nearest = lane_min(nearest, now);
-  }
-  *least = least_lane(nearest);
+  show(r, at, shown, depth, before, tile);
 }
 
 // The blocks of a square in which the triangle may show. Depths grow or fall steadily along x and y,
@@ -144,6 +152,7 @@ static inline uint blocks_to_draw(const TileRecord* r, int square_x, int square_
   const int x = square_x * 16, y = square_y * 16;
   const int16 across = LANE_X * 4, up = LANE_Y * 4;
   int16 sides = 0;
+#pragma unroll
   for (int k = 0; k < 3; ++k) {
     const Edge e = r->edges[k];
     // At each block's pixel that lies farthest inside.
@@ -151,9 +160,9 @@ static inline uint blocks_to_draw(const TileRecord* r, int square_x, int square_
   }
   const int sample_x = r->zx > 0 ? most_gain(1, 0) : -most_gain(-1, 0),
             sample_y = r->zy > 0 ? most_gain(0, 1) : -most_gain(0, -1);
-  const float16 depth = plane_depth(r, x * 256 + sample_x, y * 256 + sample_y,
-                                    convert_float16(across + (r->zx > 0 ? 3 : 0)),
-                                    convert_float16(up + (r->zy > 0 ? 3 : 0)));
+  const float16 depth = plane_depth(
+      r, (float)(r->dx + x * 256 + sample_x) * (1.0f / 256) + convert_float16(across + (r->zx > 0 ? 3 : 0)),
+      (float)(r->dy + y * 256 + sample_y) * (1.0f / 256) + convert_float16(up + (r->zy > 0 ? 3 : 0)));
   return mask_bits((sides >= 0) &
                    (lane_max(depth, (float16)(r->z_min)) >= tile->least[square_y * 4 + square_x]));
 }
