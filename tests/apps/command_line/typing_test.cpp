@@ -1,6 +1,8 @@
-// Text typed at the command line: mistakes get one line that helps, and an option means the same in every
-// command.
+// Text typed at the command line: an option means the same in every command. Mistakes:
+// wrong_arguments_test.cpp.
 #include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>
@@ -8,75 +10,13 @@
 #include <set>
 #include <sstream>
 
-#include "support/gltf_builder.h"
 #include "support/read_files.h"
 #include "support/run_program.h"
 
 namespace lightgrid {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
-using testing::Not;
-
-struct Mistake {
-  std::vector<std::string> typed;
-  std::string helps;  // part of the line
-};
-
-// FOLDER stands for a folder of the test.
-const Mistake mistakes[] = {
-    {{"rendre", "hall"}, "there is no command rendre; did you mean render?"},
-    {{"comapre"}, "did you mean compare?"},
-    {{"tech"}, "did you mean techniques?"},
-    {{"render", "hall", "--sise", "64x36"}, "render has no option --sise; did you mean --size?"},
-    {{"compare", "hall", "--technque", "forward"}, "did you mean --technique?"},
-    {{"compare", "hall", "--ouput=FOLDER/r"}, "did you mean --output?"},
-    {{"verify", "--fliter", "depth"}, "verify has no option --fliter; did you mean --filter?"},
-    {{"render", "hal", "-o", "FOLDER/x.png"}, "did you mean hall?"},
-    {{"compare", "hall", "terrian", "-o", "FOLDER/r"}, "did you mean terrain?"},
-    {{"render", "hall", "-t", "forwardplus", "-o", "FOLDER/x.png"}, "did you mean forward_plus?"},
-    {{"compare", "hall", "-t", "forward,visiblity", "-o", "FOLDER/r"}, "did you mean visibility?"},
-    {{"compare", "hall", "-t", "Forward-Plus,defered", "-o", "FOLDER/r"}, "did you mean forward_plus?"},
-    {{"render", "hall", "-t", "forward,forward_plus", "-o", "FOLDER/x.png"}, "compare takes several"},
-    {{"render", "hall", "-t", "forward", "--set", "slices=8", "-o", "FOLDER/x.png"},
-     "--set slices: forward does not read it"},
-    {{"compare", "hall", "-t", "forward,forward_plus", "--set", "slices=8", "-o", "FOLDER/r"},
-     "--set slices: forward, forward_plus do not read it"},
-    {{"render", "spheres", "--camera-path", "turn:0", "-o", "FOLDER/x.png"},
-     "--camera-path turn:0: not turn:N"},
-    {{"render", "spheres", "--exposure", "bright", "-o", "FOLDER/x.png"},
-     "--exposure bright: neither auto nor a number"},
-    {{"render", "spheres", "--exposure", "100", "-o", "FOLDER/x.png"}, "from -60 to 60"},
-    {{"render", "spheres", "--set", "tyle=8", "-o", "FOLDER/x.png"}, "did you mean tile?"},
-    {{"render", "spheres", "--set", "range=cut-off", "-o", "FOLDER/x.png"}, "did you mean cutoff?"},
-    {{"render", "spheres", "--set", "cutoff=0", "-o", "FOLDER/x.png"},
-     "--set cutoff=0: cutoff is a number from"},
-    {{"verify", "--gl", "glx", "--list"}, "\"glx\" is not one of auto, osmesa"},
-    {{"scenes", "--gl", "glx"}, "\"glx\" is not one of auto, osmesa"},
-    {{"inspect", "spheres", "--set", "raster=opencl", "--pixel", "1,1"},
-     "--set raster: forward_plus does not read it"},
-    {{"info", "spheers"}, "did you mean spheres?"},
-    {{"render", "spheres", "--size", "64", "-o", "FOLDER/x.png"}, "--size 64: not WxH"},
-};
-
-TEST(Typing, OfAMistakeGetsOneLineThatHelps) {
-  for (const Mistake& mistake : mistakes) {
-    const TempFolder folder;
-    std::vector<std::string> words = mistake.typed;
-    std::string all;
-    for (std::string& word : words) {
-      if (const size_t at = word.find("FOLDER"); at != std::string::npos) word.replace(at, 6, folder.path);
-      all += word + " ";
-    }
-    const ProgramRun run = run_program(words, {"OCL_ICD_VENDORS=/nonexistent"});
-    EXPECT_EQ(run.status, 2) << all << run.err;
-    EXPECT_EQ(run.out, "") << all;
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << all << run.err;
-    EXPECT_THAT(run.err, HasSubstr(mistake.helps)) << all;
-    EXPECT_TRUE(std::filesystem::is_empty(folder.path)) << all;
-  }
-}
 
 TEST(Typing, OfNothingListsTheCommandsAndOfVersionTheCommit) {
   const ProgramRun nothing = run_program({});

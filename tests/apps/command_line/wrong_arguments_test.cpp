@@ -1,9 +1,12 @@
-// Errors of users: exit status 2, and one line that names the option and the value.
+// Errors of users: exit status 2, and one line that names the option and the value, or helps with a mistyped
+// word.
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <regex>
+#include <sstream>
 
 #include "support/run_program.h"
 
@@ -13,14 +16,22 @@ namespace {
 using testing::HasSubstr;
 
 struct Wrong {
-  const char* name;
-  std::vector<std::string> arguments;  // FOLDER stands for the test's folder
-  std::vector<std::string> told;       // required content of the line
+  std::string arguments;          // FOLDER stands for the test's folder, LONG for 5,000 parentheses
+  std::vector<std::string> told;  // required content of the line
 };
 
-std::string replace_folder(std::string text, const std::string& folder) {
-  const size_t at = text.find("FOLDER");
-  return at == std::string::npos ? text : text.replace(at, 6, folder);
+std::string replaced(std::string text, const std::string& folder) {
+  text = std::regex_replace(text, std::regex("FOLDER"), folder);
+  return std::regex_replace(text, std::regex("LONG"), std::string(5000, '('));
+}
+
+std::vector<std::string> split_words(const std::string& line) {
+  std::istringstream stream(line);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+std::string name_of(const Wrong& wrong) {
+  return std::regex_replace(wrong.arguments, std::regex("[^A-Za-z0-9]+"), "_");
 }
 
 class WrongArguments : public testing::TestWithParam<Wrong> {};
@@ -102,214 +113,150 @@ TEST_P(WrongArguments, ExitWithTwoAndOneLineThatNamesThem) {
   std::ofstream(folder.path / "file") << "not a folder";
   std::filesystem::create_directory(folder.path / "is_a_folder.png");
   std::filesystem::create_symlink("loop", folder.path / "loop");
-  std::vector<std::string> arguments;
-  for (const std::string& a : GetParam().arguments) arguments.push_back(replace_folder(a, folder.path));
   // A wrong argument must be reported first, even if no device could be opened.
-  const ProgramRun run = run_program(arguments, {"OCL_ICD_VENDORS=/nonexistent"});
+  std::string line = GetParam().arguments;
+  if (line.starts_with("render") && line.find(" -o ") == line.npos) line += " -o FOLDER/x.png";
+  const ProgramRun run =
+      run_program(split_words(replaced(line, folder.path)), {"OCL_ICD_VENDORS=/nonexistent"});
   EXPECT_EQ(run.status, 2) << "signal " << run.signal << "\n" << run.err;
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   for (const std::string& told : GetParam().told)
-    EXPECT_THAT(run.err, HasSubstr(replace_folder(told, folder.path)));
+    EXPECT_THAT(run.err, HasSubstr(replaced(told, folder.path)));
   const auto files = std::distance(std::filesystem::directory_iterator(folder.path), {});
   EXPECT_EQ(files, 4) << "something was written";
 }
 
-const char scene[] = "spheres";
-
 INSTANTIATE_TEST_SUITE_P(
     OfRender, WrongArguments,
     testing::Values(
-        Wrong{"SizeNotANumber",
-              {"render", scene, "--size", "bigxbig", "-o", "FOLDER/x.png"},
-              {"--size", "bigxbig"}},
-        Wrong{"SizeZero", {"render", scene, "--size", "0x4", "-o", "FOLDER/x.png"}, {"--size", "0x4"}},
-        Wrong{"SizeNegative", {"render", scene, "--size", "-4x4", "-o", "FOLDER/x.png"}, {"--size", "-4x4"}},
-        Wrong{"SizeTooLarge",
-              {"render", scene, "--size", "99999x4", "-o", "FOLDER/x.png"},
-              {"--size", "99999x4"}},
-        Wrong{"SizeWithMoreBehind",
-              {"render", scene, "--size", "4x4x4", "-o", "FOLDER/x.png"},
-              {"--size", "4x4x4"}},
-        Wrong{"UnknownScene", {"render", "nosuchscene", "-o", "FOLDER/x.png"}, {"nosuchscene", "hall"}},
-        Wrong{"SceneIsAFolder", {"render", "FOLDER", "-o", "FOLDER/x.png"}, {"FOLDER"}},
-        Wrong{"SceneNameTooLong", {"render", std::string(5000, 'a'), "-o", "FOLDER/x.png"}, {"aaaa"}},
-        Wrong{"SceneOfWrongKind", {"render", "FOLDER/file", "-o", "FOLDER/x.png"}, {"FOLDER/file"}},
-        Wrong{"UnknownTechnique",
-              {"render", scene, "-t", "magic", "-o", "FOLDER/x.png"},
-              {"magic", "forward_plus"}},
-        Wrong{"UnknownKey",
-              {"render", scene, "--set", "tiles=16", "-o", "FOLDER/x.png"},
-              {"--set", "tiles=16"}},
-        Wrong{"UnknownValue",
-              {"render", scene, "--set", "tile=17", "-o", "FOLDER/x.png"},
-              {"--set", "tile", "17"}},
-        Wrong{"SettingWithoutValue",
-              {"render", scene, "--set", "tile", "-o", "FOLDER/x.png"},
-              {"--set", "tile"}},
-        Wrong{"UnknownCamera",
-              {"render", scene, "--camera", "roof", "-o", "FOLDER/x.png"},
-              {"--camera", "roof"}},
-        Wrong{"CameraIndexTooHigh",
-              {"render", scene, "--camera", "99", "-o", "FOLDER/x.png"},
-              {"--camera", "99"}},
-        Wrong{"CameraWithoutTarget",
-              {"render", scene, "--camera", "eye:1,2,3", "-o", "FOLDER/x.png"},
-              {"--camera", "target"}},
-        Wrong{"CameraNotANumber",
-              {"render", scene, "--camera", "eye:1,2,nan,target:0,0,0", "-o", "FOLDER/x.png"},
-              {"--camera", "nan"}},
-        Wrong{"CameraField",
-              {"render", scene, "--camera", "eye:1,2,3,target:0,0,0,fov:180", "-o", "FOLDER/x.png"},
-              {"--camera", "fov", "180"}},
-        Wrong{"UnknownGl", {"render", scene, "--gl", "glx", "-o", "FOLDER/x.png"}, {"--gl", "glx"}},
-        Wrong{"MoreLightsThanTheFileHas",
-              {"render", scene, "--lights-file", "FOLDER/one.json", "--lights", "2", "-o", "FOLDER/x.png"},
+        Wrong{"render spheres --size bigxbig", {"--size", "bigxbig"}},
+        Wrong{"render spheres --size 0x4", {"--size", "0x4"}},
+        Wrong{"render spheres --size -4x4", {"--size", "-4x4"}},
+        Wrong{"render spheres --size 99999x4", {"--size", "99999x4"}},
+        Wrong{"render spheres --size 4x4x4", {"--size", "4x4x4"}},
+        Wrong{"render nosuchscene", {"nosuchscene", "hall"}}, Wrong{"render FOLDER", {"FOLDER"}},
+        Wrong{"render LONG", {"(((("}}, Wrong{"render FOLDER/file", {"FOLDER/file"}},
+        Wrong{"render spheres -t magic", {"magic", "forward_plus"}},
+        Wrong{"render spheres --set tiles=16", {"--set", "tiles=16"}},
+        Wrong{"render spheres --set tile=17", {"--set", "tile", "17"}},
+        Wrong{"render spheres --set tile", {"--set", "tile"}},
+        Wrong{"render spheres --camera roof", {"--camera", "roof"}},
+        Wrong{"render spheres --camera 99", {"--camera", "99"}},
+        Wrong{"render spheres --camera eye:1,2,3", {"--camera", "target"}},
+        Wrong{"render spheres --camera eye:1,2,nan,target:0,0,0", {"--camera", "nan"}},
+        Wrong{"render spheres --camera eye:1,2,3,target:0,0,0,fov:180", {"--camera", "fov", "180"}},
+        Wrong{"render spheres --gl glx", {"--gl", "glx"}},
+        Wrong{"render spheres --lights-file FOLDER/one.json --lights 2",
               {"--lights", "2", "FOLDER/one.json"}},
-        Wrong{"LightsNotANumber",
-              {"render", scene, "--lights", "many", "-o", "FOLDER/x.png"},
-              {"--lights", "many"}},
-        Wrong{
-            "LightsNegative", {"render", scene, "--lights", "-3", "-o", "FOLDER/x.png"}, {"--lights", "-3"}},
-        Wrong{"LightsBeyondAnyBound",
-              {"render", scene, "--lights", "99999999999", "-o", "FOLDER/x.png"},
-              {"--lights", "99999999999"}},
-        Wrong{"LightRadius",
-              {"render", scene, "--lights", "4", "--light-radius", "3,1", "-o", "FOLDER/x.png"},
-              {"--light-radius", "3,1"}},
-        Wrong{"AmbientNotANumber",
-              {"render", scene, "--ambient", "dim", "-o", "FOLDER/x.png"},
-              {"--ambient", "dim"}},
-        Wrong{"AmbientNegative",
-              {"render", scene, "--ambient", "-1", "-o", "FOLDER/x.png"},
-              {"--ambient", "-1"}},
-        Wrong{"AmbientInfinite",
-              {"render", scene, "--ambient", "inf", "-o", "FOLDER/x.png"},
-              {"--ambient", "inf"}},
-        Wrong{"AmbientWithMoreBehind",
-              {"render", scene, "--ambient", "0.1,0.1", "-o", "FOLDER/x.png"},
-              {"--ambient", "0.1,0.1"}},
-        Wrong{"ShadowsNotANumber",
-              {"render", scene, "--shadows", "some", "-o", "FOLDER/x.png"},
-              {"--shadows", "some", "all"}},
-        Wrong{"ShadowsNegative",
-              {"render", scene, "--shadows", "-1", "-o", "FOLDER/x.png"},
-              {"--shadows", "-1"}},
-        Wrong{"NoSuchLightsFile",
-              {"render", scene, "--lights-file", "FOLDER/no.json", "-o", "FOLDER/x.png"},
-              {"FOLDER/no.json"}},
-        Wrong{"LightsFileOfWrongKind",
-              {"render", scene, "--lights-file", "FOLDER/file", "-o", "FOLDER/x.png"},
-              {"FOLDER/file"}},
-        Wrong{"FramesZero", {"render", scene, "--frames", "0", "-o", "FOLDER/x.png"}, {"--frames", "0"}},
-        Wrong{"Extension", {"render", scene, "-o", "FOLDER/x.jpg"}, {"FOLDER/x.jpg", ".png", ".exr"}},
-        Wrong{"NoExtension", {"render", scene, "-o", "FOLDER/x"}, {"FOLDER/x", ".png"}},
-        Wrong{
-            "OutputFolderMissing", {"render", scene, "-o", "FOLDER/none/x.png"}, {"-o", "FOLDER/none/x.png"}},
-        Wrong{"OutputInAFile", {"render", scene, "-o", "FOLDER/file/x.png"}, {"-o", "FOLDER/file/x.png"}},
-        Wrong{"OutputIsAFolder",
-              {"render", scene, "-o", "FOLDER/is_a_folder.png"},
-              {"-o", "FOLDER/is_a_folder.png"}},
-        Wrong{"JsonFolderMissing",
-              {"render", scene, "-o", "FOLDER/x.png", "--json", "FOLDER/none/x.json"},
-              {"--json", "FOLDER/none/x.json"}},
-        Wrong{"UnknownOption", {"render", scene, "--sise", "4x4"}, {"--sise"}}),
-    [](const auto& info) { return info.param.name; });
+        Wrong{"render spheres --lights many", {"--lights", "many"}},
+        Wrong{"render spheres --lights -3", {"--lights", "-3"}},
+        Wrong{"render spheres --lights 99999999999", {"--lights", "99999999999"}},
+        Wrong{"render spheres --lights 4 --light-radius 3,1", {"--light-radius", "3,1"}},
+        Wrong{"render spheres --ambient dim", {"--ambient", "dim"}},
+        Wrong{"render spheres --ambient -1", {"--ambient", "-1"}},
+        Wrong{"render spheres --ambient inf", {"--ambient", "inf"}},
+        Wrong{"render spheres --ambient 0.1,0.1", {"--ambient", "0.1,0.1"}},
+        Wrong{"render spheres --shadows some", {"--shadows", "some", "all"}},
+        Wrong{"render spheres --shadows -1", {"--shadows", "-1"}},
+        Wrong{"render spheres --lights-file FOLDER/no.json", {"FOLDER/no.json"}},
+        Wrong{"render spheres --lights-file FOLDER/file", {"FOLDER/file"}},
+        Wrong{"render spheres --frames 0", {"--frames", "0"}},
+        Wrong{"render spheres -o FOLDER/x.jpg", {"FOLDER/x.jpg", ".png", ".exr"}},
+        Wrong{"render spheres -o FOLDER/x", {"FOLDER/x", ".png"}},
+        Wrong{"render spheres -o FOLDER/none/x.png", {"-o", "FOLDER/none/x.png"}},
+        Wrong{"render spheres -o FOLDER/file/x.png", {"-o", "FOLDER/file/x.png"}},
+        Wrong{"render spheres -o FOLDER/is_a_folder.png", {"-o", "FOLDER/is_a_folder.png"}},
+        Wrong{"render spheres -o FOLDER/x.png --json FOLDER/none/x.json", {"--json", "FOLDER/none/x.json"}},
+        Wrong{"render spheres --sise 4x4", {"--sise"}}),
+    [](const auto& info) { return name_of(info.param); });
 
 INSTANTIATE_TEST_SUITE_P(
     OfOthers, WrongArguments,
     testing::Values(
-        Wrong{"UnknownCommand", {"rendre"}, {"rendre"}},
-        Wrong{"CompareUnknownTechnique",
-              {"compare", scene, "-t", "forward,magic", "-o", "FOLDER/r"},
-              {"magic"}},
-        Wrong{"CompareUnknownValue",
-              {"compare", scene, "-t", "forward_plus:tile=17", "-o", "FOLDER/r"},
-              {"tile", "17"}},
-        Wrong{"CompareUnknownGl", {"compare", scene, "--gl", "glx", "-o", "FOLDER/r"}, {"--gl", "glx"}},
-        Wrong{"CompareASettingItDoesNotRead",
-              {"compare", scene, "-t", "forward:slices=4", "-o", "FOLDER/r"},
-              {"forward", "slices", "tile"}},
-        Wrong{"CompareTheSecondSceneUnknown",
-              {"compare", scene, "nosuchscene", "-o", "FOLDER/r"},
-              {"nosuchscene"}},
-        Wrong{"CompareTheSecondSizeWrong",
-              {"compare", scene, "--size", "16x9,16", "-o", "FOLDER/r"},
-              {"--size", "16"}},
-        Wrong{"CompareTheSecondLightsWrong",
-              {"compare", scene, "--lights", "16,many", "-o", "FOLDER/r"},
-              {"--lights", "many"}},
-        Wrong{"CompareNegativeLights",
-              {"compare", scene, "--lights", "-3", "-o", "FOLDER/r"},
-              {"--lights", "-3"}},
-        Wrong{"CompareMoreLightsThanTheFileHas",
-              {"compare", scene, "--lights-file", "FOLDER/one.json", "--lights", "1,2", "-o", "FOLDER/r"},
+        Wrong{"rendre", {"rendre"}}, Wrong{"compare spheres -t forward,magic -o FOLDER/r", {"magic"}},
+        Wrong{"compare spheres -t forward_plus:tile=17 -o FOLDER/r", {"tile", "17"}},
+        Wrong{"compare spheres --gl glx -o FOLDER/r", {"--gl", "glx"}},
+        Wrong{"compare spheres -t forward:slices=4 -o FOLDER/r", {"forward", "slices", "tile"}},
+        Wrong{"compare spheres nosuchscene -o FOLDER/r", {"nosuchscene"}},
+        Wrong{"compare spheres --size 16x9,16 -o FOLDER/r", {"--size", "16"}},
+        Wrong{"compare spheres --lights 16,many -o FOLDER/r", {"--lights", "many"}},
+        Wrong{"compare spheres --lights -3 -o FOLDER/r", {"--lights", "-3"}},
+        Wrong{"compare spheres --lights-file FOLDER/one.json --lights 1,2 -o FOLDER/r",
               {"--lights", "2", "FOLDER/one.json"}},
-        Wrong{"CompareSweepsAnUnknownValue",
-              {"compare", scene, "--compare", "tile=16,17", "-o", "FOLDER/r"},
-              {"tile", "17"}},
-        Wrong{"CompareSweepsAnUnknownSetting",
-              {"compare", scene, "--compare", "tiles=16", "-o", "FOLDER/r"},
-              {"tiles"}},
-        Wrong{"CompareSweepsWhatNoTechniqueReads",
-              {"compare", scene, "-t", "forward", "--compare", "slices=4,8", "-o", "FOLDER/r"},
+        Wrong{"compare spheres --compare tile=16,17 -o FOLDER/r", {"tile", "17"}},
+        Wrong{"compare spheres --compare tiles=16 -o FOLDER/r", {"tiles"}},
+        Wrong{"compare spheres -t forward --compare slices=4,8 -o FOLDER/r",
               {"--compare slices=4,8", "no technique", "reads slices"}},
-        Wrong{"CompareTwoBrdfs",
-              {"compare", scene, "-t", "forward,forward_plus:brdf=blinn", "-o", "FOLDER/r"},
+        Wrong{"compare spheres -t forward,forward_plus:brdf=blinn -o FOLDER/r",
               {"forward with brdf=ggx and forward_plus with brdf=blinn", "--brdf"}},
-        Wrong{"CompareSweepsTheBrdf",
-              {"compare", scene, "-t", "forward_plus", "--compare", "brdf=ggx,blinn", "-o", "FOLDER/r"},
+        Wrong{"compare spheres -t forward_plus --compare brdf=ggx,blinn -o FOLDER/r",
               {"brdf=ggx", "brdf=blinn", "--brdf"}},
-        Wrong{"CompareIntoAFile", {"compare", scene, "-o", "FOLDER/file"}, {"FOLDER/file"}},
-        Wrong{"CompareIntoAFolderThatCannotBeSeen",
-              {"compare", scene, "-o", "FOLDER/loop/r"},
-              {"FOLDER/loop/r: cannot be made a folder: "}},
-        Wrong{"CaptureIntoAFolderThatCannotBeSeen",
-              {"capture", scene, "-o", "FOLDER/loop/r"},
-              {"FOLDER/loop/r: cannot be made a folder: "}},
-        Wrong{"CaptureUnknownScene", {"capture", "nosuchscene", "-o", "FOLDER/r"}, {"nosuchscene"}},
-        Wrong{"CaptureIntoAFile", {"capture", scene, "-o", "FOLDER/file"}, {"FOLDER/file"}},
-        Wrong{"CullNothing", {"cull", "-o", "FOLDER/r"}, {"FRAME"}},
-        Wrong{"CullNoSuchFolder", {"cull", "FOLDER/none", "-o", "FOLDER/r"}, {"FOLDER/none"}},
-        Wrong{"CullAFile", {"cull", "FOLDER/file", "-o", "FOLDER/r"}, {"FOLDER/file"}},
-        Wrong{"CullAFolderWithoutAFrame", {"cull", "FOLDER", "-o", "FOLDER/r"}, {"FOLDER/view.json"}},
-        Wrong{"CullUnknownValue", {"cull", "FOLDER", "--set", "tile=17"}, {"tile", "17"}},
-        Wrong{"CullOfATechniqueWithoutAGrid", {"cull", "FOLDER", "-t", "forward"}, {"forward", "grid"}},
-        Wrong{"CaptureOfNoTechnique", {"capture", scene, "-t", "magic", "-o", "FOLDER/r"}, {"magic"}},
-        Wrong{"VerifyOfAFolderWithoutAFrame", {"verify", "--replay", "FOLDER"}, {"FOLDER/view.json"}},
-        Wrong{"VerifyOfAFrameAndOfCases",
-              {"verify", "--replay", "FOLDER", "--filter", "depth"},
-              {"--replay", "--filter"}},
-        Wrong{"InspectNothing", {"inspect", scene}, {"--pixel", "-o"}},
-        Wrong{"InspectCompareAtAPlace",
-              {"inspect", scene, "--pixel", "1,1", "--compare", "tile=8,16"},
-              {"--compare", "--pixel"}},
-        Wrong{"InspectNoPlace", {"inspect", scene, "--pixel", "3"}, {"--pixel 3"}},
-        Wrong{"InspectOutsideTheImage",
-              {"inspect", scene, "--size", "16x9", "--pixel", "3,9", "-o", "FOLDER/r"},
-              {"--pixel 3,9", "15,8"}},
-        Wrong{
-            "InspectNegative", {"inspect", scene, "--size", "16x9", "--pixel", "-1,0"}, {"--pixel", "-1,0"}},
-        Wrong{"InspectAFrameOfAnotherSize",
-              {"inspect", "FOLDER", "--size", "16x9", "--pixel", "0,0"},
-              {"--size", "FOLDER"}},
-        Wrong{"PlanUnknownScene", {"plan", "nosuchscene"}, {"nosuchscene"}},
-        Wrong{"PlanUnknownSize", {"plan", scene, "--size", "wide"}, {"--size", "wide"}}),
-    [](const auto& info) { return info.param.name; });
+        Wrong{"compare spheres -o FOLDER/file", {"FOLDER/file"}},
+        Wrong{"compare spheres -o FOLDER/loop/r", {"FOLDER/loop/r: cannot be made a folder: "}},
+        Wrong{"capture spheres -o FOLDER/loop/r", {"FOLDER/loop/r: cannot be made a folder: "}},
+        Wrong{"capture nosuchscene -o FOLDER/r", {"nosuchscene"}},
+        Wrong{"capture spheres -o FOLDER/file", {"FOLDER/file"}}, Wrong{"cull -o FOLDER/r", {"FRAME"}},
+        Wrong{"cull FOLDER/none -o FOLDER/r", {"FOLDER/none"}},
+        Wrong{"cull FOLDER/file -o FOLDER/r", {"FOLDER/file"}},
+        Wrong{"cull FOLDER -o FOLDER/r", {"FOLDER/view.json"}},
+        Wrong{"cull FOLDER --set tile=17", {"tile", "17"}},
+        Wrong{"cull FOLDER -t forward", {"forward", "grid"}},
+        Wrong{"capture spheres -t magic -o FOLDER/r", {"magic"}},
+        Wrong{"verify --replay FOLDER", {"FOLDER/view.json"}},
+        Wrong{"verify --replay FOLDER --filter depth", {"--replay", "--filter"}},
+        Wrong{"inspect spheres", {"--pixel", "-o"}},
+        Wrong{"inspect spheres --pixel 1,1 --compare tile=8,16", {"--compare", "--pixel"}},
+        Wrong{"inspect spheres --pixel 3", {"--pixel 3"}},
+        Wrong{"inspect spheres --size 16x9 --pixel 3,9 -o FOLDER/r", {"--pixel 3,9", "15,8"}},
+        Wrong{"inspect spheres --size 16x9 --pixel -1,0", {"--pixel", "-1,0"}},
+        Wrong{"inspect FOLDER --size 16x9 --pixel 0,0", {"--size", "FOLDER"}},
+        Wrong{"plan nosuchscene", {"nosuchscene"}}, Wrong{"plan spheres --size wide", {"--size", "wide"}}),
+    [](const auto& info) { return name_of(info.param); });
+
+INSTANTIATE_TEST_SUITE_P(OfBench, WrongArguments,
+                         testing::Values(Wrong{"bench --filter floor[", {"--filter", "floor["}},
+                                         Wrong{"bench --filter LONG", {"--filter"}},
+                                         Wrong{"bench --replay FOLDER", {"--replay", "FOLDER", "view.json"}},
+                                         Wrong{"bench --set tile=17", {"tile", "17"}},
+                                         Wrong{"bench --compare tile", {"--compare", "tile"}},
+                                         Wrong{"bench --compare tile=16,17", {"tile", "17"}},
+                                         Wrong{"bench --frames 0", {"--frames"}},
+                                         Wrong{"bench --json FOLDER/none/x.json",
+                                               {"--json", "FOLDER/none/x.json"}}),
+                         [](const auto& info) { return name_of(info.param); });
 
 INSTANTIATE_TEST_SUITE_P(
-    OfBench, WrongArguments,
+    OfTyping, WrongArguments,
     testing::Values(
-        Wrong{"NoRegularExpression", {"bench", "--filter", "floor["}, {"--filter", "floor["}},
-        Wrong{"FilterTooLong", {"bench", "--filter", std::string(5000, '(')}, {"--filter"}},
-        Wrong{"ReplayNoFrame", {"bench", "--replay", "FOLDER"}, {"--replay", "FOLDER", "view.json"}},
-        Wrong{"BenchUnknownValue", {"bench", "--set", "tile=17"}, {"tile", "17"}},
-        Wrong{"CompareWithoutAKey", {"bench", "--compare", "tile"}, {"--compare", "tile"}},
-        Wrong{"BenchCompareUnknownValue", {"bench", "--compare", "tile=16,17"}, {"tile", "17"}},
-        Wrong{"BenchNoFrames", {"bench", "--frames", "0"}, {"--frames"}},
-        Wrong{
-            "BenchJsonNowhere", {"bench", "--json", "FOLDER/none/x.json"}, {"--json", "FOLDER/none/x.json"}}),
-    [](const auto& info) { return info.param.name; });
+        Wrong{"rendre hall", {"there is no command rendre; did you mean render?"}},
+        Wrong{"comapre", {"did you mean compare?"}}, Wrong{"tech", {"did you mean techniques?"}},
+        Wrong{"render hall --sise 64x36", {"render has no option --sise; did you mean --size?"}},
+        Wrong{"compare hall --technque forward", {"did you mean --technique?"}},
+        Wrong{"compare hall --ouput=FOLDER/r", {"did you mean --output?"}},
+        Wrong{"verify --fliter depth", {"verify has no option --fliter; did you mean --filter?"}},
+        Wrong{"render hal", {"did you mean hall?"}},
+        Wrong{"compare hall terrian -o FOLDER/r", {"did you mean terrain?"}},
+        Wrong{"render hall -t forwardplus", {"did you mean forward_plus?"}},
+        Wrong{"compare hall -t forward,visiblity -o FOLDER/r", {"did you mean visibility?"}},
+        Wrong{"compare hall -t Forward-Plus,defered -o FOLDER/r", {"did you mean forward_plus?"}},
+        Wrong{"render hall -t forward,forward_plus", {"compare takes several"}},
+        Wrong{"render hall -t forward --set slices=8", {"--set slices: forward does not read it"}},
+        Wrong{"compare hall -t forward,forward_plus --set slices=8 -o FOLDER/r",
+              {"--set slices: forward, forward_plus do not read it"}},
+        Wrong{"render spheres --camera-path turn:0", {"--camera-path turn:0: not turn:N"}},
+        Wrong{"render spheres --exposure bright", {"--exposure bright: neither auto nor a number"}},
+        Wrong{"render spheres --exposure 100", {"from -60 to 60"}},
+        Wrong{"render spheres --set tyle=8", {"did you mean tile?"}},
+        Wrong{"render spheres --set range=cut-off", {"did you mean cutoff?"}},
+        Wrong{"render spheres --set cutoff=0", {"--set cutoff=0: cutoff is a number from"}},
+        Wrong{"verify --gl glx --list", {"\"glx\" is not one of auto, osmesa"}},
+        Wrong{"scenes --gl glx", {"\"glx\" is not one of auto, osmesa"}},
+        Wrong{"inspect spheres --set raster=opencl --pixel 1,1",
+              {"--set raster: forward_plus does not read it"}},
+        Wrong{"info spheers", {"did you mean spheres?"}},
+        Wrong{"render spheres --size 64", {"--size 64: not WxH"}}),
+    [](const auto& info) { return name_of(info.param); });
 
 }  // namespace
 }  // namespace lightgrid
