@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "compare/technique_run.h"
+#include "run/technique_run.h"
 #include "scene/random.h"
 #include "scenes/builtin.h"
 #include "scenes/compose.h"

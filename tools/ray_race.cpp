@@ -25,11 +25,11 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "cl/transfer.h"
-#include "compare/scene_choice.h"
 #include "oracle/lit_set.h"
 #include "oracle/position.h"
 #include "rays/light_cells.h"
 #include "rays/ray_packets.h"
+#include "run/scene_choice.h"
 #include "verify/engine.h"
 
 namespace lightgrid {

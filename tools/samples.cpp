@@ -3,8 +3,8 @@
 //   samples [SCENE...]        hall, street and gallery by default
 #include <fmt/format.h>
 
-#include "compare/scene_choice.h"
 #include "plan/settings/samples.h"
+#include "run/scene_choice.h"
 #include "support/fine_truth.h"
 
 namespace lightgrid {
@@ -67,9 +67,9 @@ void tell(Renderer& renderer, const std::string& name) {
   for (int frame = 0; frame < 5; ++frame) {
     for (const Row& row : rows) row.run->run_frame();
   }
-  RunResult one;
+  FrameFigures one;
   for (const Row& row : rows) {
-    const RunResult result = row.run->result();
+    const FrameFigures result = row.run->result();
     if (row.samples == 1) one = result;
     const double pixels = double(width * times) * (height * times);
     fmt::print("{},{},{},{:.3f},{:.5f},{:.5f},{:.2f},{:.1f},{:.0f}\n", name, row.technique, row.samples,

@@ -16,8 +16,8 @@
 #include "base/text.h"
 #include "base/timer.h"
 #include "base/version.h"
-#include "compare/scene_choice.h"
-#include "compare/technique_run.h"
+#include "run/scene_choice.h"
+#include "run/technique_run.h"
 
 namespace lightgrid {
 namespace {

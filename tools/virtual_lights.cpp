@@ -5,8 +5,8 @@
 
 #include "base/timer.h"
 #include "compare/contestants.h"
-#include "compare/scene_choice.h"
 #include "plan/settings/model.h"
+#include "run/scene_choice.h"
 #include "support/virtual_light_error.h"
 
 namespace lightgrid {

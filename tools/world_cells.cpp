@@ -15,11 +15,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "compare/oracle.h"
-#include "compare/technique_run.h"
+#include "accuracy/oracle.h"
 #include "passes/common/world_grid_settings.h"
 #include "plan/settings/model.h"
 #include "renderer/upload/culler_input.h"
+#include "run/technique_run.h"
 #include "scene/grid_lists.h"
 #include "scene/light_rigs.h"
 #include "scenes/builtin.h"

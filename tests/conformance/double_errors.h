@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <string>
 
-#include "compare/oracle.h"
-#include "compare/surfaces_in_double.h"
+#include "accuracy/oracle.h"
+#include "accuracy/surfaces_in_double.h"
 #include "plan/settings/model.h"
 #include "support/devices.h"
 #include "support/double_surfaces.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/surfaces_in_double.h"
-#include "compare/technique_run.h"
+#include "accuracy/surfaces_in_double.h"
+#include "run/technique_run.h"
 
 namespace lightgrid {
 

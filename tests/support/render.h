@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "compare/technique_run.h"
+#include "run/technique_run.h"
 #include "scene/camera.h"
 #include "support/devices.h"
 

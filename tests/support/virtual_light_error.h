@@ -6,10 +6,10 @@
 #ifdef LIGHTGRID_EMBREE
 #include <optional>
 
-#include "compare/surfaces_in_double.h"
-#include "compare/technique_run.h"
-#include "compare/virtual_lights.h"
+#include "accuracy/surfaces_in_double.h"
 #include "plan/settings/model.h"
+#include "run/technique_run.h"
+#include "run/virtual_lights.h"
 
 namespace lightgrid {
 

@@ -6,7 +6,7 @@
 
 #include "base/message_line.h"
 #include "cl/error.h"
-#include "compare/scene_choice.h"
+#include "run/scene_choice.h"
 
 namespace lightgrid::c {
 namespace {

@@ -8,8 +8,8 @@
 #include "base/version.h"
 #include "c_api/call.h"
 #include "c_api/handles.h"
-#include "compare/tables.h"
 #include "measures/error_measures.h"
+#include "run/tables.h"
 #include "scenes/builtin.h"
 
 namespace lightgrid::c {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "compare/scene_choice.h"
-#include "compare/technique_run.h"
 #include "raster/raster_view.h"
+#include "run/scene_choice.h"
+#include "run/technique_run.h"
 
 namespace lightgrid::c {
 

@@ -1,7 +1,7 @@
+#include "accuracy/oracle.h"
 #include "c_api/handles.h"
 #include "c_api/images.h"
 #include "compare/contestants.h"
-#include "compare/oracle.h"
 #include "plan/plan_changes.h"
 #include "plan/settings/picture.h"
 
@@ -178,7 +178,7 @@ lightgrid_status lightgrid_view_profile(lightgrid_view* view, char** json) {
     run.run_frame();
     run.run_profiled_frames();
     v.drawn = true;
-    out = text_for_caller(json_text(run.result()));
+    out = text_for_caller(json_text(RunResult{run.result()}));
   });
 }
 

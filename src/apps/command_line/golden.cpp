@@ -15,8 +15,8 @@
 #include "command_line/findings.h"
 #include "command_line/options.h"
 #include "compare/contestants.h"
-#include "compare/golden.h"
-#include "compare/golden_pictures.h"
+#include "golden/golden.h"
+#include "golden/golden_pictures.h"
 #include "measures/metrics.h"
 #include "measures/results.h"
 

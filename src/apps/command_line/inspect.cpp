@@ -7,14 +7,14 @@
 #include <memory>
 #include <optional>
 
+#include "accuracy/frame_shadows.h"
+#include "accuracy/shadow_truth.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "base/write_file.h"
 #include "command_line/commands.h"
 #include "command_line/options.h"
 #include "compare/contestants.h"
-#include "compare/frame_shadows.h"
-#include "compare/shadow_truth.h"
 #include "frames/capture.h"
 #include "frames/frame_lists.h"
 #include "frames/list_accuracy.h"

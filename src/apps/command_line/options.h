@@ -6,7 +6,7 @@
 #include <string>
 
 #include "command_line/command_line.h"
-#include "compare/scene_choice.h"
+#include "run/scene_choice.h"
 
 namespace lightgrid {
 

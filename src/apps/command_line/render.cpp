@@ -13,10 +13,10 @@
 #include "command_line/commands.h"
 #include "command_line/options.h"
 #include "compare/contestants.h"
-#include "compare/technique_run.h"
 #include "measures/path_changes.h"
 #include "measures/words.h"
 #include "plan/plan_changes.h"
+#include "run/technique_run.h"
 
 namespace lightgrid {
 namespace {
@@ -53,7 +53,7 @@ int render_path(const RenderOptions& o, TechniqueRun& run, GpuScene& gpu, const 
   }
   if (!o.json.empty()) {
     run.run_profiled_frames();
-    nlohmann::json json = to_json(run.result());
+    nlohmann::json json = to_json(RunResult{run.result()});
     json["exposure"] = exposure_json(exposure);
     json["moving"] = {{"frames", path.size()}, {"plan_changes", plan_changes_json(plans.changes())}};
     write_json(o.json, json_text(json));
@@ -98,7 +98,7 @@ int render(RenderOptions o) {
   if (!o.json.empty()) {
     for (int i = 0; i < std::max(1, o.timing.warmup); ++i) run.run_frame(true);  // release() dropped caches
     run.run_profiled_frames();
-    nlohmann::json json = to_json(run.result());
+    nlohmann::json json = to_json(RunResult{run.result()});
     json["exposure"] = exposure_json(exposure);
     write_json(o.json, json_text(json));
   }

@@ -5,7 +5,7 @@
 
 #include "command_line/commands.h"
 #include "command_line/options.h"
-#include "compare/tables.h"
+#include "run/tables.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {

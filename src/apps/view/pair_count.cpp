@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "compare/oracle.h"
-#include "compare/shadow_truth.h"
+#include "accuracy/oracle.h"
+#include "accuracy/shadow_truth.h"
 #include "oracle/position.h"
 #include "plan/settings/grid.h"
 #include "plan/settings/model.h"

@@ -9,10 +9,10 @@
 #include <optional>
 #include <vector>
 
-#include "compare/frame_shadows.h"
-#include "compare/technique_run.h"
+#include "accuracy/frame_shadows.h"
 #include "frames/frame_file.h"
 #include "oracle/lit_set.h"
+#include "run/technique_run.h"
 
 namespace lightgrid {
 

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "compare/scene_choice.h"
+#include "run/scene_choice.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "compare/technique_run.h"
+#include "run/technique_run.h"
 #include "view/clock.h"
 #include "view/controls.h"
 

@@ -6,7 +6,7 @@
 #include "base/compiling.h"
 #include "base/error.h"
 #include "base/timer.h"
-#include "compare/scene_choice.h"
+#include "run/scene_choice.h"
 #include "scene/shadow_casters.h"
 
 namespace lightgrid {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "base/image.h"
-#include "compare/virtual_lights.h"
+#include "run/virtual_lights.h"
 #include "view/clock.h"
 #include "view/controls.h"
 #include "view/panels.h"

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/write_file.h"
-#include "compare/scene_choice.h"
+#include "run/scene_choice.h"
 #include "view/viewer.h"
 
 namespace lightgrid {

@@ -72,7 +72,7 @@ void require_one(const std::vector<ContestantRun>& entries) {
   if (!entries.empty()) throw *entries.front().refusal;
 }
 
-RunResult refused_row(const ContestantRun& entry, const RunResult& reference) {
+RunResult refused_row(const ContestantRun& entry, const FrameFigures& reference) {
   RunResult row;
   row.technique = entry.contestant->technique->name;
   row.refused = entry.refusal->what();

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "measures/results.h"
+#include "scene/scene_motion.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -15,9 +16,6 @@ struct Contestant {
 
 // The pixels of the reference. automatic: all, or a sample if all are estimated to take too long.
 enum class ReferencePixels { automatic, full, sampled };
-
-// Moves a scene to frame n of a path, counted from 0, and returns what changed.
-using SceneMotion = std::function<SceneChanges(size_t frame)>;
 
 struct CompareOptions {
   int frames = 5, warmup = 1;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compare/compare.h"
-#include "compare/scene_choice.h"
+#include "run/scene_choice.h"
 
 namespace lightgrid {
 

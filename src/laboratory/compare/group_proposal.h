@@ -2,7 +2,7 @@
 // goes through walls.
 #pragma once
 
-#include "compare/leaks.h"
+#include "oracle/leaks.h"
 
 namespace lightgrid {
 

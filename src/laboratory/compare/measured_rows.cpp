@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "compare/area_error.h"
-#include "compare/oracle_sample.h"
+#include "accuracy/area_error.h"
+#include "accuracy/oracle_sample.h"
 #include "measures/metrics.h"
 #include "measures/speedup.h"
 #include "oracle/position.h"
@@ -97,7 +97,7 @@ static void time_every_light(TechniqueRun& run, const Compared& compared, const 
   double ms = 0;
   for (int frame = 0; frame < compared.options.frames && ms < most_ms; ++frame) ms += run.run_frame();
   run.run_profiled_frames(0);
-  own.every_light = run.result();
+  own.every_light = RunResult{run.result()};
 }
 
 void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& compared,
@@ -173,7 +173,7 @@ void set_row(CompareReport& report, size_t place, TechniqueRun& run, Measured& m
   if (!is_reference) run.run_frame(true);
   m.has_samples |= run.view().plan.settings[setting::samples] > 1;
   const Image& image = is_reference ? reference.image : run.image();
-  RunResult row = is_reference ? m.result : run.result();
+  RunResult row{is_reference ? m.result : run.result()};
   row.own_surfaces = run.frame().triangles.has_value();
   const Image& every_light = every_light_of(run, m);
   set_errors(row, image, every_light, report, m);

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "accuracy/shadow_truth.h"
+#include "accuracy/surfaces_in_double.h"
 #include "compare/runs.h"
-#include "compare/shadow_truth.h"
-#include "compare/surfaces_in_double.h"
 #include "measures/flip.h"
 #include "plan/settings/samples.h"
 
@@ -36,7 +36,7 @@ struct Measured {
   std::vector<float> depth;
   ReferenceTriangles triangles;
   ShadowTruth shadows;
-  RunResult result;
+  FrameFigures result;
   std::optional<FlipExposures> exposures{};
   bool has_samples = false;       // some row has several a pixel
   bool shown = false;             // the report will have the reference's image

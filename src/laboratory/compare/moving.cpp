@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accuracy/oracle.h"
+#include "accuracy/shadow_truth.h"
+#include "accuracy/surfaces_in_double.h"
 #include "base/resident.h"
-#include "compare/oracle.h"
-#include "compare/shadow_truth.h"
-#include "compare/surfaces_in_double.h"
 #include "measures/metrics.h"
 #include "plan/plan_changes.h"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "accuracy/oracle.h"
 #include "base/timer.h"
-#include "compare/oracle.h"
 #include "passes/read_back.h"
 #include "passes/surfaces.h"
 #include "scene/random.h"

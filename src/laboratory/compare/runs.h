@@ -10,10 +10,10 @@
 #include "cl/error.h"
 #include "compare/compare.h"
 #include "compare/reference_sample.h"
-#include "compare/technique_run.h"
 #include "plan/settings/grid.h"
 #include "plan/settings/samples.h"
 #include "plan/settings/shadows.h"
+#include "run/technique_run.h"
 
 namespace lightgrid {
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <tuple>
 
-#include "compare/oracle_sample.h"
-#include "compare/surfaces_in_double.h"
+#include "accuracy/oracle_sample.h"
+#include "accuracy/surfaces_in_double.h"
 #include "measures/error_measures.h"
 #include "measures/metrics.h"
 #include "plan/settings/grid.h"

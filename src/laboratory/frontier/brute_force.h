@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "compare/shadow_truth.h"
-#include "compare/technique_run.h"
+#include "accuracy/shadow_truth.h"
 #include "frontier/record.h"
+#include "run/technique_run.h"
 
 namespace lightgrid {
 

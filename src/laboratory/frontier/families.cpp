@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
+#include "accuracy/oracle.h"
 #include "base/timer.h"
 #include "cl/error.h"
-#include "compare/oracle.h"
 #include "frontier/brute_force.h"
 #include "frontier/rounds.h"
 #include "frontier/view_figures.h"
@@ -209,7 +209,7 @@ class FamilySweep {
     record.errors.authored = AuthoredErrors{unmeasured(), truths.authored->error_of(image)};
     count_pairs_of(point.run(), record);
     point.run().run_profiled_frames(100);
-    const RunResult result = point.run().result();
+    const FrameFigures result = point.run().result();
     record.memory_bytes = result.memory_total;
     take_passes(result, record);
   }

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <functional>
 
-#include "compare/scene_choice.h"
 #include "frontier/points.h"
 #include "frontier/record_file.h"
 #include "plan/settings/model.h"
+#include "run/scene_choice.h"
 
 namespace lightgrid {
 

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "compare/compare.h"
-#include "compare/technique_run.h"
 #include "frontier/export.h"
 #include "frontier/external.h"
 #include "frontier/external_process.h"
 #include "frontier/record.h"
 #include "plan/settings/model.h"
 #include "renderer/device_clock.h"
+#include "run/technique_run.h"
 
 namespace lightgrid {
 

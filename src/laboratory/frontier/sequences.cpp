@@ -10,8 +10,8 @@
 
 #include <glm/gtc/matrix_inverse.hpp>
 
+#include "accuracy/oracle.h"
 #include "base/parallel.h"
-#include "compare/oracle.h"
 #include "frontier/fields.h"
 #include "frontier/view_figures.h"
 #include "scene/camera_path.h"

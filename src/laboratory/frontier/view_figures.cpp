@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "accuracy/oracle.h"
+#include "accuracy/surfaces_in_double.h"
 #include "base/embedded.h"
 #include "base/error.h"
 #include "cl/error.h"
-#include "compare/oracle.h"
-#include "compare/surfaces_in_double.h"
 #include "measures/error_measures.h"
 #include "measures/metrics.h"
 #include "plan/settings/model.h"
@@ -164,7 +164,7 @@ void ViewFigures::look(const View& view, int index, bool own, bool whole) {
                      Random::mix(seed_) + uint64_t(index), shadows_);
 }
 
-void take_passes(const RunResult& result, FrontierRecord& record) {
+void take_passes(const FrameFigures& result, FrontierRecord& record) {
   for (const PassResult& pass : result.passes) {
     const uint64_t bytes = pass.bytes_read + pass.bytes_written;
     record.pass_ms[pass.name] += pass.median_ms;
@@ -262,7 +262,7 @@ void ViewFigures::fill(PointRun& point_run, FrontierRecord& record) {
   record.pairs = pairs_of(run, point.contestant.settings, depth);
   if (run.limits_lists()) record.overflow = record.pairs.lost;
   if (record.view == 0) run.run_profiled_frames(100);
-  const RunResult result = run.result();
+  const FrameFigures result = run.result();
   record.memory_bytes = result.memory_total;
   if (record.view == 0) take_passes(result, record);  // passes are counted where they are profiled
   if (point_run.is_random()) measure_seeds(point_run, truths, record);

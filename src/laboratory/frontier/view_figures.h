@@ -94,7 +94,7 @@ std::vector<View> frontier_views(const Scene& scene, const View& start, const Sc
 std::vector<View> slow_turn(const Scene& scene, const View& start, int frames);
 
 // The passes of a profiled run: their times and bytes.
-void take_passes(const RunResult& result, FrontierRecord& record);
+void take_passes(const FrameFigures& result, FrontierRecord& record);
 
 // True if a point's surfaces are those of the rasteriser in OpenCL; of another renderer, if it says so.
 bool has_own_surfaces(const ChosenPoint& point);

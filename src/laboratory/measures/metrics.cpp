@@ -191,10 +191,6 @@ ImageError measured_for_frontier(const Image& image, const ReferenceAt& referenc
 
 }  // namespace
 
-bool has_nan(const glm::vec4& pixel) {
-  return std::isnan(pixel.r) || std::isnan(pixel.g) || std::isnan(pixel.b);
-}
-
 float brightest_channel(const Image& image) {
   float brightest = 0;
   for (const auto& pixel : image.pixels) {
@@ -251,16 +247,6 @@ ErrorSteps error_steps(const Image& image, const Image& reference, int tile, dou
     return std::isfinite(mean) ? mean : 0;
   };
   return {mean(true), mean(false)};
-}
-
-uint64_t count_nan_pixels(const Image& image) {
-  return std::count_if(image.pixels.begin(), image.pixels.end(), has_nan);
-}
-
-uint64_t count_inf_pixels(const Image& image) {
-  return std::count_if(image.pixels.begin(), image.pixels.end(), [](const glm::vec4& pixel) {
-    return !has_nan(pixel) && (std::isinf(pixel.r) || std::isinf(pixel.g) || std::isinf(pixel.b));
-  });
 }
 
 void PictureMoments::add(const Image& image) {

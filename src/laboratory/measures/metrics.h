@@ -1,7 +1,7 @@
 // Differences between images, as numbers and as pictures.
 #pragma once
 
-#include "base/image.h"
+#include "base/finite_pixels.h"
 #include "measures/results.h"
 
 namespace lightgrid {
@@ -19,12 +19,6 @@ ImageError frontier_error(const Image& image, const std::vector<glm::dvec3>& ref
 
 // Over `brightest`. Images of one size; without pairs of either kind 0.
 ErrorSteps error_steps(const Image& image, const Image& reference, int tile, double brightest);
-
-bool has_nan(const glm::vec4& pixel);  // in a colour channel
-uint64_t count_nan_pixels(const Image& image);
-
-// Pixels with an infinite colour channel and no NaN: radiance past the largest float.
-uint64_t count_inf_pixels(const Image& image);
 
 // The largest finite colour channel; at least 0.
 float brightest_channel(const Image& image);

@@ -12,23 +12,10 @@
 
 #include "base/image.h"
 #include "base/log.h"
-#include "base/timer.h"
 #include "plan/plan_changes.h"
+#include "run/frame_figures.h"
 
 namespace lightgrid {
-
-struct KernelResult {
-  std::string name;  // name of a kernel or a transfer
-  double median_ms = 0;
-};
-
-struct PassResult {
-  std::string name;
-  std::string on;  // "gl", "cl" or "cpu"
-  double median_ms = 0;
-  size_t bytes_read = 0, bytes_written = 0;  // counted from the pass's inputs and outputs, not measured
-  std::vector<KernelResult> kernels = {};    // kernels of OpenCL passes, by the device's own clock
-};
 
 // The frame's shadows at the same pairs, according to the oracle (docs/oracle.md#seen-and-hidden).
 struct ShadowPairs {
@@ -156,29 +143,6 @@ struct PathMemory {
   size_t bytes = 0, bytes_at_end = 0;
 };
 
-struct SkippedEffect {
-  std::string effect, why;
-};
-
-// The work for shadows in the last frame, and the lights that cast but needed none.
-struct ShadowResult {
-  struct Skipped {
-    int light = 0;  // number in the scene
-    std::string why;
-  };
-  size_t lights = 0;                                                         // whose shadows were found
-  size_t maps = 0, drawn = 0, kept = 0, bytes = 0, rays = 0, undecided = 0;  // as in ShadowFigures
-  std::vector<Skipped> skipped;
-  size_t bands = 0;      // as in ShadowFigures
-  double dim_steps = 0;  // as in FramePlan
-  int halvings = 0;      // halvings of all maps' sizes
-};
-
-// The last frame with several samples per pixel: as SampleFigures.
-struct SampleResult {
-  size_t edge_pixels = 0, shadings = 0, covered = 0, bytes = 0;
-};
-
 // Half of a listed light is far more; 8-bit geometry buffers lose less.
 inline constexpr double most_unshaded = 0.01;
 
@@ -195,18 +159,9 @@ struct LimitedLists {
   ErrorSteps steps;
 };
 
-struct RunResult {
-  std::string technique;
-  std::string refused;  // why the machine or the technique cannot do this; empty if it ran
-  std::map<std::string, std::string> settings;
-  int lights_total = 0, lights_in_view = 0;
-  int lights_virtual = 0;  // included in lights_total
-  Spread frame_ms;
-  std::vector<PassResult> passes;
-  size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
-  std::string built_by;                      // as in Frame
-  std::map<std::string, double> built_with;  // the same
-  std::optional<PairCounts> pairs;           // absent without the oracle
+struct RunResult : FrameFigures {
+  std::string refused;              // why the machine or the technique cannot do this; empty if it ran
+  std::optional<PairCounts> pairs;  // absent without the oracle
   std::optional<ImageError> error;  // technique error: this image against the float image with every light
   // Set if surfaces are drawn in OpenCL. The light is then judged by `same_surfaces`: this image against
   // every light on these surfaces, relative to the brightest channel of `error`. Absent if that was not
@@ -217,14 +172,10 @@ struct RunResult {
   // most_unshaded, its loop does not shade what it lists. Absent where lists lack lights or may, where the
   // picture is not forward's by nature, and where every light was not drawn on these surfaces.
   std::optional<double> unshaded;
-  uint64_t nan_pixels = 0, inf_pixels = 0, overflow = 0;
+  uint64_t overflow = 0;
   std::optional<LimitedLists>
       limited;  // absent with lists of any length, and if `unshaded` could not be known
-  std::vector<SkippedEffect> skipped;
-  std::optional<ShadowResult> shadows;                           // absent if no light casts a shadow
-  std::optional<SampleResult> samples;                           // absent with one sample a pixel
-  std::map<std::string, std::map<std::string, double>> effects;  // figures of each, by its name
-  std::optional<MovingResult> moving;                            // absent without a camera path
+  std::optional<MovingResult> moving;  // absent without a camera path
 };
 
 // The technique that shades every light at every pixel, on OpenGL's surfaces or on those drawn in OpenCL.

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "c_api/owned.h"
-#include "compare/technique_run.h"
+#include "run/technique_run.h"
 #include "support/devices.h"
 #include "support/read_files.h"
 #include "support/run_program.h"

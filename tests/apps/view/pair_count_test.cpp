@@ -5,9 +5,9 @@
 
 #include <numeric>
 
-#include "compare/oracle.h"
-#include "compare/shadow_truth.h"
-#include "compare/surfaces_in_double.h"
+#include "accuracy/oracle.h"
+#include "accuracy/shadow_truth.h"
+#include "accuracy/surfaces_in_double.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "compare/oracle.h"
-#include "compare/shadow_truth.h"
+#include "accuracy/oracle.h"
+#include "accuracy/shadow_truth.h"
 #include "oracle/scene_surfaces.h"
 #include "plan/settings/model.h"
 #include "techniques/rendering.h"

@@ -2,7 +2,7 @@
 // picture. RayCaster.ForwardHasItsRadianceUnderSpotsWithHardEdges says that forward's is right.
 #include <numbers>
 
-#include "compare/oracle_sample.h"
+#include "accuracy/oracle_sample.h"
 #include "oracle/position.h"
 #include "plan/settings/cull_test.h"
 #include "plan/settings/grid.h"

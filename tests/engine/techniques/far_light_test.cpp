@@ -232,7 +232,7 @@ TEST(FarLight, MeansThePictureWithoutRanges) {
   EXPECT_TRUE(std::ranges::count(model_settings(), "far-light"));
 }
 
-// Views without the technique's passes (compare/virtual_lights.h) do not have it.
+// Views without the technique's passes (run/virtual_lights.h) do not have it.
 TEST(FarLight, IsPlannedForTechniquesThatHaveIt) {
   const Scene scene = many_lights(11);
   const View view = small_view(17, 9);

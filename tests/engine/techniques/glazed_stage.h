@@ -1,7 +1,7 @@
 // A scene with blended surfaces one behind the other, among surfaces that cast.
 #pragma once
 
-#include "compare/oracle.h"
+#include "accuracy/oracle.h"
 #include "techniques/shadow_stage.h"
 
 namespace lightgrid {

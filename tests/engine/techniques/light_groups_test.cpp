@@ -2,8 +2,8 @@
 // none of their surfaces has.
 #include <gmock/gmock.h>
 
+#include "accuracy/surfaces_in_double.h"
 #include "base/error.h"
-#include "compare/surfaces_in_double.h"
 #include "plan/settings/grid.h"
 #include "plan/settings/groups.h"
 #include "plan/settings/shadows.h"

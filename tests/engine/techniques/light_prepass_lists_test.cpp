@@ -173,7 +173,7 @@ TEST(LightPrepass, TakesTheMemoryThatItsPageSays) {
       EXPECT_EQ(result_of("light_prepass", settings).memory_gbuffer, pixels * (normal + sums + sums / 2));
     }
   }
-  const RunResult of_tiles = result_of("light_prepass", tiles());
+  const FrameFigures of_tiles = result_of("light_prepass", tiles());
   EXPECT_EQ(of_tiles.memory_gbuffer, pixels * 40);
   EXPECT_EQ(of_tiles.memory_total - result_of("forward_plus", {}).memory_total,
             pixels * 40 + (pixels + 16) * 40 + lights + none_of_three_kinds + sizeof(ViewParams));

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "accuracy/oracle.h"
 #include "base/error.h"
-#include "compare/oracle.h"
 
 namespace lightgrid {
 
@@ -47,7 +47,7 @@ inline Observed observe(Renderer& renderer, const Scene& scene, const View& view
     }
     renderer.note_programs(nullptr);
     for (const PassRecord& pass : run.view().timer.records()) seen["pass " + pass.name] = pass_text(pass);
-    const RunResult result = run.result();
+    const FrameFigures result = run.result();
     seen["memory"] =
         fmt::format("{} {} {}", result.memory_total, result.memory_light_grid, result.memory_gbuffer);
     const ListedLights lists = listed_lights(run, read_depth(run));

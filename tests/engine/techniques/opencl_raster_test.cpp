@@ -17,7 +17,7 @@ struct Drawn {
   Image image;
   std::vector<float> depth;
   LitPairs pairs;
-  RunResult result;
+  FrameFigures result;
 };
 
 Drawn drawn(const char* technique, const Scene& scene, const View& view, const Settings& settings) {

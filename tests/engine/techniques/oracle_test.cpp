@@ -1,5 +1,5 @@
 // The shaders against the oracle in double, pixel by pixel.
-#include "compare/oracle_sample.h"
+#include "accuracy/oracle_sample.h"
 #include "plan/settings/model.h"
 #include "report/report.h"
 #include "scene/random.h"

@@ -1,6 +1,6 @@
 // Where lights end (scene/light_ranges.h): every technique draws forward's picture, forward the oracle's; and
 // the mean over random ranges is the picture without ranges.
-#include "compare/oracle_sample.h"
+#include "accuracy/oracle_sample.h"
 #include "plan/settings/model.h"
 #include "support/small_scene.h"
 #include "techniques/lidr_scenes.h"

@@ -8,9 +8,9 @@
 #include <cstring>
 #include <sstream>
 
-#include "compare/oracle.h"
-#include "compare/technique_run.h"
+#include "accuracy/oracle.h"
 #include "measures/metrics.h"
+#include "run/technique_run.h"
 #include "scene/camera.h"
 #include "scenes/builtin.h"
 #include "support/devices.h"

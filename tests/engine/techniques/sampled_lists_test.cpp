@@ -2,9 +2,9 @@
 // by the oracle in double and by each technique itself, and each light of a list counts once on average.
 #include <gmock/gmock.h>
 
+#include "accuracy/oracle_sample.h"
 #include "base/error.h"
 #include "cl/transfer.h"
-#include "compare/oracle_sample.h"
 #include "scene/random.h"
 #include "techniques/many_lights.h"
 #include "techniques/moments.h"

@@ -369,7 +369,7 @@ TEST_P(UnchangedShadows, CostNoKernelAndNoBit) {
     EXPECT_THAT(full.passes, Contains("find_shadows"));
     EXPECT_GT(full.figures.rays, 100u);
     EXPECT_EQ(ruled.figures.lights, full.figures.lights);
-    const RunResult result = with.result();
+    const FrameFigures result = with.result();
     const auto unchanged = std::ranges::count(result.shadows->skipped, std::string(unchanged_reason),
                                               &ShadowResult::Skipped::why);
     if (frame == 0) {

@@ -1,8 +1,8 @@
 // A small scene in which most lights cast, and what a run's shadows are according to the oracle.
 #pragma once
 
-#include "compare/shadow_truth.h"
-#include "compare/surfaces_in_double.h"
+#include "accuracy/shadow_truth.h"
+#include "accuracy/surfaces_in_double.h"
 #include "plan/settings/surfaces.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"

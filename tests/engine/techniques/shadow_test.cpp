@@ -1,6 +1,6 @@
 // Shadows in every technique's picture: each pair of a pixel and a light against the oracle, and radiance in
 // double.
-#include "compare/oracle_sample.h"
+#include "accuracy/oracle_sample.h"
 #include "oracle/position.h"
 #include "plan/settings/surfaces.h"
 #include "scene/rig.h"

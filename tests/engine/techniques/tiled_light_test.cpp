@@ -97,7 +97,7 @@ TEST(TiledLight, TakesTheMemoryThatItsPageSays) {
   const size_t beside = result_of("forward_plus", 32).memory_total;
   for (const char* technique : both) {
     for (const auto& [bits, bytes] : {std::pair<int, size_t>(8, 8), {16, 16}, {32, 32}}) {
-      const RunResult result = result_of(technique, bits);
+      const FrameFigures result = result_of(technique, bits);
       EXPECT_EQ(result.memory_gbuffer, pixels * bytes) << technique << ' ' << bits;
       EXPECT_EQ(result.memory_total - beside, pixels * bytes + (pixels + 16) * (bytes + 16) + lights)
           << technique << ' ' << bits;

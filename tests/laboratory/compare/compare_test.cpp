@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "compare/technique_run.h"
 #include "measures/metrics.h"
 #include "measures/results.h"
 #include "passes/light_index/lidr_settings.h"
 #include "passes/surfaces.h"
+#include "run/technique_run.h"
 #include "support/render.h"
 #include "support/small_scene.h"
 

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "compare/technique_run.h"
 #include "plan/settings/samples.h"
+#include "run/technique_run.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
 

@@ -9,7 +9,7 @@
 
 #include <gmock/gmock.h>
 
-#include "compare/oracle.h"
+#include "accuracy/oracle.h"
 #include "measures/metrics.h"
 #include "measures/path_changes.h"
 #include "plan/settings/surfaces.h"

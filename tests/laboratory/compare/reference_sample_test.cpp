@@ -4,8 +4,8 @@
 
 #include <set>
 
+#include "accuracy/oracle.h"
 #include "compare/compare.h"
-#include "compare/oracle.h"
 #include "support/render.h"
 #include "support/small_scene.h"
 

@@ -3,11 +3,11 @@
 
 #include "base/error.h"
 #include "compare/compare.h"
-#include "compare/technique_run.h"
 #include "gl/objects.h"
 #include "measures/metrics.h"
 #include "plan/settings/grid.h"
 #include "plan/settings/surfaces.h"
+#include "run/technique_run.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
 

@@ -5,8 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include "accuracy/oracle.h"
 #include "base/error.h"
-#include "compare/oracle.h"
 #include "frames/capture.h"
 #include "frames/captured_frame.h"
 #include "frames/frame_lists.h"

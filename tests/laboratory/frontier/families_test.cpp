@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "compare/oracle.h"
+#include "accuracy/oracle.h"
 #include "frontier/answer.h"
 #include "frontier/synthetic_records.h"
 #include "scene/light_rigs.h"

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "compare/oracle.h"
+#include "accuracy/oracle.h"
 #include "measures/metrics.h"
 #include "support/devices.h"
 #include "support/small_scene.h"

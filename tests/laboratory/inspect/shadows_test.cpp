@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compare/frame_shadows.h"
+#include "accuracy/frame_shadows.h"
 #include "inspect/inspect.h"
 #include "plan/settings/shadows.h"
 #include "support/devices.h"
