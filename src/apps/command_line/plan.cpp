@@ -8,12 +8,10 @@
 #include "command_line/commands.h"
 #include "command_line/options.h"
 #include "compare/contestants.h"
-#include "compare/edge_share.h"
-#include "compare/group_proposal.h"
+#include "oracle/leaks.h"
 #include "plan/coarse_shadows.h"
 #include "plan/settings/model.h"
 #include "plan/settings/samples.h"
-#include "scene/lights_file.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -21,11 +19,11 @@ namespace {
 
 struct PlanOptions {
   SceneChoice scene;
-  std::string technique = "forward_plus", json, groups;
+  std::string technique = "forward_plus", json;
   bool leaks = false;
 };
 
-nlohmann::ordered_json leaks_json(const Leaks& leaks, const GroupProposal& proposal, const Scene& scene) {
+nlohmann::ordered_json leaks_json(const Leaks& leaks, const Scene& scene) {
   nlohmann::ordered_json json = {{"pixels", leaks.pixels},
                                  {"lit", leaks.lit},
                                  {"leaked", leaks.leaked},
@@ -38,11 +36,14 @@ nlohmann::ordered_json leaks_json(const Leaks& leaks, const GroupProposal& propo
                                {"node_name", scene.instances[size_t(leak.instance)].name},
                                {"pixels", leak.pixels}});
   }
-  json["groups"] = nlohmann::ordered_json::array();
-  for (const ProposedGroup& group : proposal.groups)
-    json["groups"].push_back(
-        {{"lights", group.lights}, {"exclude", group.exclude}, {"leaked", group.leaked}});
-  json["leaked_with_groups"] = proposal.left;
+  json["received"] = nlohmann::ordered_json::array();
+  for (const Leaks::Received& received : leaks.received) {
+    json["received"].push_back({{"light", received.light},
+                                {"node", received.instance},
+                                {"node_name", scene.instances[size_t(received.instance)].name},
+                                {"seen", received.seen},
+                                {"leaked", received.leaked}});
+  }
   return json;
 }
 
@@ -53,24 +54,14 @@ int plan(PlanOptions o) {
   check_given_settings(settings, {&technique});
   check_samples(technique, settings);
   if (!o.json.empty()) check_output_file("--json", o.json);
-  if (!o.groups.empty()) check_output_file("--propose-groups", o.groups);
   const ChosenScene chosen = load_chosen_scene(o.scene);
   const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
   std::optional<Leaks> leaks;
-  if (o.leaks || !o.groups.empty()) leaks = find_leaks(chosen.scene, chosen.view, ranges_of(settings));
-  const GroupProposal proposal = leaks ? propose_groups(*leaks, chosen.scene) : GroupProposal();
-  if (!o.groups.empty()) write_json(o.groups, lights_file_text(with_groups(chosen.scene, proposal)));
-  std::optional<EdgeShare> edges;
-  if (const int samples = plan.settings[setting::samples]; samples > 1)
-    edges = find_edge_share(chosen.scene, chosen.view, samples);
+  if (o.leaks) leaks = find_leaks(chosen.scene, chosen.view, ranges_of(settings));
   if (o.json.empty()) {
     std::fputs(describe(plan, chosen.scene).c_str(), stdout);
-    if (edges) std::fputs(describe(*edges, chosen.view).c_str(), stdout);
-    constexpr size_t most_leaks = 20;
-    if (leaks) {
-      std::fputs(describe(*leaks, chosen.scene, most_leaks).c_str(), stdout);
-      std::fputs(describe(proposal, chosen.scene).c_str(), stdout);
-    }
+    constexpr size_t max_leaks = 20;
+    if (leaks) std::fputs(describe(*leaks, chosen.scene, max_leaks).c_str(), stdout);
     return 0;
   }
   nlohmann::ordered_json json = {{"scene", chosen.scene.name},
@@ -98,10 +89,7 @@ int plan(PlanOptions o) {
                               {"instances", coarse.instances},
                               {"first_instance", coarse.first_instance},
                               {"gap_m", coarse.gap_m}};
-  if (edges)
-    json["edges"] = {{"samples", edges->samples}, {"pixels", edges->pixels},   {"edge_pixels", edges->edges},
-                     {"covered", edges->covered}, {"shadings", edges->shaded}, {"saved", edges->saved()}};
-  if (leaks) json["leaks"] = leaks_json(*leaks, proposal, chosen.scene);
+  if (leaks) json["leaks"] = leaks_json(*leaks, chosen.scene);
   write_json(o.json, json.dump(1));
   return 0;
 }
@@ -116,8 +104,6 @@ void add_plan(CommandLine& line) {
   add_technique_option(command, o->technique, technique_names());
   add_exposure_option(command, o->scene);
   command.flag("--leaks", o->leaks, "lists the light that goes through walls, by light and wall");
-  command.option("--propose-groups", o->groups,
-                 "writes a lights file with light groups that keep this light out; lists it too");
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 

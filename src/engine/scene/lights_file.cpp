@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
-#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -349,18 +348,6 @@ std::string camera_of_lights_file(const std::filesystem::path& path) {
 
 std::string lights_file_text(const std::vector<Light>& lights) {
   return "{\"lights\": [" + lines_of(lights) + "\n]}\n";
-}
-
-std::string lights_file_text(const Scene& scene) {
-  std::string instances;
-  std::set<std::string> told;
-  for (const Instance& instance : scene.instances) {
-    if (instance.groups == all_groups || instance.name.empty() || !told.insert(instance.name).second)
-      continue;
-    const nlohmann::ordered_json json = {{"name", instance.name}, {"groups", to_json(instance.groups)}};
-    instances += (instances.empty() ? "\n  " : ",\n  ") + line_of(json);
-  }
-  return "{\"lights\": [" + lines_of(scene.lights) + "\n],\n\"instances\": [" + instances + "\n]}\n";
 }
 
 }  // namespace lightgrid

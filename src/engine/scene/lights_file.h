@@ -39,7 +39,5 @@ std::string camera_of_lights_file(const std::filesystem::path& path);
 // A lights file from which load_lights_file reads equal lights back: positions to the last bit of a double,
 // the rest of a float. Fields that a light's type does not use are omitted.
 std::string lights_file_text(const std::vector<Light>& lights);
-// The same with the groups of instances that lack one; of several of a name, the first one's.
-std::string lights_file_text(const Scene& scene);
 
 }  // namespace lightgrid

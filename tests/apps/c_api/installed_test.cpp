@@ -52,7 +52,7 @@ TEST(CLibraryAbi, IsTheCommittedOne) {
   if (must_run("uname -m") != "x86_64\n") GTEST_SKIP() << "lightgrid.abi is that of x86-64";
   const TempFolder temp;
   const std::string stub = temp.path / "liblightgrid.so", source = temp.path / "lightgrid.c",
-                    known = std::string(source_folder) + "/src/apps/c_api/lightgrid.abi";
+                    known = std::string(source_folder) + "/tests/apps/c_api/lightgrid.abi";
   write_stub(source);
   must_run("cc -std=c99 -g -w -fdebug-prefix-map=" + temp.path.string() +
            "=. -shared -fPIC -Wl,-soname,liblightgrid.so.0 -o " + stub + " " + source);

@@ -288,7 +288,7 @@ TEST(PlanCommand, TellsWithoutAnyDeviceWhatIsNeededAndWhy) {
   }
 }
 
-TEST(PlanCommand, TellsOfTheSamplesThatASceneAsksForAndOfItsEdges) {
+TEST(PlanCommand, ReportsTheSamplesThatASceneRequests) {
   GltfBuilder made = GltfBuilder::triangle();
   made.root["scenes"] = {{{"nodes", {0}}, {"extras", {{"lightgrid", {{"samples", 4}}}}}}};
   const ModelFolder folder;
@@ -302,11 +302,7 @@ TEST(PlanCommand, TellsOfTheSamplesThatASceneAsksForAndOfItsEdges) {
     return run.out;
   };
   EXPECT_THAT(plan({}), HasSubstr("yes samples: the scene asks for 4 a pixel\n"));
-  EXPECT_THAT(plan({}), HasSubstr("of 2304 with samples=4"));
-  EXPECT_EQ(nlohmann::json::parse(plan({"--json", "-"}))["edges"]["samples"], 4);
-  const std::string one = plan({"--set", "samples=1"});
-  EXPECT_THAT(one, HasSubstr(" no samples: the scene asks for 4 a pixel; samples=1\n"));
-  EXPECT_THAT(one, Not(HasSubstr("pixels with edges")));
+  EXPECT_THAT(plan({"--set", "samples=1"}), HasSubstr(" no samples: the scene asks for 4 a pixel; samples=1\n"));
 }
 
 TEST(PlanCommand, TellsOfEachLightThatCastsWhetherItsShadowsAreFound) {

@@ -3,13 +3,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <fstream>
-
-#include "compare/group_proposal.h"
-#include "scene/light_groups.h"
-#include "scene/lights_file.h"
-#include "scenes/builtin.h"
 #include "scenes/compose.h"
 #include "scenes/shapes.h"
 
@@ -113,57 +106,6 @@ TEST(Leaks, SurfacesAreThoseThatTheViewShows) {
   EXPECT_EQ(lit(), 64u + 64u) << "cut out";
   shelf.alpha_mode = AlphaMode::blend;
   EXPECT_EQ(lit(), 64u + 64u);
-}
-
-// Rooms without their groups: the lamps' light goes through walls.
-Scene rooms_without_groups() {
-  Scene scene = find_builtin_scene("rooms")->make();
-  scene.group_names.clear();
-  for (Light& light : scene.lights) light.groups = all_groups;
-  for (Instance& instance : scene.instances) instance.groups = all_groups;
-  return scene;
-}
-
-TEST(ProposedGroups, TakeAwayWhatTheySayAndNoLightThatIsSeen) {
-  const Scene scene = rooms_without_groups();
-  const View view = make_view(choose_camera(scene, ""), 96, 54);
-  const Leaks before = find_leaks(scene, view, {});
-  const GroupProposal proposal = propose_groups(before, scene);
-  ASSERT_GT(before.leaked, 10'000u);
-  EXPECT_LT(proposal.left, before.leaked / 5)
-      << "walls keep lamps in their rooms; what a door shows too is left";
-  EXPECT_LT(proposal.groups.size(), 16u) << "lamps of a room share one";
-  const Scene grouped = with_groups(scene, proposal);
-  const Leaks after = find_leaks(grouped, view, {});
-  EXPECT_EQ(after.leaked, proposal.left);
-  EXPECT_EQ(after.lit - after.leaked, before.lit - before.leaked) << "what is seen stays lit";
-  EXPECT_THAT(describe(proposal, scene),
-              HasSubstr(fmt::format("would take away {} of {} leaked pairs\n", before.leaked - proposal.left,
-                                    before.leaked)));
-}
-
-TEST(ProposedGroups, OfALightsFileAreThoseOfTheScene) {
-  Scene scene = rooms_without_groups();
-  const View view = make_view(choose_camera(scene, "kitchen"), 48, 27);
-  const Scene grouped = with_groups(scene, propose_groups(find_leaks(scene, view, {}), scene));
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "proposed_groups.json";
-  std::ofstream(path) << lights_file_text(grouped);
-  load_lights(scene, path);
-  std::filesystem::remove(path);
-  for (size_t i = 0; i < scene.lights.size(); ++i)
-    EXPECT_EQ(scene.lights[i].groups, grouped.lights[i].groups);
-  for (size_t i = 0; i < scene.instances.size(); ++i)
-    EXPECT_EQ(scene.instances[i].groups, grouped.instances[i].groups) << scene.instances[i].name;
-  EXPECT_TRUE(calls_for_groups(scene));
-}
-
-TEST(ProposedGroups, AreNoneWhereNoLightLeaksOrEachNodeIsSeen) {
-  Cupboard c;
-  EXPECT_EQ(describe(propose_groups(find_leaks(c.scene, c.view, {}), c.scene), c.scene), "");
-  c.lamp({0.1f, 4, 0}, 100);  // lights a part of the floor
-  const GroupProposal proposal = propose_groups(find_leaks(c.scene, c.view, {}), c.scene);
-  EXPECT_TRUE(proposal.groups.empty());
-  EXPECT_EQ(proposal.left, 32u);
 }
 
 }  // namespace
