@@ -12,9 +12,17 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<CsvColumn> csv_columns(bool truths, bool external, bool shadows, bool authored, bool seeds,
-                                   bool sequences, bool surfaces, bool families) {
+// The columns of all records, and those of fields that only some records have.
+std::vector<CsvColumn> csv_columns(const std::vector<json>& records) {
   std::vector<CsvColumn> all;
+  const auto has = [&](const std::string& field) {
+    return std::ranges::any_of(records, [at = json::json_pointer(field)](const json& record) {
+      return record.contains(at) && !record[at].is_null();
+    });
+  };
+  const auto add_flip = [&](const std::string& within, const std::string& prefix) {
+    add_columns(all, {"mean", "visible_share"}, within + "/displayed_flip", prefix + "displayed_flip_");
+  };
   const auto add_measures = [&](const std::string& within, const std::string& prefix) {
     for (const ErrorMeasure& m : frontier_error_measures()) add_columns(all, {m.key}, within, prefix);
   };
@@ -28,40 +36,38 @@ std::vector<CsvColumn> csv_columns(bool truths, bool external, bool shadows, boo
   add_columns(all, {"listed", "lit", "lost", "wrong"}, "/pairs");
   add_columns(all, {"nan_pixels", "overflow"});
   for (const auto& [key, ignored] : kinds_of_error) {
-    const std::string kind = key;
-    add_measures("/errors/" + kind, kind + "_");
-    add_columns(all, {"flip_mean"}, "/errors/" + kind, kind + "_");
-    if (kind != "model" && kind != "total") continue;
-    add_columns(all, {"mean", "visible_share"}, "/errors/" + kind + "/displayed_flip",
-                kind + "_displayed_flip_");
+    const std::string kind = key, within = "/errors/" + kind;
+    add_measures(within, kind + "_");
+    add_columns(all, {"flip_mean"}, within, kind + "_");
+    if (kind == "model" || kind == "total") add_flip(within, kind + "_");
   }
-  for (const std::string kind : {"model", "total"}) {
-    if (!authored) break;
-    const std::string within = "/errors/authored/" + kind, prefix = "authored_" + kind + "_";
-    add_measures(within, prefix);
-    add_columns(all, {"mean", "visible_share"}, within + "/displayed_flip", prefix + "displayed_flip_");
+  if (has("/errors/authored")) {
+    for (const std::string kind : {"model", "total"}) {
+      add_measures("/errors/authored/" + kind, "authored_" + kind + "_");
+      add_flip("/errors/authored/" + kind, "authored_" + kind + "_");
+    }
   }
   add_columns(all, {"bias_rmse_rel", "deviation_rmse_rel", "temporal_rmse_rel"}, "/errors");
-  if (seeds) {
+  if (has("/errors/seeds")) {
     add_columns(all, {"pictures", "flip_pictures", "bias_mse_rel", "bias_mse_rel_error"}, "/errors/seeds",
                 "seeds_");
     add_measures("/errors/seeds/deviation", "seeds_deviation_");
     all.push_back({"seeds_deviation_displayed_flip_mean", "/errors/seeds/deviation/displayed_flip/mean"});
   }
-  for (const auto& [key, ignored] : sequences_of_errors) {
-    for (const std::string kind : {"plain", "filtered"}) {
-      if (!sequences) break;
-      const std::string within = std::string("/errors/sequences/") + key + "/" + kind,
-                        prefix = std::string(key) + "_" + kind + "_";
-      add_columns(all, {"mean", "visible_share"}, within + "/flicker", prefix + "flicker_");
-      add_columns(all, {"largest_flicker"}, within, prefix);
-      add_columns(all, {"mean", "visible_share"}, within + "/displayed_flip", prefix + "displayed_flip_");
+  if (has("/errors/sequences")) {
+    for (const auto& [key, ignored] : sequences_of_errors) {
+      for (const std::string kind : {"plain", "filtered"}) {
+        const std::string within = fmt::format("/errors/sequences/{}/{}", key, kind);
+        const std::string prefix = fmt::format("{}_{}_", key, kind);
+        add_columns(all, {"mean", "visible_share"}, within + "/flicker", prefix + "flicker_");
+        add_columns(all, {"largest_flicker"}, within, prefix);
+        add_flip(within, prefix);
+      }
     }
   }
-  if (surfaces) {
+  if (has("/errors/surfaces")) {
     add_measures("/errors/surfaces", "surfaces_");
-    add_columns(all, {"mean", "visible_share"}, "/errors/surfaces/displayed_flip",
-                "surfaces_displayed_flip_");
+    add_flip("/errors/surfaces", "surfaces_");
   }
   for (const auto& [name, index] : {std::pair{"flip_start", "0"}, {"flip_stop", "1"}, {"flip_count", "2"}})
     all.push_back({name, std::string("/flip_exposures/") + index});
@@ -71,20 +77,22 @@ std::vector<CsvColumn> csv_columns(bool truths, bool external, bool shadows, boo
   add_measures(sampled + "/picture", "in_double_");
   add_columns(all, {"max_rel", "rmse_rel"}, sampled + "/picture_in_float", "in_double_float_total_");
   add_columns(all, {"max_rel", "rmse_rel"}, sampled + "/truth", "in_double_float_truth_");
-  if (families) add_columns(all, {"overlap", "pair_pixels"});
-  if (truths) add_columns(all, {"own_ranges", "shadow_source", "shadow_rays", "places"}, "/truth", "truth_");
-  if (external) add_columns(all, {"note", "paired"}, "/external", "external_");
-  if (!shadows) return all;
+  if (has("/overlap")) add_columns(all, {"overlap", "pair_pixels"});
+  if (has("/truth")) {
+    add_columns(all, {"own_ranges", "shadow_source", "shadow_rays", "places"}, "/truth", "truth_");
+  }
+  if (has("/external")) add_columns(all, {"note", "paired"}, "/external", "external_");
+  if (!has("/pairs/shadows")) return all;
   add_columns(all, {"leaked", "acned", "either"}, "/pairs/shadows");
   add_columns(all, {"pixels", "pairs"}, "/pairs/shadows", "shadow_");
   add_columns(all, {"leaked_percent", "acned_percent"});
   return all;
 }
 
-// A record's fields as in its part, its times as medians with intervals, and the sweep's.
-json csv_row(const FrontierAnswer& answer, size_t row) {
+// `fields`, the record's fields as in its part, with its times as medians with intervals, and the sweep's
+// fields.
+json csv_row(const FrontierAnswer& answer, size_t row, json fields) {
   const FrontierRecord& r = answer.part.records[row];
-  json fields = ToJson{Numbers::finite}.json_of(r);
   fields.update(
       {{"row", row}, {"commit", answer.part.commit}, {"seed", answer.part.seed}, {"shard", r.shard}});
   for (const FrontierMachine& machine : answer.machines) {
@@ -125,18 +133,12 @@ std::string figure(double value) { return std::isfinite(value) ? fmt::format("{}
 }  // namespace
 
 std::string csv_text(const FrontierAnswer& answer) {
-  std::vector<json> rows;
-  for (size_t row = 0; row < answer.part.records.size(); ++row) rows.push_back(csv_row(answer, row));
-  const auto any = [&](const auto& has) { return std::ranges::any_of(answer.part.records, has); };
-  const bool truths = any([](const FrontierRecord& r) { return r.truth.has_value(); });
-  const bool external = any([](const FrontierRecord& r) { return r.external.has_value(); });
-  const bool shadows = any([](const FrontierRecord& r) { return r.pairs.shadows.has_value(); });
-  const bool authored = any([](const FrontierRecord& r) { return r.errors.authored.has_value(); });
-  const bool seeds = any([](const FrontierRecord& r) { return r.errors.seeds.has_value(); });
-  const bool sequences = any([](const FrontierRecord& r) { return r.errors.sequences.has_value(); });
-  const bool surfaces = any([](const FrontierRecord& r) { return r.errors.surfaces.has_value(); });
-  return csv_table(
-      csv_columns(truths, external, shadows, authored, seeds, sequences, surfaces, any(is_of_family)), rows);
+  std::vector<json> records, rows;
+  for (const FrontierRecord& record : answer.part.records) {
+    records.push_back(ToJson{Numbers::finite}.json_of(record));
+    rows.push_back(csv_row(answer, rows.size(), records.back()));
+  }
+  return csv_table(csv_columns(records), rows);
 }
 
 std::string cull_csv_text(const FrontierAnswer& answer) {
