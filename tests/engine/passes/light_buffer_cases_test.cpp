@@ -6,7 +6,6 @@
 
 #include "cl/transfer.h"
 #include "oracle/attenuation.h"
-#include "oracle/light_sums.h"
 #include "oracle/position.h"
 #include "passes/common/prepass_settings.h"
 #include "passes/cull_lights.h"
@@ -17,6 +16,7 @@
 #include "renderer/render_view.h"
 #include "scene/random.h"
 #include "scene/virtual_lights.h"
+#include "support/light_sums.h"
 
 namespace lightgrid {
 namespace {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "oracle/light_sums.h"
 #include "passes/build_voxels.h"
 #include "passes/pass_cases.h"
 #include "passes/voxels/voxel_settings.h"
@@ -14,6 +13,7 @@
 #include "renderer/render_view.h"
 #include "scene/random.h"
 #include "scene/virtual_lights.h"
+#include "support/light_sums.h"
 
 namespace lightgrid {
 namespace {

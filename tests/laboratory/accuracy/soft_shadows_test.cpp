@@ -1,5 +1,5 @@
 // Soft shadows of the pass against 1,024 rays a pair in double.
-#include "oracle/soft_occlusion.h"
+#include "support/soft_occlusion.h"
 
 #include <gtest/gtest.h>
 

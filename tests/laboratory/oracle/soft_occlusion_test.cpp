@@ -1,4 +1,4 @@
-#include "oracle/soft_occlusion.h"
+#include "support/soft_occlusion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A sample of a voxel light buffer on cases by hand.
-#include "oracle/light_sums.h"
+#include "support/light_sums.h"
 
 #include <gtest/gtest.h>
 
