@@ -18,29 +18,12 @@
 namespace lightgrid::verify {
 namespace {
 
+using glm::dvec2;
 using glm::dvec3;
 
 constexpr int numbers[] = {2, 4, 8};
-// As verify/raster_check.cpp lists them, in pixels and y up.
-struct Place {
-  double x, y;
-};
-std::vector<Place> places(int samples) {
-  switch (samples) {
-    case 2:
-      return {{0.25, -0.25}, {-0.25, 0.25}};
-    case 4:
-      return {{-0.125, 0.375}, {0.375, 0.125}, {-0.375, -0.125}, {0.125, -0.375}};
-    default:
-      return {{0.0625, 0.1875},   {-0.0625, -0.1875}, {0.3125, -0.0625}, {-0.1875, 0.3125},
-              {-0.3125, -0.3125}, {-0.4375, 0.0625},  {0.1875, -0.4375}, {0.4375, 0.4375}};
-  }
-}
-
 RasterInput scene_with(int samples, int width, int height, bool two_sided = true) {
-  RasterInput input = raster_scene(width, height, two_sided);
-  input.camera.grid.samples = samples;
-  return input;
+  return raster_scene(width, height, two_sided, samples);
 }
 
 void for_each_number(const std::function<void(int)>& run) {
@@ -48,7 +31,7 @@ void for_each_number(const std::function<void(int)>& run) {
 }
 
 // A corner at pixels (x, y) and distance d.
-void add_at(RasterInput& input, const Place& a, const Place& b, const Place& c, double d) {
+void add_at(RasterInput& input, const dvec2& a, const dvec2& b, const dvec2& c, double d) {
   add_raster_triangle(input, raster_position(input, a.x, a.y, d), raster_position(input, b.x, b.y, d),
                       raster_position(input, c.x, c.y, d));
 }
@@ -56,12 +39,12 @@ void add_at(RasterInput& input, const Place& a, const Place& b, const Place& c, 
 // A triangle of 1/8 pixel around each sample of some pixels: each covers that sample alone.
 void one_sample_alone(Check& c) {
   for_each_number([&](int samples) {
-    const std::vector<Place> at = places(samples);
+    const std::vector<dvec2> at = sample_places(samples);
     RasterInput input = scene_with(samples, 67, 66);
     int pixel = 0;
     for (int y = 0; y < 66; y += 3) {
       for (int x = 0; x < 67; x += 3, ++pixel) {
-        const Place& p = at[size_t(pixel) % at.size()];
+        const dvec2& p = at[size_t(pixel) % at.size()];
         const double px = x + 0.5 + p.x, py = y + 0.5 + p.y, r = 1.0 / 16;
         add_at(input, {px - r, py - r}, {px + r, py - r}, {px, py + r}, 2);
       }
@@ -73,69 +56,19 @@ void one_sample_alone(Check& c) {
   });
 }
 
-// A sheet of triangles over the whole image, each corner on a sample's place, or anywhere.
-void cover_once(Check& c, bool on_places) {
+void sheet(Check& c, bool on_places) {
   for_each_number([&](int samples) {
-    const std::vector<Place> at = places(samples);
-    RasterInput input = scene_with(samples, 70, 66);
-    Random random(uint32_t(41 + samples));
-    constexpr int cells = 15;
-    RasterInputMesh& mesh = input.meshes[0];
-    for (int y = 0; y <= cells; ++y) {
-      for (int x = 0; x <= cells; ++x) {
-        double px = (double(x) / cells * 1.4 - 0.2 + random.uniform(-0.3f, 0.3f) / cells) * 70;
-        double py = (double(y) / cells * 1.4 - 0.2 + random.uniform(-0.3f, 0.3f) / cells) * 66;
-        const Place& p = at[size_t(random.next() % uint64_t(samples))];
-        if (on_places) px = std::floor(px) + 0.5 + p.x, py = std::floor(py) + 0.5 + p.y;
-        mesh.positions.push_back(
-            raster_position(input, px, py, on_places ? 1.0 : double(random.uniform(1, 1.1f))));
-      }
-    }
-    for (int y = 0; y < cells; ++y) {
-      for (int x = 0; x < cells; ++x) {
-        const uint32_t a = uint32_t(y * (cells + 1) + x), b = a + 1, d = a + uint32_t(cells) + 1, e = d + 1;
-        for (const uint32_t i : {a, b, e, a, e, d}) mesh.indices.push_back(i);
-      }
-    }
-    const std::optional<RasterImage> whole = raster(c, input);
-    if (!whole) return;
-    c.that(std::ranges::count(whole->triangles, no_triangle) == 0, "a hole with {} samples", samples);
-    // One of 11 parts of the mesh, in which no two triangles touch, covers a sample.
-    std::vector<int> claims(whole->triangles.size(), 0);
-    constexpr size_t parts = 11;
-    for (size_t part = 0; part < parts; ++part) {
-      RasterInput some = input;
-      std::vector<uint32_t>& indices = some.meshes[0].indices;
-      indices.clear();
-      for (size_t i = 3 * part; i < mesh.indices.size(); i += 3 * parts)
-        indices.insert(indices.end(), &mesh.indices[i], &mesh.indices[i] + 3);
-      const RasterImage image = *c.engine.rasterize({}, some);
-      for (size_t i = 0; i < claims.size(); ++i) claims[i] += image.triangles[i] != no_triangle;
-    }
-    c.that(std::ranges::count(claims, 1) == std::ptrdiff_t(claims.size()),
-           "a sample of {} belongs to no triangle or to two", samples);
+    covers_once(c, scene_with(samples, 70, 66), 15, on_places, Random(uint32_t(41 + samples)));
   });
 }
-void edges_at_samples(Check& c) { cover_once(c, false); }
-void on_sample_places(Check& c) { cover_once(c, true); }
+void edges_at_samples(Check& c) { sheet(c, false); }
+void on_sample_places(Check& c) { sheet(c, true); }
 
-// A thousand slivers around a sample's place, of which most meet one sample a pixel or none.
+// Most slivers meet one sample of a pixel or none.
 void fan_around_a_sample(Check& c) {
   for_each_number([&](int samples) {
-    const Place p = places(samples).back();
-    RasterInput input = scene_with(samples, 75, 71, false);
-    RasterInputMesh& mesh = input.meshes[0];
-    constexpr int count = 1000;
-    const double x = 35.5 + p.x, y = 30.5 + p.y;
-    mesh.positions.push_back(raster_position(input, x, y, 2));
-    for (int i = 0; i < count; ++i) {
-      const double angle = i * 6.283185307179586 / count;
-      mesh.positions.push_back(
-          raster_position(input, x + 200 * std::cos(angle), y + 200 * std::sin(angle), 3));
-      for (const int k : {0, 1 + i, 1 + (i + 1) % count}) mesh.indices.push_back(uint32_t(k));
-    }
-    const std::optional<RasterImage> image = raster(c, input);
-    if (image) c.that(std::ranges::count(image->triangles, no_triangle) == 0, "a hole");
+    const dvec2 p = sample_places(samples).back();
+    fan(c, scene_with(samples, 75, 71, false), 35.5 + p.x, 30.5 + p.y, 200);
   });
 }
 
@@ -148,7 +81,7 @@ void bars_between_samples(Check& c) {
     for (int i = 0; i < 120; ++i) {
       const double x = random.uniform(0, 80), y = random.uniform(0, 70), angle = random.uniform(0, 6.3f);
       const double width = random.uniform(0.02f, 0.3f), d = random.uniform(1, 4);
-      const Place along{120 * std::cos(angle), 120 * std::sin(angle)},
+      const dvec2 along{120 * std::cos(angle), 120 * std::sin(angle)},
           across{-width * std::sin(angle), width * std::cos(angle)};
       add_at(input, {x - along.x, y - along.y}, {x + along.x, y + along.y}, {x + across.x, y + across.y}, d);
     }
@@ -187,75 +120,28 @@ void beside_borders(Check& c) {
   });
 }
 
-// Three times the same: each sample shows the last.
 void equal_at_samples(Check& c) {
-  for_each_number([&](int samples) {
-    RasterInput input = scene_with(samples, 90, 50, false);
-    Random random(59);
-    const auto corner = [&] {
-      const float x = random.uniform(-20, 110), y = random.uniform(-20, 70), d = random.uniform(1, 4);
-      return raster_position(input, x, y, d);
-    };
-    for (int i = 0; i < 40; ++i) add_raster_triangle(input, corner);
-    const std::optional<RasterImage> once = raster(c, input);
-    input.instances.resize(3);
-    const std::optional<RasterImage> thrice = raster(c, input);
-    if (!once) return;
-    std::vector<uint32_t> of_the_last = once->triangles;
-    for (uint32_t& triangle : of_the_last) triangle += triangle == no_triangle ? 0 : 80;
-    c.that(thrice->triangles == of_the_last && once->depths == thrice->depths,
-           "an earlier one of equal depth is shown");
-  });
+  for_each_number(
+      [&](int samples) { equal_depths_of_copies(c, scene_with(samples, 90, 50, false), Random(59)); });
 }
 
 void samples_around_the_eye(Check& c, float reach, bool whole_numbers) {
   for_each_number([&](int samples) {
-    RasterInput input = scene_with(samples, 60, 50);
-    Random random(61);
-    const auto number = [&] {
-      return whole_numbers ? std::floor(random.uniform(-1, 2)) : random.uniform(-reach, reach);
-    };
-    const auto corner = [&] {
-      const float x = number(), y = number(), z = number();
-      return glm::vec3(x, y, z);
-    };
-    for (int i = 0; i < 100; ++i) add_raster_triangle(input, corner);
-    raster(c, input);
+    around_the_eye(c, scene_with(samples, 60, 50), 100, reach, whole_numbers, Random(61));
   });
 }
 void around_the_eye_at_samples(Check& c) { samples_around_the_eye(c, 5, false); }
 void w_zero_at_samples(Check& c) { samples_around_the_eye(c, 1, true); }
 
 void huge_and_tiny_at_samples(Check& c) {
-  for_each_number([&](int samples) {
-    RasterInput input = scene_with(samples, 70, 66);
-    Random random(67);
-    for (int i = 0; i < 150; ++i) {
-      const double reach = std::exp2(random.uniform(-10, 24)), x = random.uniform(0, 70),
-                   y = random.uniform(0, 66);
-      const auto corner = [&] {
-        const double px = x + reach * random.uniform(-1, 1), py = y + reach * random.uniform(-1, 1);
-        return raster_position(input, px, py, std::exp2(random.uniform(-3, 10)));
-      };
-      add_raster_triangle(input, corner);
-    }
-    raster(c, input);
-  });
+  for_each_number(
+      [&](int samples) { huge_and_tiny_triangles(c, scene_with(samples, 70, 66), 150, Random(67)); });
 }
 
 void sizes_of_samples(Check& c) {
   for_each_number([&](int samples) {
-    for (const auto& [width, height] : {std::pair{1, 1}, {17, 9}, {1, 130}, {65, 63}}) {
-      RasterInput input = scene_with(samples, width, height);
-      Random random(71);
-      const auto corner = [&, w = width, h = height] {
-        const float x = random.uniform(-0.5f, 1.5f), y = random.uniform(-0.5f, 1.5f),
-                    d = random.uniform(1, 3);
-        return raster_position(input, x * w, y * h, d);
-      };
-      for (int i = 0; i < 60; ++i) add_raster_triangle(input, corner);
-      raster(c, input);
-    }
+    for (const auto& [width, height] : {std::pair{1, 1}, {17, 9}, {1, 130}, {65, 63}})
+      triangles_of_a_size(c, scene_with(samples, width, height), 60, Random(71));
   });
 }
 
@@ -263,7 +149,7 @@ void sizes_of_samples(Check& c) {
 void coverage(Check& c, Random& random) {
   const int samples = numbers[random.next() % std::size(numbers)];
   const int width = 1 + int(random.next() % 140), height = 1 + int(random.next() % 140);
-  const std::vector<Place> at = places(samples);
+  const std::vector<dvec2> at = sample_places(samples);
   RasterInput input = scene_with(samples, width, height, random.next() % 2);
   const uint64_t triangles = 1 + random.next() % 200;
   for (uint64_t i = 0; i < triangles; ++i) {
@@ -276,7 +162,7 @@ void coverage(Check& c, Random& random) {
         return glm::vec3(ex, ey, ez);
       }
       double px = x + reach * random.uniform(-1, 1), py = y + reach * random.uniform(-1, 1);
-      const Place& p = at[size_t(random.next() % at.size())];
+      const dvec2& p = at[size_t(random.next() % at.size())];
       if (kind >= 3) px = std::floor(px) + 0.5 + p.x, py = std::floor(py) + 0.5 + p.y;
       return raster_position(input, px, py, kind == 4 ? d : double(random.uniform(0.5f, 9)));
     };
@@ -318,13 +204,13 @@ void edge_lists(Check& c, Random& random) {
   if (images.empty()) return c.skip("the engine draws no samples");
   const std::vector<ViewLight> lights = lights_in_view(scene, view);
   const ListedLights& lists = images[0].lists;
-  const std::vector<Place> at = places(samples);
+  const std::vector<dvec2> at = sample_places(samples);
   const int across = (view.width + settings[setting::tile] - 1) / settings[setting::tile];
   for (size_t i = 0; i < images[0].of_samples.size(); ++i) {
     const double depth = images[0].of_samples[i];
     if (!(depth > 0)) continue;
     const int pixel = int(i) / samples, x = pixel % view.width, y = pixel / view.width;
-    const Place& p = at[i % size_t(samples)];
+    const dvec2& p = at[i % size_t(samples)];
     const dvec3 position = position_at(view, x + 0.5 + p.x, y + 0.5 + p.y, depth);
     const size_t cell =
         size_t(y / settings[setting::tile]) * size_t(across) + size_t(x / settings[setting::tile]);
