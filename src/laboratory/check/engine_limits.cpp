@@ -88,7 +88,7 @@ const std::vector<EngineLimit> limits = {
      "Raise maxLightsPerCluster of ClusteredLighting; bring the camera's far plane near."},
     {"playcanvas", "1.x and 2.x with 8-bit indices", Scope::view, Kinds::local, Of::seen, Order::index, 254,
      Cells::none, Reach::range,
-     "https://github.com/playcanvas/engine/blob/main/src/engine/scene/lighting/lights-buffer.js",
+     "https://github.com/playcanvas/engine/blob/main/src/scene/lighting/lights-buffer.js",
      "versions since 2026 are said to have more room; their code was not read. A cell takes 255, more than a "
      "view's 254",
      shorter},
