@@ -11,6 +11,7 @@
 
 #include "cl/transfer.h"
 #include "passes/blended_layers.h"
+#include "passes/frame_stages.h"
 #include "passes/shadows/bands.h"
 #include "passes/shadows/shadow_lights.h"
 #include "passes/shadows/shadow_lists.h"
@@ -420,17 +421,20 @@ bool shadows_are_unchanged(Work& work, Cached<ShadowBits>& cache) {
   return work.plan.shadows.light_reaches && cache.of(work).unchanged(work);
 }
 
-void begin_shadow_bands(Work& work, Cached<ShadowBits>& cache) {
-  if (work.plan.shadows.light_reaches) cache.of(work).begin_bands();
+static void begin_bands(Work& work, PassCaches& caches) {
+  if (work.plan.shadows.light_reaches) caches.shadow_bits.of(work).begin_bands();
 }
 
-bool next_shadow_band(Work& work, Cached<ShadowBits>& cache, const ShadedImage& image) {
-  return work.plan.shadows.light_reaches && cache.of(work).next_band(work, image);
+// Shadows that take more memory than the setting shadow-memory allows are found in several bands of tiles,
+// and the frame is shaded once for each. Each time the band's pixels of its image are kept.
+static bool next_band(Work& work, PassCaches& caches, ShadedImage& image) {
+  return work.plan.shadows.light_reaches && caches.shadow_bits.of(work).next_band(work, image);
 }
 
-void tell_shadows(Work& work, Cached<ShadowBits>& cache, Frame& frame) {
+// Where light loops read shadows, the frame gets them and their figures.
+static void add_readers(Work& work, PassCaches& caches, Frame& frame) {
   if (!work.plan.shadows.light_reaches) return;
-  ShadowBits& shadows = cache.of(work);
+  ShadowBits& shadows = caches.shadow_bits.of(work);
   if (!frame.lights_in_volume && !frame.shadows) frame.shadows = [&] { return shadows.read(work); };
   frame.blended_shadows = [&] { return shadows.read_layers(work); };
   frame.shadow_figures = [&, own = frame.shadow_figures] {
@@ -439,5 +443,7 @@ void tell_shadows(Work& work, Cached<ShadowBits>& cache, Frame& frame) {
     return figures;
   };
 }
+
+extern const FrameStage shadow_stage{.begin = begin_bands, .shaded = next_band, .end = add_readers};
 
 }  // namespace lightgrid

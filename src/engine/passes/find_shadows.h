@@ -19,13 +19,4 @@ void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visibl
 // neither camera, lights, surfaces nor the lights that need shadows changed. find_shadows then finds nothing.
 bool shadows_are_unchanged(Work& work, Cached<ShadowBits>& cache);
 
-// Shadows that take more memory than the setting shadow-memory allows are found in several bands of tiles,
-// and the frame is shaded once for each: before the first time, and after each of them, which keeps the
-// band's pixels of its image. True: the frame has to be shaded again; false: the image is whole.
-void begin_shadow_bands(Work& work, Cached<ShadowBits>& cache);
-bool next_shadow_band(Work& work, Cached<ShadowBits>& cache, const ShadedImage& image);
-
-// Puts the frame's shadows and their figures into it, where light loops read any.
-void tell_shadows(Work& work, Cached<ShadowBits>& cache, Frame& frame);
-
 }  // namespace lightgrid

@@ -1,5 +1,6 @@
 #include "passes/resolve_samples.h"
 
+#include "passes/frame_stages.h"
 #include "plan/settings/samples.h"
 #include "renderer/drawing/draw.h"
 
@@ -32,5 +33,12 @@ ShadedImage resolve_samples(Work& work, const ShadedImage& image) {
   pass.moves(work.grid().values() * 16, work.grid().pixels() * 16);
   return resolved;
 }
+
+static bool average(Work& work, PassCaches&, ShadedImage& image) {
+  image = resolve_samples(work, image);
+  return false;
+}
+
+extern const FrameStage sample_stage{.shaded = average};
 
 }  // namespace lightgrid

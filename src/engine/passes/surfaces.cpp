@@ -2,6 +2,7 @@
 
 #include "passes/depth_bounds.h"
 #include "passes/depth_prepass.h"
+#include "passes/fill_gbuffer.h"
 #include "passes/find_shadows.h"
 #include "passes/resolve.h"
 #include "passes/shade_forward.h"
@@ -71,6 +72,32 @@ DepthBounds cull_bounds_of(RenderView& v, Surfaces& surfaces) {
 const TileDistances& distances_of(RenderView& v, Surfaces& surfaces) {
   if (surfaces.distances) return *surfaces.distances;
   return surfaces.distances.emplace(tile_distances(v, v.culler(), bounds_of(v, surfaces)));
+}
+
+// Without point and spot lights there is no light pass, and the image takes all.
+static BaseLighting base_lighting_of(const RenderView& v) {
+  return v.plan.lists.light_grid && !v.plan.surfaces.base_lighting ? BaseLighting::in_light_pass
+                                                                   : BaseLighting::in_image;
+}
+
+GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces) {
+  if (!surfaces && v.plan.shadows.directional) surfaces = find_surfaces(v);
+  if (!surfaces) {
+    const GBuffer gbuffer = fill_gbuffer(v, base_lighting_of(v));
+    surfaces = Surfaces{.image = gbuffer.depth_image};
+    find_shadows(v, *surfaces);
+    return gbuffer;
+  }
+  if (!surfaces->visible) return fill_gbuffer(v, surfaces->drawn, base_lighting_of(v));
+  GBuffer gbuffer;
+  gbuffer.in_cl = resolve_gbuffer(v, v.caches.resolver, *surfaces->visible, base_lighting_of(v));
+  return gbuffer;
+}
+
+void hand_over(RenderView& v, const GBuffer& gbuffer, Surfaces& surfaces) {
+  if (gbuffer.group_numbers)
+    surfaces.group_numbers =
+        &group_numbers_to_cl(v, gbuffer.framebuffer, gbuffer.group_attachment(), gbuffer.group_numbers);
 }
 
 Frame frame_of(RenderView& v, const Surfaces& surfaces) {

@@ -3,6 +3,7 @@
 // recipe.
 #pragma once
 
+#include "passes/common/gbuffer.h"
 #include "passes/common/light_source.h"
 #include "passes/rasterize.h"
 #include "renderer/render_view.h"
@@ -39,6 +40,12 @@ const DepthBounds& bounds_of(RenderView& v, Surfaces& surfaces);
 const TileDistances& distances_of(RenderView& v, Surfaces& surfaces);
 // The bounds for the culler: where the plan has group_tiles, with the light groups of opaque surfaces.
 DepthBounds cull_bounds_of(RenderView& v, Surfaces& surfaces);
+
+// The geometry buffer, and the surfaces if there are none yet: OpenGL then finds their depth while it fills
+// the buffer, unless directional lights, which fill its image, need their shadows first.
+GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces);
+// The numbers of its surfaces' masks, to OpenCL, if OpenGL drew any.
+void hand_over(RenderView& v, const GBuffer& gbuffer, Surfaces& surfaces);
 
 // A frame of these surfaces, without an image yet.
 Frame frame_of(RenderView& v, const Surfaces& surfaces);

@@ -8,9 +8,9 @@
 #include "gl/bindings.h"
 #include "gl/gl.h"
 #include "passes/tone_map.h"
-#include "plan/settings/kernels.h"
 #include "plan/settings/picture.h"
 #include "plan/settings/samples.h"
+#include "run/stage_figures.h"
 
 namespace lightgrid {
 
@@ -190,28 +190,6 @@ static std::vector<KernelResult> kernel_results(const PassRecord& pass) {
   return results;
 }
 
-static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Frame& frame) {
-  if (plan.shadows.casting.empty()) return {};
-  ShadowResult result;
-  bool unchanged = false;
-  if (frame.shadow_figures) {
-    const ShadowFigures figures = frame.shadow_figures();
-    result.lights = figures.lights, result.maps = figures.maps, result.drawn = figures.drawn;
-    result.kept = figures.kept, result.bytes = figures.bytes;
-    result.rays = figures.rays, result.undecided = figures.undecided;
-    result.halvings = figures.halvings, result.bands = figures.bands;
-    unchanged = figures.unchanged;
-  }
-  result.dim_steps = plan.shadows.dim_steps;
-  if (plan.settings[setting::everything_on]) return result;
-  for (const LightShadow& light : plan.shadows.casting) {
-    const bool needed = light.need == ShadowNeed::rays;
-    if (!needed || unchanged)
-      result.skipped.push_back({light.light, needed ? unchanged_reason : reason_of(light.need)});
-  }
-  return result;
-}
-
 FrameFigures TechniqueRun::result() const {
   FrameFigures result;
   result.technique = technique_.name;
@@ -233,12 +211,8 @@ FrameFigures TechniqueRun::result() const {
   for (const Decision& decision : view_.plan.decisions) {
     if (!decision.needed) result.skipped.push_back({decision.effect, decision.why});
   }
-  result.shadows = shadow_result(view_.plan, frame_);
   result.effects = view_.effects.figures();
-  if (frame_.sample_figures) {
-    const SampleFigures f = frame_.sample_figures();
-    result.samples = {f.edge_pixels, f.shadings, f.covered, f.bytes};
-  }
+  add_stage_figures(view_.plan, frame_, result);
   return result;
 }
 

@@ -2,7 +2,6 @@
 
 #include "passes/cap_lists.h"
 #include "passes/cull_lights.h"
-#include "passes/fill_gbuffer.h"
 #include "passes/find_object_lights.h"
 #include "passes/resolve.h"
 #include "passes/shade_forward.h"
@@ -11,29 +10,6 @@
 #include "plan/settings/samples.h"
 
 namespace lightgrid {
-namespace {
-
-// Without point and spot lights there is no light pass, and the image takes all.
-BaseLighting base_lighting_of(const RenderView& v) {
-  return v.plan.lists.light_grid && !v.plan.surfaces.base_lighting ? BaseLighting::in_light_pass
-                                                                   : BaseLighting::in_image;
-}
-
-}  // namespace
-
-GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces) {
-  if (!surfaces && v.plan.shadows.directional) surfaces = find_surfaces(v);
-  if (!surfaces) {
-    const GBuffer gbuffer = fill_gbuffer(v, base_lighting_of(v));
-    surfaces = Surfaces{.image = gbuffer.depth_image};
-    find_shadows(v, *surfaces);
-    return gbuffer;
-  }
-  if (!surfaces->visible) return fill_gbuffer(v, surfaces->drawn, base_lighting_of(v));
-  GBuffer gbuffer;
-  gbuffer.in_cl = resolve_gbuffer(v, v.caches.resolver, *surfaces->visible, base_lighting_of(v));
-  return gbuffer;
-}
 
 ViewGrid list_lights(RenderView& v, Surfaces& surfaces) {
   if (v.plan.lists.light_tree)
@@ -96,9 +72,7 @@ Frame shade_tiled(RenderView& v, std::optional<Surfaces> surfaces) {
     return frame;
   }
   const DepthBuffer& depth = depth_of(v, *surfaces);
-  if (gbuffer.group_numbers)
-    surfaces->group_numbers =
-        &group_numbers_to_cl(v, gbuffer.framebuffer, gbuffer.group_attachment(), gbuffer.group_numbers);
+  hand_over(v, gbuffer, *surfaces);
   frame.grid = list_lights(v, *surfaces);
   const LightSource lights = from_grid(v, *frame.grid);
   frame.image = shade_tiles(v, v.caches, gbuffer, depth, lights, frame);

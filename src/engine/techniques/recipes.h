@@ -1,7 +1,6 @@
 // The frames that several techniques share.
 #pragma once
 
-#include "passes/common/gbuffer.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -20,10 +19,6 @@ Frame shade_every_light(RenderView& v, const Surfaces& surfaces);
 // bounds, they get a grid of their own, stored in the frame; without, they use that of opaque surfaces, whose
 // lists become the frame's.
 void blend_from_grid(RenderView& v, Surfaces& surfaces, const LightSource& opaque, Frame& frame);
-
-// The geometry buffer, and the surfaces if there are none yet: OpenGL then finds their depth while it fills
-// the buffer, unless directional lights, which fill its image, need their shadows first.
-GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces);
 
 // deferred_tiled and forward_plus_compute, which with OpenGL find depth differently, share these: surfaces
 // into a geometry buffer; then OpenCL adds the lights of each tile's list to its image, and blended surfaces

@@ -3,8 +3,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "passes/find_shadows.h"
-#include "passes/resolve_samples.h"
+#include "passes/frame_stages.h"
 #include "plan/settings/grid.h"
 #include "plan/settings/samples.h"
 #include "techniques/technique.h"
@@ -99,13 +98,12 @@ bool is_approximate(const Technique& technique, const Settings& settings) {
 
 Frame draw_frame(const Technique& technique, RenderView& v) {
   Frame frame;
-  begin_shadow_bands(v, v.caches.shadow_bits);
+  begin_stages(v, v.caches);
   do {
     v.effects.before_lights(v);
     frame = technique.render(v);
-    frame.image = resolve_samples(v, frame.image);
-  } while (next_shadow_band(v, v.caches.shadow_bits, frame.image));
-  tell_shadows(v, v.caches.shadow_bits, frame);
+  } while (shade_again(v, v.caches, frame.image));
+  end_stages(v, v.caches, frame);
   return frame;
 }
 

@@ -7,7 +7,7 @@
 #include "culling/light_culler.h"
 #include "gl/bindings.h"
 #include "gl/gl.h"
-#include "passes/find_shadows.h"
+#include "passes/frame_stages.h"
 #include "passes/rasterize.h"
 #include "passes/read_outs.h"
 #include "passes/surfaces.h"
@@ -181,7 +181,7 @@ class DeviceEngine : public CullEngine {
     for (const View& view : views) {
       if (!images.empty()) v.look(view);
       Frame frame = frame_of(v, find_surfaces(v));
-      tell_shadows(v, v.caches.shadow_bits, frame);
+      end_stages(v, v.caches, frame);
       images.push_back(shadow_image(v, frame));
     }
     return images;

@@ -205,6 +205,19 @@ TEST(Adding, ThePlanAndTheNeedsHaveAMemberForEachPart) {
   EXPECT_EQ(members_of("src/engine/plan/instance_boxes.h", "InstanceBox"), 10u) << "of lists as well";
 }
 
+// What they call depends on the plan: stages of a frame (passes/frame_stages.h), effects, light sources.
+TEST(Adding, TheRunnerAndTheRecipesNameNoEffect) {
+  for (const char* file : {"src/engine/techniques/registry.cpp", "src/engine/techniques/recipes.cpp",
+                           "src/engine/run/technique_run.cpp"}) {
+    std::string code = code_of(text_at(file));
+    std::ranges::transform(code, code.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    for (const char* effect : {"shadow", "group", "virtual_lights", "clearcoat"})
+      EXPECT_EQ(code.find(effect), code.npos) << file << " names " << effect;
+    for (const Effect* effect : all_effects)
+      EXPECT_EQ(code.find(effect->name), code.npos) << file << " names " << effect->name;
+  }
+}
+
 // Its builder, which makes the LightSource, and the choice of a loop in forward.frag; and that of kernels
 // where they read it too. The loop's own text names nothing.
 TEST(Adding, ALightSourceTakesItsBuilderAndTheChoiceOfItsLoop) {
