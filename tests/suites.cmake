@@ -48,11 +48,10 @@ foreach(line IN LISTS lines)
     set(suite ${CMAKE_MATCH_1})
     add_entry(${suite} "${suite}.*")
     if(suite IN_LIST of_each_form)
-      # But for hard cases of shadows, which take minutes: Soups/RaysInSoups holds rays in each form. Those of OpenGL's lists
-      # and of caps have no code of a form; KernelForms draws groups and capped lists with each.
+      # Not Drawn/HardCasesOf: Soups/RaysInSoups holds rays in each form, OpenGL's lists and caps have no code of a form, and
+      # KernelForms draws groups and capped lists with each.
       foreach(form IN LISTS other_forms)
-        set(but ${suite}.Hold/shadows:${suite}.Hold/lidr:${suite}.Hold/caps:${suite}.Hold/groups)
-        add_entry(${form}/${suite} "${suite}.*-${but}" POCL_KERNELLIB_NAME=${form})
+        add_entry(${form}/${suite} "${suite}.*" POCL_KERNELLIB_NAME=${form})
       endforeach()
     endif()
   endif()

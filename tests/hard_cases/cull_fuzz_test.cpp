@@ -2,11 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "hard_cases/cull_fuzz.h"
+#include "support/long_tests.h"
 
 namespace lightgrid::verify {
 namespace {
 
-constexpr uint64_t inputs = 80;
+const uint64_t inputs = long_tests() ? 400 : 48;
 
 std::vector<uint8_t> random_bytes(uint64_t seed) {
   Random random(seed);

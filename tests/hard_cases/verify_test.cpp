@@ -43,7 +43,11 @@ TEST_P(HardCasesOf, Hold) {
 
 INSTANTIATE_TEST_SUITE_P(Verify, HardCasesOf,
                          testing::Values("depth", "camera", "lights", "lists", "agreement", "raster",
-                                         "shadows", "lidr", "groups", "samples", "caps"),
+                                         "samples"),
+                         [](const auto& info) { return std::string(info.param); });
+
+// Cases that draw pictures with techniques, whose own tests are in the first tier.
+INSTANTIATE_TEST_SUITE_P(Drawn, HardCasesOf, testing::Values("shadows", "lidr", "groups", "caps"),
                          [](const auto& info) { return std::string(info.param); });
 
 // Not a fault of the library, and no claim about it.

@@ -91,7 +91,7 @@ TEST(FrontierExternal, AnIndependentRendererDrawsTheSamePicture) {
   sweep.expect_recomputed();
 }
 
-TEST(FrontierExternal, LightgridsOwnRenderHasTheErrorOfItsPoint) {
+TEST(FrontierOfOwnRender, HasTheErrorOfItsPoint) {
   if (!has_python()) GTEST_SKIP() << "no Python here";
   const Sweep sweep;
   const std::string file = sweep.write(

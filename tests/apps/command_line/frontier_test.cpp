@@ -220,7 +220,7 @@ TEST(FrontierProcesses, ShareRounds) {
 }
 
 // Errors are against pixels' areas where samples vary, and then fall with them.
-TEST(FrontierCommand, HoldsSamplesAgainstAreas) {
+TEST(FrontierOfAreas, HoldsSamplesAgainstThem) {
   const TempFolder folder;
   const auto answer_to = [&](const std::string& name, const std::vector<std::string>& more) {
     const fs::path out = folder.path / name;

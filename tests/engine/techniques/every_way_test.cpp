@@ -27,7 +27,7 @@ struct Way {
   bool in_one_sum = false;  // in forward's order and shader, so that pictures have forward's bytes
 };
 
-// Those that draw lights one by one or a few at a time, or have their light loop in OpenCL, round
+// Ways that draw lights one by one or a few at a time, or have their light loop in OpenCL, round
 // differently: within 1e-5 of the brightest channel.
 const Way ways[] = {
     {"multipass", "forward_multipass", {}},

@@ -28,13 +28,6 @@ TEST_P(BuiltinForwardPlus, EveryEffectOnChangesNoByte) {
 INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinForwardPlus, testing::Values("hall", "spheres", "terrain", "street"),
                          [](const auto& info) { return std::string(info.param); });
 
-TEST(ForwardPlus, HasTheBytesAtASizeThatNoTileDivides) {
-  Scene scene = find_builtin_scene("terrain")->make();
-  scene.lights.resize(64);
-  const View view = default_view(scene, 1279, 721);
-  expect_exact(scene, view, {}, render(scene, view, "forward"));
-}
-
 TEST(ForwardPlus, HasTheBytesUnderEverySetting) {
   const Scene scene = find_builtin_scene("hall")->make();
   const View view = default_view(scene, 127, 73);

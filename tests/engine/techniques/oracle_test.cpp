@@ -145,18 +145,24 @@ TEST(PolishedUnderCoats, EveryTechniqueIsAsExactAsForward) {
   expect_each_exact(polished_and_coated(), view_at(1, 192, 108));
 }
 
-TEST(CoatShading, InFloatIsTheOraclesWithinItsRounding) {
-  const Scene scene = polished_and_coated();
-  TechniqueRun run(test_devices(), scene, view_at(1, 192, 108), {}, find_technique("forward"));
+// Forward's picture is the oracle's, and the part of the materials that `plain` takes away is seen.
+void expect_float_is_the_oracles(const Scene& scene, const View& view, const Settings& settings,
+                                 void (*plain)(Material&)) {
+  TechniqueRun run(test_devices(), scene, view, settings, find_technique("forward"));
   run.run_frame();
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
   const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run), 4000);
   EXPECT_LT(errors.precision.max_rel, 2e-4);  // as of every scene
   EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
   Scene bare = scene;
-  for (Material& m : bare.materials) m.clearcoat = 0;
-  EXPECT_GT(compare_images(run.image(), render(bare, view_at(1, 192, 108), "forward")).max_rel, 0.1)
-      << "the coats are seen";
+  std::ranges::for_each(bare.materials, plain);
+  EXPECT_GT(compare_images(run.image(), render(bare, view, "forward", settings)).max_rel, 0.1);
+}
+
+void without_coat(Material& m) { m.clearcoat = 0; }
+
+TEST(CoatShading, InFloatIsTheOraclesWithinItsRounding) {
+  expect_float_is_the_oracles(polished_and_coated(), view_at(1, 192, 108), {}, without_coat);
 }
 
 // A coat whose map is black is compiled and sampled, and changes no bit.
@@ -167,7 +173,7 @@ TEST(CoatShading, ABlackMapIsNoCoat) {
   scene.bitmaps.push_back({.name = "black", .width = 1, .height = 1, .rgba = {0, 0, 0, 255}});
   Scene bare = scene;
   for (Material& m : scene.materials) m.clearcoat_map.texture = int(scene.textures.size()) - 1;
-  for (Material& m : bare.materials) m.clearcoat = 0;
+  std::ranges::for_each(bare.materials, without_coat);
   for (const char* technique : {"forward", "forward_plus", "deferred", "visibility"}) {
     const Image image = render(scene, view, technique);
     EXPECT_TRUE(identical(image, render(bare, view, technique))) << technique;
@@ -177,7 +183,7 @@ TEST(CoatShading, ABlackMapIsNoCoat) {
 TEST(CoatShading, LambertHasNone) {
   const Scene scene = polished_and_coated();
   Scene bare = scene;
-  for (Material& m : bare.materials) m.clearcoat = 0;
+  std::ranges::for_each(bare.materials, without_coat);
   const View view = view_at(1, 95, 53);
   EXPECT_TRUE(identical(render(scene, view, "forward", {{setting::brdf, Brdf::lambert}}),
                         render(bare, view, "forward", {{setting::brdf, Brdf::lambert}})));
@@ -185,6 +191,15 @@ TEST(CoatShading, LambertHasNone) {
 
 TEST(PolishedBlinnPhong, EveryTechniqueIsAsExactAsForward) {
   expect_each_exact(polished(1, 0.1f, 10), view_at(1, 192, 108), {{setting::brdf, Brdf::blinn}});
+}
+
+void add_lamps(Scene& scene, float lowest_z) {
+  Random random(5);
+  for (int i = 0; i < 60; ++i) {
+    const glm::vec3 at{random.uniform(-5, 5), random.uniform(-4, 4), random.uniform(lowest_z, -2)};
+    add_point(scene, "lamp", at, {1, random.uniform(0.4f, 1), random.uniform(0.4f, 1)}, 1,
+              random.uniform(3, 7));
+  }
 }
 
 // Skin, Minnaert's of k below and above 1, one under a coat, and Lambert's.
@@ -207,27 +222,13 @@ Scene balls_of_all_models() {
     add_instance(scene, "ball", add_mesh(scene, shapes::finished(ball, "ball", material)),
                  placed({2.1 * i - 4.2, i % 2 ? 0.8 : -0.8, -7 - 0.4 * i}));
   }
-  Random random(5);
-  for (int i = 0; i < 60; ++i) {
-    const glm::vec3 at{random.uniform(-5, 5), random.uniform(-4, 4), random.uniform(-5, -2)};  // in front
-    add_point(scene, "lamp", at, {1, random.uniform(0.4f, 1), random.uniform(0.4f, 1)}, 1,
-              random.uniform(3, 7));
-  }
+  add_lamps(scene, -5);  // in front
   return scene;
 }
 
 TEST(ModelShading, InFloatIsTheOraclesWithinItsRounding) {
-  const Scene scene = balls_of_all_models();
-  const View view = view_at(1, 160, 90);
-  TechniqueRun run(test_devices(), scene, view, {}, find_technique("forward"));
-  run.run_frame();
-  EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-  const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run), 4000);
-  EXPECT_LT(errors.precision.max_rel, 2e-4);  // as of every scene
-  EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
-  Scene bare = scene;
-  for (Material& m : bare.materials) m.model = {};
-  EXPECT_GT(compare_images(run.image(), render(bare, view, "forward")).max_rel, 0.1) << "the models are seen";
+  expect_float_is_the_oracles(balls_of_all_models(), view_at(1, 160, 90), {},
+                              [](Material& m) { m.model = {}; });
 }
 
 // KHR_materials_ior and KHR_materials_specular: no, little, usual, much and total reflection; weakened,
@@ -251,12 +252,7 @@ Scene balls_of_all_reflectances() {
     add_instance(scene, "ball", add_mesh(scene, shapes::finished(ball, "ball", material)),
                  placed({2.1 * (i % 5) - 4.2, i < 5 ? 1.1 : -1.1, -7 - 0.2 * i}));
   }
-  Random random(5);
-  for (int i = 0; i < 60; ++i) {
-    const glm::vec3 at{random.uniform(-5, 5), random.uniform(-4, 4), random.uniform(-9, -2)};
-    add_point(scene, "lamp", at, {1, random.uniform(0.4f, 1), random.uniform(0.4f, 1)}, 1,
-              random.uniform(3, 7));
-  }
+  add_lamps(scene, -9);
   return scene;
 }
 
@@ -264,30 +260,20 @@ TEST(SpecularShading, EveryTechniqueIsAsExactAsForward) {
   expect_each_exact(balls_of_all_reflectances(), view_at(1, 192, 108));
 }
 
+void without_reflectance(Material& m) {
+  m.ior = 1.5f, m.specular = 1, m.specular_color = {1, 1, 1}, m.specular_map = m.specular_color_map = {};
+}
+
 TEST(SpecularShading, InFloatIsTheOraclesWithinItsRounding) {
-  const Scene scene = balls_of_all_reflectances();
-  const View view = view_at(1, 192, 108);
-  for (const Brdf brdf : {Brdf::ggx, Brdf::blinn}) {
-    TechniqueRun run(test_devices(), scene, view, {{setting::brdf, brdf}}, find_technique("forward"));
-    run.run_frame();
-    EXPECT_EQ(count_nan_pixels(run.image()), 0u);
-    const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run), 4000);
-    EXPECT_LT(errors.precision.max_rel, 2e-4);  // as of every scene
-    EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
-    Scene bare = scene;
-    for (Material& m : bare.materials)
-      m.ior = 1.5f, m.specular = 1, m.specular_color = {1, 1, 1}, m.specular_map = m.specular_color_map = {};
-    EXPECT_GT(compare_images(run.image(), render(bare, view, "forward", {{setting::brdf, brdf}})).max_rel,
-              0.1)
-        << "the reflectances are seen";
-  }
+  for (const Brdf brdf : {Brdf::ggx, Brdf::blinn})
+    expect_float_is_the_oracles(balls_of_all_reflectances(), view_at(1, 192, 108), {{setting::brdf, brdf}},
+                                without_reflectance);
 }
 
 TEST(SpecularShading, LambertHasNone) {
   const Scene scene = balls_of_all_reflectances();
   Scene bare = scene;
-  for (Material& m : bare.materials)
-    m.ior = 1.5f, m.specular = 1, m.specular_color = {1, 1, 1}, m.specular_map = m.specular_color_map = {};
+  std::ranges::for_each(bare.materials, without_reflectance);
   const View view = view_at(1, 95, 53);
   for (const char* technique : {"forward", "deferred_tiled", "visibility"})
     EXPECT_TRUE(identical(render(scene, view, technique, {{setting::brdf, Brdf::lambert}}),

@@ -346,18 +346,6 @@ TEST_F(SamplesOfOpenGl, ShowOneImageInEveryPackingOfIndicesOfSamples) {
     EXPECT_LT(compare_images(draw("lidr", 4, "edges", "auto", {more}), image).max_rel, 1e-5) << more;
 }
 
-TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesWhereSurfacesAreStored) {
-  s_ = small_scene(false);
-  effect("directional").add(s_);
-  for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
-  const FineTruth truth = truth_of(s_.scene, 67, 41);
-  for (const char* technique : {"deferred", "deferred_tiled", "forward_plus_compute"}) {
-    const Image one = draw(technique, 1), four = draw(technique, 4);
-    EXPECT_LT(truth.error(four, true), truth.error(one, true) / 3) << technique;
-    EXPECT_LT(truth.error(four, false), truth.error(four, true) / 10) << technique;
-  }
-}
-
 // With a lamp, so that there are volumes, lists and indices; it is far, so that no pixel outshines all
 // others.
 TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesWhereSamplesAreLit) {
