@@ -1,6 +1,6 @@
 // Shadow rays answered from a light's cells in place of the tree: Haines and Greenberg, "The Light Buffer: A
 // Shadow-Testing Accelerator" (IEEE CG&A 1986), made exact. The same answers to the bit, since a cell lists
-// whatever its rays can meet, and the tests are those of rays/rays.h. For 16 lanes.
+// whatever its rays can meet, and the tests are those of rays/rays.h.
 #pragma once
 
 #include "kernels/rays/rays.h"
@@ -49,11 +49,23 @@ static inline whole cell_of_grid(Real3 to, uint size, global const LightCellGrid
          TO_WHOLE(lane_min(lane_max(x, REAL(0.0f)), last));
 }
 
+// As meets_triangle of rays/ray_packet.h, with stored planes.
+#if LANES == 1
+static inline mask_t meets_seen(global const LightCellTriangle* t, const CellRays* rays, const bool point) {
+  global const float4* planes = (global const float4*)t;
+  const float4 n = planes[0];
+  const float past = fma(rays->end, ray_side(rays->to, n.x, n.y, n.z, 0.0f), n.w);
+  const float4 a = planes[1], b = planes[2], c = planes[3];
+  const float u = ray_side(rays->to, a.x, a.y, a.z, point ? 0.0f : a.w),
+              v = ray_side(rays->to, b.x, b.y, b.z, point ? 0.0f : b.w),
+              w = ray_side(rays->to, c.x, c.y, c.z, point ? 0.0f : c.w);
+  return lane_min(lane_min(u, v), lane_min(w, lane_min(past, rays->end))) >= 0.0f;
+}
+#else
 static inline real edge_side(Real3 at, global const float edge[4], const bool point) {
   return ray_side(at, edge[0], edge[1], edge[2], point ? 0.0f : edge[3]);
 }
 
-// As meets_triangle of rays/ray_packet.h, with stored planes.
 static inline __attribute__((always_inline)) mask_t meets_seen(global const LightCellTriangle* t,
                                                                const CellRays* rays, const bool point) {
   const real past =
@@ -62,8 +74,10 @@ static inline __attribute__((always_inline)) mask_t meets_seen(global const Ligh
              w = edge_side(rays->to, t->edge_2, point);
   return lane_min(lane_min(u, v), lane_min(w, lane_min(past, rays->end))) >= 0.0f;
 }
+#endif
 
-// Returns the lanes that meet the triangle and are hidden by it. A blended triangle adds to their *veil instead.
+// Returns the lanes that meet the triangle and are hidden by it. A blended triangle adds to their *veil
+// instead.
 RAYS_CALL uint hidden_by_met(const RayScene* scene, RaySource light, Real3 to, real gap, whole own, int place,
                              uint met, whole* veil) {
   RayPacket p;
@@ -116,6 +130,27 @@ static inline uint served_lanes(global const LightCellTable* table, const CellRa
   return active & lane_bits(served);
 }
 
+#if LANES == 1
+static inline uint2 entry_of(const LightCells* cells, uint number) {
+  return ((global const uint2*)cells->entries)[number];
+}
+
+// The first triangle of the entries from *i to `end` that the ray meets; *i is then its entry, or `end` if
+// there is none. Neighbours find theirs together, and together ask whether they hide them. *next: entry *i,
+// which is read while the entry before it is tested.
+static inline uint first_met(const LightCells* cells, const CellRays* rays, uint* i, uint end, uint2* next,
+                             const bool point) {
+  for (; *i < end; ++*i) {
+    const uint2 entry = *next;
+    if (*i + 1 < end) *next = entry_of(cells, *i + 1);
+    if (!(rays->length >= as_float(entry.y))) break;
+    if (meets_seen(cells->triangles + entry.x, rays, point)) return entry.x;
+  }
+  *i = end;
+  return 0;
+}
+#endif
+
 static inline __attribute__((always_inline)) uint hidden_by_lists(
     const LightCells* cells, const RayScene* scene, global const LightCellTable* table, RaySource light,
     Real3 to, real gap, uint active, whole own, uint* served, whole* veil, const bool point) {
@@ -124,6 +159,19 @@ static inline __attribute__((always_inline)) uint hidden_by_lists(
   const whole cell =
       point ? cell_of_cube(rays.to, table->size) : cell_of_grid(rays.to, table->size, &table->grid);
   *served = served_lanes(table, &rays, squared, active, point);
+#if LANES == 1
+  global const uint* starts = cells->starts + table->first_start + cell;
+  uint i = *served != 0 ? starts[0] : 0;
+  const uint end = *served != 0 ? starts[1] : 0;
+  uint2 next = i < end ? entry_of(cells, i) : (uint2)(0);
+  for (;; ++i) {
+    const uint triangle = first_met(cells, &rays, &i, end, &next, point);
+    if (i == end) return 0;
+    const int place =
+        point ? as_int(cells->triangles[triangle].edge_0[3]) : (int)(triangle - table->first_triangle);
+    if (hidden_by_met(scene, light, to, gap, own, place, 1, veil)) return 1;
+  }
+#else
   uint hidden = 0;
   for (uint left = *served; left != 0;) {
     const int one = ((const int*)&cell)[lowest_bit(left)];
@@ -142,6 +190,7 @@ static inline __attribute__((always_inline)) uint hidden_by_lists(
     }
   }
   return hidden;
+#endif
 }
 
 // As rays_veiled, for a light with lists. *served: lanes that are answered; longer rays are not.

@@ -6,7 +6,8 @@
 // next_job        in: 0
 // scratch         each work-item's room for the entries of one light
 // pool            out: starts, LightCellTriangle and LightCellEntry where the jobs say
-#include "kernels/rays/cpu/light_cell_lists.h"
+#define LANES 16
+#include "kernels/rays/light_cell_lists.h"
 
 // Adds up to 16 triangles.
 static void add_triangles(global const LightCellJob* job, global const RayTriangle* triangles,

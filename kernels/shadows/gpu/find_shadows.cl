@@ -6,7 +6,7 @@
 #define GROUP (SHADOW_TILE * SHADOW_TILE)
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
-  local volatile uint words[2][SHADOW_WORDS];
+  local uint words[GROUP / 32 * 33];  // 33: items that read different rows meet different banks
   local volatile uint traced_here;
   const RayScene scene = RAYS_SCENE;
   const uint item = (uint)get_local_id(0), row = (uint)get_group_id(0), rows = (uint)get_num_groups(0),
@@ -38,7 +38,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
   const bool inside = x < width && y < height;
   const size_t at = inside ? (size_t)y * width + x : 0;
   const uint triangle = inside ? triangles[at] : NO_TRIANGLE;
-  const bool covered = triangle != NO_TRIANGLE;
+  const bool covered = triangle != NO_TRIANGLE && part < range.y;
   Receivers r =
       receivers_at(covered, (float)x + 0.5f, (float)y + 0.5f, depths[at], own_hides, shadow_view, view);
   if (covered) {
@@ -48,26 +48,35 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHAD
     add_corners(&r, &scene);
 #endif
   }
-  uint turn = 0;
   ShadowTest test = SHADOW_TEST;
   if (item == 0) traced_here = 0;
 #ifdef SHADOW_PICK  // one part a tile
   test.picked[0] = picked_share(&test, &scene, &r, lights, indices, range, x, y);
 #endif
-  for (uint i = range.x + part; i < range.x + range.y; i += parts, turn ^= 1) {
-    global uint* entry = bits + (size_t)(i - range.x + own_entry) * SHADOW_WORDS;
 #ifdef SHADOW_BYTES
-    ((global uchar*)entry)[item] =
-        (uchar)hidden_share(&test, &scene, &r, 0, indices[i], lights, shadow_view, x, y);
-#else
-    if (item < SHADOW_WORDS) words[turn][item] = 0;
-    barrier(CLK_LOCAL_MEM_FENCE);
-    if (hidden_share(&test, &scene, &r, 0, indices[i], lights, shadow_view, x, y) != 0)
-      atomic_or(&words[turn][item / 32], 1u << (item & 31u));
-    barrier(CLK_LOCAL_MEM_FENCE);
-    if (item < SHADOW_WORDS) entry[item] = words[turn][item];
-#endif
+  for (uint i = part; i < range.y; i += parts) {
+    global uchar* entry = (global uchar*)(bits + (size_t)(i + own_entry) * SHADOW_WORDS);
+    entry[item] = (uchar)hidden_share(&test, &scene, &r, 0, indices[range.x + i], lights, shadow_view, x, y);
   }
+#else
+  // 32 lights at a time, so that items wait for each other once for all of them. Each item has a word, a bit
+  // per light; each light then gets words of a bit per item.
+  for (uint first = part; first < range.y; first += 32 * parts) {
+    const uint count = min((range.y - first + parts - 1) / parts, 32u);
+    uint hidden = 0;
+    for (uint k = 0; k < count; ++k) {
+      const uint light = indices[range.x + first + k * parts];
+      if (hidden_share(&test, &scene, &r, 0, light, lights, shadow_view, x, y) != 0) hidden |= 1u << k;
+    }
+    words[item / 32 * 33 + item % 32] = hidden;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    const uint k = item / SHADOW_WORDS, word = item % SHADOW_WORDS;
+    uint of_light = 0;
+    for (uint i = 0; i < 32 && k < count; ++i) of_light |= (words[word * 33 + i] >> k & 1u) << i;
+    if (k < count) bits[(size_t)(first + k * parts + own_entry) * SHADOW_WORDS + word] = of_light;
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+#endif
   barrier(CLK_LOCAL_MEM_FENCE);
   atomic_add(&traced_here, rays_of_test(&test));
   barrier(CLK_LOCAL_MEM_FENCE);

@@ -29,7 +29,7 @@ namespace lightgrid {
 namespace {
 
 // Work-groups of one tile on a GPU, which share its lights: lists are of very different lengths.
-constexpr size_t groups_a_tile = 4;
+constexpr size_t groups_a_tile = 2;
 
 constexpr size_t least_bytes = 64;  // of a buffer
 

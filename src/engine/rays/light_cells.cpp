@@ -12,8 +12,12 @@ namespace {
 
 constexpr uint32_t max_triangles = 1 << 18;  // in reach of a light with lists
 
-// Entries in a directional light's list, averaged over entries: with more the tree is faster.
-constexpr float longest_list = 256;
+constexpr size_t group_items = 256;  // of the kernels for GPUs
+
+// Entries in a light's list, averaged over entries: with more the tree is faster (docs/rays.md).
+float longest_list(bool directional, bool lanes) {
+  return directional ? 256 : lanes ? std::numeric_limits<float>::infinity() : 128;
+}
 
 // About 0.7 cells per triangle: the fastest frames in five scenes, or within their noise (docs/rays.md). The
 // triangles of a spot lie in the cells of its cone, a part of the cube.
@@ -87,6 +91,10 @@ size_t fixed_bytes(const CellLight& light, uint32_t triangles) {
 
 uint32_t entry_room(uint32_t entries) { return entries + 16; }
 size_t entry_bytes(uint32_t entries) { return entry_room(entries) * sizeof(LightCellEntry); }
+
+uint32_t most_entries(const std::vector<LightCellJob>& jobs) {
+  return std::ranges::max_element(jobs, {}, &LightCellJob::entry_room)->entry_room;
+}
 
 // Allows for more rounding than the builder's box tests do.
 bool is_near(const CellLight& light, const glm::dvec3& low, const glm::dvec3& high) {
@@ -206,11 +214,16 @@ void LightCells::read_jobs(std::vector<LightCellJob>& jobs) {
   read_buffer(device_, "light cells: jobs", jobs_.get(), jobs.data(), jobs.size() * sizeof(LightCellJob));
 }
 
-void LightCells::launch(const char* stem, const RayScene& rays, size_t jobs, const ClArguments& pools) {
+NamedKernel& LightCells::kernel(const char* stem) {
   NamedKernel& kernel = kernels_[stem];
-  if (!kernel) kernel = NamedKernel(programs_, std::string("rays/cpu/") + stem, "");
-  kernel.launch(device_, stem, cl::NDRange(jobs), cl::NDRange(1),
-                rays.arguments() + ClArguments{{"jobs", jobs_.get()}} + pools);
+  if (!kernel) kernel = NamedKernel(programs_, std::string(lanes_ ? "rays/cpu/" : "rays/gpu/") + stem, "");
+  return kernel;
+}
+
+void LightCells::launch(const char* stem, size_t jobs, const ClArguments& arguments, size_t groups) {
+  const cl::NDRange items = lanes_ ? cl::NDRange(jobs) : cl::NDRange(groups * group_items, jobs),
+                    group = lanes_ ? cl::NDRange(1) : cl::NDRange(group_items, 1);
+  kernel(stem).launch(device_, stem, items, group, arguments);
 }
 
 // Counts the triangles in reach of each light, once per light.
@@ -221,7 +234,7 @@ void LightCells::gather(const RayScene& rays, Waiting& waiting) {
   }
   if (jobs.empty()) return;
   write_jobs(jobs);
-  launch("gather_light_cells", rays, jobs.size(), {});
+  launch("gather_light_cells", jobs.size(), rays.arguments() + ClArguments{{"jobs", jobs_.get()}});
   read_jobs(jobs);
   constexpr uint32_t entries_per_triangle = 6;  // 4.4 in the scenes that were measured
   size_t next = 0;
@@ -266,7 +279,7 @@ std::vector<LightCellJob> LightCells::jobs_of(Waiting& chosen) {
 bool LightCells::settle(const CellLight& light, const LightCellJob& job, Lists& lists) {
   lists.entry_count = job.entries;
   if (entry_room(job.entries) > job.entry_room) return free(lists), false;
-  if (light.directional && job.list_length > longest_list)
+  if (job.list_length > longest_list(light.directional, lanes_))
     return free(lists), lists.gathered = UINT32_MAX, true;
   shrink(lists.fixed,
          start_units(light, job.size) * BlockPool::unit_bytes + job.triangles * sizeof(LightCellTriangle));
@@ -275,28 +288,49 @@ bool LightCells::settle(const CellLight& light, const LightCellJob& job, Lists& 
   return true;
 }
 
+// On CPUs a work-item takes light after light, and needs room to sort the entries of one.
+size_t LightCells::workers(const std::vector<LightCellJob>& jobs) const {
+  return std::min<size_t>(jobs.size(), device_.info().compute_units);
+}
+
+void LightCells::launch_lanes(const RayScene& rays, const std::vector<LightCellJob>& jobs,
+                              const cl::Buffer& scratch) {
+  const cl::Buffer next = device_buffer(device_, sizeof(uint32_t));
+  fill_buffer(device_, "light cells: jobs", next, 0, sizeof(uint32_t));
+  launch("list_light_cells", workers(jobs),
+         rays.arguments() + ClArguments{{"jobs", jobs_.get()},
+                                        {"job_count", cl_uint(jobs.size())},
+                                        {"next_job", next},
+                                        {"scratch", scratch},
+                                        {"scratch_items", cl_ulong(most_entries(jobs))},
+                                        {"pool", pool_.buffer()}});
+}
+
+void LightCells::launch_groups(const RayScene& rays, size_t jobs) {
+  const ClArguments lists = {{"jobs", jobs_.get()}, {"pool", pool_.buffer()}}, all = rays.arguments() + lists;
+  launch("store_light_cells", jobs, all);
+  launch("list_light_cells", jobs, all + ClArguments{{"fill", cl_uint(0)}});
+  launch("sum_light_cells", jobs, lists, 1);
+  launch("list_light_cells", jobs, all + ClArguments{{"fill", cl_uint(1)}});
+  launch("sort_light_cells", jobs, lists);
+}
+
 void LightCells::list(const RayScene& rays, Waiting chosen) {
   std::vector<LightCellJob> jobs = jobs_of(chosen);
   if (jobs.empty()) return;
-  const uint32_t most = std::ranges::max_element(jobs, {}, &LightCellJob::entry_room)->entry_room;
-  const size_t workers = std::min<size_t>(jobs.size(), device_.info().compute_units);
-  write_jobs(jobs);
   cl::Buffer scratch;
   try {
-    scratch = device_buffer(device_, workers * most * sizeof(uint64_t));
+    if (lanes_) scratch = device_buffer(device_, workers(jobs) * most_entries(jobs) * sizeof(uint64_t));
   } catch (const Error&) {  // these lights keep the tree
     for (auto* item : chosen) free(item->second);
     for (auto* item : chosen) item->second.refused = frees_;
     return;
   }
-  const cl::Buffer next = device_buffer(device_, sizeof(uint32_t));
-  fill_buffer(device_, "light cells: jobs", next, 0, sizeof(uint32_t));
-  launch("list_light_cells", rays, workers,
-         {{"job_count", cl_uint(jobs.size())},
-          {"next_job", next},
-          {"scratch", scratch},
-          {"scratch_items", cl_ulong(most)},
-          {"pool", pool_.buffer()}});
+  write_jobs(jobs);
+  if (lanes_)
+    launch_lanes(rays, jobs, scratch);
+  else
+    launch_groups(rays, jobs.size());
   read_jobs(jobs);
   Waiting again;
   for (size_t i = 0; i < jobs.size(); ++i)

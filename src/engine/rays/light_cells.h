@@ -1,5 +1,5 @@
 // Lists of the triangles around point lights and in the way of directional ones, from which kernels answer
-// shadow rays without the tree (kernels/rays/light_cells.h), to the same bits. For CPUs.
+// shadow rays without the tree (kernels/rays/light_cells.h), to the same bits.
 //
 //   cells.forget_near(low, high);                   // where something moved
 //   cells.make(rays, lights, limits);               // in each frame
@@ -18,6 +18,7 @@
 
 #include "rays/block_pool.h"
 #include "rays/ray_scene.h"
+#include "shared/cull_settings.h"
 #include "shared/light_cells.h"
 
 namespace lightgrid {
@@ -38,8 +39,12 @@ struct LightCellLimits {
 
 class LightCells {
  public:
-  // `device` and `programs` outlive it.
-  LightCells(ClDevice& device, ProgramCache& programs) : device_(device), programs_(programs) {}
+  // `device` and `programs` outlive it. shape: of the kernels that make lists. Kernels of both shapes read
+  // them.
+  LightCells(ClDevice& device, ProgramCache& programs, KernelShape shape = KernelShape::automatic)
+      : device_(device),
+        programs_(programs),
+        lanes_(shape == KernelShape::automatic ? device.info().cpu : shape == KernelShape::lanes) {}
 
   // All triangles may have changed.
   void forget();
@@ -81,12 +86,18 @@ class LightCells {
   bool evict_oldest();
   std::vector<LightCellJob> jobs_of(Waiting& chosen);
   bool settle(const CellLight& light, const LightCellJob& job, Lists& lists);
-  void launch(const char* stem, const RayScene& rays, size_t jobs, const ClArguments& pools);
+  NamedKernel& kernel(const char* stem);
+  // groups: of each job, on GPUs.
+  void launch(const char* stem, size_t jobs, const ClArguments& arguments, size_t groups = 32);
+  size_t workers(const std::vector<LightCellJob>& jobs) const;
+  void launch_lanes(const RayScene& rays, const std::vector<LightCellJob>& jobs, const cl::Buffer& scratch);
+  void launch_groups(const RayScene& rays, size_t jobs);
   void read_jobs(std::vector<LightCellJob>& jobs);
   void write_jobs(const std::vector<LightCellJob>& jobs);
 
   ClDevice& device_;
   ProgramCache& programs_;
+  const bool lanes_;
   std::map<CellLight, Lists> lists_;
   std::map<std::string, NamedKernel> kernels_;
   BlockPool pool_;

@@ -4,8 +4,11 @@
 
 namespace lightgrid {
 
-// Below 3 ms: a core takes less than 0.7 microseconds for a triangle.
-constexpr size_t triangles_per_core = 4096;
+// Below 3 ms: a core takes less than 0.7 microseconds for a triangle. An H200 takes 1 to 2 ms for as many as
+// these, most of it to wait for the largest triangle.
+size_t triangles_per_frame(const ClDeviceInfo& device) {
+  return device.cpu ? 4096 * size_t(device.compute_units) : 32768;
+}
 
 SharedLightCells::SharedLightCells(const Renderer& renderer)
     : device_(*renderer.cl), cells_(*renderer.cl, *renderer.kernels) {}
@@ -18,8 +21,7 @@ void SharedLightCells::make(const GpuScene& gpu, const RayScene& rays, std::span
   } else {
     cells_.forget();
   }
-  cells_.make(rays, lights,
-              {.bytes = max_bytes, .triangles = triangles_per_core * size_t(device_.info().compute_units)});
+  cells_.make(rays, lights, {.bytes = max_bytes, .triangles = triangles_per_frame(device_.info())});
 }
 
 }  // namespace lightgrid

@@ -15,24 +15,36 @@
 namespace lightgrid {
 namespace {
 
-// As rays/cpu/occlusion.cl. A lane that lists do not serve keeps its bit in `hidden` and is reported.
+// As rays/cpu/occlusion.cl and rays/gpu/occlusion.cl. A lane that lists do not serve is reported. `hidden`
+// and `unserved` are 0 at first.
 constexpr const char* cells_kernel = R"(
 kernel void cells_occlusion(RAYS_ARGUMENTS, LIGHT_CELL_ARGUMENTS, global const float* points, global const int* own,
-                            global const RaySource* lights, global const uint4* packets, global uint* hidden,
-                            global uint* unserved) {
+                            global const RaySource* lights, global const uint4* packets, volatile global uint* hidden,
+                            volatile global uint* unserved) {
   const RayScene scene = RAYS_SCENE;
   const LightCells cells = LIGHT_CELLS;
-  const uint i = (uint)get_global_id(0);
+  const uint i = (uint)get_global_id(0) * LANES / 16;
   const uint4 packet = packets[i];
+  global const LightCellTable* table = light_cells + packet.y;
+  uint served = 0, found = 0;
+#if LANES == 16
+  const uint asked = packet.z, lane = 0;
   global const float* at = points + packet.x * (size_t)64;
   const Real3 to = real3(vload16(0, at), vload16(1, at), vload16(2, at));
-  global const LightCellTable* table = light_cells + packet.y;
-  uint served = 0;
+  const int16 own_here = vload16(packet.x, own);
+  const float16 gap = vload16(3, at);
   int16 veil = (int16)(0);
+#else
+  const uint lane = (uint)get_global_id(0) % 16, asked = packet.z >> lane & 1;
+  global const float* at = points + packet.x * (size_t)64 + lane;
+  const Real3 to = real3(at[0], at[16], at[32]);
+  const int own_here = own[packet.x * 16 + lane];
+  const float gap = at[48];
+  int veil = 0;
+#endif
   if (table->size != 0)
-    hidden[i] = hidden_by_cells(&cells, &scene, table, lights[packet.y], to, vload16(3, at),
-                                packet.z, vload16(packet.x, own), &served, &veil);
-  unserved[i] = packet.z & ~served;
+    found = hidden_by_cells(&cells, &scene, table, lights[packet.y], to, gap, asked, own_here, &served, &veil);
+  atomic_or(hidden + i, found << lane), atomic_or(unserved + i, (asked & ~served) << lane);
 })";
 
 struct CellAnswers {
@@ -40,8 +52,9 @@ struct CellAnswers {
 };
 
 CellAnswers cell_answers(RayScene& scene, const LightCells& cells, const Queries& q,
-                         const std::vector<CellLight>& lights) {
+                         const std::vector<CellLight>& lights, KernelShape shape) {
   ClDevice& device = rays_device();
+  const uint32_t lanes = shape == KernelShape::lanes ? 16 : 1;
   const PackedRays packed = packed_rays(q.points, q.lights.size(), q.packets);
   UploadedBuffer on_device[5];
   on_device[0].put(device, "points", packed.points), on_device[1].put(device, "own", packed.own);
@@ -50,8 +63,9 @@ CellAnswers cell_answers(RayScene& scene, const LightCells& cells, const Queries
   CellAnswers answers{std::vector<uint32_t>(q.packets.size()), std::vector<uint32_t>(q.packets.size())};
   const size_t bytes = q.packets.size() * sizeof(uint32_t);
   const cl::Buffer hidden = device_buffer(device, bytes), unserved = device_buffer(device, bytes);
-  const std::string source =
-      "#define LANES 16\n" + with_includes("kernels/rays/light_cells.h") + cells_kernel;
+  for (const cl::Buffer& buffer : {hidden, unserved}) fill_buffer(device, "answers", buffer, 0, bytes);
+  const std::string source = "#define LANES " + std::to_string(lanes) + "\n" +
+                             with_includes("kernels/rays/light_cells.h") + cells_kernel;
   cl::Kernel kernel = rays_programs().kernel_of_source("cells_occlusion", source, scene.defines());
   const ClArguments arguments = scene.arguments() + ClArguments{{"light_cells", on_device[3].buffer()}} +
                                 cells.arguments() +
@@ -63,7 +77,7 @@ CellAnswers cell_answers(RayScene& scene, const LightCells& cells, const Queries
                                             {"unserved", unserved}};
   for (size_t i = 0; i < arguments.size(); ++i)
     kernel.setArg(cl_uint(i), arguments[i].bytes, arguments[i].value);
-  launch(device, "cells_occlusion", kernel, cl::NDRange(q.packets.size()), cl::NDRange(1));
+  launch(device, "cells_occlusion", kernel, cl::NDRange(q.packets.size() * 16 / lanes), cl::NDRange(1));
   read_buffer(device, "hidden", hidden, answers.hidden.data(), bytes);
   read_buffer(device, "unserved", unserved, answers.unserved.data(), bytes);
   return answers;
@@ -139,10 +153,11 @@ struct Compared {
   }
 };
 
+// The tree's answers are those of the kernel for CPUs.
 Compared compared_with_tree(RayScene& scene, const LightCells& cells, const Queries& q,
-                            const std::vector<CellLight>& lights) {
+                            const std::vector<CellLight>& lights, KernelShape shape) {
   const std::vector<uint32_t> tree = scene.occlusion(q.points, q.lights, q.packets);
-  const CellAnswers answers = cell_answers(scene, cells, q, lights);
+  const CellAnswers answers = cell_answers(scene, cells, q, lights, shape);
   Compared c;
   for (size_t i = 0; i < tree.size(); ++i) {
     const uint32_t served = q.packets[i].lanes & ~answers.unserved[i];
@@ -156,7 +171,7 @@ Compared compared_with_tree(RayScene& scene, const LightCells& cells, const Quer
 constexpr LightCellLimits enough{.bytes = size_t(1) << 28, .triangles = size_t(1) << 28};
 
 // offset: of a soup's triangles from the origin of its rays.
-Compared compared_in_soup(int number, uint32_t seed, const glm::vec3& offset = {},
+Compared compared_in_soup(int number, KernelShape shape, uint32_t seed, const glm::vec3& offset = {},
                           ProgramCache& programs = rays_programs()) {
   std::vector<Corners> triangles = hard_soups(5 + seed)[size_t(number)].triangles;
   RandomNumbers random(seed + 31);
@@ -168,16 +183,21 @@ Compared compared_in_soup(int number, uint32_t seed, const glm::vec3& offset = {
   for (RayLight& light : q.lights) light += light.w * glm::dvec4(offset, 0);
   RayScene scene = scene_of(placed(triangles), {.shape = KernelShape::lanes, .origin = glm::dvec3(0)});
   const std::vector<CellLight> lights = cell_lights(q, random);
-  LightCells cells(rays_device(), programs);
+  LightCells cells(rays_device(), programs, shape);
   cells.make(scene, lights, enough);
-  return compared_with_tree(scene, cells, q, lights);
+  return compared_with_tree(scene, cells, q, lights, shape);
 }
 
-class LightCellsInSoups : public testing::TestWithParam<int> {};
+class LightCellsInSoups : public testing::TestWithParam<std::tuple<int, KernelShape>> {
+ protected:
+  int soup() const { return std::get<0>(GetParam()); }
+  KernelShape shape() const { return std::get<1>(GetParam()); }
+};
 
 TEST_P(LightCellsInSoups, HaveTheTreesAnswers) {
   Compared sum;
-  for (uint32_t seed = 0; seed < (long_tests() ? 200 : 3); ++seed) sum += compared_in_soup(GetParam(), seed);
+  for (uint32_t seed = 0; seed < (long_tests() ? 200 : 3); ++seed)
+    sum += compared_in_soup(soup(), shape(), seed);
   EXPECT_EQ(sum.different, 0u);
   EXPECT_GT(sum.rays, 15000u);
   EXPECT_GT(sum.hidden, sum.rays / 200);
@@ -187,18 +207,29 @@ TEST_P(LightCellsInSoups, HaveTheTreesAnswers) {
 // Where floats are half a millimetre and 8 mm apart.
 TEST_P(LightCellsInSoups, HaveTheTreesAnswersFarFromTheOrigin) {
   for (const float metres : {8192.0f, 1e5f}) {
-    const Compared c = compared_in_soup(GetParam(), 7, {metres, -metres, metres});
+    const Compared c = compared_in_soup(soup(), shape(), 7, {metres, -metres, metres});
     EXPECT_EQ(c.different, 0u) << metres;
     EXPECT_GT(c.hidden, 100u) << metres;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Soups, LightCellsInSoups, testing::Range(0, 6),
-                         [](const auto& info) { return hard_soups()[size_t(info.param)].name; });
+std::string name_of(KernelShape shape) { return shape == KernelShape::lanes ? "Lanes" : "Group"; }
+
+INSTANTIATE_TEST_SUITE_P(Soups, LightCellsInSoups,
+                         testing::Combine(testing::Range(0, 6),
+                                          testing::Values(KernelShape::lanes, KernelShape::group)),
+                         [](const auto& info) {
+                           return hard_soups()[size_t(std::get<0>(info.param))].name +
+                                  name_of(std::get<1>(info.param));
+                         });
+
+class LightCellShapes : public testing::TestWithParam<KernelShape> {};
+INSTANTIATE_TEST_SUITE_P(Shapes, LightCellShapes, testing::Values(KernelShape::lanes, KernelShape::group),
+                         [](const auto& info) { return name_of(info.param); });
 
 // Points behind a triangle one of whose edges, and thus one of whose planes, is along the light but for
 // rounding.
-Compared compared_behind_edges() {
+Compared compared_behind_edges(KernelShape shape) {
   RandomNumbers random(12);
   std::vector<Corners> triangles = {{glm::vec3(5, 5, 17), glm::vec3(-6, 5, -3), glm::vec3(-12, 7, -12)},
                                     {glm::vec3(-40), glm::vec3(40, -40, -40), glm::vec3(40)}};
@@ -218,13 +249,13 @@ Compared compared_behind_edges() {
   }
   RayScene scene = scene_of(placed(triangles), {.shape = KernelShape::lanes, .origin = glm::dvec3(0)});
   const std::vector<CellLight> lights = cell_lights(q, random);
-  LightCells cells(rays_device(), rays_programs());
+  LightCells cells(rays_device(), rays_programs(), shape);
   cells.make(scene, lights, enough);
-  return compared_with_tree(scene, cells, q, lights);
+  return compared_with_tree(scene, cells, q, lights, shape);
 }
 
-TEST(LightCells, HaveTheTreesAnswersBehindEdgesAlongADirection) {
-  const Compared c = compared_behind_edges();
+TEST_P(LightCellShapes, HaveTheTreesAnswersBehindEdgesAlongADirection) {
+  const Compared c = compared_behind_edges(GetParam());
   EXPECT_EQ(c.different, 0u);
   EXPECT_GT(c.hidden, 20u);
 }
@@ -232,7 +263,7 @@ TEST(LightCells, HaveTheTreesAnswersBehindEdgesAlongADirection) {
 // A mesh of its own for each instance, and lights, all of which move, come and go.
 class LightCellSequence {
  public:
-  explicit LightCellSequence(uint32_t seed) : random_(seed) {
+  LightCellSequence(uint32_t seed, KernelShape shape) : random_(seed), shape_(shape) {
     for (int i = 0; i < 12; ++i) {
       meshes_.push_back(placed({hard_soups()[size_t(i % 6)].triangles}));
       instances_.push_back({i, somewhere()});
@@ -259,7 +290,7 @@ class LightCellSequence {
       q.lights.push_back({light.x, light.y, light.z, light.directional ? 0 : 1});
     for (uint32_t light = 0; light < q.lights.size(); ++light)
       for (uint32_t block = 0; block < 20; ++block) q.packets.push_back({block, light});
-    return compared_with_tree(scene_, cells_, q, lights_);
+    return compared_with_tree(scene_, cells_, q, lights_, shape_);
   }
 
   // For the last step: whether a light that moved has lists, and how many lights have some.
@@ -311,17 +342,18 @@ class LightCellSequence {
   }
 
   RandomNumbers random_;
+  const KernelShape shape_;
   std::vector<Placed> meshes_;
   std::vector<RayInstance> instances_;
   std::vector<CellLight> lights_;
   std::vector<RayPoint> points_;
   RayScene scene_{rays_device(), rays_programs(), {.shape = KernelShape::lanes, .origin = glm::dvec3(0)}};
-  LightCells cells_{rays_device(), rays_programs()};
+  LightCells cells_{rays_device(), rays_programs(), shape_};
   int moved_ = 10;
 };
 
-TEST(LightCells, FollowWhateverChanges) {
-  LightCellSequence sequence(3);
+TEST_P(LightCellShapes, FollowWhateverChanges) {
+  LightCellSequence sequence(3, GetParam());
   sequence.step({.bytes = size_t(1) << 28});
   EXPECT_EQ(sequence.listed(), sequence.lights()) << "of a new scene all at once, whatever that takes";
   size_t served = 0, listed = 0;
@@ -337,8 +369,8 @@ TEST(LightCells, FollowWhateverChanges) {
 }
 
 // Lists come back, since those of lights that are gone make room.
-TEST(LightCells, StayWithinTheirMemory) {
-  LightCellSequence sequence(4);
+TEST_P(LightCellShapes, StayWithinTheirMemory) {
+  LightCellSequence sequence(4, GetParam());
   size_t some = 0, all = 0;
   const size_t steps = long_tests() ? 2000 : 60;
   constexpr size_t bytes = 500'000;
@@ -353,10 +385,10 @@ TEST(LightCells, StayWithinTheirMemory) {
 }
 
 // A light that comes to rest gets lists in a full pool: those of lights that are gone make room at once.
-TEST(LightCells, OfLightsThatAreGoneMakeRoomForOthers) {
+TEST_P(LightCellShapes, OfLightsThatAreGoneMakeRoomForOthers) {
   const std::vector<Corners> triangles = hard_soups()[0].triangles;
   const RayScene scene = scene_of(placed(triangles), {.shape = KernelShape::lanes, .origin = glm::dvec3(0)});
-  LightCells cells(rays_device(), rays_programs());
+  LightCells cells(rays_device(), rays_programs(), GetParam());
   std::vector<CellLight> lights = {{0.1, 0.2, 0.3, 100}};
   cells.make(scene, lights, enough);
   const LightCellLimits limits{.bytes = cells.memory_bytes() * 3, .triangles = size_t(1) << 28};
@@ -373,6 +405,7 @@ TEST(LightCells, OfLightsThatAreGoneMakeRoomForOthers) {
 
 struct PlantedFault {
   const char *right, *wrong;
+  KernelShape shape = KernelShape::lanes;
 };
 
 // That the comparison can fail.
@@ -389,6 +422,9 @@ TEST(LightCellFaults, EachIsFound) {
       {"GRID_SLACK 0x1p-17f", "GRID_SLACK -0x1p-8f"},
       {"REAL(f.height) : plane.at / down + extent", "REAL(f.height) : plane.at / down - extent"},
       {"- a * job->grid.u[3]", "+ a * job->grid.u[3]"},
+      {"starts + 1 + cell", "starts + cell", KernelShape::group},
+      {"entries[at - gap] > one", "entries[at - gap] < one", KernelShape::group},
+      {"starts[i] = sum, sum += here", "starts[i] = sum++", KernelShape::group},
   };
   for (const PlantedFault& fault : faults) {
     ProgramCache faulty(rays_device());
@@ -399,7 +435,7 @@ TEST(LightCellFaults, EachIsFound) {
       return at == std::string::npos ? text : text.replace(at, strlen(fault.right), fault.wrong);
     });
     Compared sum;
-    for (int soup = 0; soup < 6; ++soup) sum += compared_in_soup(soup, 0, {}, faulty);
+    for (int soup = 0; soup < 6; ++soup) sum += compared_in_soup(soup, fault.shape, 0, {}, faulty);
     EXPECT_TRUE(is_planted) << fault.right;
     EXPECT_GT(sum.different, 0u) << fault.wrong;
   }

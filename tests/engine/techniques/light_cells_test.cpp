@@ -1,5 +1,5 @@
 // Shadows by light cells (rays/light_cells.h) are those of the tree, byte for byte, in each form of the
-// kernel.
+// kernel, also in that for GPUs.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -57,7 +57,7 @@ void expect_the_trees_bytes(const BuiltinScene& builtin, const std::vector<std::
   for (const std::vector<std::string>& form : forms) {
     SCOPED_TRACE(form[0]);
     const Found cells = with(form);
-    EXPECT_TRUE(makes_cells(cells) || !opencl_devices().cl->info().cpu || scene.lights.empty());
+    EXPECT_TRUE(makes_cells(cells) || scene.lights.empty());
     EXPECT_EQ(cells.shadows.cells, tree.shadows.cells);
     EXPECT_EQ(cells.shadows.bits == tree.shadows.bits, true);
     EXPECT_EQ(cells.shadows.shares == tree.shadows.shares, true);
@@ -67,16 +67,21 @@ void expect_the_trees_bytes(const BuiltinScene& builtin, const std::vector<std::
 
 TEST_P(LightCellPictures, HaveTheTreesBytes) {
   expect_the_trees_bytes(builtin_scenes()[GetParam()], {},
-                         {{"portable=off"}, {"portable=on"}, {"shadow-memory=16M"}, {"shadow-memory=4M"}});
+                         {{"portable=off"},
+                          {"portable=on"},
+                          {"kernel-shape=group"},
+                          {"shadow-memory=16M"},
+                          {"shadow-memory=4M"}});
 }
 
 TEST_P(LightCellPictures, HaveTheTreesBytesAtEdgesAndBehindBlendedCasters) {
   expect_the_trees_bytes(builtin_scenes()[GetParam()], {"samples=4", "shadow-blended=alpha"},
-                         {{"portable=off"}, {"shadow-memory=4M"}});
+                         {{"portable=off"}, {"kernel-shape=group"}, {"shadow-memory=4M"}});
 }
 
 TEST_P(LightCellPictures, HaveTheTreesBytesWhereRaysArePicked) {
-  expect_the_trees_bytes(builtin_scenes()[GetParam()], {"shadow-pick=4"}, {{"portable=off"}});
+  expect_the_trees_bytes(builtin_scenes()[GetParam()], {"shadow-pick=4"},
+                         {{"portable=off"}, {"kernel-shape=group"}});
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, LightCellPictures, testing::Range(size_t(0), builtin_scenes().size()),

@@ -5,19 +5,19 @@
 namespace lightgrid {
 namespace {
 
-const Setting<bool> shadow_cells{660,
-                                 "shadow-cells",
-                                 "on CPUs exact hard shadows of lights at rest come from lists of the "
-                                 "triangles around each light, "
-                                 "or all from the tree",
-                                 {{"on", true}, {"off", false}},
-                                 {.common = true, .shown_if_given = true}};
+const Setting<bool> shadow_cells{
+    660,
+    "shadow-cells",
+    "exact hard shadows of lights at rest come from lists of the triangles around "
+    "each light, or all from the tree",
+    {{"on", true}, {"off", false}},
+    {.common = true, .shown_if_given = true}};
 
 }  // namespace
 
 bool ViewLightCells::serve(const Work& work, bool lanes) {
   const Settings& settings = work.plan.settings;
-  return lanes && work.renderer.cl->info().cpu && settings[shadow_cells] &&
+  return (!lanes || work.renderer.cl->info().cpu) && settings[shadow_cells] &&
          settings[setting::shadows] == ShadowMethod::exact && !soft_shadows(settings);
 }
 

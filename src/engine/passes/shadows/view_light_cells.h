@@ -1,5 +1,5 @@
-// The light cells of a view's lights (rays/light_cells.h), from which find_shadows takes exact hard shadows
-// on CPUs. The setting shadow-cells leaves them out.
+// The light cells of a view's lights (rays/light_cells.h), from which find_shadows takes exact hard
+// shadows. The setting shadow-cells leaves them out.
 #pragma once
 
 #include "passes/shadows/shadow_lights.h"
@@ -10,7 +10,8 @@ namespace lightgrid {
 
 class ViewLightCells {
  public:
-  // True if rays of the view may use them: the kernel is for a CPU, and rays begin at a light's centre.
+  // True if rays of the view may use them: the kernel is of the device's own kind, or a CPU runs that for
+  // GPUs; and rays begin at a light's centre.
   static bool serve(const Work& work, bool lanes);
 
   // When the view, lights or surfaces changed. records: shadow_light_records() of `lights`.

@@ -1,8 +1,8 @@
-// 16 triangles as a light sees them: their boxes, and their planes with the bits that meets_triangle of
+// LANES triangles as a light sees them: their boxes, and their planes with the bits that meets_triangle of
 // rays/ray_packet.h computes.
 #pragma once
 
-#include "kernels/rays/cpu/light_cell_builder.h"
+#include "kernels/rays/light_cell_builder.h"
 
 typedef struct SeenTriangles {
   real normal[3], offset, edges[3][3];
@@ -13,10 +13,18 @@ typedef struct SeenTriangles {
 } SeenTriangles;
 
 #define ALIGNED __attribute__((aligned(128)))  // arrays that are read as vectors
+#if LANES == 1
+typedef double Wide;
+#define WIDE(x) ((double)(x))
+#define NARROW(x) ((float)(x))
+#define WIDE_MASK(x) (x)
+#define first_lanes(n) 1u
+#else
 typedef double16 Wide;
 #define WIDE(x) __builtin_convertvector(x, Wide)
 #define NARROW(x) __builtin_convertvector(x, real)
 #define WIDE_MASK(x) __builtin_convertvector(x, mask_t)
+#endif
 
 static inline Wide wide_dot(const Wide a[3], const Wide b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -99,7 +107,7 @@ static inline uint see_along(SeenTriangles* s, global const LightCellJob* job,
   wide_edge_along(s->edges[0], &s->edge_offsets[0], c[1], c[2], d, turn);
   wide_edge_along(s->edges[1], &s->edge_offsets[1], c[2], c[0], d, turn);
   wide_edge_along(s->edges[2], &s->edge_offsets[2], c[0], c[1], d, turn);
-  return mask_bits(WIDE_MASK(facing * turn > 0.0)) & first_lanes(count);
+  return lane_bits(WIDE_MASK(facing * turn > 0.0)) & first_lanes(count);
 }
 
 // Reads triangles for a point light. Returns a mask of the lanes of triangles in its reach. Triangles in
@@ -120,7 +128,7 @@ static inline uint see_from_point(SeenTriangles* s, global const LightCellJob* j
   wide_edge(s->edges[1], c[2], c[0], turn);
   wide_edge(s->edges[2], c[0], c[1], turn);
   for (int k = 0; k < 3; ++k) s->edge_offsets[k] = REAL(0.0f);
-  return mask_bits(faces & (s->near <= job->reach_m)) & first_lanes(count);
+  return lane_bits(faces & (s->near <= job->reach_m)) & first_lanes(count);
 }
 
 static inline void store_triangle(global LightCellTriangle* to, const SeenTriangles* s, uint lane,

@@ -1,4 +1,5 @@
-// Shared by the kernels that make light cells: the walk to the triangles in a light's reach.
+// Shared by the kernels that make light cells: the walk to the triangles in a light's reach. For 16 lanes on
+// CPUs and one on GPUs.
 //
 // Lists are conservative: whatever triangle the test of rays/ray_packet.h can meet, with all its rounding, is
 // in the list of the ray's cell. A ray passes that test only if
@@ -10,7 +11,6 @@
 // lookup finds a ray's cell with an error of less than 2^-21 of a face's width.
 #pragma once
 
-#define LANES 16
 #include "kernels/rays/rays.h"
 #include "shared/light_cells.h"
 
@@ -63,6 +63,17 @@ static inline SeenBox seen_box(global const LightCellJob* job, const float low[3
     if (any_lane(misses_cone(job, center, REAL(sqrt(squared) * 1.001f)))) box.near = INFINITY;
   }
   return box;
+}
+
+static inline void add_to_box(global LightCellJob* job, global const float* low, global const float* high) {
+  for (int k = 0; k < 3; ++k)
+    job->low[k] = smaller(job->low[k], low[k]), job->high[k] = larger(job->high[k], high[k]);
+}
+
+// Into the job the box of all triangles.
+static inline void bound_triangles(global LightCellJob* job, global const RayNode* root) {
+  if (root->count_0 != RAY_NOTHING) add_to_box(job, root->low_0, root->high_0);
+  if (root->count_1 != RAY_NOTHING) add_to_box(job, root->low_1, root->high_1);
 }
 
 // The leaves in a light's reach one after the other, roughly the nearest first.

@@ -1,12 +1,27 @@
-// Finds the cells that triangles belong to. Small triangles are processed 16 at a time, one per lane; large
-// ones one after the other, 4 x 4 cells at a time.
+// Finds the cells that triangles belong to. Triangles are processed LANES at a time, one per lane; with 16
+// lanes large ones one after the other, 4 x 4 cells at a time.
 #pragma once
 
-#include "kernels/rays/cpu/light_cell_triangles.h"
+#include "kernels/rays/light_cell_triangles.h"
 
 #define LARGE 12.0f      // cells: width plus height of a triangle's box
 #define ROW_SLACK 1e-3f  // of a cell: rounding of where a plane leaves a row
 
+#if LANES == 1
+// Where entries go. Each cell's number of entries is counted first, from starts[1] on. Then starts hold where
+// cells begin, and each entry moves the start of the next cell.
+typedef struct LightCellItems {
+  volatile global uint* starts;
+  global ulong* entries;  // LightCellEntry each; null: they are counted
+  uint first_triangle;
+} LightCellItems;
+
+static inline void add_items(LightCellItems* items, uint bits, whole cell, real near, whole number) {
+  const uint at = atomic_inc(items->starts + 1 + cell);
+  if (items->entries)
+    items->entries[at] = (ulong)as_uint(lane_max(near, 0.0f)) << 32 | (items->first_triangle + (uint)number);
+}
+#else
 // Distances rounded down to steps of 1/64 octave from 2^-10 to 2^22 m: the upper bits of a float. Nearer ones
 // become 0, farther ones the last step.
 #define NEAR_STEPS 2048
@@ -36,6 +51,7 @@ static inline __attribute__((always_inline)) void add_items(LightCellItems* item
   }
   items->count += popcount(bits);
 }
+#endif
 
 // The greatest value of a plane in cell (column, row): column * x + row * y + at.
 typedef struct CellPlanes {
@@ -44,8 +60,8 @@ typedef struct CellPlanes {
 
 // One face of the cube, or the grid, with `size` cells along each side. No ray is longer than `reach`. Cube:
 // `along` is the coordinate along the face's axis, `u` and `v` are those across it. Grid: `height` is that of
-// its top above its base; for a cube it is 0. `axis` and `cosine`: the axis of a spot's cone and the cosine of
-// its angle, below -1 for other lights.
+// its top above its base; for a cube it is 0. `axis` and `cosine`: the axis of a spot's cone and the cosine
+// of its angle, below -1 for other lights.
 typedef struct CellFace {
   int size, first_cell;
   float reach;
@@ -97,9 +113,10 @@ static inline mask_t cells_of_boxes(real low, real high, real along_low, real al
   return (begin < size) & (end >= 0.0f);
 }
 
-// Returns a bound: no shorter ray into the cell meets the triangle. It is infinite in cells outside of a spot's
-// cone. A ray along d reaches the plane at -offset |d| / (normal . d). The bound takes the shortest d in the
-// cell and the greatest product, `rising`. In the grid, `rising` is the plane's greatest height above the base.
+// Returns a bound: no shorter ray into the cell meets the triangle. It is infinite in cells outside of a
+// spot's cone. A ray along d reaches the plane at -offset |d| / (normal . d). The bound takes the shortest d
+// in the cell and the greatest product, `rising`. In the grid, `rising` is the plane's greatest height above
+// the base.
 static inline real near_in_cells(const CellFace* f, real x, real y, real offset, real rising, real box_near) {
   if (f->height != 0.0f) return lane_max(f->height - rising, box_near);
   const float h = 2.0f / (float)f->size;
@@ -145,7 +162,7 @@ static inline __attribute__((always_inline)) void add_small(const CellFace* f, c
       if (!any_lane(here)) break;
       const real rising = plane_in_cells(&t->plane, x, y),
                  near = near_in_cells(f, x, y, s->offset, rising, s->near);
-      const uint bits = mask_bits(here & (rising >= 0.0f) & (near <= f->reach));
+      const uint bits = lane_bits(here & (rising >= 0.0f) & (near <= f->reach));
       const whole cell =
           f->first_cell + TO_WHOLE(here ? y : REAL(0.0f)) * f->size + TO_WHOLE(here ? x : REAL(0.0f));
       if (bits != 0) add_items(items, bits, cell, near, numbers);
@@ -153,6 +170,7 @@ static inline __attribute__((always_inline)) void add_small(const CellFace* f, c
   }
 }
 
+#if LANES == 16
 #define LANE_OF(x) REAL(((const float*)&(x))[lane])
 static inline CellPlanes planes_of_lane(const CellPlanes* p, uint lane) {
   const CellPlanes one = {LANE_OF(p->x), LANE_OF(p->y), LANE_OF(p->at)};
@@ -176,22 +194,27 @@ static inline __attribute__((always_inline)) void add_large(const CellFace* f, c
       const mask_t here = (sides >= 0.0f) & (x >= first_x) & (x <= last_x) & (y >= first_y) & (y <= last_y);
       if (!any_lane(here)) continue;
       const real near = near_in_cells(f, x, y, offset, rising, box_near);
-      const uint bits = mask_bits(here & (near <= f->reach));
+      const uint bits = lane_bits(here & (near <= f->reach));
       if (bits != 0) add_items(items, bits, f->first_cell + row * f->size + column, near, (whole)(number));
     }
   }
 }
+#endif
 
 // Adds the triangles of the lanes `seen`, under their `numbers`.
 static inline __attribute__((always_inline)) void add_to_cells(const CellFace* f, const SeenTriangles* s,
                                                                const FaceTriangles* t, mask_t seen,
                                                                whole numbers, LightCellItems* items) {
+#if LANES == 1
+  add_small(f, s, t, seen, numbers, items);
+#else
   const mask_t large = seen & ((t->last_x - t->first_x) + (t->last_y - t->first_y) > LARGE);
   if (any_lane(seen & ~large)) add_small(f, s, t, seen & ~large, numbers, items);
-  for (uint left = mask_bits(large); left != 0; left &= left - 1) {
+  for (uint left = lane_bits(large); left != 0; left &= left - 1) {
     const uint lane = lowest_bit(left);
     add_large(f, s, t, lane, ((const int*)&numbers)[lane], items);
   }
+#endif
 }
 
 static inline __attribute__((always_inline)) void add_to_face(const CellFace* f, const SeenTriangles* s,
