@@ -424,7 +424,7 @@ TEST(LightCellFaults, EachIsFound) {
       {"- a * job->grid.u[3]", "+ a * job->grid.u[3]"},
       {"starts + 1 + cell", "starts + cell", KernelShape::group},
       {"entries[at - gap] > one", "entries[at - gap] < one", KernelShape::group},
-      {"starts[i] = sum, sum += here", "starts[i] = sum++", KernelShape::group},
+      {"as_uint(lane_max(near, 0.0f))", "as_uint(near + 1.0f)", KernelShape::group},
   };
   for (const PlantedFault& fault : faults) {
     ProgramCache faulty(rays_device());
