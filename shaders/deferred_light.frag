@@ -1,7 +1,7 @@
 // One light on the surfaces of the geometry buffer, to be added to the image.
 //   LIGHT_VOLUME: the light comes with its volume (light_volume.vert), else as a uniform
 //   DEPTH_BOUNDS: nothing outside an interval of depth
-//   EARLY_TESTS: the stencil has light groups: it is tested, and its mark reset, before a pixel is shaded
+//   EARLY_TESTS: the stencil has masks of surfaces: it is tested, and its mark reset, before a pixel is shaded
 //   MARK: instead of light, the pair (pixel, light): a digit of base 4 for each of 48 lights, 12 a channel,
 //     so that sums are exact and count the invocations; with SAMPLES at centres
 //   GBUFFER_8, GBUFFER_16, CLEARCOAT, SPECULAR, SKIN, MINNAERT: the layout (common/gbuffer.glsl)
@@ -11,7 +11,7 @@
 #include "shaders/common/read_gbuffer.glsl"
 #include "shared/brdf.h"
 #include "shaders/lights/punctual.glsl"
-#include "shaders/common/groups_of_pixel.glsl"
+#include "shaders/common/surface_of_pixel.glsl"
 
 #ifdef LIGHT_VOLUME
 flat in uint light;
@@ -49,11 +49,9 @@ void main() {
   added = mark();
 #else
   PunctualLight from = light_at(int(light));
-#ifdef GROUPS
-  int groups = groups_of_pixel(pixel);
-  if (!groups_meet(from.groups, groups)) discard;
-#else
-  int groups = 0;
+  SurfaceValues surface = values_of_pixel(pixel);
+#ifdef MET_BY_EFFECTS
+  if (!effects_meet(int(light), surface)) discard;
 #endif
   vec3 position = position_of_pixel(place_of_sample(), depth);
   Arrival arrival = arrival_at(position, from);
@@ -77,7 +75,7 @@ void main() {
   Coat coat = coat_of_pixel(pixel, s.normal);
   p = with_coat(p, coat.normal, coat.factor, coat.roughness);
 #endif
-  arrival.attenuation *= light_reaches(from, position, arrival.to_light, groups);
+  arrival.attenuation *= light_reaches(from, position, arrival.to_light, surface);
   added = vec4(radiance_of(p, arrival, from), 0.0);
 #endif
 }

@@ -1,17 +1,17 @@
 // The depth prepass writes depth alone; masked surfaces first test their mask.
 // LIMIT: the radiance that may lie behind a blended surface whose alpha is 1: src/engine/passes/shade_forward.cpp.
-//   GROUP_LOCATION: as in gbuffer.frag
+//   NUMBER_LOCATION: as in gbuffer.frag
 //   MASKS_OF_CENTRES: shaders/common/material.glsl
 #if defined(LIMIT) || defined(MASK)
 #include "shaders/common/material.glsl"
 #endif
 
-#ifdef GROUP_LOCATION
-layout(location = GROUP_LOCATION) out uint group_number;
-uniform uint group_number_of_draw;
-#define WRITE_GROUP group_number = group_number_of_draw;
+#ifdef NUMBER_LOCATION
+layout(location = NUMBER_LOCATION) out uint surface_number;
+#include "shaders/common/number_of_draw.glsl"
+#define WRITE_NUMBER surface_number = surface_number_of_draw;
 #else
-#define WRITE_GROUP
+#define WRITE_NUMBER
 #endif
 
 #if defined(LIMIT)
@@ -26,8 +26,8 @@ void main() {
 #elif defined(MASK)
 void main() {
   apply_mask(material_base_color().a);
-  WRITE_GROUP
+  WRITE_NUMBER
 }
 #else
-void main() { WRITE_GROUP }
+void main() { WRITE_NUMBER }
 #endif

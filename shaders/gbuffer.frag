@@ -2,7 +2,7 @@
 // add.
 //   GBUFFER_8, GBUFFER_16: the layout (common/gbuffer.glsl)
 //   BASE_LIGHTING: there is an image to write
-//   GROUP_LOCATION: there is an image of numbers of light groups' masks, at this location
+//   NUMBER_LOCATION: there is an image of the surfaces' numbers, at this location
 //   COATS, SPECULAR_IMAGE: there is an image of coats; of specular reflectance
 #include "shaders/common/surface.glsl"
 #include "shaders/common/gbuffer.glsl"
@@ -41,9 +41,9 @@ layout(location = NEXT) out vec4 specular;
 #endif
 #endif
 
-#ifdef GROUP_LOCATION
-layout(location = GROUP_LOCATION) out uint group_number;
-uniform uint group_number_of_draw;
+#ifdef NUMBER_LOCATION
+layout(location = NUMBER_LOCATION) out uint surface_number;
+#include "shaders/common/number_of_draw.glsl"
 #endif
 
 void main() {
@@ -74,8 +74,8 @@ void main() {
   specular = specular_texel(default_specular);
 #endif
 #endif
-#ifdef GROUP_LOCATION
-  group_number = group_number_of_draw;
+#ifdef NUMBER_LOCATION
+  surface_number = surface_number_of_draw;
 #endif
 #ifdef BASE_LIGHTING
   radiance = vec4(light_of(s), 1.0);

@@ -9,7 +9,7 @@
 #include "shared/light_buffer.h"
 #include "shared/stored_normal.h"
 #include "shaders/lights/punctual.glsl"
-#include "shaders/common/groups_of_pixel.glsl"
+#include "shaders/common/surface_of_pixel.glsl"
 
 uniform frame_sampler2D normals;
 uniform frame_sampler2D depth_image;
@@ -48,16 +48,14 @@ void main() {
 #endif
   if (!(depth > 0.0)) discard;
   PunctualLight from = light_at(int(light));
-#ifdef GROUPS
-  int groups = groups_of_pixel(pixel);
-  if (!groups_meet(from.groups, groups)) discard;
-#else
-  int groups = 0;
+  SurfaceValues surface = values_of_pixel(pixel);
+#ifdef MET_BY_EFFECTS
+  if (!effects_meet(int(light), surface)) discard;
 #endif
   vec3 position = position_of_pixel(place_of_sample(), depth);
   Arrival arrival = arrival_at(position, from);
   if (!(arrival.attenuation > 0.0)) discard;  // would add exact zeros
-  arrival.attenuation *= light_reaches(from, position, arrival.to_light, groups);
+  arrival.attenuation *= light_reaches(from, position, arrival.to_light, surface);
   LightTerms terms =
       light_terms(normal_of_pixel(pixel), direction_to_viewer(position), arrival, from, LIGHT_EXPONENT);
   diffuse_specular = vec4(terms.diffuse, terms.specular) * (1.0 / LIGHT_SCALE);

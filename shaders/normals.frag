@@ -4,10 +4,10 @@
 #include "shared/stored_normal.h"
 
 layout(location = 0) out vec4 stored;
-//   GROUP_LOCATION: as in gbuffer.frag
-#ifdef GROUP_LOCATION
-layout(location = GROUP_LOCATION) out uint group_number;
-uniform uint group_number_of_draw;
+//   NUMBER_LOCATION: as in gbuffer.frag
+#ifdef NUMBER_LOCATION
+layout(location = NUMBER_LOCATION) out uint surface_number;
+#include "shaders/common/number_of_draw.glsl"
 #endif
 
 void main() {
@@ -19,7 +19,7 @@ void main() {
   normal = steps_of_normal(normal) / NORMAL_CHANNEL_STEPS;
 #endif
   stored = vec4(normal, 0.0);
-#ifdef GROUP_LOCATION
-  group_number = group_number_of_draw;
+#ifdef NUMBER_LOCATION
+  surface_number = surface_number_of_draw;
 #endif
 }

@@ -4,27 +4,27 @@
 
 #include "kernels/culling/light_records.h"
 
-// -DGROUPS  tiles have the light groups of their surfaces, and a light is a candidate where it has one
-//   light_groups  bits, by light
-//   tile_groups   of a bin's tiles, by slot
-#ifdef GROUPS
-static inline int16 groups_of_lights(global const uint* ids, global const uint* light_groups) {
-  int groups[16];
-  for (uint i = 0; i < 16; ++i) groups[i] = (int)light_groups[ids[i]];
-  return vload16(0, groups);
+// -DSURFACE_MASKS  tiles have the masks of their surfaces, and a light is a candidate where it has one
+//   light_masks  bits, by light
+//   tile_masks   of a bin's tiles, by slot
+#ifdef SURFACE_MASKS
+static inline int16 masks_of_lights(global const uint* ids, global const uint* light_masks) {
+  int masks[16];
+  for (uint i = 0; i < 16; ++i) masks[i] = (int)light_masks[ids[i]];
+  return vload16(0, masks);
 }
-static inline uint groups_of_tiles(global const uint* tile_groups, uint count) {
-  uint groups = 0;
-  for (uint i = 0; i < count; ++i) groups |= tile_groups[i];
-  return groups;
+static inline uint masks_of_tiles(global const uint* tile_masks, uint count) {
+  uint masks = 0;
+  for (uint i = 0; i < count; ++i) masks |= tile_masks[i];
+  return masks;
 }
 // The 16 candidates at `from` that have one of these.
-static inline uint in_groups(global const float* from, size_t stride, uint groups) {
-  return mask_bits((as_int16(vload16(0, from + VIEW_GROUPS * stride)) & (int16)((int)groups)) != 0);
+static inline uint in_masks(global const float* from, size_t stride, uint masks) {
+  return mask_bits((as_int16(vload16(0, from + VIEW_MASKS * stride)) & (int16)((int)masks)) != 0);
 }
 #else
-#define groups_of_tiles(tile_groups, count) 0u
-#define in_groups(from, stride, groups) 0xffffu
+#define masks_of_tiles(tile_masks, count) 0u
+#define in_masks(from, stride, masks) 0xffffu
 #endif
 
 typedef struct Candidates {
@@ -49,7 +49,7 @@ static inline uint append_lights(global float* to, global const float* from, siz
 }
 
 // The same for 16 records.
-static inline uint append_records(global float* to, size_t stride, LightRecords l, int16 tiles, int16 groups,
+static inline uint append_records(global float* to, size_t stride, LightRecords l, int16 tiles, int16 masks,
                                   global const uint* ids, global const float* records, uint bits) {
 #if defined(AVX512) || defined(AVX2)
   append_reals(to + VIEW_X * stride, l.sphere.x, bits), append_reals(to + VIEW_Y * stride, l.sphere.y, bits);
@@ -62,15 +62,15 @@ static inline uint append_records(global float* to, size_t stride, LightRecords 
   append_reals(to + (VIEW_CONE + 2) * stride, l.cone.d, bits);
   append_reals(to + (VIEW_CONE + 3) * stride, l.cone.cosine, bits);
 #endif
-#ifdef GROUPS
-  append_reals(to + VIEW_GROUPS * stride, as_float16(groups), bits);
+#ifdef SURFACE_MASKS
+  append_reals(to + VIEW_MASKS * stride, as_float16(masks), bits);
 #endif
 #else
   int lanes[16];
   vstore16(tiles, 0, lanes);
-#ifdef GROUPS
+#ifdef SURFACE_MASKS
   int own[16];
-  vstore16(groups, 0, own);
+  vstore16(masks, 0, own);
 #endif
   for (uint left = bits; left; left &= left - 1, ++to) {
     const uint i = lowest_bit(left);
@@ -79,9 +79,9 @@ static inline uint append_records(global float* to, size_t stride, LightRecords 
     for (uint a = 0; a < 4; ++a) to[a * stride] = record[a];
     to[VIEW_TILES * stride] = as_float(lanes[i]), to[VIEW_ID * stride] = as_float(ids[i]);
 #pragma unroll
-    for (uint a = VIEW_CONE; a < VIEW_GROUPS; ++a) to[a * stride] = record[RECORD_CONE + a - VIEW_CONE];
-#ifdef GROUPS
-    to[VIEW_GROUPS * stride] = as_float(own[i]);
+    for (uint a = VIEW_CONE; a < VIEW_MASKS; ++a) to[a * stride] = record[RECORD_CONE + a - VIEW_CONE];
+#ifdef SURFACE_MASKS
+    to[VIEW_MASKS * stride] = as_float(own[i]);
 #endif
   }
 #endif
@@ -124,18 +124,18 @@ static inline uint select_lights(RegionLights all, PackedRange range, global uin
 }
 
 // Gathers the lights `ids` that may touch the bin's box, in order. *pairs: an upper bound of their pairs with
-// its tiles. groups: of the bin.
+// its tiles. masks: of the bin.
 static inline uint gather(global const uint* ids, uint count, global const float* records,
-                          global const uint* light_groups, int x, int y, const Cell* bin, uint groups,
+                          global const uint* light_masks, int x, int y, const Cell* bin, uint masks,
                           Candidates out, ulong* pairs) {
   uint n = 0;
   int16 sum = 0;
   for (uint i = 0; i < count; i += 16) {
     const LightRecords l = load_records(records, ids + i);
     int16 keep = may_touch_coarsely(l.sphere, bin) & ((int)i + LANE_INDEX < (int)count);
-#ifdef GROUPS
-    const int16 own = groups_of_lights(ids + i, light_groups);
-    keep &= (own & (int16)((int)groups)) != 0;
+#ifdef SURFACE_MASKS
+    const int16 own = masks_of_lights(ids + i, light_masks);
+    keep &= (own & (int16)((int)masks)) != 0;
 #else
     const int16 own = 0;
 #endif
@@ -154,8 +154,8 @@ static inline uint gather(global const uint* ids, uint count, global const float
 }
 
 // Candidates that share a tile with the `side` x `side` tiles from (x, y) of the bin on, and may touch their
-// box. groups: of these tiles.
-static inline uint narrow(const Candidates* all, uint x, uint y, uint side, const Cell* box, uint groups,
+// box. masks: of these tiles.
+static inline uint narrow(const Candidates* all, uint x, uint y, uint side, const Cell* box, uint masks,
                           global float* out) {
   const int columns = (int)(((1u << side) - 1u) << x), rows = (int)(((1u << side) - 1u) << (y + 8));
   const Cell b = *box;
@@ -165,7 +165,7 @@ static inline uint narrow(const Candidates* all, uint x, uint y, uint side, cons
     const int16 tiles = as_int16(vload16(0, from + VIEW_TILES * all->stride));
     const uint bits = bits_of_both((tiles & columns) != 0, (tiles & rows) != 0) &
                       mask_bits(may_touch_coarsely(load_sphere(from, all->stride), &b)) &
-                      in_groups(from, all->stride, groups) & first_lanes(all->count - i);
+                      in_masks(from, all->stride, masks) & first_lanes(all->count - i);
     if (bits != 0) n += append_lights(out + n, from, all->stride, bits);
   }
   return n;

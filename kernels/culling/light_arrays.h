@@ -8,7 +8,7 @@
 // Readable up to a multiple of 16 lights.
 
 // Lights in view space, an array each: centre and radius with slack; the tiles they can
-// be seen in; the index; the cone; with -DGROUPS the light's groups.
+// be seen in; the index; the cone; with -DSURFACE_MASKS the light's masks.
 #define VIEW_X 0
 #define VIEW_Y 1
 #define VIEW_D 2
@@ -17,14 +17,14 @@
 #define VIEW_ID 5
 #define VIEW_CONE 6  // four arrays
 #ifdef SPOTS
-#define VIEW_GROUPS (VIEW_CONE + 4)
+#define VIEW_MASKS (VIEW_CONE + 4)
 #else
-#define VIEW_GROUPS VIEW_CONE
+#define VIEW_MASKS VIEW_CONE
 #endif
-#ifdef GROUPS
-#define VIEW_ARRAYS (VIEW_GROUPS + 1)
+#ifdef SURFACE_MASKS
+#define VIEW_ARRAYS (VIEW_MASKS + 1)
 #else
-#define VIEW_ARRAYS VIEW_GROUPS
+#define VIEW_ARRAYS VIEW_MASKS
 #endif
 
 #if LANES == 16

@@ -4,14 +4,15 @@
 //
 // -DTEXTURED, -DUV1, -DVERTEX_COLOR, -DNORMAL_MAP (of the base or the coat), -DCLEARCOAT, -DSPECULAR, -DSKIN,
 // -DMINNAERT  some surface of the scene has these; without, their code is not there
-// -DGROUPS    surfaces have light groups (shared/light_table.h)
-// -DGROUP_NUMBERS  of their masks the numbers are wanted, for a geometry buffer
+// -DEFFECT_NAME      the effect reads values of surfaces (shared/surface_values.h)
+// -DSURFACE_NUMBERS  surfaces' numbers are required, for a geometry buffer
 #pragma once
 
 #include "kernels/resolve/surface_attributes.h"
 #include "kernels/resolve/surface_texture.h"
 #include "shared/raster_instance.h"
 #include "shared/real.h"
+#include "shared/surface_values.h"
 
 // A list names (type, name) once for a kernel's parameters, a struct's members and their values.
 #define PARAMETER(type, name) type name,
@@ -33,8 +34,8 @@
 typedef struct ResolveScene {
   RESOLVE_SCENE_LIST(MEMBER)
   float2 half_size;  // of the image, pixels
-#ifdef GROUPS
-  global const uint* group_masks;  // by number
+#ifdef HAS_SURFACE_VALUES
+  SurfaceArrays values;  // by number
 #endif
 } ResolveScene;
 
@@ -43,11 +44,11 @@ typedef struct Attributes {
   Real3 normal;  // view space, not yet unit
   whole material;
   real side;  // -1 on the back of a double-sided surface
-#ifdef GROUPS
-  whole groups;
-#ifdef GROUP_NUMBERS
-  whole group_number;
+#ifdef HAS_SURFACE_VALUES
+  SurfaceValues values;
 #endif
+#ifdef SURFACE_NUMBERS
+  whole surface_number;
 #endif
 #ifdef NORMAL_MAP
   Real3 tangent;
@@ -81,6 +82,10 @@ static inline Real3 turned(global const float* m, real x, real y, real z) {
     KEEP(to.x, new_value.x), KEEP(to.y, new_value.y), KEEP(to.z, new_value.z); \
   }
 
+#define KEEP_VALUE(kind, type, name, resource) \
+  KEEP(a->values.name, (whole)((int)((global const uint*)s->values.name)[number]));
+#define KEEP_VALUES(inputs, effect, own) inputs(KEEP_VALUE)
+
 static inline void keep_place(TexturePlace* to, TexturePlace p, mask_t here) {
   KEEP(to->u, p.u), KEEP(to->v, p.v);
   KEEP(to->u_right, p.u_right), KEEP(to->v_right, p.v_right);
@@ -106,12 +111,10 @@ static inline void add_triangle(Attributes* a, const ResolveScene* s, uint trian
   const Weights w = weights_at(&t, dx, dy);
   const CornerAttributes c = corner_attributes(s->vertices + r->first_vertex, i, j, k);
   KEEP(a->material, (whole)((int)surface->material));
-#ifdef GROUPS
-  const uint group = surface->flags >> INSTANCE_GROUP_SHIFT;
-  KEEP(a->groups, (whole)((int)s->group_masks[group]));
-#ifdef GROUP_NUMBERS
-  KEEP(a->group_number, (whole)((int)group));
-#endif
+  const uint number = surface->flags >> INSTANCE_NUMBER_SHIFT;
+  SURFACE_EFFECTS(KEEP_VALUES)
+#ifdef SURFACE_NUMBERS
+  KEEP(a->surface_number, (whole)((int)number));
 #endif
   KEEP3(a->normal, turned(surface->normal, ATTRIBUTE(c, w, s0), ATTRIBUTE(c, w, s1), ATTRIBUTE(c, w, s2)));
   if (material->flags & SURFACE_DOUBLE_SIDED) {

@@ -3,9 +3,9 @@
 //
 // -DDIRECTIONAL  there are directional lights
 // -DDIRECTIONAL_SHADOWS  some of them casts a shadow
-// -DEFFECT_NAME  the effect of src/engine/effects/NAME.cpp adds light or takes it away (shared/effects/NAME.h)
-// -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell that its depth lies in
-// -DLIGHTS_VOXELS  point and spot lights come from a voxel light buffer
+// -DEFFECT_NAME  the effect of src/engine/effects/NAME.cpp adds light or takes it away
+// (shared/effects/NAME.h) -DSLICES       tiles are cut into depth slices: a pixel takes the list of the cell
+// that its depth lies in -DLIGHTS_VOXELS  point and spot lights come from a voxel light buffer
 //                  (kernels/voxels/voxel_lookup.h), not from lists
 // -DVOXEL_EXACT  of a list, as many lights a pixel are shaded by themselves, those that matter most, and only
 //                the rest comes from the volume
@@ -47,21 +47,21 @@
 // (shared/light_grid.h), or null for every light at every pixel: the same sum, since a list leaves out only
 // zeros; with -DZ_BINS z-bins of each light; the data of another source of lights (voxels, the world grid:
 // shared/world_grid.h); with -DZ_BINS the depth keys between z-bins; with -DSLICES those between slices.
-#define RESOLVE_ARGUMENTS                                                                    \
-  RESOLVE_SCENE_LIST(PARAMETER)                                                              \
-  LIGHT_ARGUMENTS global const float4 *directional, BASE_EFFECTS(EFFECT_PARAMETERS)          \
-  global const uint2 *cells, global const index_t *light_indices,                            \
-      global const uint *light_bins, FACTOR_ARGUMENTS SOURCE_LIST(PARAMETER)                 \
+#define RESOLVE_ARGUMENTS                                                                             \
+  RESOLVE_SCENE_LIST(PARAMETER)                                                                       \
+  LIGHT_ARGUMENTS global const float4 *directional,                                                   \
+      BASE_EFFECTS(EFFECT_PARAMETERS) global const uint2 *cells, global const index_t *light_indices, \
+      global const uint *light_bins, FACTOR_ARGUMENTS SOURCE_LIST(PARAMETER)                          \
   constant float *bin_edges, constant float *slice_edges, constant ViewParams *view
-#ifdef GROUPS
-#define GIVEN_GROUP_MASKS .group_masks = light_group_masks + view->light_count + view->directional_count,
+#ifdef HAS_SURFACE_VALUES
+#define GIVEN_SURFACE_VALUES .values = GIVEN_SURFACE_ARRAYS,
 #else
-#define GIVEN_GROUP_MASKS
+#define GIVEN_SURFACE_VALUES
 #endif
-#define RESOLVE_SCENE                                                                              \
-  {                                                                                                \
-    RESOLVE_SCENE_LIST(GIVEN) GIVEN_GROUP_MASKS                                                    \
-    .half_size = (float2)(0.5f * (float)view->width, 0.5f * (float)view->height)                   \
+#define RESOLVE_SCENE                                                                                \
+  {                                                                                                  \
+    RESOLVE_SCENE_LIST(GIVEN)                                                                        \
+    GIVEN_SURFACE_VALUES.half_size = (float2)(0.5f * (float)view->width, 0.5f * (float)view->height) \
   }
 #define RESOLVE_LIGHTS                                                                             \
   {                                                                                                \
@@ -218,7 +218,9 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
 #endif
 
 #define INPUT_OF_LIGHTS(kind, type, name, resource) , l->name
-#define ADD_BASE(inputs, base) sum = add3(sum, base(*p, r->covered inputs(INPUT_OF_LIGHTS)));
+#define VALUE_OF_POINT(kind, type, name, resource) , p->surface.name
+#define ADD_BASE(inputs, base, own) \
+  sum = add3(sum, base(*p, r->covered inputs(INPUT_OF_LIGHTS) own(VALUE_OF_POINT)));
 
 // p: resolved_point(r).
 static inline Real3 own_light(const ShadingPoint* p, const Resolved* r, const ResolveLights* l,
@@ -231,17 +233,17 @@ static inline Real3 own_light(const ShadingPoint* p, const Resolved* r, const Re
   for (uint i = 0; i < view->directional_count; ++i) {
     const float4 to_light = l->directional[2 * i], light = l->directional[2 * i + 1];
     Real3 back = reflected(*p, real3(REAL(to_light.x), REAL(to_light.y), REAL(to_light.z)));
-#ifdef GROUPS
-    back =
-        scale3(back, groups_meet(l->lights.light_group_masks[view->light_count + i], p->groups) ? REAL(1.0f)
-                                                                                                : REAL(0.0f));
+#ifdef MET_BY_EFFECTS
+    back = scale3(
+        back, effects_meet(&l->lights.reach, view->light_count + i, p->surface) ? REAL(1.0f) : REAL(0.0f));
 #endif
 #ifdef DIRECTIONAL_SHADOWS
     back = scale3(back, seen_share(&l->lights.shadows, view->light_count + i));
 #endif
 #ifdef REACHED_BY_EFFECTS
-    back = scale3(back, effects_reach(&l->lights.reach, view->light_count + i, p->position,
-                                      real3(REAL(to_light.x), REAL(to_light.y), REAL(to_light.z)), GROUPS_AT(*p)));
+    back = scale3(back,
+                  effects_reach(&l->lights.reach, view->light_count + i, p->position,
+                                real3(REAL(to_light.x), REAL(to_light.y), REAL(to_light.z)), VALUES_AT(*p)));
 #endif
     sum = add3(sum, real3(back.x * light.x, back.y * light.y, back.z * light.z));
   }
@@ -269,8 +271,8 @@ static inline ShadingPoint resolved_point(const Resolved* r, constant ViewParams
   const Real3 to_viewer = direction_to_viewer(position);
   ShadingPoint p =
       shading_point(position, to_viewer, shading_normal(a, s), s->base_color, s->metallic, s->roughness);
-#ifdef GROUPS
-  p.groups = a->groups;
+#ifdef HAS_SURFACE_VALUES
+  p.surface = a->values;
 #endif
 #ifdef SPECULAR
   p = with_specular(p, s->metallic, s->f0, s->f90);

@@ -1,14 +1,14 @@
-// The pixels whose samples are several surfaces, of images that store a surface a sample. Lauritzen, "Deferred
-// Rendering for Current and Future Rendering Pipelines" (SIGGRAPH 2010), compares samples within thresholds.
-// Here they are one surface only if they store the same bits, as of a triangle that covers the pixel and was
-// shaded once for it, and if their depths lie in a plane. What is called an edge without need costs time and no
-// accuracy.
+// The pixels whose samples are several surfaces, of images that store a surface a sample. Lauritzen,
+// "Deferred Rendering for Current and Future Rendering Pipelines" (SIGGRAPH 2010), compares samples within
+// thresholds. Here they are one surface only if they store the same bits, as of a triangle that covers the
+// pixel and was shaded once for it, and if their depths lie in a plane. What is called an edge without need
+// costs time and no accuracy.
 //
 // -DSAMPLES, -DSAMPLE_PLACES  kernels/common/sample_places.h; those of a pixel follow one another
 #pragma once
 
 #include "kernels/common/sample_places.h"
-#include "kernels/resolve/group_numbers.h"
+#include "kernels/resolve/surface_numbers.h"
 
 static inline bool stores_one(global const uint* image, size_t pixel) {
   if (!image) return true;
@@ -36,27 +36,27 @@ static inline bool in_plane(global const float* depth) {
   return true;
 }
 
-#ifdef GROUPS
-static inline bool has_one_group(global const group_number_t* numbers) {
+#ifdef NUMBER_BITS
+static inline bool has_one_number(global const surface_number_t* numbers) {
   for (uint s = 1; s < SAMPLES; ++s)
     if (numbers[s] != numbers[0]) return false;
   return true;
 }
 #else
-#define has_one_group(numbers) true
+#define has_one_number(numbers) true
 #endif
 
-#define SURFACE_ARGUMENTS                                                                              \
+#define SURFACE_ARGUMENTS                                                                                   \
   global const uint *first, global const uint *second, global const uint *third, global const uint *fourth, \
-      GROUP_NUMBER_ARGUMENTS global const float *depths
-#ifdef GROUPS
-#define GIVEN_GROUP_NUMBERS group_numbers, last_group,
+      SURFACE_NUMBER_ARGUMENTS global const float *depths
+#ifdef NUMBER_BITS
+#define GIVEN_SURFACE_NUMBERS surface_numbers, last_number,
 #else
-#define GIVEN_GROUP_NUMBERS
+#define GIVEN_SURFACE_NUMBERS
 #endif
 
 static inline bool has_one_surface(size_t at, SURFACE_ARGUMENTS) {
   return stores_one(first, at) && stores_one(second, at) && stores_one(third, at) && stores_one(fourth, at) &&
-         has_one_group(group_numbers + at * SAMPLES) && in_plane(depths + at * SAMPLES);
+         has_one_number(surface_numbers + at * SAMPLES) && in_plane(depths + at * SAMPLES);
 }
-#define HAS_ONE_SURFACE(at) has_one_surface(at, first, second, third, fourth, GIVEN_GROUP_NUMBERS depths)
+#define HAS_ONE_SURFACE(at) has_one_surface(at, first, second, third, fourth, GIVEN_SURFACE_NUMBERS depths)

@@ -10,7 +10,7 @@
 // -DCLEARCOAT  some surface has a coat: shared/brdf.h
 // -DSPECULAR  some surface has a specular reflectance of its own: shared/brdf.h
 // -DSKIN, -DMINNAERT  some surface has that model: shared/material_models.h
-// -DGROUPS    light groups are asked for: shared/light_table.h
+// -DEFFECT_NAME  the effect lets a part of lights pass: shared/light_table.h
 // -DSHADOWS   some light casts a shadow: shared/shadow_bits.h
 // -DEFFECT_NAME  an effect takes a part of some lights away: shared/inputs.h
 // -DLIST_FACTORS  lists are samples: each light counts as often as its place in `list_factors` says
@@ -52,9 +52,8 @@ typedef struct Lights {
 // Before a loop over lights: the pixels that it is for, by the first of them.
 static inline void light_pixels(Lights* lights, uint x, uint y, constant ViewParams* view) {
 #ifdef SHADOWS
-  lights->shadows =
-      shadows_here(lights->shadow_tiles, lights->shadow_bits, x, y, view->width,
-                   view->light_count + view->directional_count);
+  lights->shadows = shadows_here(lights->shadow_tiles, lights->shadow_bits, x, y, view->width,
+                                 view->light_count + view->directional_count);
 #endif
 }
 
@@ -74,7 +73,7 @@ static inline PunctualLight light_at(const Lights* lights, uint index) {
 #ifdef SHADOWS
   light.shadows = &lights->shadows;
 #endif
-#ifdef REACHED_BY_EFFECTS
+#ifdef EFFECTS_OF_LIGHTS
   light.reach = &lights->reach;
 #endif
   return light;
@@ -118,8 +117,8 @@ static inline mask_t in_range(Real3 position, PunctualLight light) {
 static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uint index, float factor,
                                const Lights* lights) {
   const PunctualLight light = light_at(lights, index);
-#ifdef GROUPS
-  if (!any_lane(lit & groups_meet(light.groups, p->groups))) return sum;
+#ifdef MET_BY_EFFECTS
+  if (!any_lane(lit & effects_meet(&lights->reach, index, p->surface))) return sum;
 #endif
   if (!any_lane(lit & in_range(p->position, light))) return sum;
   Arrival arrival = arrival_at(p->position, light);
@@ -134,7 +133,7 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
   const mask_t reached = (arrival.attenuation > REAL(0.0f)) & facing;
   if (!any_lane(lit & reached)) return sum;
   arrival.attenuation =
-      arrival.attenuation * light_reaches(light, p->position, arrival.to_light, GROUPS_AT(*p));
+      arrival.attenuation * light_reaches(light, p->position, arrival.to_light, VALUES_AT(*p));
 #if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
   if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
 #endif

@@ -9,22 +9,24 @@
 // shade()            shades a batch of surfaces
 #pragma once
 
-#include "kernels/resolve/group_numbers.h"
+#include "kernels/resolve/surface_numbers.h"
 #if defined(STORED_SURFACES)
 #include "kernels/resolve/stored/surfaces.h"
 #elif defined(STORED_NORMALS)
 #include "kernels/resolve/stored/normals.h"
 #endif
 
-#if !defined(GROUPS)
-#define GROUPS_OF_BATCH(b) WHOLE(0)
+#if !defined(NUMBER_BITS) || !defined(HAS_SURFACE_VALUES)
+#define VALUES_OF_BATCH(b) WHOLE(0)
 #elif LANES == 16
-static inline uint16 group_numbers_of(global const group_number_t* image, const StoredBatch* b) {
+static inline uint16 surface_numbers_of(global const surface_number_t* image, const StoredBatch* b) {
   uint numbers[16];
   for (uint i = 0; i < 16; ++i) numbers[i] = image[IMAGE_OF(b, i)];
   return vload16(0, numbers);
 }
-#define GROUPS_OF_BATCH(b) groups_of_numbers(group_numbers_of(group_numbers, b), GROUP_MASKS, last_group)
+#define VALUES_OF_BATCH(b) \
+  values_of_numbers(surface_numbers_of(surface_numbers, b), (SurfaceArrays)GIVEN_SURFACE_ARRAYS, last_number)
 #else
-#define GROUPS_OF_BATCH(b) groups_of_numbers(group_numbers[(b)->image], GROUP_MASKS, last_group)
+#define VALUES_OF_BATCH(b) \
+  values_of_numbers(surface_numbers[(b)->image], (SurfaceArrays)GIVEN_SURFACE_ARRAYS, last_number)
 #endif

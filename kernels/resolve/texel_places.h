@@ -2,13 +2,14 @@
 // side: a surface's texel is stored for every sample that sees it.
 //
 // -DSAMPLES        kernels/common/sample_places.h; without, a pixel has one texel
-// -DSAMPLES_APART  with -DOUTPUT_SUMS: the light buffer has sums for every sample, not only for those of pixels
+// -DSAMPLES_APART  with -DOUTPUT_SUMS: the light buffer has sums for every sample, not only for those of
+// pixels
 //                  at edges
-// -DGROUP_NUMBERS  kernels/resolve/group_numbers.h
+// -DSURFACE_NUMBERS  kernels/resolve/surface_numbers.h
 #pragma once
 
 #include "kernels/common/sample_places.h"
-#include "kernels/resolve/group_numbers.h"
+#include "kernels/resolve/surface_numbers.h"
 #include "shared/real.h"
 
 // Samples of a pixel with one surface that have a value of their own, as a mask.
@@ -46,20 +47,20 @@ typedef struct TexelPlaces {
 } TexelPlaces;
 #endif
 
-// For kernels with GROUP_NUMBERS_OUT (kernels/resolve/group_numbers.h).
-#ifdef GROUP_NUMBERS
+// For kernels with SURFACE_NUMBERS_OUT (kernels/resolve/surface_numbers.h).
+#ifdef SURFACE_NUMBERS
 #if LANES == 16
-static inline void store_group_numbers(global group_number_t* to, whole numbers, mask_t covered,
-                                       const TexelPlaces* places) {
+static inline void store_surface_numbers(global surface_number_t* to, whole numbers, mask_t covered,
+                                         const TexelPlaces* places) {
   const whole stored = covered ? numbers : (whole)(0);
   for (uint i = 0; i < places->count; ++i)
-    to[places->at[i]] = (group_number_t)((const int*)&stored)[places->lane[i]];
+    to[places->at[i]] = (surface_number_t)((const int*)&stored)[places->lane[i]];
 }
 #else
-static inline void store_group_numbers(global group_number_t* to, whole number, mask_t covered,
-                                       const TexelPlaces* places) {
+static inline void store_surface_numbers(global surface_number_t* to, whole number, mask_t covered,
+                                         const TexelPlaces* places) {
   for (uint s = 0; s < SAMPLES; ++s)
-    if (places->samples >> s & 1u) to[places->pixel * SAMPLES + s] = (group_number_t)(covered ? number : 0);
+    if (places->samples >> s & 1u) to[places->pixel * SAMPLES + s] = (surface_number_t)(covered ? number : 0);
 }
 #endif
 #endif

@@ -13,7 +13,7 @@
 
 // The light that a Lambert surface reflects, times a factor that is the same for all lights of a pixel. It is
 // not exact: cones fade from their axis on, and the surface's own reflectance is left out.
-static inline real estimated_light(const Receivers* r, whole groups, global const ShadowLight* l) {
+static inline real estimated_light(const Receivers* r, whole masks, global const ShadowLight* l) {
   const Real3 d = real3(from_double(r->at.x, l->x), from_double(r->at.y, l->y), from_double(r->at.z, l->z));
   const real squared = lane_max(fma(d.z, d.z, fma(d.y, d.y, d.x * d.x)), REAL(1e-6f));
   const real inverse = 1.0f / sqrt(squared), part = squared * (1.0f / l->reach_squared);
@@ -25,37 +25,37 @@ static inline real estimated_light(const Receivers* r, whole groups, global cons
     const real inside = lane_max((along - l->cos_outer) / fmax(1.0f - l->cos_outer, 1e-7f), REAL(0.0f));
     light *= inside * inside;
   }
-  return (r->own >= (whole)(0)) & ((groups & (whole)((int)l->groups)) != (whole)(0)) ? light * l->luminance
-                                                                                   : REAL(0.0f);
+  return (r->own >= (whole)(0)) & ((masks & (whole)((int)l->mask)) != (whole)(0)) ? light * l->luminance
+                                                                                  : REAL(0.0f);
 }
 
-// The light groups of each lane's surface: all of them if triangle_groups is null.
-static inline whole groups_of_lanes(const Receivers* r, global const uint* triangle_groups) {
-  whole groups = (whole)(-1);
-  if (!triangle_groups) return groups;
+// The masks of each lane's surface: all of them if triangle_masks is null.
+static inline whole masks_of_lanes(const Receivers* r, global const uint* triangle_masks) {
+  whole masks = (whole)(-1);
+  if (!triangle_masks) return masks;
   for (uint left = lane_bits(r->own >= (whole)(0)); left != 0; left &= left - 1) {
     const uint lane = lowest_bit(left);
-    ((int*)&groups)[lane] = (int)triangle_groups[((const int*)&r->own)[lane]];
+    ((int*)&masks)[lane] = (int)triangle_masks[((const int*)&r->own)[lane]];
   }
-  return groups;
+  return masks;
 }
 
 #define PICK_OF(pick, lane) (((const int*)&(pick))[lane])
 
 // Draws the lights of each lane, in systematic steps over the sum of all. Lanes to which no light adds
-// anything have none: a light of other groups adds nothing.
+// anything have none: a light of another mask adds nothing.
 // picks: SHADOW_PICK lights of each lane, those that are alike in succession. x, y: of lane 0.
-static inline mask_t pick_lights(const Receivers* r, whole groups, global const ShadowLight* lights,
+static inline mask_t pick_lights(const Receivers* r, whole masks, global const ShadowLight* lights,
                                  global const index_t* indices, uint2 range, uint x, uint y, whole* picks) {
   real sum = REAL(0.0f), before = REAL(0.0f), next = REAL(0.0f), u = REAL(0.0f);
-  for (uint i = range.x; i < range.x + range.y; ++i) sum += estimated_light(r, groups, lights + indices[i]);
+  for (uint i = range.x; i < range.x + range.y; ++i) sum += estimated_light(r, masks, lights + indices[i]);
   for (uint lane = 0; lane < LANES; ++lane) ((float*)&u)[lane] = hash_in_unit(hash_of_pixel(x, y, lane));
   whole count = (whole)(0);
   const real step = sum * (1.0f / SHADOW_PICK);
   next = u * step;
   for (uint i = range.x; i < range.x + range.y; ++i) {
     const uint index = indices[i];
-    before += estimated_light(r, groups, lights + index);
+    before += estimated_light(r, masks, lights + index);
     for (uint left = lane_bits((before > next) & (count < (whole)(SHADOW_PICK))); left != 0;
          left &= left - 1) {
       const uint lane = lowest_bit(left);
@@ -151,8 +151,8 @@ static inline whole picked_share(ShadowTest* test, const RayScene* scene, const 
                                  global const ShadowLight* lights, global const index_t* indices, uint2 range,
                                  uint x, uint y) {
   whole picks[SHADOW_PICK];
-  const whole groups = groups_of_lanes(r, test->triangle_groups);
-  const mask_t drawn = pick_lights(r, groups, lights, indices, range, x, y, picks);
+  const whole masks = masks_of_lanes(r, test->triangle_masks);
+  const mask_t drawn = pick_lights(r, masks, lights, indices, range, x, y, picks);
   return share_of_picks(test, scene, r, lights, picks, drawn, x, y);
 }
 

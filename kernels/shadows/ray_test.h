@@ -2,7 +2,7 @@
 // the tree.
 //
 // -DSHADOW_CELLS   lights may have light cells
-// -DSHADOW_GROUPS  with -DSHADOW_PICK: lights and surfaces have light groups
+// -DSHADOW_MASKS  with -DSHADOW_PICK: lights and surfaces have masks
 #pragma once
 
 #include "kernels/shadows/receivers.h"
@@ -15,22 +15,22 @@
 #define CELL_ARGUMENTS
 #define GIVEN_CELLS
 #endif
-// triangle_groups  light groups of each triangle's surface, by the rays' numbers
-#ifdef SHADOW_GROUPS
-#define GROUP_ARGUMENTS global const uint *triangle_groups,
-#define GIVEN_GROUPS .triangle_groups = triangle_groups,
+// triangle_masks  masks of each triangle's surface, by the rays' numbers
+#ifdef SHADOW_MASKS
+#define MASK_ARGUMENTS global const uint *triangle_masks,
+#define GIVEN_MASKS .triangle_masks = triangle_masks,
 #else
-#define GROUP_ARGUMENTS
-#define GIVEN_GROUPS
+#define MASK_ARGUMENTS
+#define GIVEN_MASKS
 #endif
-#define SHADOW_TEST_ARGUMENTS GROUP_ARGUMENTS CELL_ARGUMENTS
+#define SHADOW_TEST_ARGUMENTS MASK_ARGUMENTS CELL_ARGUMENTS
 #define SHADOW_TEST \
-  { GIVEN_GROUPS GIVEN_CELLS .last_blocker = -1 }
+  { GIVEN_MASKS GIVEN_CELLS.last_blocker = -1 }
 
 typedef struct ShadowTest {
   uint traced;
   int last_blocker;
-  global const uint* triangle_groups;  // null: all lights shine on all surfaces
+  global const uint* triangle_masks;  // null: all lights shine on all surfaces
 #ifdef SHADOW_CELLS
   LightCells cells;
 #endif

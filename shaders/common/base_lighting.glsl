@@ -4,7 +4,8 @@
 #include "shaders/lights/directional.glsl"
 #endif
 #include "shared/effects.h"
-#define ADD_BASE(inputs, base) color += base(p, true);
+#define VALUE_OF_POINT(kind, type, name, resource) , p.surface.name
+#define ADD_BASE(inputs, base, own) color += base(p, true own(VALUE_OF_POINT));
 
 vec3 base_lighting(Surface s, ShadingPoint p) {
   vec3 ambient = vec3(view.ambient_r, view.ambient_g, view.ambient_b);

@@ -1,10 +1,9 @@
 // From the surface at a fragment to the point that light is reflected at. After surface.glsl,
 // position.glsl and shared/brdf.h.
-//   GROUPS: the object's are asked for (shared/light_table.h)
 #include "shaders/common/fragment_place.glsl"
 
-#ifdef GROUPS
-uniform int groups_of_draw;
+#ifdef HAS_SURFACE_VALUES
+#include "shaders/common/number_of_draw.glsl"
 #endif
 
 ShadingPoint point_of_surface(Surface s) {
@@ -12,8 +11,8 @@ ShadingPoint point_of_surface(Surface s) {
   vec3 position = position_of_pixel(place.xy, place.z);
   vec3 to_viewer = direction_to_viewer(position);
   ShadingPoint p = shading_point(position, to_viewer, s.normal, s.base_color, s.metallic, s.roughness);
-#ifdef GROUPS
-  p.groups = groups_of_draw;
+#ifdef HAS_SURFACE_VALUES
+  p.surface = values_of_surface(int(surface_number_of_draw));
 #endif
 #ifdef SPECULAR
   p = with_specular(p, s.metallic, s.f0, s.f90);

@@ -17,8 +17,8 @@ PunctualLight light_at(int index) {
 }
 
 vec3 punctual_light(ShadingPoint p, int index) {
-#ifdef GROUPS
-  if (!groups_meet(texelFetch(light_group_masks, index).r, p.groups)) return vec3(0.0);
+#ifdef MET_BY_EFFECTS
+  if (!effects_meet(index, p.surface)) return vec3(0.0);
 #endif
   return radiance_from(p, light_at(index));
 }

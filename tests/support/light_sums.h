@@ -17,17 +17,17 @@ struct LightSums {
 };
 
 // Adds up point and spot lights at a point of a perspective view. normal: unit, view space; exponent: the
-// lights'. groups: of the surface.
+// lights'. mask: of the surface.
 // A light at the point itself adds nothing.
 inline LightSums light_sums(const glm::dvec3& position, const glm::dvec3& normal,
                             std::span<const ViewLight> lights, double exponent,
-                            uint32_t groups = all_groups) {
+                            uint32_t mask = full_mask) {
   const glm::dvec3 to_eye = glm::normalize(-position);
   LightSums sums;
   for (const ViewLight& light : lights) {
     const glm::dvec3 offset = light.position - position;
     const double distance = glm::length(offset);
-    const double arrives = attenuation(light, position, true) * light_reaches(light, position, groups);
+    const double arrives = attenuation(light, position, true) * light_reaches(light, position, mask);
     if (!(distance > 0) || !(arrives > 0)) continue;
     const glm::dvec3 to_light = offset / distance;
     const double arriving = arrives * glm::clamp(glm::dot(normal, to_light), 0.0, 1.0);

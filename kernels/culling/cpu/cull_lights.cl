@@ -7,10 +7,10 @@
 // records, lists, counts  as culling/cpu/project_lights.cl writes them, `runs` counts a region
 // spread         stride through the patches of 2 x 2 bins, coprime to their number: spreads each
 //                thread's work-items over the screen
-// light_groups   with -DGROUPS: of each light, bits (scene/light_groups.h)
+// light_masks   with -DSURFACE_MASKS: of each light, bits (scene/light_masks.h)
 // bounds         as culling/cpu/depth_bounds.cl writes them
-// tile_groups    with -DGROUPS: of each bin's tiles, in slots, the groups that their surfaces have
-//                (culling/tile_groups.cl)
+// tile_masks    with -DSURFACE_MASKS: of each bin's tiles, in slots, the masks that their surfaces have
+//                (culling/tile_masks.cl)
 // slices         where there are some: as kernels/culling/bin_cells.h says
 // pool           room for candidates in batches of 16 lights; the batches needed are counted in counters[0]
 // staged         room for each bin's lists in units of 16 indices; the units needed are counted in
@@ -21,8 +21,8 @@
 // A bin without room writes nothing and sets counters[3]; the host then reads the counters and runs
 // the kernels again with more room.
 #define LANES 16
-#include "kernels/culling/bin_tiles.h"
 #include "kernels/common/index_type.h"
+#include "kernels/culling/bin_tiles.h"
 #include "kernels/culling/candidates.h"
 
 #ifdef INDEX_32
@@ -37,14 +37,14 @@ static inline uint append_ids(global index_t* to, global const float* ids, uint 
 }
 
 // The lights of one cell, written to `list`; `tile` is its tile as VIEW_TILES has it. Returns how many.
-static inline uint list_cell(const Candidates* few, int tile, const TestCell* cell, uint groups,
+static inline uint list_cell(const Candidates* few, int tile, const TestCell* cell, uint masks,
                              global index_t* list, constant CullParams* p) {
   uint n = 0;
   for (uint i = 0; i < few->count; i += 16) {
     global const float* from = few->lights + i;
     const int16 tiles = as_int16(vload16(0, from + VIEW_TILES * few->stride));
     const uint bits = bits_of_both((tiles & tile) == tile, light_may_touch(from, few->stride, cell, p)) &
-                      in_groups(from, few->stride, groups) & first_lanes(few->count - i);
+                      in_masks(from, few->stride, masks) & first_lanes(few->count - i);
     n += append_ids(list + n, from + VIEW_ID * few->stride, bits);
   }
   return n;
@@ -57,9 +57,9 @@ static inline uint list_cell(const Candidates* few, int tile, const TestCell* ce
 
 // The lists of a quad's cells from its candidates, one after the other. Returns how many indices they hold.
 static inline uint list_quad(const Candidates* few, uint quad, const BinTiles* tiles,
-                             global const float* bounds, global const uint* tile_groups,
-                             global const float2* slices,
-                             global uint* cell_counts, global index_t* list, constant CullParams* p) {
+                             global const float* bounds, global const uint* tile_masks,
+                             global const float2* slices, global uint* cell_counts, global index_t* list,
+                             constant CullParams* p) {
   const int column = 1 << tile_x_of_slot(quad * 4), row = 0x100 << tile_y_of_slot(quad * 4);
   const int held_by[4] = {column | row, column << 1 | row, column | row << 1, column << 1 | row << 1};
   uint written = 0;
@@ -67,8 +67,8 @@ static inline uint list_quad(const Candidates* few, uint quad, const BinTiles* t
     for (uint slice = 0; slice < SLICE_COUNT; ++slice) {
       TestCell cell;
       if (!pick_test_cell(tiles, bounds, slot, slice, slices, &cell, p)) continue;
-      const uint n = list_cell(few, held_by[slot & 3], &cell, groups_of_tiles(tile_groups + slot, 1),
-                               list + written, p);
+      const uint n =
+          list_cell(few, held_by[slot & 3], &cell, masks_of_tiles(tile_masks + slot, 1), list + written, p);
       cell_counts[slot * SLICE_COUNT + slice] = n;
       written += n;
     }
@@ -78,8 +78,8 @@ static inline uint list_quad(const Candidates* few, uint quad, const BinTiles* t
 
 // rooms: for the indices of a bin's lights, and for its candidates.
 static inline void cull_bin(uint bx, uint by, global const float* records, RegionLights lights,
-                            global const uint* light_groups, global const float* bounds,
-                            global const uint* tile_groups, global const float2* slices, Room* rooms,
+                            global const uint* light_masks, global const float* bounds,
+                            global const uint* tile_masks, global const float2* slices, Room* rooms,
                             global float* pool, global index_t* staged, global uint* cell_counts,
                             global uint2* lists, global volatile uint* counters, constant CullParams* p) {
   *lists = (uint2)(0u);
@@ -102,8 +102,8 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
   Candidates all = {candidates, stride, 0}, some = {candidates + step, stride, 0};
   Candidates few[2] = {{candidates + 2 * step, stride, 0}, {candidates + 3 * step, stride, 0}};
   ulong pairs;
-  all.count = gather(ids, count, records, light_groups, bx * BIN_TILES, by * BIN_TILES, &whole_bin,
-                     groups_of_tiles(tile_groups, BIN_SIZE), all, &pairs);
+  all.count = gather(ids, count, records, light_masks, bx * BIN_TILES, by * BIN_TILES, &whole_bin,
+                     masks_of_tiles(tile_masks, BIN_SIZE), all, &pairs);
   const ulong wanted = pairs * SLICE_COUNT / 16 + 2;
   const uint units = wanted > MOST_UNITS ? MOST_UNITS : (uint)wanted;
   const uint offset = atomic_add(counters + 1, units);
@@ -121,16 +121,15 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
     if (quad < 16) {
       const uint x = tile_x_of_slot(quad * 4), y = tile_y_of_slot(quad * 4);
       if (quad % 4 == 0 && many)
-        some.count = narrow(&all, x, y, 4, &blocks[quad / 4], groups_of_tiles(tile_groups + quad * 4, 16),
-                            some.lights);
+        some.count =
+            narrow(&all, x, y, 4, &blocks[quad / 4], masks_of_tiles(tile_masks + quad * 4, 16), some.lights);
       const bool shown = quads[quad].near <= quads[quad].far;
-      few[quad & 1].count =
-          shown ? narrow(many ? &some : &all, x, y, 2, &quads[quad],
-                         groups_of_tiles(tile_groups + quad * 4, 4), few[quad & 1].lights)
-                : 0u;
+      few[quad & 1].count = shown ? narrow(many ? &some : &all, x, y, 2, &quads[quad],
+                                           masks_of_tiles(tile_masks + quad * 4, 4), few[quad & 1].lights)
+                                  : 0u;
     }
     if (quad > 0) {
-      written += list_quad(&few[~quad & 1], quad - 1, &tiles, bounds, tile_groups, slices, cell_counts,
+      written += list_quad(&few[~quad & 1], quad - 1, &tiles, bounds, tile_masks, slices, cell_counts,
                            list + written, p);
     }
   }
@@ -138,10 +137,10 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
 }
 
 kernel void cull_lights(global const float* records, global const uint* lists, global const uint* counts,
-                        uint runs, uint spread, global const uint* light_groups, global const float* bounds,
-                        global const uint* tile_groups, global const float2* slices, global float* pool,
-                        global index_t* staged, global uint* cell_counts,
-                        global uint2* bins, global volatile uint* counters, constant CullParams* p) {
+                        uint runs, uint spread, global const uint* light_masks, global const float* bounds,
+                        global const uint* tile_masks, global const float2* slices, global float* pool,
+                        global index_t* staged, global uint* cell_counts, global uint2* bins,
+                        global volatile uint* counters, constant CullParams* p) {
   Room rooms[2] = {{0, 0u}, {0, 0u}};
   const size_t stride = p->light_stride + 16;
   const uint across = (p->bins_x + 1) / 2, down = (p->bins_y + 1) / 2;
@@ -155,8 +154,8 @@ kernel void cull_lights(global const float* records, global const uint* lists, g
       const uint region = by / p->region_bins * p->regions_x + bx / p->region_bins;
       const RegionLights lights = {lists + region * 3 * stride, stride, counts + region * runs, runs,
                                    p->light_stride / 16};
-      cull_bin(bx, by, records, lights, light_groups, bounds + bin * BOUND_PLANES * BIN_SIZE,
-               tile_groups + bin * BIN_SIZE, slices, rooms, pool, staged,
+      cull_bin(bx, by, records, lights, light_masks, bounds + bin * BOUND_PLANES * BIN_SIZE,
+               tile_masks + bin * BIN_SIZE, slices, rooms, pool, staged,
                cell_counts + bin * BIN_SIZE * SLICE_COUNT, bins + bin, counters, p);
     }
   }

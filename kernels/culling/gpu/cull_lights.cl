@@ -2,7 +2,7 @@
 // listed or not. For GPUs; a work-group of GROUP items takes a block.
 //
 // views, light_marks  as culling/gpu/project_lights.cl writes them
-// light_groups, tile_groups  as in culling/cpu/cull_lights.cl
+// light_masks, tile_masks  as in culling/cpu/cull_lights.cl
 // bounds    as culling/gpu/depth_bounds.cl writes them
 // slices    where there are some: as kernels/culling/bin_cells.h says
 // ids       the blocks' candidates, in units of 16; the units needed are counted in counters[0]
@@ -19,24 +19,24 @@
 #define GROUP 256
 #endif
 #define LANES 1
-#include "kernels/culling/bin_cells.h"
 #include "kernels/common/group_sums.h"
+#include "kernels/culling/bin_cells.h"
 #include "kernels/culling/group_grid.h"
 
-#define LIGHT_WORDS 2048              // words of lights' marks handled at once
-#define MARK_WORDS 32                 // words of candidates, likewise
+#define LIGHT_WORDS 2048  // words of lights' marks handled at once
+#define MARK_WORDS 32     // words of candidates, likewise
 // With a padding word: items that each read their own cell use different banks.
 #define MARK_STRIDE (MARK_WORDS + 1)
 #define SPANS 6
 #define MOST_MARK_UNITS 0x0fffffffu
 
 typedef struct Block {
-  int x, y;               // in tiles
+  int x, y;  // in tiles
   uint bin_x, bin_y, first_slot;
   global const float* bounds;
   global const float2* slices;
-  local TestCell* cells;  // where tiles have one cell each
-  global const uint *light_groups, *tile_groups;  // with -DGROUPS; the latter by slot of the block
+  local TestCell* cells;                        // where tiles have one cell each
+  global const uint *light_masks, *tile_masks;  // with -DSURFACE_MASKS; the latter by slot of the block
 } Block;
 
 static inline bool holds_something(const TestCell* c) {
@@ -90,26 +90,26 @@ static inline Cell block_box(const Block* block, local float* spans, constant Cu
   return c;
 }
 
-// The groups of the block's surfaces; without -DGROUPS all.
-static inline uint groups_of_block(const Block* block) {
-#ifdef GROUPS
-  uint groups = 0;
-  for (uint i = 0; i < BLOCK_SIZE; ++i) groups |= block->tile_groups[i];
-  return groups;
+// The masks of the block's surfaces; without -DSURFACE_MASKS all.
+static inline uint masks_of_block(const Block* block) {
+#ifdef SURFACE_MASKS
+  uint masks = 0;
+  for (uint i = 0; i < BLOCK_SIZE; ++i) masks |= block->tile_masks[i];
+  return masks;
 #else
   return 0xffffffffu;
 #endif
 }
 
-// Returns the lights in `bits`, from `first` on, that may touch the block. groups: the block's.
+// Returns the lights in `bits`, from `first` on, that may touch the block. masks: the block's.
 static inline uint touch_block(uint bits, uint first_light, global const float4* views, const Block* block,
-                               uint groups, const Cell* box) {
+                               uint masks, const Cell* box) {
   global const float4* first = views + (size_t)first_light * RECORD;
   uint kept = 0;
   for (; bits; bits &= bits - 1) {
     const uint bit = lowest_bit(bits);
-#ifdef GROUPS
-    if (!(block->light_groups[first_light + bit] & groups)) continue;
+#ifdef SURFACE_MASKS
+    if (!(block->light_masks[first_light + bit] & masks)) continue;
 #endif
     if (may_touch_coarsely(record_sphere(first + bit * RECORD), box)) kept |= 1u << bit;
   }
@@ -121,7 +121,7 @@ static inline uint touch_block(uint bits, uint first_light, global const float4*
 static inline uint list_candidates(global const uint* column, global const uint* row, uint words,
                                    global const float4* views, const Block* block, const Cell* box,
                                    global uint* ids, local uint* kept, local uint* scratch) {
-  const uint item = get_local_id(0), groups = groups_of_block(block);
+  const uint item = get_local_id(0), masks = masks_of_block(block);
   uint parts = 1;
   while (parts < 8 && words * parts * 2 <= GROUP) parts *= 2;
   const uint share = 32 / parts;  // bits
@@ -133,9 +133,11 @@ static inline uint list_candidates(global const uint* column, global const uint*
     for (uint i = item; i < some * parts; i += GROUP) {
       const uint w = i / parts, mine = 0xffffffffu >> (32 - share) << i % parts * share;
       const uint bits = parts > 1 ? column[base + w] & row[base + w] & mine : kept[w];
-      const uint touching = touch_block(bits, (base + w) * 32, views, block, groups, box);
-      if (parts == 1) kept[w] = touching;
-      else if (touching) atomic_or(&kept[w], touching);
+      const uint touching = touch_block(bits, (base + w) * 32, views, block, masks, box);
+      if (parts == 1)
+        kept[w] = touching;
+      else if (touching)
+        atomic_or(&kept[w], touching);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     const uint from = min(item * each, some), to = min(from + each, some);
@@ -176,8 +178,8 @@ static inline void mark_cells(global const uint* ids, uint count, global const f
     const int end = min((rect.last & 0xffff) - block->x, (int)BLOCK_TILES - 1);
     for (int x = max((rect.first & 0xffff) - block->x, 0); x <= end; ++x) {
       const uint slot = slot_of_tile((uint)x, (uint)row);
-#ifdef GROUPS
-      if (!(block->light_groups[ids[k]] & block->tile_groups[slot])) continue;
+#ifdef SURFACE_MASKS
+      if (!(block->light_masks[ids[k]] & block->tile_masks[slot])) continue;
 #endif
       TestCell cell;
       if (!cell_in_block(block, slot, slice, &cell, p) || !view_light_may_touch(light, &cell, p)) continue;
@@ -187,9 +189,10 @@ static inline void mark_cells(global const uint* ids, uint count, global const f
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cull_lights(
-    global const float4* views, global const uint* light_marks, global const uint* light_groups,
-    global const float* bounds, global const uint* tile_groups, global const float2* slices, global uint* ids,
-    global uint4* offsets, global ulong* totals, global uint* marks, global uint2* cells, global volatile uint* counters, constant CullParams* p) {
+    global const float4* views, global const uint* light_marks, global const uint* light_masks,
+    global const float* bounds, global const uint* tile_masks, global const float2* slices, global uint* ids,
+    global uint4* offsets, global ulong* totals, global uint* marks, global uint2* cells,
+    global volatile uint* counters, constant CullParams* p) {
   local uint scratch[PREFIX_SCRATCH], kept[LIGHT_WORDS], cell_marks[BLOCK_SIZE * MARK_STRIDE];
   local float spans[SPANS * BLOCK_SIZE];
   local TestCell made[BLOCK_SIZE];
@@ -204,8 +207,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cull_lights(
                        bounds + bin * BOUND_PLANES * BIN_SIZE,
                        slices,
                        made,
-                       light_groups,
-                       tile_groups + bin * BIN_SIZE + index % BIN_BLOCKS * BLOCK_SIZE};
+                       light_masks,
+                       tile_masks + bin * BIN_SIZE + index % BIN_BLOCKS * BLOCK_SIZE};
   const uint line_words = light_mark_words(p);
   global const uint* column = light_marks + (size_t)(block.x / (int)BLOCK_TILES) * line_words;
   global const uint* row = light_marks + (size_t)(BLOCKS_X(p) + block.y / BLOCK_TILES) * line_words;

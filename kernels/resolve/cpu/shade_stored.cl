@@ -3,7 +3,7 @@
 //
 // STORED_ARGUMENTS  images in and out: kernels/resolve/stored.h
 // depth           reversed depth of each sample, row 0 at the bottom
-// GROUP_NUMBER_ARGUMENTS  kernels/resolve/group_numbers.h, only with -DGROUPS
+// SURFACE_NUMBER_ARGUMENTS  kernels/resolve/surface_numbers.h, only with -DNUMBER_BITS
 // LIGHT_ARGUMENTS  of lights (shared/light_table.h)
 // cells, indices  light grid (shared/light_grid.h)
 // light_bins, bin_edges  z-bins of each light, and the depth keys between them (shared/slices.h),
@@ -20,7 +20,7 @@
 #include "kernels/resolve/stored.h"
 
 kernel void shade_stored(STORED_ARGUMENTS, global const float* depth,
-                         GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
+                         SURFACE_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
                          global const index_t* indices, global const uint* light_bins,
                          FACTOR_ARGUMENTS constant float* bin_edges, global const ushort* edges,
                          constant ViewParams* view) {
@@ -38,7 +38,7 @@ kernel void shade_stored(STORED_ARGUMENTS, global const float* depth,
   StoredBatch b;
   while (next_batch(&b, &walk, depth, edges, view->width, view->height)) {
     light_pixels(&lights, (uint)b.x.s0, (uint)b.y.s0, view);
-    const whole groups = GROUPS_OF_BATCH(&b);
-    shade(&stored, &b, groups, indices + range.x, range.y, bin_edges, &lights, view);
+    const SurfaceValues surface = VALUES_OF_BATCH(&b);
+    shade(&stored, &b, surface, indices + range.x, range.y, bin_edges, &lights, view);
   }
 }

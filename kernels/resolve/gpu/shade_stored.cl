@@ -5,7 +5,7 @@
 #include "shared/light_grid.h"
 
 kernel void shade_stored(STORED_ARGUMENTS, global const float* depth,
-                         GROUP_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
+                         SURFACE_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
                          global const index_t* indices, global const uint* light_bins,
                          FACTOR_ARGUMENTS constant float* bin_edges, global const ushort* edges,
                          constant ViewParams* view) {
@@ -19,7 +19,7 @@ kernel void shade_stored(STORED_ARGUMENTS, global const float* depth,
   light_pixels(&lights, x, y, view);
   for (uint s = 0; s < (edge ? SAMPLES : 1); ++s) {
     const StoredBatch b = stored_sample(depth, x, y, view->width, s, edge);
-    const whole groups = GROUPS_OF_BATCH(&b);
-    shade(&stored, &b, groups, indices + range.x, range.y, bin_edges, &lights, view);
+    const SurfaceValues surface = VALUES_OF_BATCH(&b);
+    shade(&stored, &b, surface, indices + range.x, range.y, bin_edges, &lights, view);
   }
 }

@@ -5,7 +5,7 @@
 //             Samples without a surface keep what the walker over pixels stored
 // image       out: RGBA per pixel, what surfaces show without point and spot lights; null: the light pass
 //             adds it
-// -DBUFFER_BITS, -DSAMPLES, -DGROUP_NUMBERS, and what gbuffer.h and resolve.h name
+// -DBUFFER_BITS, -DSAMPLES, -DSURFACE_NUMBERS, and what gbuffer.h and resolve.h name
 #pragma once
 
 #include "kernels/resolve/gbuffer.h"
@@ -28,13 +28,13 @@ typedef struct Output {
   float4 background;
   global channel_t *first, *second, *coats, *specular;
   global float* image;
-  GROUP_NUMBERS_MEMBER
+  SURFACE_NUMBERS_MEMBER
 } Output;
-#define OUTPUT_ARGUMENTS \
-  float4 background, global channel_t *first, global channel_t *second, global channel_t *coats,          \
-      global channel_t *specular, global float *image GROUP_NUMBERS_OUT
+#define OUTPUT_ARGUMENTS                                                                         \
+  float4 background, global channel_t *first, global channel_t *second, global channel_t *coats, \
+      global channel_t *specular, global float *image SURFACE_NUMBERS_OUT
 #define GIVEN_OUTPUT \
-  { background, first, second, coats, specular, image GIVEN_GROUP_NUMBERS_OUT }
+  { background, first, second, coats, specular, image GIVEN_SURFACE_NUMBERS_OUT }
 #define READS_DEPTH(output) SHOWS_LIGHT(output)
 #define SHOWS_LIGHT(output) ((output).image != 0)
 #define NEEDS_EVERY_PIXEL true  // zeros are stored where no surface is
@@ -81,8 +81,8 @@ STORE_RESOLVED {
 #ifdef SPECULAR
   if (output->specular) store_texels(output->specular, texels_of_specular(s->f0, s->f90, covered), places);
 #endif
-#ifdef GROUP_NUMBERS
-  store_group_numbers(output->group_numbers, a->group_number, covered, places);
+#ifdef SURFACE_NUMBERS
+  store_surface_numbers(output->surface_numbers, a->surface_number, covered, places);
 #endif
 }
 

@@ -2,7 +2,7 @@
 //
 // normals     out: one for each pixel or sample (kernels/resolve/stored_normals.h). Samples without a surface
 //             keep what the walker over pixels stored
-// -DNORMALS_…, -DSAMPLES, -DGROUP_NUMBERS, and what kernels/resolve/resolve.h names
+// -DNORMALS_…, -DSAMPLES, -DSURFACE_NUMBERS, and what kernels/resolve/resolve.h names
 #pragma once
 
 #include "kernels/resolve/stored_normals.h"
@@ -12,11 +12,11 @@ typedef struct Output {
   float4 background;
   global float* image;
   global normal_t* normals;
-  GROUP_NUMBERS_MEMBER
+  SURFACE_NUMBERS_MEMBER
 } Output;
-#define OUTPUT_ARGUMENTS global normal_t *normals GROUP_NUMBERS_OUT
+#define OUTPUT_ARGUMENTS global normal_t* normals SURFACE_NUMBERS_OUT
 #define GIVEN_OUTPUT \
-  { .normals = normals GIVEN_GROUP_NUMBERS_OUT }
+  { .normals = normals GIVEN_SURFACE_NUMBERS_OUT }
 #define READS_DEPTH(output) false
 #define SHOWS_LIGHT(output) false
 #define NEEDS_EVERY_PIXEL true
@@ -55,7 +55,8 @@ STORE_RESOLVED {
   const TexelPlaces places = texel_places(where);
   const Real3 normal = shading_normal(resolved->attributes, resolved->surface);
   store_normals(output->normals, normal, resolved->covered, &places);
-#ifdef GROUP_NUMBERS
-  store_group_numbers(output->group_numbers, resolved->attributes->group_number, resolved->covered, &places);
+#ifdef SURFACE_NUMBERS
+  store_surface_numbers(output->surface_numbers, resolved->attributes->surface_number, resolved->covered,
+                        &places);
 #endif
 }

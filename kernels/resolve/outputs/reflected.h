@@ -65,7 +65,7 @@ static inline ReflectedLight reflected_light(ShadingPoint p, mask_t unlit, Real3
   // The light that arrives on the shading normal, over the area of the triangle itself.
   const real n_dot_l = min_real(max_real(dot3(p.normal, arrival.to_light), REAL(0.0f)), REAL(1.0f));
   const real arriving =
-      arrival.attenuation * light_reaches(light, p.position, arrival.to_light, GROUPS_AT(p));
+      arrival.attenuation * light_reaches(light, p.position, arrival.to_light, VALUES_AT(p));
   const real received = arriving * n_dot_l * r.area;
   const Real3 diffuse = DIFFUSE_INTEGRAL(p, SHADING_PI);
   const Real3 albedo = UNDER_COAT(p, diffuse);
@@ -92,9 +92,8 @@ STORE_RESOLVED {
 #else
   if (resolved->covered) add_plane(&plane, scene, where->triangle, 1, view);
 #endif
-  const ReflectedLight r =
-      reflected_light(resolved_point(resolved, view), resolved->surface->unlit, plane, resolved->covered,
-                      light_at(&lights->lights, output->light), view);
+  const ReflectedLight r = reflected_light(resolved_point(resolved, view), resolved->surface->unlit, plane,
+                                           resolved->covered, light_at(&lights->lights, output->light), view);
 #if LANES == 16
   store_block(output->flux, r.flux, r.area, where->x, where->y, view->width, view->height);
   store_block(output->places, r.normal, r.ahead, where->x, where->y, view->width, view->height);

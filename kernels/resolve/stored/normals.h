@@ -3,20 +3,19 @@
 //
 // normals        row 0 at the bottom (shared/stored_normal.h)
 // sums           out: four channels for each sample, diffuse red, green, blue and the specular term
-// other_sums     out, only with -DPREPASS_FIFTH_TERM: two channels, the fifth term and the specular term's rim
-// exponent       the lights' specular exponent
-// inverse_scale  factor of stored sums
+// other_sums     out, only with -DPREPASS_FIFTH_TERM: two channels, the fifth term and the specular term's
+// rim exponent       the lights' specular exponent inverse_scale  factor of stored sums
 //
 // -DNORMALS_OCTAHEDRAL, -DNORMALS_SPHEREMAP, -DNORMALS_XYZ8  the format of normals; without, floats
 //
 // -DBUFFER_BITS, -DPREPASS_FIFTH_TERM  kernels/resolve/light_sums.h
 #pragma once
 
-#include "kernels/resolve/group_numbers.h"
 #include "kernels/resolve/light_sums.h"
 #include "kernels/resolve/shade_pixels.h"
 #include "kernels/resolve/stored_batch.h"
 #include "kernels/resolve/stored_normals.h"
+#include "kernels/resolve/surface_numbers.h"
 
 #define STORED_ARGUMENTS                                                                            \
   global const normal_t *normals, global light_channel_t *sums, global light_channel_t *other_sums, \
@@ -87,25 +86,25 @@ static inline void store_terms(const Stored* s, const StoredBatch* b, LightTerms
 
 // A light that reaches none of the pixels, or that none of them faces, would add exact zeros.
 static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal, Real3 to_viewer,
-                                    whole groups, mask_t lit, uint index, const Lights* lights,
+                                    SurfaceValues surface, mask_t lit, uint index, const Lights* lights,
                                     float exponent) {
   const PunctualLight light = light_at(lights, index);
-#ifdef GROUPS
-  if (!any_lane(lit & groups_meet(light.groups, groups))) return sum;
+#ifdef MET_BY_EFFECTS
+  if (!any_lane(lit & effects_meet(&lights->reach, index, surface))) return sum;
 #endif
   if (!any_lane(lit & in_range(position, light))) return sum;
   Arrival arrival = arrival_at(position, light);
   const mask_t reached = (arrival.attenuation > REAL(0.0f)) & (dot3(normal, arrival.to_light) > REAL(0.0f));
   if (!any_lane(lit & reached)) return sum;
-  arrival.attenuation = arrival.attenuation * light_reaches(light, position, arrival.to_light, groups);
+  arrival.attenuation = arrival.attenuation * light_reaches(light, position, arrival.to_light, surface);
 #if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
   if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
 #endif
   return add_terms(sum, light_terms(normal, to_viewer, arrival, light, REAL(exponent)));
 }
 
-// In the order of the list. groups: of the surfaces; without -DGROUPS they are not read.
-static inline LightTerms terms_of_list(Real3 position, Real3 normal, whole groups, mask_t lit,
+// In the order of the list.
+static inline LightTerms terms_of_list(Real3 position, Real3 normal, SurfaceValues surface, mask_t lit,
                                        global const index_t* list, uint count, PixelBins bins,
                                        const Lights* lights, float exponent) {
   const Real3 to_viewer = direction_to_viewer(position);
@@ -115,19 +114,19 @@ static inline LightTerms terms_of_list(Real3 position, Real3 normal, whole group
 #ifdef Z_BINS
     if (!bins_meet(lights->bins[index], bins.first, bins.last)) continue;
 #endif
-    sum = with_terms(sum, position, normal, to_viewer, groups, lit, index, lights, exponent);
+    sum = with_terms(sum, position, normal, to_viewer, surface, lit, index, lights, exponent);
   }
   return sum;
 }
 
-static inline void shade(const Stored* s, const StoredBatch* b, whole groups, global const index_t* list,
-                         uint count, constant float* bin_edges, const Lights* lights,
-                         constant ViewParams* view) {
+static inline void shade(const Stored* s, const StoredBatch* b, SurfaceValues surface,
+                         global const index_t* list, uint count, constant float* bin_edges,
+                         const Lights* lights, constant ViewParams* view) {
   const mask_t lit = b->depth > REAL(0.0f);
   LightTerms t = no_terms();
   if (count > 0 && any_lane(lit)) {
     const Real3 position = position_of_pixel(b->x, b->y, lit ? b->depth : REAL(1.0f), view);
-    t = terms_of_list(position, normals_at(s->normals, b), groups, lit, list, count,
+    t = terms_of_list(position, normals_at(s->normals, b), surface, lit, list, count,
                       bins_of_pixels(b->depth, lit, bin_edges), lights, s->exponent);
   }
   const float inverse_scale = s->inverse_scale;

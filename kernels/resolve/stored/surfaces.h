@@ -1,7 +1,8 @@
 // The light that the surfaces of a geometry buffer reflect, into an image. The light pass of Lauritzen,
 // "Deferred Rendering for Current and Future Rendering Pipelines" (SIGGRAPH 2010).
 //
-// first, second, coats, specular  geometry buffer, row 0 at the bottom (kernels/resolve/gbuffer.h); coats only
+// first, second, coats, specular  geometry buffer, row 0 at the bottom (kernels/resolve/gbuffer.h); coats
+// only
 //             with -DCLEARCOAT, specular only with -DSPECULAR
 // models      records of materials by number (shared/model_records.h), only with -DSKIN or -DMINNAERT
 // image       RGBA per pixel, the mean of its samples. With -DBASE_LIGHTING it holds what surfaces show
@@ -105,12 +106,12 @@ static inline void add_to_image(global float* image, const StoredBatch* b, Real3
 #endif
 
 static inline ShadingPoint stored_point(const Stored* s, const StoredBatch* b, Texels normal, Texels color,
-                                        mask_t lit, whole groups, constant ViewParams* view) {
+                                        mask_t lit, SurfaceValues surface, constant ViewParams* view) {
   const Real3 position = position_of_pixel(b->x, b->y, lit ? b->depth : REAL(1.0f), view);
   const Real3 to_viewer = direction_to_viewer(position);
   ShadingPoint p = point_of_texels(position, to_viewer, normal, color);
-#ifdef GROUPS
-  p.groups = groups;
+#ifdef HAS_SURFACE_VALUES
+  p.surface = surface;
 #endif
 #ifdef SPECULAR
   p = specular_point(p, normal, color, texels_at(s->specular, b));
@@ -124,14 +125,14 @@ static inline ShadingPoint stored_point(const Stored* s, const StoredBatch* b, T
   return p;
 }
 
-static inline void shade(const Stored* s, const StoredBatch* b, whole groups, global const index_t* list,
-                         uint count, constant float* bin_edges, const Lights* lights,
-                         constant ViewParams* view) {
+static inline void shade(const Stored* s, const StoredBatch* b, SurfaceValues surface,
+                         global const index_t* list, uint count, constant float* bin_edges,
+                         const Lights* lights, constant ViewParams* view) {
   const Texels normal = texels_at(s->first, b), color = texels_at(s->second, b);
   const mask_t lit = (b->depth > REAL(0.0f)) & (color.w > REAL(0.0f));
   Real3 shown = real3(REAL(s->background.x), REAL(s->background.y), REAL(s->background.z));
   if (any_lane(lit)) {
-    const ShadingPoint p = stored_point(s, b, normal, color, lit, groups, view);
+    const ShadingPoint p = stored_point(s, b, normal, color, lit, surface, view);
     const Real3 light =
         light_sum(&p, lit, list, count, bins_of_pixels(b->depth, lit, bin_edges), lights, view);
     shown = real3(lit ? light.x : shown.x, lit ? light.y : shown.y, lit ? light.z : shown.z);

@@ -11,29 +11,85 @@
 namespace lightgrid {
 namespace {
 
-// The text of "shared/effects.h". It includes each file NAME.h of shared/effects, ordered by name, if
-// EFFECT_NAME is defined. BASE_EFFECTS(X) expands to X(NAME_BASE_INPUTS, NAME_base) for each file that
-// defines NAME_BASE_INPUTS; REACH_EFFECTS(X) likewise. If there are any, REACHED_BY_EFFECTS is defined.
-std::string effects_text(const EmbeddedFiles& files) {
+struct EffectText {
+  std::string path, name, upper;
+};
+
+// The files NAME.h of shared/effects, ordered by name.
+std::vector<EffectText> effects_in(const EmbeddedFiles& files) {
   constexpr std::string_view folder = "shared/effects/";
-  std::string text = "#include \"shared/inputs.h\"\n", bases = "#define BASE_EFFECTS(X)",
-              reaches = "#define REACH_EFFECTS(X)";
+  std::vector<EffectText> effects;
   for (auto file = files.lower_bound(folder); file != files.end() && file->first.starts_with(folder);
        ++file) {
     const std::string path = file->first, name = path.substr(folder.size(), path.rfind('.') - folder.size());
     std::string upper = name;
     std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return char(std::toupper(c)); });
-    const auto hook = [&](const std::string& kind, const std::string& function, const char* if_any) {
-      const std::string inputs = upper + kind + "_INPUTS", macro = "IF_" + upper + kind + "(X)";
-      text += "#ifdef " + inputs + "\n" + if_any + "#define " + macro + " X(" + inputs + ", " + name +
-              function + ")\n#else\n#define " + macro + "\n#endif\n";
-      return ' ' + macro;
-    };
-    text += "#ifdef EFFECT_" + upper + "\n#include \"" + path + "\"\n#endif\n";
-    bases += hook("_BASE", "_base", "");
-    reaches += hook("_REACH", "_reach", "#define REACHED_BY_EFFECTS\n");
+    effects.push_back({path, name, upper});
   }
-  return text + bases + '\n' + reaches + '\n';
+  return effects;
+}
+
+// Defines IF_NAME_HOOK(X), which is X(list of inputs, function, list of surface inputs) if the effect has the
+// list NAME_HOOK_INPUTS. Then it defines `any`, too.
+std::string hook_text(const EffectText& effect, const std::string& hook, const char* any) {
+  std::string lower = hook;
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string inputs = effect.upper + hook + "_INPUTS",
+                    macro = "#define IF_" + effect.upper + hook + "(X)";
+  return "#ifdef " + inputs + '\n' + (any ? "#define " + std::string(any) + '\n' : "") + macro + " X(" +
+         inputs + ", " + effect.name + lower + ", OWN_" + effect.upper + ")\n#else\n" + macro + "\n#endif\n";
+}
+
+// Defines HOOK_EFFECTS(X) as IF_NAME_HOOK(X) of all effects.
+std::string hooks_text(const std::vector<EffectText>& effects, const std::string& hook) {
+  std::string text = "#define " + hook.substr(1) + "_EFFECTS(X)";
+  for (const EffectText& effect : effects) text += " IF_" + effect.upper + hook + "(X)";
+  return text + '\n';
+}
+
+// The definition of NAME_SURFACE_INPUTS in an effect's text, or nothing.
+std::string surface_list(const std::string& text, const EffectText& effect) {
+  const size_t begin = text.find("#define " + effect.upper + "_SURFACE_INPUTS(");
+  if (begin == text.npos) return "";
+  size_t end = text.find('\n', begin);
+  while (end != text.npos && text[end - 1] == '\\') end = text.find('\n', end + 1);
+  return text.substr(begin, end - begin) + '\n';
+}
+
+// The text of "shared/effect_surfaces.h": of each effect whose EFFECT_NAME is defined, the inputs that
+// surfaces own. They stand before the effects' texts, since a point that is shaded has their values.
+std::string surfaces_text(const EmbeddedFiles& files) {
+  const std::vector<EffectText> effects = effects_in(files);
+  std::string text = "#include \"shared/inputs.h\"\n";
+  for (const EffectText& effect : effects) {
+    const std::string list = surface_list(files.at(effect.path), effect),
+                      own = "#define OWN_" + effect.upper + "(ROW)";
+    text += "#ifdef EFFECT_" + effect.upper + '\n' + list + "#endif\n";
+    text += "#ifdef " + effect.upper + "_SURFACE_INPUTS\n" + own + ' ' + effect.upper +
+            "_SURFACE_INPUTS(ROW)\n#else\n" + own + "\n#endif\n";
+    text += hook_text(effect, "_SURFACE", "HAS_SURFACE_VALUES");
+  }
+  return text + hooks_text(effects, "_SURFACE");
+}
+
+// The text of "shared/effects.h". It includes the effects whose EFFECT_NAME is defined. For each hook,
+// BASE_EFFECTS(X) expands to X(NAME_BASE_INPUTS, NAME_base, list of surface inputs) for each that defines
+// NAME_BASE_INPUTS. If any of them answers for lights, REACHED_BY_EFFECTS or MET_BY_EFFECTS is defined.
+std::string effects_text(const EmbeddedFiles& files) {
+  const std::vector<EffectText> effects = effects_in(files);
+  std::string text = "#include \"shared/inputs.h\"\n#include \"shared/effect_surfaces.h\"\n";
+  for (const EffectText& effect : effects) {
+    text += "#ifdef EFFECT_" + effect.upper + "\n#include \"" + effect.path + "\"\n#endif\n";
+    text += hook_text(effect, "_BASE", nullptr) + hook_text(effect, "_REACH", "REACHED_BY_EFFECTS") +
+            hook_text(effect, "_MEETS", "MET_BY_EFFECTS");
+  }
+  return text + hooks_text(effects, "_BASE") + hooks_text(effects, "_REACH") + hooks_text(effects, "_MEETS");
+}
+
+std::string text_of(std::string_view path, const EmbeddedFiles& files) {
+  if (path == "shared/effects.h") return effects_text(files);
+  if (path == "shared/effect_surfaces.h") return surfaces_text(files);
+  return embedded_file(path, files);
 }
 
 // The branches of #ifs that enclose a line, outermost first. Each branch has a number of its own.
@@ -64,7 +120,7 @@ class Expansion {
 
  private:
   void append(std::string_view path) {
-    std::istringstream lines(path == "shared/effects.h" ? effects_text(files_) : embedded_file(path, files_));
+    std::istringstream lines(text_of(path, files_));
     for (std::string line; std::getline(lines, line);) {
       constexpr std::string_view directive = "#include \"";
       if (line.starts_with(directive)) {

@@ -21,11 +21,12 @@ CullPipeline& LightCuller::State::pipeline(const TileBounds& bounds) {
   options.slices = params_.slices > 1;
   options.group_size = options_.group_size;
   options.cones = cones_;
-  options.groups = bounds.groups() != nullptr;
+  options.masks = bounds.masks() != nullptr;
   options.index_bytes = options_.index_bits == 32 || light_count_ > 65536 ? 4 : 2;
   options.light_defines = fmt::format("-DCULL_TEST={}{}", int(options_.cull_test), cones_ ? " -DSPOTS" : "");
-  options.cell_defines = fmt::format("{} -DDEPTH_MODE={}{}{}", options.light_defines, int(bounds.mode),
-                                     options.slices ? " -DSLICES" : "", options.groups ? " -DGROUPS" : "");
+  options.cell_defines =
+      fmt::format("{} -DDEPTH_MODE={}{}{}", options.light_defines, int(bounds.mode),
+                  options.slices ? " -DSLICES" : "", options.masks ? " -DSURFACE_MASKS" : "");
   std::unique_ptr<CullPipeline>& made = made_pipeline(bounds);
   if (!made || made->options != options) {
     made = options_.shape == KernelShape::lanes ? make_cull_cpu_pipeline(device_, programs_, options)
@@ -56,7 +57,7 @@ LightGrid LightCuller::State::cull(const TileBounds& bounds, GridStorage& storag
     finish_queue(device_, "light culling: cells");
   } else {
     follow_eye();
-    if (bounds.groups()) upload_groups();
+    if (bounds.masks()) upload_masks();
     const Room before = room();
     try {
       cull_into(grid, bounds, storage, cells);
@@ -70,14 +71,13 @@ LightGrid LightCuller::State::cull(const TileBounds& bounds, GridStorage& storag
   return grid;
 }
 
-void LightCuller::State::upload_groups() {
-  if (groups_uploaded_) return;
-  std::vector<cl_uint> groups;
-  for (const CullLight& light : host_lights_) groups.push_back(light.groups);
-  const size_t bytes = groups.size() * sizeof groups[0];
-  write_buffer(device_, "light culling: light groups", light_groups_.at_least(device_, bytes), groups.data(),
-               bytes);
-  groups_uploaded_ = true;
+void LightCuller::State::upload_masks() {
+  if (masks_uploaded_) return;
+  std::vector<cl_uint> masks;
+  for (const CullLight& light : host_lights_) masks.push_back(light.mask);
+  const size_t bytes = masks.size() * sizeof masks[0];
+  write_buffer(device_, "light culling: masks", light_masks_.at_least(device_, bytes), masks.data(), bytes);
+  masks_uploaded_ = true;
 }
 
 void LightCuller::State::set_room(const Room& room) {
@@ -153,8 +153,8 @@ void LightCuller::State::run_kernels(LightGrid& grid, const TileBounds& bounds, 
   upload_params();
   if (z_bin_count_ > 1) enqueue_z_bins(grid, storage);
   kernels.prepare(params_);
-  kernels.enqueue({params_, params_upload_.buffer(), lights_.get(), light_groups_.get(), bounds.values,
-                   bounds.groups, slices_, counters_, cells, indices});
+  kernels.enqueue({params_, params_upload_.buffer(), lights_.get(), light_masks_.get(), bounds.values,
+                   bounds.masks, slices_, counters_, cells, indices});
   read_buffer(device_, "light culling", counters_, counters, sizeof counters);
 }
 

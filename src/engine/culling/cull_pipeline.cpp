@@ -67,9 +67,9 @@ class CullCpuPipeline : public CullPipeline {
                   {"counts", run_counts_.get()},
                   {"runs", runs_},
                   {"spread", cl_uint(spreading_step(quads))},
-                  {"light_groups", job.light_groups},
+                  {"light_masks", job.light_masks},
                   {"bounds", job.bounds},
-                  {"tile_groups", job.tile_groups},
+                  {"tile_masks", job.tile_masks},
                   {"slices", job.slices},
                   {"pool", pool_.get()},
                   {"staged", staged_.get()},
@@ -90,7 +90,7 @@ class CullCpuPipeline : public CullPipeline {
   }
 
   size_t candidate_bytes() const override {
-    return ((options.cones ? 10 : 6) + options.groups) * sizeof(float);
+    return ((options.cones ? 10 : 6) + options.masks) * sizeof(float);
   }
 
   size_t memory_bytes() const override {
@@ -158,9 +158,9 @@ class CullGpuPipeline : public CullPipeline {
     cull_.launch(device_, "cull_lights", cl::NDRange(blocks(p) * cull_items_), cl::NDRange(cull_items_),
                  {{"views", views_.get()},
                   {"light_marks", light_marks_.get()},
-                  {"light_groups", job.light_groups},
+                  {"light_masks", job.light_masks},
                   {"bounds", job.bounds},
-                  {"tile_groups", job.tile_groups},
+                  {"tile_masks", job.tile_masks},
                   {"slices", job.slices},
                   {"ids", ids_.get()},
                   {"offsets", places_.get()},

@@ -14,7 +14,7 @@ namespace lightgrid {
 
 struct CullJob {
   const CullParams& params;
-  cl::Buffer params_buffer, lights, light_groups, bounds, tile_groups, slices, counters, cells, indices;
+  cl::Buffer params_buffer, lights, light_masks, bounds, tile_masks, slices, counters, cells, indices;
 };
 
 struct PipelineOptions {
@@ -24,7 +24,7 @@ struct PipelineOptions {
   bool portable = false;      // as in CullerOptions
   bool slices = false;        // cells a tile: more than one
   bool cones = false;         // at least one light is a spot
-  bool groups = false;        // tiles have the light groups of their surfaces
+  bool masks = false;         // tiles have the masks of their surfaces
   int index_bytes = 2;
   int group_size = 0;  // as in CullerOptions
   bool operator==(const PipelineOptions&) const = default;

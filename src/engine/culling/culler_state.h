@@ -63,10 +63,10 @@ class LightCuller::State {
   void require_bounds(const TileBounds& bounds, const char* call) const;
   void read_layout(const DepthInput& depth);
   std::unique_ptr<CullPipeline>& made_pipeline(const TileBounds& bounds) {
-    return pipelines_[bounds.groups() != nullptr][int(bounds.mode)];
+    return pipelines_[bounds.masks() != nullptr][int(bounds.mode)];
   }
   CullPipeline& pipeline(const TileBounds& bounds);
-  void upload_groups();
+  void upload_masks();
   void cull_into(LightGrid& grid, const TileBounds& bounds, GridStorage& storage, const cl::Buffer& cells);
   void run_kernels(LightGrid& grid, const TileBounds& bounds, GridStorage& storage, const cl::Buffer& cells,
                    uint32_t (&counters)[counter_count]);
@@ -105,9 +105,9 @@ class LightCuller::State {
   std::shared_ptr<BoundsView> bounds_view_;  // view of opaque_ and blend_
   GrowingBuffer lights_;
   UploadedBuffer params_upload_;
-  GrowingBuffer light_groups_;
-  bool groups_uploaded_ = false;
-  std::unique_ptr<CullPipeline> pipelines_[2][5];  // with groups; by DepthBoundsMode
+  GrowingBuffer light_masks_;
+  bool masks_uploaded_ = false;
+  std::unique_ptr<CullPipeline> pipelines_[2][5];  // with masks; by DepthBoundsMode
 };
 
 }  // namespace lightgrid

@@ -78,7 +78,7 @@ void LightCuller::State::set_lights(std::span<const CullLight> lights) {
   const LightOrigin origin = choose_origin(lights);
   fixed_origin_ = origin.fixed;
   cone_slack_m_ = origin.cone_slack_m;
-  uploaded_origin_.reset(), groups_uploaded_ = false;
+  uploaded_origin_.reset(), masks_uploaded_ = false;
   if (fixed_origin_) upload_lights(*fixed_origin_, farthest_surface);
 }
 
@@ -178,9 +178,9 @@ CullInputs LightCuller::State::read_inputs(const TileBounds& bounds) {
 size_t LightCuller::State::memory_bytes() const {
   size_t bytes = sizeof(CullParams) + world_arrays * size_t(light_stride_) * sizeof(float) +
                  bounds_bytes_ * (options_.blend ? 2 : 1);
-  bytes += straight_depth_.bytes() + light_groups_.bytes();
-  for (const auto& of_groups : pipelines_) {
-    for (const auto& pipeline : of_groups) bytes += pipeline ? pipeline->memory_bytes() : 0;
+  bytes += straight_depth_.bytes() + light_masks_.bytes();
+  for (const auto& of_masks : pipelines_) {
+    for (const auto& pipeline : of_masks) bytes += pipeline ? pipeline->memory_bytes() : 0;
   }
   return bytes;
 }

@@ -38,7 +38,7 @@ struct CullLight {
   glm::dvec3 direction{0, 0, -1};  // unit, the spot's axis
   // Cosine of a spot's outer half-angle; below 0 (no cone, or one past 90 degrees) the sphere decides.
   double cos_outer = -1;
-  uint32_t groups = 0xffffffffu;  // bits: read where tiles have groups (TileBounds::groups)
+  uint32_t mask = 0xffffffffu;  // read where tiles have masks (TileBounds::masks)
   bool operator==(const CullLight&) const = default;
 };
 
@@ -69,9 +69,9 @@ struct TileBounds {
   cl::Buffer values;                               // floats
   DepthBoundsMode mode = DepthBoundsMode::minmax;  // decides how many a tile
   std::shared_ptr<const BoundsView> view;          // whose surfaces `values` are of now
-  // The groups of the surfaces in each tile, a word a tile in the order of `values`: a light that has none of
+  // The masks of the surfaces in each tile, a word a tile in the order of `values`: a light that has none of
   // them is not listed there. Null, as the culler gives it: every light may be. The caller sets and keeps it.
-  cl::Buffer groups{};
+  cl::Buffer masks{};
 };
 
 // The bounds that a depth buffer gives.

@@ -1,6 +1,6 @@
 // Far light (docs/far_light.md). Its volume is filled when the scene's box or a light changed, and its place
-// in the view follows the camera. Lights that leave out a light group, or that an effect keeps from some
-// surfaces, send no far light: the volume's light reaches all surfaces.
+// in the view follows the camera. Lights that an effect keeps from some surfaces send no far light: the
+// volume's light reaches all surfaces.
 #include "effects/far_light.h"
 
 #include <algorithm>
@@ -92,8 +92,7 @@ std::vector<ViewLight> lights_from(const glm::dvec3& origin, const Seen& seen) {
   along.eye = origin;
   std::vector<ViewLight> lights = lights_in_view(seen.scene, along, ranges_of(seen.plan.settings));
   for (ViewLight& light : lights) {
-    const bool of_surface = light.share.of_surface || light.groups != all_groups;
-    light.radiant_intensity = of_surface ? glm::dvec3(0) : largest_intensity(light);
+    light.radiant_intensity = light.share.of_surface ? glm::dvec3(0) : largest_intensity(light);
   }
   return lights;
 }
@@ -208,7 +207,7 @@ constexpr LightReader reader{
     .color = reads,
     .cone = reads,
     .most_falloff = reads,
-    .groups = reads,  // a light that leaves out a group has no far light
+    .masks = reads,  // a light that does not reach every surface has no far light
     .shadows = "far light is not hidden: docs/far_light.md#errors",
     .effects = reads};
 

@@ -15,7 +15,7 @@ namespace lightgrid {
 #define LIGHTGRID_SURFACE_SAMPLERS(UNIT) \
   /* the surface of a pixel */ \
   UNIT(gbuffer_normal_roughness_metallic) UNIT(gbuffer_base_color_lit) UNIT(gbuffer_coat) UNIT(gbuffer_specular) \
-  UNIT(normals) UNIT(depth_image) UNIT(group_numbers) \
+  UNIT(normals) UNIT(depth_image) UNIT(surface_numbers) \
   /* a material's maps; sampler objects are bound to their units */ \
   UNIT(base_color_map) UNIT(metallic_roughness_map) UNIT(normal_map) UNIT(occlusion_map) UNIT(emissive_map) \
   UNIT(clearcoat_map) UNIT(clearcoat_roughness_map) UNIT(clearcoat_normal_map) UNIT(specular_map) \

@@ -1,7 +1,7 @@
 // Depth first, so that each pixel is shaded once and culling has depth bounds for each tile.
 #include "passes/depth_prepass.h"
 
-#include "passes/common/group_stencil.h"
+#include "passes/common/mask_stencil.h"
 #include "renderer/drawing/draw.h"
 
 namespace lightgrid {
@@ -30,24 +30,24 @@ GlTexture depth_of_centres(Work& work) {
   GlTexture depth = make_texture_2d(work.targets.depth_format(), work.grid().width, work.grid().height);
   const GlFramebuffer framebuffer = make_framebuffer({}, depth.name());
   begin_depth(work, framebuffer.name(), GL_GEQUAL);
-  draw_grouped(
+  draw_masked(
       work, work.opaque, framebuffer.name(),
       work.programs(
           {"shaders/depth.vert", "shaders/depth.frag", {"MASKS_OF_CENTRES"}, false, features_of_depth}));
   return depth;
 }
 
-DepthImage depth_prepass(Work& work, GLuint group_numbers) {
+DepthImage depth_prepass(Work& work, GLuint surface_numbers) {
   auto pass = work.timer.pass("depth_prepass", "gl");
   const GLuint depth_alone = work.depth_framebuffer();
   const GLuint framebuffer =
-      group_numbers ? work.targets.framebuffer({group_numbers}, work.targets.depth()) : depth_alone;
-  begin_depth(work, framebuffer, group_numbers ? GL_GEQUAL : GL_GREATER);
+      surface_numbers ? work.targets.framebuffer({surface_numbers}, work.targets.depth()) : depth_alone;
+  begin_depth(work, framebuffer, surface_numbers ? GL_GEQUAL : GL_GREATER);
   std::vector<std::string> defines;
-  if (group_numbers) defines.emplace_back("GROUP_LOCATION 0");
+  if (surface_numbers) defines.emplace_back("NUMBER_LOCATION 0");
   draw_list(work, work.opaque, DrawStreams::positions_where_possible,
             work.programs({"shaders/depth.vert", "shaders/depth.frag", defines, false, features_of_depth}));
-  const size_t number_bytes = group_numbers ? group_number_bytes(work.plan) : 0;
+  const size_t number_bytes = surface_numbers ? surface_number_bytes(work.plan) : 0;
   pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * (4 + number_bytes));
   return {depth_alone};
 }
@@ -75,16 +75,16 @@ NormalImage fill_normals(Work& work) {
   glClearNamedFramebufferfv(normals.framebuffer, GL_COLOR, 0, nothing);
   std::vector<std::string> defines;
   if (normals.layout->define) defines.emplace_back(normals.layout->define);
-  if (normals.group_numbers) {
+  if (normals.surface_numbers) {
     const GLuint number[4] = {0, 0, 0, 0};
     glClearNamedFramebufferuiv(normals.framebuffer, GL_COLOR, 1, number);
-    defines.emplace_back("GROUP_LOCATION 1");
+    defines.emplace_back("NUMBER_LOCATION 1");
   }
-  draw_grouped(work, work.opaque, normals.framebuffer,
-               work.programs({"shaders/scene.vert", "shaders/normals.frag", std::move(defines), false,
-                              features_of_normals}));
+  draw_masked(work, work.opaque, normals.framebuffer,
+              work.programs({"shaders/scene.vert", "shaders/normals.frag", std::move(defines), false,
+                             features_of_normals}));
   pass.moves(work.gpu.in_gl().geometry_bytes(),
-             work.grid().values() * (4 + normals.layout->image.bytes + group_number_bytes(work.plan)));
+             work.grid().values() * (4 + normals.layout->image.bytes + surface_number_bytes(work.plan)));
   return normals;
 }
 

@@ -6,12 +6,12 @@
 
 namespace lightgrid {
 
-// group_numbers: an image that gets the numbers of the surfaces' masks (common/group_numbers.h); 0: none.
+// surface_numbers: an image that gets the numbers of the surfaces' masks (common/surface_numbers.h); 0: none.
 // Where surfaces have equal depth it keeps the last one's, as forward shading does.
-DepthImage depth_prepass(Work& work, GLuint group_numbers = 0);
+DepthImage depth_prepass(Work& work, GLuint surface_numbers = 0);
 
 // The depth of pixels' centres for read-outs, in a frame of several samples per pixel, in its format and with
-// its light groups in the stencil. With one sample nothing, as the frame's own depth is that.
+// its mask in the stencil. With one sample nothing, as the frame's own depth is that.
 GlTexture depth_of_centres(Work& work);
 
 // The same image, cleared: for a technique that finds depth as it shades.

@@ -1,8 +1,8 @@
 // Writes surfaces into the geometry buffer, once a pixel; light passes then need no materials.
 #include "passes/fill_gbuffer.h"
 
-#include "passes/common/group_stencil.h"
 #include "passes/common/light_source.h"
+#include "passes/common/mask_stencil.h"
 #include "renderer/drawing/draw.h"
 
 namespace lightgrid {
@@ -21,8 +21,8 @@ void clear(const Seen& seen, const GBuffer& gbuffer) {
   for (const size_t i : gbuffer.images)
     glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, gbuffer.attachment(i), nothing);
   const GLuint number[4] = {0, 0, 0, 0};
-  if (gbuffer.group_numbers)
-    glClearNamedFramebufferuiv(gbuffer.framebuffer, GL_COLOR, gbuffer.group_attachment(), number);
+  if (gbuffer.surface_numbers)
+    glClearNamedFramebufferuiv(gbuffer.framebuffer, GL_COLOR, gbuffer.number_attachment(), number);
 }
 
 // with_depth: writes the depth too, else tests it. Where depths are equal the last surface wins, as in
@@ -47,11 +47,11 @@ GBuffer draw_surfaces(Work& work, const DrawList& surfaces, BaseLighting lit, bo
   if (gbuffer.base_lighting == BaseLighting::in_image) loop.defines.emplace_back("BASE_LIGHTING");
   if (gbuffer.textures[gbuffer_coat]) loop.defines.emplace_back("COATS");
   if (gbuffer.textures[gbuffer_specular]) loop.defines.emplace_back("SPECULAR_IMAGE");
-  if (gbuffer.group_numbers)
-    loop.defines.push_back(fmt::format("GROUP_LOCATION {}", gbuffer.group_attachment()));
+  if (gbuffer.surface_numbers)
+    loop.defines.push_back(fmt::format("NUMBER_LOCATION {}", gbuffer.number_attachment()));
   loop.bind(work);
-  draw_grouped(work, surfaces, gbuffer.framebuffer,
-               work.programs({"shaders/scene.vert", "shaders/gbuffer.frag", loop.defines}));
+  draw_masked(work, surfaces, gbuffer.framebuffer,
+              work.programs({"shaders/scene.vert", "shaders/gbuffer.frag", loop.defines}));
   const size_t depth_bytes = work.grid().values() * 4, bytes = work.grid().values() * written_bytes(gbuffer);
   pass.moves(work.gpu.in_gl().geometry_bytes() + (with_depth ? 0 : depth_bytes),
              bytes + (with_depth ? depth_bytes : 0));

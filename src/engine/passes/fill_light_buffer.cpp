@@ -21,7 +21,7 @@ std::string defines_of_light_buffer(const Seen& seen, bool lanes) {
   defines += fmt::format(" -DBUFFER_BITS={}", s[setting::buffer_bits]);
   if (normal_layout(s).define) defines += fmt::format(" -D{}", normal_layout(s).define);
   if (has_fifth_term(s)) defines += " -DPREPASS_FIFTH_TERM";
-  defines += group_number_define(seen.plan);
+  defines += surface_number_define(seen.plan);
   return defines;
 }
 
@@ -83,7 +83,7 @@ LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const No
                             {"exponent", cl_float(work.plan.settings[setting::prepass_shininess])},
                             {"inverse_scale", cl_float(1 / stored_scale(work))},
                             {"depth", depth.values}} +
-                    group_number_arguments(work.plan, normals.group_numbers) + work.light_arguments() +
+                    surface_number_arguments(work.plan, normals.surface_numbers) + work.light_arguments() +
                     ClArguments{{"cells", lights.in_cl->cells},
                                 {"indices", lights.in_cl->indices},
                                 {"light_bins", lights.in_cl->z_bins},

@@ -11,18 +11,18 @@
 #include "base/error.h"
 #include "passes/cap_lists.h"
 #include "plan/settings/model.h"
-#include "scene/light_groups.h"
+#include "scene/effect_terms.h"
 
 namespace lightgrid {
 namespace {
 
-// The lights that the groups of the instance let in. All of them where nothing requires groups.
-std::vector<uint32_t> lights_of_groups(const Seen& seen, int instance, const std::vector<uint32_t>& all) {
-  if (!seen.plan.groups.needed) return all;
-  const uint32_t groups = seen.scene.instances[size_t(instance)].groups;
+// The lights whose masks meet that of the instance. All of them if no effect has masks.
+std::vector<uint32_t> lights_of_mask(const Seen& seen, int instance, const std::vector<uint32_t>& all) {
+  if (!seen.plan.masks.needed) return all;
+  const uint32_t mask = mask_of(seen.scene.instances[size_t(instance)]);
   std::vector<uint32_t> met;
   std::ranges::copy_if(all, std::back_inserter(met), [&](uint32_t light) {
-    return groups_meet(seen.scene.lights[size_t(seen.plan.lights.local[light])].groups, groups);
+    return (mask_of(seen.scene.lights[size_t(seen.plan.lights.local[light])]) & mask) != 0;
   });
   return met;
 }
@@ -52,7 +52,7 @@ void ObjectLights::update(Work& work, const DrawList& list) {
     const Aabb& bounds = work.scene.meshes[work.scene.instances[item.instance].mesh].bounds;
     const ViewBox whole = box_in_view(work.transforms[item.instance].view_from_object, bounds);
     std::vector<uint32_t> reaching =
-        lights_reaching(whole, reaches_, lights_of_groups(work, item.instance, every_light));
+        lights_reaching(whole, reaches_, lights_of_mask(work, item.instance, every_light));
     cap_list(work.plan.settings, lights, whole.center, reaching);
     add_item(work, item, reaching);
   }

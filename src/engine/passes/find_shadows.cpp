@@ -66,7 +66,7 @@ class ShadowBits : public PassCache {
 
   size_t memory_bytes() const override {
     size_t bytes = lights_.bytes() + view_.bytes() + offsets_.bytes() + blended_offsets_.bytes() +
-                   groups_.bytes() + rays_.bytes() + lists_.memory_bytes();
+                   masks_.bytes() + rays_.bytes() + lists_.memory_bytes();
     if (scene_) bytes += scene_->memory_bytes();
     if (maps_) bytes += maps_->memory_bytes();
     if (cells_) bytes += cells_->memory_bytes();
@@ -210,7 +210,7 @@ class ShadowBits : public PassCache {
     const cl::Buffer& rays = rays_.at_least(device, parts_ * sizeof(uint32_t));
     const cl::NDRange lanes(band.tiles), groups(band.tiles * SHADOW_TILE * SHADOW_TILE, groups_here);
     ClArguments before = maps_ ? maps_->arguments() + scene_->arguments() : arguments_of_rays(work);
-    if (picks_by_groups(work)) before = ClArguments{{"triangle_groups", groups_.buffer()}} + before;
+    if (picks_by_masks(work)) before = ClArguments{{"triangle_masks", masks_.buffer()}} + before;
     ClArguments after;
     if (bands_.bands.size() > 1)
       after = {{"first_tile", cl_uint(band.first)}, {"first_entries", first_entries_.buffer()}};
@@ -295,7 +295,7 @@ class ShadowBits : public PassCache {
       if (!followed_) maps_->look(work, rays, work.plan.shadows.shadowed, settings[shadow_reuse]);
     }
     if (followed_) return;
-    if (picks_by_groups(work)) put_groups(work, rays);
+    if (picks_by_masks(work)) put_masks(work, rays);
     ClDevice& device = *work.renderer.cl;
     const std::vector<CullLight> lights = shadowed_lights(work, shining_lights(work));
     if (!ViewLightCells::serve(work, kernels_.lanes))
@@ -313,22 +313,22 @@ class ShadowBits : public PassCache {
     followed_ = true;
   }
 
-  static bool picks_by_groups(const Work& work) {
-    return picks_shadows(work.plan.settings) && work.plan.groups.needed;
+  static bool picks_by_masks(const Work& work) {
+    return picks_shadows(work.plan.settings) && work.plan.masks.needed;
   }
 
-  // Instances keep their groups; their triangles' numbers change only when the tree is rebuilt.
-  void put_groups(Work& work, const RayScene& rays) {
-    if (grouped_builds_ == rays.builds()) return;
-    grouped_builds_ = rays.builds();
-    std::vector<uint32_t> groups(std::max(rays.triangles(), 1u));
+  // Instances keep their masks; their triangles' numbers change only when the tree is rebuilt.
+  void put_masks(Work& work, const RayScene& rays) {
+    if (masked_builds_ == rays.builds()) return;
+    masked_builds_ = rays.builds();
+    std::vector<uint32_t> masks(std::max(rays.triangles(), 1u));
     for (size_t i = 0; i < work.scene.instances.size(); ++i) {
-      const auto first = groups.begin() + rays.first_triangle(i);
+      const auto first = masks.begin() + rays.first_triangle(i);
       const bool last = i + 1 == work.scene.instances.size();
-      std::fill(first, last ? groups.end() : groups.begin() + rays.first_triangle(i + 1),
-                work.scene.instances[i].groups);
+      std::fill(first, last ? masks.end() : masks.begin() + rays.first_triangle(i + 1),
+                mask_of(work.scene.instances[i]));
     }
-    groups_.put(*work.renderer.cl, "uploading light groups of triangles", groups);
+    masks_.put(*work.renderer.cl, "uploading masks of triangles", masks);
   }
 
   void put_offsets(Work& work, std::span<const int> instances, UploadedBuffer& to) {
@@ -347,7 +347,7 @@ class ShadowBits : public PassCache {
     for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
     if (soft_shadows(settings)) defines += fmt::format(" -DSHADOW_RAYS={}", settings[setting::shadow_rays]);
     if (picks_shadows(settings)) defines += fmt::format(" -DSHADOW_PICK={}", settings[setting::shadow_pick]);
-    if (picks_by_groups(work)) defines += " -DSHADOW_GROUPS";
+    if (picks_by_masks(work)) defines += " -DSHADOW_MASKS";
     if (!visible) defines += " -DNUMBERED";
     if (shadow_light_count(work.plan) > 65536) defines += " -DINDEX_32";
     if (work.view.orthographic) defines += " -DORTHOGRAPHIC";
@@ -368,16 +368,16 @@ class ShadowBits : public PassCache {
   std::optional<ViewLightCells> cells_;  // null: the tree has all rays
   ShadowLists lists_;
   BlendedLayers layers_;
-  UploadedBuffer lights_, view_, offsets_, blended_offsets_, first_entries_, groups_;
+  UploadedBuffer lights_, view_, offsets_, blended_offsets_, first_entries_, masks_;
   GrowingBuffer rays_;
   ShadowRoom room_;
   ShadowBands bands_;                                    // of the frame
   size_t band_ = 0;                                      // that is shaded
   std::function<void(Work&, const ShadowBand&)> again_;  // finds one of several bands of the last frame
   BandedImage banded_;
-  int grouped_builds_ = -1;  // RayScene::builds of groups_
-  size_t parts_ = 0;         // counts of rays
-  size_t cleared_ = 0;       // bytes of tiles in which nothing was found since they were cleared
+  int masked_builds_ = -1;  // RayScene::builds of masks_
+  size_t parts_ = 0;        // counts of rays
+  size_t cleared_ = 0;      // bytes of tiles in which nothing was found since they were cleared
   std::optional<ShadowInputs> found_for_;  // what the bits were found for, with shadow-reuse
   bool followed_ = false, unchanged_ = false;
 };

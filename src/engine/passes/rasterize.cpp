@@ -50,8 +50,8 @@ void set_surface_instances(const Seen& seen, std::span<const int> instances,
     }
     record.material = uint(mesh.material);
     record.flags = t.mirrored ? INSTANCE_MIRRORED : 0;
-    if (seen.plan.groups.needed)
-      record.flags |= seen.plan.groups.of_instance[size_t(instances[k])] << INSTANCE_GROUP_SHIFT;
+    if (seen.plan.masks.needed)
+      record.flags |= seen.plan.masks.of_instance[size_t(instances[k])] << INSTANCE_NUMBER_SHIFT;
   }
 }
 

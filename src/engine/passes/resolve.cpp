@@ -125,13 +125,13 @@ class Resolver : public PassCache {
 
 namespace {
 
-// The options of kernels that write the numbers of groups' masks.
-std::string group_numbers_out(const FramePlan& plan) {
-  return has_group_numbers(plan) ? " -DGROUP_NUMBERS" + group_number_define(plan) : "";
+// The options of kernels that write the surfaces' numbers.
+std::string surface_numbers_out(const FramePlan& plan) {
+  return has_surface_numbers(plan) ? " -DSURFACE_NUMBERS" + surface_number_define(plan) : "";
 }
 
-ClArguments group_numbers_out(SharedBuffer* numbers) {
-  return numbers ? ClArguments{{"group_numbers", numbers->cl_buffer()}} : ClArguments();
+ClArguments surface_numbers_out(SharedBuffer* numbers) {
+  return numbers ? ClArguments{{"surface_numbers", numbers->cl_buffer()}} : ClArguments();
 }
 
 Resolver& resolving(Work& work, Cached<Resolver>& cache) {
@@ -229,7 +229,7 @@ static ClArguments images_out(const Work& work, const GBufferInCl& g) {
              {"coats", g.in_cl(gbuffer_coat)},
              {"specular", g.in_cl(gbuffer_specular)},
              {"image", g.base_lighting == BaseLighting::in_image ? g.image->cl_buffer() : cl::Buffer()}} +
-         group_numbers_out(g.group_numbers);
+         surface_numbers_out(g.surface_numbers);
 }
 
 GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
@@ -239,7 +239,7 @@ GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const Visibilit
   const size_t pixels = work.grid().pixels(), image_bytes = base_lighting == BaseLighting::in_image ? 16 : 0;
   const ResolveOutput output{"resolve_gbuffer",
                              fmt::format(" -DOUTPUT_GBUFFER -DBUFFER_BITS={}{}{}", g.layout->bits,
-                                         group_numbers_out(work.plan), sample_defines(work.grid().samples)),
+                                         surface_numbers_out(work.plan), sample_defines(work.grid().samples)),
                              images_out(work, g), pixels * (image_bytes > 0 ? 8 : 4),
                              work.grid().values() * g.bytes() + pixels * image_bytes};
   over_image(work, r, visible, output);
@@ -254,9 +254,9 @@ NormalsInCl resolve_normals(Work& work, Cached<Resolver>& cache, const Visibilit
   const char* define = normals.layout->define;
   const ResolveOutput output{
       "resolve_normals",
-      " -DOUTPUT_NORMALS" + (define ? fmt::format(" -D{}", define) : "") + group_numbers_out(work.plan) +
+      " -DOUTPUT_NORMALS" + (define ? fmt::format(" -D{}", define) : "") + surface_numbers_out(work.plan) +
           sample_defines(work.grid().samples),
-      ClArguments{{"normals", normals.image->cl_buffer()}} + group_numbers_out(normals.group_numbers),
+      ClArguments{{"normals", normals.image->cl_buffer()}} + surface_numbers_out(normals.surface_numbers),
       work.grid().pixels() * 4, work.grid().values() * normals.layout->image.bytes};
   over_image(work, r, visible, output);
   over_edges(work, r, visible, output);

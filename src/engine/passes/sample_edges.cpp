@@ -5,7 +5,7 @@
 
 #include "cl/buffers.h"
 #include "cl/launch.h"
-#include "passes/common/group_numbers.h"
+#include "passes/common/surface_numbers.h"
 #include "plan/settings/samples.h"
 #include "raster/raster_samples.h"
 
@@ -26,8 +26,8 @@ class SampleEdges : public PassCache {
     const bool lanes = kernels_.lanes;
     ClDevice& device = *work.renderer.cl;
     const std::string defines =
-        fmt::format(" -DWORDS={}u{}{}{}", surfaces.bytes / 4, sample_defines(work.sample_places()),
-                    surfaces.group_numbers ? " -DGROUPS" : "", group_number_define(work.plan));
+        fmt::format(" -DWORDS={}u{}{}", surfaces.bytes / 4, sample_defines(work.sample_places()),
+                    surfaces.surface_numbers ? surface_number_define(work.plan) : "");
     NamedKernel& kernel = kernels_.of("sample_edges", defines);
     auto pass = work.timer.pass("sample_edges", "cl");
     const auto image = [&](size_t i) {
@@ -37,7 +37,7 @@ class SampleEdges : public PassCache {
         device, "sample_edges", cl::NDRange(lanes ? values : groups * group),
         lanes ? cl::NullRange : cl::NDRange(group),
         ClArguments{{"first", image(0)}, {"second", image(1)}, {"third", image(2)}, {"fourth", image(3)}} +
-            group_number_arguments(work.plan, surfaces.group_numbers) +
+            surface_number_arguments(work.plan, surfaces.surface_numbers) +
             ClArguments{{"depths", depth.values},
                         {"pixels", cl_uint(pixels)},
                         {"edges", edges_.at_least(device, values * sizeof(cl_ushort))}});

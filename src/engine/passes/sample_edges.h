@@ -7,11 +7,11 @@
 
 namespace lightgrid {
 
-// Images in OpenCL, of `bytes` a sample each: a multiple of 4. group_numbers: null without.
+// Images in OpenCL, of `bytes` a sample each: a multiple of 4. surface_numbers: null without.
 struct StoredSurfaces {
   std::vector<SharedBuffer*> images;
   size_t bytes = 0;
-  SharedBuffer* group_numbers = nullptr;
+  SharedBuffer* surface_numbers = nullptr;
   cl::Buffer edges;  // where they are known already, of find_edges; null: they have to be found
 };
 

@@ -66,7 +66,9 @@ void add_lights(Work& work, LightVolumes& volumes, GLuint framebuffer, const cha
                 const std::vector<std::string>& defines, const auto& bind) {
   volumes.update(work);
   std::vector<std::string> all = light_loop(work).defines;
-  if (work.plan.groups.stencil_bits > 0) std::erase(all, "GROUPS");
+  for (const Effect* effect : work.plan.effects) {
+    if (work.plan.masks.stencil_bits > 0 && has_masks(*effect)) std::erase(all, define_of(*effect));
+  }
   all.insert(all.end(), defines.begin(), defines.end());
   begin_adding_lights(work, framebuffer);
   bind();
@@ -102,7 +104,7 @@ LightBuffer draw_light_buffer(Work& work, Cached<LightVolumes>& cache, const Nor
   if (normals.layout->define) defines.insert(defines.begin(), normals.layout->define);
   add_lights(work, cache.of(work), framebuffer, "shaders/light_buffer.frag", defines, [&] {
     bind_texture(Sampler::normals, normals.texture);
-    if (normals.group_numbers) bind_texture(Sampler::group_numbers, normals.group_numbers);
+    if (normals.surface_numbers) bind_texture(Sampler::surface_numbers, normals.surface_numbers);
     bind_texture(Sampler::depth_image, work.targets.depth());
   });
   pass.moves(work.grid().values() * (4 + normals.layout->image.bytes + buffer.bytes()),

@@ -45,7 +45,7 @@ class TileShading : public PassCache {
     const Settings& settings = seen.plan.settings;
     std::string defines = fmt::format("-DBUFFER_BITS={}", settings[setting::buffer_bits]) +
                           light_defines(seen, kernels.lanes, settings[setting::brdf]);
-    defines += group_number_define(seen.plan);
+    defines += surface_number_define(seen.plan);
     if (seen.plan.surfaces.clearcoat) defines += " -DCLEARCOAT";
     if (seen.plan.surfaces.specular) defines += " -DSPECULAR";
     for (const char* define : model_defines(seen.plan)) defines += fmt::format(" -D{}", define);
@@ -91,7 +91,7 @@ GBufferInCl gbuffer_to_cl(Work& work, const GBuffer& gbuffer) {
     work.renderer.pixel_copies.to_buffer({base.framebuffer, GL_COLOR_ATTACHMENT0, image_texture(work)},
                                          GL_RGBA, GL_FLOAT, pixels_of(work), in_cl.image->gl_buffer());
   SharedBuffer::hand_to_cl(copies);
-  const size_t bytes = values * (gbuffer.bytes() - gbuffer.group_bytes + (base_lighting ? 16 : 0));
+  const size_t bytes = values * (gbuffer.bytes() - gbuffer.number_bytes + (base_lighting ? 16 : 0));
   pass.moves(bytes, bytes);
   return in_cl;
 }
@@ -133,7 +133,7 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
                       {"image", gbuffer.image->cl_buffer()},
                       {"background", cl_float4{{background.r, background.g, background.b, 0}}},
                       {"depth", depth.values}} +
-              group_number_arguments(work.plan, gbuffer.group_numbers) + work.light_arguments() +
+              surface_number_arguments(work.plan, gbuffer.surface_numbers) + work.light_arguments() +
               ClArguments{{"cells", lights.in_cl->cells},
                           {"indices", lights.in_cl->indices},
                           {"light_bins", lights.in_cl->z_bins}} +
@@ -151,7 +151,7 @@ ShadedImage shade_tiles(Work& work, PassCaches& caches, const GBuffer& gbuffer, 
                         const LightSource& lights, Frame& frame) {
   const GBufferInCl in_cl = gbuffer.in_cl ? *gbuffer.in_cl : gbuffer_to_cl(work, gbuffer);
   StoredSurfaces surfaces{
-      .bytes = in_cl.layout->images[0].bytes, .group_numbers = in_cl.group_numbers, .edges = in_cl.edges};
+      .bytes = in_cl.layout->images[0].bytes, .surface_numbers = in_cl.surface_numbers, .edges = in_cl.edges};
   for (const size_t i : in_cl.images) surfaces.images.push_back(in_cl.surfaces[i]);
   const cl::Buffer edges = sample_edges(work, caches.sample_edges, surfaces, depth, in_cl.bytes() + 4, frame);
   add_light(work, caches.tile_shading, in_cl, depth, lights, edges);

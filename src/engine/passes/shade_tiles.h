@@ -7,8 +7,8 @@
 namespace lightgrid {
 
 // Adds the lights of the pixel's cell to the geometry buffer's image. Where OpenGL drew that and blends
-// surfaces over it, the image is copied back; else it stays in OpenCL's buffer. The numbers of light groups
-// are in OpenCL already (group_numbers_to_cl).
+// surfaces over it, the image is copied back; else it stays in OpenCL's buffer. The surfaces' numbers
+// are in OpenCL already (surface_numbers_to_cl).
 // Of several samples a pixel the image is their mean; the frame gets their figures.
 ShadedImage shade_tiles(Work& work, PassCaches& caches, const GBuffer& gbuffer, const DepthBuffer& depth,
                         const LightSource& lights, Frame& frame);

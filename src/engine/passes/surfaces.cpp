@@ -6,23 +6,23 @@
 #include "passes/find_shadows.h"
 #include "passes/resolve.h"
 #include "passes/shade_forward.h"
-#include "passes/tile_groups.h"
+#include "passes/tile_masks.h"
 #include "plan/settings/grid.h"
 
 namespace lightgrid {
 
-static Surfaces draw_with_groups(RenderView& v, bool depth_in_cl) {
-  const GLuint numbers = group_number_image(v);
+static Surfaces draw_with_numbers(RenderView& v, bool depth_in_cl) {
+  const GLuint numbers = surface_number_image(v);
   const DepthImage depth = depth_prepass(v, numbers);
   SharedBuffer& in_cl =
-      group_numbers_to_cl(v, v.targets.framebuffer({numbers}, v.targets.depth()), 0, numbers);
+      surface_numbers_to_cl(v, v.targets.framebuffer({numbers}, v.targets.depth()), 0, numbers);
   Surfaces surfaces = surfaces_of(v, depth, depth_in_cl);
-  surfaces.group_numbers = &in_cl;
+  surfaces.surface_numbers = &in_cl;
   return surfaces;
 }
 
-Surfaces find_surfaces(RenderView& v, bool depth_in_cl, bool with_groups) {
-  if (v.plan.opengl && with_groups && v.plan.groups.tiles) return draw_with_groups(v, depth_in_cl);
+Surfaces find_surfaces(RenderView& v, bool depth_in_cl, bool with_numbers) {
+  if (v.plan.opengl && with_numbers && v.plan.masks.tiles) return draw_with_numbers(v, depth_in_cl);
   if (v.plan.opengl) return surfaces_of(v, depth_prepass(v), depth_in_cl);
   Surfaces surfaces{.visible = rasterize(v, v.caches)};
   surfaces.depth = surfaces.visible->depth();
@@ -61,11 +61,11 @@ const DepthBounds& bounds_of(RenderView& v, Surfaces& surfaces) {
 
 DepthBounds cull_bounds_of(RenderView& v, Surfaces& surfaces) {
   DepthBounds bounds = bounds_of(v, surfaces);
-  if (!v.plan.groups.tiles) return bounds;
+  if (!v.plan.masks.tiles) return bounds;
   const CullParams& tiles = v.culler().params();
-  bounds.opaque.groups = surfaces.visible ? tile_groups(v, v.caches.tile_groups, tiles, *surfaces.visible)
-                                          : tile_groups(v, v.caches.tile_groups, tiles,
-                                                        *surfaces.group_numbers, depth_of(v, surfaces));
+  bounds.opaque.masks = surfaces.visible ? tile_masks(v, v.caches.tile_masks, tiles, *surfaces.visible)
+                                         : tile_masks(v, v.caches.tile_masks, tiles,
+                                                      *surfaces.surface_numbers, depth_of(v, surfaces));
   return bounds;
 }
 
@@ -95,9 +95,9 @@ GBuffer fill_gbuffer(RenderView& v, std::optional<Surfaces>& surfaces) {
 }
 
 void hand_over(RenderView& v, const GBuffer& gbuffer, Surfaces& surfaces) {
-  if (gbuffer.group_numbers)
-    surfaces.group_numbers =
-        &group_numbers_to_cl(v, gbuffer.framebuffer, gbuffer.group_attachment(), gbuffer.group_numbers);
+  if (gbuffer.surface_numbers)
+    surfaces.surface_numbers =
+        &surface_numbers_to_cl(v, gbuffer.framebuffer, gbuffer.number_attachment(), gbuffer.surface_numbers);
 }
 
 Frame frame_of(RenderView& v, const Surfaces& surfaces) {

@@ -18,14 +18,14 @@ struct Surfaces {
   DepthBuffer depth;      // in OpenCL; null: only OpenGL has it so far
   bool numbered = false;  // find_shadows drew triangle numbers (shadows/triangle_numbers.h) in this frame
   std::optional<BlendedTriangles> blended;  // listed in OpenCL, where a pass before blending needed them
-  SharedBuffer* group_numbers = nullptr;    // OpenGL's surfaces' numbers, in OpenCL; null: none
+  SharedBuffer* surface_numbers = nullptr;  // OpenGL's surfaces' numbers, in OpenCL; null: none
   std::optional<DepthBounds> bounds;
   std::optional<TileDistances> distances;
 };
 
-// By a depth prepass, or by the rasteriser. depth_in_cl: a later pass in OpenCL reads the depth. with_groups:
-// the prepass draws the numbers of light groups' masks too, for tiles that have groups.
-Surfaces find_surfaces(RenderView& v, bool depth_in_cl = false, bool with_groups = false);
+// By a depth prepass, or by the rasteriser. depth_in_cl: a later pass in OpenCL reads the depth.
+// with_numbers: the prepass draws the surfaces' numbers too, for tiles that have masks.
+Surfaces find_surfaces(RenderView& v, bool depth_in_cl = false, bool with_numbers = false);
 
 // The surfaces of a depth image that a pass has drawn.
 Surfaces surfaces_of(RenderView& v, const DepthImage& image, bool depth_in_cl = false);
@@ -38,7 +38,7 @@ void find_shadows(RenderView& v, Surfaces& surfaces);
 const DepthBuffer& depth_of(RenderView& v, Surfaces& surfaces);
 const DepthBounds& bounds_of(RenderView& v, Surfaces& surfaces);
 const TileDistances& distances_of(RenderView& v, Surfaces& surfaces);
-// The bounds for the culler: where the plan has group_tiles, with the light groups of opaque surfaces.
+// The bounds for the culler: where MaskPlan::tiles is set, with the masks of opaque surfaces.
 DepthBounds cull_bounds_of(RenderView& v, Surfaces& surfaces);
 
 // The geometry buffer, and the surfaces if there are none yet: OpenGL then finds their depth while it fills

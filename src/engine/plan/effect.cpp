@@ -21,8 +21,8 @@ std::string define_of(const Effect& effect) {
 
 std::string missing_oracle(const Effect& effect, std::span<const std::string> keys_that_mean) {
   if (!effect.base && !effect.reach) return "it answers no hook: give .base or .reach with its oracle";
-  if (effect.reach && (!effect.reach->term || !effect.reach->share))
-    return "reach has no oracle: give .term and .share";
+  if (effect.reach && !has_masks(effect) && (!effect.reach->term || !effect.reach->share))
+    return "reach has no oracle: give .term and .share, or .masks";
   if (!effect.base || effect.base->term) return "";
   if (!effect.base->meant_by) return "base has no oracle: give .term, or .meant_by with a setting's key";
   const bool means = std::ranges::count(keys_that_mean, std::string(effect.base->meant_by)) > 0;

@@ -43,7 +43,7 @@ struct Effect {
   // it.
   std::optional<EffectNeed> (*decide)(const Scene&, const FramePlan&);
   std::unique_ptr<EffectState> (*make)(Work&);
-  // The hooks that its text answers, one or both.
+  // The hooks that its text answers. ReachOracle is that of NAME_meets, too.
   std::optional<BaseOracle> base{};
   std::optional<ReachOracle> reach{};
   const LightReader* reader = nullptr;  // what it reads of lights, if it does
@@ -54,6 +54,7 @@ using Effects = std::span<const Effect* const>;
 // Its name in a plan ("far light"), and the define of programs that have it ("EFFECT_FAR_LIGHT").
 std::string words_of(const Effect& effect);
 std::string define_of(const Effect& effect);
+inline bool has_masks(const Effect& effect) { return effect.reach && effect.reach->masks.of_light; }
 
 // Lists the hooks of an effect that have no oracle: "base has no oracle: ..."; empty if nothing is missing.
 // `keys_that_mean`: keys of the settings with `.mean`.

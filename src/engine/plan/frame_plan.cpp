@@ -15,12 +15,13 @@ namespace lightgrid {
 namespace {
 
 // After lights.
-void plan_effects(const Scene& scene, Effects effects, FramePlan& plan) {
-  for (const Effect* effect : effects) {
+void plan_effects(const Scene& scene, const TechniqueNeeds& needs, FramePlan& plan) {
+  for (const Effect* effect : needs.effects) {
     const std::optional<EffectNeed> need = effect->decide(scene, plan);
     if (!need) continue;
     if (need->needed) plan.effects.push_back(effect);
-    plan.decisions.push_back({words_of(*effect), need->needed, need->why});
+    const char* of = need->needed && has_masks(*effect) ? needs.masks.of : "";
+    plan.decisions.push_back({words_of(*effect), need->needed, need->why + of});
   }
 }
 
@@ -43,7 +44,11 @@ void turn_everything_on(const Scene& scene, const View& view, const TechniqueNee
   plan_every_feature(plan.settings, plan.surfaces);
   plan_every_light(plan.lights);
   plan_every_list(needs.lists, plan.lists);
-  plan_every_group(scene, needs.groups, plan.settings, plan.opengl, plan.lists, plan.groups);
+  for (const Effect* effect : needs.effects) {
+    if (!has_masks(*effect)) continue;
+    if (std::ranges::count(plan.effects, effect) == 0) plan.effects.push_back(effect);
+    plan_every_mask(scene, needs.masks, plan.settings, plan.opengl, plan.lists, plan.masks);
+  }
   plan_every_shadow(scene, view, needs.shadows, plan.settings, plan.lights, plan.shadows);
 }
 
@@ -68,11 +73,11 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   decisions.reserve(feature_names.size() + 16);
   plan.surfaces = plan_surfaces(scene, view, s, instances, decisions);
   plan.lights = plan_lights(scene, view, s, lights, decisions);
-  plan_effects(scene, needs.effects, plan);
+  plan_effects(scene, needs, plan);
   plan_base_lighting(scene, plan);
   plan.lists = plan_lists(scene, view, needs.lists, s, plan.surfaces, plan.lights, decisions);
-  plan.groups = plan_groups(scene, needs.groups, s, plan.opengl, plan.lists, decisions);
-  plan.stencil = needs.surfaces.stencil || plan.groups.stencil_bits > 0;
+  plan.masks = plan_masks(scene, plan.effects, needs.masks, s, plan.opengl, plan.lists);
+  plan.stencil = needs.surfaces.stencil || plan.masks.stencil_bits > 0;
   plan.shadows =
       plan_shadows(scene, view, needs.shadows, s, instances, plan.surfaces, plan.lights, decisions);
   plan_samples(scene, needs.samples, plan.opengl, needs.surfaces.stored, plan.surfaces, plan.shadows, s,

@@ -18,7 +18,7 @@ struct FramePlan {
   LightPlan lights;
   std::vector<const Effect*> effects;  // that the frame needs
   ListPlan lists;
-  GroupPlan groups;
+  MaskPlan masks;
   ShadowPlan shadows;
   bool stencil = false;  // 8 bits beside depth
   bool reversed_triangles = false;

@@ -8,8 +8,8 @@
 // Rows that every program has which applies settings.
 #include "plan/settings/cull_test.h"
 #include "plan/settings/grid.h"
-#include "plan/settings/groups.h"
 #include "plan/settings/kernels.h"
+#include "plan/settings/masks.h"
 #include "plan/settings/model.h"
 #include "plan/settings/picture.h"
 #include "plan/settings/samples.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "plan/effect.h"
-#include "plan/group_plan.h"
 #include "plan/list_plan.h"
+#include "plan/mask_plan.h"
 #include "plan/sample_plan.h"
 #include "plan/shadow_plan.h"
 #include "plan/surface_plan.h"
@@ -14,7 +14,7 @@ struct TechniqueNeeds {
   Effects effects{};
   SurfaceNeeds surfaces{};
   ListNeeds lists{};
-  GroupNeeds groups{};
+  MaskNeeds masks{};
   ShadowNeeds shadows{};
   SampleNeeds samples{};
   // Changes these, and the plan's settings, by the technique's own settings. Null: nothing changes.

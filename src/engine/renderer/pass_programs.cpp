@@ -16,8 +16,7 @@ SceneProgram::SceneProgram(const GlProgram& program)
       alpha(program.uniform("alpha")),
       object(program.uniform("object")),
       layers_of_draw(program.uniform("layers_of_draw")),
-      groups_of_draw(program.uniform("groups_of_draw")),
-      group_number_of_draw(program.uniform("group_number_of_draw")) {}
+      surface_number_of_draw(program.uniform("surface_number_of_draw")) {}
 
 const SceneProgram& ScenePrograms::of(uint32_t features) {
   if (shaders_.features_read) features = shaders_.features_read(features);

@@ -22,9 +22,9 @@ struct SceneProgram {
   explicit SceneProgram(const GlProgram& program);
   GLuint name;
   GLint clip_from_object, view_from_object, bitangent_sign, normal_from_object;
-  GLint lights_of_draw, alpha, object;         // shaders/lights/object.glsl, forward.frag, object.frag
-  GLint layers_of_draw;                        // shared/shadow_bits.h
-  GLint groups_of_draw, group_number_of_draw;  // shaders/common/point_of_surface.glsl, gbuffer.frag
+  GLint lights_of_draw, alpha, object;  // shaders/lights/object.glsl, forward.frag, object.frag
+  GLint layers_of_draw;                 // shared/shadow_bits.h
+  GLint surface_number_of_draw;         // shaders/common/point_of_surface.glsl, gbuffer.frag
 };
 
 // The shaders of a pass over a scene's surfaces.

@@ -121,7 +121,7 @@ std::array<std::unique_ptr<PassCache>*, 19> PassCaches::all() {
           &light_index.made_,      &object_lights.made_,     &blended_object_lights.made_,
           &voxels.made_,           &world_grid.made_,        &shadow_bits.made_,
           &fragment_layers.made_,  &index_shadows.made_,     &pixel_edges.made_,
-          &tile_groups.made_,      &sample_edges.made_,      &list_caps.made_,
+          &tile_masks.made_,       &sample_edges.made_,      &list_caps.made_,
           &tone_map.made_};
 }
 

@@ -101,7 +101,7 @@ struct PassCaches {
   Cached<class BlendedTriangleLists> blended_triangles;
   Cached<class PixelEdges> pixel_edges;                             // passes/find_edges.cpp
   Cached<class SampleEdges> sample_edges;                           // passes/sample_edges.cpp
-  Cached<class TileGroups> tile_groups;                             // passes/tile_groups.cpp
+  Cached<class TileMasks> tile_masks;                               // passes/tile_masks.cpp
   Cached<class ListCaps> list_caps;                                 // passes/cap_lists.cpp
   Cached<class Resolver> resolver;                                  // passes/resolve.cpp
   Cached<class TileShading> tile_shading;                           // passes/shade_tiles.cpp

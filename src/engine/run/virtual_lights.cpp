@@ -1,9 +1,12 @@
 #include "run/virtual_lights.h"
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 #include "base/error.h"
 #include "cl/transfer.h"
+#include "effects/effects.h"
 #include "passes/rasterize.h"
 #include "passes/resolve.h"
 #include "plan/settings/kernels.h"
@@ -36,6 +39,17 @@ double near_of(const Scene& scene) {
   return box.empty() ? 0.1 : std::clamp(glm::length(box.max - box.min) * 1e-4, 1e-6, 0.1);
 }
 
+// Effects that let a part of a light pass: the rest is not reflected.
+Effects effects_on_lights() {
+  static const std::vector<const Effect*> effects = [] {
+    std::vector<const Effect*> found;
+    std::ranges::copy_if(all_effects, std::back_inserter(found),
+                         [](const Effect* effect) { return effect->reach.has_value(); });
+    return found;
+  }();
+  return effects;
+}
+
 }  // namespace
 
 VirtualLights::VirtualLights(Scene& scene, const std::string& device, const Settings& settings,
@@ -51,7 +65,8 @@ void VirtualLights::look(const Light& light, uint32_t number, int side, double n
     if (seen_) {
       seen_->look(view);
     } else {
-      const TechniqueNeeds needs{.surfaces = {.opengl = false}, .shadows = {.asked_for = false}};
+      const TechniqueNeeds needs{
+          .effects = effects_on_lights(), .surfaces = {.opengl = false}, .shadows = {.asked_for = false}};
       seen_ = std::make_unique<RenderView>(renderer_, gpu_, view, settings_, needs);
     }
     RenderView& v = *seen_;
@@ -59,6 +74,7 @@ void VirtualLights::look(const Light& light, uint32_t number, int side, double n
     if (std::erase_if(v.plan.surfaces.opaque,
                       [&](int i) { return !scene_.instances[size_t(i)].casts_shadow; }) > 0)
       v.caches.follow(v);
+    v.effects.before_lights(v);
     const VisibilityBuffer visible = rasterize(v, v.caches);
     const ReflectedLight reflected = resolve_reflected(v, v.caches.resolver, visible, number);
     const size_t pixels = size_t(side) * size_t(side);

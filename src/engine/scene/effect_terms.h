@@ -11,10 +11,13 @@
 
 namespace lightgrid {
 
+// The mask of a light or a surface for which no effect has one.
+inline constexpr uint32_t full_mask = 0xffffffffu;
+
 // The part of a light, 0 to 1, that passes to the point at `from_light`, metres from the light, of a surface
-// in these groups. Directional lights have no place: `from_light` is then where their light travels to, of
-// length 1.
-using ReachTerm = std::function<double(const glm::dvec3& from_light, uint32_t groups)>;
+// with this mask, besides what masks decide. Directional lights have no place: `from_light` is then where
+// their light travels to, of length 1.
+using ReachTerm = std::function<double(const glm::dvec3& from_light, uint32_t mask)>;
 using ReachTerms = std::shared_ptr<const std::vector<ReachTerm>>;  // null: none
 
 // Bounds of a ReachTerm, for all points.
@@ -23,13 +26,23 @@ struct LightShare {
   bool of_surface = false;  // it is not the same for all surfaces
 };
 
-// The hook NAME_reach. It may read the scene and the settings that are stored with ranges
-// (SettingFlags::of_lights).
+// For an effect that keeps lights from surfaces: a light reaches only surfaces whose mask shares a bit with
+// its own. Code that knows no point of a surface takes masks in place of NAME_meets: lists of objects, tiles
+// and the stencil leave out lights that would add nothing. One effect at most has masks. They are the oracle
+// of NAME_meets.
+struct SurfaceMasks {
+  uint32_t (*of_light)(const Light&) = nullptr;
+  uint32_t (*of_instance)(const Instance&) = nullptr;
+};
+
+// The hooks NAME_reach, by term and share, and NAME_meets, by masks. It may read the scene and the settings
+// that are stored with ranges (SettingFlags::of_lights).
 struct ReachOracle {
   // An empty function: all of the light passes. Directions are along the axes of `from_world`. The function
   // is called while the scene is unchanged.
   ReachTerm (*term)(const Scene&, const Light&, const LightRanges&, const glm::dmat3& from_world) = nullptr;
   LightShare (*share)(const Scene&, const Light&, const LightRanges&) = nullptr;
+  SurfaceMasks masks{};
 };
 
 // Registers the oracles of a program's effects: once, before any light is read.
@@ -39,5 +52,7 @@ ReachTerms reach_terms(const Scene& scene, const Light& light, const LightRanges
                        const glm::dmat3& from_world);
 // The share that all effects together let through.
 LightShare share_of(const Scene& scene, const Light& light, const LightRanges& ranges);
+uint32_t mask_of(const Light& light);
+uint32_t mask_of(const Instance& instance);
 
 }  // namespace lightgrid

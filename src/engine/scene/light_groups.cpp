@@ -157,17 +157,6 @@ void compile_groups(Scene& scene, const std::vector<GroupLists>& of_lights,
   require_groups(scene, dark);
 }
 
-InstanceMasks instance_masks(const Scene& scene) {
-  InstanceMasks all;
-  std::map<uint32_t, uint32_t> number;
-  for (const Instance& instance : scene.instances) {
-    const auto [known, is_new] = number.try_emplace(instance.groups, uint32_t(all.masks.size()));
-    if (is_new) all.masks.push_back(instance.groups);
-    all.of_instance.push_back(known->second);
-  }
-  return all;
-}
-
 std::string words_of_groups(const Scene& scene, uint32_t mask) {
   if (mask == 0) return "no group";
   if (mask == all_groups) return "every group";

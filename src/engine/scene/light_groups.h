@@ -43,14 +43,6 @@ GroupLists::Names names_of_groups(const nlohmann::json& value);
 void compile_groups(Scene& scene, const std::vector<GroupLists>& of_lights,
                     const std::vector<GroupLists>& of_instances);
 
-// The masks of all instances, each once, in the order of their first instances: a geometry buffer stores
-// their numbers.
-struct InstanceMasks {
-  std::vector<uint32_t> masks;
-  std::vector<uint32_t> of_instance;  // index into `masks`
-};
-InstanceMasks instance_masks(const Scene& scene);
-
 // "0, 3 and kitchen"; "no group", "every group".
 std::string words_of_groups(const Scene& scene, uint32_t mask);
 

@@ -1,8 +1,9 @@
 // Every place that computes with a light's brightness, and the factors of a light that it takes into account.
-// A factor is a column of LIGHT_TABLE, or what light_reaches answers besides: shadows, and the effects that
-// answer NAME_reach. Code outside of light loops reads the effects' largest_intensity (scene/view_lights.h).
-// A new column is a new member here, without which this does not compile; Adding.EveryReaderOfLights… finds a
-// reader that is not listed, and one that does not name a factor that it claims to read.
+// A factor is a column of LIGHT_TABLE, or what light_reaches answers besides: masks of lights and surfaces,
+// shadows, and the effects that answer NAME_reach. Code outside of light loops reads the effects'
+// largest_intensity (scene/view_lights.h). A new column is a new member here, without which this does not
+// compile; Adding.EveryReaderOfLights… finds a reader that is not listed, and one that does not name a factor
+// that it claims to read.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +21,7 @@ struct LightReader {
 #define LIGHT_FACTOR(condition, type, member, array, texels) const char* member = nullptr;
   LIGHT_TABLE(LIGHT_FACTOR)
 #undef LIGHT_FACTOR
+  const char* masks = nullptr;
   const char* shadows = nullptr;
   const char* effects = nullptr;
 };
@@ -38,7 +40,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = reads,
      .most_falloff = reads,
-     .groups = reads,
+     .masks = reads,
      .shadows = reads,
      .effects = reads},
     {.name = "oracle",
@@ -47,7 +49,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = reads,
      .most_falloff = reads,
-     .groups = reads,
+     .masks = reads,
      .shadows = "SeenPairs decides them for each pair, and ShadeSettings::hidden leaves lights out",
      .effects = reads},
     {.name = "voxel volumes",
@@ -58,7 +60,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = reads,
      .most_falloff = reads,
-     .groups = "a sample belongs to no surface; the technique's groups_of says so",
+     .masks = "a sample belongs to no surface; MaskNeeds::of says so",
      .shadows = "a sample belongs to no surface; exact lights have them",
      .effects = reads},
     {.name = "choice of voxel_lights' exact lights",
@@ -67,7 +69,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = reads,
      .most_falloff = reads,
-     .groups = only_order,
+     .masks = only_order,
      .shadows = only_order,
      .effects = only_order},
     {.name = "list orders",
@@ -76,7 +78,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = only_order,
      .most_falloff = only_order,
-     .groups = only_order,
+     .masks = only_order,
      .shadows = only_order,
      .effects = reads},
     {.name = "sampled lists",
@@ -85,7 +87,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = reads,
      .most_falloff = reads,
-     .groups = "weights may be any that are above 0: the sum's mean is right",
+     .masks = "weights may be any that are above 0: the sum's mean is right",
      .shadows = "weights may be any that are above 0: the sum's mean is right",
      .effects = "weights may be any that are above 0: the sum's mean is right"},
     {.name = "light tree",
@@ -94,7 +96,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = "weights may be any that are above 0: the sum's mean is right",
      .most_falloff = "weights may be any that are above 0: the sum's mean is right",
-     .groups = "weights may be any that are above 0: the sum's mean is right",
+     .masks = "weights may be any that are above 0: the sum's mean is right",
      .shadows = "weights may be any that are above 0: the sum's mean is right",
      .effects = reads},
     {.name = "shadow-pick",
@@ -103,7 +105,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = reads,
      .most_falloff = "an estimate of shares: virtual lights weigh as spots",
-     .groups = reads,
+     .masks = reads,
      .shadows = "it finds them",
      .effects = reads},
     {.name = "orders of lidr",
@@ -112,7 +114,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = only_order,
      .most_falloff = only_order,
-     .groups = only_order,
+     .masks = only_order,
      .shadows = only_order,
      .effects = reads},
     {.name = "plan of shadows",
@@ -121,7 +123,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = reads,
      .most_falloff = upper_bound,
-     .groups = upper_bound,
+     .masks = upper_bound,
      .shadows = "it plans them",
      .effects = upper_bound},
     {.name = "scale of light_prepass",
@@ -130,7 +132,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = upper_bound,
      .most_falloff = upper_bound,
-     .groups = upper_bound,
+     .masks = upper_bound,
      .shadows = upper_bound,
      .effects = upper_bound},
     {.name = "importance (--shadows N, virtual lights)",
@@ -139,7 +141,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = reads,
      .most_falloff = only_order,
-     .groups = only_order,
+     .masks = only_order,
      .shadows = only_order,
      .effects = only_order},
     {.name = "ranges from intensities",
@@ -148,7 +150,7 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = upper_bound,
      .most_falloff = reads,
-     .groups = upper_bound,
+     .masks = upper_bound,
      .shadows = upper_bound,
      .effects = upper_bound},
     {.name = "check",
@@ -157,13 +159,13 @@ inline constexpr LightReader light_readers[] = {
      .color = reads,
      .cone = reads,
      .most_falloff = "glTF and engines have no virtual lights",
-     .groups = reads,
+     .masks = reads,
      .shadows = "engines limit lights before they find shadows",
      .effects = "engines limit lights, whatever each lets through"},
 };
 
 constexpr bool says_all(const LightReader& reader) {
-  bool all = reader.shadows && reader.effects;
+  bool all = reader.masks && reader.shadows && reader.effects;
 #define LIGHT_FACTOR(condition, type, member, array, texels) all = all && reader.member;
   LIGHT_TABLE(LIGHT_FACTOR)
 #undef LIGHT_FACTOR

@@ -28,7 +28,7 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
     out.radius_m = range_of(light, lights.size() - 1, ranges);
     out.window = window_of(ranges);
     out.least_falloff = least_falloff(light, ranges);
-    out.groups = light.groups;
+    out.mask = mask_of(light);
     out.reach = reach_terms(scene, light, ranges, rotation);
     out.share = share_of(scene, light, ranges);
     if (light.is_virtual) out.most_falloff = most_falloff(light);

@@ -1,39 +1,55 @@
-// An effect (src/engine/effects) declares the inputs that light loops read for it in one list of rows. From the list
-// follow the parameters of kernels and members of their structs, the samplers and uniform blocks of shaders,
-// and in C++ memory, binding and byte counts (renderer/loop_inputs.h).
+// An effect (src/engine/effects) declares the inputs that light loops read for it in one list of rows. From
+// the list follow the parameters of kernels and members of their structs, the samplers and uniform blocks of
+// shaders, and in C++ memory, binding and byte counts (renderer/loop_inputs.h).
 //
 //   #define NAME_HOOK_INPUTS(ROW) ROW(kind, type, name, resource) ...
 //   ArrayInput   many values: in kernels a pointer to `type`, in shaders a texture of the sampler type
 //                `resource`
 //   ColumnInput  a number of values for each light, such as a column of LIGHT_TABLE: in kernels a pointer to
 //                `type`, in shaders a buffer texture; COLUMN(type, name, i) is value i. A table, such as the
-//                texels of cookies, is one too: LOOKUP(name, i) is the float at i, which each pixel has its own
+//                texels of cookies, is one too: LOOKUP(name, i) is the float at i, which each pixel has its
+//                own
 //   BlockInput   one struct: in kernels a pointer to it, in shaders the member `name` of the uniform block
 //                `resource`
 //
 // Functions that read inputs end their parameters with NAME_HOOK_INPUTS(TAKEN_INPUT) and are called with
 // NAME_HOOK_INPUTS(PASSED_INPUT); INPUT(name) is a block's struct. The list's name says which hook the text
-// answers. A text may answer both.
-//   NAME_BASE_INPUTS   Real3 NAME_base(ShadingPoint p, Lit lit, inputs): the light that a surface shows besides
+// answers. A text may answer several.
+//   NAME_BASE_INPUTS   Real3 NAME_base(ShadingPoint p, Lit lit, inputs): the light that a surface shows
+//   besides
 //                      that of the scene's lights
-//   NAME_REACH_INPUTS  real NAME_reach(LightIndex light, Real3 point, Real3 to_light, Whole groups, inputs):
-//                      the part of a light, 0 to 1, that passes to a point of a surface in these groups
-//                      (light_reaches in shared/light_table.h). light: its place among point and spot lights;
-//                      directional ones follow. point and the unit vector to_light: in view space.
+//   NAME_REACH_INPUTS  real NAME_reach(LightIndex light, Real3 point, Real3 to_light, inputs): the part of a
+//                      light, 0 to 1, that passes to a point of a surface (light_reaches in
+//                      shared/light_table.h). light: its place among point and spot lights; directional ones
+//                      follow. point and the unit vector to_light: in view space.
+//   NAME_MEETS_INPUTS  Lit NAME_meets(LightIndex light, inputs): the same where the part is 0 or 1 at all
+//   points
+//                      of a surface. Light loops leave a light out before they compute its distance.
+//
+// What an effect reads of a surface is a list of its own, NAME_SURFACE_INPUTS, of ColumnInputs with one value
+// of 32 bits for each number of a surface (shared/surface_values.h). Functions of hooks end their parameters
+// with NAME_SURFACE_INPUTS(TAKEN_VALUE), and get the values at the point. The program declares the inputs. It
+// finds the list in the text before it compiles: the list must not stand under a condition.
 //
 // "shared/effects.h" includes the effects that a program has and defines BASE_EFFECTS(X), which is
-// X(NAME_BASE_INPUTS, NAME_base) for each that has this list, and REACH_EFFECTS(X) likewise.
+// X(NAME_BASE_INPUTS, NAME_base, list of surface inputs) for each that has this list, and REACH_EFFECTS(X),
+// MEETS_EFFECTS(X) and SURFACE_EFFECTS(X) likewise.
 #pragma once
 
 #include "shared/real.h"
 
+// The values of a surface for a hook.
+#define VALUE_OF_SURFACE(kind, type, name, resource) , surface.name
+
 #if defined(__OPENCL_VERSION__)
 #define Lit mask_t  // of each lane, whether a surface is lit there
+#define EVERY_LIT WHOLE(-1)
+#define BOTH(a, b) ((a) & (b))
 #define INPUT(name) (*name)
 #define LightIndex uint
 #define ArrayInput(type) global const type*
 #define ColumnInput(type) global const type*
-#define COLUMN(type, name, i) (name)[i]
+#define COLUMN(type, name, i) ((type)(name)[i])
 #if LANES == 16
 #define LOOKUP(name, i)                                                                                   \
   ((real)((name)[(i).s0], (name)[(i).s1], (name)[(i).s2], (name)[(i).s3], (name)[(i).s4], (name)[(i).s5], \
@@ -44,18 +60,21 @@
 #endif
 #define BlockInput(type) constant type*
 #define TAKEN_INPUT(kind, type, name, resource) , kind(type) name
+#define TAKEN_VALUE(kind, type, name, resource) , Whole name
 #define PASSED_INPUT(kind, type, name, resource) , name
 #define INPUT_UNIFORM(kind, type, name, resource)
-// A kernel's parameters, members and values: BASE_EFFECTS or REACH_EFFECTS of EFFECT_PARAMETERS, _MEMBERS and
+// A kernel's parameters, members and values: BASE_EFFECTS and its like of EFFECT_PARAMETERS, _MEMBERS and
 // _VALUES.
 #define INPUT_PARAMETER(kind, type, name, resource) kind(type) name,
 #define INPUT_MEMBER(kind, type, name, resource) kind(type) name;
 #define INPUT_VALUE(kind, type, name, resource) .name = name,
-#define EFFECT_PARAMETERS(inputs, hook) inputs(INPUT_PARAMETER)
-#define EFFECT_MEMBERS(inputs, hook) inputs(INPUT_MEMBER)
-#define EFFECT_VALUES(inputs, hook) inputs(INPUT_VALUE)
+#define EFFECT_PARAMETERS(inputs, hook, surface) inputs(INPUT_PARAMETER)
+#define EFFECT_MEMBERS(inputs, hook, surface) inputs(INPUT_MEMBER)
+#define EFFECT_VALUES(inputs, hook, surface) inputs(INPUT_VALUE)
 #elif defined(LIGHTGRID_GLSL)
 #define Lit bool
+#define EVERY_LIT true
+#define BOTH(a, b) ((a) && (b))
 #define INPUT(name) name
 #define LightIndex int
 #define ArrayInput(type, name, resource) uniform resource name;
@@ -65,6 +84,7 @@
 #define BlockInput(type, name, resource) \
   layout(std140) uniform resource { type name; };
 #define TAKEN_INPUT(kind, type, name, resource)
+#define TAKEN_VALUE(kind, type, name, resource) , Whole name
 #define PASSED_INPUT(kind, type, name, resource)
 #define INPUT_UNIFORM(kind, type, name, resource) kind(type, name, resource)
 #endif

@@ -4,7 +4,6 @@
 //   SPOTS: at least one light has a cone.
 //   VIRTUAL_LIGHTS: at least one of those is a virtual point light.
 //   SHADOWS: some light of the scene casts a shadow (ShadowPlan::light_reaches).
-//   GROUPS: some light or instance lacks a light group (GroupPlan::needed).
 //   EFFECT_NAME: an effect answers NAME_reach (shared/inputs.h).
 #pragma once
 
@@ -14,6 +13,7 @@
 #endif
 #if defined(__OPENCL_VERSION__) || defined(LIGHTGRID_GLSL)
 #include "shared/effects.h"
+#include "shared/surface_values.h"
 #endif
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
@@ -33,12 +33,6 @@ namespace lightgrid {
 #define IF_VIRTUAL(text)
 #endif
 
-#ifdef GROUPS
-#define IF_GROUPS(text) text
-#else
-#define IF_GROUPS(text)
-#endif
-
 // ROW(condition, type, member of PunctualLight, array, type of its texture in GLSL)
 //   position  view space, and 1 / radius^2 (next to 0: no range)
 //   color     radiant intensity, and the least 1 / distance^2
@@ -46,17 +40,19 @@ namespace lightgrid {
 //   most_falloff  of a virtual light, which fades with the cone's cosine itself and not with its square: the
 //             most 1 / distance^2; 0 of other lights
 //   groups    a bit each. After all lights follow directional ones, and then the masks of instances, by
-//             GroupPlan::masks
+//             MaskPlan::values
 #define LIGHT_TABLE(ROW)                                           \
   ROW(IF_LIGHTS, Float4, position, light_positions, samplerBuffer) \
   ROW(IF_LIGHTS, Float4, color, light_colors, samplerBuffer)       \
   ROW(IF_SPOTS, Float4, cone, light_cones, samplerBuffer)          \
-  ROW(IF_VIRTUAL, float, most_falloff, light_falloffs, samplerBuffer) \
-  ROW(IF_GROUPS, uint, groups, light_group_masks, usamplerBuffer)
+  ROW(IF_VIRTUAL, float, most_falloff, light_falloffs, samplerBuffer)
 
 // Identifies a light for light_reaches: its index, and in OpenCL the shadows at the pixels that read it and
 // the inputs of effects.
-#if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
+#if defined(REACHED_BY_EFFECTS) || defined(MET_BY_EFFECTS)
+#define EFFECTS_OF_LIGHTS
+#endif
+#if defined(SHADOWS) || defined(EFFECTS_OF_LIGHTS)
 #define HAS_LIGHT_INDEX
 #define INDEX_MEMBER LightIndex index;
 #else
@@ -67,14 +63,15 @@ namespace lightgrid {
 #else
 #define SHADOW_MEMBER
 #endif
-#if defined(REACHED_BY_EFFECTS) && defined(__OPENCL_VERSION__)
+#if defined(EFFECTS_OF_LIGHTS) && defined(__OPENCL_VERSION__)
 typedef struct ReachInputs {
-  REACH_EFFECTS(EFFECT_MEMBERS)
+  REACH_EFFECTS(EFFECT_MEMBERS) MEETS_EFFECTS(EFFECT_MEMBERS)
 } ReachInputs;
 #define REACH_MEMBER const ReachInputs* reach;
 #define LIGHTS_REACH ReachInputs reach;  // of structs of lights, after LIGHT_TABLE(LIGHT_ARRAY)
-#define GIVEN_REACH {REACH_EFFECTS(EFFECT_VALUES)},
-#define REACH_ARGUMENTS REACH_EFFECTS(EFFECT_PARAMETERS)
+#define GIVEN_REACH {REACH_EFFECTS(EFFECT_VALUES) MEETS_EFFECTS(EFFECT_VALUES)},
+#define REACH_ARGUMENTS \
+  REACH_EFFECTS(EFFECT_PARAMETERS) MEETS_EFFECTS(EFFECT_PARAMETERS) SURFACE_EFFECTS(EFFECT_PARAMETERS)
 #else
 #define REACH_MEMBER
 #define LIGHTS_REACH
@@ -86,27 +83,13 @@ typedef struct ReachInputs {
 SHARED_STRUCT(PunctualLight){LIGHT_TABLE(LIGHT_MEMBER) INDEX_MEMBER SHADOW_MEMBER REACH_MEMBER};
 
 // The end of every light loop: how much of a light reaches a point of a surface, 0 to 1, besides what
-// distance and cone let through. Shadows answer here, for the pixel that is shaded, light groups, and the
-// effects that answer NAME_reach (shared/inputs.h). The plan says who answers (ShadowPlan::light_reaches,
-// GroupPlan::needed, FramePlan::effects); without any the factor is the constant 1, which compiles to nothing.
+// distance and cone let through. Shadows answer here, for the pixel that is shaded, and the effects that
+// answer NAME_meets or NAME_reach (shared/inputs.h). The plan says who answers (FramePlan::light_reaches and
+// ::effects); without any the factor is the constant 1, which compiles to nothing.
 //   point: along the axes of light.position, which are the view's. to_light: of length 1, likewise.
-//   groups: the surface's. Forward shaders get them with each draw, resolve kernels from the instance's record,
-//   both by way of ShadingPoint; code that reads a geometry buffer, from the number that it holds.
-#ifdef GROUPS
-#define GROUPS_AT(p) ((p).groups)
-#ifdef __OPENCL_VERSION__
-static inline mask_t groups_meet(uint light, whole groups) {
-  return (groups & WHOLE((int)light)) != WHOLE(0);
-}
-#define IF_MEETING(light, own, share) (groups_meet((light).groups, own) ? (share) : REAL(0.0f))
-#else
-bool groups_meet(uint light, int groups) { return (light & uint(groups)) != 0u; }
-#define IF_MEETING(light, own, share) (groups_meet((light).groups, own) ? (share) : 0.0)
-#endif
-#else
-#define GROUPS_AT(p) WHOLE(0)  // all
-#define IF_MEETING(light, own, share) (share)
-#endif
+//   surface: its values (shared/surface_values.h). Forward shaders look them up for each draw, resolve
+//   kernels by the instance's record, both by way of ShadingPoint; code that reads a geometry buffer, by the
+//   number in it.
 #if defined(SHADOWS) && defined(LIGHTGRID_GLSL)
 #define SEEN_SHARE(light) seen_share((light).index, uvec2(gl_FragCoord.xy))
 #elif defined(SHADOWS) && defined(__OPENCL_VERSION__)
@@ -115,34 +98,40 @@ bool groups_meet(uint light, int groups) { return (light & uint(groups)) != 0u; 
 #define SEEN_SHARE(light) REAL(1.0f)
 #endif
 
-// The part of a light that all effects let pass.
-#if defined(REACHED_BY_EFFECTS) && defined(__OPENCL_VERSION__)
+// Whether all effects let a light reach a surface, and the part that they let pass to a point of it.
+#ifdef __OPENCL_VERSION__
 #define INPUT_OF_REACH(kind, type, name, resource) , from->name
-#define TIMES_REACH(inputs, reach) \
-  share = share * reach(light, point, to_light, groups inputs(INPUT_OF_REACH));
-static inline real effects_reach(const ReachInputs* from, uint light, Real3 point, Real3 to_light,
-                                 whole groups) {
+#define LIGHT_OF_EFFECTS const ReachInputs *from, uint light,
+#define OF_LIGHT(light) (light).reach, (light).index
+#else
+#define INPUT_OF_REACH(kind, type, name, resource)
+#define LIGHT_OF_EFFECTS int light,
+#define OF_LIGHT(light) (light).index
+#endif
+#ifdef MET_BY_EFFECTS
+#define AND_MEETS(inputs, meets, own) \
+  met = BOTH(met, meets(light inputs(INPUT_OF_REACH) own(VALUE_OF_SURFACE)));
+SHARED_FUNCTION Lit effects_meet(LIGHT_OF_EFFECTS SurfaceValues surface) {
+  Lit met = EVERY_LIT;
+  MEETS_EFFECTS(AND_MEETS)
+  return met;
+}
+#define IF_MEETING(light, surface, share) (effects_meet(OF_LIGHT(light), surface) ? (share) : REAL(0.0f))
+#else
+#define IF_MEETING(light, surface, share) (share)
+#endif
+#ifdef REACHED_BY_EFFECTS
+#define TIMES_REACH(inputs, reach, own) \
+  share = share * reach(light, point, to_light inputs(INPUT_OF_REACH) own(VALUE_OF_SURFACE));
+SHARED_FUNCTION real effects_reach(LIGHT_OF_EFFECTS Real3 point, Real3 to_light, SurfaceValues surface) {
   real share = REAL(1.0f);
   REACH_EFFECTS(TIMES_REACH)
   return share;
 }
-#define EFFECTS_REACH(light, point, to_light, groups) \
-  effects_reach((light).reach, (light).index, point, to_light, groups)
-#elif defined(REACHED_BY_EFFECTS)
-#define TIMES_REACH(inputs, reach) share *= reach(light, point, to_light, groups);
-float effects_reach(int light, vec3 point, vec3 to_light, int groups) {
-  float share = 1.0;
-  REACH_EFFECTS(TIMES_REACH)
-  return share;
-}
-#define EFFECTS_REACH(light, point, to_light, groups) effects_reach((light).index, point, to_light, groups)
-#endif
-
-#ifdef REACHED_BY_EFFECTS
-#define light_reaches(light, point, to_light, own) \
-  IF_MEETING(light, own, SEEN_SHARE(light) * EFFECTS_REACH(light, point, to_light, own))
+#define light_reaches(light, point, to_light, surface) \
+  IF_MEETING(light, surface, SEEN_SHARE(light) * effects_reach(OF_LIGHT(light), point, to_light, surface))
 #elif defined(LIGHTGRID_GLSL) || defined(__OPENCL_VERSION__)
-#define light_reaches(light, point, to_light, own) IF_MEETING(light, own, SEEN_SHARE(light))
+#define light_reaches(light, point, to_light, surface) IF_MEETING(light, surface, SEEN_SHARE(light))
 #else
 inline real light_reaches(const PunctualLight&, const Real3&, const Real3&, Whole) { return 1; }
 #endif

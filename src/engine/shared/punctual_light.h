@@ -93,7 +93,8 @@ SHARED_FUNCTION Real3 radiance_of(ShadingPoint p, Arrival arrival, PunctualLight
 
 SHARED_FUNCTION Real3 radiance_from(ShadingPoint p, PunctualLight light) {
   Arrival arrival = arrival_at(p.position, light);
-  arrival.attenuation = arrival.attenuation * light_reaches(light, p.position, arrival.to_light, GROUPS_AT(p));
+  arrival.attenuation =
+      arrival.attenuation * light_reaches(light, p.position, arrival.to_light, VALUES_AT(p));
   return radiance_of(p, arrival, light);
 }
 

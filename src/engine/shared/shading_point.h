@@ -3,11 +3,16 @@
 //   LAMBERT: a diffuse surface, without what only specular lobes read.
 //   CLEARCOAT: a second lobe may lie over the first (KHR_materials_clearcoat).
 //   SPECULAR: the dielectric's reflectance may be another than 0.04 (KHR_materials_specular, _ior).
-//   GROUPS: light groups are asked for (shared/light_table.h).
+//   EFFECT_NAME: the effect reads values of the surface (shared/surface_values.h).
 //   SKIN, MINNAERT: a diffuse part other than Lambert's may be there (shared/material_models.h).
 #pragma once
 
 #include "shared/real.h"
+#if defined(__OPENCL_VERSION__) || defined(LIGHTGRID_GLSL)
+#include "shared/surface_values.h"
+#else
+#define VALUES_AT(p) WHOLE(0)
+#endif
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
 namespace lightgrid {
@@ -29,8 +34,8 @@ SHARED_STRUCT(Lobe) {
 
 SHARED_STRUCT(ShadingPoint) {
   Real3 position, normal;
-#ifdef GROUPS
-  Whole groups;  // the surface's light groups
+#ifdef HAS_SURFACE_VALUES
+  SurfaceValues surface;
 #endif
   Real3 diffuse;  // the dielectric's, at normal incidence: base colour (1 - metallic) (1 - 0.04) / pi;
                   // with LAMBERT base colour / pi; with MINNAERT times (n.v)^(1 - k)

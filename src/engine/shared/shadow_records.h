@@ -24,7 +24,7 @@ typedef struct ShadowLight {
   float range;     // metres
   float source_m;  // the sphere's radius
   float luminance;
-  uint groups;  // light groups, a bit each
+  uint mask;  // it reaches surfaces whose mask shares a bit (scene/effect_terms.h)
 } ShadowLight;
 
 typedef struct ShadowView {

@@ -38,8 +38,8 @@
 #define MAP_LEVELS 16  // sides of up to 32,768 texels
 
 // SurfaceInstance::flags.
-#define INSTANCE_MIRRORED 1u  // front faces turn clockwise
-#define INSTANCE_GROUP_SHIFT 8u  // the other bits: the number of its mask of light groups
+#define INSTANCE_MIRRORED 1u      // front faces turn clockwise
+#define INSTANCE_NUMBER_SHIFT 8u  // the other bits: its number (MaskPlan::of_instance)
 
 #if !defined(__OPENCL_VERSION__)
 namespace lightgrid {

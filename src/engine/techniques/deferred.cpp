@@ -3,6 +3,7 @@
 #include "passes/find_object_lights.h"
 #include "passes/shade_forward.h"
 #include "passes/shade_light_volumes.h"
+#include "plan/settings/masks.h"
 #include "plan/settings/surfaces.h"
 #include "techniques/recipes.h"
 
@@ -24,9 +25,9 @@ extern const Technique deferred{
     .name = "deferred",
     .summary = "geometry buffer, then light volumes",
     .source = "Engel: Designing a Renderer for Multiple Lights, ShaderX7, 2009",
-    .needs = {.effects = all_effects, .groups = {.stencil = true}, .samples = {.most = 8}, .adapt = adapt},
-    .settings = {"brdf", "buffer-bits", "volume-culling", "group-ids", "group-stencil", "volume-mesh",
-                 "samples", "samples-masks", "samples-resolve"},
+    .needs = {.effects = all_effects, .masks = {.stencil = true}, .samples = {.most = 8}, .adapt = adapt},
+    .settings = {"brdf", "buffer-bits", "volume-culling", setting::number_bits_key,
+                 setting::stencil_masks_key, "volume-mesh", "samples", "samples-masks", "samples-resolve"},
     .render = render,
     .listed_by = ListedBy::pixel};
 

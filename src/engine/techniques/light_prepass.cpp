@@ -9,6 +9,7 @@
 #include "passes/sample_edges.h"
 #include "passes/shade_forward.h"
 #include "passes/shade_light_volumes.h"
+#include "plan/settings/masks.h"
 #include "plan/settings/surfaces.h"
 #include "techniques/recipes.h"
 
@@ -44,9 +45,9 @@ static Frame from_tiles(RenderView& v) {
     const NormalImage drawn = fill_normals(v);
     surfaces = surfaces_of(v, drawn.depth, true);
     normals = normals_to_cl(v, drawn);
-    if (drawn.group_numbers)
-      normals.group_numbers = surfaces.group_numbers =
-          &group_numbers_to_cl(v, drawn.framebuffer, 1, drawn.group_numbers);
+    if (drawn.surface_numbers)
+      normals.surface_numbers = surfaces.surface_numbers =
+          &surface_numbers_to_cl(v, drawn.framebuffer, 1, drawn.surface_numbers);
   } else {
     surfaces = find_surfaces(v);
     normals = resolve_normals(v, v.caches.resolver, *surfaces.visible);
@@ -58,8 +59,8 @@ static Frame from_tiles(RenderView& v) {
   const DepthBuffer& depth = depth_of(v, surfaces);
   const size_t normal_bytes = normals.layout->image.bytes;
   const cl::Buffer edges = sample_edges(
-      v, v.caches.sample_edges, {{normals.image}, normal_bytes, normals.group_numbers, normals.edges}, depth,
-      normal_bytes + bytes_of_light_buffer(v.plan.settings) + group_number_bytes(v.plan) + 4, frame);
+      v, v.caches.sample_edges, {{normals.image}, normal_bytes, normals.surface_numbers, normals.edges},
+      depth, normal_bytes + bytes_of_light_buffer(v.plan.settings) + surface_number_bytes(v.plan) + 4, frame);
   frame.image = shade_materials(
       v, surfaces, fill_light_buffer(v, v.caches.light_sums, normals, depth, lights, use, edges));
   blend_from_grid(v, surfaces, lights, frame);
@@ -79,7 +80,7 @@ static void adapt(TechniqueNeeds& needs, Settings& settings) {
   if (settings[prepass_lights] == PrepassLights::tiles) return;
   needs.lists.light_grid = needs.lists.capped = false, needs.lists.no_light_grid = "prepass-lights=volumes";
   needs.surfaces.stencil = settings[setting::volume_culling] == VolumeCulling::stencil,
-  needs.groups.stencil = true;
+  needs.masks.stencil = true;
 }
 
 extern const Technique light_prepass{
@@ -89,16 +90,37 @@ extern const Technique light_prepass{
     .needs = {.effects = all_effects,
               .surfaces = {.chosen_raster = true, .stored = true},
               .lists = {.light_grid = true, .z_bins = true, .no_masks = true, .capped = true},
-              .groups = {.tiles = true},
+              .masks = {.tiles = true},
               .samples = {.most = 8},
               .adapt = adapt},
-    .settings = {"brdf",          "prepass-lights", "prepass-specular", "prepass-shininess",
-                 "buffer-bits",   "normals",        "volume-culling",   "group-ids",
-                 "group-stencil", "group-tiles",    "volume-mesh",      "cull-test",
-                 "depth-bounds",  "tile",           "slice-spacing",    "z-bins",
-                 "list-cap",      "list-cap-order", "view-cap",         "raster",
-                 "samples",       "samples-masks",  "samples-resolve",  "samples-shading",
-                 "texels",        "kernel-shape",   "portable",         "group-size"},
+    .settings = {"brdf",
+                 "prepass-lights",
+                 "prepass-specular",
+                 "prepass-shininess",
+                 "buffer-bits",
+                 "normals",
+                 "volume-culling",
+                 setting::number_bits_key,
+                 setting::stencil_masks_key,
+                 setting::tile_masks_key,
+                 "volume-mesh",
+                 "cull-test",
+                 "depth-bounds",
+                 "tile",
+                 "slice-spacing",
+                 "z-bins",
+                 "list-cap",
+                 "list-cap-order",
+                 "view-cap",
+                 "raster",
+                 "samples",
+                 "samples-masks",
+                 "samples-resolve",
+                 "samples-shading",
+                 "texels",
+                 "kernel-shape",
+                 "portable",
+                 "group-size"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .approximate = true};

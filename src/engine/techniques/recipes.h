@@ -1,6 +1,7 @@
 // The frames that several techniques share.
 #pragma once
 
+#include "plan/settings/masks.h"
 #include "techniques/technique.h"
 
 namespace lightgrid {
@@ -29,14 +30,30 @@ inline const TechniqueNeeds needs_of_shade_tiled{
     .effects = all_effects,
     .surfaces = {.chosen_raster = true, .stored = true},
     .lists = {.light_grid = true, .z_bins = true, .no_masks = true, .capped = true, .sampled = true},
-    .groups = {.tiles = true},
+    .masks = {.tiles = true},
     .samples = {.most = 8},
     .adapt = adapt_shade_tiled};
-inline const std::vector<const char*> settings_of_shade_tiled = {
-    "brdf",         "buffer-bits",   "group-ids", "group-tiles",   "cull-test",       "depth-bounds",
-    "tile",         "slice-spacing", "z-bins",    "list-cap",      "list-cap-order",  "list-seed",
-    "view-cap",     "raster",        "samples",   "samples-masks", "samples-shading", "texels",
-    "kernel-shape", "portable",      "group-size"};
+inline const std::vector<const char*> settings_of_shade_tiled = {"brdf",
+                                                                 "buffer-bits",
+                                                                 setting::number_bits_key,
+                                                                 setting::tile_masks_key,
+                                                                 "cull-test",
+                                                                 "depth-bounds",
+                                                                 "tile",
+                                                                 "slice-spacing",
+                                                                 "z-bins",
+                                                                 "list-cap",
+                                                                 "list-cap-order",
+                                                                 "list-seed",
+                                                                 "view-cap",
+                                                                 "raster",
+                                                                 "samples",
+                                                                 "samples-masks",
+                                                                 "samples-shading",
+                                                                 "texels",
+                                                                 "kernel-shape",
+                                                                 "portable",
+                                                                 "group-size"};
 
 // forward_multipass and forward_zprepass share this: each object with the lights that reach its visible part,
 // `lights_a_draw` in each draw, added up; then blended surfaces. own_apart: the first draw has base lighting

@@ -1,6 +1,7 @@
 // Triangle numbers first, in OpenCL; then attributes, textures and light of each pixel in one pass, from its
 // tile's list.
 #include "plan/settings/grid.h"
+#include "plan/settings/masks.h"
 #include "techniques/recipes.h"
 
 namespace lightgrid {
@@ -20,11 +21,11 @@ extern const Technique visibility{
         {.effects = all_effects,
          .surfaces = {.opengl = false},
          .lists = {.light_grid = true, .z_bins = true, .no_masks = true, .capped = true, .sampled = true},
-         .groups = {.tiles = true},
+         .masks = {.tiles = true},
          .samples = {.most = 8},
          .adapt = adapt},
     .settings = {"brdf",     "cull-test",      "depth-bounds",  "tile",
-                 "slices",   "slice-spacing",  "z-bins",        "group-tiles",
+                 "slices",   "slice-spacing",  "z-bins",        setting::tile_masks_key,
                  "list-cap", "list-cap-order", "list-seed",     "view-cap",
                  "lights",   "samples",        "samples-masks", "samples-resolve",
                  "texels",   "kernel-shape",   "portable",      "group-size"},

@@ -43,8 +43,8 @@ extern const Technique voxel_lights{
     .needs = {.effects = all_effects,
               .surfaces = {.chosen_raster = true},
               .lists = {.light_grid = true, .no_masks = true},
-              .groups = {.of = "; of directional and exact lights alone: the volume's light belongs to no "
-                               "surface"},
+              .masks = {.of = "; of directional and exact lights alone: the volume's light belongs to no "
+                              "surface"},
               .samples = {.most = 8},
               .adapt = adapt},
     .settings = {"brdf", "voxel-size", "voxel-space", "voxel-bits", "voxel-lights-exact", "voxel-reuse",

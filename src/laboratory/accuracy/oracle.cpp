@@ -62,24 +62,24 @@ ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth) {
   return listed ? listed(depth) : list_every_light(uint32_t(run.view().plan.lights.local.size()));
 }
 
-std::vector<uint32_t> groups_of_pixels(const FramePlan& plan, const Scene& scene,
-                                       const std::vector<SceneTriangle>& shown) {
-  std::vector<uint32_t> groups;
-  if (!plan.groups.needed) return groups;
+std::vector<uint32_t> masks_of_pixels(const FramePlan& plan, const Scene& scene,
+                                      const std::vector<SceneTriangle>& shown) {
+  std::vector<uint32_t> masks;
+  if (!plan.masks.needed) return masks;
   for (const SceneTriangle& triangle : shown)
-    groups.push_back(triangle.instance < 0 ? 0 : scene.instances[size_t(triangle.instance)].groups);
-  return groups;
+    masks.push_back(triangle.instance < 0 ? 0 : mask_of(scene.instances[size_t(triangle.instance)]));
+  return masks;
 }
 
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, const SeenPairs* seen) {
   const Seen& v = run.view();
-  std::vector<uint32_t> groups;
-  if (v.plan.groups.needed) groups = groups_of_pixels(v.plan, v.scene, shown_triangles(run));
-  if (!seen) return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), nullptr, groups);
+  std::vector<uint32_t> masks;
+  if (v.plan.masks.needed) masks = masks_of_pixels(v.plan, v.scene, shown_triangles(run));
+  if (!seen) return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), nullptr, masks);
   std::optional<HostShadows> shaded;
   if (run.frame().shadows) shaded = run.frame().shadows();
   const PairShadows shadows{*seen, shaded ? &*shaded : nullptr, uint32_t(v.plan.lights.directional.size())};
-  return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), &shadows, groups);
+  return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), &shadows, masks);
 }
 
 std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& truth) {
@@ -89,12 +89,12 @@ std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& trut
   for (const HostShadowLayer& layer : run.frame().blended_shadows()) {
     const SeenPairs* seen = truth.of_layer(v, layer);
     const PairShadows shadows{*seen, &layer.shadows};
-    std::vector<uint32_t> groups;
+    std::vector<uint32_t> masks;
     for (const glm::ivec2& triangle : layer.triangles)
-      groups.push_back(triangle.x < 0 ? 0 : v.scene.instances[size_t(triangle.x)].groups);
+      masks.push_back(triangle.x < 0 ? 0 : mask_of(v.scene.instances[size_t(triangle.x)]));
     const LitPairs pairs =
         count_pairs(v.view, layer.depth, local_lights(v),
-                    list_every_light(uint32_t(v.plan.lights.local.size())), &shadows, groups);
+                    list_every_light(uint32_t(v.plan.lights.local.size())), &shadows, masks);
     sum.lit += pairs.lit, sum.leaked += pairs.leaked, sum.acned += pairs.acned, sum.either += pairs.either;
   }
   return sum;

@@ -25,9 +25,9 @@ std::vector<ViewLight> local_lights(const Seen& v);
 // light at every pixel.
 ListedLights listed_lights(TechniqueRun& run, const std::vector<float>& depth);
 
-// The groups of the surface at each pixel, by the triangle shown there; empty where the plan has none.
-std::vector<uint32_t> groups_of_pixels(const FramePlan& plan, const Scene& scene,
-                                       const std::vector<SceneTriangle>& shown);
+// The masks of the surface at each pixel, by the triangle shown there; empty where the plan has none.
+std::vector<uint32_t> masks_of_pixels(const FramePlan& plan, const Scene& scene,
+                                      const std::vector<SceneTriangle>& shown);
 
 // Compares those with the lights that reach each pixel, and the frame's shadows with `seen` (null: none).
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth,

@@ -39,10 +39,10 @@ SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth, Sha
       lights_(lights_in_view(v.scene, v.view, ranges_of(meant_by(v.plan.settings)))),
       own_shadows_(shadows ? nullptr : std::make_unique<ShadowTruth>(v.scene, 0)),
       shadows_(shadows ? shadows : own_shadows_.get()) {
-  if (shadows_->casts() || v.plan.groups.needed) {
+  if (shadows_->casts() || v.plan.masks.needed) {
     const std::vector<SceneTriangle> shown = read_triangles(v).opaque;
     if (shadows_->casts()) triangles_ = casting_triangles(v.scene, shown);
-    groups_ = groups_of_pixels(v.plan, v.scene, shown);
+    masks_ = masks_of_pixels(v.plan, v.scene, shown);
   }
   for (const uint32_t pixel : covered_pixels(depth)) {
     surfaces_.blended[pixel] ? void(++left_out_) : pixels_.push_back(pixel);
@@ -66,7 +66,7 @@ std::vector<uint32_t> SurfaceOracle::decided(std::vector<uint32_t> pixels, bool 
 std::vector<glm::dvec3> SurfaceOracle::shade(const std::vector<uint32_t>& pixels, bool window) const {
   const auto surface_at = [&](uint32_t pixel) {
     Surface surface = surface_of(surfaces_, pixel);
-    if (!groups_.empty()) surface.groups = groups_[pixel];
+    if (!masks_.empty()) surface.mask = masks_[pixel];
     return surface;
   };
   ShadeSettings settings{

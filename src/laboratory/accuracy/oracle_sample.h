@@ -31,7 +31,7 @@ class SurfaceOracle {
   std::unique_ptr<ShadowTruth> own_shadows_;
   ShadowTruth* shadows_;
   std::vector<CastingTriangle> triangles_;  // where lights cast
-  std::vector<uint32_t> groups_;            // groups of each pixel's surface; empty: every group
+  std::vector<uint32_t> masks_;             // masks of each pixel's surface; empty: full masks
   std::vector<uint32_t> pixels_;
   uint64_t left_out_ = 0;
 };

@@ -9,8 +9,8 @@
 
 #include "check/light_cells.h"
 #include "plan/visibility.h"
+#include "scene/effect_terms.h"
 #include "scene/hidden.h"
-#include "scene/light_groups.h"
 
 namespace lightgrid {
 namespace {
@@ -19,9 +19,9 @@ using glm::dvec3;
 using Lights = std::vector<int>;  // indices in the scene
 
 struct SeenObject {
-  int instance;  // its first
-  LightBox box;  // world
-  uint32_t groups = 0;
+  int instance;       // its first
+  LightBox box;       // world
+  uint32_t mask = 0;  // of all of its instances together
 };
 
 LightBox box_of_instance(const Scene& scene, int instance, const glm::dmat4& space_from_world) {
@@ -88,7 +88,7 @@ struct LimitFrame {
       const LightBox box = box_of_instance(scene, i, glm::dmat4(1));
       object->second.box.min = glm::min(object->second.box.min, box.min);
       object->second.box.max = glm::max(object->second.box.max, box.max);
-      object->second.groups |= scene.instances[size_t(i)].groups;
+      object->second.mask |= mask_of(scene.instances[size_t(i)]);
     }
     for (const auto& [first, object] : found) objects.push_back(object);
   }
@@ -207,7 +207,7 @@ class LimitCount {
 
   bool reaches(const SeenObject& object, int i) const {
     const LightBounds& light = frame_.in_world[size_t(i)];
-    if (!groups_meet(frame_.scene.lights[size_t(i)].groups, object.groups)) return false;
+    if ((mask_of(frame_.scene.lights[size_t(i)]) & object.mask) == 0) return false;
     if (limit_.reach == LimitReach::always || is_directional(frame_.in_view[size_t(i)])) return true;
     if (limit_.reach == LimitReach::range) return meets(object.box, light.position, light.radius_m);
     return meets(object.box, box_of_light(light));

@@ -45,8 +45,8 @@ Leaks find_leaks(const Scene& scene, const View& view, const LightRanges& ranges
       const Receiver receiver = occlusion.receiver(view, x, y, surface->depth, surface->triangle);
       for (int i = 0; i < int(lights.size()); ++i) {
         const Light& light = scene.lights[size_t(i)];
-        const uint32_t groups = scene.instances[size_t(receiver.own.instance)].groups;
-        if (light.casts_shadow || !is_lit(lights[size_t(i)], position, groups)) continue;
+        const uint32_t mask = mask_of(scene.instances[size_t(receiver.own.instance)]);
+        if (light.casts_shadow || !is_lit(lights[size_t(i)], position, mask)) continue;
         const SightAnswer answer = occlusion.sight(light, receiver, &last[size_t(i)]);
         if (answer.sight == Sight::hidden && answer.by == receiver.own) continue;
         ++row.lit;

@@ -82,7 +82,7 @@ bool tally_shadow(const PairShadows& shadows, int width, uint32_t pixel, uint32_
 
 Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered, int width,
                  const std::vector<ViewLight>& lights, const ListedLights& lists, const PairShadows* shadows,
-                 std::span<const uint32_t> groups, LitPairs& out) {
+                 std::span<const uint32_t> masks, LitPairs& out) {
   std::vector<size_t> order(tile.indices.size());
   std::iota(order.begin(), order.end(), size_t(0));
   const auto cell_at = [&](size_t i) { return cell_of(lists, covered[tile.indices[i]]); };
@@ -110,7 +110,7 @@ Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered,
     for (size_t i = begin; i < end; ++i) out.listed_of_pixel[pixels[i]] = length_of_list(lists, cell);
     for (uint32_t light : tile.lights) {
       for (size_t i = begin; i < end; ++i) {
-        const uint32_t own = groups.empty() ? all_groups : groups[pixels[i]];
+        const uint32_t own = masks.empty() ? full_mask : masks[pixels[i]];
         bool reaches = is_lit(lights[light], positions[i], own), is_listed = listed.has(light);
         if (reaches && shadows)
           reaches = tally_shadow(*shadows, width, pixels[i], light, is_listed, tally, out);
@@ -170,13 +170,13 @@ double add_tile(const Tile& tile, const uint32_t* begin, const uint32_t* end, Li
 
 }  // namespace
 
-bool is_lit(const ViewLight& light, const glm::dvec3& position, uint32_t groups) {
-  if (is_directional(light)) return light_reaches(light, position, groups) > 0;
+bool is_lit(const ViewLight& light, const glm::dvec3& position, uint32_t mask) {
+  if (is_directional(light)) return light_reaches(light, position, mask) > 0;
   const glm::dvec3 offset = position - light.position;
   const double distance = length_of(offset.x, offset.y, offset.z);
   if (!(distance < light.radius_m)) return false;
   if (has_cone(light) && !(cos_from_axis(light, offset, distance) > light.cos_outer)) return false;
-  return light_reaches(light, position, groups) > 0;
+  return light_reaches(light, position, mask) > 0;
 }
 
 std::vector<uint32_t> lit_lights(const std::vector<ViewLight>& lights, const glm::dvec3& position) {
@@ -188,9 +188,8 @@ std::vector<uint32_t> lit_lights(const std::vector<ViewLight>& lights, const glm
 }
 
 LitPairs count_pairs(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights,
-                     const ListedLights& lists, const PairShadows* shadows,
-                     std::span<const uint32_t> groups) {
-  assert(groups.empty() || groups.size() == depth.size());
+                     const ListedLights& lists, const PairShadows* shadows, std::span<const uint32_t> masks) {
+  assert(masks.empty() || masks.size() == depth.size());
   assert(depth.size() == view.grid().values());
   assert(lists.cell_of_pixel.empty() || lists.cell_of_pixel.size() == depth.size());
   const std::vector<uint32_t> none(depth.size(), 0);
@@ -202,7 +201,7 @@ LitPairs count_pairs(const View& view, const std::vector<float>& depth, const st
     return position_from_depth(view, int(p) % view.width, int(p) / view.width, depth[p]);
   };
   for_each_tile(view.width, covered, position_of, lights, [&](const TileOfPixels& tile) {
-    const Tally tally = tally_tile(tile, covered, view.width, lights, lists, shadows, groups, out);
+    const Tally tally = tally_tile(tile, covered, view.width, lights, lists, shadows, masks, out);
     std::lock_guard lock(adding);
     out.listed += tally.listed, out.lit += tally.lit, out.lost += tally.lost, out.wrong += tally.wrong;
     out.hidden += tally.hidden, out.either += tally.either;

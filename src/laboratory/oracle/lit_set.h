@@ -14,8 +14,8 @@ namespace lightgrid {
 
 // Nearer than the radius and, for a spot, at less than the outer angle from its axis: exactly where
 // attenuation() with its window is positive. The boundary is not lit. Directional lights have no range.
-// groups: of the surface there, one of which has to be the light's (scene/light_groups.h).
-bool is_lit(const ViewLight& light, const glm::dvec3& position, uint32_t groups = all_groups);
+// mask: of the surface there, which has to share a bit with that of the light (scene/effect_terms.h).
+bool is_lit(const ViewLight& light, const glm::dvec3& position, uint32_t mask = full_mask);
 
 // Ascending indices.
 std::vector<uint32_t> lit_lights(const std::vector<ViewLight>& lights, const glm::dvec3& position);
@@ -47,11 +47,11 @@ struct PairShadows {
 // `depth` is the buffer that the technique shaded from: width * height, row 0 at the bottom, 0 for
 // background. `lights` are the lights that the lists index: omit directional ones if the lists do. Every pair
 // is decided by is_lit on positions in double. 1280 x 720 with 1024 lights takes about a second on two cores.
-// With shadows, lit pairs are also seen, wherever that was decided. groups: of the surface at each pixel;
-// empty: every group.
+// With shadows, lit pairs are also seen, wherever that was decided. masks: of the surface at each pixel;
+// empty: full masks.
 LitPairs count_pairs(const View& view, const std::vector<float>& depth, const std::vector<ViewLight>& lights,
                      const ListedLights& lists, const PairShadows* shadows = nullptr,
-                     std::span<const uint32_t> groups = {});
+                     std::span<const uint32_t> masks = {});
 
 // Empty, or a fault of lists (first and count of each) in one array of indices: they must be adjacent without
 // gap or overlap, in any order, each sorted without repetition, and contain valid lights.

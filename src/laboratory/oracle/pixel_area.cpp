@@ -139,7 +139,7 @@ void AreaOracle::shade_area(PixelArea& area, SceneSurfaces& surfaces, const std:
       const ViewLight& light = lights_[near[k]];
       const Light& in_world = scene_.lights[near[k]];
       const bool directional = light.type == LightType::directional;
-      if (!directional && !is_lit(light, s.position, surface.groups)) continue;
+      if (!directional && !is_lit(light, s.position, surface.mask)) continue;
       if (occlusion_ && in_world.casts_shadow) {
         if (!receiver)
           receiver = occlusion_->receiver(of_places_, s.place.x, s.place.y, s.hit->depth, s.hit->triangle);

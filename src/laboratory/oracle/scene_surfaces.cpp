@@ -205,7 +205,7 @@ Surface SceneSurfaces::surface_at(const TriangleInView& triangle, const dvec2& p
   const Mesh& mesh = scene_.meshes[instance.mesh];
   const Material& m = scene_.materials[mesh.material];
   Surface s;
-  s.unlit = m.unlit, s.groups = instance.groups;
+  s.unlit = m.unlit, s.mask = mask_of(instance);
   s.base_color = dvec3(color_of(triangle, w));
   if (m.unlit) return s;
   s.metallic = m.metallic, s.roughness = m.roughness, s.emissive = m.emissive;

@@ -26,7 +26,7 @@ struct Surface {
   glm::dvec3 coat_normal{0, 0, 1};      // as normal
   glm::dvec3 subsurface_color{0};       // only for skin (scene/material_model.h)
   double roll_off = 0, minnaert_k = 1;
-  uint32_t groups = all_groups;  // groups of lights that light it
+  uint32_t mask = full_mask;  // only lights whose mask shares a bit light it
 };
 
 // Reflected over incoming radiance, towards `to_eye` from `to_light` (both unit, view space), 1 / sr. Without

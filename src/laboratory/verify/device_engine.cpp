@@ -232,7 +232,7 @@ class DeviceEngine : public CullEngine {
     for (const View& view : views) {
       if (!images.empty()) v.look(view);
       if (renderer.gl) reset_gl_state();
-      const Frame frame = technique.render(v);
+      const Frame frame = draw_frame(technique, v);
       GroupImage& image = images.emplace_back();
       image.lights = v.plan.lights.local, image.tile = v.plan.settings[setting::tile];
       image.pixels = read_pixels(v, frame.image);

@@ -92,13 +92,40 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
       // Points and sequences that have it by choice.
       {"src/laboratory/frontier/points.cpp", {"far_light"}},
       {"src/laboratory/verify/hunt_sequences.cpp", {"far_light"}},
+      // Groups are properties of lights and instances in files, and in the scene.
+      {"src/engine/scene/scene.h", {"light_groups"}},
+      {"src/engine/scene/lights_file.cpp", {"light_groups"}},
+      {"src/engine/scene/load_gltf.cpp", {"light_groups"}},
+      {"src/engine/scene/write_gltf.cpp", {"light_groups"}},
+      {"src/engine/scene/gltf/extras.cpp", {"light_groups"}},
+      {"src/engine/scene/gltf/extras.h", {"light_groups"}},
+      {"src/engine/scene/gltf/lights.cpp", {"light_groups"}},
+      {"src/engine/scene/gltf/nodes.h", {"light_groups"}},
+      {"src/engine/scene/virtual_lights.cpp", {"light_groups"}},
+      {"src/engine/scene/virtual_lights.h", {"light_groups"}},
+      {"src/apps/c_api/scene.cpp", {"light_groups"}},
+      // A scene that has them, and hard cases.
+      {"src/engine/scenes/rooms.cpp", {"light_groups"}},
+      {"src/engine/run/virtual_lights.cpp", {"light_groups"}},
+      {"src/laboratory/verify/device_engine.cpp", {"light_groups"}},
+      {"src/laboratory/verify/group_cases.cpp", {"light_groups"}},
+      // lidr's groups of lights that do not touch.
+      {"src/engine/passes/light_index/draw_order.h", {"light_groups"}},
+      {"src/engine/passes/light_index/light_groups.cpp", {"light_groups"}},
   };
+  // Names of its data.
+  const std::map<std::string, std::vector<std::string>> data = {
+      {"light_groups",
+       {"all_groups", "group_names", "GroupLists", "compile_groups", "light.groups", "instance.groups",
+        "].groups", "back().groups", "of->groups", "most_groups"}}};
   const std::string table = code_of(text_at("src/engine/effects/effects.cpp"));
   for (const Effect* effect : all_effects) {
     const std::string name = effect->name, key = without_underscores(name, "-");
     texts[name] = {'"' + key, key + "=", '"' + without_underscores(name, " "), define_of(*effect)};
     for (const char* after : {" ", ",", ";", ".", "(", ")", "/", "_", "->", "\""})
       texts[name].push_back(name + after);
+    if (const auto own_data = data.find(name); own_data != data.end())
+      texts[name].insert(texts[name].end(), own_data->second.begin(), own_data->second.end());
     expected["src/engine/effects/effects.cpp"].insert(name);
     EXPECT_EQ(mentions(table, name).size(), 2u) << name;
   }
@@ -109,6 +136,7 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
     for (const std::string& name : names) {
       const bool is_own = file.starts_with("src/engine/effects/" + name + ".") ||
                           file == "src/engine/shared/effects/" + name + ".h" ||
+                          file.starts_with("src/engine/scene/" + name + ".") ||
                           file.starts_with("kernels/" + name + "/");
       if (is_own)
         ++own[name];
@@ -139,7 +167,8 @@ TEST(Adding, AnEffectsTextAnswersTheHooksThatHaveAnOracle) {
       return text.find("#define " + upper + hook + "_INPUTS(") != text.npos;
     };
     EXPECT_EQ(lists("_BASE"), effect->base.has_value()) << name;
-    EXPECT_EQ(lists("_REACH"), effect->reach.has_value()) << name;
+    EXPECT_EQ(lists("_REACH"), effect->reach && effect->reach->term) << name;
+    EXPECT_EQ(lists("_MEETS"), has_masks(*effect)) << name;
   }
 }
 
@@ -161,6 +190,16 @@ TEST(Adding, AnEffectThatASettingStandsForIsNotInThePictureThatIsMeant) {
   }
 }
 
+// With the text of each key that has a name.
+std::string with_keys(std::string code) {
+  const std::regex named("(\\w+_key)\\[\\] = (\"[^\"]+\")");
+  std::vector<std::pair<std::string, std::string>> keys;
+  for (std::sregex_iterator at(code.begin(), code.end(), named), end; at != end; ++at)
+    keys.emplace_back((*at)[1], (*at)[2]);
+  for (const auto& [name, key] : keys) code = std::regex_replace(code, std::regex(name + ","), key + ",");
+  return code;
+}
+
 // Its row, which no list of settings names.
 TEST(Adding, ASettingTakesOneRow) {
   const std::regex row("Setting<[\\w:<>]+> (\\w+)\\{\\s*\\d+,\\s*\"([^\"]+)\"");
@@ -169,7 +208,7 @@ TEST(Adding, ASettingTakesOneRow) {
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(std::filesystem::path(source_folder) / "src")) {
     if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
-    const std::string code = code_of(file_bytes(entry.path()));
+    const std::string code = with_keys(code_of(file_bytes(entry.path())));
     for (std::sregex_iterator at(code.begin(), code.end(), row), end; at != end; ++at) {
       files_of[(*at)[2]].push_back(entry.path().string());
       names.push_back((*at)[1]);
@@ -201,7 +240,7 @@ size_t members_of(const std::string& file, const std::string& name) {
 TEST(Adding, ThePlanAndTheNeedsHaveAMemberForEachPart) {
   EXPECT_LE(members_of("src/engine/plan/frame_plan.h", "FramePlan"), 20u);
   EXPECT_LE(members_of("src/engine/plan/technique_needs.h", "TechniqueNeeds"), 8u);
-  EXPECT_EQ(members_of("src/engine/plan/group_plan.h", "GroupPlan"), 5u) << "what is counted";
+  EXPECT_EQ(members_of("src/engine/plan/mask_plan.h", "MaskPlan"), 5u) << "what is counted";
   EXPECT_EQ(members_of("src/engine/plan/instance_boxes.h", "InstanceBox"), 10u) << "of lists as well";
 }
 
@@ -292,12 +331,6 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
       {"shaders/lights/blocks.glsl", {"position"}},
       {"src/engine/shared/punctual_light.h", {"cone", "most_falloff"}},
       {"src/engine/shared/voxel_exact.h", {"cone", "most_falloff"}},
-      // Groups of a light before it is read whole; of directional lights and of instances, which follow.
-      {"shaders/lights/punctual.glsl", {"groups"}},
-      {"shaders/lights/directional.glsl", {"groups"}},
-      {"shaders/common/groups_of_pixel.glsl", {"groups"}},
-      {"kernels/resolve/resolve_light.h", {"groups"}},
-      {"kernels/resolve/group_numbers.h", {"groups"}},
       // A record of the culler's own, from LightBounds.
       {"kernels/culling/gpu/cull_lights.cl", {"cone"}},
   };
@@ -307,15 +340,12 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
 // Its text for all three languages, the same in double, and the effect of the plan that asks for it.
 TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
   const std::map<std::string, std::vector<std::string>> texts = {
-      {"answers",
-       {"real light_reaches(", "double light_reaches(", "plan.light_reaches = ", "plan.needed = "}},
+      {"answers", {"real light_reaches(", "double light_reaches(", "plan.light_reaches = "}},
   };
   const Naming expected = {
       {"src/engine/shared/light_table.h", {"answers"}},
       {"src/laboratory/oracle/attenuation.h", {"answers"}},
-      // Shadows, and groups.
       {"src/engine/plan/shadow_plan.cpp", {"answers"}},
-      {"src/engine/plan/group_plan.cpp", {"answers"}},
   };
   EXPECT_THAT(differences(files_that_name({"src", "kernels", "shaders"}, texts), expected), IsEmpty());
 }
@@ -377,7 +407,7 @@ std::vector<std::string> marks_of(const std::string& factor) {
       {"color", reading},
       {"cone", {"has_cone(", "cos_outer", "bounds_of("}},
       {"most_falloff", {"most_falloff"}},
-      {"groups", {"light_reaches(", "groups"}},
+      {"masks", {"light_reaches(", "mask_of(", "share.of_surface", "->mask"}},
       {"shadows", {"light_reaches("}},
       {"effects", {"light_reaches(", "largest_intensity(", "influence_of(", "share_of("}}};
   for (const char* of_distance : {"position", "color", "cone", "most_falloff"})
@@ -394,7 +424,7 @@ TEST(Adding, AReaderOfLightsReadsTheFactorsThatItClaims) {
     for (const std::string& file : words_of(reader.files)) {
       code += code_of(text_at(file));
       // Each light loop ends with the hook.
-      if (reader.groups == reads && reader.shadows == reads) {
+      if (reader.masks == reads && reader.shadows == reads) {
         EXPECT_TRUE(names_one(code_of(text_at(file)), {"light_reaches("})) << file;
       }
     }

@@ -89,7 +89,10 @@ TEST(WithIncludes, EffectsAreTheFilesOfTheirFolder) {
   EXPECT_EQ(preprocessed(text, {"EFFECT_SKY_LIGHT"}), "inputs sky BASE_EFFECTS(X)");
   EXPECT_EQ(preprocessed(text, {"EFFECT_FOG", "EFFECT_SKY_LIGHT"}), "inputs fog sky BASE_EFFECTS(X)");
   EXPECT_THAT(text, testing::HasSubstr("#define BASE_EFFECTS(X) IF_FOG_BASE(X) IF_SKY_LIGHT_BASE(X)\n"
-                                       "#define REACH_EFFECTS(X) IF_FOG_REACH(X) IF_SKY_LIGHT_REACH(X)\n"));
+                                       "#define REACH_EFFECTS(X) IF_FOG_REACH(X) IF_SKY_LIGHT_REACH(X)\n"
+                                       "#define MEETS_EFFECTS(X) IF_FOG_MEETS(X) IF_SKY_LIGHT_MEETS(X)\n"));
+  EXPECT_THAT(text,
+              testing::HasSubstr("#define SURFACE_EFFECTS(X) IF_FOG_SURFACE(X) IF_SKY_LIGHT_SURFACE(X)\n"));
 }
 
 // An effect answers the hooks whose inputs its text lists.
@@ -99,11 +102,28 @@ TEST(WithIncludes, AnEffectsHooksAreThoseOfItsInputs) {
                                                   {"shared/inputs.h", "inputs\n"}});
   EXPECT_THAT(text,
               testing::HasSubstr("\n#ifdef SKY_LIGHT_BASE_INPUTS\n"
-                                 "#define IF_SKY_LIGHT_BASE(X) X(SKY_LIGHT_BASE_INPUTS, sky_light_base)\n"
+                                 "#define IF_SKY_LIGHT_BASE(X) X(SKY_LIGHT_BASE_INPUTS, sky_light_base, "
+                                 "OWN_SKY_LIGHT)\n"
                                  "#else\n#define IF_SKY_LIGHT_BASE(X)\n#endif\n"
                                  "#ifdef SKY_LIGHT_REACH_INPUTS\n#define REACHED_BY_EFFECTS\n"
-                                 "#define IF_SKY_LIGHT_REACH(X) X(SKY_LIGHT_REACH_INPUTS, sky_light_reach)\n"
+                                 "#define IF_SKY_LIGHT_REACH(X) X(SKY_LIGHT_REACH_INPUTS, sky_light_reach, "
+                                 "OWN_SKY_LIGHT)\n"
                                  "#else\n#define IF_SKY_LIGHT_REACH(X)\n#endif\n"));
+}
+
+// What an effect reads of surfaces stands before all texts of effects, as a point that is shaded has it.
+TEST(WithIncludes, AnEffectsSurfaceInputsStandBeforeTheTexts) {
+  const EmbeddedFiles files = {
+      {"main", "#include \"shared/effects.h\"\nSURFACE_EFFECTS(X)\n"},
+      {"shared/effects/fog.h", "fog\n"},
+      {"shared/effects/paint.h", "#define PAINT_SURFACE_INPUTS(ROW) ROW(a) \\\n  ROW(b)\npaint\n"},
+      {"shared/inputs.h", "inputs\n"}};
+  const std::string text = with_includes("main", files);
+  EXPECT_LT(text.find("#define PAINT_SURFACE_INPUTS(ROW) ROW(a) \\\n  ROW(b)\n#endif\n"), text.find("fog\n"));
+  EXPECT_THAT(text, testing::HasSubstr("#ifdef PAINT_SURFACE_INPUTS\n#define HAS_SURFACE_VALUES\n"
+                                       "#define IF_PAINT_SURFACE(X) X(PAINT_SURFACE_INPUTS, paint_surface, "
+                                       "OWN_PAINT)\n"));
+  EXPECT_THAT(text, testing::HasSubstr("#ifdef FOG_SURFACE_INPUTS\n#define OWN_FOG(ROW) "));
 }
 
 }  // namespace

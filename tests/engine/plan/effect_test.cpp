@@ -8,6 +8,8 @@ namespace {
 ReachTerm term(const Scene&, const Light&, const LightRanges&, const glm::dmat3&) { return {}; }
 LightShare share(const Scene&, const Light&, const LightRanges&) { return {}; }
 
+uint32_t mask(const Light&) { return 1; }
+
 TEST(MissingOracle, NamesWhatAnEffectHasNone) {
   const std::vector<std::string> mean = {"far-light"};
   const auto missing = [&](const Effect& effect) { return missing_oracle(effect, mean); };
@@ -22,7 +24,8 @@ TEST(MissingOracle, NamesWhatAnEffectHasNone) {
                                                    const Settings&) { return BaseTerm(); }}}),
             "");
   EXPECT_EQ(missing({.name = "a", .reach = ReachOracle{term, nullptr}}),
-            "reach has no oracle: give .term and .share");
+            "reach has no oracle: give .term and .share, or .masks");
+  EXPECT_EQ(missing({.name = "a", .reach = ReachOracle{.masks = {.of_light = mask}}}), "");
   EXPECT_EQ(missing({.name = "a", .reach = ReachOracle{term, share}}), "");
 }
 

@@ -149,14 +149,6 @@ TEST(LightGroups, ListsThatLeaveAnInstanceInNoGroupAreRefused) {
     EXPECT_EQ(lit(scene)[size_t(i)], std::string(size_t(i), '0') + "1" + std::string(size_t(31 - i), '0'));
 }
 
-TEST(LightGroups, DifferentMasksAreNumberedOnce) {
-  Scene scene = four_instances();
-  scene.instances[1].groups = scene.instances[3].groups = 5;
-  const InstanceMasks masks = instance_masks(scene);
-  EXPECT_THAT(masks.masks, ElementsAre(all_groups, 5u));
-  EXPECT_THAT(masks.of_instance, ElementsAre(0u, 1u, 0u, 1u));
-}
-
 class LightGroupFiles : public testing::Test {
  protected:
   ~LightGroupFiles() override { std::filesystem::remove(path_); }

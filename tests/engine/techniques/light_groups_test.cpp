@@ -5,7 +5,7 @@
 #include "accuracy/surfaces_in_double.h"
 #include "base/error.h"
 #include "plan/settings/grid.h"
-#include "plan/settings/groups.h"
+#include "plan/settings/masks.h"
 #include "plan/settings/shadows.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
@@ -110,12 +110,34 @@ TEST_P(GroupWays, DifferFromForwardAsLittleAsWithoutGroups) {
   const auto error = [&](const Scene& of) {
     return compare_images(render(of, view, technique, assigned(settings)), render(of, view, "forward"));
   };
-  const ImageError with_groups = error(scene), plain = error(without);
-  EXPECT_LE(with_groups.rmse, 1.5 * plain.rmse + 1e-7);
+  const ImageError with_numbers = error(scene), plain = error(without);
+  EXPECT_LE(with_numbers.rmse, 1.5 * plain.rmse + 1e-7);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, GroupWays, testing::ValuesIn(families()),
                          [](const auto& info) { return std::string(info.param.name); });
+
+TEST(LightGroups, ArePlannedWithTheirWitness) {
+  const Scene scene = rooms();
+  const TechniqueNeeds& needs = find_technique("forward").needs;
+  const FramePlan plan = plan_frame(scene, view_of(scene, "doors"), {}, needs);
+  const auto decision = std::ranges::find(plan.decisions, "light groups", &Decision::effect);
+  ASSERT_NE(decision, plan.decisions.end());
+  EXPECT_TRUE(decision->needed && plan.masks.needed);
+  EXPECT_EQ(
+      decision->why,
+      "light 0 \"hall lamp 0\" has hall; 58 of 58 lights and 116 of 116 instances lack a group, which have "
+      "7 different masks");
+}
+
+TEST(SurfaceNumbers, DifferentMasksAreNumberedOnce) {
+  Scene scene;
+  scene.instances.resize(4);
+  scene.instances[1].groups = scene.instances[3].groups = 5;
+  const MaskPlan masks = plan_masks(scene, all_effects, {}, {}, true, {});
+  EXPECT_THAT(masks.values, testing::ElementsAre(all_groups, 5u));
+  EXPECT_THAT(masks.of_instance, testing::ElementsAre(0u, 1u, 0u, 1u));
+}
 
 // The groups of all surfaces of each tile, by the triangles that are shown.
 std::vector<uint32_t> groups_of_tiles(const std::vector<uint32_t>& of_pixels, int tile) {
@@ -136,7 +158,7 @@ size_t entries_outside(const Scene& scene, const char* technique, const std::str
   const ListedLights lists = listed_lights(run, depth);
   const int tile = run.view().plan.settings[setting::tile], across = (rooms_width + tile - 1) / tile;
   const std::vector<uint32_t> groups =
-      groups_of_tiles(groups_of_pixels(run.view().plan, scene, shown_triangles(run)), tile);
+      groups_of_tiles(masks_of_pixels(run.view().plan, scene, shown_triangles(run)), tile);
   size_t outside = 0;
   for (int y = 0; y < rooms_height; ++y) {
     for (int x = 0; x < rooms_width; ++x) {
@@ -152,7 +174,7 @@ size_t entries_outside(const Scene& scene, const char* technique, const std::str
   return outside;
 }
 
-TEST(TileGroups, ALightOutsideEveryGroupOfATileIsNotListed) {
+TEST(TileMasks, ALightOutsideEveryGroupOfATileIsNotListed) {
   const Scene scene = rooms();
   for (const auto& [technique, settings] :
        std::vector<std::pair<const char*, std::string>>{{"forward_plus", ""},
@@ -173,7 +195,7 @@ TEST(TileGroups, ALightOutsideEveryGroupOfATileIsNotListed) {
 }
 
 // 300 masks: numbers of 8 bits do not suffice, and only what needs them says so.
-TEST(TileGroups, MoreMasksThanNumbersAreRefusedByName) {
+TEST(TileMasks, MoreMasksThanNumbersAreRefusedByName) {
   Scene scene = small_scene().scene;
   for (int i = 0; i < 300; ++i) {
     add_instance(scene, "copy", scene.instances[1].mesh,
@@ -193,7 +215,7 @@ TEST(TileGroups, MoreMasksThanNumbersAreRefusedByName) {
   }
   const Image forward = render(scene, view, "forward");
   EXPECT_TRUE(identical(render(scene, view, "forward_plus"), forward));
-  EXPECT_TRUE(identical(render(scene, view, "forward_plus", {{setting::group_bits, 16}}), forward));
+  EXPECT_TRUE(identical(render(scene, view, "forward_plus", {{setting::number_bits, 16}}), forward));
   EXPECT_TRUE(identical(render(scene, view, "deferred", assigned("group-ids=16")),
                         render(scene, view, "deferred", assigned("group-ids=16 volume-culling=scissor"))));
   EXPECT_TRUE(identical(render(scene, view, "visibility"),
@@ -201,7 +223,7 @@ TEST(TileGroups, MoreMasksThanNumbersAreRefusedByName) {
 }
 
 // Surfaces at one depth: the last is shown, and its groups are the tile's.
-TEST(TileGroups, OfSurfacesAtOneDepthAreTheShownOnes) {
+TEST(TileMasks, OfSurfacesAtOneDepthAreTheShownOnes) {
   SmallScene s = small_scene();
   add_instance(s.scene, "wall again", s.wall);
   s.scene.instances.back().groups = 2;

@@ -117,8 +117,8 @@ TEST(RasterInOpenCl, BufferBitsTradeAccuracyForBytes) {
   for (const auto& [bits, bytes] : {std::pair<int, size_t>(32, 64), {16, 32}, {8, 16}}) {
     const Drawn d = drawn("deferred_tiled", scene, view,
                           {{setting::buffer_bits, bits}, {setting::raster, RasterApi::opencl}});
-    constexpr size_t group_number = 1;  // of the surface's mask of light groups
-    EXPECT_EQ(d.result.memory_gbuffer, pixels * (bytes + group_number)) << bits;
+    constexpr size_t surface_number = 1;  // of the surface's mask of light groups
+    EXPECT_EQ(d.result.memory_gbuffer, pixels * (bytes + surface_number)) << bits;
     const double apart = compare_images(d.image, visibility).max_rel;
     EXPECT_GT(apart, before) << bits;
     EXPECT_LT(apart, bits == 32 ? rounding : 0.01) << bits;

@@ -117,8 +117,9 @@ TEST_P(EachEffect, CostsWhatItSaysAndNothingElse) {
       {"unlit", program},
       {"spot", light_array},  // cones; all programs are others, none is more
       {"directional", light_array},
-      // Masks; numbers of them, drawn with the depth, and what tiles have of them. No program is one more.
-      {"groups", light_array + WorkCounts{.textures = 1, .kernels = 1, .cl_launches = 1}},
+      // Groups of lights and of surfaces; surfaces' numbers, drawn with the depth, and masks of tiles. No
+      // program is one more.
+      {"groups", light_array + light_array + WorkCounts{.textures = 1, .kernels = 1, .cl_launches = 1}},
   };
   EXPECT_EQ(work_of(with().scene), plain_frame + added.at(effect.name));
 }

@@ -137,7 +137,7 @@ TEST(StoredSamples, OfLightPrepassShowTheSamePicture) {
   }
 }
 
-// Images of coats, reflectance and group numbers.
+// Images of coats, reflectance and surface numbers.
 TEST(StoredSamples, HaveTheSameBytesInFewerBits) {
   SmallScene s = small_scene();
   for (const char* name : {"clearcoat", "specular", "groups"}) effect(name).add(s);

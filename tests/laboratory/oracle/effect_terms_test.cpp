@@ -11,12 +11,12 @@
 namespace lightgrid {
 namespace {
 
-// Lights shine upwards in the world only, and half as brightly on surfaces without group 3.
+// Lights shine upwards in the world only, and half as brightly on surfaces whose mask lacks bit 3.
 ReachTerm upwards(const Scene&, const Light& light, const LightRanges&, const glm::dmat3& from_world) {
   if (light.name != "up") return {};
   const glm::dvec3 up = from_world * glm::dvec3(0, 1, 0);
-  return [up](const glm::dvec3& from_light, uint32_t groups) {
-    return glm::dot(up, from_light) <= 0 ? 0 : groups & 8 ? 1 : 0.5;
+  return [up](const glm::dvec3& from_light, uint32_t mask) {
+    return glm::dot(up, from_light) <= 0 ? 0 : mask & 8 ? 1 : 0.5;
   };
 }
 
@@ -55,8 +55,8 @@ class EffectTerms : public testing::Test {
 TEST_F(EffectTerms, AreAskedInTheViewsAxes) {
   look();
   const ViewLight up = lights_in_view(scene, view)[0];
-  EXPECT_EQ(light_reaches(up, {2, 0, 0}, all_groups), 1);  // above it
-  EXPECT_EQ(light_reaches(up, {-2, 0, 0}, all_groups), 0);
+  EXPECT_EQ(light_reaches(up, {2, 0, 0}, full_mask), 1);  // above it
+  EXPECT_EQ(light_reaches(up, {-2, 0, 0}, full_mask), 0);
   EXPECT_EQ(light_reaches(up, {2, 1, 0}, 1), 0.5);
   EXPECT_TRUE(is_lit(up, {2, 0, 0}) && !is_lit(up, {-2, 0, 0}));
 }
@@ -64,9 +64,25 @@ TEST_F(EffectTerms, AreAskedInTheViewsAxes) {
 TEST_F(EffectTerms, ADirectionalLightsPointIsItsDirection) {
   look();
   scene.lights[0].type = LightType::directional, scene.lights[0].direction = {0, 1, 0};
-  EXPECT_EQ(light_reaches(lights_in_view(scene, view)[0], {-7, 0, 0}, all_groups), 1);
+  EXPECT_EQ(light_reaches(lights_in_view(scene, view)[0], {-7, 0, 0}, full_mask), 1);
   scene.lights[0].direction = {0, -1, 0};
-  EXPECT_EQ(light_reaches(lights_in_view(scene, view)[0], {7, 0, 0}, all_groups), 0);
+  EXPECT_EQ(light_reaches(lights_in_view(scene, view)[0], {7, 0, 0}, full_mask), 0);
+}
+
+// A light reaches surfaces with which it shares a bit, the highest too.
+TEST_F(EffectTerms, MasksKeepLightsFromSurfaces) {
+  look();
+  EXPECT_EQ(mask_of(scene.lights[0]), full_mask);
+  set_reach_oracles({{.masks = {.of_light = [](const Light& light) { return light.groups; },
+                                .of_instance = [](const Instance& i) { return i.groups; }}}});
+  scene.lights[0].groups = 1u << 31 | 2;
+  const std::vector<ViewLight> lights = lights_in_view(scene, view);
+  EXPECT_EQ(light_reaches(lights[0], {0, 0, -1}, 1u << 31), 1);
+  EXPECT_EQ(light_reaches(lights[0], {0, 0, -1}, 6), 1);
+  EXPECT_EQ(light_reaches(lights[0], {0, 0, -1}, ~(1u << 31 | 2)), 0);
+  EXPECT_EQ(light_reaches(lights[1], {0, 0, -1}, 0), 0);
+  EXPECT_TRUE(lights[0].share.of_surface && !lights[1].share.of_surface);
+  EXPECT_EQ(lights[0].share.largest, 1);
 }
 
 TEST_F(EffectTerms, MultiplyAndFollowTheRangesSettings) {

@@ -51,7 +51,7 @@ GBufferInCl gbuffer_in_cl_of(Work& work, BaseLighting base_lighting, TargetUse u
   for (const size_t i : g.images)
     g.surfaces[i] = &work.shared_samples(names[i], g.layout->images[i].bytes, use);
   g.image = &work.shared_pixels("image", 16);
-  g.group_numbers = group_numbers_in_cl(work, use), g.group_bytes = group_number_bytes(work.plan);
+  g.surface_numbers = surface_numbers_in_cl(work, use), g.number_bytes = surface_number_bytes(work.plan);
   return g;
 }
 
@@ -73,8 +73,8 @@ GBuffer gbuffer_of(Work& work, BaseLighting base_lighting) {
   if (base_lighting == BaseLighting::in_image) drawn.push_back(image);
   for (const size_t i : g.images)
     if (i >= gbuffer_coat) drawn.push_back(g.textures[i]);
-  g.group_numbers = group_number_image(work), g.group_bytes = group_number_bytes(work.plan);
-  if (g.group_numbers) drawn.push_back(g.group_numbers);
+  g.surface_numbers = surface_number_image(work), g.number_bytes = surface_number_bytes(work.plan);
+  if (g.surface_numbers) drawn.push_back(g.surface_numbers);
   g.framebuffer = work.targets.framebuffer(drawn, g.depth);
   g.depth_image = {work.depth_framebuffer()};
   g.image = {work.color_framebuffer()};
@@ -95,7 +95,7 @@ void bind_gbuffer(const GBuffer& gbuffer) {
                                                      Sampler::gbuffer_base_color_lit, Sampler::gbuffer_coat,
                                                      Sampler::gbuffer_specular};
   for (const size_t i : gbuffer.images) bind_texture(samplers[i], gbuffer.textures[i]);
-  if (gbuffer.group_numbers) bind_texture(Sampler::group_numbers, gbuffer.group_numbers);
+  if (gbuffer.surface_numbers) bind_texture(Sampler::surface_numbers, gbuffer.surface_numbers);
   bind_texture(Sampler::depth_image, gbuffer.depth);
   if (gbuffer.model_records) bind_block(UniformBlock::MaterialModelsBlock, gbuffer.model_records);
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "passes/common/frame.h"
-#include "passes/common/group_numbers.h"
+#include "passes/common/surface_numbers.h"
 
 namespace lightgrid {
 
@@ -35,7 +35,7 @@ struct GBufferImage {
 // With SurfacePlan::specular another one:
 //   [3]  of the dielectric part: reflectance at normal incidence red, green, blue, as their square roots in 8
 //        and 16 bits; at grazing incidence
-// With light groups an image of its own has the numbers of masks (group_numbers.h).
+// Where effects have masks, an image of its own has the surfaces' numbers (surface_numbers.h).
 // Only a model's number is stored: its parameters are exact at any number of bits.
 // In fixed point, u = (n - (s + 1)) / s with s = 127 or 32767 and n the stored
 // integer; all other channels are n / 255 or n / 65535.
@@ -87,10 +87,10 @@ struct GBufferInCl {
   std::vector<size_t> images;                                 // numbers of those that there are
   std::array<SharedBuffer*, gbuffer_most_images> surfaces{};  // by number; null without
   SharedBuffer* image = nullptr;                              // for light passes to add to, or to write
-  SharedBuffer* group_numbers = nullptr;                      // null without
-  size_t group_bytes = 0;
+  SharedBuffer* surface_numbers = nullptr;                    // null without
+  size_t number_bytes = 0;
   cl::Buffer edges;  // StoredSurfaces::edges (passes/sample_edges.h)
-  size_t bytes() const { return layout->bytes(images) + group_bytes; }  // a sample, without `image`
+  size_t bytes() const { return layout->bytes(images) + number_bytes; }  // a sample, without `image`
   cl::Buffer in_cl(size_t i) const { return surfaces[i] ? surfaces[i]->cl_buffer() : cl::Buffer(); }
 };
 
@@ -110,17 +110,18 @@ struct GBuffer {
   std::vector<size_t> images;       // numbers of those that there are
   std::vector<const char*> models;  // defines; empty: Lambert's alone
   GLuint model_records = 0;         // MaterialModelRecord each; 0 without
-  // The first two images, for base lighting the image, then the others, then the groups' numbers; over depth.
+  // The first two images, for base lighting the image, then the others, then the surfaces' numbers; over
+  // depth.
   GLuint framebuffer = 0;
   std::array<GLuint, gbuffer_most_images> textures{};  // by number; 0 without
-  GLuint group_numbers = 0;                            // texture; 0 without
-  size_t group_bytes = 0;
+  GLuint surface_numbers = 0;                          // texture; 0 without
+  size_t number_bytes = 0;
   GLuint depth = 0;
   DepthImage depth_image;
   ShadedImage image;                 // contains base lighting, for light passes to add to
   std::optional<GBufferInCl> in_cl;  // where OpenCL wrote it: all else is then empty
-  size_t bytes() const { return layout->bytes(images) + group_bytes; }  // a pixel
-  int group_attachment() const {
+  size_t bytes() const { return layout->bytes(images) + number_bytes; }  // a pixel
+  int number_attachment() const {
     return int(images.size()) + (base_lighting == BaseLighting::in_image ? 1 : 0);
   }
   // The place of an image by its number.

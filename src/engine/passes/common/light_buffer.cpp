@@ -75,9 +75,9 @@ NormalImage normal_image_of(Work& work) {
   NormalImage n;
   n.layout = &normal_layout(work.plan.settings);
   n.texture = work.targets.texture(n.layout->image.name, n.layout->image.format, TargetUse::gbuffer);
-  n.group_numbers = group_number_image(work);
+  n.surface_numbers = surface_number_image(work);
   std::vector<GLuint> images = {n.texture};
-  if (n.group_numbers) images.push_back(n.group_numbers);
+  if (n.surface_numbers) images.push_back(n.surface_numbers);
   n.framebuffer = work.targets.framebuffer(images, work.targets.depth());
   n.depth = {work.depth_framebuffer()};
   return n;
@@ -85,7 +85,8 @@ NormalImage normal_image_of(Work& work) {
 
 NormalsInCl normals_in_cl_of(Work& work, TargetUse use) {
   const NormalLayout& layout = normal_layout(work.plan.settings);
-  return {&layout, &work.shared_samples("normals", layout.image.bytes, use), group_numbers_in_cl(work, use)};
+  return {&layout, &work.shared_samples("normals", layout.image.bytes, use),
+          surface_numbers_in_cl(work, use)};
 }
 
 LightBuffer light_buffer_of(Work& work, bool from_cl) {

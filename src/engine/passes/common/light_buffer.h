@@ -2,9 +2,9 @@
 // (shared/light_buffer.h).
 #pragma once
 
-#include "passes/common/group_numbers.h"
 #include "passes/common/light_source.h"
 #include "passes/common/prepass_settings.h"
+#include "passes/common/surface_numbers.h"
 
 namespace lightgrid {
 
@@ -74,8 +74,8 @@ std::vector<std::string> light_buffer_defines(const Seen& seen);
 struct NormalImage {
   const NormalLayout* layout = nullptr;
   GLuint texture = 0;
-  GLuint group_numbers = 0;  // 0: none (group_numbers.h)
-  GLuint framebuffer = 0;    // the image, then the numbers, over the frame's depth
+  GLuint surface_numbers = 0;  // 0: none (surface_numbers.h)
+  GLuint framebuffer = 0;      // the image, then the numbers, over the frame's depth
   DepthImage depth;
 };
 
@@ -95,8 +95,8 @@ LightBuffer light_buffer_of(Work& work, bool from_cl = false);
 struct NormalsInCl {
   const NormalLayout* layout = nullptr;
   SharedBuffer* image = nullptr;
-  SharedBuffer* group_numbers = nullptr;  // null: none
-  cl::Buffer edges;                       // StoredSurfaces::edges (passes/sample_edges.h)
+  SharedBuffer* surface_numbers = nullptr;  // null: none
+  cl::Buffer edges;                         // StoredSurfaces::edges (passes/sample_edges.h)
 };
 
 // The view's buffer, written or not. use: gbuffer where it is no copy.

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "passes/common/group_numbers.h"
+#include "passes/common/surface_numbers.h"
 #include "plan/settings/model.h"
 #include "plan/settings/surfaces.h"
 #include "plan/visibility.h"
@@ -258,9 +258,9 @@ const std::vector<LightVolume>& LightVolumes::update(const Seen& seen) {
       planned == PlannedLights::in_view
           ? light_volumes(seen.view, lights, seen.plan.settings[setting::volume_mesh], subpixel_bits_)
           : whole_screens(seen.view, lights, planned);
-  if (seen.plan.groups.stencil_bits > 0) {
-    const std::vector<uint8_t> groups = stencil_groups(seen).of_light;
-    std::ranges::stable_sort(volumes, {}, [&](const LightVolume& v) { return groups[v.light]; });
+  if (seen.plan.masks.stencil_bits > 0) {
+    const std::vector<uint8_t> masks = stencil_masks(seen).of_light;
+    std::ranges::stable_sort(volumes, {}, [&](const LightVolume& v) { return masks[v.light]; });
   }
   upload_volumes(std::move(volumes));
   return volumes_;

@@ -72,7 +72,7 @@ class LightVolumes : public PassCache {
   bool follow(Work& work) override;
 
   // Computes and uploads the frame's volumes: the cost per frame of a moving camera or moving lights. In the
-  // lights' order; where the stencil has light groups, those of the same groups one after the other.
+  // lights' order; where the stencil has masks, those of the same mask one after the other.
   const std::vector<LightVolume>& update(const Seen& seen);
   // The same in the caller's order, to which the indices of draw() refer.
   void upload_volumes(std::vector<LightVolume> volumes);

@@ -12,9 +12,9 @@
 // stencil       Faces behind the surface are counted, back plus one, front minus one; nonzero means inside.
 //               Then the same back faces are drawn where it is nonzero, and reset it to 0.
 //
-// Where the stencil has light groups (group-stencil), a light is drawn only where it shares one with the
-// surface; lights come sorted by their groups. Faces are then not counted: each turns the top bit over, at
-// pixels in the light's groups alone. Behind a surface inside the volume there is an odd number of faces.
+// Where the stencil has masks (MaskPlan::stencil_bits), a light is drawn only where its own shares a bit with
+// the surface's; lights come sorted by their masks. Faces are then not counted: each turns the top bit over,
+// only at pixels whose mask shares a bit. Behind a surface inside the volume there is an odd number of faces.
 #include "passes/light_volumes/volume_draws.h"
 
 #include "plan/settings/surfaces.h"
@@ -30,17 +30,17 @@ VolumeDraws::VolumeDraws(Work& work, LightVolumes& volumes, const char* fragment
     : seen_(work), culling_(work.plan.settings[setting::volume_culling]), volumes_(volumes) {
   if (culling_ == VolumeCulling::depth_bounds) defines.emplace_back("DEPTH_BOUNDS");
   if (drawn_as_volumes()) defines.emplace_back("LIGHT_VOLUME");
-  if (work.plan.groups.stencil_bits > 0) defines.emplace_back("EARLY_TESTS");
+  if (work.plan.masks.stencil_bits > 0) defines.emplace_back("EARLY_TESTS");
   program_ = &work.program(drawn_as_volumes() ? "shaders/light_volume.vert" : "shaders/screen.vert", fragment,
                            defines);
   if (culling_ == VolumeCulling::stencil)
     marking_ = &work.program("shaders/light_volume.vert", "shaders/depth.frag", {});
-  if (work.plan.groups.stencil_bits > 0) groups_ = stencil_groups(work).of_light;
+  if (work.plan.masks.stencil_bits > 0) masks_ = stencil_masks(work).of_light;
 }
 
-// True where (stencil & groups) != 0.
-void VolumeDraws::test_groups(size_t volume) const {
-  if (!groups_.empty()) glStencilFunc(GL_NOTEQUAL, 0, groups_[volumes_.volumes()[volume].light]);
+// True where (stencil & mask) != 0.
+void VolumeDraws::test_mask(size_t volume) const {
+  if (!masks_.empty()) glStencilFunc(GL_NOTEQUAL, 0, masks_[volumes_.volumes()[volume].light]);
 }
 
 void VolumeDraws::draw(size_t first, size_t end) {
@@ -65,31 +65,31 @@ bool VolumeDraws::drawn_as_volumes() const {
 }
 
 void VolumeDraws::draw_back_faces(size_t first, size_t end) {
-  if (groups_.empty()) return volumes_.draw(first, end - first);
-  const auto groups_of = [&](size_t i) { return groups_[volumes_.volumes()[i].light]; };
+  if (masks_.empty()) return volumes_.draw(first, end - first);
+  const auto mask_of_volume = [&](size_t i) { return masks_[volumes_.volumes()[i].light]; };
   glEnable(GL_STENCIL_TEST);
   for (size_t i = first, next = i; i < end; i = next) {
-    while (next < end && groups_of(next) == groups_of(i)) ++next;
-    test_groups(i);
+    while (next < end && mask_of_volume(next) == mask_of_volume(i)) ++next;
+    test_mask(i);
     volumes_.draw(i, next - i);
   }
   glDisable(GL_STENCIL_TEST);
 }
 
 void VolumeDraws::draw_marked(size_t first, size_t end) {
-  const GLuint marks = groups_.empty() ? 0xff : 0x80;
+  const GLuint marks = masks_.empty() ? 0xff : 0x80;
   glEnable(GL_STENCIL_TEST);
   glStencilMask(marks);
   for (size_t i = first; i < end; ++i) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glDisable(GL_CULL_FACE);
     glDepthFunc(GL_GREATER);
-    if (groups_.empty()) {
+    if (masks_.empty()) {
       glStencilFunc(GL_ALWAYS, 0, 0xff);
       glStencilOpSeparate(GL_BACK, GL_KEEP, GL_INCR_WRAP, GL_KEEP);
       glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_KEEP);
     } else {
-      test_groups(i);
+      test_mask(i);
       glStencilOp(GL_KEEP, GL_INVERT, GL_KEEP);
     }
     glUseProgram(marking_->name());
@@ -112,7 +112,7 @@ void VolumeDraws::draw_rectangles(size_t first, size_t end) {
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glEnable(GL_SCISSOR_TEST);
-  if (!groups_.empty()) glEnable(GL_STENCIL_TEST);
+  if (!masks_.empty()) glEnable(GL_STENCIL_TEST);
   glUseProgram(program_->name());
   const GLint light = program_->uniform("light"), depth_bounds = program_->uniform("depth_bounds");
   for (size_t i = first; i < end; ++i) {
@@ -121,7 +121,7 @@ void VolumeDraws::draw_rectangles(size_t first, size_t end) {
     const glm::ivec2 size = bounds.end - bounds.first;
     glScissor(bounds.first.x, bounds.first.y, size.x, size.y);
     glUniform1ui(light, volume.light);
-    test_groups(i);
+    test_mask(i);
     if (culling_ == VolumeCulling::depth_bounds) {
       glUniform2f(depth_bounds, bounds.depth.x, bounds.depth.y);
     }
@@ -135,7 +135,7 @@ void VolumeDraws::draw_rectangles(size_t first, size_t end) {
 void begin_adding_lights(Work& work, GLuint framebuffer) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-  if (work.plan.stencil && work.plan.groups.stencil_bits == 0) {
+  if (work.plan.stencil && work.plan.masks.stencil_bits == 0) {
     const GLint nothing = 0;
     glStencilMask(0xff);
     glClearNamedFramebufferiv(framebuffer, GL_STENCIL, 0, &nothing);

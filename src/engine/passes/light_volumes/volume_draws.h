@@ -2,7 +2,7 @@
 // light does there.
 #pragma once
 
-#include "passes/common/group_numbers.h"
+#include "passes/common/surface_numbers.h"
 #include "passes/light_volumes/light_volumes.h"
 #include "plan/settings/surfaces.h"
 
@@ -26,17 +26,17 @@ class VolumeDraws {
   void draw_back_faces(size_t first, size_t end);
   void draw_marked(size_t first, size_t end);
   void draw_rectangles(size_t first, size_t end);
-  void test_groups(size_t volume) const;
+  void test_mask(size_t volume) const;
 
   const Seen& seen_;
   VolumeCulling culling_;
   LightVolumes& volumes_;
   const GlProgram *program_ = nullptr, *marking_ = nullptr;
-  std::vector<uint8_t> groups_;  // by light, where the stencil has groups; else empty
+  std::vector<uint8_t> masks_;  // by light, where the stencil has masks; else empty
 };
 
 // Sets state for lights that add to the images of a framebuffer, which has the frame's depth. If volumes are
-// marked in its stencil, that is cleared, unless it has the groups of the surfaces.
+// marked in its stencil, that is cleared, unless it has the masks of the surfaces.
 void begin_adding_lights(Work& work, GLuint framebuffer);
 
 struct ScreenBounds {

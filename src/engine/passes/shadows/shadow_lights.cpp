@@ -77,7 +77,7 @@ std::vector<ShadowLight> shadow_light_records(const Seen& seen, const std::vecto
     ShadowLight& record = records.emplace_back(shadow_light(shadowed[i], seen.view, origin));
     const Light& light = seen.scene.lights[size_t(seen.plan.lights.local[i])];
     if (soft_shadows(settings)) record.source_m = float(source_of(light, settings[setting::shadow_source_m]));
-    record.groups = light.groups;
+    record.mask = mask_of(light);
     record.luminance = light.intensity * glm::dot(light.color, glm::vec3(0.2126f, 0.7152f, 0.0722f)) *
                        float(share_of(seen.scene, light, ranges_of(settings)).largest);
   }

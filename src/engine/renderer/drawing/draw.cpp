@@ -36,10 +36,8 @@ void InstanceDrawer::bind(int index, const SceneProgram& program) {
     const uint32_t first = shadows.layer_count == 0 ? 0 : shadows.first_triangles[size_t(index)];
     glUniform2ui(program.layers_of_draw, first, shadows.layer_count);
   }
-  if (program.groups_of_draw >= 0)
-    glUniform1i(program.groups_of_draw, GLint(work_.scene.instances[size_t(index)].groups));
-  if (program.group_number_of_draw >= 0)
-    glUniform1ui(program.group_number_of_draw, work_.plan.groups.of_instance[size_t(index)]);
+  if (program.surface_number_of_draw >= 0)
+    glUniform1ui(program.surface_number_of_draw, work_.plan.masks.of_instance[size_t(index)]);
   work_.scene.materials[material].double_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
   glFrontFace(t.mirrored ? GL_CW : GL_CCW);
   program_ = &program;

@@ -41,7 +41,7 @@ void cull_lights_of(const Scene& scene, std::span<const int> indices, const Ligh
       const size_t index = size_t(indices[at]);
       const Light& light = scene.lights[index];
       lights[at] = cull_light(bounds_of(light, range_of(light, index, ranges)));
-      lights[at].groups = light.groups;
+      lights[at].mask = mask_of(light);
     }
   };
   // Below that a thread takes longer to start.

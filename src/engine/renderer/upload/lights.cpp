@@ -55,18 +55,15 @@ glm::vec4 cone(const ViewLight& light) {
   return {glm::vec3(light.direction * scale), float(-light.cos_outer * scale)};
 }
 
-uint32_t groups(const ViewLight& light) { return light.groups; }
 float most_falloff(const ViewLight& light) { return float(light.most_falloff); }
 
 // The conditions of LIGHT_TABLE.
 constexpr auto IF_LIGHTS = [](const FramePlan& plan) { return plan.lights.any_local; };
 constexpr auto IF_SPOTS = [](const FramePlan& plan) { return plan.lights.spots; };
 constexpr auto IF_VIRTUAL = [](const FramePlan& plan) { return plan.lights.any_virtual; };
-constexpr auto IF_GROUPS = [](const FramePlan& plan) { return plan.groups.needed; };
 
 constexpr GLenum format_of(const glm::vec4&) { return GL_RGBA32F; }
 constexpr GLenum format_of(float) { return GL_R32F; }
-constexpr GLenum format_of(uint32_t) { return GL_R32UI; }
 
 template <typename T>
 LightColumn column(T (*value)(const ViewLight&), bool needed, Sampler sampler,
@@ -81,25 +78,11 @@ LightColumn column(T (*value)(const ViewLight&), bool needed, Sampler sampler,
   return made;
 }
 
-// Adds the groups that follow the column.
-void add_other_groups(std::span<const ViewLight> lights, const FramePlan& plan, LightColumn& column) {
-  std::vector<uint32_t> more;
-  for (const int i : plan.lights.directional) more.push_back(lights[size_t(i)].groups);
-  more.insert(more.end(), plan.groups.masks.begin(), plan.groups.masks.end());
-  const auto bytes = std::as_bytes(std::span(more));
-  column.values.insert(column.values.end(), bytes.begin(), bytes.end());
-}
-
 LightTable light_table(const FramePlan& plan, std::span<const ViewLight> lights) {
 #define LIGHT_COLUMN(condition, type, member, array, texels) \
   column(member, (condition)(plan), Sampler::array, lights, plan.lights.local),
   LightTable table{{LIGHT_TABLE(LIGHT_COLUMN)}, {}};
 #undef LIGHT_COLUMN
-  if (plan.groups.needed) {
-    const auto of_groups =
-        std::ranges::find(table.columns, Sampler::light_group_masks, &LightColumn::sampler);
-    add_other_groups(lights, plan, *of_groups);
-  }
   for (int i : plan.lights.directional) {
     table.directional.emplace_back(glm::vec3(-lights[i].direction), 0);
     table.directional.emplace_back(glm::vec3(lights[i].radiant_intensity), 0);
@@ -127,7 +110,6 @@ std::vector<const char*> light_table_defines(const FramePlan& plan) {
 std::vector<std::string> reach_defines(const FramePlan& plan) {
   const std::vector<const char*> shadows = shadow_defines(plan);
   std::vector<std::string> defines(shadows.begin(), shadows.end());
-  if (plan.groups.needed) defines.emplace_back("GROUPS");
   for (const Effect* effect : plan.effects) {
     if (effect->reach) defines.push_back(define_of(*effect));
   }

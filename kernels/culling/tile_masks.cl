@@ -1,18 +1,21 @@
-// The light groups of each tile's surfaces together: the OR of their masks. A work-item takes a tile.
+// The masks of each tile's surfaces together: the OR of their masks. A work-item takes a tile.
 //
 // triangles, triangle_instance, surfaces  -DTRIANGLES: numbers of triangles, SAMPLES a pixel, and what they
 //            lead to (shared/surface_records.h)
-// numbers, depths  else: numbers of masks (kernels/resolve/group_numbers.h) and depth, a pixel each; depth 0
+// numbers, depths  else: numbers of masks (kernels/resolve/surface_numbers.h) and depth, a pixel each; depth
+// 0
 //            means no surface
 // masks, last  by number, and the last number
-// groups     a word a tile, in the order of depth bounds: bins, and their slots
+// tile_masks  a word a tile, in the order of depth bounds: bins, and their slots
 // width, height, tile, bins_x  pixels; of tiles; bins in a row
 #define LANES 1
 #include "shared/light_grid.h"
 #include "shared/surface_records.h"
 #ifndef TRIANGLES
-#define GROUPS
-#include "kernels/resolve/group_numbers.h"
+#ifndef NUMBER_BITS
+#define NUMBER_BITS 8
+#endif
+#include "kernels/resolve/surface_numbers.h"
 #endif
 #ifndef SAMPLES
 #define SAMPLES 1u
@@ -24,14 +27,14 @@
 #define NUMBERS(at) convert_uint16(vload16(0, numbers + (at)))
 #endif
 
-kernel void tile_groups(
+kernel void tile_masks(
 #ifdef TRIANGLES
     global const uint* triangles, global const uint* triangle_instance,
     global const SurfaceInstance* surfaces,
 #else
-    global const group_number_t* numbers, global const float* depths,
+    global const surface_number_t* numbers, global const float* depths,
 #endif
-    global const uint* masks, uint last, global uint* groups, uint width, uint height, uint tile,
+    global const uint* masks, uint last, global uint* tile_masks, uint width, uint height, uint tile,
     uint bins_x) {
   const uint bin = get_global_id(0) / BIN_SIZE, slot = get_global_id(0) % BIN_SIZE;
   const uint x0 = (bin % bins_x * BIN_TILES + tile_x_of_slot(slot)) * tile;
@@ -49,7 +52,7 @@ kernel void tile_groups(
 #ifdef TRIANGLES
       const uint here = triangles[at];
       if (here == before || here == SURFACE_NONE) continue;
-      const uint number = surfaces[triangle_instance[here]].flags >> INSTANCE_GROUP_SHIFT;
+      const uint number = surfaces[triangle_instance[here]].flags >> INSTANCE_NUMBER_SHIFT;
 #else
       const uint here = numbers[at], number = here;
       if (here == before || !(depths[at] > 0.0f)) continue;
@@ -58,5 +61,5 @@ kernel void tile_groups(
       found |= masks[min(number, last)];
     }
   }
-  groups[get_global_id(0)] = found;
+  tile_masks[get_global_id(0)] = found;
 }
