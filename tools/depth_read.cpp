@@ -69,7 +69,10 @@ void measure(int width, int height, int runs) {
     const double one = last_ms(device);
     culler.depth_bounds({values});
     const double other = last_ms(device);
-    if (i >= 0) read_ms.push_back(one), bounds_ms.push_back(other);
+    if (i >= 0) {
+      read_ms.push_back(one);
+      bounds_ms.push_back(other);
+    }
   }
   const Spread a = spread_of(read_ms), b = spread_of(bounds_ms);
   fmt::print("{} {} {} {} {}\n", size_t(count) * 4, a.min, a.median, b.min, b.median);

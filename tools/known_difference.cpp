@@ -89,8 +89,10 @@ struct Count {
   int sweeps = 0, held = 0, within = 0, above_one = 0;
 
   void add(const RelativeTime& t) {
-    ++sweeps, held += t.low <= truth && truth <= t.high;
-    within += std::abs(t.estimate / truth - 1) <= 0.01, above_one += t.low > 1;
+    ++sweeps;
+    held += t.low <= truth && truth <= t.high;
+    within += std::abs(t.estimate / truth - 1) <= 0.01;
+    above_one += t.low > 1;
   }
 };
 
@@ -111,18 +113,23 @@ int run(std::vector<std::string> arguments) {
     return arguments.size() > i ? arguments[i] : other;
   };
   SceneChoice choice;
-  choice.scene = argument(0, "hall"), choice.size = argument(1, "320x180");
+  choice.scene = argument(0, "hall");
+  choice.size = argument(1, "320x180");
   const int sweeps = std::atoi(argument(2, "20").c_str());
   Renderer renderer(device, GlBackend::automatic);
   const ChosenScene chosen = load_chosen_scene(choice);
 
   Technique late = find_technique("forward_plus");
-  late.name = "late", late.render = render_late;
+  late.name = "late";
+  late.render = render_late;
   FrontierJob job;
   job.baseline = baseline_point({}, true);
   job.points.resize(1);
-  job.points[0].contestant.technique = &late, job.points[0].label = late.name;
-  job.views = 1, job.growth = false, job.shaded_pairs = 100'000;
+  job.points[0].contestant.technique = &late;
+  job.points[0].label = late.name;
+  job.views = 1;
+  job.growth = false;
+  job.shaded_pairs = 100'000;
   job.seconds = std::atof(argument(3, "22").c_str());
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("known_difference.{}", getpid());
   std::filesystem::create_directories(folder);
@@ -132,7 +139,9 @@ int run(std::vector<std::string> arguments) {
   const auto sweep_of = [&](int seed) {
     job.seed = uint64_t(seed);
     FrontierPart part;
-    part.seed = job.seed, part.baseline = job.baseline.label, part.machine = machine_of(renderer);
+    part.seed = job.seed;
+    part.baseline = job.baseline.label;
+    part.machine = machine_of(renderer);
     std::filesystem::remove(part_path(folder, 0, 1));
     RecordFile file(part_path(folder, 0, 1), part, nullptr);
     measure_scene(renderer, choice, job, file);
@@ -147,7 +156,8 @@ int run(std::vector<std::string> arguments) {
     const RelativeTime control = (by_device ? answer.device_controls : answer.controls).at(0).relative_time,
                        point = by_device ? answer.points.at(0).device.relative_time
                                          : answer.points.at(0).relative_time;
-    itself.add(control), two_per_cent.add(point);
+    itself.add(control);
+    two_per_cent.add(point);
     fmt::print("{:2}: itself {}, 2 % longer {}, {} rounds, {:.0f} s\n", sweep + 1, in_words(control),
                in_words(point), control.runs, timer.elapsed_ms() / 1000);
     std::fflush(stdout);

@@ -19,7 +19,7 @@ namespace lightgrid {
 namespace {
 
 constexpr int patches_a_light = 400;
-constexpr double most_reach_m = 10;  // a light's
+constexpr double max_reach_m = 10;  // a light's
 
 struct Queries {
   std::vector<RayPoint> points;
@@ -50,7 +50,7 @@ Queries queries_of(const Scene& scene, const RayScene& rays, size_t lights) {
     const glm::dvec3 at = light.position - rays.origin();
     std::vector<size_t> near;
     for (size_t i = 0; i < triangles.size(); ++i) {
-      if (glm::distance(triangles[i].corners[0], at) < std::min<double>(light.radius_m, most_reach_m))
+      if (glm::distance(triangles[i].corners[0], at) < std::min<double>(light.radius_m, max_reach_m))
         near.push_back(i);
     }
     for (int patch = 0; patch < patches_a_light && !near.empty(); ++patch) {
@@ -83,7 +83,8 @@ void measure(const std::string& name, size_t lights) {
     instances.push_back({.mesh = i.mesh, .world_from_object = i.world_from_object});
   for (size_t m = 0; m < meshes.size(); ++m) once.push_back({.mesh = int(m)});
   RayScene rays(device, programs), each_mesh_once(device, programs);
-  rays.set_meshes(meshes), each_mesh_once.set_meshes(meshes);
+  rays.set_meshes(meshes);
+  each_mesh_once.set_meshes(meshes);
   const Timer building;
   rays.set_instances(instances);
   const double build_ms = building.elapsed_ms();

@@ -88,7 +88,8 @@ void make_rays(RayScene& rays, const Scene& scene) {
                          .world_from_object = i.world_from_object,
                          .casts = i.casts_shadow && mode != AlphaMode::blend});
   }
-  rays.set_meshes(meshes), rays.set_instances(instances);
+  rays.set_meshes(meshes);
+  rays.set_instances(instances);
 }
 
 struct Pairs {
@@ -131,7 +132,8 @@ Pairs pairs_of(const Scene& scene, const View& view, const RayScene& rays) {
   for (const int number : image.lights) {
     const Light& light = scene.lights[size_t(number)];
     const glm::dvec3 at = light.position - rays.origin();
-    pairs.lights.push_back({at, 1}), pairs.cell_lights.push_back({at.x, at.y, at.z, light.radius_m});
+    pairs.lights.push_back({at, 1});
+    pairs.cell_lights.push_back({at.x, at.y, at.z, light.radius_m});
   }
   constexpr int side = HostShadows::side;
   for (size_t tile = 0; tile < image.shadows.cells.size(); ++tile) {
@@ -197,7 +199,10 @@ class EmbreeRays {
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene_);
   }
-  ~EmbreeRays() { rtcReleaseScene(scene_), rtcReleaseDevice(device_); }
+  ~EmbreeRays() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
   EmbreeRays(const EmbreeRays&) = delete;
   EmbreeRays& operator=(const EmbreeRays&) = delete;
 
@@ -206,12 +211,19 @@ class EmbreeRays {
     alignas(64) int valid[16];
     for (uint32_t i = 0; i < 16; ++i) {
       valid[i] = lanes >> i & 1 ? -1 : 0;
-      r.org_x[i] = light.x, r.org_y[i] = light.y, r.org_z[i] = light.z;
-      r.dir_x[i] = points[i] - light.x, r.dir_y[i] = points[16 + i] - light.y;
+      r.org_x[i] = light.x;
+      r.org_y[i] = light.y;
+      r.org_z[i] = light.z;
+      r.dir_x[i] = points[i] - light.x;
+      r.dir_y[i] = points[16 + i] - light.y;
       r.dir_z[i] = points[32 + i] - light.z;
       const float squared = r.dir_x[i] * r.dir_x[i] + r.dir_y[i] * r.dir_y[i] + r.dir_z[i] * r.dir_z[i];
-      r.tnear[i] = 0, r.tfar[i] = 1 - points[48 + i] / std::sqrt(squared);
-      r.time[i] = 0, r.mask[i] = ~0u, r.id[i] = i, r.flags[i] = 0;
+      r.tnear[i] = 0;
+      r.tfar[i] = 1 - points[48 + i] / std::sqrt(squared);
+      r.time[i] = 0;
+      r.mask[i] = ~0u;
+      r.id[i] = i;
+      r.flags[i] = 0;
     }
 #if LIGHTGRID_EMBREE == 3
     RTCIntersectContext context;
@@ -270,8 +282,10 @@ class KernelRays {
              const LightCells* cells)
       : device_(device), name_(cells ? "by_cells" : "by_tree"), packets_(pairs.packets.size()) {
     const PackedRays packed = packed_rays(pairs.points, pairs.lights.size(), pairs.packets);
-    inputs_[0].put(device, name_, packed.points), inputs_[1].put(device, name_, packed.own);
-    inputs_[2].put(device, name_, pairs.lights), inputs_[3].put(device, name_, packed.packets);
+    inputs_[0].put(device, name_, packed.points);
+    inputs_[1].put(device, name_, packed.own);
+    inputs_[2].put(device, name_, pairs.lights);
+    inputs_[3].put(device, name_, packed.packets);
     hidden_ = device_buffer(device, packets_ * sizeof(uint32_t));
     ClArguments arguments = rays.arguments();
     if (cells) {

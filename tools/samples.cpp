@@ -27,7 +27,8 @@ struct Row {
 
 View view_of(const std::string& scene, int width, int height) {
   SceneChoice choice;
-  choice.scene = scene, choice.size = fmt::format("{}x{}", width, height);
+  choice.scene = scene;
+  choice.size = fmt::format("{}x{}", width, height);
   return load_chosen_scene(choice).view;
 }
 
@@ -44,7 +45,7 @@ void tell(Renderer& renderer, const std::string& name) {
       Settings settings;
       settings.set(setting::samples, samples);
       if (way) apply_setting(settings, way);
-      if (samples > most_samples(*technique, settings)) continue;
+      if (samples > max_samples(*technique, settings)) continue;
       const std::string called = way ? fmt::format("{} {}", technique->name, way) : technique->name;
       try {
         TechniqueRun small(renderer, scene, view_of(name, width, height), settings, *technique);

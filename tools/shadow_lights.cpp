@@ -29,7 +29,7 @@ constexpr const char* exact = settings[1];
 // From a longest frame on, more lights are not measured; the frames of a setting are as many as fit into its
 // share of the time, at least three.
 constexpr double longest_ms = 250;
-constexpr int least_frames = 3, most_frames = 25;
+constexpr int min_frames = 3, max_frames = 25;
 
 struct SettingRun {
   std::string name;
@@ -61,8 +61,10 @@ void print_row(const SettingRun& s, const Scene& scene, const View& view, const 
   double kernels = 0, found = 0, drawn = 0;
   for (const PassRecord& pass : passes) {
     kernels += kernel_ms(pass, "");
-    if (pass.name == "find_shadows")
-      found = kernel_ms(pass, "find_shadows"), drawn = kernel_ms(pass, "draw_faces");
+    if (pass.name == "find_shadows") {
+      found = kernel_ms(pass, "find_shadows");
+      drawn = kernel_ms(pass, "draw_faces");
+    }
   }
   const Frame& frame = s.run->frame();
   const ShadowFigures f = frame.shadow_figures ? frame.shadow_figures() : ShadowFigures{};
@@ -86,8 +88,10 @@ std::vector<std::string> measure_lights(Renderer& renderer, const SceneChoice& c
     if (std::ranges::find(left_out, name) != left_out.end()) continue;
     Settings s;
     std::string rest = name;
-    for (size_t end; !rest.empty(); rest.erase(0, end == std::string::npos ? end : end + 1))
-      end = rest.find(' '), apply_setting(s, rest.substr(0, end));
+    for (size_t end; !rest.empty(); rest.erase(0, end == std::string::npos ? end : end + 1)) {
+      end = rest.find(' ');
+      apply_setting(s, rest.substr(0, end));
+    }
     runs.push_back({name, std::make_unique<TechniqueRun>(renderer, gpu, chosen.view, s,
                                                          find_technique("visibility"), pool)});
   }
@@ -96,10 +100,10 @@ std::vector<std::string> measure_lights(Renderer& renderer, const SceneChoice& c
       r.run->run_frame(true);  // compile, take memory, keep what they find
   }
   const double begun = timer.elapsed_ms();
-  for (int frame = 0; frame < most_frames; ++frame) {
+  for (int frame = 0; frame < max_frames; ++frame) {
     for (SettingRun& r : runs) r.run->run_frame();
     const double took = timer.elapsed_ms() - begun;
-    if (frame + 1 >= least_frames && timer.elapsed_ms() + took / (frame + 1) > 0.8 * seconds * 1000) break;
+    if (frame + 1 >= min_frames && timer.elapsed_ms() + took / (frame + 1) > 0.8 * seconds * 1000) break;
   }
   std::vector<std::string> too_long;
   size_t pairs = 0;
@@ -119,11 +123,13 @@ void measure(const std::string& device, double seconds, const std::vector<std::s
   for (const char* scene : {"hall", "street", "gallery", "terrain"}) {
     const double radius = median_radius(load_scene({.scene = scene}).lights);
     choices.emplace_back();
-    choices.back().scene = scene, choices.back().light_radius = fmt::format("{0:g},{0:g}", radius);
+    choices.back().scene = scene;
+    choices.back().light_radius = fmt::format("{0:g},{0:g}", radius);
   }
   for (size_t i = 0; i + 1 < files.size(); i += 2) {
     choices.emplace_back();
-    choices.back().scene = files[i], choices.back().lights_file = files[i + 1];
+    choices.back().scene = files[i];
+    choices.back().lights_file = files[i + 1];
   }
   Renderer renderer(device, GlBackend::none);
   fmt::print(

@@ -52,8 +52,10 @@ struct Geometry {
       raster_instances.push_back(
           {.mesh = i.mesh, .world_from_object = i.world_from_object, .two_sided = true, .drawn = solid});
     }
-    rays.set_meshes(ray_meshes), raster.set_meshes(raster_meshes);
-    rays.set_instances(ray_instances), view.set_instances(raster_instances);
+    rays.set_meshes(ray_meshes);
+    raster.set_meshes(raster_meshes);
+    rays.set_instances(ray_instances);
+    view.set_instances(raster_instances);
   }
 };
 
@@ -113,12 +115,14 @@ Pairs pairs_of(Device& device, const Scene& scene, const View& view, Geometry& g
         const dvec3 seen = eye + world_from_view * in_view;
         const dvec3 normal = glm::normalize(glm::cross(t.at[1] - t.at[0], t.at[2] - t.at[0]));
         const dvec3 place = seen - normal * glm::dot(normal, seen - t.at[0]);
-        point.position = glm::vec3(place), point.own = int(numbers[i]);
+        point.position = glm::vec3(place);
+        point.own = int(numbers[i]);
         const bool eye_side = glm::dot(normal, eye - place) > 0;
         for (size_t l = 0; l < lights.size(); ++l) {
           if (is_directional(lights[l]) || !is_lit(lights[l], in_view)) continue;
           if ((glm::dot(normal, dvec3(pairs.sources[l]) - place) > 0) != eye_side) continue;
-          lanes[l] |= 1u << k, ++pairs.count;
+          lanes[l] |= 1u << k;
+          ++pairs.count;
         }
       }
       for (size_t l = 0; l < lights.size(); ++l)
@@ -151,7 +155,8 @@ double raster_views_ms(Geometry& geometry, const RayScene& rays, const ShadowAtl
       light[k] = double(f.from[k]) + rays.origin()[k];
     }
     clip_from_view[0][0] = clip_from_view[1][1] = 1 / double(f.extent);
-    clip_from_view[2][3] = -1, clip_from_view[3][2] = 1e-3 * double(f.range_m);
+    clip_from_view[2][3] = -1;
+    clip_from_view[3][2] = 1e-3 * double(f.range_m);
     geometry.view.set_camera({{int(f.size), int(f.size)}, clip_from_view, view_from_world, light});
     geometry.view.draw();
   }
@@ -194,10 +199,13 @@ void measure(const std::string& name, const char* lights_file) {
       for (uint32_t k = 0; k < 16; ++k) {
         if (!(pairs.packets[p].lanes >> k & 1)) continue;
         const int dark = taps[p * 16 + k];
-        if (truth[p] >> k & 1)
-          leaked += dark < most, more += double(most - dark) / most;
-        else
-          acned += dark > 0, less += double(dark) / most;
+        if (truth[p] >> k & 1) {
+          leaked += dark < most;
+          more += double(most - dark) / most;
+        } else {
+          acned += dark > 0;
+          less += double(dark) / most;
+        }
       }
     }
     const double percent = 100.0 / double(pairs.count);

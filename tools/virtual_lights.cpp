@@ -18,7 +18,9 @@ constexpr std::array counts = {64, 256, 1024, 4096};
 
 ChosenScene load(const std::string& size, const char* const* arguments) {
   SceneChoice choice;
-  choice.scene = arguments[0], choice.lights_file = arguments[1], choice.camera = arguments[2];
+  choice.scene = arguments[0];
+  choice.lights_file = arguments[1];
+  choice.camera = arguments[2];
   choice.size = size;
   ChosenScene chosen = load_chosen_scene(choice);
   // Truth and picture leave blended surfaces out.
@@ -36,7 +38,10 @@ void tell_errors(Renderer& renderer, const char* const* arguments, const Setting
   fmt::print("count,nearest,shadows,cutoff,bias,mean_abs,rms,spread\n");
   const auto tell = [&](int count, double nearest, bool shadows, const char* cutoff) {
     Settings s = settings;
-    if (cutoff) apply_setting(s, "range=cutoff"), apply_setting(s, std::string("cutoff=") + cutoff);
+    if (cutoff) {
+      apply_setting(s, "range=cutoff");
+      apply_setting(s, std::string("cutoff=") + cutoff);
+    }
     seen.set_ranges(s.ranges);
     const VirtualLightError e = seen.error({.count = count, .nearest_m = nearest}, shadows, 4);
     fmt::print("{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f}\n", count,

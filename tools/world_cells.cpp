@@ -53,7 +53,8 @@ double elapsed_ms() {
 void measure(Renderer& renderer, GpuScene& gpu, const View& view, WorldGridShape shape, const char* name,
              double cell, int frames) {
   Settings settings;
-  settings.set(setting::world_grid, shape), settings.set(setting::world_cell, cell);
+  settings.set(setting::world_grid, shape);
+  settings.set(setting::world_cell, cell);
   TechniqueRun run(renderer, gpu, view, settings, find_technique("world_grid"));
   run.run_frame(true);
   const LitPairs pairs = count_listed_pairs(run, read_depth(run));
@@ -227,7 +228,10 @@ int main(int count, char** words) {
   if (count > 3 && !steps && !estimates) std::sscanf(words[3], "%dx%d", &width, &height);
   const int frames = count > 4 ? std::atoi(words[4]) : 3;
   const BuiltinScene* builtin = find_builtin_scene(name);
-  if (!builtin) return std::fprintf(stderr, "no scene %s\n", name.c_str()), 2;
+  if (!builtin) {
+    std::fprintf(stderr, "no scene %s\n", name.c_str());
+    return 2;
+  }
   Scene scene = builtin->make();
   ScatterSettings scatter;
   scatter.count = lights;
@@ -235,7 +239,10 @@ int main(int count, char** words) {
   Renderer renderer("", GlBackend::automatic);
   GpuScene gpu(renderer, scene);
   const View view = make_view(scene.cameras.at(0), width, height);
-  if (estimates) return print_estimates(gpu, view), 0;
+  if (estimates) {
+    print_estimates(gpu, view);
+    return 0;
+  }
   if (steps) {
     for (const std::optional<double> cell : {std::optional<double>(), std::optional(2.0), std::optional(1.0),
                                              std::optional(0.5), std::optional(0.25)}) {

@@ -39,7 +39,10 @@ static inline uint2 prefix_sum(uint mine, local uint* scratch) {
     local uint* values = scratch + item * (SEGMENT + 1);
     uint held[SEGMENT], sum = 0;
     for (uint i = 0; i < SEGMENT; ++i) held[i] = values[i];
-    for (uint i = 0; i < SEGMENT; ++i) values[i] = sum, sum += held[i];
+    for (uint i = 0; i < SEGMENT; ++i) {
+      values[i] = sum;
+      sum += held[i];
+    }
     values[SEGMENT] = sum;
   }
   barrier(CLK_LOCAL_MEM_FENCE);

@@ -43,8 +43,8 @@ typedef int unaligned_ints_8 __attribute__((ext_vector_type(8), aligned(4)));
 constant ulong kept_lanes[256] = {KEPT_7(0ul)};
 
 static inline uint mask_bits(mask_t m) {
-  return (uint)__builtin_ia32_movmskps256(as_float8(m.lo)) |
-         (uint)__builtin_ia32_movmskps256(as_float8(m.hi)) << 8;
+  return (uint)__builtin_ia32_movmskps256(as_float8(m.lo)) | (uint)__builtin_ia32_movmskps256(as_float8(m.hi))
+                                                                 << 8;
 }
 static inline int8 packed(int8 v, uint bits) {
   return __builtin_ia32_permvarsi256(v, convert_int8(as_uchar8(kept_lanes[bits])));
@@ -52,7 +52,8 @@ static inline int8 packed(int8 v, uint bits) {
 
 static inline ushort8 packed_ushorts(ushort8 v, uint bits) {
   const uchar16 low = as_uchar16((ulong2)(kept_lanes[bits] << 1, 0ul)), high = low | (uchar)1;
-  const uchar16 bytes = __builtin_shufflevector(low, high, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+  const uchar16 bytes =
+      __builtin_shufflevector(low, high, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
   return as_ushort8(__builtin_ia32_pshufb128(as_char16(v), as_char16(bytes)));
 }
 
@@ -80,13 +81,13 @@ static inline uint mask_bits(mask_t m) {
 
 // As above. Every lane is written to the next free entry, which advances only for kept lanes: cheaper than a
 // branch. The upper half starts from its own count and does not wait for the lower half.
-#define APPEND_LANES(WRITE)                                         \
-  _Pragma("unroll") for (uint h = 0; h < 16; h += 8) {              \
-    uint n = h == 0 ? 0u : popcount(bits & 0xffu);                  \
-    _Pragma("unroll") for (uint i = h; i < h + 8; ++i) {            \
-      WRITE;                                                        \
-      n += bits >> i & 1u;                                          \
-    }                                                               \
+#define APPEND_LANES(WRITE)                              \
+  _Pragma("unroll") for (uint h = 0; h < 16; h += 8) {   \
+    uint n = h == 0 ? 0u : popcount(bits & 0xffu);       \
+    _Pragma("unroll") for (uint i = h; i < h + 8; ++i) { \
+      WRITE;                                             \
+      n += bits >> i & 1u;                               \
+    }                                                    \
   }
 static inline void append_ushorts(global ushort* to, whole v, uint bits) {
   int lanes[16];

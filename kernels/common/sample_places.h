@@ -30,7 +30,7 @@ constant int sample_places[2 * SAMPLES] = {SAMPLE_PLACES};
 #define SAMPLE_Y(s) ((float)SAMPLE_UNITS_Y(s) * (1.0f / 256))
 
 // The most that a x + b y gains from a pixel's centre to one of its samples.
-static inline int most_gain(int a, int b) {
+static inline int max_gain(int a, int b) {
   int most = a * SAMPLE_UNITS_X(0) + b * SAMPLE_UNITS_Y(0);
 #pragma unroll
   for (int s = 1; s < SAMPLES; ++s) most = max(most, a * SAMPLE_UNITS_X(s) + b * SAMPLE_UNITS_Y(s));

@@ -15,13 +15,13 @@
 #else
 #define SLICE_COUNT 1u
 #endif
-#define NOTHING 3e38f                          // side of the box around no tile at all
+#define NOTHING 3e38f  // side of the box around no tile at all
 
 // A cell: each of its depth intervals with a box. A light is listed when it may touch one of them.
 typedef struct TestCell {
   Cell parts[INTERVALS];
 #if DEPTH_MODE == DEPTH_MASK32
-  uint mask;                   // mask of the tile's complete interval
+  uint mask;  // mask of the tile's complete interval
   float mask_near, mask_far;
 #endif
 } TestCell;
@@ -81,7 +81,10 @@ static inline Cell cell_between(TileSides s, float near, float far, constant Cul
   const Box b = box_between(s, near, far, p);
   Cell c = {near, far, b.x0, b.x1, b.y0, b.y1};
 #if CULL_TEST == CULL_EXACT
-  c.x0 = s.x0, c.x1 = s.x1, c.y0 = s.y0, c.y1 = s.y1;
+  c.x0 = s.x0;
+  c.x1 = s.x1;
+  c.y0 = s.y0;
+  c.y1 = s.y1;
 #endif
   return c;
 }
@@ -95,13 +98,15 @@ static inline bool make_test_cell(global const float* bounds, uint bx, uint by, 
   for (int i = 0; i < INTERVALS; ++i) {
     float near = at_slot(bounds, 2 * i, slot), far = at_slot(bounds, 2 * i + 1, slot);
 #ifdef SLICES
-    near = max(near, slices[slice].x), far = min(far, slices[slice].y);
+    near = max(near, slices[slice].x);
+    far = min(far, slices[slice].y);
 #endif
     c->parts[i] = cell_between(sides, near, far, p);
     some |= near <= far;
   }
 #if DEPTH_MODE == DEPTH_MASK32
-  c->mask_near = at_slot(bounds, 0, slot), c->mask_far = at_slot(bounds, 1, slot);
+  c->mask_near = at_slot(bounds, 0, slot);
+  c->mask_far = at_slot(bounds, 1, slot);
   c->mask = as_uint(at_slot(bounds, 2, slot));
 #endif
   return some;

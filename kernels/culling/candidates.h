@@ -52,13 +52,15 @@ static inline uint append_lights(global float* to, global const float* from, siz
 static inline uint append_records(global float* to, size_t stride, LightRecords l, int16 tiles, int16 masks,
                                   global const uint* ids, global const float* records, uint bits) {
 #if defined(AVX512) || defined(AVX2)
-  append_reals(to + VIEW_X * stride, l.sphere.x, bits), append_reals(to + VIEW_Y * stride, l.sphere.y, bits);
-  append_reals(to + VIEW_D * stride, l.sphere.d, bits), append_reals(to + VIEW_R * stride, l.sphere.r, bits);
+  append_reals(to + VIEW_X * stride, l.sphere.x, bits);
+  append_reals(to + VIEW_Y * stride, l.sphere.y, bits);
+  append_reals(to + VIEW_D * stride, l.sphere.d, bits);
+  append_reals(to + VIEW_R * stride, l.sphere.r, bits);
   append_reals(to + VIEW_TILES * stride, as_float16(tiles), bits);
   append_reals(to + VIEW_ID * stride, as_float16(vload16(0, ids)), bits);
 #ifdef SPOTS
-  append_reals(to + VIEW_CONE * stride, l.cone.x, bits),
-      append_reals(to + (VIEW_CONE + 1) * stride, l.cone.y, bits);
+  append_reals(to + VIEW_CONE * stride, l.cone.x, bits);
+  append_reals(to + (VIEW_CONE + 1) * stride, l.cone.y, bits);
   append_reals(to + (VIEW_CONE + 2) * stride, l.cone.d, bits);
   append_reals(to + (VIEW_CONE + 3) * stride, l.cone.cosine, bits);
 #endif
@@ -77,7 +79,8 @@ static inline uint append_records(global float* to, size_t stride, LightRecords 
     global const float* record = records + ids[i] * (size_t)RECORD;
 #pragma unroll
     for (uint a = 0; a < 4; ++a) to[a * stride] = record[a];
-    to[VIEW_TILES * stride] = as_float(lanes[i]), to[VIEW_ID * stride] = as_float(ids[i]);
+    to[VIEW_TILES * stride] = as_float(lanes[i]);
+    to[VIEW_ID * stride] = as_float(ids[i]);
 #pragma unroll
     for (uint a = VIEW_CONE; a < VIEW_MASKS; ++a) to[a * stride] = record[RECORD_CONE + a - VIEW_CONE];
 #ifdef SURFACE_MASKS

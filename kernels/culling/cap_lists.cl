@@ -13,15 +13,15 @@
 // Without ORDER the first lights are kept.
 #define LANES 1
 #include "kernels/common/index_type.h"
-#include "kernels/culling/cell_middle.h"
+#include "kernels/culling/cell_centre.h"
 
 #if ORDER == 2
 // Beyond these, products with 1 / intensity could leave the range of float.
 #define LEAST_DISTANCE2 1e-12f
 #define MOST_DISTANCE2 1e17f
 
-static inline uint key_of(float4 light, Middle m) {
-  const float4 at = point_of_middle(light.z, m);
+static inline uint key_of(float4 light, CellCentre m) {
+  const float4 at = point_of_centre(light.z, m);
   const float x = light.x - at.x, y = light.y - at.y, z = light.z - at.z;
   const float distance2 = (x * x + y * y) + z * z;
   return as_uint(fmin(fmax(distance2, LEAST_DISTANCE2), MOST_DISTANCE2) * light.w);
@@ -33,9 +33,11 @@ static inline uint key_of(float4 light, Middle m) {
 
 kernel void cap_lists(global uint2* cells, global index_t* indices, uint cell_count, uint cap
 #if ORDER == 1
-                      , uint high, global const uint* ranks
+                      ,
+                      uint high, global const uint* ranks
 #elif ORDER == 2
-                      , uint high, global const float4* lights, global const float* bounds, uint planes,
+                      ,
+                      uint high, global const float4* lights, global const float* bounds, uint planes,
                       global const float* slice_edges, constant CullParams* p
 #endif
 ) {
@@ -45,7 +47,7 @@ kernel void cap_lists(global uint2* cells, global index_t* indices, uint cell_co
   global index_t* list = indices + cells[cell].x;
   const uint count = cells[cell].y;
 #if ORDER == 2
-  const Middle middle = middle_of(cell, bounds, planes, slice_edges, p);
+  const CellCentre middle = cell_centre_of(cell, bounds, planes, slice_edges, p);
 #endif
   // The cap-th least key, four bits after the other; `ties` lights of this key are kept.
   uint last = 0, known = 0, ties = cap;
@@ -58,7 +60,8 @@ kernel void cap_lists(global uint2* cells, global index_t* indices, uint cell_co
     }
     uint digit = 0;
     for (; counts[digit] < ties; ++digit) ties -= counts[digit];
-    last |= digit << shift, known |= 15u << shift;
+    last |= digit << shift;
+    known |= 15u << shift;
   }
   uint kept = 0;
   for (uint i = 0; i < count; ++i) {

@@ -29,17 +29,19 @@ typedef struct Box {
 static inline Box box_between(TileSides s, real near, real far, constant CullParams* p) {
   Box b = {s.x0, s.x1, s.y0, s.y1};
   if (!p->orthographic) {
-    b.x0 = lane_min(s.x0 * near, s.x0 * far), b.x1 = lane_max(s.x1 * near, s.x1 * far);
-    b.y0 = lane_min(s.y0 * near, s.y0 * far), b.y1 = lane_max(s.y1 * near, s.y1 * far);
+    b.x0 = lane_min(s.x0 * near, s.x0 * far);
+    b.x1 = lane_max(s.x1 * near, s.x1 * far);
+    b.y0 = lane_min(s.y0 * near, s.y0 * far);
+    b.y1 = lane_max(s.y1 * near, s.y1 * far);
   }
   return b;
 }
 
 // A cell as the tests read it. near > far: it holds no surface.
 typedef struct Cell {
-  float near, far;                        // metres
-  float box_x0, box_x1, box_y0, box_y1;   // metres
+  float near, far;                       // metres
+  float box_x0, box_x1, box_y0, box_y1;  // metres
 #if CULL_TEST == CULL_EXACT
-  float x0, x1, y0, y1;                   // as TileSides
+  float x0, x1, y0, y1;  // as TileSides
 #endif
 } Cell;

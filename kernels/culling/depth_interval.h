@@ -62,7 +62,8 @@ static inline Interval interval_of_keys(bits_t low, bits_t high, constant CullPa
   const float scale = p->orthographic ? WIDEN : 0.0f;
   const real margin = scale * (fabs(near) + fabs(far) + fabs(p->depth_b * p->depth_a));
   Interval i;
-  i.near = near * (1.0f - WIDEN) - margin, i.far = far * (1.0f + WIDEN) + margin;
+  i.near = near * (1.0f - WIDEN) - margin;
+  i.far = far * (1.0f + WIDEN) + margin;
   return i;
 }
 

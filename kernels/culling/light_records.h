@@ -27,7 +27,8 @@ static inline float16 odds(float16 a, float16 b) { return (float16)(a.odd, b.odd
 
 static inline float16 mixed(float8 a, float8 b) {  // a, b, a, b, ...
   float16 m;
-  m.even = a, m.odd = b;
+  m.even = a;
+  m.odd = b;
   return m;
 }
 
@@ -39,13 +40,16 @@ static inline LightRecords load_records(global const float* records, global cons
   for (uint i = 0; i < 4; ++i) {
     const float16 a = {vload8(0, records + PLACE(4 * i)), vload8(0, records + PLACE(4 * i + 1))};
     const float16 b = {vload8(0, records + PLACE(4 * i + 2)), vload8(0, records + PLACE(4 * i + 3))};
-    even[i] = evens(a, b), odd[i] = odds(a, b);
+    even[i] = evens(a, b);
+    odd[i] = odds(a, b);
   }
   const float16 x_first0 = evens(even[0], even[1]), x_first1 = evens(even[2], even[3]);
   const float16 y_last0 = evens(odd[0], odd[1]), y_last1 = evens(odd[2], odd[3]);
   LightRecords l;
-  l.sphere.x = evens(x_first0, x_first1), l.tiles.first = as_int16(odds(x_first0, x_first1));
-  l.sphere.y = evens(y_last0, y_last1), l.tiles.last = as_int16(odds(y_last0, y_last1));
+  l.sphere.x = evens(x_first0, x_first1);
+  l.tiles.first = as_int16(odds(x_first0, x_first1));
+  l.sphere.y = evens(y_last0, y_last1);
+  l.tiles.last = as_int16(odds(y_last0, y_last1));
   l.sphere.d = evens(odds(even[0], even[1]), odds(even[2], even[3]));
   l.sphere.r = evens(odds(odd[0], odd[1]), odds(odd[2], odd[3]));
 #ifdef SPOTS
@@ -58,8 +62,10 @@ static inline LightRecords load_records(global const float* records, global cons
   }
   const float16 x_d0 = evens(cone[0], cone[1]), x_d1 = evens(cone[2], cone[3]);
   const float16 y_cosine0 = odds(cone[0], cone[1]), y_cosine1 = odds(cone[2], cone[3]);
-  l.cone.x = evens(x_d0, x_d1), l.cone.d = odds(x_d0, x_d1);
-  l.cone.y = evens(y_cosine0, y_cosine1), l.cone.cosine = odds(y_cosine0, y_cosine1);
+  l.cone.x = evens(x_d0, x_d1);
+  l.cone.d = odds(x_d0, x_d1);
+  l.cone.y = evens(y_cosine0, y_cosine1);
+  l.cone.cosine = odds(y_cosine0, y_cosine1);
 #endif
 #undef PLACE
   return l;
@@ -81,8 +87,10 @@ static inline void store_records(LightRecords l, global float* records) {
                     odd = mixed(QUARTER(y_last), QUARTER(r_none));
       const float16 a = mixed(even.lo, odd.lo), b = mixed(even.hi, odd.hi);
       global float* to = records + (h * 8 + q * 4) * RECORD;
-      vstore8(a.lo, 0, to), vstore8(a.hi, 0, to + RECORD);
-      vstore8(b.lo, 0, to + 2 * RECORD), vstore8(b.hi, 0, to + 3 * RECORD);
+      vstore8(a.lo, 0, to);
+      vstore8(a.hi, 0, to + RECORD);
+      vstore8(b.lo, 0, to + 2 * RECORD);
+      vstore8(b.hi, 0, to + 3 * RECORD);
 #undef QUARTER
     }
 #ifdef SPOTS
@@ -90,10 +98,14 @@ static inline void store_records(LightRecords l, global float* records) {
                   y_cosine = mixed(HALF(l.cone.y), HALF(l.cone.cosine));
     const float16 a = mixed(x_d.lo, y_cosine.lo), b = mixed(x_d.hi, y_cosine.hi);
     global float* to = records + h * 8 * RECORD + RECORD_CONE;
-    vstore4(a.lo.lo, 0, to), vstore4(a.lo.hi, 0, to + RECORD);
-    vstore4(a.hi.lo, 0, to + 2 * RECORD), vstore4(a.hi.hi, 0, to + 3 * RECORD);
-    vstore4(b.lo.lo, 0, to + 4 * RECORD), vstore4(b.lo.hi, 0, to + 5 * RECORD);
-    vstore4(b.hi.lo, 0, to + 6 * RECORD), vstore4(b.hi.hi, 0, to + 7 * RECORD);
+    vstore4(a.lo.lo, 0, to);
+    vstore4(a.lo.hi, 0, to + RECORD);
+    vstore4(a.hi.lo, 0, to + 2 * RECORD);
+    vstore4(a.hi.hi, 0, to + 3 * RECORD);
+    vstore4(b.lo.lo, 0, to + 4 * RECORD);
+    vstore4(b.lo.hi, 0, to + 5 * RECORD);
+    vstore4(b.hi.lo, 0, to + 6 * RECORD);
+    vstore4(b.hi.hi, 0, to + 7 * RECORD);
 #endif
 #undef HALF
   }

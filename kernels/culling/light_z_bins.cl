@@ -20,13 +20,17 @@ kernel void light_z_bins(global const float* lights, global const float2* bins, 
   // The comparisons are written so that NaN keeps every bin.
   for (uint high = bin_count; first < high;) {
     const uint middle = (first + high) / 2;
-    if (bins[middle].y < near) first = middle + 1;
-    else high = middle;
+    if (bins[middle].y < near)
+      first = middle + 1;
+    else
+      high = middle;
   }
   for (uint high = bin_count; end < high;) {
     const uint middle = (end + high) / 2;
-    if (bins[middle].x > far) high = middle;
-    else end = middle + 1;
+    if (bins[middle].x > far)
+      high = middle;
+    else
+      end = middle + 1;
   }
   light_bins[light] = first | end << 16;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernels/common/hash.h"
-#include "kernels/culling/cell_middle.h"
+#include "kernels/culling/cell_centre.h"
 
 // They follow the golden ratio from seed to seed, and from tile to tile the plastic number, so that
 // neighbours differ (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).

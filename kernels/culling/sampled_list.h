@@ -18,8 +18,8 @@
 
 // About what a light adds to the cell's surfaces. What the middle does not see of it, past its range or its
 // cone, other pixels may: a sixteenth of the light without either counts in any case.
-static inline float weight_of(PunctualLight light, Middle m) {
-  const float4 at = point_of_middle(-light.position.z, m);
+static inline float weight_of(PunctualLight light, CellCentre m) {
+  const float4 at = point_of_centre(-light.position.z, m);
   const Real3 middle = real3(at.x, at.y, -at.z), to_light = offset_to_light(middle, light);
   const float across = m.half_x * at.w, up = m.half_y * at.w, size2 = across * across + up * up;
   const float inverse = 1.0f / (dot3(to_light, to_light) + size2);

@@ -16,15 +16,18 @@ typedef struct WorldRay {
   float near, far, size, grows;  // size: half a tile's diagonal, at distance 1 if it grows
 } WorldRay;
 
-static inline WorldRay world_ray(Middle m, constant float4* world_from_view) {
+static inline WorldRay world_ray(CellCentre m, constant float4* world_from_view) {
   const float3 x = world_from_view[0].xyz, y = world_from_view[1].xyz, z = world_from_view[2].xyz;
   const float3 aside = x * m.x + y * m.y;
   WorldRay r;
-  r.eye = world_from_view[3].xyz, r.axis = -z;
+  r.eye = world_from_view[3].xyz;
+  r.axis = -z;
   r.from = m.orthographic ? r.eye + aside : r.eye;
   r.along = m.orthographic ? r.axis : r.axis + aside;
-  r.near = m.near, r.far = m.far;
-  r.size = sqrt(m.half_x * m.half_x + m.half_y * m.half_y), r.grows = m.orthographic ? 0.0f : 1.0f;
+  r.near = m.near;
+  r.far = m.far;
+  r.size = sqrt(m.half_x * m.half_x + m.half_y * m.half_y);
+  r.grows = m.orthographic ? 0.0f : 1.0f;
   return r;
 }
 
@@ -89,7 +92,9 @@ static inline DrawnLight light_of(uint node, uint random, uint seed, uint cell, 
     if (place < left) {
       range = left;
     } else {
-      ++node, place -= left, range = max(range - left, 1ul);
+      ++node;
+      place -= left;
+      range = max(range - left, 1ul);
     }
   }
   const DrawnLight drawn = {lights[node - leaves], as_uint((float)WHOLE_RANGE / (float)range)};

@@ -24,7 +24,7 @@ static inline Corners chosen(mask_t first, Corners a, Corners b) {
 }
 
 // The corner whose value is the least.
-static inline Corners least_corner(const Corners* v, const real* values) {
+static inline Corners min_corner(const Corners* v, const real* values) {
   const mask_t second = values[1] < values[0];
   const Corners c = chosen(second, v[1], v[0]);
   return chosen(values[2] < lane_min(values[1], values[0]), v[2], c);
@@ -57,7 +57,7 @@ static inline void plane_gradients(const Corners* v, real* zx, real* zy, constan
   real size[3];
   for (int k = 0; k < 3; ++k) size[k] = fabs(v[k].x) + fabs(v[k].y) + fabs(v[k].w);
   // The corner nearest to the eye is used: its distance from the plane loses the least by cancellation.
-  const Corners near = least_corner(v, size);
+  const Corners near = min_corner(v, size);
   const real distance = fma(nx, near.x, fma(ny, near.y, nw * near.w)), per_distance = (real)(1.0f) / distance;
   real right = o.z * (nx * per_distance), up = o.z * (ny * per_distance);
   // Where the far plane is infinitely far all z are alike.
@@ -81,7 +81,7 @@ static inline void plane_gradients(const Corners* v, real* zx, real* zy, constan
 static inline real plane_depth_at(const Corners* v, const real* depths, real zx, real zy, whole x, whole y,
                                   constant RasterParams* p) {
   const real size[3] = {fabs(depths[0]), fabs(depths[1]), fabs(depths[2])};
-  const Corners from = least_corner(v, size);  // whose own rounding counts the least
+  const Corners from = min_corner(v, size);  // whose own rounding counts the least
   // From the corner, which is not snapped, to the place, times w.
   const real right = difference_of_products(TO_REAL(x - (int)p->half_x), from.w, from.x, p->half_x),
              up = difference_of_products(TO_REAL(y - (int)p->half_y), from.w, from.y, p->half_y);

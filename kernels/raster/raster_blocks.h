@@ -20,9 +20,16 @@ static inline TileRecord in_tile(global const RasterRecord* r, int pixel_x, int 
     t.edges[k] = edge_at(r->x[k], r->y[k], r->x[next], r->y[next], pixel_x, pixel_y);
   }
   const int2 anchor = anchor_pixel(r->zx, r->zy, r->box_low, r->box_high);
-  t.dx = pixel_x - anchor.x, t.dy = pixel_y - anchor.y;
-  t.z0 = r->z0, t.zx = r->zx, t.zy = r->zy, t.z_min = r->z_min, t.z_max = r->z_max;
-  t.triangle = r->triangle, t.instance = r->instance, t.alpha_material = r->alpha_material;
+  t.dx = pixel_x - anchor.x;
+  t.dy = pixel_y - anchor.y;
+  t.z0 = r->z0;
+  t.zx = r->zx;
+  t.zy = r->zy;
+  t.z_min = r->z_min;
+  t.z_max = r->z_max;
+  t.triangle = r->triangle;
+  t.instance = r->instance;
+  t.alpha_material = r->alpha_material;
   return t;
 }
 

@@ -44,7 +44,8 @@ static inline uchar bucket_of(const RasterCluster* c, global const RasterFrameIn
     float row[4], size[4];
     for (int i = 0; i < 4; ++i) {
       const float a = of_w[side] * m[12 + i], b = of_other[side] * m[4 * other[side] + i];
-      row[i] = a + b, size[i] = fabs(a) + fabs(b);
+      row[i] = a + b;
+      size[i] = fabs(a) + fabs(b);
     }
     if (box_is_outside(row, size, c)) return RASTER_HIDDEN;
   }

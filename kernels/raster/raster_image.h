@@ -73,11 +73,21 @@ static inline PlacedTriangle placed_triangle(const RasterRecord* r, int x0, int 
     const int next = k == 2 ? 0 : k + 1;
     t.edges[k] = edge_at(r->x[k], r->y[k], r->x[next], r->y[next], x0, y0);
   }
-  t.x0 = x0, t.y0 = y0, t.width = width, t.height = height;
+  t.x0 = x0;
+  t.y0 = y0;
+  t.width = width;
+  t.height = height;
   const int2 anchor = anchor_pixel(r->zx, r->zy, r->box_low, r->box_high);
-  t.dx = (float)(x0 - anchor.x), t.dy = (float)(y0 - anchor.y);
-  t.z0 = r->z0, t.zx = r->zx, t.zy = r->zy, t.z_min = r->z_min, t.z_max = r->z_max;
-  t.triangle = r->triangle, t.instance = r->instance, t.alpha_material = r->alpha_material;
+  t.dx = (float)(x0 - anchor.x);
+  t.dy = (float)(y0 - anchor.y);
+  t.z0 = r->z0;
+  t.zx = r->zx;
+  t.zy = r->zy;
+  t.z_min = r->z_min;
+  t.z_max = r->z_max;
+  t.triangle = r->triangle;
+  t.instance = r->instance;
+  t.alpha_material = r->alpha_material;
   return t;
 }
 
@@ -106,7 +116,8 @@ static inline SeenPixel see_pixel(const PlacedTriangle* t, int x, int y, bool in
   }
   const float dx = t->dx + small_float((uint)x), dy = t->dy + small_float((uint)y);
   SeenPixel p;
-  p.x = t->x0 + (some ? x : 0), p.y = t->y0 + (some ? y : 0);
+  p.x = t->x0 + (some ? x : 0);
+  p.y = t->y0 + (some ? y : 0);
 #pragma unroll
   for (int s = 0; s < SAMPLES; ++s) {
     p.depth[s] =

@@ -54,8 +54,8 @@ static inline mask_t out_of_view(const Corners* v) {
 
 static inline whole whole_min(whole a, whole b) { return a < b ? a : b; }
 static inline whole whole_max(whole a, whole b) { return a > b ? a : b; }
-static inline real least_of(const real* v) { return lane_min(v[0], lane_min(v[1], v[2])); }
-static inline real most_of(const real* v) { return lane_max(v[0], lane_max(v[1], v[2])); }
+static inline real min_of(const real* v) { return lane_min(v[0], lane_min(v[1], v[2])); }
+static inline real max_of(const real* v) { return lane_max(v[0], lane_max(v[1], v[2])); }
 
 // Where a triangle's corners, or those of a part of it, are snapped to; the pixels that it may cover.
 typedef struct SnappedLanes {
@@ -71,10 +71,11 @@ static inline SnappedLanes snapped_corners(const Corners* v, mask_t live, consta
   for (int k = 0; k < 3; ++k) {
     const real per_w = one / v[k].w, sx = fma(v[k].x * per_w, half_x, half_x),
                sy = fma(v[k].y * per_w, half_y, half_y);
-    s.x[k] = TO_WHOLE(lane_rint(live ? sx : zero)), s.y[k] = TO_WHOLE(lane_rint(live ? sy : zero));
+    s.x[k] = TO_WHOLE(lane_rint(live ? sx : zero));
+    s.y[k] = TO_WHOLE(lane_rint(live ? sy : zero));
   }
   // Pixels of which the sample that lies farthest to a side may be covered.
-  const int right = most_gain(1, 0), left = most_gain(-1, 0), up = most_gain(0, 1), down = most_gain(0, -1);
+  const int right = max_gain(1, 0), left = max_gain(-1, 0), up = max_gain(0, 1), down = max_gain(0, -1);
   s.low_x = whole_max((whole_min(s.x[0], whole_min(s.x[1], s.x[2])) + (127 - right)) >> 8, (whole)(0));
   s.low_y = whole_max((whole_min(s.y[0], whole_min(s.y[1], s.y[2])) + (127 - up)) >> 8, (whole)(0));
   s.high_x = whole_min((whole_max(s.x[0], whole_max(s.x[1], s.x[2])) + (left - 128)) >> 8,
@@ -82,8 +83,10 @@ static inline SnappedLanes snapped_corners(const Corners* v, mask_t live, consta
   s.high_y = whole_min((whole_max(s.y[0], whole_max(s.y[1], s.y[2])) + (down - 128)) >> 8,
                        (whole)((int)p->height - 1));
   // Below 2^24, so exact as floats.
-  s.ax = TO_REAL(s.x[1] - s.x[0]), s.ay = TO_REAL(s.y[1] - s.y[0]);
-  s.bx = TO_REAL(s.x[2] - s.x[0]), s.by = TO_REAL(s.y[2] - s.y[0]);
+  s.ax = TO_REAL(s.x[1] - s.x[0]);
+  s.ay = TO_REAL(s.y[1] - s.y[0]);
+  s.bx = TO_REAL(s.x[2] - s.x[0]);
+  s.by = TO_REAL(s.y[2] - s.y[0]);
   s.area = difference_of_products(s.ax, s.by, s.bx, s.ay);
   return s;
 }
@@ -92,8 +95,12 @@ static inline SnappedLanes snapped_corners(const Corners* v, mask_t live, consta
 static inline void set_depths(const Corners* v, const Corners* of, const SnappedLanes* s, RecordLanes* out,
                               constant RasterParams* p) {
   real z[3], depths[3];
-  for (int k = 0; k < 3; ++k) z[k] = depth_of_corner(v[k]), depths[k] = depth_of_corner(of[k]);
-  out->z_min = least_of(depths), out->z_max = most_of(depths);
+  for (int k = 0; k < 3; ++k) {
+    z[k] = depth_of_corner(v[k]);
+    depths[k] = depth_of_corner(of[k]);
+  }
+  out->z_min = min_of(depths);
+  out->z_max = max_of(depths);
   real zx, zy;
   plane_gradients(of, &zx, &zy, p);
   // Else the triangle is thinner along its gradient than snapping moves corners, and most of what it covers
@@ -107,7 +114,8 @@ static inline void set_depths(const Corners* v, const Corners* of, const Snapped
   const real from_snapped =
       fma(zx, TO_REAL(x - s->x[0]) * (1.0f / 256), fma(zy, TO_REAL(y - s->y[0]) * (1.0f / 256), z[0]));
   out->z0 = thick ? plane_depth_at(of, depths, zx, zy, x, y, p) : from_snapped;
-  out->zx = zx, out->zy = zy;
+  out->zx = zx;
+  out->zy = zy;
 }
 
 // Triangles whose corners need no cut, or parts of triangles `of` that cutting left, where `live`. Fills all
@@ -118,9 +126,14 @@ static inline mask_t set_up(const Corners* v, const Corners* of, mask_t live, ui
   const mask_t clockwise = s.area < (real)(0.0f);
   mask_t faces = s.area != (real)(0.0f);
   if (!(flags & RASTER_TWO_SIDED)) faces = flags & RASTER_MIRRORED ? clockwise : s.area > (real)(0.0f);
-  out->x[0] = s.x[0], out->x[1] = clockwise ? s.x[2] : s.x[1], out->x[2] = clockwise ? s.x[1] : s.x[2];
-  out->y[0] = s.y[0], out->y[1] = clockwise ? s.y[2] : s.y[1], out->y[2] = clockwise ? s.y[1] : s.y[2];
+  out->x[0] = s.x[0];
+  out->x[1] = clockwise ? s.x[2] : s.x[1];
+  out->x[2] = clockwise ? s.x[1] : s.x[2];
+  out->y[0] = s.y[0];
+  out->y[1] = clockwise ? s.y[2] : s.y[1];
+  out->y[2] = clockwise ? s.y[1] : s.y[2];
   set_depths(v, of, &s, out, p);
-  out->box_low = s.low_x | s.low_y << 16, out->box_high = s.high_x | s.high_y << 16;
+  out->box_low = s.low_x | s.low_y << 16;
+  out->box_high = s.high_x | s.high_y << 16;
   return live & faces & (s.low_x <= s.high_x) & (s.low_y <= s.high_y);
 }

@@ -16,7 +16,8 @@ typedef struct Edge {
 
 static inline Edge edge_at(int x0, int y0, int x1, int y1, int pixel_x, int pixel_y) {
   Edge e;
-  e.a = y0 - y1, e.b = x1 - x0;
+  e.a = y0 - y1;
+  e.b = x1 - x0;
   const bool holds_its_points = e.a > 0 || (e.a == 0 && e.b < 0);
   const long units = (long)e.a * (pixel_x * 256 + 128 - x0) + (long)e.b * (pixel_y * 256 + 128 - y0) -
                      (holds_its_points ? 0 : 1);
@@ -39,7 +40,7 @@ static inline int edge_of_sample(Edge e, int s) {
 // c of the sample that lies farthest inside.
 static inline int edge_of_samples(Edge e) {
 #if SAMPLES > 1
-  return e.c + ((e.rest + most_gain(e.a, e.b)) >> 8);
+  return e.c + ((e.rest + max_gain(e.a, e.b)) >> 8);
 #else
   return e.c;
 #endif
@@ -58,8 +59,10 @@ typedef struct TileBox {
 
 static inline TileBox tile_box(uint box_low, uint box_high) {
   TileBox b;
-  b.x0 = (int)(box_low & 0xffffu) / RASTER_TILE, b.y0 = (int)(box_low >> 16) / RASTER_TILE;
-  b.x1 = (int)(box_high & 0xffffu) / RASTER_TILE, b.y1 = (int)(box_high >> 16) / RASTER_TILE;
+  b.x0 = (int)(box_low & 0xffffu) / RASTER_TILE;
+  b.y0 = (int)(box_low >> 16) / RASTER_TILE;
+  b.x1 = (int)(box_high & 0xffffu) / RASTER_TILE;
+  b.y1 = (int)(box_high >> 16) / RASTER_TILE;
   b.some_outside = (b.x1 - b.x0) + (b.y1 - b.y0) > 1;
   return b;
 }

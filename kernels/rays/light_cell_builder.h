@@ -16,7 +16,7 @@
 
 #define BOX_PAD 4e-6f      // of a box's and the light's coordinates
 #define PLANE_SLACK 1e-5f  // of a plane's coefficients: rounding, and where in its cell a ray is
-#define CONE_SLACK 1e-4f  // of the cosine of a spot's cone
+#define CONE_SLACK 1e-4f   // of the cosine of a spot's cone
 #define CELL_SLACK 1e-3f   // of a cell: rounding of where a box begins and ends
 
 // A box relative to a light, with room for all that a box test rounds.
@@ -43,12 +43,15 @@ static inline SeenBox seen_box(global const LightCellJob* job, const float low[3
   SeenBox box;
   float most = 0, size = 0, squared = 0;
   for (int k = 0; k < 3; ++k) {
-    box.low[k] = (float)(low[k] - at[k]), box.high[k] = (float)(high[k] - at[k]);
-    most = larger(most, larger(fabs(box.low[k]), fabs(box.high[k]))), size += fabs((float)at[k]);
+    box.low[k] = (float)(low[k] - at[k]);
+    box.high[k] = (float)(high[k] - at[k]);
+    most = larger(most, larger(fabs(box.low[k]), fabs(box.high[k])));
+    size += fabs((float)at[k]);
   }
   const float pad = BOX_PAD * (size + most) + 1e-12f;
   for (int k = 0; k < 3; ++k) {
-    box.low[k] -= pad, box.high[k] += pad;
+    box.low[k] -= pad;
+    box.high[k] += pad;
     const float away = larger(larger(box.low[k], -box.high[k]), 0.0f);
     squared += away * away;
   }
@@ -58,7 +61,8 @@ static inline SeenBox seen_box(global const LightCellJob* job, const float low[3
     squared = 0;
     for (int k = 0; k < 3; ++k) {
       const float half_size = 0.5f * (box.high[k] - box.low[k]);
-      center[k] = REAL(0.5f * (box.low[k] + box.high[k])), squared += half_size * half_size;
+      center[k] = REAL(0.5f * (box.low[k] + box.high[k]));
+      squared += half_size * half_size;
     }
     if (any_lane(misses_cone(job, center, REAL(sqrt(squared) * 1.001f)))) box.near = INFINITY;
   }
@@ -66,8 +70,10 @@ static inline SeenBox seen_box(global const LightCellJob* job, const float low[3
 }
 
 static inline void add_to_box(global LightCellJob* job, global const float* low, global const float* high) {
-  for (int k = 0; k < 3; ++k)
-    job->low[k] = smaller(job->low[k], low[k]), job->high[k] = larger(job->high[k], high[k]);
+  for (int k = 0; k < 3; ++k) {
+    job->low[k] = smaller(job->low[k], low[k]);
+    job->high[k] = larger(job->high[k], high[k]);
+  }
 }
 
 // Into the job the box of all triangles.
@@ -83,7 +89,8 @@ typedef struct LeafWalk {
 } LeafWalk;
 
 static inline void push_child(LeafWalk* walk, int child, int count) {
-  walk->child[walk->height] = child, walk->count[walk->height++] = count;
+  walk->child[walk->height] = child;
+  walk->count[walk->height++] = count;
 }
 
 // False: there is none left.
@@ -92,14 +99,17 @@ static inline bool next_leaf(LeafWalk* walk, global const RayNode* nodes, global
   while (walk->height != 0) {
     const int child = walk->child[--walk->height], triangles = walk->count[walk->height];
     if (triangles != 0) {
-      *first = child, *count = triangles;
+      *first = child;
+      *count = triangles;
       return true;
     }
     global const RayNode* n = nodes + child;
     float low[2][3], high[2][3];
     for (int k = 0; k < 3; ++k) {
-      low[0][k] = n->low_0[k], high[0][k] = n->high_0[k];
-      low[1][k] = n->low_1[k], high[1][k] = n->high_1[k];
+      low[0][k] = n->low_0[k];
+      high[0][k] = n->high_0[k];
+      low[1][k] = n->low_1[k];
+      high[1][k] = n->high_1[k];
     }
     const float reach = job->reach_m;
     const float near_0 = seen_box(job, low[0], high[0]).near, near_1 = seen_box(job, low[1], high[1]).near;

@@ -109,7 +109,8 @@ static inline mask_t cells_of_boxes(real low, real high, real along_low, real al
   const real half_size = REAL(0.5f * size);
   const real begin = fma(from, half_size, half_size) - CELL_SLACK,
              end = fma(to, half_size, half_size) + CELL_SLACK;
-  *first = lane_floor(lane_max(begin, REAL(0.0f))), *last = lane_floor(lane_min(end, REAL(size - 1.0f)));
+  *first = lane_floor(lane_max(begin, REAL(0.0f)));
+  *last = lane_floor(lane_min(end, REAL(size - 1.0f)));
   return (begin < size) & (end >= 0.0f);
 }
 
@@ -144,7 +145,8 @@ static inline void cells_of_row(const FaceTriangles* t, const real inverse[3], r
     *first = up ? lane_max(-end - ROW_SLACK, *first) : *first;
     *last = up ? *last : lane_min(end + ROW_SLACK, *last);
   }
-  *first = -lane_floor(-*first), *last = lane_floor(*last);
+  *first = -lane_floor(-*first);
+  *last = lane_floor(*last);
 }
 
 static inline __attribute__((always_inline)) void add_small(const CellFace* f, const SeenTriangles* s,
@@ -285,7 +287,8 @@ static inline __attribute__((always_inline)) void add_to_grid(global const Light
   const real down = -along_axis(s->normal, g->toward),
              least = 1e-4f * (fabs(s->normal[0]) + fabs(s->normal[1]) + fabs(s->normal[2]));
   const mask_t steep = down < least;
-  t.plane.x = steep ? REAL(0.0f) : plane.x / down, t.plane.y = steep ? REAL(0.0f) : plane.y / down;
+  t.plane.x = steep ? REAL(0.0f) : plane.x / down;
+  t.plane.y = steep ? REAL(0.0f) : plane.y / down;
   t.plane.at = steep ? REAL(f.height) : plane.at / down + extent;
   real top = REAL(pad);
   for (int k = 0; k < 3; ++k) {

@@ -42,12 +42,14 @@ static inline void see_boxes(SeenTriangles* s, global const LightCellJob* job, c
   real most = REAL(0.0f), squared = REAL(0.0f);
   for (int k = 0; k < 3; ++k) {
     const real x = NARROW(c[0][k]), y = NARROW(c[1][k]), z = NARROW(c[2][k]);
-    s->low[k] = lane_min(lane_min(x, y), z), s->high[k] = lane_max(lane_max(x, y), z);
+    s->low[k] = lane_min(lane_min(x, y), z);
+    s->high[k] = lane_max(lane_max(x, y), z);
     most = lane_max(most, lane_max(fabs(s->low[k]), fabs(s->high[k])));
   }
   const real pad = BOX_PAD * (size + most) + 1e-12f;
   for (int k = 0; k < 3; ++k) {
-    s->low[k] -= pad, s->high[k] += pad;
+    s->low[k] -= pad;
+    s->high[k] += pad;
     const real away = lane_max(lane_max(s->low[k], -s->high[k]), REAL(0.0f));
     squared = fma(away, away, squared);
   }
@@ -56,7 +58,8 @@ static inline void see_boxes(SeenTriangles* s, global const LightCellJob* job, c
   real center[3], radius = REAL(0.0f);
   for (int k = 0; k < 3; ++k) {
     const real half_size = 0.5f * (s->high[k] - s->low[k]);
-    center[k] = 0.5f * (s->low[k] + s->high[k]), radius = fma(half_size, half_size, radius);
+    center[k] = 0.5f * (s->low[k] + s->high[k]);
+    radius = fma(half_size, half_size, radius);
   }
   s->near = misses_cone(job, center, sqrt(radius) * 1.001f) ? REAL(INFINITY) : s->near;
 }
@@ -66,7 +69,9 @@ static inline void wide_edge_along(real to[3], real* offset, const Wide b[3], co
                                    const double d[3], Wide turn) {
   const Wide u[3] = {b[0] - c[0], b[1] - c[1], b[2] - c[2]};
   const Wide x = d[1] * u[2] - d[2] * u[1], y = d[2] * u[0] - d[0] * u[2], z = d[0] * u[1] - d[1] * u[0];
-  to[0] = NARROW(x * turn), to[1] = NARROW(y * turn), to[2] = NARROW(z * turn);
+  to[0] = NARROW(x * turn);
+  to[1] = NARROW(y * turn);
+  to[2] = NARROW(z * turn);
   *offset = NARROW(-0.5 * (x * (b[0] + c[0]) + y * (b[1] + c[1]) + z * (b[2] + c[2])) * turn);
 }
 
@@ -100,7 +105,8 @@ static inline uint see_along(SeenTriangles* s, global const LightCellJob* job,
   const Wide turn = facing < 0.0 ? (Wide)(-1.0) : (Wide)(1.0);
   for (int k = 0; k < 3; ++k) {
     const real x = NARROW(c[0][k]), y = NARROW(c[1][k]), z = NARROW(c[2][k]);
-    s->low[k] = lane_min(lane_min(x, y), z), s->high[k] = lane_max(lane_max(x, y), z);
+    s->low[k] = lane_min(lane_min(x, y), z);
+    s->high[k] = lane_max(lane_max(x, y), z);
     s->normal[k] = NARROW(n[k] * turn);
   }
   s->offset = NARROW(-wide_dot(n, c[0]) * turn);
@@ -135,12 +141,15 @@ static inline void store_triangle(global LightCellTriangle* to, const SeenTriang
                                   bool point) {
 #define OF_LANE(x) (((const float*)&(x))[lane])
   for (int k = 0; k < 3; ++k) {
-    to->normal[k] = OF_LANE(s->normal[k]), to->edge_0[k] = OF_LANE(s->edges[0][k]);
-    to->edge_1[k] = OF_LANE(s->edges[1][k]), to->edge_2[k] = OF_LANE(s->edges[2][k]);
+    to->normal[k] = OF_LANE(s->normal[k]);
+    to->edge_0[k] = OF_LANE(s->edges[0][k]);
+    to->edge_1[k] = OF_LANE(s->edges[1][k]);
+    to->edge_2[k] = OF_LANE(s->edges[2][k]);
   }
   to->normal[3] = OF_LANE(s->offset);
   to->edge_0[3] = point ? as_float(((const int*)&s->place)[lane]) : OF_LANE(s->edge_offsets[0]);
-  to->edge_1[3] = OF_LANE(s->edge_offsets[1]), to->edge_2[3] = OF_LANE(s->edge_offsets[2]);
+  to->edge_1[3] = OF_LANE(s->edge_offsets[1]);
+  to->edge_2[3] = OF_LANE(s->edge_offsets[2]);
 }
 
 // Stores the triangles of the lanes `left`: for a point light one after the other from *used on, else each at
@@ -153,7 +162,9 @@ static inline whole store_triangles(global LightCellTriangle* to, const SeenTria
     return s->place;
   }
   int numbers[LANES] ALIGNED = {0};
-  for (; left != 0; left &= left - 1, ++*used)
-    numbers[lowest_bit(left)] = (int)*used, store_triangle(to + *used, s, lowest_bit(left), true);
+  for (; left != 0; left &= left - 1, ++*used) {
+    numbers[lowest_bit(left)] = (int)*used;
+    store_triangle(to + *used, s, lowest_bit(left), true);
+  }
   return *(const whole*)numbers;
 }

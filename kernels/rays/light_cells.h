@@ -112,10 +112,12 @@ static inline __attribute__((always_inline)) CellRays cell_rays(global const Lig
   }
   *squared = fma(rays.to.z, rays.to.z, fma(rays.to.y, rays.to.y, rays.to.x * rays.to.x));
   if (point) {
-    rays.length = sqrt(*squared), rays.end = 1.0f - gap / rays.length;
+    rays.length = sqrt(*squared);
+    rays.end = 1.0f - gap / rays.length;
   } else {
     global const float* d = table->grid.toward;
-    rays.length = table->grid.top - ray_side(rays.to, d[0], d[1], d[2], 0.0f), rays.end = REAL(1.0f);
+    rays.length = table->grid.top - ray_side(rays.to, d[0], d[1], d[2], 0.0f);
+    rays.end = REAL(1.0f);
   }
   return rays;
 }
@@ -186,7 +188,8 @@ static inline __attribute__((always_inline)) uint hidden_by_lists(
       if (met == 0) continue;
       const int place = point ? as_int(t->edge_0[3]) : (int)(entry.triangle - table->first_triangle);
       const uint hides = hidden_by_met(scene, light, to, gap, own, place, met, veil);
-      hidden |= hides, here &= ~hides;
+      hidden |= hides;
+      here &= ~hides;
     }
   }
   return hidden;

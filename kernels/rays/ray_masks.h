@@ -70,8 +70,10 @@ static inline whole veil_of(real alpha) {
 static inline whole share_of_veil(whole veil) {
   const real x = TO_REAL(veil & 0xffff) * (-0.69314718f / 65536.0f);
   real power = fma(x, REAL(1.0f / 5040), REAL(1.0f / 720));
-  power = fma(power, x, REAL(1.0f / 120)), power = fma(power, x, REAL(1.0f / 24));
-  power = fma(power, x, REAL(1.0f / 6)), power = fma(power, x, REAL(0.5f));
+  power = fma(power, x, REAL(1.0f / 120));
+  power = fma(power, x, REAL(1.0f / 24));
+  power = fma(power, x, REAL(1.0f / 6));
+  power = fma(power, x, REAL(0.5f));
   power = fma(fma(power, x, REAL(1.0f)), x, REAL(1.0f));
   const real through = power * real_of_bits((127 - (veil >> 16)) << 23);
   return TO_WHOLE(fma(-through, REAL(255.0f), REAL(255.0f)) + 0.5f);

@@ -69,18 +69,25 @@ static inline void set_packet(RayPacket* p, RaySource light, Real3 to, real gap)
   const float x = (float)light.x, y = (float)light.y, z = (float)light.z;
   p->light = light;
   if (light.w != 0) {
-    p->x = from_double(to.x, light.x), p->y = from_double(to.y, light.y), p->z = from_double(to.z, light.z);
+    p->x = from_double(to.x, light.x);
+    p->y = from_double(to.y, light.y);
+    p->z = from_double(to.z, light.z);
     p->end = 1.0f - gap / sqrt(fma(p->z, p->z, fma(p->y, p->y, p->x * p->x)));
-    p->inverse_x = inverse_step(p->x), p->inverse_y = inverse_step(p->y), p->inverse_z = inverse_step(p->z);
+    p->inverse_x = inverse_step(p->x);
+    p->inverse_y = inverse_step(p->y);
+    p->inverse_z = inverse_step(p->z);
     const float reach = 0x1p-22f * (fabs(x) + fabs(y) + fabs(z));
     CROSSINGS(x, x)
     CROSSINGS(y, y)
     CROSSINGS(z, z)
   } else {
-    p->x = fma(gap, REAL(x), to.x), p->y = fma(gap, REAL(y), to.y), p->z = fma(gap, REAL(z), to.z);
+    p->x = fma(gap, REAL(x), to.x);
+    p->y = fma(gap, REAL(y), to.y);
+    p->z = fma(gap, REAL(z), to.z);
     const real reach = 0x1p-20f * (fabs(p->x) + fabs(p->y) + fabs(p->z));
     p->end = 1.0f;
-    p->inverse_x = inverse_step(REAL(x * FAR_AWAY)), p->inverse_y = inverse_step(REAL(y * FAR_AWAY));
+    p->inverse_x = inverse_step(REAL(x * FAR_AWAY));
+    p->inverse_y = inverse_step(REAL(y * FAR_AWAY));
     p->inverse_z = inverse_step(REAL(z * FAR_AWAY));
     CROSSINGS(x, p->x)
     CROSSINGS(y, p->y)
@@ -176,11 +183,11 @@ RAYS_CALL mask_t meets_from_direction(double x, double y, double z, global const
   return meets_triangle(light, false, t, at, end, 0);
 }
 
-static inline float least_of_3(float a, float b, float c) {
+static inline float min_of_3(float a, float b, float c) {
   const float d = a < b ? a : b;
   return d < c ? d : c;
 }
-static inline float greatest_of_3(float a, float b, float c) {
+static inline float max_of_3(float a, float b, float c) {
   const float d = a > b ? a : b;
   return d > c ? d : c;
 }
@@ -188,9 +195,10 @@ static inline float greatest_of_3(float a, float b, float c) {
 static inline mask_t meets_own_box(const RayPacket* p, global const float* c) {
   float in[3], out[3];
   for (int k = 0; k < 3; ++k) {
-    const float low = least_of_3(c[k], c[3 + k], c[6 + k]), high = greatest_of_3(c[k], c[3 + k], c[6 + k]);
+    const float low = min_of_3(c[k], c[3 + k], c[6 + k]), high = max_of_3(c[k], c[3 + k], c[6 + k]);
     const bool down = p->down >> k & 1;
-    in[k] = down ? high : low, out[k] = down ? low : high;
+    in[k] = down ? high : low;
+    out[k] = down ? low : high;
   }
   return meets_box(p, in[0], in[1], in[2], out[0], out[1], out[2]);
 }

@@ -17,10 +17,10 @@
 #include "kernels/rays/ray_masks.h"
 #endif
 
-#define RAYS_ARGUMENTS                                                                                       \
-  global const RayNode *ray_nodes, global const RayTriangle *ray_triangles, global const uint *ray_places,   \
-      global const RayWideNode *ray_wide_nodes, global const uint4 *ray_masks,                               \
-      global const SurfaceVertex *ray_vertices, global const SurfaceMaterial *ray_materials,                 \
+#define RAYS_ARGUMENTS                                                                                     \
+  global const RayNode *ray_nodes, global const RayTriangle *ray_triangles, global const uint *ray_places, \
+      global const RayWideNode *ray_wide_nodes, global const uint4 *ray_masks,                             \
+      global const SurfaceVertex *ray_vertices, global const SurfaceMaterial *ray_materials,               \
       global const uint *ray_alphas
 #ifdef RAYS_MASKS
 #define RAYS_MASK_SOURCE                                                   \
@@ -113,8 +113,10 @@ static inline __attribute__((always_inline)) bool leaf_blocked(const RayScene* s
 #include "kernels/rays/wide_walk.h"
 #else
 static inline void fetch_child(const RayScene* scene, int child, int count) {
-  if (count == 0) FETCH(scene->nodes + child);
-  else FETCH(scene->triangles + child);
+  if (count == 0)
+    FETCH(scene->nodes + child);
+  else
+    FETCH(scene->triangles + child);
 }
 
 // Walks the tree for the lanes that trace() names.
@@ -143,13 +145,11 @@ static inline __attribute__((always_inline)) void walk_tree(const RayScene* scen
     bool go_0 = (met & 0xffffu) != 0, go_1 = met >> 16 != 0;
     if (go_0 && n->count_0 != 0) {
       go_0 = false;
-      if (leaf_blocked(scene, p, point, n->child_0, n->count_0, own, live, hidden, last_blocker))
-        return;
+      if (leaf_blocked(scene, p, point, n->child_0, n->count_0, own, live, hidden, last_blocker)) return;
     }
     if (go_1 && n->count_1 != 0) {
       go_1 = false;
-      if (leaf_blocked(scene, p, point, n->child_1, n->count_1, own, live, hidden, last_blocker))
-        return;
+      if (leaf_blocked(scene, p, point, n->child_1, n->count_1, own, live, hidden, last_blocker)) return;
     }
     if (go_0) {
       at = n->child_0;

@@ -38,8 +38,10 @@ static inline Box box_of(global const RayNode* nodes, global const RayTriangle* 
 static inline void put_wide(global RayWideNode* wide_nodes, int slot, const Box* box) {
   if (slot < 0) return;
   global RayWideNode* n = wide_nodes + slot / RAY_WIDTH;
-  for (int k = 0; k < 3; ++k)
-    n->planes[k][slot % RAY_WIDTH] = box->low[k], n->planes[3 + k][slot % RAY_WIDTH] = box->high[k];
+  for (int k = 0; k < 3; ++k) {
+    n->planes[k][slot % RAY_WIDTH] = box->low[k];
+    n->planes[3 + k][slot % RAY_WIDTH] = box->high[k];
+  }
 }
 
 kernel void refit_nodes(global RayNode* nodes, global const RayTriangle* triangles,
@@ -51,8 +53,10 @@ kernel void refit_nodes(global RayNode* nodes, global const RayTriangle* triangl
     const Box one = box_of(nodes, triangles, n->child_0, n->count_0),
               other = box_of(nodes, triangles, n->child_1, n->count_1);
     for (int k = 0; k < 3; ++k) {
-      n->low_0[k] = one.low[k], n->high_0[k] = one.high[k];
-      n->low_1[k] = other.low[k], n->high_1[k] = other.high[k];
+      n->low_0[k] = one.low[k];
+      n->high_0[k] = one.high[k];
+      n->low_1[k] = other.low[k];
+      n->high_1[k] = other.high[k];
     }
     if (!slots) continue;
     put_wide(wide_nodes, slots[list[first + i]].x, &one);

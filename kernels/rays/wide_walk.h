@@ -17,24 +17,26 @@ typedef struct Beam {
   BeamAxis x, y, z;
 } Beam;
 
-static inline float least_of(real v) {
+static inline float min_of(real v) {
   const float8 a = fmin(v.lo, v.hi);
   const float4 b = fmin(a.lo, a.hi);
-  return least_of_3(b.x, b.y, fmin(b.z, b.w));
+  return min_of_3(b.x, b.y, fmin(b.z, b.w));
 }
-static inline float greatest_of(real v) { return -least_of(-v); }
+static inline float max_of(real v) { return -min_of(-v); }
 
 // inverse, enter, leave: of the segments of the packet that are `live`, which go the same way.
 static inline BeamAxis beam_axis(const bool point, float light, float reach, mask_t live, real inverse,
                                  real enter, real leave) {
   BeamAxis b = {
-      least_of(live ? inverse : REAL(INFINITY)), greatest_of(live ? inverse : REAL(-INFINITY)), 0, 0, 0, 0};
+      min_of(live ? inverse : REAL(INFINITY)), max_of(live ? inverse : REAL(-INFINITY)), 0, 0, 0, 0};
   const float to_in = b.least < 0.0f ? -reach : reach;
-  if (point)
-    b.before_in = -(light + to_in), b.before_out = -(light - to_in);
-  else
-    b.after_in = least_of(live ? enter : REAL(INFINITY)),
-    b.after_out = greatest_of(live ? leave : REAL(-INFINITY));
+  if (point) {
+    b.before_in = -(light + to_in);
+    b.before_out = -(light - to_in);
+  } else {
+    b.after_in = min_of(live ? enter : REAL(INFINITY));
+    b.after_out = max_of(live ? leave : REAL(-INFINITY));
+  }
   return b;
 }
 
@@ -78,7 +80,9 @@ static inline __attribute__((always_inline)) void walk_tree(const RayScene* scen
     for (;;) {
       while (left == 0) {
         if (height == 0) return;
-        at = nodes_above[--height], left = left_above[height], n = scene->wide_nodes + at;
+        at = nodes_above[--height];
+        left = left_above[height];
+        n = scene->wide_nodes + at;
       }
       const uint k = lowest_bit(left);
       left &= left - 1;
@@ -86,12 +90,14 @@ static inline __attribute__((always_inline)) void walk_tree(const RayScene* scen
                               n->planes[out_x][k], n->planes[out_y][k], n->planes[out_z][k])))
         continue;
       if (n->count[k] == 0) {
-        if (left != 0) nodes_above[height] = at, left_above[height++] = left;
+        if (left != 0) {
+          nodes_above[height] = at;
+          left_above[height++] = left;
+        }
         at = n->child[k];
         break;
       }
-      if (leaf_blocked(scene, p, point, n->child[k], n->count[k], own, live, hidden, last_blocker))
-        return;
+      if (leaf_blocked(scene, p, point, n->child[k], n->count[k], own, live, hidden, last_blocker)) return;
     }
   }
 }

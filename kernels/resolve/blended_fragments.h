@@ -13,7 +13,7 @@
 #define SHARE , real* share
 #define SHARE_TO(to) , &to
 typedef global const float* OpaqueDepth;
-#define OPAQUE_DEPTH(depths, pixel) ((depths) + (pixel) * SAMPLES)
+#define OPAQUE_DEPTH(depths, pixel) ((depths) + (pixel)*SAMPLES)
 #else
 #define SHARE
 #define SHARE_TO(to)

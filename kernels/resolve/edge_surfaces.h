@@ -77,7 +77,8 @@ static inline void fetch_square(global const uint* triangles, global const float
     const uint row = y * width + x0;
     for (uint bits = edge_bits(edges, row, min(SIDE, width - x0)); bits != 0; bits &= bits - 1) {
       const size_t at = (size_t)(row + lowest_bit(bits)) * SAMPLES;
-      FETCH(triangles + at), FETCH(depths + at);
+      FETCH(triangles + at);
+      FETCH(depths + at);
     }
   }
 }
@@ -85,7 +86,8 @@ static inline void fetch_square(global const uint* triangles, global const float
 static inline void add_edge_pixel(EdgeSurfaces* e, const ResolveScene* scene, global const uint* triangles,
                                   global const float* depths, uint x, uint y, uint at) {
   const uint one = e->pixel_count++;
-  e->pixels[one] = at, e->missed[one] = 0;
+  e->pixels[one] = at;
+  e->missed[one] = 0;
   for (uint left = ALL_SAMPLES; left != 0;) {
     const PixelSurface p =
         next_surface(triangles + (size_t)at * SAMPLES, depths + (size_t)at * SAMPLES, &left);
@@ -95,9 +97,12 @@ static inline void add_edge_pixel(EdgeSurfaces* e, const ResolveScene* scene, gl
     }
     FETCH(scene->triangle_instance + p.triangle);
     const uint i = e->count++;
-    ((int*)e->triangles)[i] = (int)p.triangle, e->samples[i] = (uchar)p.samples, e->depth[i] = p.depth;
+    ((int*)e->triangles)[i] = (int)p.triangle;
+    e->samples[i] = (uchar)p.samples;
+    e->depth[i] = p.depth;
     e->pixel[i] = at;
-    e->x[i] = (float)(x - e->base_x) + p.off_x, e->y[i] = (float)(y - e->base_y) + p.off_y;
+    e->x[i] = (float)(x - e->base_x) + p.off_x;
+    e->y[i] = (float)(y - e->base_y) + p.off_y;
   }
   e->ends[one] = (ushort)e->count;
 }
@@ -106,7 +111,8 @@ static inline void add_edge_pixel(EdgeSurfaces* e, const ResolveScene* scene, gl
 static inline void find_edge_surfaces(EdgeSurfaces* e, const ResolveScene* scene,
                                       global const uint* triangles, global const float* depths,
                                       global const ushort* edges, uint x0, uint y0, uint width, uint height) {
-  e->base_x = x0 & ~(EDGE_BLOCK - 1u), e->base_y = y0 & ~(EDGE_BLOCK - 1u);
+  e->base_x = x0 & ~(EDGE_BLOCK - 1u);
+  e->base_y = y0 & ~(EDGE_BLOCK - 1u);
   e->pixel_count = e->count = 0;
   fetch_square(triangles, depths, edges, x0 + SIDE, y0, width, height);
   for (uint y = y0; y < min(y0 + SIDE, height); ++y) {
@@ -136,15 +142,19 @@ typedef struct EdgeBatch {
 static inline void take_batch(EdgeBatch* b, const EdgeSurfaces* e, uint first, const ResolveScene* scene) {
   const Attributes no_attributes = {0};
   const Surface no_material = {0};
-  b->attributes = no_attributes, b->material = no_material;
+  b->attributes = no_attributes;
+  b->material = no_material;
   real dx, dy;
   for (uint i = 0; i < 16; ++i) {
     const uint one = b->surface[i] = e->order[min(first + i, e->count - 1)];
     ((int*)&b->triangle)[i] = TRIANGLE_OF(e, one);
-    ((float*)&dx)[i] = e->x[one], ((float*)&dy)[i] = e->y[one], ((float*)&b->depth)[i] = e->depth[one];
+    ((float*)&dx)[i] = e->x[one];
+    ((float*)&dy)[i] = e->y[one];
+    ((float*)&b->depth)[i] = e->depth[one];
   }
   b->covered = LANE_INDEX < (int16)((int)(e->count - first));
-  b->x = (float)e->base_x + 0.5f + dx, b->y = (float)e->base_y + 0.5f + dy;
+  b->x = (float)e->base_x + 0.5f + dx;
+  b->y = (float)e->base_y + 0.5f + dy;
   for (uint left = mask_bits(b->covered); left != 0;) {
     const uint one = ((const uint*)&b->triangle)[lowest_bit(left)];
     const mask_t here = b->triangle == (uint16)(one);
@@ -169,7 +179,9 @@ static inline void keep_light(EdgeSurfaces* e, const EdgeBatch* b, Real3 light) 
   for (uint i = 0; i < 16; ++i) {
     if (!LANE(b->covered, i)) continue;
     const uint one = b->surface[i];
-    e->red[one] = LANE(light.x, i), e->green[one] = LANE(light.y, i), e->blue[one] = LANE(light.z, i);
+    e->red[one] = LANE(light.x, i);
+    e->green[one] = LANE(light.y, i);
+    e->blue[one] = LANE(light.z, i);
   }
 }
 

@@ -39,10 +39,10 @@ typedef struct Texels {
 #define OF_ONE(x) (x)
 #elif BUFFER_BITS == 16
 #define OF_ONE(x) ((x) / 65535.0f)
-#define OF_NORMAL(x) (((x) - 32768.0f) / 32767.0f)
+#define OF_NORMAL(x) (((x)-32768.0f) / 32767.0f)
 #else
 #define OF_ONE(x) ((x) / 255.0f)
-#define OF_NORMAL(x) (((x) - 128.0f) / 127.0f)
+#define OF_NORMAL(x) (((x)-128.0f) / 127.0f)
 #endif
 
 #ifdef MODELS
@@ -63,8 +63,11 @@ static inline ShadingPoint modelled_point(ShadingPoint p, Real3 to_viewer, real 
   float values[5][16];
   for (uint i = 0; i < 16; ++i) {
     global const MaterialModelRecord* m = models + (uint)((const float*)&number)[i];
-    values[0][i] = m->subsurface[0], values[1][i] = m->subsurface[1], values[2][i] = m->subsurface[2];
-    values[3][i] = m->roll_off, values[4][i] = m->minnaert_k;
+    values[0][i] = m->subsurface[0];
+    values[1][i] = m->subsurface[1];
+    values[2][i] = m->subsurface[2];
+    values[3][i] = m->roll_off;
+    values[4][i] = m->minnaert_k;
   }
   const real red = vload16(0, values[0]), green = vload16(0, values[1]), blue = vload16(0, values[2]);
   const real roll_off = vload16(0, values[3]), k = vload16(0, values[4]);
@@ -142,10 +145,10 @@ static inline ShadingPoint coated_point(ShadingPoint p, Texels coat) {
 #define STORED_NORMAL(x) (x)
 #elif BUFFER_BITS == 16
 #define STORED_ONE 65535.0f
-#define STORED_NORMAL(x) floor((x) * 32767.0f + 32768.5f)
+#define STORED_NORMAL(x) floor((x)*32767.0f + 32768.5f)
 #else
 #define STORED_ONE 255.0f
-#define STORED_NORMAL(x) floor((x) * 127.0f + 128.5f)
+#define STORED_NORMAL(x) floor((x)*127.0f + 128.5f)
 #endif
 
 // The inverse of normal_of_octahedral.
@@ -181,9 +184,12 @@ static inline void texels_of_surface(Texels* first, Texels* second, Real3 normal
   octahedral(normal, &u, &v);
   const Texels a = {STORED_NORMAL(u), STORED_NORMAL(v), roughness * STORED_ONE, metallic * STORED_ONE};
   const Texels b = {color.x * STORED_ONE, color.y * STORED_ONE, color.z * STORED_ONE,
-                    unlit ? REAL(0.0f) : number > REAL(0.0f) ? number : REAL(STORED_ONE)};
+                    unlit                 ? REAL(0.0f)
+                    : number > REAL(0.0f) ? number
+                                          : REAL(STORED_ONE)};
 #endif
-  *first = covered_texels(a, covered), *second = covered_texels(b, covered);
+  *first = covered_texels(a, covered);
+  *second = covered_texels(b, covered);
 }
 
 static inline Texels texels_of_specular(Real3 f0, real f90, mask_t covered) {

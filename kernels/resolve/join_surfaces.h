@@ -35,7 +35,9 @@ static inline SeenTriangle seen_triangle(const SeenTriangles* s, uint number) {
   t.instance = s->triangle_instance[number];
   global const RasterInstanceRecord* r = s->instances + t.instance;
   global const uint* index = s->indices + r->first_index + 3 * (size_t)(number - r->first_triangle);
-  t.a = index[0], t.b = index[1], t.c = index[2];
+  t.a = index[0];
+  t.b = index[1];
+  t.c = index[2];
   if (r->flags & RASTER_TWO_SIDED) {
     global const float4* clip = s->clip + r->first_clip_vertex;
     const float4 a = clip[t.a], b = clip[t.b], c = clip[t.c];
@@ -74,9 +76,14 @@ static inline bool holds_centre(const SeenTriangle* t, const SeenTriangles* scen
   const float at_centre = fma(edges.x, a.z, fma(edges.y, b.z, edges.z * c.z)) /
                           fma(edges.x, a.w, fma(edges.y, b.w, edges.z * c.w));
   float least = depths[0], most = depths[0];
-  for (uint s = 1; s < SAMPLES; ++s) least = min(least, depths[s]), most = max(most, depths[s]);
-  if (at_centre >= least) *depth = min(at_centre, most);
-  else *depth = least;
+  for (uint s = 1; s < SAMPLES; ++s) {
+    least = min(least, depths[s]);
+    most = max(most, depths[s]);
+  }
+  if (at_centre >= least)
+    *depth = min(at_centre, most);
+  else
+    *depth = least;
   return true;
 }
 #endif
@@ -92,7 +99,10 @@ static inline bool join_surfaces(global uint* triangles, const SeenTriangles* sc
     while (!(left >> first & 1u)) ++first;
     SeenTriangle t = seen_triangle(scene, triangles[first]);
     for (uint s = first; s < SAMPLES; ++s)
-      if (left >> s & 1u && triangles[s] == t.number) t.samples |= 1u << s, ++t.count;
+      if (left >> s & 1u && triangles[s] == t.number) {
+        t.samples |= 1u << s;
+        ++t.count;
+      }
     left &= ~t.samples;
     seen[count++] = t;
   }

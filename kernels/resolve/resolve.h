@@ -87,9 +87,12 @@ static inline Real3 turned(global const float* m, real x, real y, real z) {
 #define KEEP_VALUES(inputs, effect, own) inputs(KEEP_VALUE)
 
 static inline void keep_place(TexturePlace* to, TexturePlace p, mask_t here) {
-  KEEP(to->u, p.u), KEEP(to->v, p.v);
-  KEEP(to->u_right, p.u_right), KEEP(to->v_right, p.v_right);
-  KEEP(to->u_up, p.u_up), KEEP(to->v_up, p.v_up);
+  KEEP(to->u, p.u);
+  KEEP(to->v, p.v);
+  KEEP(to->u_right, p.u_right);
+  KEEP(to->v_right, p.v_right);
+  KEEP(to->u_up, p.u_up);
+  KEEP(to->v_up, p.v_up);
 }
 
 #ifdef VERTEX_COLOR
@@ -234,10 +237,13 @@ static inline MapTexels sample_maps(const Attributes* a, const ResolveScene* s,
   const real one = 1.0f;
   MapTexels t = {real3(one, one, one), real3(one, one, one), real3(one, one, one), one, one, one, one};
 #ifdef SPECULAR
-  t.specular = one, t.specular_color = real3(one, one, one);
+  t.specular = one;
+  t.specular_color = real3(one, one, one);
 #endif
 #ifdef CLEARCOAT
-  t.coat = one, t.coat_roughness = one, t.coat_normal = real3(one, one, one);
+  t.coat = one;
+  t.coat_roughness = one;
+  t.coat_normal = real3(one, one, one);
 #endif
   uint maps = m->flags & ((1u << SURFACE_MAPS) - 1u);
 #ifndef CLEARCOAT
@@ -249,8 +255,10 @@ static inline MapTexels sample_maps(const Attributes* a, const ResolveScene* s,
   if (m->flags & SURFACE_PACKED) {
     Footprint own;
     const Texels8 p = filtered_8(s->texels_8, m->maps, packed_footprint(a, m, &own));
-    t.base_color = real3(p.c[0], p.c[1], p.c[2]), t.normal = real3(p.c[3], p.c[4], p.c[5]);
-    t.roughness = p.c[6], t.metallic = p.c[7];
+    t.base_color = real3(p.c[0], p.c[1], p.c[2]);
+    t.normal = real3(p.c[3], p.c[4], p.c[5]);
+    t.roughness = p.c[6];
+    t.metallic = p.c[7];
     maps &= ~(1u << SURFACE_BASE_COLOR | 1u << SURFACE_METALLIC_ROUGHNESS | 1u << SURFACE_NORMAL);
   }
 #pragma unroll 1
@@ -259,8 +267,14 @@ static inline MapTexels sample_maps(const Attributes* a, const ResolveScene* s,
     global const SurfaceMap* map = m->maps + i;
     const Texels4 p = filtered_4(s->texels_4, map, PLACE_IN(map));
     const Real3 color = real3(p.c[0], p.c[1], p.c[2]);
-    if (i == SURFACE_BASE_COLOR) t.base_color = color, t.alpha = p.c[3];
-    if (i == SURFACE_METALLIC_ROUGHNESS) t.roughness = p.c[1], t.metallic = p.c[2];
+    if (i == SURFACE_BASE_COLOR) {
+      t.base_color = color;
+      t.alpha = p.c[3];
+    }
+    if (i == SURFACE_METALLIC_ROUGHNESS) {
+      t.roughness = p.c[1];
+      t.metallic = p.c[2];
+    }
     if (i == SURFACE_NORMAL) t.normal = color;
     if (i == SURFACE_OCCLUSION) t.occlusion = p.c[0];
     if (i == SURFACE_EMISSIVE) t.emissive = color;
@@ -297,7 +311,8 @@ static inline void add_material(Surface* surface, const Attributes* a, const Res
   color = real3(color.x * t.base_color.x, color.y * t.base_color.y, color.z * t.base_color.z);
   emissive = real3(emissive.x * t.emissive.x, emissive.y * t.emissive.y, emissive.z * t.emissive.z);
   alpha *= t.alpha;
-  roughness *= t.roughness, metallic *= t.metallic;
+  roughness *= t.roughness;
+  metallic *= t.metallic;
   occlusion = 1.0f + m->occlusion_strength * (t.occlusion - 1.0f);
 #ifdef NORMAL_MAP
   KEEP3(surface->mapped, mapped_normal(t.normal, REAL(m->normal_scale)));
@@ -318,7 +333,8 @@ static inline void add_material(Surface* surface, const Attributes* a, const Res
 #ifdef CLEARCOAT
   real coat = m->coat, coat_roughness = m->coat_roughness;
 #ifdef TEXTURED
-  coat *= t.coat, coat_roughness *= t.coat_roughness;
+  coat *= t.coat;
+  coat_roughness *= t.coat_roughness;
 #ifdef NORMAL_MAP
   KEEP3(surface->coat_mapped, mapped_normal(t.coat_normal, REAL(m->coat_normal_scale)));
   KEEP(surface->has_coat_map, (mask_t)(m->flags & 1u << SURFACE_COAT_NORMAL ? -1 : 0));

@@ -89,7 +89,10 @@ static inline void fetch_texels(Attributes* a, const ResolveScene* s, mask_t cov
     global const SurfaceMaterial* m = s->materials + one;
     if (!(m->flags & SURFACE_PACKED)) continue;
     Footprint own, *f = &own;
-    if (!a->footprint_material) a->footprint_material = m, f = &a->footprint;
+    if (!a->footprint_material) {
+      a->footprint_material = m;
+      f = &a->footprint;
+    }
     *f = footprint_of(m->maps, PLACE_IN(m->maps));
     global const packed_t* chain = (global const packed_t*)s->texels_8 + 8 * (size_t)m->maps->base;
 #define FETCH_ROWS_OF(level, i)                  \

@@ -63,6 +63,7 @@
     RESOLVE_SCENE_LIST(GIVEN)                                                                        \
     GIVEN_SURFACE_VALUES.half_size = (float2)(0.5f * (float)view->width, 0.5f * (float)view->height) \
   }
+// clang-format on
 #define RESOLVE_LIGHTS                                                                             \
   {                                                                                                \
     .lights = {GIVEN_LIGHTS light_bins GIVEN_FACTORS(light_indices) GIVEN_SHADOWS},                \
@@ -88,7 +89,8 @@ static inline void take_list(ResolveLights* l, global const index_t* light_indic
 #ifdef WORLD_GRID
   l->list = light_indices;
 #elif defined(SLICES)
-  l->list = light_indices, l->cell = cell;
+  l->list = light_indices;
+  l->cell = cell;
 #else
   l->list = cells ? light_indices + cells[cell].x : 0;
   l->count = cells ? cells[cell].y : view->light_count;
@@ -101,8 +103,8 @@ static inline Real3 light_of_cells(Real3 own, const ShadingPoint* p, real depth,
                                    const ResolveLights* l, constant float* bin_edges,
                                    constant ViewParams* view) {
   const real nearest = lit ? -depth : REAL(INFINITY), farthest = lit ? depth : REAL(INFINITY);
-  const uint first = slice_of_key(least_lane(nearest), l->slice_edges);
-  const uint last = slice_of_key(-least_lane(farthest), l->slice_edges);
+  const uint first = slice_of_key(min_lane(nearest), l->slice_edges);
+  const uint last = slice_of_key(-min_lane(farthest), l->slice_edges);
   Real3 sum = own;
   for (uint slice = first; slice <= last; ++slice) {
     const float begin = slice == 0 ? -INFINITY : l->slice_edges[slice - 1], end = l->slice_edges[slice];
@@ -178,9 +180,9 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
   constant WorldGridParams* const world = l->world;
   const WorldLists lists = {.buckets = l->world_buckets, .keys = l->world_keys, .cells = l->cells};
   const Real3 at = world_position(p->position, l->world_view);
-  const whole x = world_coordinate(at.x, world->least_x, world->most_x);
-  const whole y = world_coordinate(at.y, world->least_y, world->most_y);
-  const whole z = world_coordinate(at.z, world->least_z, world->most_z);
+  const whole x = world_coordinate(at.x, world->min_x, world->max_x);
+  const whole y = world_coordinate(at.y, world->min_y, world->max_y);
+  const whole z = world_coordinate(at.z, world->min_z, world->max_z);
   whole list = 0, count = 0;
   uint2 ranges[LANES];
   uint found = 0;
@@ -190,7 +192,8 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
     const mask_t here = lit & (x == (whole)(cell_x)) & (y == (whole)(cell_y)) & (z == (whole)(cell_z));
     left &= ~mask_bits(here);
     ranges[found] = world_range((uint)cell_x, (uint)cell_y, (uint)cell_z, world, &lists);
-    list = here ? (whole)((int)ranges[found].x) : list, count = here ? (whole)((int)ranges[found].y) : count;
+    list = here ? (whole)((int)ranges[found].x) : list;
+    count = here ? (whole)((int)ranges[found].y) : count;
   }
   Real3 sum = own;
   mask_t left = lit;
@@ -209,9 +212,9 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
   constant WorldGridParams* const world = l->world;
   const WorldLists lists = {.buckets = l->world_buckets, .keys = l->world_keys, .cells = l->cells};
   const Real3 at = world_position(p->position, l->world_view);
-  const uint2 range = world_range((uint)world_coordinate(at.x, world->least_x, world->most_x),
-                                  (uint)world_coordinate(at.y, world->least_y, world->most_y),
-                                  (uint)world_coordinate(at.z, world->least_z, world->most_z), world, &lists);
+  const uint2 range = world_range((uint)world_coordinate(at.x, world->min_x, world->max_x),
+                                  (uint)world_coordinate(at.y, world->min_y, world->max_y),
+                                  (uint)world_coordinate(at.z, world->min_z, world->max_z), world, &lists);
   return sum_of_world_lists(own, p, lit, range, l);
 }
 #endif

@@ -21,10 +21,17 @@ static inline bool stores_one(global const uint* image, size_t pixel) {
 // Two depths always lie in a plane: they count as one surface if they are nearly the same.
 static inline bool in_plane(global const float* depth) {
   float mean = 0, most = 0, along_x = 0, along_y = 0, xx = 0, xy = 0, yy = 0;
-  for (uint s = 0; s < SAMPLES; ++s) mean += depth[s] * (1.0f / SAMPLES), most = fmax(most, depth[s]);
+  for (uint s = 0; s < SAMPLES; ++s) {
+    mean += depth[s] * (1.0f / SAMPLES);
+    most = fmax(most, depth[s]);
+  }
   for (uint s = 0; s < SAMPLES; ++s) {
     const float x = SAMPLE_X(s), y = SAMPLE_Y(s), d = depth[s] - mean;
-    along_x += x * d, along_y += y * d, xx += x * x, xy += x * y, yy += y * y;
+    along_x += x * d;
+    along_y += y * d;
+    xx += x * x;
+    xy += x * y;
+    yy += y * y;
   }
   const float determinant = xx * yy - xy * xy;
   const bool plane = SAMPLES > 2;

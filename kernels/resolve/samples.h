@@ -40,13 +40,16 @@ static inline PixelSurface next_surface(global const uint* triangles, global con
   for (uint s = 0; s < SAMPLES; ++s) {
     const bool here = triangles[s] == p.triangle;
     p.samples |= here ? 1u << s : 0u;
-    x += here ? SAMPLE_UNITS_X(s) : 0, y += here ? SAMPLE_UNITS_Y(s) : 0;
+    x += here ? SAMPLE_UNITS_X(s) : 0;
+    y += here ? SAMPLE_UNITS_Y(s) : 0;
     p.depth += here ? depths[s] : 0.0f;
   }
   *left &= ~p.samples;
   const int count = (int)popcount(p.samples);
   const float mean = 1.0f / (float)count;
-  p.depth *= mean, p.off_x = (float)x * (mean / 256), p.off_y = (float)y * (mean / 256);
+  p.depth *= mean;
+  p.off_x = (float)x * (mean / 256);
+  p.off_y = (float)y * (mean / 256);
   return p;
 }
 #endif

@@ -60,7 +60,8 @@ static inline void light_pixels(Lights* lights, uint x, uint y, constant ViewPar
 #if defined(SHADOWS) && defined(BLEND)
 // For blended surfaces: the layer of each lane's fragment. Past the last one it has no shadows.
 static inline void light_layers(Lights* lights, whole layer, mask_t shown, uint layers) {
-  lights->shadows.layer = layer, lights->shadows.shown = shown & (layer < (whole)((int)layers));
+  lights->shadows.layer = layer;
+  lights->shadows.shown = shown & (layer < (whole)((int)layers));
 }
 #endif
 
@@ -85,22 +86,22 @@ typedef struct PixelBins {
 } PixelBins;
 
 #if LANES == 16
-static inline float least_lane(real v) {
+static inline float min_lane(real v) {
   const float8 a = fmin(v.lo, v.hi);
   const float4 b = fmin(a.lo, a.hi);
   const float2 c = fmin(b.lo, b.hi);
   return fmin(c.x, c.y);
 }
 #else
-#define least_lane(v) (v)
+#define min_lane(v) (v)
 #endif
 
 static inline PixelBins bins_of_pixels(real depths, mask_t lit, constant float* edges) {
   PixelBins bins = {0, 0};
 #ifdef Z_BINS
   const real nearest = lit ? -depths : REAL(INFINITY), farthest = lit ? depths : REAL(INFINITY);
-  bins.first = z_bin_of_key(least_lane(nearest), edges);
-  bins.last = z_bin_of_key(-least_lane(farthest), edges);
+  bins.first = z_bin_of_key(min_lane(nearest), edges);
+  bins.last = z_bin_of_key(-min_lane(farthest), edges);
 #endif
   return bins;
 }

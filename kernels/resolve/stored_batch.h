@@ -26,8 +26,11 @@ static inline StoredSample stored_sample(global const float* depths, uint x, uin
   const size_t image = ((size_t)y * width + x) * SAMPLES;
   StoredSample at = {(float)x + 0.5f, (float)y + 0.5f, 0.0f, 1.0f, (uint)image, s > 0};
   if (edge) {
-    at.x += SAMPLE_X(s), at.y += SAMPLE_Y(s), at.depth = depths[image + s];
-    at.share = 1.0f / SAMPLES, at.image += s;
+    at.x += SAMPLE_X(s);
+    at.y += SAMPLE_Y(s);
+    at.depth = depths[image + s];
+    at.share = 1.0f / SAMPLES;
+    at.image += s;
   } else {
     for (uint k = 0; k < SAMPLES; ++k) at.depth += depths[image + k];
     at.depth *= 1.0f / SAMPLES;
@@ -68,7 +71,10 @@ typedef struct StoredWalk {
 
 static inline void step_x(StoredWalk* walk, uint pixels) {
   walk->x += pixels;
-  if (walk->x >= walk->x_end) walk->x = walk->x_begin, walk->y += pixels;
+  if (walk->x >= walk->x_end) {
+    walk->x = walk->x_begin;
+    walk->y += pixels;
+  }
 }
 
 #if SAMPLES == 1
@@ -95,13 +101,21 @@ static inline bool next_batch(StoredBatch* b, StoredWalk* walk, global const flo
   for (; count < 16 && walk->y < walk->y_end; ++count) {
     const bool edge = at_edge(edges, (size_t)walk->y * width + walk->x);
     const StoredSample at = stored_sample(depths, walk->x, walk->y, width, walk->s, edge);
-    x[count] = at.x, y[count] = at.y, depth[count] = at.depth;
-    b->share[count] = at.share, image[count] = at.image, b->next[count] = at.next;
+    x[count] = at.x;
+    y[count] = at.y;
+    depth[count] = at.depth;
+    b->share[count] = at.share;
+    image[count] = at.image;
+    b->next[count] = at.next;
     walk->s = edge ? (walk->s + 1) % SAMPLES : 0;
     if (walk->s == 0) step_x(walk, 1);
   }
-  b->x = vload16(0, x), b->y = vload16(0, y), b->depth = vload16(0, depth), b->image = vload16(0, image);
-  b->lanes = first_lanes(count), b->in_rows = false;
+  b->x = vload16(0, x);
+  b->y = vload16(0, y);
+  b->depth = vload16(0, depth);
+  b->image = vload16(0, image);
+  b->lanes = first_lanes(count);
+  b->in_rows = false;
   return count > 0;
 }
 #endif

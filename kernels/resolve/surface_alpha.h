@@ -52,7 +52,10 @@ static inline real alpha_at(const AlphaSource* s, uint material, float4 a, float
   global const SurfaceMap* map = m->maps + SURFACE_BASE_COLOR;
   TexturePlace place =
       map->flags & MAP_UV1 ? TEXTURE_PLACE(corners, w, &t, sa, sb) : TEXTURE_PLACE(corners, w, &t, s8, s9);
-  place.u_right *= side, place.v_right *= side, place.u_up *= side, place.v_up *= side;
+  place.u_right *= side;
+  place.v_right *= side;
+  place.u_up *= side;
+  place.v_up *= side;
   return alpha * filtered_alpha(s->alphas, m->alpha_base, map, place);
 }
 

@@ -67,9 +67,12 @@ static inline const LevelTaps* in_memory(const LevelTaps* taps) {
 
 static inline LevelTaps level_taps(LevelFootprint f, real weight) {
   LevelTaps t;
-  t.low = f.first, t.high = f.first + f.pitch;
-  t.high_weight = weight * f.y, t.low_weight = weight - t.high_weight;
-  t.left_weight = 1.0f - f.x, t.right_weight = f.x;
+  t.low = f.first;
+  t.high = f.first + f.pitch;
+  t.high_weight = weight * f.y;
+  t.low_weight = weight - t.high_weight;
+  t.left_weight = 1.0f - f.x;
+  t.right_weight = f.x;
   return t;
 }
 
@@ -118,7 +121,10 @@ static inline Texels4 filtered_4(global const ushort* texels, global const Surfa
   SUM_TEXELS(sums, float4, add_texels_4, chain, f)
   Texels4 t;
 #if LANES == 1
-  t.c[0] = sums[0].x, t.c[1] = sums[0].y, t.c[2] = sums[0].z, t.c[3] = sums[0].w;
+  t.c[0] = sums[0].x;
+  t.c[1] = sums[0].y;
+  t.c[2] = sums[0].z;
+  t.c[3] = sums[0].w;
 #else
   float16 four[4];  // pixels
 #pragma unroll
@@ -143,7 +149,13 @@ static inline Texels8 filtered_8(global const ushort* texels, global const Surfa
   Texels8 t;
 #if LANES == 1
   const float8 p = sums[0];
-  t.c[0] = p.s0, t.c[1] = p.s1, t.c[2] = p.s2, t.c[3] = p.s3, t.c[4] = p.s4, t.c[5] = p.s5, t.c[6] = p.s6,
+  t.c[0] = p.s0;
+  t.c[1] = p.s1;
+  t.c[2] = p.s2;
+  t.c[3] = p.s3;
+  t.c[4] = p.s4;
+  t.c[5] = p.s5;
+  t.c[6] = p.s6;
   t.c[7] = p.s7;
 #else
   float16 even[4], odd[4];  // channels 0, 2, 4, 6 and 1, 3, 5, 7 of four pixels
@@ -151,7 +163,8 @@ static inline Texels8 filtered_8(global const ushort* texels, global const Surfa
   for (uint i = 0; i < 4; ++i) {
     const float16 a = (float16)(sums[4 * i], sums[4 * i + 1]),
                   b = (float16)(sums[4 * i + 2], sums[4 * i + 3]);
-    even[i] = (float16)(a.even, b.even), odd[i] = (float16)(a.odd, b.odd);
+    even[i] = (float16)(a.even, b.even);
+    odd[i] = (float16)(a.odd, b.odd);
   }
   t.c[0] = (float16)(even[0].s048c, even[1].s048c, even[2].s048c, even[3].s048c);
   t.c[2] = (float16)(even[0].s159d, even[1].s159d, even[2].s159d, even[3].s159d);

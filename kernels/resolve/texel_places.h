@@ -27,8 +27,10 @@ typedef struct TexelPlaces {
 
 // samples: those of the pixel that see the lane's surface, as a mask.
 static inline void add_texels(TexelPlaces* to, uint lane, uint pixel, uint samples) {
-  for (; samples != 0; samples &= samples - 1)
-    to->lane[to->count] = lane, to->at[to->count++] = pixel * SAMPLES + lowest_bit(samples);
+  for (; samples != 0; samples &= samples - 1) {
+    to->lane[to->count] = lane;
+    to->at[to->count++] = pixel * SAMPLES + lowest_bit(samples);
+  }
 }
 
 // All samples of a block of 4 x 4 pixels from (x, y) on, a lane each.

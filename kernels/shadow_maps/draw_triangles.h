@@ -99,8 +99,10 @@ static inline mask_t set_up(const FaceTile* t, const Real3 corners[3], TriangleL
   mask_t drawn = (d->furthest > 0.0f) & (nearest <= t->range) & (texel_value(t, d->nearest) < t->farthest);
   if (!t->parallel) drawn &= in_range(t, corners);
   if (!any_lane(drawn)) return drawn;
-  d->left = (whole)(t->x), d->right = (whole)(t->x + t->side - 1);
-  d->low = (whole)(t->y), d->high = (whole)(t->y + t->side - 1);
+  d->left = (whole)(t->x);
+  d->right = (whole)(t->x + t->side - 1);
+  d->low = (whole)(t->y);
+  d->high = (whole)(t->y + t->side - 1);
   bound_axis(t, real3(a.x, b.x, c.x), z, &d->left, &d->right);
   bound_axis(t, real3(a.y, b.y, c.y), z, &d->low, &d->high);
   drawn &= (d->left <= d->right) & (d->low <= d->high);
@@ -109,10 +111,13 @@ static inline mask_t set_up(const FaceTile* t, const Real3 corners[3], TriangleL
   const real offset = dot3(normal, a), facing = t->parallel ? normal.z : offset;
   drawn &= (facing > 0.0f) | (facing < 0.0f);  // else the light lies in its plane and sees nothing of it
   const real turn = facing < 0.0f ? REAL(-1.0f) : REAL(1.0f);
-  d->normal = scale3(normal, turn), d->offset = turn * offset;
+  d->normal = scale3(normal, turn);
+  d->offset = turn * offset;
   Real3 ea = a, eb = b, ec = c;
   if (t->parallel) ea.z = eb.z = ec.z = REAL(1.0f);
-  d->p = edge_plane_of(eb, ec, turn), d->q = edge_plane_of(ec, ea, turn), d->r = edge_plane_of(ea, eb, turn);
+  d->p = edge_plane_of(eb, ec, turn);
+  d->q = edge_plane_of(ec, ea, turn);
+  d->r = edge_plane_of(ea, eb, turn);
   return drawn & ~(out_of_edge(t, d->p, d) | out_of_edge(t, d->q, d) | out_of_edge(t, d->r, d));
 }
 

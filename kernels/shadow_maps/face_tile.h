@@ -85,17 +85,25 @@ static inline void set_planes(FaceTile* t) {
 }
 
 static inline void set_tile(FaceTile* t, global const ShadowFace* f, uint number) {
-  t->from = at3(f->from), t->right = at3(f->right), t->up = at3(f->up), t->ahead = at3(f->ahead);
-  t->extent = f->extent, t->range = f->range_m, t->scale = texel_scale(f->range_m);
-  t->size = (int)f->size, t->parallel = f->parallel != 0;
-  t->step = 2 * t->extent / (float)t->size, t->first_u = (0.5f - 0.5f * (float)t->size) * t->step;
+  t->from = at3(f->from);
+  t->right = at3(f->right);
+  t->up = at3(f->up);
+  t->ahead = at3(f->ahead);
+  t->extent = f->extent;
+  t->range = f->range_m;
+  t->scale = texel_scale(f->range_m);
+  t->size = (int)f->size;
+  t->parallel = f->parallel != 0;
+  t->step = 2 * t->extent / (float)t->size;
+  t->first_u = (0.5f - 0.5f * (float)t->size) * t->step;
   t->side = min(TILE, t->size);
   // Neighbours first: squares of 16 texels, and tiles in these.
   const uint in_square = TILE < 16 ? 16 / TILE : 1, squares = (uint)t->size / (in_square * (uint)t->side);
   const uint square = number / (in_square * in_square), within = number % (in_square * in_square);
   t->x = (int)((square % squares * in_square + within % in_square) * (uint)t->side);
   t->y = (int)((square / squares * in_square + within / in_square) * (uint)t->side);
-  t->farthest = TEXEL_NOTHING, t->drawn = 0;
+  t->farthest = TEXEL_NOTHING;
+  t->drawn = 0;
   OVER_FEW for (int i = 0; i < TILE * PACKETS; ++i) t->texels[i] = REAL(TEXEL_NOTHING);
   set_planes(t);
 }

@@ -101,12 +101,18 @@ typedef struct FaceReceivers {
 static inline FaceReceivers receivers_in_face(global const ShadowFace* f, const ShadowReceivers* r) {
   const Real3 to = in_face(f, r->at);
   FaceReceivers p;
-  p.x = along(f->right, to), p.y = along(f->up, to), p.z = along(f->ahead, to);
-  p.nx = along(f->right, r->normal), p.ny = along(f->up, r->normal), p.nz = along(f->ahead, r->normal);
+  p.x = along(f->right, to);
+  p.y = along(f->up, to);
+  p.z = along(f->ahead, to);
+  p.nx = along(f->right, r->normal);
+  p.ny = along(f->up, r->normal);
+  p.nz = along(f->ahead, r->normal);
   p.furthest = p.z;
   for (int k = 0; k < 3; ++k) p.furthest = lane_max(p.furthest, along(f->ahead, in_face(f, r->corners[k])));
-  p.u = f->parallel ? p.x : p.x / p.z, p.v = f->parallel ? p.y : p.y / p.z;
-  p.half_size = 0.5f * (float)f->size, p.to_texels = p.half_size / f->extent;
+  p.u = f->parallel ? p.x : p.x / p.z;
+  p.v = f->parallel ? p.y : p.y / p.z;
+  p.half_size = 0.5f * (float)f->size;
+  p.to_texels = p.half_size / f->extent;
   return p;
 }
 

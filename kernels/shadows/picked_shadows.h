@@ -64,7 +64,8 @@ static inline mask_t pick_lights(const Receivers* r, whole masks, global const S
       int n = ((const int*)&count)[lane];
       do ((int*)&picks[n++])[lane] = (int)index;
       while (n < SHADOW_PICK && end > ((float)n + at) * wide);
-      ((int*)&count)[lane] = n, ((float*)&next)[lane] = ((float)n + at) * wide;
+      ((int*)&count)[lane] = n;
+      ((float*)&next)[lane] = ((float)n + at) * wide;
     }
   }
   return count == (whole)(SHADOW_PICK);
@@ -85,16 +86,20 @@ static inline uint hidden_picks(const RayScene* scene, const SoftReceiver* r,
     real x = REAL(0.0f), y = x, z = x, at_x = x, at_y = x, at_z = x, radius = x;
     for (uint lane = 0; lane < LANES && first + lane < SHADOW_PICK; ++lane) {
       global const ShadowLight* l = lights + PICK_OF(picks[first + lane], lane_of_picks);
-      ((float*)&x)[lane] = (float)(l->x - r->x), ((float*)&at_x)[lane] = (float)l->x;
-      ((float*)&y)[lane] = (float)(l->y - r->y), ((float*)&at_y)[lane] = (float)l->y;
-      ((float*)&z)[lane] = (float)(l->z - r->z), ((float*)&at_z)[lane] = (float)l->z;
+      ((float*)&x)[lane] = (float)(l->x - r->x);
+      ((float*)&at_x)[lane] = (float)l->x;
+      ((float*)&y)[lane] = (float)(l->y - r->y);
+      ((float*)&at_y)[lane] = (float)l->y;
+      ((float*)&z)[lane] = (float)(l->z - r->z);
+      ((float*)&at_z)[lane] = (float)l->z;
       ((float*)&radius)[lane] = l->source_m;
     }
     // The rings of the lights' discs are dealt out by another hash, or the first lights would have the inner.
     real p, q;
     const whole i = lanes_from(first);
     disc_samples((i + (int)(mixed(turned) >> 8)) & (SHADOW_PICK - 1), SHADOW_PICK, turned, u, &p, &q);
-    p *= radius, q *= radius;
+    p *= radius;
+    q *= radius;
     const real squared = fma(z, z, fma(y, y, x * x)), inverse = 1.0f / sqrt(squared);
     const real nx = x * inverse, ny = y * inverse, nz = z * inverse,
                sign = nz < 0.0f ? REAL(-1.0f) : REAL(1.0f);

@@ -36,11 +36,11 @@
 #define FIRST_TILE 0
 #define FIRST_ENTRY(own_tile, range) (first_entry + (range).x)
 #endif
-#define SHADOW_PASS_ARGUMENTS                                                                               \
-  RAYS_ARGUMENTS, global const uint *triangles, global const uint *triangle_instance,                       \
-      global const int *number_offsets, global const float *depths, global const uint2 *cells,              \
-      global const index_t *indices, global const ShadowLight *lights, constant ShadowView *shadow_view,    \
-      constant ViewParams *view, uint image, uint first_entry, uint own_hides, global uint2 *tiles,         \
+#define SHADOW_PASS_ARGUMENTS                                                                            \
+  RAYS_ARGUMENTS, global const uint *triangles, global const uint *triangle_instance,                    \
+      global const int *number_offsets, global const float *depths, global const uint2 *cells,           \
+      global const index_t *indices, global const ShadowLight *lights, constant ShadowView *shadow_view, \
+      constant ViewParams *view, uint image, uint first_entry, uint own_hides, global uint2 *tiles,      \
       global uint *bits, global uint *rays BAND_ARGUMENTS
 
 #define NO_TRIANGLE 0xffffffffu
@@ -84,13 +84,16 @@ static inline void add_plane(Receivers* r, global const RayTriangle* t, mask_t h
   const float squared = fma(nz, nz, fma(ny, ny, nx * nx)), inverse = squared > 0.0f ? 1.0f / squared : 0.0f;
   const Real3 from = real3(r->at.x - t->corners[0], r->at.y - t->corners[1], r->at.z - t->corners[2]);
   const real off = fma(from.z, REAL(nz), fma(from.y, REAL(ny), from.x * nx)) * inverse;
-  const Real3 on_plane = real3(fma(-off, REAL(nx), r->at.x), fma(-off, REAL(ny), r->at.y),
-                               fma(-off, REAL(nz), r->at.z));
+  const Real3 on_plane =
+      real3(fma(-off, REAL(nx), r->at.x), fma(-off, REAL(ny), r->at.y), fma(-off, REAL(nz), r->at.z));
   // A dot product with the rounded normal, and the point's own distance from the plane.
   const real slack = 0x1p-20f * (size_of(r->at) + size_of(from));
-  r->at.x = here ? on_plane.x : r->at.x, r->at.y = here ? on_plane.y : r->at.y;
-  r->at.z = here ? on_plane.z : r->at.z, r->slack = here ? slack : r->slack;
-  r->normal.x = here ? REAL(nx * turn) : r->normal.x, r->normal.y = here ? REAL(ny * turn) : r->normal.y;
+  r->at.x = here ? on_plane.x : r->at.x;
+  r->at.y = here ? on_plane.y : r->at.y;
+  r->at.z = here ? on_plane.z : r->at.z;
+  r->slack = here ? slack : r->slack;
+  r->normal.x = here ? REAL(nx * turn) : r->normal.x;
+  r->normal.y = here ? REAL(ny * turn) : r->normal.y;
   r->normal.z = here ? REAL(nz * turn) : r->normal.z;
   r->own = here ? (whole)((int)(t->number & ~RAY_MASKED)) : r->own;
 }
@@ -116,7 +119,9 @@ static inline Receivers receivers_at(mask_t covered, real x, real y, real depth,
   r.shaded = r.at;
   r.gap = fma(REAL(SHADOW_GAP_SHARE), sqrt(fma(r.at.z, r.at.z, fma(r.at.y, r.at.y, r.at.x * r.at.x))),
               REAL(SHADOW_GAP_M));
-  r.own = (whole)(-1), r.normal = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f)), r.slack = REAL(0.0f);
+  r.own = (whole)(-1);
+  r.normal = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
+  r.slack = REAL(0.0f);
   return r;
 }
 

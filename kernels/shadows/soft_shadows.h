@@ -113,7 +113,8 @@ static inline uint hidden_samples(const RayScene* scene, const SoftReceiver* r, 
     disc_samples(i, SHADOW_RAYS, turned, u, &p, &q);
     const mask_t away = used & (fma(q, REAL(height_b), fma(p, REAL(height_a), REAL(height))) < 0.0f),
                  active = used & ~away;
-    p *= radius, q *= radius;
+    p *= radius;
+    q *= radius;
     const Real3 to =
         real3(fma(q, REAL(bx), fma(p, REAL(ax), REAL(lx))), fma(q, REAL(by), fma(p, REAL(ay), REAL(ly))),
               fma(q, REAL(bz), fma(p, REAL(az), REAL(lz))));

@@ -8,13 +8,13 @@
 
 // Before a kernel's other arguments. number_offsets: kernels/shadows/receivers.h. shadow_lights: of those
 // without shadows none is in reach.
-#define TRACED_ARGUMENTS                                                                   \
-  SHADOW_TEST_ARGUMENTS RAYS_ARGUMENTS, global const int *number_offsets,                   \
+#define TRACED_ARGUMENTS                                                  \
+  SHADOW_TEST_ARGUMENTS RAYS_ARGUMENTS, global const int *number_offsets, \
       global const ShadowLight *shadow_lights, constant ShadowView *shadow_view,
-#define TRACED_SHADOWS                                                                      \
-  {                                                                                         \
-    .test = SHADOW_TEST, .scene = RAYS_SCENE, .number_offsets = number_offsets,             \
-    .lights = shadow_lights, .view = shadow_view                                            \
+#define TRACED_SHADOWS                                                                                   \
+  {                                                                                                      \
+    .test = SHADOW_TEST, .scene = RAYS_SCENE, .number_offsets = number_offsets, .lights = shadow_lights, \
+    .view = shadow_view                                                                                  \
   }
 
 typedef struct TracedShadows {

@@ -60,9 +60,12 @@ static inline VoxelBox box_of_samples(constant VoxelGrid* grid, constant VoxelSl
   const float z0 = slices[z].place, z1 = slices[z + count_z - 1].place;
   VoxelBox b = {x0, y0, z0, x1, y1, z1};
 #ifdef VOXELS_LOG
-  b.low_x = fmin(x0 * z0, x0 * z1), b.high_x = fmax(x1 * z0, x1 * z1);
-  b.low_y = fmin(y0 * z0, y0 * z1), b.high_y = fmax(y1 * z0, y1 * z1);
-  b.low_z = -z1, b.high_z = -z0;
+  b.low_x = fmin(x0 * z0, x0 * z1);
+  b.high_x = fmax(x1 * z0, x1 * z1);
+  b.low_y = fmin(y0 * z0, y0 * z1);
+  b.high_y = fmax(y1 * z0, y1 * z1);
+  b.low_z = -z1;
+  b.high_z = -z0;
 #endif
   return b;
 }
@@ -202,6 +205,8 @@ static inline VoxelSum as_stored(VoxelSum s, constant VoxelGrid* grid) {
   const real brightest =
       lane_max(lane_max(s.irradiance.x, s.irradiance.y), lane_max(s.irradiance.z, s.weight));
   const real scale = lane_min(REAL(grid->scale), grid->largest / lane_max(brightest, REAL(1e-30f)));
-  s.irradiance = scale3(s.irradiance, scale), s.directions = scale3(s.directions, scale), s.weight *= scale;
+  s.irradiance = scale3(s.irradiance, scale);
+  s.directions = scale3(s.directions, scale);
+  s.weight *= scale;
   return s;
 }

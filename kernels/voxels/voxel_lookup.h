@@ -68,9 +68,11 @@ static inline VoxelLight voxel_light_at(Real3 position, mask_t lit, global const
     const float fx = VOXEL_FRACTION(x, i), fy = VOXEL_FRACTION(y, i), fz = VOXEL_FRACTION(z, i);
     const float4 e = between_voxels(irradiance + at, row, slice, fx, fy, fz);
     const float4 d = between_voxels(directions + at, row, slice, fx, fy, fz);
-    VOXEL_LANE(light.irradiance.x, i) = e.x, VOXEL_LANE(light.irradiance.y, i) = e.y,
+    VOXEL_LANE(light.irradiance.x, i) = e.x;
+    VOXEL_LANE(light.irradiance.y, i) = e.y;
     VOXEL_LANE(light.irradiance.z, i) = e.z;
-    VOXEL_LANE(light.directions.x, i) = d.x, VOXEL_LANE(light.directions.y, i) = d.y,
+    VOXEL_LANE(light.directions.x, i) = d.x;
+    VOXEL_LANE(light.directions.y, i) = d.y;
     VOXEL_LANE(light.directions.z, i) = d.z;
     VOXEL_LANE(light.weight, i) = d.w;
   }

@@ -51,11 +51,12 @@ static inline BlockSides block_sides(uint2 key, constant WorldGridParams* world)
   const whole cells = is_x   ? (whole)((int)world->cells_x)
                       : is_z ? (whole)((int)world->cells_z)
                              : (whole)((int)world->cells_y);
-  const real least = is_x ? REAL(world->least_x) : is_z ? REAL(world->least_z) : REAL(world->least_y);
+  const real least = is_x ? REAL(world->min_x) : is_z ? REAL(world->min_z) : REAL(world->min_y);
   const mask_t first = cell == 0, last = (cell + 1) << (int)level >= cells;
   const real low = TO_REAL(cell << (int)level) + least, high = TO_REAL((cell + 1) << (int)level) + least;
   BlockSides s;
-  s.low = first ? REAL(-INFINITY) : low, s.high = last ? REAL(INFINITY) : high;
+  s.low = first ? REAL(-INFINITY) : low;
+  s.high = last ? REAL(INFINITY) : high;
 #ifndef COLUMNS
   s.edge = (float)(1u << level);
   s.centre = low + 0.5f * s.edge;

@@ -17,9 +17,9 @@ kernel void world_blocks(global const float4* lights, global const uint* levels,
     const float4 light = lights[i];
     if (!(light.w >= 0.0f)) continue;
     const uint level = levels ? levels[i] : 0;
-    const WorldSpan x = world_span(light.x, light.w, level, world->least_x, world->most_x);
-    const WorldSpan y = world_span(light.y, light.w, level, world->least_y, world->most_y);
-    const WorldSpan z = world_span(light.z, light.w, level, world->least_z, world->most_z);
+    const WorldSpan x = world_span(light.x, light.w, level, world->min_x, world->max_x);
+    const WorldSpan y = world_span(light.y, light.w, level, world->min_y, world->max_y);
+    const WorldSpan z = world_span(light.z, light.w, level, world->min_z, world->max_z);
     uint at = first_pairs[i];
     for (uint bz = z.first >> world->shift_z; bz <= z.last >> world->shift_z; ++bz) {
       for (uint by = y.first >> world->shift_y; by <= y.last >> world->shift_y; ++by) {

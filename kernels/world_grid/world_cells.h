@@ -29,8 +29,8 @@ static inline float world_block_away(float at, uint block, uint shift, uint leve
 // Returns whether the light's ball may reach a block. light: position and radius in cells, radius with slack.
 static inline bool world_meets_block(float4 light, uint x, uint y, uint z, uint level,
                                      constant WorldGridParams* world) {
-  const float dx = world_block_away(light.x, x, world->shift_x, level, world->least_x, world->cells_x);
-  const float dy = world_block_away(light.y, y, world->shift_y, level, world->least_y, world->cells_y);
-  const float dz = world_block_away(light.z, z, world->shift_z, level, world->least_z, world->cells_z);
+  const float dx = world_block_away(light.x, x, world->shift_x, level, world->min_x, world->cells_x);
+  const float dy = world_block_away(light.y, y, world->shift_y, level, world->min_y, world->cells_y);
+  const float dz = world_block_away(light.z, z, world->shift_z, level, world->min_z, world->cells_z);
   return dx * dx + dy * dy + dz * dz <= light.w * light.w;
 }

@@ -20,7 +20,8 @@ kernel void world_entries(global const uint4* pairs, global uint* totals, global
     if (write) members[i] = pair.y;
     if (i == 0 || any(pair.zw != pairs[i - 1].zw)) {
       if (write) {
-        block_first[block] = i, keys[block] = pair.zw;
+        block_first[block] = i;
+        keys[block] = pair.zw;
         for (uint b = i == 0 ? 0 : pairs[i - 1].x + 1; b <= pair.x; ++b) buckets[b] = block;
       }
       ++block;

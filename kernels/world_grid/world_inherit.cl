@@ -34,12 +34,14 @@ kernel void world_inherit(global const float4* lights, global const uint* block_
     const uint2 key = keys[block];
     const uint x = key.x & 0xffffu, y = key.x >> 16, z = key.y & 0xffffu, level = key.y >> 16;
     uint next[WORLD_LEVELS], end[WORLD_LEVELS], lists = 1;
-    next[0] = block_first[block], end[0] = block_first[block + 1];
+    next[0] = block_first[block];
+    end[0] = block_first[block + 1];
     for (uint levels = world->levels & ~((2u << level) - 1u); levels != 0; levels &= levels - 1) {
       const uint above = lowest_bit(levels), up = above - level;
       const uint around = world_block_of(world_key(x >> up, y >> up, z >> up, above), keys, buckets, world);
       if (around == UINT_MAX) continue;
-      next[lists] = block_first[around], end[lists++] = block_first[around + 1];
+      next[lists] = block_first[around];
+      end[lists++] = block_first[around + 1];
     }
     if (!write) {
       uint reach = end[0] - next[0];
@@ -59,7 +61,10 @@ kernel void world_inherit(global const float4* lights, global const uint* block_
                !world_meets_block(lights[members[next[list]]], x, y, z, level, world)) {
           ++next[list];
         }
-        if (next[list] < end[list] && members[next[list]] < least) least = members[next[list]], from = list;
+        if (next[list] < end[list] && members[next[list]] < least) {
+          least = members[next[list]];
+          from = list;
+        }
       }
       if (least == UINT_MAX) break;
       full_members[at++] = least;

@@ -29,7 +29,7 @@
   _Pragma("unroll") for (uint i = 0; i < (cells); ++i) {                     \
     const float low = ((const float*)&(sides)->low)[(first) + i];            \
     const float high = ((const float*)&(sides)->high)[(first) + i];          \
-    const real away = max_real(max_real(low - (at), (at) - high), REAL(0.0f)); \
+    const real away = max_real(max_real(low - (at), (at)-high), REAL(0.0f)); \
     squares[i] = away * away;                                                \
   }
 
@@ -81,7 +81,7 @@ static inline void test_cones(global const float4* lights, global const float4* 
   for (; spots != 0; spots &= spots - 1) {
     const uint i = lowest_bit(spots);
     const ConeTest test = cone_test(lights[members[i]], cones[members[i]], sides, world);
-    const ushort16 others = (ushort16)(ushort)~(1u << i);
+    const ushort16 others = (ushort16)(ushort) ~(1u << i);
 #pragma unroll
     for (uint part = 0; part < PARTS; ++part)
       met[part] &= convert_ushort16(meets_cone(&test, sides, part)) | others;

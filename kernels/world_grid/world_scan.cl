@@ -19,5 +19,6 @@ kernel void world_scan(global uint* values, uint count, global uint* total) {
     at += value;
   }
   if (item + 1 < items) return;
-  total[0] = (uint)at, total[1] = (uint)(at >> 32);
+  total[0] = (uint)at;
+  total[1] = (uint)(at >> 32);
 }

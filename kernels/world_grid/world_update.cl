@@ -96,7 +96,8 @@ kernel void world_update(global const uint* moved, global const float4* balls, g
                                      count, 1ul << i, indices + start);
       own[i] = (uint2)(start, length);
       at = start + length;
-      behind += before.y, copied = behind;
+      behind += before.y;
+      copied = behind;
     }
     copy_indices(old_indices + copied, behind - copied, indices + at);
     at += behind - copied;

@@ -10,9 +10,9 @@ uniform usamplerBuffer world_keys;
 
 uvec2 world_range_at(vec3 position) {
   vec3 at = world_position(position);
-  return world_range(uint(world_coordinate(at.x, world.least_x, world.most_x)),
-                     uint(world_coordinate(at.y, world.least_y, world.most_y)),
-                     uint(world_coordinate(at.z, world.least_z, world.most_z)));
+  return world_range(uint(world_coordinate(at.x, world.min_x, world.max_x)),
+                     uint(world_coordinate(at.y, world.min_y, world.max_y)),
+                     uint(world_coordinate(at.z, world.min_z, world.max_z)));
 }
 
 #if defined(LONG_LOOPS) && !defined(WORLD_EVERYWHERE)

@@ -81,9 +81,11 @@ inline DoubleErrors errors_against_double(const Scene& scene, const View& view,
                  of_forward = apart(forward.image(), radiance);
     if (!(of_visibility <= e.largest)) e.largest = of_visibility;  // NaN too
     e.forward_largest = std::max(e.forward_largest, of_forward);
-    e.mean += of_visibility / double(pixels.size()), e.forward_mean += of_forward / double(pixels.size());
+    e.mean += of_visibility / double(pixels.size());
+    e.forward_mean += of_forward / double(pixels.size());
     for (int c = 0; c < 3; ++c) {
-      e.sum += visibility.image().pixels[pixels[i]][c], e.forward_sum += forward.image().pixels[pixels[i]][c];
+      e.sum += visibility.image().pixels[pixels[i]][c];
+      e.forward_sum += forward.image().pixels[pixels[i]][c];
       e.sum_in_double += radiance[i][c];
     }
     e.own_depth_mean += apart(visibility.image(), at_own_depth) / double(pixels.size());

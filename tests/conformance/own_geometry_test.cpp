@@ -87,7 +87,9 @@ TEST(OwnGeometry, InterleavedAttributesShowWhatSeparateOnesDo) {
     made.root["accessors"][accessor]["byteOffset"] = offset;
     made.primitive()["attributes"][name] = accessor;
   };
-  part("POSITION", "VEC3", 4), part("NORMAL", "VEC3", 16), part("TEXCOORD_0", "VEC2", 28);
+  part("POSITION", "VEC3", 4);
+  part("NORMAL", "VEC3", 16);
+  part("TEXCOORD_0", "VEC2", 28);
   EXPECT_TRUE(same_pixels(shown(made), apart));
 }
 

@@ -94,7 +94,9 @@ TEST(OwnLights, ASpotFadesBetweenItsAngles) {
     const double share =
         std::clamp((cosine - std::cos(outer)) / (std::cos(inner) - std::cos(outer)), 0.0, 1.0);
     expect_radiance(picture.image.at(column, 27), share * share * lit(7 / (d * d), cosine));
-    inside += angle<inner, outside += angle> outer, between += angle > inner && angle < outer;
+    inside += angle < inner;
+    outside += angle > outer;
+    between += angle > inner && angle < outer;
   }
   EXPECT_TRUE(inside > 0 && between > 0 && outside > 0);
 }

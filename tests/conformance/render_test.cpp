@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Of, ConformanceModel, testing::ValuesIn(models), [](con
 class TickedModel : public testing::TestWithParam<std::pair<const char*, int>> {};
 
 TEST_P(TickedModel, HasTicksAndNoCross) {
-  const auto& [file, least_green] = GetParam();
+  const auto& [file, min_green] = GetParam();
   LIGHTGRID_NEEDS_SHARED(std::filesystem::path("scenes/conformance") / file);
   const std::vector<uint8_t> bytes = picture_of(file, "eye:0,0,14,target:0,0,0,fov:50");
   int green = 0, red = 0;
@@ -126,7 +126,7 @@ TEST_P(TickedModel, HasTicksAndNoCross) {
     red += bytes[i] > 100 && bytes[i + 1] < 60 && bytes[i + 2] < 60;
   }
   EXPECT_EQ(red, 0);
-  EXPECT_GT(green, least_green);
+  EXPECT_GT(green, min_green);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, TickedModel,

@@ -52,7 +52,8 @@ int beyond_neighbours(const Bytes& actual, const Bytes& expected, int x, int y, 
   for (int v = std::max(0, y - 1); v <= std::min(height - 1, y + 1); ++v) {
     for (int u = std::max(0, x - 1); u <= std::min(width - 1, x + 1); ++u) {
       const int value = expected[(size_t(v) * width + u) * 3 + channel];
-      low = std::min(low, value), high = std::max(high, value);
+      low = std::min(low, value);
+      high = std::max(high, value);
     }
   }
   const int value = actual[(size_t(y) * width + x) * 3 + channel];

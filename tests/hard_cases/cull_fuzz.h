@@ -23,7 +23,8 @@ class Bytes {
     T value{};
     const size_t size = std::min(sizeof(T), left_);
     std::memcpy(&value, data_, size);
-    data_ += size, left_ -= size;
+    data_ += size;
+    left_ -= size;
     return value;
   }
   int up_to(int most) { return take<uint8_t>() % (most + 1); }
@@ -129,12 +130,18 @@ inline FuzzInput fuzz_input(Bytes bytes) {
   HuntSetting setting{
       .slices = fuzzed.slices, .z_bins = bytes.up_to(1) ? 16 : 1, .spots = bytes.up_to(1) == 1};
   CullerOptions& o = setting.options;
-  o.cull_test = fuzzed.test, o.depth_bounds = fuzzed.mode, o.tile = fuzzed.tile, o.samples = fuzzed.samples;
-  o.index_bits = fuzzed.index_bits, o.lists = fuzzed.lists, o.portable = fuzzed.portable;
+  o.cull_test = fuzzed.test;
+  o.depth_bounds = fuzzed.mode;
+  o.tile = fuzzed.tile;
+  o.samples = fuzzed.samples;
+  o.index_bits = fuzzed.index_bits;
+  o.lists = fuzzed.lists;
+  o.portable = fuzzed.portable;
   const size_t lights = 1 + bytes.up_to(99);
   const uint64_t seed = bytes.take<uint64_t>();
   HuntView hunt = random_view(hunted, setting, seed);
-  o.depth_format = hunt.format, o.blend = hunt.blended;
+  o.depth_format = hunt.format;
+  o.blend = hunt.blended;
   FuzzInput in{o,
                hunt.view,
                cull_lights(random_contacts(hunt, setting, lights, Random::mix(seed)).lights),

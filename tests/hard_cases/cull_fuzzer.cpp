@@ -8,6 +8,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace lightgrid::verify;
   static const auto engine = device_engine("");
   const std::string wrong = fuzz_once(*engine, data, size);
-  if (!wrong.empty()) std::fprintf(stderr, "%s\n", wrong.c_str()), std::abort();
+  if (!wrong.empty()) {
+    std::fprintf(stderr, "%s\n", wrong.c_str());
+    std::abort();
+  }
   return 0;
 }

@@ -55,7 +55,8 @@ TEST(FloatTwin, ManyLights) {
 TEST(FloatTwin, BlendedSurfaces) {
   for (const DepthBoundsMode mode : {DepthBoundsMode::none, DepthBoundsMode::halfz_modified}) {
     CullerOptions options;
-    options.blend = true, options.depth_bounds = mode;
+    options.blend = true;
+    options.depth_bounds = mode;
     expect_the_twins_bytes(frame_of(sixty, 300, true), options, true);
   }
 }
@@ -65,9 +66,13 @@ TEST(FloatTwin, SamplesOfAViewportInStandardDepthOf16Bits) {
   const CullView image = view_through({.order = DepthOrder::standard}, 110 * 4, 60);
   Random random(72);
   frame.depth = scattered_depth(image, random);
-  frame.depth.row_pixels = 110, frame.depth.x = 7, frame.depth.y = 5, frame.depth.samples = 4;
+  frame.depth.row_pixels = 110;
+  frame.depth.x = 7;
+  frame.depth.y = 5;
+  frame.depth.samples = 4;
   CullerOptions options;
-  options.depth_format = DepthFormat::d16, options.depth_bounds = DepthBoundsMode::mask32;
+  options.depth_format = DepthFormat::d16;
+  options.depth_bounds = DepthBoundsMode::mask32;
   expect_the_twins_bytes(frame, options);
 }
 

@@ -17,7 +17,10 @@ uint64_t digest = 0xcbf29ce484222325;  // FNV-1a
 void add(uint32_t value) { digest = (digest ^ value) * 0x100000001b3; }
 
 void add(const HostGrid& grid) {
-  for (const glm::uvec2 cell : grid.cells) add(cell.x), add(cell.y);
+  for (const glm::uvec2 cell : grid.cells) {
+    add(cell.x);
+    add(cell.y);
+  }
   for (const uint32_t index : grid.indices) add(index);
 }
 
@@ -50,7 +53,8 @@ void digest_of_shape(CullEngine& engine, KernelShape shape) {
   const auto lights = scattered_lights(view, 24, true, random);
   for (const CullTest test : {CullTest::planes_aabb, CullTest::exact}) {
     CullerOptions options;
-    options.cull_test = test, options.shape = shape;
+    options.cull_test = test;
+    options.shape = shape;
     add(engine.cull(options, view, lights, bounds));
     if (test == CullTest::exact) options.depth_bounds = DepthBoundsMode::mask32;
     add(engine.cull_depth(options, view, lights, depth));

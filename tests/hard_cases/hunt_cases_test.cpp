@@ -66,8 +66,10 @@ TEST(HuntOfCases, FindsNothingInTheLibraryAndDependsOnTheSeedAlone) {
 TEST(HuntOfFaults, FindsASampleThatShowsAnothersTriangle) {
   AlteredLibrary engine;
   engine.of_images = [](RasterImage& image, int samples) {
-    for (size_t i = 1; i < image.triangles.size(); i += size_t(samples))
-      image.triangles[i] = image.triangles[i - 1], image.depths[i] = image.depths[i - 1];
+    for (size_t i = 1; i < image.triangles.size(); i += size_t(samples)) {
+      image.triangles[i] = image.triangles[i - 1];
+      image.depths[i] = image.depths[i - 1];
+    }
   };
   expect_found("^coverage$", engine);
 }

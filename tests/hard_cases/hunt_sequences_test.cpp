@@ -77,7 +77,9 @@ SequenceReport sequences_of(CullEngine& engine, const SequenceKind& kind, uint64
     Random random(seed);
     const SequenceReport report = compare_sequence(engine, hunted_scene(classes[seed % 2], seed), kind,
                                                    settings_of(kind), frames, random);
-    sum.frames += report.frames, sum.stale += report.stale, sum.pairs += report.pairs;
+    sum.frames += report.frames;
+    sum.stale += report.stale;
+    sum.pairs += report.pairs;
     if (sum.why.empty()) sum.why = report.why;
   }
   return sum;
@@ -104,7 +106,8 @@ Scene flickering() {
       {{"type", "point"}, {"intensity", 4}, {"range", 5}}};
   made.root["materials"] = {{{"doubleSided", true}}};
   made.primitive()["material"] = 0;
-  made.root["nodes"][0]["translation"] = {-4, -4, 0}, made.root["nodes"][0]["scale"] = {8, 8, 1};
+  made.root["nodes"][0]["translation"] = {-4, -4, 0};
+  made.root["nodes"][0]["scale"] = {8, 8, 1};
   const std::vector<std::vector<uint8_t>> shown = {{1, 0, 1}, {0, 1, 1}, {0, 0, 1}};
   for (int i = 0; i < 3; ++i) {
     made.root["nodes"].push_back({{"mesh", 0},

@@ -113,7 +113,10 @@ TEST(Hunt, CountsTheSameForTheSameSeed) {
   auto first = to_json(hunt(engine, options)), second = to_json(hunt(engine, options));
   for (auto* json : {&first, &second}) {
     json->erase("seconds");
-    for (auto& tally : (*json)["classes"]) tally.erase("seconds"), tally.erase("cpu_ns_each");
+    for (auto& tally : (*json)["classes"]) {
+      tally.erase("seconds");
+      tally.erase("cpu_ns_each");
+    }
   }
   EXPECT_EQ(first, second);
   EXPECT_GE(first["contacts"], 20'000);
@@ -215,7 +218,8 @@ TEST(HuntClasses, BlendedSurfacesLieBetweenTheNearPlaneAndTheOpaqueSurface) {
       const float opaque = view.depth.values[size_t(c.y) * view.view.width + c.x];
       EXPECT_TRUE(standard ? c.depth <= opaque && c.depth >= 0 : c.depth >= opaque && c.depth <= 1)
           << c.depth;
-      near += c.depth == (standard ? 0 : 1), before += c.depth != opaque;
+      near += c.depth == (standard ? 0 : 1);
+      before += c.depth != opaque;
       before_sky += opaque == depth_of_nothing(view.view);
     }
   }

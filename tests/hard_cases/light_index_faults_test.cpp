@@ -107,7 +107,8 @@ class Spoiled : public LibraryEngine {
         const auto from = before.indices.begin() + std::ptrdiff_t(before.first[cell]);
         std::vector<uint32_t> indices(from, from + before.count[cell]);
         spoil_({lights, views[i], i, indices});
-        lists.first.push_back(lists.indices.size()), lists.count.push_back(uint32_t(indices.size()));
+        lists.first.push_back(lists.indices.size());
+        lists.count.push_back(uint32_t(indices.size()));
         lists.indices.insert(lists.indices.end(), indices.begin(), indices.end());
       }
     }

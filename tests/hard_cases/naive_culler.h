@@ -86,7 +86,10 @@ class NaiveCuller : public CullEngine {
       if (fault_ == Fault::float_world)
         light.position =
             glm::mat3(view.view_from_world) * (glm::vec3(lights[i].position) - glm::vec3(view.eye));
-      if (fault_ == Fault::radius_squared) light.radius = std::abs(light.radius), light.lists_nothing = false;
+      if (fault_ == Fault::radius_squared) {
+        light.radius = std::abs(light.radius);
+        light.lists_nothing = false;
+      }
       if (fault_ == Fault::world_direction) light.axis = lights[i].direction;
       const glm::dvec3 from_middle = lights[i].position - middle;
       if (fault_ == Fault::cones_without_position_error) {
@@ -143,7 +146,8 @@ class NaiveCuller : public CullEngine {
     std::vector<double> nearest, farthest;  // that each edge may represent
     for (const float edge : edges) {
       const DepthInterval64 range = edge_range(o, view, edge);
-      nearest.push_back(range.near), farthest.push_back(range.far);
+      nearest.push_back(range.near);
+      farthest.push_back(range.far);
     }
     const auto reached = [](const std::vector<double>& ends, double to) {
       return uint32_t(std::upper_bound(ends.begin(), ends.end(), to) - ends.begin());
@@ -162,7 +166,8 @@ class NaiveCuller : public CullEngine {
                        std::span<const DepthInterval> bounds, const std::vector<NaiveMask>& masks) {
     const std::vector<OracleLight> all = view_lights(view, lights);
     HostGrid grid;
-    grid.cells_x = tiles_x(view, o.tile), grid.cells_y = int(bounds.size()) / grid.cells_x;
+    grid.cells_x = tiles_x(view, o.tile);
+    grid.cells_y = int(bounds.size()) / grid.cells_x;
     grid.slices = int(view.slice_edges.size()) + 1;
     if (lights.size() * bounds.size() * grid.slices >> 32) {  // overflow: nothing remains
       grid.cells.resize(bounds.size() * grid.slices);

@@ -50,7 +50,10 @@ class NaiveDepth {
     });
     if (fault_ == Fault::signed_minimum && least < 0) return {down(near), down(near)};
     if (invalid || farthest > 1e15) return {is_orthographic(view) ? -1e18f : 0.0f, 1e18f};
-    if (sky && fault_ == Fault::sky_in_maximum) far = 1e18, near = std::min(near, 1e18);
+    if (sky && fault_ == Fault::sky_in_maximum) {
+      far = 1e18;
+      near = std::min(near, 1e18);
+    }
     if (blend) return {0, sky || near > far ? 1e18f : up(std::min(far, 1e18))};
     if (near > far) return {1e18f, -1e18f};
     if (fault_ == Fault::standard_depth_as_reversed && has_standard_depth(view)) std::swap(near, far);
@@ -67,7 +70,8 @@ class NaiveDepth {
     for (const double v : {value - step, value + step}) {
       double d = distance_at(view, v);
       if (!is_orthographic(view) && !(d > 0)) d = 1e18;
-      near = std::min(near, d), far = std::max(far, d);
+      near = std::min(near, d);
+      far = std::max(far, d);
     }
   }
 
@@ -82,7 +86,8 @@ class NaiveDepth {
       const float a = float(1 / clip[2][2]), b = float(clip[3][2] / clip[2][2]);
       distances.push_back(in_float ? double(b - value * a) : distance_at(view, value));
       if (fault_ == Fault::mask_of_stored_depth) widen(o, view, value, mask.near, mask.far);
-      mask.near = std::min(mask.near, distances.back()), mask.far = std::max(mask.far, distances.back());
+      mask.near = std::min(mask.near, distances.back());
+      mask.far = std::max(mask.far, distances.back());
     });
     for (const double d : distances) {
       const double bin = fault_ == Fault::mask_bin_32 ? mask.bin(d) : std::min(mask.bin(d), 31.0);

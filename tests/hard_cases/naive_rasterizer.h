@@ -90,7 +90,10 @@ class NaiveRasterizer {
     const bool mirrored =
         glm::determinant(glm::dmat3(instance.world_from_object)) < 0 && fault_ != Fault::mirrors_ignored;
     if (whole == 0 || (!instance.two_sided && (whole < 0) != mirrored)) return;
-    if (whole < 0) std::swap(p[1], p[2]), std::swap(z[1], z[2]);
+    if (whole < 0) {
+      std::swap(p[1], p[2]);
+      std::swap(z[1], z[2]);
+    }
     const auto [x0, x1] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [y0, y1] = std::minmax({p[0].y, p[1].y, p[2].y});
     for (int64_t y = std::max<int64_t>(0, y0 / 256 - 1); y <= std::min<int64_t>(height - 1, y1 / 256); ++y) {

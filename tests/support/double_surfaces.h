@@ -61,9 +61,11 @@ class Surfaces {
         dvec2 least(1e30), most(-1e30);
         for (const dvec4& v : c) {
           const dvec2 pixel = (dvec2(v) / v.w * 0.5 + 0.5) * dvec2(view_.width, view_.height);
-          least = glm::min(least, pixel), most = glm::max(most, pixel);
+          least = glm::min(least, pixel);
+          most = glm::max(most, pixel);
         }
-        low = glm::max(low, glm::floor(least) - 1.0), high = glm::min(high, glm::ceil(most));
+        low = glm::max(low, glm::floor(least) - 1.0);
+        high = glm::min(high, glm::ceil(most));
       }
       for (int y = int(low.y); y <= int(high.y); ++y) {
         for (int x = int(low.x); x <= int(high.x); ++x) {

@@ -41,7 +41,8 @@ struct FineTruth {
     for (size_t i = 0; i < edges.size(); ++i) {
       if (edges[i] != at_edges) continue;
       const glm::vec3 d = glm::abs(limited(image.pixels[i]) - limited(other.pixels[i]));
-      sum += std::pow(double(std::max({d.r, d.g, d.b})), 2), ++count;
+      sum += std::pow(double(std::max({d.r, d.g, d.b})), 2);
+      ++count;
     }
     return std::sqrt(sum / double(count));
   }

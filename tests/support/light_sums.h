@@ -20,8 +20,7 @@ struct LightSums {
 // lights'. mask: of the surface.
 // A light at the point itself adds nothing.
 inline LightSums light_sums(const glm::dvec3& position, const glm::dvec3& normal,
-                            std::span<const ViewLight> lights, double exponent,
-                            uint32_t mask = full_mask) {
+                            std::span<const ViewLight> lights, double exponent, uint32_t mask = full_mask) {
   const glm::dvec3 to_eye = glm::normalize(-position);
   LightSums sums;
   for (const ViewLight& light : lights) {
@@ -62,7 +61,7 @@ inline double angular_part(const ViewLight& light, const glm::dvec3& to_light, d
   const double root = std::hypot(x, soft);
   const double y = x > 0 ? (x + root) / 2 : soft * soft / (2 * (root - x));
   const double t = std::min(y / (light.cos_inner - light.cos_outer), 1.0);
-  return (light.most_falloff > 0 ? t : t * t) * (1 - light.cos_outer) / (1 - light.cos_outer + 0.5 * q);
+  return (light.max_falloff > 0 ? t : t * t) * (1 - light.cos_outer) / (1 - light.cos_outer + 0.5 * q);
 }
 
 struct VoxelSample {
@@ -99,7 +98,7 @@ inline VoxelSample voxel_sample(const glm::dvec3& at, const VoxelCell& cell,
     if (squared >= reach) continue;
     const double window = 1 - squared / reach * (squared / reach);
     double falloff = std::min(1 / squared, 1 / cell.core_squared);
-    if (light.most_falloff > 0) falloff = std::min(falloff, light.most_falloff);
+    if (light.max_falloff > 0) falloff = std::min(falloff, light.max_falloff);
     const double angular = angular_part(light, to_light, squared, cell.half_diagonal_squared);
     const double arrives = window * falloff * radius / std::sqrt(reach) * angular;
     const glm::dvec3 irradiance = glm::min(arrives * light.radiant_intensity, largest_of_a_light);

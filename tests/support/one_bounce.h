@@ -27,7 +27,8 @@ class OneBounce {
   // of both reflections.
   OneBounce(const Scene& scene, Brdf lobe) : scene_(scene), lobe_(lobe) {
     const WorldBox box = world_box(scene);
-    centre_ = (box.min + box.max) * 0.5, reach_m_ = glm::length(box.max - box.min);
+    centre_ = (box.min + box.max) * 0.5;
+    reach_m_ = glm::length(box.max - box.min);
     for (int i = 0; i < int(scene.instances.size()); ++i) {
       const Instance& instance = scene.instances[size_t(i)];
       const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
@@ -47,7 +48,10 @@ class OneBounce {
     }
     build();
   }
-  ~OneBounce() { rtcReleaseScene(embree_), rtcReleaseDevice(device_); }
+  ~OneBounce() {
+    rtcReleaseScene(embree_);
+    rtcReleaseDevice(device_);
+  }
   OneBounce(const OneBounce&) = delete;
   OneBounce& operator=(const OneBounce&) = delete;
 
@@ -127,7 +131,8 @@ class OneBounce {
     if (hidden(above, light.position)) return glm::dvec3(0);
     // The surface as a camera at the light sees it, in one small pixel.
     Camera camera = look_at(light.position, place);
-    camera.fov_y_rad = 1e-4, camera.near_m = std::min(1e-3, glm::length(to_light) / 2);
+    camera.fov_y_rad = 1e-4;
+    camera.near_m = std::min(1e-3, glm::length(to_light) / 2);
     const View view = make_view(camera, 1, 1);
     SceneSurfaces seen(scene_, view);
     const Surface surface = seen.surface_at(seen.triangle(t.instance, t.vertices), {0.5, 0.5});
@@ -152,8 +157,15 @@ class OneBounce {
 
   void set(RTCRay& ray, const glm::dvec3& from, const glm::dvec3& way, double near, double far) const {
     const glm::vec3 o(from - centre_), d(way);
-    ray.org_x = o.x, ray.org_y = o.y, ray.org_z = o.z, ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
-    ray.tnear = float(near), ray.tfar = float(far), ray.mask = ~0u;
+    ray.org_x = o.x;
+    ray.org_y = o.y;
+    ray.org_z = o.z;
+    ray.dir_x = d.x;
+    ray.dir_y = d.y;
+    ray.dir_z = d.z;
+    ray.tnear = float(near);
+    ray.tfar = float(far);
+    ray.mask = ~0u;
   }
 
   void intersect(RTCRayHit& hit) {
@@ -198,7 +210,8 @@ class OneBounce {
   }
 
   void build() {
-    device_ = rtcNewDevice(nullptr), embree_ = rtcNewScene(device_);
+    device_ = rtcNewDevice(nullptr);
+    embree_ = rtcNewScene(device_);
     rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* places = static_cast<float*>(rtcSetNewGeometryBuffer(

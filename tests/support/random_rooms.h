@@ -63,7 +63,8 @@ inline RandomRoom random_room(Random& random, int width, int height, double far_
     if (random.next() % 3 == 0) {
       light.type = LightType::spot;
       light.direction = glm::vec3(any_direction(random));
-      light.inner_cone_rad = 0.1f, light.outer_cone_rad = random.uniform(0.2f, 1.5f);
+      light.inner_cone_rad = 0.1f;
+      light.outer_cone_rad = random.uniform(0.2f, 1.5f);
     }
     scene.lights.push_back(light);
   }

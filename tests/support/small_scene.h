@@ -48,7 +48,10 @@ inline SmallScene small_scene(bool lights = true) {
 // All lamps cast shadows. The ball stands between most of them and a part of the wall.
 inline SmallScene small_scene_of_casters() {
   SmallScene s = small_scene();
-  for (Light& light : s.scene.lights) light.casts_shadow = true, light.radius_m = 4;
+  for (Light& light : s.scene.lights) {
+    light.casts_shadow = true;
+    light.radius_m = 4;
+  }
   return s;
 }
 
@@ -56,7 +59,9 @@ inline SmallScene small_scene_of_casters() {
 inline void add_pane_before_wall(SmallScene& s, float alpha) {
   const int glass = add_material(s.scene, "glass", {0.5f, 0.8f, 0.9f}, 0, 0.4f);
   Material& m = s.scene.materials[size_t(glass)];
-  m.base_color.a = alpha, m.alpha_mode = AlphaMode::blend, m.double_sided = true;
+  m.base_color.a = alpha;
+  m.alpha_mode = AlphaMode::blend;
+  m.double_sided = true;
   add_instance(s.scene, "pane", add_mesh(s.scene, wall_mesh({-0.5f, 0.3f, -3.8f}, 0.6f, glass, "pane")));
 }
 
@@ -147,7 +152,8 @@ inline const std::vector<SceneEffect>& effects() {
       {"clearcoat", "clearcoat", "CLEARCOAT", on_ball,
        [](SmallScene& s) {
          Material& m = s.scene.materials[s.ball_material];
-         m.clearcoat = 0.8f, m.clearcoat_roughness = 0.15f;
+         m.clearcoat = 0.8f;
+         m.clearcoat_roughness = 0.15f;
        }},
       {"clearcoat_maps", "clearcoat normal maps", "CLEARCOAT_NORMAL_MAP", on_wall,
        [=](SmallScene& s) {
@@ -155,12 +161,15 @@ inline const std::vector<SceneEffect>& effects() {
               {&Material::clearcoat_map, &Material::clearcoat_roughness_map, &Material::clearcoat_normal_map})
            map(slot, false)(s);
          Material& m = s.scene.materials[s.wall_material];
-         m.clearcoat = 1, m.clearcoat_roughness = 0.7f, m.clearcoat_normal_scale = 0.4f;
+         m.clearcoat = 1;
+         m.clearcoat_roughness = 0.7f;
+         m.clearcoat_normal_scale = 0.4f;
        }},
       {"skin", "skin", "SKIN", on_wall,
        [](SmallScene& s) {
          MaterialModel& model = s.scene.materials[s.wall_material].model;
-         model.subsurface_color = {0.9f, 0.3f, 0.2f}, model.roll_off = 0.4f;
+         model.subsurface_color = {0.9f, 0.3f, 0.2f};
+         model.roll_off = 0.4f;
        }},
       {"minnaert", "Minnaert", "MINNAERT", on_wall,  // with skin: a material may have both
        [](SmallScene& s) {
@@ -170,14 +179,18 @@ inline const std::vector<SceneEffect>& effects() {
       {"specular", "specular reflectance", "SPECULAR", on_wall,
        [](SmallScene& s) {
          Material& m = s.scene.materials[s.wall_material];
-         m.ior = 2.42f, m.specular = 0.75f, m.specular_color = {1, 0.8f, 0.2f}, m.metallic = 0.2f;
+         m.ior = 2.42f;
+         m.specular = 0.75f;
+         m.specular_color = {1, 0.8f, 0.2f};
+         m.metallic = 0.2f;
        }},
       {"specular_maps", "specular colour maps", "SPECULAR_COLOR_MAP", on_wall,
        [=](SmallScene& s) {
          map(&Material::specular_map, false)(s);
          map(&Material::specular_color_map, true)(s);
          Material& m = s.scene.materials[s.wall_material];
-         m.ior = 1.9f, m.specular_color = {3, 1, 1};
+         m.ior = 1.9f;
+         m.specular_color = {3, 1, 1};
        }},
       {"unlit", "unlit materials", "UNLIT", on_ball,
        [](SmallScene& s) { s.scene.materials[s.ball_material].unlit = true; }},

@@ -38,7 +38,8 @@ inline HiddenShare hidden_share(const Occlusion& occlusion, const Light& light, 
     const glm::dvec2 p = on_disc(2 * x - 1, 2 * y - 1) * radius_m;
     moved.position = light.position + right * p.x + up * p.y;
     const Sight sight = occlusion.sight(moved, receiver, &last).sight;
-    hidden += sight == Sight::hidden, either += sight == Sight::either;
+    hidden += sight == Sight::hidden;
+    either += sight == Sight::either;
   }
   const double rays = double(side) * side;
   return {(hidden + 0.5 * either) / rays, either / rays};

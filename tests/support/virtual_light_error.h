@@ -96,11 +96,13 @@ class OneBounceView {
         e.bias += (d.x + d.y + d.z) / 3;
         e.mean_abs += (std::abs(d.x) + std::abs(d.y) + std::abs(d.z)) / 3;
         squared += glm::dot(d, d) / 3;
-        sum[i] += now[i], squares[i] += now[i] * now[i];
+        sum[i] += now[i];
+        squares[i] += now[i] * now[i];
       }
     }
     const double n = double(pixels_.size()) * seeds;
-    e.bias /= n * mean_, e.mean_abs /= n * mean_;
+    e.bias /= n * mean_;
+    e.mean_abs /= n * mean_;
     e.rms = std::sqrt(std::max(squared / n - noise_, 0.0)) / mean_;
     double variance = 0;
     for (size_t i = 0; i < sum.size() && seeds > 1; ++i) {

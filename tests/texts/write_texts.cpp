@@ -6,7 +6,10 @@
 #include "base/embedded.h"
 
 int main(int count, char** arguments) {
-  if (count != 2) return std::fputs("usage: write_texts FOLDER\n", stderr), 2;
+  if (count != 2) {
+    std::fputs("usage: write_texts FOLDER\n", stderr);
+    return 2;
+  }
   for (const auto& [path, text] : lightgrid::embedded_files()) {
     const std::filesystem::path file(path), to = std::filesystem::path(arguments[1]) / file;
     const auto kind = file.extension();

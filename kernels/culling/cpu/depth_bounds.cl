@@ -40,7 +40,10 @@ typedef struct Keys {
 static inline void reduce_tiles(global const uint* depth, uint stride, uint rows, uint first, Keys* keys) {
   uint16 low[AT_ONCE], high[AT_ONCE], lowest[AT_ONCE];
 #pragma unroll
-  for (int t = 0; t < AT_ONCE; ++t) low[t] = lowest[t] = (uint16)(0xffffffffu), high[t] = (uint16)(0u);
+  for (int t = 0; t < AT_ONCE; ++t) {
+    low[t] = lowest[t] = (uint16)(0xffffffffu);
+    high[t] = (uint16)(0u);
+  }
   for (uint y = 0; y < rows; y += ROWS_A_LOAD) {
 #pragma unroll
     for (int t = 0; t < AT_ONCE; ++t) {
@@ -56,7 +59,8 @@ static inline void reduce_tiles(global const uint* depth, uint stride, uint rows
   }
 #pragma unroll
   for (int t = 0; t < AT_ONCE; ++t) {
-    keys->low1[first + t] = lowest_lane(low[t]), keys->high[first + t] = highest_lane(high[t]);
+    keys->low1[first + t] = lowest_lane(low[t]);
+    keys->high[first + t] = highest_lane(high[t]);
     keys->lowest[first + t] = lowest_lane(lowest[t]);
   }
 }
@@ -68,10 +72,14 @@ static inline void reduce_cut_tile(global const uint* depth, uint stride, uint r
   for (uint y = 0; y < rows; ++y, depth += stride) {
     for (uint x = 0; x < columns; ++x) {
       const uint key = KEY(depth[x]);
-      low1 = min(low1, key - 1u), high = max(high, key), lowest = min(lowest, key);
+      low1 = min(low1, key - 1u);
+      high = max(high, key);
+      lowest = min(lowest, key);
     }
   }
-  keys->low1[t] = low1, keys->high[t] = high, keys->lowest[t] = lowest;
+  keys->low1[t] = low1;
+  keys->high[t] = high;
+  keys->lowest[t] = lowest;
 }
 
 #ifdef SECOND_LOOK
@@ -83,20 +91,24 @@ static inline uint16 keys_from(global const uint* depth, uint x, uint columns) {
 }
 
 // Calls BODY(key) on all keys of a tile, 16 at a time.
-#define FOR_KEYS(BODY)                                                                       \
-  if (columns == ROW) {                                                                      \
-    for (uint y = 0; y < rows; y += ROWS_A_LOAD)                                             \
-      for (uint x = 0; x < ROW; x += 16) { BODY(load_keys(depth + x, y, rows, stride)) }     \
-  } else {                                                                                   \
-    for (uint y = 0; y < rows; ++y)                                                          \
-      for (uint x = 0; x < columns; x += 16) { BODY(keys_from(depth + (size_t)y * stride, x, columns)) } \
+#define FOR_KEYS(BODY)                                          \
+  if (columns == ROW) {                                         \
+    for (uint y = 0; y < rows; y += ROWS_A_LOAD)                \
+      for (uint x = 0; x < ROW; x += 16) {                      \
+        BODY(load_keys(depth + x, y, rows, stride))             \
+      }                                                         \
+  } else {                                                      \
+    for (uint y = 0; y < rows; ++y)                             \
+      for (uint x = 0; x < columns; x += 16) {                  \
+        BODY(keys_from(depth + (size_t)y * stride, x, columns)) \
+      }                                                         \
   }
 
 // Least key at or above the cut, and greatest below it.
 static inline uint2 keys_around(global const uint* depth, uint stride, uint rows, uint columns, uint cut) {
   uint16 above = (uint16)(0xffffffffu), below = (uint16)(0u);
-#define AROUND(keys)                                       \
-  const uint16 key = keys;                                 \
+#define AROUND(keys)                                            \
+  const uint16 key = keys;                                      \
   above = min(above, key >= cut ? key : (uint16)(0xffffffffu)); \
   below = max(below, key < cut ? key : (uint16)(0u));
   FOR_KEYS(AROUND)
@@ -107,8 +119,8 @@ static inline uint2 keys_around(global const uint* depth, uint stride, uint rows
 static inline uint occupied_bits(global const uint* depth, uint stride, uint rows, uint columns, float near,
                                  float far, constant CullParams* p) {
   uint16 mask = (uint16)(0u);
-#define OCCUPY(keys)                                                                           \
-  const uint16 key = keys;                                                                     \
+#define OCCUPY(keys)       \
+  const uint16 key = keys; \
   mask |= key != (uint16)(0u) ? mask_of_key(key, near, far, p) : (uint16)(0u);
   FOR_KEYS(OCCUPY)
   const uint8 a = mask.lo | mask.hi;
@@ -118,8 +130,8 @@ static inline uint occupied_bits(global const uint* depth, uint stride, uint row
 #endif
 
 kernel void depth_bounds(global const uint* depth, global float* opaque, global float* blend,
-                         global volatile uint* counters,
-                         uint counter, uint next_counter, constant CullParams* p) {
+                         global volatile uint* counters, uint counter, uint next_counter,
+                         constant CullParams* p) {
   const uint tx0 = get_global_id(0) * TILES, ty = get_global_id(1), stride = p->depth_row;
   const uint rows = min((uint)TILE, p->height - ty * TILE), tiles = min((uint)TILES, p->tiles_x - tx0);
   global const uint* first = depth + p->depth_first + (size_t)ty * TILE * stride + tx0 * ROW;
@@ -139,13 +151,15 @@ kernel void depth_bounds(global const uint* depth, global float* opaque, global 
   const uint16 low = vload16(0, keys.low1) + 1u, high = vload16(0, keys.high);
   const Interval all = opaque_interval(low, high, p);
   float planes[4][TILES];
-  vstore16(all.near, 0, planes[0]), vstore16(all.far, 0, planes[1]);
+  vstore16(all.near, 0, planes[0]);
+  vstore16(all.far, 0, planes[1]);
 #if DEPTH_MODE == DEPTH_HALFZ || DEPTH_MODE == DEPTH_HALFZ_MODIFIED
   const float16 middle = 0.5f * (all.near + all.far);
 #endif
 #if DEPTH_MODE == DEPTH_HALFZ
   const int16 some = all.near <= all.far;
-  vstore16(some ? middle : all.far, 0, planes[1]), vstore16(some ? middle : all.near, 0, planes[2]);
+  vstore16(some ? middle : all.far, 0, planes[1]);
+  vstore16(some ? middle : all.near, 0, planes[2]);
   vstore16(all.far, 0, planes[3]);
 #endif
 #ifdef SECOND_LOOK
@@ -156,12 +170,14 @@ kernel void depth_bounds(global const uint* depth, global float* opaque, global 
   vstore16(max(KEY(AS_BITS(depth_of_distance(middle, p))), (uint16)(1u)), 0, cuts);  // 0: nothing there
 #endif
   for (uint t = 0; t < TILES; ++t) {
-    found[0][t] = 0xffffffffu, found[1][t] = 0u;
+    found[0][t] = 0xffffffffu;
+    found[1][t] = 0u;
     if (t >= tiles || keys.high[t] == 0u || keys.high[t] > ONE_BITS) continue;
     const uint columns = min((uint)TILE, p->width - (tx0 + t) * TILE) * SAMPLES;
 #if DEPTH_MODE == DEPTH_HALFZ_MODIFIED
     const uint2 around = keys_around(first + t * ROW, stride, rows, columns, cuts[t]);
-    found[0][t] = around.x, found[1][t] = around.y;
+    found[0][t] = around.x;
+    found[1][t] = around.y;
 #else
     if (planes[1][t] == FAR_AWAY) continue;  // every distance: every bit
     found[0][t] = occupied_bits(first + t * ROW, stride, rows, columns, planes[0][t], planes[1][t], p);
@@ -173,8 +189,10 @@ kernel void depth_bounds(global const uint* depth, global float* opaque, global 
   const int16 invalid = high > (uint16)(ONE_BITS);
   const Interval nearer = opaque_interval(above, above == (uint16)(0xffffffffu) ? (uint16)(0u) : high, p);
   const Interval farther = opaque_interval(low, below, p);
-  vstore16(invalid ? nears : nearer.near, 0, planes[0]), vstore16(invalid ? fars : nearer.far, 0, planes[1]);
-  vstore16(farther.near, 0, planes[2]), vstore16(farther.far, 0, planes[3]);
+  vstore16(invalid ? nears : nearer.near, 0, planes[0]);
+  vstore16(invalid ? fars : nearer.far, 0, planes[1]);
+  vstore16(farther.near, 0, planes[2]);
+  vstore16(farther.far, 0, planes[3]);
 #else
   for (uint t = 0; t < TILES; ++t) planes[2][t] = as_float(found[0][t]);
 #endif
@@ -182,7 +200,8 @@ kernel void depth_bounds(global const uint* depth, global float* opaque, global 
 #ifdef BLEND
   const Interval in_front = blend_interval(vload16(0, keys.lowest), high, p);
   float blend_planes[2][TILES];
-  vstore16(in_front.near, 0, blend_planes[0]), vstore16(in_front.far, 0, blend_planes[1]);
+  vstore16(in_front.near, 0, blend_planes[0]);
+  vstore16(in_front.far, 0, blend_planes[1]);
 #endif
   for (uint t = 0; t < tiles; ++t) {
     for (uint i = 0; i < BOUND_PLANES; ++i) put_bounds(opaque, BOUND_PLANES, i, tx0 + t, ty, planes[i][t], p);

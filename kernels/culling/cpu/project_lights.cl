@@ -32,7 +32,8 @@ static inline void project_batch(global const float* lights, global float* recor
   r.cone = view_cone(l, stride, p);
 #endif
   store_records(r, records + batch * 16 * (size_t)RECORD);
-  vstore16(r.tiles.first, b, held->first), vstore16(r.tiles.last, b, held->last);
+  vstore16(r.tiles.first, b, held->first);
+  vstore16(r.tiles.last, b, held->last);
   vstore16(as_int16(span_of(r.sphere)), b, held->span);
 }
 

@@ -25,7 +25,7 @@ kernel void sample_lists(global uint2* cells, global index_t* indices, uint cell
     return;
   }
   const LightColumns lights = {GIVEN_LIGHTS};
-  const Middle middle = middle_of(cell, bounds, planes, slice_edges, p);
+  const CellCentre middle = cell_centre_of(cell, bounds, planes, slice_edges, p);
   float most = 0.0f;
   for (uint i = 0; i < count; ++i) {
     const float weight = weight_of(light_at(&lights, list[i]), middle);
@@ -36,7 +36,8 @@ kernel void sample_lists(global uint2* cells, global index_t* indices, uint cell
   ulong rest = 0;  // the weights of lights that are not certain
   for (uint i = 0; i < count; ++i) {
     const uint weight = whole_weight(as_float(factors[i]), scale);
-    factors[i] = weight, rest += weight;
+    factors[i] = weight;
+    rest += weight;
   }
   uint slots = cap;  // left for them; never 0, as each other light weighs something
   for (bool more = true; more;) {
@@ -45,7 +46,9 @@ kernel void sample_lists(global uint2* cells, global index_t* indices, uint cell
       const uint weight = factors[i];
       if ((weight & CERTAIN) || (ulong)weight * slots < rest) continue;
       factors[i] = weight | CERTAIN;
-      rest -= weight, --slots, more = true;
+      rest -= weight;
+      --slots;
+      more = true;
     }
   }
   ulong place = first_place(rest, random_of_cell(cell, seed, p));
@@ -60,7 +63,8 @@ kernel void sample_lists(global uint2* cells, global index_t* indices, uint cell
       place -= rest;
       factor = factor_of(rest, slots, weight);
     }
-    list[kept] = light, factors[kept++] = as_uint(factor);
+    list[kept] = light;
+    factors[kept++] = as_uint(factor);
   }
   cells[cell].y = kept;
 }

@@ -18,12 +18,13 @@ kernel void sample_tree(global uint2* cells, global index_t* indices, uint cell_
   if (cell >= cell_count) return;
   const uint first = cell * CAP;
   cells[cell] = (uint2)(first, 0);
-  const Middle middle = middle_of(cell, bounds, planes, slice_edges, p);
+  const CellCentre middle = cell_centre_of(cell, bounds, planes, slice_edges, p);
   if (middle.near > middle.far || !(nodes[2].w > 0.0f)) return;
   const WorldRay ray = world_ray(middle, world_from_view);
   uint cut[CAP], count = 1;
   float errors[CAP];
-  cut[0] = 1, errors[0] = leaves > 1 ? INFINITY : 0.0f;
+  cut[0] = 1;
+  errors[0] = leaves > 1 ? INFINITY : 0.0f;
   while (true) {
     uint worst = 0;
     for (uint i = 1; i < count; ++i) worst = errors[i] > errors[worst] ? i : worst;
@@ -33,7 +34,8 @@ kernel void sample_tree(global uint2* cells, global index_t* indices, uint cell_
     for (uint node = child; node < child + 2; ++node) {
       const SeenNode seen = seen_node(nodes, node, ray);
       if (!(seen.intensity > 0.0f)) continue;
-      cut[at] = node, errors[at] = node < leaves ? error_of(seen) : 0.0f;
+      cut[at] = node;
+      errors[at] = node < leaves ? error_of(seen) : 0.0f;
       if (at == count) ++count;
       at = count;
     }
@@ -43,9 +45,12 @@ kernel void sample_tree(global uint2* cells, global index_t* indices, uint cell_
   for (uint i = 0; i < count; ++i) {
     const DrawnLight drawn = light_of(cut[i], random, seed, cell, nodes, lights, leaves, ray);
     uint at = first + i;
-    for (; at > first && indices[at - 1] > drawn.light; --at)
-      indices[at] = indices[at - 1], factors[at] = factors[at - 1];
-    indices[at] = (index_t)drawn.light, factors[at] = drawn.factor;
+    for (; at > first && indices[at - 1] > drawn.light; --at) {
+      indices[at] = indices[at - 1];
+      factors[at] = factors[at - 1];
+    }
+    indices[at] = (index_t)drawn.light;
+    factors[at] = drawn.factor;
   }
   cells[cell].y = count;
 }

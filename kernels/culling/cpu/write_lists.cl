@@ -60,5 +60,8 @@ kernel void write_lists(global const uint2* bins, uint run, global const uint* c
       write_bin(bin, (uint)before, bins, cell_counts, staged, cells, indices, p);
     before = after;
   }
-  if (end == all) counters[4] = (uint)before, counters[5] = (uint)(before >> 32);
+  if (end == all) {
+    counters[4] = (uint)before;
+    counters[5] = (uint)(before >> 32);
+  }
 }

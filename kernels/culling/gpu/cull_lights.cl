@@ -69,8 +69,12 @@ static inline Cell block_box(const Block* block, local float* spans, constant Cu
       const float near = at_slot(block->bounds, 2 * i, slot), far = at_slot(block->bounds, 2 * i + 1, slot);
       if (near > far) continue;
       const Box box = box_between(sides, near, far, p);
-      least[0] = min(least[0], near), least[1] = min(least[1], box.x0), least[2] = min(least[2], box.y0);
-      least[3] = min(least[3], -far), least[4] = min(least[4], -box.x1), least[5] = min(least[5], -box.y1);
+      least[0] = min(least[0], near);
+      least[1] = min(least[1], box.x0);
+      least[2] = min(least[2], box.y0);
+      least[3] = min(least[3], -far);
+      least[4] = min(least[4], -box.x1);
+      least[5] = min(least[5], -box.y1);
     }
     for (int i = 0; i < SPANS; ++i) spans[item * SPANS + i] = least[i];
 #ifndef SLICES
@@ -159,7 +163,10 @@ static inline ViewLight record_light(global const float4* record) {
   light.sphere = record_sphere(record);
 #ifdef SPOTS
   const float4 v = record[2];
-  light.cone.x = v.x, light.cone.y = v.y, light.cone.d = v.z, light.cone.cosine = v.w;
+  light.cone.x = v.x;
+  light.cone.y = v.y;
+  light.cone.d = v.z;
+  light.cone.cosine = v.w;
 #endif
   return light;
 }

@@ -15,13 +15,13 @@
 
 // Calls BODY(key) on every key of this item: its columns down the rows of tiles from `strip` on. Past the
 // view's right and upper edges the last column and row count again, which changes no minimum and no maximum.
-#define FOR_KEYS(BODY) \
-  for (uint x = item; x < TILES * ROW; x += GROUP) { \
+#define FOR_KEYS(BODY)                                                               \
+  for (uint x = item; x < TILES * ROW; x += GROUP) {                                 \
     global const uint* column = strip + min(tx0 * ROW + x, p->width * SAMPLES - 1u); \
-    _Pragma("unroll 16") for (uint y = 0; y < TILE; ++y) { \
-      const uint key = KEY(column[(size_t)min(y, last_row) * p->depth_row]); \
-      BODY \
-    } \
+    _Pragma("unroll 16") for (uint y = 0; y < TILE; ++y) {                           \
+      const uint key = KEY(column[(size_t)min(y, last_row) * p->depth_row]);         \
+      BODY                                                                           \
+    }                                                                                \
   }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds(
@@ -36,11 +36,15 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds(
   // Least key minus 1, which leaves out the key 0 (no surface); greatest key; least key.
   uint low = 0xffffffffu, high = 0u, lowest = 0xffffffffu;
   FOR_KEYS(low = min(low, key - 1u); high = max(high, key); lowest = min(lowest, key);)
-  lows[PLACE(item)] = low, highs[PLACE(item)] = high, lowests[PLACE(item)] = lowest;
+  lows[PLACE(item)] = low;
+  highs[PLACE(item)] = high;
+  lowests[PLACE(item)] = lowest;
   barrier(CLK_LOCAL_MEM_FENCE);
-  low = lowest = 0xffffffffu, high = 0u;
+  low = lowest = 0xffffffffu;
+  high = 0u;
   for (uint i = 0; writes && i < WIDTH; ++i) {
-    low = min(low, lows[from + i]), high = max(high, highs[from + i]),
+    low = min(low, lows[from + i]);
+    high = max(high, highs[from + i]);
     lowest = min(lowest, lowests[from + i]);
   }
   low += 1u;
@@ -50,7 +54,10 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds(
   const float middle = 0.5f * (all.near + all.far);
 #endif
 #if DEPTH_MODE == DEPTH_HALFZ
-  if (all.near <= all.far) planes[1] = planes[2] = middle, planes[3] = all.far;
+  if (all.near <= all.far) {
+    planes[1] = planes[2] = middle;
+    planes[3] = all.far;
+  }
 #endif
 #ifdef SECOND_LOOK
   const uint tile = item / WIDTH;
@@ -64,20 +71,31 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds(
   const uint cut = cuts[tile];
   uint above = 0xffffffffu, below = 0u;
   FOR_KEYS(above = min(above, key >= cut ? key : 0xffffffffu); below = max(below, key < cut ? key : 0u);)
-  lows[PLACE(item)] = above, highs[PLACE(item)] = below;
+  lows[PLACE(item)] = above;
+  highs[PLACE(item)] = below;
   barrier(CLK_LOCAL_MEM_FENCE);
-  above = 0xffffffffu, below = 0u;
-  for (uint i = 0; writes && i < WIDTH; ++i)
-    above = min(above, lows[from + i]), below = max(below, highs[from + i]);
+  above = 0xffffffffu;
+  below = 0u;
+  for (uint i = 0; writes && i < WIDTH; ++i) {
+    above = min(above, lows[from + i]);
+    below = max(below, highs[from + i]);
+  }
   if (high <= ONE_BITS) {
     const Interval nearer = opaque_interval(above, above == 0xffffffffu ? 0u : high, p);
     const Interval farther = opaque_interval(low, below, p);
-    planes[0] = nearer.near, planes[1] = nearer.far, planes[2] = farther.near, planes[3] = farther.far;
+    planes[0] = nearer.near;
+    planes[1] = nearer.far;
+    planes[2] = farther.near;
+    planes[3] = farther.far;
   }
 #else
   local float nears[TILES], fars[TILES];
   local uint masks[TILES];
-  if (item < TILES) nears[item] = all.near, fars[item] = all.far, masks[item] = 0u;
+  if (item < TILES) {
+    nears[item] = all.near;
+    fars[item] = all.far;
+    masks[item] = 0u;
+  }
   barrier(CLK_LOCAL_MEM_FENCE);
   const float near = nears[tile], far = fars[tile];
   uint slots = 0u;
@@ -92,7 +110,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void depth_bounds(
   for (uint i = 0; i < BOUND_PLANES; ++i) put_bounds(opaque, BOUND_PLANES, i, tx, ty, planes[i], p);
 #ifdef BLEND
   const Interval in_front = blend_interval(lowest, high, p);
-  put_bounds(blend, 2, 0, tx, ty, in_front.near, p), put_bounds(blend, 2, 1, tx, ty, in_front.far, p);
+  put_bounds(blend, 2, 0, tx, ty, in_front.near, p);
+  put_bounds(blend, 2, 1, tx, ty, in_front.far, p);
 #endif
   if (high > ONE_BITS) atomic_inc(counters + counter);
 }

@@ -24,7 +24,7 @@ kernel __attribute__((reqd_work_group_size(PROJECT_GROUP, 1, 1))) void project_l
     const TileRect rect = tile_rect(s, radius, p);
     rects[item] = (int2)(rect.first, rect.last);
     global float4* v = views + light * (size_t)RECORD;
-    v[0] = (float4)(s.x, s.y, s.d, s.r),
+    v[0] = (float4)(s.x, s.y, s.d, s.r);
     v[1] = (float4)(as_float(rect.first), as_float(rect.last), 0.0f, 0.0f);
 #ifdef SPOTS
     const ViewCone k = view_cone(l, stride, p);

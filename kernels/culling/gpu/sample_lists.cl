@@ -25,7 +25,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sample_lists(
   if (item == 0) most = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
   const LightColumns lights = {GIVEN_LIGHTS};
-  const Middle middle = middle_of(cell, bounds, planes, slice_edges, p);
+  const CellCentre middle = cell_centre_of(cell, bounds, planes, slice_edges, p);
   uint heaviest = 0;  // bits of positive floats are ordered as these are
   for (uint i = item; i < count; i += GROUP) {
     factors[i] = as_uint(weight_of(light_at(&lights, list[i]), middle));
@@ -35,8 +35,10 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sample_lists(
   barrier(CLK_LOCAL_MEM_FENCE);
   const float scale = MOST_WEIGHT / as_float(most);
   ulong mine = 0;
-  for (uint i = item; i < count; i += GROUP)
-    factors[i] = whole_weight(as_float(factors[i]), scale), mine += factors[i];
+  for (uint i = item; i < count; i += GROUP) {
+    factors[i] = whole_weight(as_float(factors[i]), scale);
+    mine += factors[i];
+  }
   ulong rest = sum_of_group(mine, sums);  // the weights of lights that are not certain
   uint slots = cap;                       // left for them
   while (true) {
@@ -50,7 +52,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sample_lists(
     }
     taken = sum_of_group(taken, sums);
     if (taken == 0) break;
-    rest -= taken & ((1ul << 56) - 1), slots -= (uint)(taken >> 56);
+    rest -= taken & ((1ul << 56) - 1);
+    slots -= (uint)(taken >> 56);
   }
   const ulong place = first_place(rest, random_of_cell(cell, seed, p));
   ulong before = 0;  // the weights of lights that are not certain, of lower i
@@ -69,7 +72,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sample_lists(
       list[to] = light;
       factors[to] = as_uint(given & CERTAIN ? 1.0f : factor_of(rest, slots, weight));
     }
-    before += weights.y, kept += popcount(keeping);
+    before += weights.y;
+    kept += popcount(keeping);
     barrier(CLK_LOCAL_MEM_FENCE);
   }
   if (item == 0) cells[cell].y = kept;

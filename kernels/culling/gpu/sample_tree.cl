@@ -12,18 +12,24 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sample_tree(
   local float errors[CAP];
   const uint cell = get_group_id(0), item = get_local_id(0), first = cell * CAP;
   if (item == 0) cells[cell] = (uint2)(first, 0);
-  const Middle middle = middle_of(cell, bounds, planes, slice_edges, p);
+  const CellCentre middle = cell_centre_of(cell, bounds, planes, slice_edges, p);
   if (middle.near > middle.far || !(nodes[2].w > 0.0f)) return;
   const WorldRay ray = world_ray(middle, world_from_view);
   uint count = 1;
-  if (item == 0) cut[0] = 1, errors[0] = leaves > 1 ? INFINITY : 0.0f;
+  if (item == 0) {
+    cut[0] = 1;
+    errors[0] = leaves > 1 ? INFINITY : 0.0f;
+  }
   while (true) {
     barrier(CLK_LOCAL_MEM_FENCE);
     uint worst = 0;
     float error = errors[0];
     for (uint i = 1; i < count; ++i) {
       const float other = errors[i];
-      if (other > error) worst = i, error = other;
+      if (other > error) {
+        worst = i;
+        error = other;
+      }
     }
     if (count == CAP || !(error > 0.0f)) break;
     const uint child = 2 * cut[worst];
@@ -32,7 +38,10 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sample_tree(
     for (uint node = child; node < child + 2; ++node) {
       const SeenNode seen = seen_node(nodes, node, ray);
       if (!(seen.intensity > 0.0f)) continue;
-      if (item == 0) cut[at] = node, errors[at] = node < leaves ? error_of(seen) : 0.0f;
+      if (item == 0) {
+        cut[at] = node;
+        errors[at] = node < leaves ? error_of(seen) : 0.0f;
+      }
       if (at == count) ++count;
       at = count;
     }
@@ -42,7 +51,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sample_tree(
   uint light[(CAP + GROUP - 1) / GROUP], factor[(CAP + GROUP - 1) / GROUP];
   for (uint i = item, n = 0; i < count; i += GROUP, ++n) {
     const DrawnLight drawn = light_of(cut[i], random, seed, cell, nodes, lights, leaves, ray);
-    light[n] = drawn.light, factor[n] = drawn.factor;
+    light[n] = drawn.light;
+    factor[n] = drawn.factor;
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   for (uint i = item, n = 0; i < count; i += GROUP, ++n) cut[i] = light[n];
@@ -50,7 +60,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void sample_tree(
   for (uint i = item, n = 0; i < count; i += GROUP, ++n) {
     uint lower = 0;
     for (uint other = 0; other < count; ++other) lower += cut[other] < light[n];
-    indices[first + lower] = (index_t)light[n], factors[first + lower] = factor[n];
+    indices[first + lower] = (index_t)light[n];
+    factors[first + lower] = factor[n];
   }
   if (item == 0) cells[cell].y = count;
 }

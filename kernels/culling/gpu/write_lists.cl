@@ -24,15 +24,18 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void write_lists(
   const uint4 offset = offsets[block];
   const uint words = (offset.y + 31) / 32, block_cells = BLOCK_SIZE * p->slices, all = block_cells * words;
   const uint each = (all + GROUP - 1) / GROUP, from = min(item * each, all), to = min(from + each, all);
-  ids += (size_t)offset.x * 16, marks += (size_t)offset.z * 16;
+  ids += (size_t)offset.x * 16;
+  marks += (size_t)offset.z * 16;
   ulong sum = 0;
   for (uint i = item; i < block; i += GROUP) sum += totals[i];
   uint mine = 0;
   for (uint i = from; i < to; ++i) mine += popcount(marks[i]);
   const ulong before = sum_of_group(sum, sums), end = before + totals[block];
   const uint mine_at = prefix_sum(mine, scratch).x;
-  if (item == 0 && block + 1 == BLOCKS_X(p) * BLOCKS_Y(p))
-    counters[4] = (uint)end, counters[5] = (uint)(end >> 32);
+  if (item == 0 && block + 1 == BLOCKS_X(p) * BLOCKS_Y(p)) {
+    counters[4] = (uint)end;
+    counters[5] = (uint)(end >> 32);
+  }
   if (end > p->index_capacity) return;
 
   uint cell, at = (uint)before + mine_at;

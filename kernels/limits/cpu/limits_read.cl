@@ -9,8 +9,14 @@ kernel void limits_read(global const uint16* values, uint count, global uint* su
   global const uint16* end = values + blocks * (item + 1) / items * CHAINS;
   uint16 a = 0u, b = 0u, c = 0u, d = 0u;
   for (; p < end; p += CHAINS) {
-    a += p[0], b += p[1], c += p[2], d += p[3];
-    a += p[4], b += p[5], c += p[6], d += p[7];
+    a += p[0];
+    b += p[1];
+    c += p[2];
+    d += p[3];
+    a += p[4];
+    b += p[5];
+    c += p[6];
+    d += p[7];
   }
   const uint16 sum = a + b + c + d;
   const uint8 s8 = sum.lo + sum.hi;

@@ -6,7 +6,10 @@ kernel void limits_read(global const uint4* values, uint count, global uint* sum
   uint4 a = 0u, b = 0u, c = 0u, d = 0u;
   uint i = item;
   for (; i + 3u * items < count; i += 4u * items) {
-    a += values[i], b += values[i + items], c += values[i + 2u * items], d += values[i + 3u * items];
+    a += values[i];
+    b += values[i + items];
+    c += values[i + 2u * items];
+    d += values[i + 3u * items];
   }
   for (; i < count; i += items) a += values[i];
   const uint4 sum = a + b + c + d;

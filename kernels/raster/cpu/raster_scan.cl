@@ -20,5 +20,6 @@ kernel void raster_scan(global uint* tile_counts, global uint* tile_begin, globa
     }
   }
   tile_begin[tiles] = (uint)sum;
-  counters[RASTER_ENTRIES] = (uint)sum, counters[RASTER_ENTRIES + 1] = (uint)(sum >> 32);
+  counters[RASTER_ENTRIES] = (uint)sum;
+  counters[RASTER_ENTRIES + 1] = (uint)(sum >> 32);
 }

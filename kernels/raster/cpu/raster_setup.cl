@@ -74,8 +74,10 @@ static inline Corners gather_corners(global const float4* clip, uint16 i) {
                 d = FOUR(sc, sd, se, sf);
 #undef FOUR
   Corners v;
-  v.x = (float16)(a.s048c, b.s048c, c.s048c, d.s048c), v.y = (float16)(a.s159d, b.s159d, c.s159d, d.s159d);
-  v.z = (float16)(a.s26ae, b.s26ae, c.s26ae, d.s26ae), v.w = (float16)(a.s37bf, b.s37bf, c.s37bf, d.s37bf);
+  v.x = (float16)(a.s048c, b.s048c, c.s048c, d.s048c);
+  v.y = (float16)(a.s159d, b.s159d, c.s159d, d.s159d);
+  v.z = (float16)(a.s26ae, b.s26ae, c.s26ae, d.s26ae);
+  v.w = (float16)(a.s37bf, b.s37bf, c.s37bf, d.s37bf);
   return v;
 }
 
@@ -89,7 +91,10 @@ static void set_up_cut(const Corners* v, uint lane, RecordLanes* record, uint fl
     const float *x = (const float*)&v[k].x, *y = (const float*)&v[k].y;
     const float *z = (const float*)&v[k].z, *w = (const float*)&v[k].w;
     corners[k] = (float4)(x[lane], y[lane], z[lane], w[lane]);
-    of[k].x = x[lane], of[k].y = y[lane], of[k].z = z[lane], of[k].w = w[lane];
+    of[k].x = x[lane];
+    of[k].y = y[lane];
+    of[k].z = z[lane];
+    of[k].w = w[lane];
   }
   const int count = cut_triangle(corners, p);
   if (count < 0) atomic_inc(out->counters + RASTER_INVALID);
@@ -99,10 +104,15 @@ static void set_up_cut(const Corners* v, uint lane, RecordLanes* record, uint fl
       float parts[4][16];
       for (int i = 0; i < 16; ++i) {
         const float4 corner = corners[k == 0 ? 0 : min(first + i + k, count - 1)];
-        parts[0][i] = corner.x, parts[1][i] = corner.y, parts[2][i] = corner.z, parts[3][i] = corner.w;
+        parts[0][i] = corner.x;
+        parts[1][i] = corner.y;
+        parts[2][i] = corner.z;
+        parts[3][i] = corner.w;
       }
-      fan[k].x = vload16(0, parts[0]), fan[k].y = vload16(0, parts[1]);
-      fan[k].z = vload16(0, parts[2]), fan[k].w = vload16(0, parts[3]);
+      fan[k].x = vload16(0, parts[0]);
+      fan[k].y = vload16(0, parts[1]);
+      fan[k].z = vload16(0, parts[2]);
+      fan[k].w = vload16(0, parts[3]);
     }
     const int16 live = first + LANE_INDEX + 2 < (int16)(count);
     write_records(record, mask_bits(set_up(fan, of, live, flags, record, p)), out, p);

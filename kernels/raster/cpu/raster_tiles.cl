@@ -28,9 +28,9 @@ typedef struct Tile {
 
 typedef struct TileRecord {
   Edge edges[3];
-  int sample_c[3][SAMPLES], most_c[3];  // c of each sample, and of the one that lies farthest inside
-  int16 in_block[3];  // each edge's gain from a block's first pixel to each pixel
-  int dx, dy;         // from the anchor to the tile's first pixel's centre, 1/256 pixel
+  int sample_c[3][SAMPLES], max_c[3];  // c of each sample, and of the one that lies farthest inside
+  int16 in_block[3];                   // each edge's gain from a block's first pixel to each pixel
+  int dx, dy;                          // from the anchor to the tile's first pixel's centre, 1/256 pixel
   float z0, zx, zy, z_min, z_max;
   uint triangle, instance;
   int alpha_material;
@@ -50,7 +50,7 @@ static inline uint block_place(int x, int y) {
 #define LANE_X (LANE_INDEX & 3)
 #define LANE_Y (LANE_INDEX >> 2)
 
-static inline float least_lane(float16 v) {
+static inline float min_lane(float16 v) {
   const float8 a = v.lo < v.hi ? v.lo : v.hi;
   const float4 b = a.lo < a.hi ? a.lo : a.hi;
   const float2 c = b.lo < b.hi ? b.lo : b.hi;
@@ -75,14 +75,21 @@ static inline TileRecord in_tile(global const RasterRecord* r, int pixel_x, int 
 #pragma unroll
   for (int k = 0; k < 3; ++k) {
     t.in_block[k] = t.edges[k].a * LANE_X + t.edges[k].b * LANE_Y;
-    t.most_c[k] = edge_of_samples(t.edges[k]);
+    t.max_c[k] = edge_of_samples(t.edges[k]);
 #pragma unroll
     for (int s = 0; s < SAMPLES; ++s) t.sample_c[k][s] = edge_of_sample(t.edges[k], s);
   }
   const int2 anchor = anchor_pixel(r->zx, r->zy, r->box_low, r->box_high);
-  t.dx = (pixel_x - anchor.x) * 256, t.dy = (pixel_y - anchor.y) * 256;
-  t.z0 = r->z0, t.zx = r->zx, t.zy = r->zy, t.z_min = r->z_min, t.z_max = r->z_max;
-  t.triangle = r->triangle, t.instance = r->instance, t.alpha_material = r->alpha_material;
+  t.dx = (pixel_x - anchor.x) * 256;
+  t.dy = (pixel_y - anchor.y) * 256;
+  t.z0 = r->z0;
+  t.zx = r->zx;
+  t.zy = r->zy;
+  t.z_min = r->z_min;
+  t.z_max = r->z_max;
+  t.triangle = r->triangle;
+  t.instance = r->instance;
+  t.alpha_material = r->alpha_material;
   return t;
 }
 
@@ -98,7 +105,7 @@ static inline __attribute__((always_inline)) void show(const TileRecord* r, uint
     tile->triangle[at][s] = shown[s] ? (uint16)(r->triangle) : tile->triangle[at][s];
     nearest = lane_min(nearest, now);
   }
-  ((float*)tile->least)[at] = least_lane(nearest);
+  ((float*)tile->least)[at] = min_lane(nearest);
 }
 
 static inline __attribute__((always_inline)) void draw_block(const TileRecord* r, int block_x, int block_y,
@@ -110,7 +117,7 @@ static inline __attribute__((always_inline)) void draw_block(const TileRecord* r
 #pragma unroll
   for (int k = 0; k < 3; ++k) gain[k] = r->in_block[k] + edge_gain(r->edges[k], x, y);
 #if SAMPLES > 1
-  const int16 some = (gain[0] + r->most_c[0]) | (gain[1] + r->most_c[1]) | (gain[2] + r->most_c[2]);
+  const int16 some = (gain[0] + r->max_c[0]) | (gain[1] + r->max_c[1]) | (gain[2] + r->max_c[2]);
   if (mask_bits(some >= 0) == 0) return;
 #endif
   // Exact, as are the samples' offsets: multiples of 1/256 below 2^16.
@@ -156,10 +163,10 @@ static inline uint blocks_to_draw(const TileRecord* r, int square_x, int square_
   for (int k = 0; k < 3; ++k) {
     const Edge e = r->edges[k];
     // At each block's pixel that lies farthest inside.
-    sides |= r->most_c[k] + edge_gain(e, x + (e.a > 0 ? 3 : 0), y + (e.b > 0 ? 3 : 0)) + r->in_block[k] * 4;
+    sides |= r->max_c[k] + edge_gain(e, x + (e.a > 0 ? 3 : 0), y + (e.b > 0 ? 3 : 0)) + r->in_block[k] * 4;
   }
-  const int sample_x = r->zx > 0 ? most_gain(1, 0) : -most_gain(-1, 0),
-            sample_y = r->zy > 0 ? most_gain(0, 1) : -most_gain(0, -1);
+  const int sample_x = r->zx > 0 ? max_gain(1, 0) : -max_gain(-1, 0),
+            sample_y = r->zy > 0 ? max_gain(0, 1) : -max_gain(0, -1);
   const float16 depth = plane_depth(
       r, (float)(r->dx + x * 256 + sample_x) * (1.0f / 256) + convert_float16(across + (r->zx > 0 ? 3 : 0)),
       (float)(r->dy + y * 256 + sample_y) * (1.0f / 256) + convert_float16(up + (r->zy > 0 ? 3 : 0)));
@@ -185,7 +192,7 @@ static inline void draw_few(const TileRecord* r, int x0, int y0, int x1, int y1,
 }
 
 static inline void draw_many(const TileRecord* r, int x0, int y0, int x1, int y1, const Place* place,
-                            Tile* tile) {
+                             Tile* tile) {
   for (int square_y = y0 >> 2; square_y <= y1 >> 2; ++square_y) {
     for (int square_x = x0 >> 2; square_x <= x1 >> 2; ++square_x) {
       for (uint bits = blocks_to_draw(r, square_x, square_y, tile); bits != 0; bits &= bits - 1) {
@@ -256,7 +263,8 @@ static inline void store_tile(const Tile* tile, int pixel_x, int pixel_y, global
 #pragma unroll
       for (int i = 0; i < 4 * SAMPLES; ++i) {
         const uint block = at + i / SAMPLES;
-        numbers[i] = tile->triangle[block][i % SAMPLES], shown[i] = shown_depth(tile, block, i % SAMPLES);
+        numbers[i] = tile->triangle[block][i % SAMPLES];
+        shown[i] = shown_depth(tile, block, i % SAMPLES);
       }
       store_blocks(triangles + place, width, numbers, columns, rows);
       store_blocks((global uint*)depths + place, width, shown, columns, rows);
@@ -274,14 +282,18 @@ static __attribute__((noinline)) void draw_tile(uint number, global const Raster
   const Place place = {pixel_x, pixel_y, masks};
   Tile tile;
   for (uint i = 0; i < 256; ++i) {
-    for (int s = 0; s < SAMPLES; ++s) tile.depth[i][s] = LEAST_DEPTH, tile.triangle[i][s] = RASTER_NONE;
+    for (int s = 0; s < SAMPLES; ++s) {
+      tile.depth[i][s] = LEAST_DEPTH;
+      tile.triangle[i][s] = RASTER_NONE;
+    }
   }
   for (uint i = 0; i < 16; ++i) tile.least[i] = LEAST_DEPTH;
   const uint end = tile_begin[number + 1];
   for (uint i = tile_begin[number]; i < end; ++i) {
     global const RasterRecord* record = records + lists[i];
     global const RasterRecord* later = records + lists[min(i + RECORDS_AHEAD, end - 1)];
-    FETCH(later), FETCH(&later->alpha_material);  // in two cache lines
+    FETCH(later);
+    FETCH(&later->alpha_material);  // in two cache lines
     const int last = RASTER_TILE - 1;
     const int x0 = max((int)(record->box_low & 0xffffu) - pixel_x, 0) >> 2;
     const int y0 = max((int)(record->box_low >> 16) - pixel_y, 0) >> 2;

@@ -27,5 +27,6 @@ kernel void raster_scan(global uint* tile_counts, global uint* tile_begin, globa
   }
   if (item + 1 < RASTER_SCAN_GROUP) return;
   tile_begin[tiles] = (uint)at;
-  counters[RASTER_ENTRIES] = (uint)at, counters[RASTER_ENTRIES + 1] = (uint)(at >> 32);
+  counters[RASTER_ENTRIES] = (uint)at;
+  counters[RASTER_ENTRIES + 1] = (uint)(at >> 32);
 }

@@ -108,7 +108,8 @@ static inline uint keep_triangle(const float4* clip, RecordLanes* lanes, uint fl
   const Corners of[3] = {v[0], v[1], v[2]};
   v[0] = corners_of(corners[0]);
   for (int i = 2; i < count; ++i) {
-    v[1] = corners_of(corners[i - 1]), v[2] = corners_of(corners[i]);
+    v[1] = corners_of(corners[i - 1]);
+    v[2] = corners_of(corners[i]);
     if (!set_up(v, of, 1, flags, lanes, p)) continue;
     ++records;
     if (first_pass) keep_large(record, large, p);

@@ -39,7 +39,10 @@ static uint add_all(global const LightCellJob* job, global const RayNode* nodes,
   while (next_leaf(&walk, nodes, job, &first, &count)) {
     for (int place = first; place < first + count; ++place) {
       places[waiting++] = place;
-      if (waiting == LANES) add_triangles(job, triangles, places, LANES, to, &used, items), waiting = 0;
+      if (waiting == LANES) {
+        add_triangles(job, triangles, places, LANES, to, &used, items);
+        waiting = 0;
+      }
     }
   }
   if (waiting != 0) add_triangles(job, triangles, places, waiting, to, &used, items);
@@ -51,7 +54,8 @@ static inline void sum_counts(uint* counts, uint values) {
   uint sum = 0;
   for (uint i = 0; i < values; ++i) {
     const uint here = counts[i];
-    counts[i] = sum, sum += here;
+    counts[i] = sum;
+    sum += here;
   }
 }
 
@@ -61,14 +65,18 @@ static void sort_items(global LightCellJob* job, const LightCellItems* items, gl
   uint steps[NEAR_STEPS] = {0};
   const uint all = (job->w != 0 ? 6 : 1) * (job->size * job->size + 1);
   for (uint i = 0; i < all; ++i) starts[i] = 0;
-  for (uint i = 0; i < items->count; ++i)
-    ++steps[items->keys[i] % NEAR_STEPS], ++starts[1 + items->keys[i] / NEAR_STEPS];
+  for (uint i = 0; i < items->count; ++i) {
+    ++steps[items->keys[i] % NEAR_STEPS];
+    ++starts[1 + items->keys[i] / NEAR_STEPS];
+  }
   sum_counts(steps, NEAR_STEPS);
   uint sum = job->first_entry;
   float squares = 0;
   for (uint i = 0; i < all; ++i) {
     const uint here = starts[i];
-    starts[i] = sum, sum += here, squares += (float)here * (float)here;
+    starts[i] = sum;
+    sum += here;
+    squares += (float)here * (float)here;
   }
   job->list_length = squares / (float)max(items->count, 1u);
   for (uint i = 0; i < items->count; ++i)
@@ -91,8 +99,10 @@ kernel void list_light_cells(RAYS_ARGUMENTS, global LightCellJob* jobs, uint job
     global LightCellJob* job = jobs + i;
     global LightCellEntry* entries = (global LightCellEntry*)pool;
     LightCellItems items;
-    items.keys = (global uint*)(entries + job->first_entry), items.numbers = items.keys + job->entry_room;
-    items.count = 0, items.room = job->entry_room;
+    items.keys = (global uint*)(entries + job->first_entry);
+    items.numbers = items.keys + job->entry_room;
+    items.count = 0;
+    items.room = job->entry_room;
     const uint used =
         add_all(job, ray_nodes, ray_triangles, (global LightCellTriangle*)pool + job->first_triangle, &items);
     job->triangles = job->w != 0 ? used : job->gathered;

@@ -16,14 +16,20 @@ LIGHT_CELL_KERNEL(sum_light_cells)(global LightCellJob* jobs, global uint* pool)
              first = min((uint)get_local_id(0) * each, all), end = min(first + each, all);
   uint mine = 0;
   ulong squares = 0;
-  for (uint i = first; i < end; ++i) mine += starts[i], squares += (ulong)starts[i] * starts[i];
+  for (uint i = first; i < end; ++i) {
+    mine += starts[i];
+    squares += (ulong)starts[i] * starts[i];
+  }
   const uint2 before = prefix_sum(mine, scratch);
   uint sum = job->first_entry + before.x;
   for (uint i = first; i < end; ++i) {
     const uint here = starts[i];
-    starts[i] = sum, sum += here;
+    starts[i] = sum;
+    sum += here;
   }
   squares = sum_of_group(squares, sums);
-  if (get_local_id(0) == 0)
-    job->entries = before.y, job->list_length = (float)squares / (float)max(before.y, 1u);
+  if (get_local_id(0) == 0) {
+    job->entries = before.y;
+    job->list_length = (float)squares / (float)max(before.y, 1u);
+  }
 }

@@ -19,8 +19,10 @@ static inline void clear_tile(global uint* numbers, global uint* depths, uint x0
                               uint height) {
   const uint x1 = min(x0 + RASTER_TILE, width);
   for (uint y = y0; y < min(y0 + RASTER_TILE, height); ++y)
-    for (uint x = x0; x < x1; ++x)
-      numbers[(size_t)y * width + x] = SHADOW_NO_TRIANGLE, depths[(size_t)y * width + x] = 0;
+    for (uint x = x0; x < x1; ++x) {
+      numbers[(size_t)y * width + x] = SHADOW_NO_TRIANGLE;
+      depths[(size_t)y * width + x] = 0;
+    }
 }
 
 kernel void blended_layers(global const RasterRecord* records, global const uint* tile_begin,
@@ -53,7 +55,8 @@ kernel void blended_layers(global const RasterRecord* records, global const uint
           greatest = max(greatest, layer + 1);
           if (layer >= capacity) continue;
           const size_t at = layer * stride + (size_t)(y + lane / 4) * width + x + lane % 4;
-          layers[at] = r.triangle, layers[capacity * stride + at] = as_uint(((const float*)&depth)[lane]);
+          layers[at] = r.triangle;
+          layers[capacity * stride + at] = as_uint(((const float*)&depth)[lane]);
         }
       }
     }

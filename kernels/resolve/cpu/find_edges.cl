@@ -104,9 +104,10 @@ kernel void find_edges(global uint* triangles, global const float* depths,
       vstore16(triangle, 0, pixel_triangles + at);
       vstore16(depth, 0, pixel_depths + at);
     } else {
-      for (uint i = 0; i < count; ++i)
-        pixel_triangles[at + i] = ((const uint*)&triangle)[i],
-                             pixel_depths[at + i] = ((const float*)&depth)[i];
+      for (uint i = 0; i < count; ++i) {
+        pixel_triangles[at + i] = ((const uint*)&triangle)[i];
+        pixel_depths[at + i] = ((const float*)&depth)[i];
+      }
     }
     edges[at / 16] = (ushort)edge_bits;
   }

@@ -26,7 +26,8 @@ static inline real seen_samples(const Where* w, uint* most) {
   *most = 0;
   for (uint i = 0; i < 16; ++i) {
     const uint count = (uint)popcount((uint)w->e->samples[w->b->surface[i]]);
-    counts[i] = (float)count, *most = max(*most, count);
+    counts[i] = (float)count;
+    *most = max(*most, count);
   }
   return vload16(0, counts);
 }
@@ -83,8 +84,7 @@ kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global 
         const Where where = {&e, &b, i};
         const Resolved r = {&b.attributes, &b.material, b.x, b.y, b.depth, b.covered};
         store_resolved(&output, &r, &where, &scene, &lights, view);
-        if (SHOWS_LIGHT(output))
-          keep_light(&e, &b, light_of(&output, &r, &where, &lights, bin_edges, view));
+        if (SHOWS_LIGHT(output)) keep_light(&e, &b, light_of(&output, &r, &where, &lights, bin_edges, view));
       }
       if (SHOWS_LIGHT(output)) show_edges(&e, output.background, output.image);
     }

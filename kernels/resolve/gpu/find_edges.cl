@@ -22,8 +22,10 @@ kernel void find_edges(global uint* triangles, global const float* depths,
     }
     depth *= 1.0f / SAMPLES;
     if (edge &&
-        join_surfaces(triangles + first, &scene, at % width, at / width, half_size, depths + first, &depth))
-      edge = false, seen = triangles[first];
+        join_surfaces(triangles + first, &scene, at % width, at / width, half_size, depths + first, &depth)) {
+      edge = false;
+      seen = triangles[first];
+    }
     pixel_triangles[at] = edge ? SURFACE_NONE : seen;
     pixel_depths[at] = edge ? 0.0f : depth;
     bits |= edge ? 1u << (at - begin) : 0u;

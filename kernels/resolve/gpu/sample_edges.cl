@@ -3,7 +3,7 @@
 #include "kernels/resolve/sample_edges.h"
 
 kernel __attribute__((reqd_work_group_size(64, 1, 1))) void sample_edges(SURFACE_ARGUMENTS, uint pixels,
-                                                                        global ushort* edges) {
+                                                                         global ushort* edges) {
   local uint found[4];
   const uint item = get_local_id(0), at = get_global_id(0);
   if (item < 4) found[item] = 0;

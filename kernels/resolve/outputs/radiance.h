@@ -18,6 +18,4 @@ typedef struct Output {
 #define NEEDS_EVERY_PIXEL false
 
 STORE_RESOLVED {}
-LIGHT_OF {
-  return radiance(resolved, lights, bin_edges, view);
-}
+LIGHT_OF { return radiance(resolved, lights, bin_edges, view); }

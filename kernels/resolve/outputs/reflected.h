@@ -74,7 +74,8 @@ static inline ReflectedLight reflected_light(ShadingPoint p, mask_t unlit, Real3
   r.flux = real3(lit ? albedo.x * light.color.x * received : none,
                  lit ? albedo.y * light.color.y * received : none,
                  lit ? albedo.z * light.color.z * received : none);
-  r.area = lit ? r.area : none, r.ahead = lit ? r.ahead : none;
+  r.area = lit ? r.area : none;
+  r.ahead = lit ? r.ahead : none;
   r.normal = real3(lit ? r.normal.x : none, lit ? r.normal.y : none, lit ? r.normal.z : none);
   return r;
 }

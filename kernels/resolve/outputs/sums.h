@@ -21,9 +21,9 @@ typedef struct Output {
   LightBufferParams params;
   global float* image;
 } Output;
-#define OUTPUT_ARGUMENTS \
-  float4 background, global const light_channel_t *first, global const light_channel_t *second,         \
-      float scale, float exponent, float reference, global float *image
+#define OUTPUT_ARGUMENTS                                                                                     \
+  float4 background, global const light_channel_t *first, global const light_channel_t *second, float scale, \
+      float exponent, float reference, global float *image
 #define GIVEN_OUTPUT \
   { background, first, second, scale, {REAL(exponent), REAL(reference)}, image }
 #define READS_DEPTH(output) true
@@ -38,17 +38,22 @@ static inline LightTerms stored_sums(const Output* output, const size_t* at) {
   float terms[6][16];
   for (uint i = 0; i < 16; ++i) {
     const float4 t = LOAD_CHANNELS(4, at[i], output->first) * output->scale;
-    terms[0][i] = t.x, terms[1][i] = t.y, terms[2][i] = t.z, terms[3][i] = t.w;
+    terms[0][i] = t.x;
+    terms[1][i] = t.y;
+    terms[2][i] = t.z;
+    terms[3][i] = t.w;
 #ifdef PREPASS_FIFTH_TERM
     const float2 u = LOAD_CHANNELS(2, at[i], output->second) * output->scale;
-    terms[4][i] = u.x, terms[5][i] = u.y;
+    terms[4][i] = u.x;
+    terms[5][i] = u.y;
 #endif
   }
   LightTerms sums = no_terms();
   sums.diffuse = real3(vload16(0, terms[0]), vload16(0, terms[1]), vload16(0, terms[2]));
   sums.specular = vload16(0, terms[3]);
 #ifdef PREPASS_FIFTH_TERM
-  sums.weight = vload16(0, terms[4]), sums.rim = vload16(0, terms[5]);
+  sums.weight = vload16(0, terms[4]);
+  sums.rim = vload16(0, terms[5]);
 #endif
   return sums;
 }
@@ -56,10 +61,12 @@ static inline LightTerms stored_sums(const Output* output, const size_t* at) {
 static inline LightTerms stored_sums(const Output* output, const size_t* at) {
   LightTerms sums = no_terms();
   const float4 t = LOAD_CHANNELS(4, *at, output->first) * output->scale;
-  sums.diffuse = real3(t.x, t.y, t.z), sums.specular = t.w;
+  sums.diffuse = real3(t.x, t.y, t.z);
+  sums.specular = t.w;
 #ifdef PREPASS_FIFTH_TERM
   const float2 u = LOAD_CHANNELS(2, *at, output->second) * output->scale;
-  sums.weight = u.x, sums.rim = u.y;
+  sums.weight = u.x;
+  sums.rim = u.y;
 #endif
   return sums;
 }

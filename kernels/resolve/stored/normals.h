@@ -56,7 +56,9 @@ static inline Real3 normals_at(global const normal_t* normals, const StoredBatch
   float n[3][16];
   for (uint i = 0; i < 16; ++i) {
     const float4 one = normals[IMAGE_OF(b, i)];
-    n[0][i] = one.x, n[1][i] = one.y, n[2][i] = one.z;
+    n[0][i] = one.x;
+    n[1][i] = one.y;
+    n[2][i] = one.z;
   }
   return real3(vload16(0, n[0]), vload16(0, n[1]), vload16(0, n[2]));
 #endif
@@ -66,7 +68,10 @@ static inline void store_terms(const Stored* s, const StoredBatch* b, LightTerms
   float16 rows[4];
   rows_of_block(rows, t.diffuse, t.specular);
   float pairs[32];
-  for (uint i = 0; i < 16; ++i) pairs[2 * i] = LANE(t.weight, i), pairs[2 * i + 1] = LANE(t.rim, i);
+  for (uint i = 0; i < 16; ++i) {
+    pairs[2 * i] = LANE(t.weight, i);
+    pairs[2 * i + 1] = LANE(t.rim, i);
+  }
   if (b->in_rows) {
     for (uint i = 0; i < 4; ++i) store_row_of_sums(s, IMAGE_OF(b, 4 * i), rows[i], vload8(i, pairs));
     return;

@@ -33,7 +33,9 @@ static inline void add_triangles(TileTriangles* t, uint block, uint16 triangle, 
     const uint one = ((const uint*)&triangle)[lowest_bit(left)],
                here = lane_bits(covered & (triangle == (uint16)(one)));
     left &= ~here;
-    t->triangle[t->count] = one, t->lanes[t->count] = (ushort)here, t->block[t->count] = (uchar)block;
+    t->triangle[t->count] = one;
+    t->lanes[t->count] = (ushort)here;
+    t->block[t->count] = (uchar)block;
   }
 }
 
@@ -55,9 +57,9 @@ static inline uint receivers_of_tile(Receivers receivers[16], const RayScene* sc
     const mask_t covered = covered_lanes(triangle, x, y, width, height);
     if (!any_lane(covered)) continue;
     const real depth = as_float16(load_block((global const uint*)depths, x, y, width, height));
-    receivers[block] = receivers_at(covered, (float)x + 0.5f + convert_float16(LANE_INDEX & 3),
-                                    (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, own_hides,
-                                    shadow_view, view);
+    receivers[block] =
+        receivers_at(covered, (float)x + 0.5f + convert_float16(LANE_INDEX & 3),
+                     (float)y + 0.5f + convert_float16(LANE_INDEX >> 2), depth, own_hides, shadow_view, view);
     add_triangles(&found, block, triangle, covered);
     used |= 1u << block;
   }
@@ -98,9 +100,9 @@ kernel void find_shadows(SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
 #ifdef SHADOW_PICK
     for (uint left = used; left != 0; left &= left - 1) {
       const uint block = lowest_bit(left);
-      test.picked[block] = picked_share(&test, &scene, receivers + block, lights, indices, range,
-                                        tile_x * SHADOW_TILE + block % 4 * 4,
-                                        tile_y * SHADOW_TILE + block / 4 * 4);
+      test.picked[block] =
+          picked_share(&test, &scene, receivers + block, lights, indices, range,
+                       tile_x * SHADOW_TILE + block % 4 * 4, tile_y * SHADOW_TILE + block / 4 * 4);
     }
 #endif
     for (uint i = range.x; i < range.x + range.y; ++i) {
@@ -109,9 +111,10 @@ kernel void find_shadows(SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
       for (uint word = 0; word < SHADOW_WORDS; word += 8) vstore8((uint8)(0), 0, entry + word);
       for (uint left = used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
-        store_shadows(entry, block,
-                      hidden_share(&test, &scene, receivers + block, block, index, lights, shadow_view,
-                                   tile_x * SHADOW_TILE + block % 4 * 4, tile_y * SHADOW_TILE + block / 4 * 4));
+        store_shadows(
+            entry, block,
+            hidden_share(&test, &scene, receivers + block, block, index, lights, shadow_view,
+                         tile_x * SHADOW_TILE + block % 4 * 4, tile_y * SHADOW_TILE + block / 4 * 4));
       }
       global uint2* here = listed + index / 32;
       if (here->x == 0) here->y = number;

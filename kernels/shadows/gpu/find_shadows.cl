@@ -5,7 +5,8 @@
 
 #define GROUP (SHADOW_TILE * SHADOW_TILE)
 
-kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(
+    SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
   local uint words[GROUP / 32 * 33];  // 33: items that read different rows meet different banks
   local volatile uint traced_here;
   const RayScene scene = RAYS_SCENE;

@@ -34,7 +34,9 @@ static inline void add_lights(VoxelSum* sums, const uint* found, uint count, con
   for (uint i = 0; i < count; ++i) {
     global const float* of = lights->places + found[i] / VOXEL_LIGHT_GROUP * (4 * VOXEL_LIGHT_GROUP) +
                              found[i] % VOXEL_LIGHT_GROUP;
-    at.x[i] = of[0], at.y[i] = of[VOXEL_LIGHT_GROUP], at.z[i] = of[2 * VOXEL_LIGHT_GROUP];
+    at.x[i] = of[0];
+    at.y[i] = of[VOXEL_LIGHT_GROUP];
+    at.z[i] = of[2 * VOXEL_LIGHT_GROUP];
     at.radius[i] = of[3 * VOXEL_LIGHT_GROUP];
   }
   for (uint v = 0; v < VECTORS; ++v) {

@@ -122,8 +122,9 @@ kernel __attribute__((reqd_work_group_size(ITEMS, 1, 1))) void build_voxels(
       const uint2 of_lights = count_flags(words, item);
       if (may_reach) {
         const uint number = groups[mine] * VOXEL_LIGHT_GROUP + item % VOXEL_LIGHT_GROUP;
-        kept[of_lights.x] = light, kept_colors[of_lights.x] = colors[number];
-        reaches[of_lights.x] = voxel_reach(light.w, slice),
+        kept[of_lights.x] = light;
+        kept_colors[of_lights.x] = colors[number];
+        reaches[of_lights.x] = voxel_reach(light.w, slice);
         numbers[of_lights.x] = marked_number(cones, number);
       }
       barrier(CLK_LOCAL_MEM_FENCE);

@@ -74,7 +74,8 @@ lightgrid_status failed() noexcept {
   try {
     return status_of_current_exception();
   } catch (...) {  // no memory for a message
-    last_error().message.clear(), last_error().field.clear();
+    last_error().message.clear();
+    last_error().field.clear();
     return LIGHTGRID_MACHINE;
   }
 }

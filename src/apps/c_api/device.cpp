@@ -93,7 +93,8 @@ std::shared_ptr<DeviceScene> OpenDevice::follow(const std::shared_ptr<LoadedScen
   } else if (held->time != scene->time()) {
     held->gpu->update(scene->changes_since(held->time));
   }
-  held->shape = scene->shape(), held->time = scene->time();
+  held->shape = scene->shape();
+  held->time = scene->time();
   return held;
 }
 

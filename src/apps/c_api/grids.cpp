@@ -15,7 +15,8 @@ namespace {
 View view_of(const lightgrid_projection& in) {
   parse_size(fmt::format("{}x{}", in.width, in.height));
   View view;
-  view.width = in.width, view.height = in.height;
+  view.width = in.width;
+  view.height = in.height;
   view.clip_from_view = matrix_of(in.clip_from_view, "projection.clip_from_view");
   view.view_from_world = matrix_of(in.view_from_world, "projection.view_from_world");
   for (int i = 0; i < 3; ++i) {
@@ -65,7 +66,8 @@ DeviceScene::Raster& raster_of(OpenDevice& device, DeviceScene& held) {
                          material.alpha_mode != AlphaMode::blend});
   }
   raster.view.set_instances(instances);
-  raster.shape = scene.shape(), raster.time = scene.time();
+  raster.shape = scene.shape();
+  raster.time = scene.time();
   return raster;
 }
 
@@ -108,10 +110,14 @@ lightgrid_status lightgrid_lists_get(const lightgrid_lists* lists, lightgrid_gri
     lightgrid_grid& out = needed(grid, "grid");
     static_assert(sizeof(glm::uvec2) == 2 * sizeof(uint32_t));
     out = {g.cells_x, g.cells_y, g.slices, from.tile};
-    out.cells = reinterpret_cast<const uint32_t*>(data_or_null(g.cells)), out.cell_count = g.cells.size();
-    out.indices = data_or_null(g.indices), out.index_count = g.indices.size();
-    out.masks = data_or_null(g.masks), out.mask_words = g.cells.empty() ? 0 : g.masks.size() / g.cells.size();
-    out.z_bins = data_or_null(g.z_bins), out.z_bin_count = g.z_bins.size();
+    out.cells = reinterpret_cast<const uint32_t*>(data_or_null(g.cells));
+    out.cell_count = g.cells.size();
+    out.indices = data_or_null(g.indices);
+    out.index_count = g.indices.size();
+    out.masks = data_or_null(g.masks);
+    out.mask_words = g.cells.empty() ? 0 : g.masks.size() / g.cells.size();
+    out.z_bins = data_or_null(g.z_bins);
+    out.z_bin_count = g.z_bins.size();
     out.slice_edges = data_or_null(from.slice_edges);
   });
 }

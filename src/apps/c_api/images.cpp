@@ -9,7 +9,7 @@
 namespace lightgrid::c {
 namespace {
 
-constexpr int most_side = 16384;
+constexpr int max_side = 16384;
 constexpr const char* format_names[] = {"RGBA_F32", "R_F32", "R_U32", "RGB_U8", "RGBA_U8"};
 
 Image read(const lightgrid_image& image) {
@@ -61,7 +61,7 @@ const lightgrid_image& checked(const lightgrid_image* image, const std::string& 
     throw wrong(name + ".format", "{} is not {}, {}", int(in.format), int(format), format_names[format]);
   for (const auto& [field, side, wanted] :
        {std::tuple(".width", in.width, width), {".height", in.height, height}}) {
-    if (side < 1 || side > most_side) throw wrong(name + field, "{} is not from 1 to {}", side, most_side);
+    if (side < 1 || side > max_side) throw wrong(name + field, "{} is not from 1 to {}", side, max_side);
     if (wanted && side != wanted) throw wrong(name + field, "{} is not {}", side, wanted);
   }
   const ptrdiff_t row = ptrdiff_t(size_t(in.width) * pixel_bytes(format));
@@ -94,7 +94,8 @@ lightgrid_status lightgrid_srgb(const lightgrid_image* image, double stops, cons
     const lightgrid_image& out = checked(picture, "picture", LIGHTGRID_RGB_U8, in.width, in.height);
     const std::vector<uint8_t> bytes = srgb_bytes(read(in), {checked_stops(stops)});
     lightgrid_image from_top = out;  // as srgb_bytes has them
-    from_top.pixels = row_of(out, out.height - 1), from_top.row_bytes = -out.row_bytes;
+    from_top.pixels = row_of(out, out.height - 1);
+    from_top.row_bytes = -out.row_bytes;
     write_pixels(from_top, bytes.data());
   });
 }

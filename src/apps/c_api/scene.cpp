@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double largest_float = std::numeric_limits<float>::max();
-constexpr size_t most_values = size_t(1) << 31;
+constexpr size_t max_values = size_t(1) << 31;
 
 double in_range(const std::string& name, double value, double least = -largest_float,
                 double most = largest_float) {
@@ -86,11 +86,17 @@ Light light_of(const lightgrid_light& in, const std::string& name) {
 lightgrid_light light_from(const Light& in) {
   lightgrid_light out;
   lightgrid_default_light(&out);
-  for (int i = 0; i < 3; ++i)
-    out.position[i] = in.position[i], out.direction[i] = in.direction[i], out.color[i] = in.color[i];
-  out.intensity = in.intensity, out.radius_m = in.radius_m;
-  out.inner_cone_rad = in.inner_cone_rad, out.outer_cone_rad = in.outer_cone_rad;
-  out.source_radius_m = in.source_m, out.nearest_m = in.nearest_m;
+  for (int i = 0; i < 3; ++i) {
+    out.position[i] = in.position[i];
+    out.direction[i] = in.direction[i];
+    out.color[i] = in.color[i];
+  }
+  out.intensity = in.intensity;
+  out.radius_m = in.radius_m;
+  out.inner_cone_rad = in.inner_cone_rad;
+  out.outer_cone_rad = in.outer_cone_rad;
+  out.source_radius_m = in.source_m;
+  out.nearest_m = in.nearest_m;
   out.type = in.is_virtual                 ? LIGHTGRID_VIRTUAL
              : in.type == LightType::point ? LIGHTGRID_POINT
              : in.type == LightType::spot  ? LIGHTGRID_SPOT
@@ -121,7 +127,7 @@ Material material_of(const lightgrid_material& in, size_t textures) {
     slot.texture = checked_number(name, number, -1, textures, "textures");
   };
   m.base_color = checked_color<4>("material.base_color", in.base_color, 1);
-  m.metallic = share("material.metallic", in.metallic),
+  m.metallic = share("material.metallic", in.metallic);
   m.roughness = share("material.roughness", in.roughness);
   m.emissive = checked_color<3>("material.emissive", in.emissive);
   m.ior = in.ior == 0 ? 0 : float(in_range("material.ior", in.ior, 1, 100));
@@ -133,7 +139,8 @@ Material material_of(const lightgrid_material& in, size_t textures) {
   m.alpha_cutoff = share("material.alpha_cutoff", in.alpha_cutoff);
   m.normal_scale = float(in_range("material.normal_scale", in.normal_scale));
   m.occlusion_strength = share("material.occlusion_strength", in.occlusion_strength);
-  m.double_sided = in.double_sided != 0, m.unlit = in.unlit != 0;
+  m.double_sided = in.double_sided != 0;
+  m.unlit = in.unlit != 0;
   map("material.base_color_map", in.base_color_map, m.base_color_map);
   map("material.metallic_roughness_map", in.metallic_roughness_map, m.metallic_roughness_map);
   map("material.normal_map", in.normal_map, m.normal_map);
@@ -159,11 +166,12 @@ std::vector<T> copied(const char* name, const float* values, size_t count) {
 }
 
 Mesh mesh_of(const lightgrid_mesh& in, const Material& material) {
-  needed(in.positions, "mesh.positions"), needed(in.indices, "mesh.indices");
-  if (in.vertex_count < 1 || in.vertex_count > most_values)
-    throw wrong("mesh.vertex_count", "{} is not from 1 to {}", in.vertex_count, most_values);
-  if (in.index_count < 3 || in.index_count > most_values || in.index_count % 3)
-    throw wrong("mesh.index_count", "{} is no multiple of 3 from 3 to {}", in.index_count, most_values);
+  needed(in.positions, "mesh.positions");
+  needed(in.indices, "mesh.indices");
+  if (in.vertex_count < 1 || in.vertex_count > max_values)
+    throw wrong("mesh.vertex_count", "{} is not from 1 to {}", in.vertex_count, max_values);
+  if (in.index_count < 3 || in.index_count > max_values || in.index_count % 3)
+    throw wrong("mesh.index_count", "{} is no multiple of 3 from 3 to {}", in.index_count, max_values);
   if (!in.uv && has_maps(material)) throw wrong("mesh.uv", "is null, and the mesh's material has maps");
   Mesh mesh;
   mesh.positions = copied<glm::vec3>("mesh.positions", in.positions, in.vertex_count);
@@ -212,7 +220,7 @@ SceneChanges LoadedScene::changes_since(uint64_t time) const {
 }
 
 std::vector<Light> lights_of(const lightgrid_light* lights, size_t count) {
-  if (count > size_t(most_lights)) throw wrong("count", "{} is not from 0 to {}", count, most_lights);
+  if (count > size_t(max_lights)) throw wrong("count", "{} is not from 0 to {}", count, max_lights);
   if (count) needed(lights, "lights");
   std::vector<Light> all;
   for (size_t i = 0; i < count; ++i) all.push_back(light_of(lights[i], fmt::format("lights[{}]", i)));
@@ -233,7 +241,8 @@ Camera camera_of(const lightgrid_camera& in) {
   camera.orthographic = in.orthographic != 0;
   camera.fov_y_rad = in.fov_y_rad;
   camera.half_height_m = in.half_height_m;
-  camera.near_m = in.near_m, camera.far_m = in.far_m;
+  camera.near_m = in.near_m;
+  camera.far_m = in.far_m;
   return camera;
 }
 
@@ -281,7 +290,8 @@ lightgrid_status lightgrid_scene_add_texture(lightgrid_scene* scene, int32_t wid
                   .height = int(in_range("height", height, 1, 8192))};
     bitmap.rgba.assign(rgba, rgba + size_t(width) * size_t(height) * 4);
     Texture texture{.bitmap = int(to.bitmaps.size()), .srgb = is_srgb != 0};
-    to.bitmaps.push_back(std::move(bitmap)), to.textures.push_back(texture);
+    to.bitmaps.push_back(std::move(bitmap));
+    to.textures.push_back(texture);
     scene->loaded->rebuilt();
     if (number) *number = int(to.textures.size()) - 1;
   });
@@ -401,7 +411,8 @@ lightgrid_status lightgrid_scene_set_ambient(lightgrid_scene* scene, const float
     const glm::vec3 sides = ambient ? checked_color<3>("ambient", ambient) : to.scene.ambient;
     const glm::vec3 behind = background ? checked_color<3>("background", background) : to.scene.background;
     to.view();
-    to.scene.ambient = sides, to.scene.background = behind;
+    to.scene.ambient = sides;
+    to.scene.background = behind;
     to.rebuilt();
   });
 }
@@ -415,8 +426,10 @@ lightgrid_status lightgrid_scene_camera(lightgrid_scene* scene, const char* whic
     const Camera chosen = which && *which ? choose_camera(from.scene, which, aspect) : from.camera(aspect);
     for (int i = 0; i < 16; ++i) out.world_from_view[i] = chosen.world_from_view[i / 4][i % 4];
     out.orthographic = chosen.orthographic;
-    out.fov_y_rad = chosen.fov_y_rad, out.half_height_m = chosen.half_height_m;
-    out.near_m = chosen.near_m, out.far_m = chosen.far_m;
+    out.fov_y_rad = chosen.fov_y_rad;
+    out.half_height_m = chosen.half_height_m;
+    out.near_m = chosen.near_m;
+    out.far_m = chosen.far_m;
   });
 }
 

@@ -27,7 +27,8 @@ TechniqueRun& follow(lightgrid_view& v) {
   } else {
     v.run->look(v.view, scene.changes_since(v.time));
   }
-  v.shape = scene.shape(), v.time = scene.time();
+  v.shape = scene.shape();
+  v.time = scene.time();
   return *v.run;
 }
 
@@ -47,7 +48,8 @@ lightgrid_projection projection_of(const View& view) {
     out.view_from_world[i] = view.view_from_world[i / 4][i % 4];
   }
   for (int i = 0; i < 3; ++i) out.eye[i] = view.eye[i];
-  out.width = view.width, out.height = view.height;
+  out.width = view.width;
+  out.height = view.height;
   return out;
 }
 
@@ -95,14 +97,16 @@ lightgrid_status lightgrid_view_look(lightgrid_view* view, const lightgrid_camer
       v.run = make_run(v, looked);
     else
       run.look(looked);
-    v.view = looked, v.drawn = false;
+    v.view = looked;
+    v.drawn = false;
   });
 }
 
 lightgrid_status lightgrid_view_size(const lightgrid_view* view, int32_t* width, int32_t* height) {
   return call([&] {
     const View& of = needed(view, "view").view;
-    needed(width, "width") = of.width, needed(height, "height") = of.height;
+    needed(width, "width") = of.width;
+    needed(height, "height") = of.height;
   });
 }
 

@@ -152,7 +152,8 @@ int bench(const BenchCommand& o) {
                        .contestants = contestants_of(o),
                        .filter = o.filter};
   options.own_tile = !gives_tile(o.scene.set) && !gives_tile(o.compare);
-  options.frames = o.timing.frames, options.warmup = o.timing.warmup;
+  options.frames = o.timing.frames;
+  options.warmup = o.timing.warmup;
   options.step = progress_bar();
   if (!o.write_frames.empty()) {
     write_frames(o.write_frames, options);

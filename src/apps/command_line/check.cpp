@@ -56,9 +56,9 @@ struct CheckedScene {
 };
 
 void print_text(const std::vector<LimitResult>& results, const Scene& scene, const std::string& engine) {
-  constexpr size_t most_lights = 3;
+  constexpr size_t max_lights = 3;
   for (const LimitResult& result : results) {
-    const std::vector<std::string> lines = sentences_of(result, scene, most_lights);
+    const std::vector<std::string> lines = sentences_of(result, scene, max_lights);
     fmt::print("{} ({}): {}", id_of(*result.limit), result.limit->versions,
                result.holds() ? "holds: " + lines.front() + "\n" : "drops lights\n");
     if (result.holds()) continue;
@@ -234,8 +234,8 @@ class LimitPictures {
     run.run_frame();
     drawn.image = run.take_image();
     drawn.exposure = like ? like->exposure : chosen_exposure(o_.scene, drawn.image);
-    constexpr int most_width = 960;
-    const Image shown = mean_of_blocks(drawn.image, (drawn.image.width + most_width - 1) / most_width);
+    constexpr int max_width = 960;
+    const Image shown = mean_of_blocks(drawn.image, (drawn.image.width + max_width - 1) / max_width);
     drawn.number = page_.pictures.size();
     page_.pictures.push_back(encode_png(shown.width, shown.height, 3, srgb_bytes(shown, drawn.exposure)));
     return drawn;
@@ -249,7 +249,7 @@ class LimitPictures {
 
 std::string page_of(const CheckOptions& o, const std::vector<LimitResult>& results, CheckedScene& checked,
                     const std::vector<Warning>& warnings) {
-  constexpr size_t most_lights = 8;
+  constexpr size_t max_lights = 8;
   const Scene& scene = checked.chosen.scene;
   LimitsPage page;
   page.scene = scene.name;
@@ -263,7 +263,7 @@ std::string page_of(const CheckOptions& o, const std::vector<LimitResult>& resul
     LimitSection& section = page.sections.emplace_back();
     section.title = fmt::format("{} ({})", id_of(*result.limit), result.limit->versions);
     section.holds = result.holds();
-    section.sentences = sentences_of(result, scene, most_lights);
+    section.sentences = sentences_of(result, scene, max_lights);
     if (*result.limit->not_verified)
       section.sentences.push_back(std::string("Not verified: ") + result.limit->not_verified + ".");
     section.source = result.limit->source;

@@ -56,7 +56,7 @@ bool tell_failures(const CompareReport& report, const std::string& view) {
     if (row.pairs->blended && row.pairs->blended->faults() > 0)
       fmt::print(stderr, "lightgrid: {}{}: {} leaked and {} acned pairs of blended surfaces\n", view,
                  names[i], row.pairs->blended->leaked, row.pairs->blended->acned);
-    if (row.unshaded.value_or(0) > most_unshaded)
+    if (row.unshaded.value_or(0) > max_unshaded)
       fmt::print(stderr,
                  "lightgrid: {}{}: its lists hold every light, but its image lacks {:.3g} % of their light\n",
                  view, names[i], 100 * *row.unshaded);

@@ -221,16 +221,20 @@ int frontier(FrontierCommand o) {
   }
   FrontierPart part;
   part.request = request_of(o, points_of(o, job.common, renderer.gl != nullptr), of_scenes, externals);
-  part.commit = commit_of_build(), part.seed = o.scene.seed, part.shard = shard.index,
+  part.commit = commit_of_build();
+  part.seed = o.scene.seed;
+  part.shard = shard.index;
   part.shards = shard.count;
-  part.baseline = job.baseline.label, part.keep = o.keep;
+  part.baseline = job.baseline.label;
+  part.keep = o.keep;
   for (size_t i = 0; i < o.scenes.size() && !o.families; ++i)
     part.points_asked[o.scenes[i]] = points_of_shard(of_scenes[i].points.size(), shard);
   part.machine = machine_of(renderer);
   const fs::path path = part_path(o.output, shard.index, shard.count);
   RecordFile file(path, part, job.notice);
 
-  job.process = process.index, job.processes = process.count;
+  job.process = process.index;
+  job.processes = process.count;
   job.growth = job.growth && process.index + 1 == process.count;
 
   const auto bar = progress_bar();
@@ -274,7 +278,7 @@ void add_frontier(CommandLine& line) {
       "renderer needs to draw them (default: hall, terrain, spheres, street)");
   command.option("--size", o->scene.size, "image size, WxH");
   command.option("--lights", o->scene.lights, "scatter N lights; with --lights-file, its first N", 0,
-                 most_lights);
+                 max_lights);
   add_view_options(command, o->scene);
   add_exposure_option(command, o->scene);
   command.option("--camera-path", o->scene.camera_path,

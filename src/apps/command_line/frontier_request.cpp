@@ -34,7 +34,8 @@ Shard parse_shard(const std::string& text, const char* what) {
 
 SceneChoice choice_of(const FrontierCommand& o, const std::string& scene) {
   SceneChoice choice = o.scene;
-  choice.scene = scene, choice.device = o.devices.device;
+  choice.scene = scene;
+  choice.device = o.devices.device;
   return choice;
 }
 
@@ -171,8 +172,8 @@ FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Sha
   job.sequences = o.sequences;
   if (o.families) job.families.emplace();
   if (o.families && o.scene.lights >= 0) job.families->number = o.scene.lights;
-  job.most_rounds = o.rounds;
-  job.least_rounds = std::min(job.least_rounds, o.rounds);
+  job.max_rounds_per_point = o.rounds;
+  job.min_rounds_per_point = std::min(job.min_rounds_per_point, o.rounds);
   job.pictures = fs::path(o.output) / "pictures";
   job.notice = [](const std::string& what) { log_info("{}", what); };
   return job;

@@ -329,7 +329,7 @@ void add_golden(CommandLine& line) {
   command.list("scene", o->scenes, "of record, one or more: .gltf or .glb files, or built-in scenes");
   command.option("--size", o->scene.size, "image size, WxH");
   command.option("--lights", o->scene.lights, "scatter N lights; with --lights-file, its first N", 0,
-                 most_lights);
+                 max_lights);
   add_view_options(command, o->scene);
   add_path_option(command, o->scene);
   add_device_options(command, o->devices);

@@ -34,7 +34,7 @@ struct InspectOptions {
   bool all = false;
 };
 
-constexpr size_t most_compared = 1000;
+constexpr size_t max_compared = 1000;
 
 struct Place {
   int x = 0, y = 0;
@@ -58,17 +58,17 @@ void check_place(const Place& place, const View& view) {
 struct FrameAndTruth {
   FrameAndTruth(Renderer& renderer, const ChosenScene& chosen, const Settings& settings,
                 const Technique& technique)
-      : run(renderer, chosen.scene, chosen.view, settings, technique), truth(chosen.scene, most_pairs) {
+      : run(renderer, chosen.scene, chosen.view, settings, technique), truth(chosen.scene, max_pairs) {
     run.draw_frame();
     frame = read_frame_shadows(run);
   }
   PairShadows pairs() {
-    const Seen& v = run.view();
+    const ViewState& v = run.view();
     return {*truth.pairs(v, frame.depth, frame.shown), frame.shaded ? &*frame.shaded : nullptr,
             uint32_t(v.plan.lights.directional.size())};
   }
 
-  static constexpr uint64_t most_pairs = 10'000'000;
+  static constexpr uint64_t max_pairs = 10'000'000;
   TechniqueRun run;
   ShadowTruth truth;
   FrameShadows frame;
@@ -188,7 +188,7 @@ int compare_settings(const InspectOptions& o, const Subject& subject, OpenCl& de
   const LitBlocks truth = find_lit_blocks(subject.frame);
   std::vector<AccuracyRow> rows;
   uint64_t lost = 0;
-  for (const BenchContestant& c : culling_contestants(subject.settings, o.compare, most_compared)) {
+  for (const BenchContestant& c : culling_contestants(subject.settings, o.compare, max_compared)) {
     FrameCuller culler(*devices.cl, *devices.kernels, subject.frame, c.settings,
                        grid_needs(subject.technique, c.settings));
     culler.run();
@@ -217,7 +217,7 @@ int inspect(InspectOptions o) {
   const Settings given = chosen_settings(o.scene);  // reports a wrong setting before the scene is loaded
   if (!o.technique.empty()) grid_needs(o.technique, given);
   check_given_settings(given, {&find_technique(o.technique.empty() ? "forward_plus" : o.technique)}, true);
-  culling_contestants(given, o.compare, most_compared);
+  culling_contestants(given, o.compare, max_compared);
   parse_gl_backend(o.devices.gl);
   if (!o.json.empty()) check_output_file("--json", o.json);
   o.scene.device = o.devices.device;

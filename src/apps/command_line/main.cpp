@@ -36,7 +36,10 @@ void reserve_standard_streams() {
 void check_stdout(int code = 0) {
   errno = 0;
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
-  if (!errno && !code) std::fputc('\n', stdout), std::fflush(stdout);  // fails for the same reason
+  if (!errno && !code) {
+    std::fputc('\n', stdout);
+    std::fflush(stdout);  // fails for the same reason
+  }
   if (errno) code = errno;
   throw lightgrid::machine_error("stdout: cannot be written: {}", std::strerror(code ? code : EIO));
 }

@@ -49,7 +49,8 @@ std::function<void(double, const std::string&)> progress_bar() {
   if (!isatty(STDERR_FILENO)) {
     return [](double done, const std::string& step) {
       const std::lock_guard lock(state().mutex);
-      state().done = done, state().step = step;
+      state().done = done;
+      state().step = step;
     };
   }
   return [timer = Timer()](double done, const std::string& step) {

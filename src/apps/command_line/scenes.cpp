@@ -27,7 +27,8 @@ Contents contents_of(const Scene& scene) {
   Contents all;
   for (const Instance& i : scene.instances) {
     if (is_hidden(i)) continue;
-    ++all.instances, all.triangles += scene.meshes[i.mesh].indices.size() / 3;
+    ++all.instances;
+    all.triangles += scene.meshes[i.mesh].indices.size() / 3;
   }
   for (const Light& light : scene.lights) {
     if (is_hidden(light)) continue;

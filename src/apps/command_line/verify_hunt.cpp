@@ -14,14 +14,14 @@
 namespace lightgrid {
 namespace {
 
-constexpr double most_minutes = 100'000;
+constexpr double max_minutes = 100'000;
 constexpr uint64_t short_hunt = 1'000'000;  // contacts: a shorter hunt would take less time than building the
                                             // kernels of all settings
 
 double parse_minutes(const std::string& text) {
   const auto minutes = parse_number<double>(text);
-  if (!minutes || !(*minutes > 0 && *minutes <= most_minutes))
-    throw input_error("--hunt {}: not a number of minutes above 0 and up to {}", text, most_minutes);
+  if (!minutes || !(*minutes > 0 && *minutes <= max_minutes))
+    throw input_error("--hunt {}: not a number of minutes above 0 and up to {}", text, max_minutes);
   return *minutes;
 }
 

@@ -24,7 +24,7 @@ ListedFrame read_listed_frame(TechniqueRun& run) {
 
 // Directional lights are listed everywhere, after all others, as shadows have them.
 void PairCount::count_light_alone(Job& job, const TechniqueRun& run) {
-  const Seen& v = run.view();
+  const ViewState& v = run.view();
   const int light = *job.choice.light;
   const auto kept = std::ranges::find(job.places, light);
   const bool directional = kept == job.places.end();
@@ -37,7 +37,10 @@ void PairCount::count_light_alone(Job& job, const TechniqueRun& run) {
   const auto index = uint32_t(directional ? job.places.size() - 1 : size_t(kept - job.places.begin()));
   for (size_t i = 0; i < job.listed.lights.size(); ++i) {
     ViewLight& other = job.listed.lights[i];
-    if (i != index) other.type = LightType::point, other.radius_m = -1;  // it lights nothing
+    if (i != index) {
+      other.type = LightType::point;
+      other.radius_m = -1;  // it lights nothing
+    }
   }
   ListedLights& lists = job.listed.lists;
   if (directional) {
@@ -89,8 +92,10 @@ std::optional<LitPairs> PairCount::count(Job& job, SceneOcclusion& occlusion) {
     }
     const std::vector<CastingTriangle> triangles = casting_triangles(scene, job.shadows->shown);
     seen.emplace(occlusion.get(job.shadows->by_blended), ShownSurfaces{frame.view, frame.depth, triangles},
-                 lights, covered_pixels(frame.depth), true,
-                 [&] { return ++job.tiles_done, job.stops.load(); });
+                 lights, covered_pixels(frame.depth), true, [&] {
+                   ++job.tiles_done;
+                   return job.stops.load();
+                 });
   }
   if (job.stops) return {};
   std::optional<PairShadows> shadows;
@@ -107,7 +112,10 @@ const LitPairs* PairCount::result(const CountChoice& choice, bool wait) {
     if (!wait && running_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
     const bool stopped = job_->stops;
     auto counted = running_.get();
-    if (counted && !stopped) done_ = std::move(counted), done_choice_ = job_->choice;
+    if (counted && !stopped) {
+      done_ = std::move(counted);
+      done_choice_ = job_->choice;
+    }
   }
   return done_ && done_choice_ == choice ? &*done_ : nullptr;
 }

@@ -83,7 +83,7 @@ void figures(const Timings& timings, const std::vector<std::string>& names) {
       fmt::format("{:7.2f} ms, {} frames", mean.total_ms(), timings.frames().size()).c_str());
 }
 
-constexpr size_t most_rows = 200;
+constexpr size_t max_rows = 200;
 constexpr float lines_high = 16;  // always, so that what is below stays where it is
 
 // Lights in range; those out of range; hidden ones; lost, leaked and acned ones.
@@ -124,7 +124,7 @@ void show_lights(const PixelInspection& pixel, const Scene& scene, Controls& con
   const std::string shadows = shadows_at_pixel(pixel);
   if (!shadows.empty()) ImGui::TextUnformatted(shadows.c_str());
   ImGui::BeginChild("lights", {0, 0});
-  for (size_t i = 0; i < std::min(pixel.lights.size(), most_rows); ++i) {
+  for (size_t i = 0; i < std::min(pixel.lights.size(), max_rows); ++i) {
     const LightVerdict& light = pixel.lights[i];
     const bool lost = light.lit && !light.listed;
     const auto [where, decided, shadow] = lines_of(light, scene);

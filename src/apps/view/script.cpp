@@ -17,7 +17,7 @@ namespace {
 using Words = std::vector<std::string>;
 using Run = std::function<void(Controls&, Input&)>;
 
-constexpr int most_frames = 1'000'000;
+constexpr int max_frames = 1'000'000;
 
 // The fault of a word; the parser adds the line.
 Error wrong(const std::string& word, const std::string& why) { return input_error("\"{}\" {}", word, why); }
@@ -151,7 +151,7 @@ Run shadows(Words words) {
 Run light(Words words) {
   expect_words(words, 1, "light N|none");
   std::optional<int> light;
-  if (words[0] != "none") light = number(words[0], 0, most_lights);
+  if (words[0] != "none") light = number(words[0], 0, max_lights);
   return [light](Controls& controls, Input&) { controls.light = light; };
 }
 
@@ -240,7 +240,7 @@ Words words_of(std::string_view line) {
 }
 
 ScriptAction parse_action(Words words, int line) {
-  ScriptAction action{.frame = number(words[0], 0, most_frames), .line = line, .run = nullptr};
+  ScriptAction action{.frame = number(words[0], 0, max_frames), .line = line, .run = nullptr};
   if (words.size() < 2) throw wrong(words[0], "is a frame without an action");
   const auto found = actions().find(words[1]);
   if (found == actions().end()) {

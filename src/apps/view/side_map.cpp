@@ -50,13 +50,13 @@ std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const CapturedFr
   return inspect_pixel(frame, culler.grid(), culler.intervals(), settings, pixel.x, pixel.y);
 }
 
-void add_margins(PixelInspection& lights, const PixelInspection& inspection, int most_dropped) {
+void add_margins(PixelInspection& lights, const PixelInspection& inspection, int max_dropped) {
   for (const LightVerdict& verdict : inspection.lights) {
     const auto known = std::ranges::find(lights.lights, verdict.light, &LightVerdict::light);
     if (known != lights.lights.end()) {
       known->test = verdict.test;
       known->margin_m = verdict.margin_m;
-    } else if (most_dropped-- > 0) {
+    } else if (max_dropped-- > 0) {
       lights.lights.push_back(verdict);
       lights.lights.back().listed = lights.lights.back().lit = false;
     }

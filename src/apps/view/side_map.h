@@ -24,9 +24,9 @@ PixelInspection lights_at(const ListedFrame& listed, PicturePixel pixel);
 std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const CapturedFrame& frame,
                                              PicturePixel pixel);
 
-// Adds the deciding tests and their margins, and up to `most_dropped` dropped lights, those nearest to the
+// Adds the deciding tests and their margins, and up to `max_dropped` dropped lights, those nearest to the
 // cell first.
-void add_margins(PixelInspection& lights, const PixelInspection& inspection, int most_dropped);
+void add_margins(PixelInspection& lights, const PixelInspection& inspection, int max_dropped);
 
 // The lines of a light: "lamp 3 1.20 of 3.00 m", "kept by aabb +0.430 m", and shadow_words if it casts a
 // shadow. The last two may be empty.

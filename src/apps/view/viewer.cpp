@@ -17,9 +17,9 @@ constexpr double longest_step_s = 0.1;  // limits the camera's movement after a 
 constexpr double idle_wait_s = 1;
 constexpr double counting_wait_s = 0.05;  // the oracle counts meanwhile
 constexpr int frames_after_event = 3;     // Dear ImGui opens a list one to two frames after a click
-constexpr int least_picture_px = 64;
+constexpr int min_picture_px = 64;
 constexpr size_t frames_of_rate = 30;
-constexpr double least_between_announcements_ms = 30;
+constexpr double min_between_announcements_ms = 30;
 
 }  // namespace
 
@@ -41,10 +41,10 @@ Viewer::Viewer(Window& window, Interface& interface, Renderer& renderer, ViewJob
       width_(job_.view.width),
       height_(job_.view.height) {
   for (const Light& light : job_.scene.lights) own_casters_.push_back(light.casts_shadow);
-  if (!job_.scripted) window_.limit_size(panel_width + least_picture_px, least_picture_px);
+  if (!job_.scripted) window_.limit_size(panel_width + min_picture_px, min_picture_px);
   before_compiling = [this](const std::string& file) {
     compiled_.insert(file);
-    if (announced_.elapsed_ms() < least_between_announcements_ms) return;
+    if (announced_.elapsed_ms() < min_between_announcements_ms) return;
     announce(fmt::format("compiling {} ({}; they are kept for the next start)", file, compiled_.size()));
     announced_ = Timer();
   };

@@ -30,11 +30,11 @@ Window& window_of(GLFWwindow* handle) { return *static_cast<Window*>(glfwGetWind
 
 // The largest size at most this one whose window, with a frame, the screen has room for.
 void fit_screen(int& width, int& height) {
-  int x = 0, y = 0, most_width = 0, most_height = 0;
+  int x = 0, y = 0, max_width = 0, max_height = 0;
   GLFWmonitor* screen = glfwGetPrimaryMonitor();
-  if (screen) glfwGetMonitorWorkarea(screen, &x, &y, &most_width, &most_height);
-  if (most_width > 0) width = std::min(width, most_width);
-  if (most_height > 0) height = std::min(height, most_height);
+  if (screen) glfwGetMonitorWorkarea(screen, &x, &y, &max_width, &max_height);
+  if (max_width > 0) width = std::min(width, max_width);
+  if (max_height > 0) height = std::min(height, max_height);
 }
 
 // GLFW answers programs that paste what was copied here. If such a program has ended before its answer,
@@ -161,8 +161,8 @@ std::unique_ptr<GlContext> Window::make_context() {
   return context;
 }
 
-void Window::limit_size(int least_width, int least_height) {
-  glfwSetWindowSizeLimits(window_, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+void Window::limit_size(int min_width, int min_height) {
+  glfwSetWindowSizeLimits(window_, min_width, min_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
 }
 
 bool Window::poll(double seconds) {

@@ -25,7 +25,7 @@ class Window {
   std::unique_ptr<GlContext> make_context();
 
   // The least size to which a user can shrink it, in pixels.
-  void limit_size(int least_width, int least_height);
+  void limit_size(int min_width, int min_height);
 
   // Processes events; waits for one for up to `seconds`. Returns whether there were any.
   bool poll(double seconds);

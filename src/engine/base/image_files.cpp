@@ -155,9 +155,9 @@ void save_exr(const std::filesystem::path& path, int width, int height,
 // As load_exr; `halves`: channels of 16 bits become floats.
 static std::vector<ExrChannel> read_exr(const std::filesystem::path& path, int width, int height,
                                         bool halves) {
-  constexpr int most_channels = 16;
+  constexpr int max_channels = 16;
   const size_t pixels = size_t(width) * size_t(height);
-  const std::string text = read_small_file(path, (pixels * most_channels + (1 << 20)) * 4, "an EXR file");
+  const std::string text = read_small_file(path, (pixels * max_channels + (1 << 20)) * 4, "an EXR file");
   const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
   const auto require = [&](bool good, const std::string& what) {
     if (!good) throw input_error("{}: {}", path.string(), what);
@@ -170,7 +170,10 @@ static std::vector<ExrChannel> read_exr(const std::filesystem::path& path, int w
     EXRHeader header;
     EXRImage image;
     bool has_image = false;  // tinyexr frees what it could not read, and leaves the pointers
-    Read() { InitEXRHeader(&header), InitEXRImage(&image); }
+    Read() {
+      InitEXRHeader(&header);
+      InitEXRImage(&image);
+    }
     ~Read() {
       if (has_image) FreeEXRImage(&image);
       FreeEXRHeader(&header);
@@ -182,7 +185,7 @@ static std::vector<ExrChannel> read_exr(const std::filesystem::path& path, int w
   require(box.min_x == 0 && box.min_y == 0 && box.max_x == width - 1 && box.max_y == height - 1,
           fmt::format("has another size: pixels {},{} to {},{}, not 0,0 to {},{}", box.min_x, box.min_y,
                       box.max_x, box.max_y, width - 1, height - 1));
-  require(read.header.num_channels <= most_channels, "has more than 16 channels");
+  require(read.header.num_channels <= max_channels, "has more than 16 channels");
   for (int c = 0; c < read.header.num_channels; ++c) {
     if (read.header.pixel_types[c] != TINYEXR_PIXELTYPE_HALF) continue;
     require(halves, "has a channel of 16 bits");

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int most_file_depth = 16;
+constexpr int max_file_depth = 16;
 constexpr size_t longest_value_told = 60;
 
 bool is_nested_deeper(std::string_view text, int limit) {
@@ -211,7 +211,7 @@ void JsonFields::check_fields(const std::vector<std::string>& known) const {
 
 JsonFile::JsonFile(const std::filesystem::path& path)
     : path_(path.string()),
-      json_(parsed_json(read_small_file(path_, max_json_file_bytes, "this file"), most_file_depth,
+      json_(parsed_json(read_small_file(path_, max_json_file_bytes, "this file"), max_file_depth,
                         path_ + ": ")) {
   if (!json_.is_object()) throw input_error("{}: is {}, not an object", path_, json_.type_name());
 }

@@ -33,8 +33,10 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   const std::string* nearest = nullptr;
   for (const std::string& name : names) {
     const bool begins = word.size() > 2 && name.starts_with(word);
-    if (const size_t apart = begins ? 0 : letters_apart(word, name); apart < least)
-      least = apart, nearest = &name;
+    if (const size_t apart = begins ? 0 : letters_apart(word, name); apart < least) {
+      least = apart;
+      nearest = &name;
+    }
   }
   return nearest ? "; did you mean " + *nearest + "?" : "";
 }

@@ -63,7 +63,7 @@ const std::array<float, 257>& srgb_thresholds() {
 }
 
 Exposure automatic_exposure(const Image& image) {
-  constexpr double middle = 0.18, darkest = 1e-4, most_ev = 60;
+  constexpr double middle = 0.18, darkest = 1e-4, max_ev = 60;
   std::vector<float> luminances;
   luminances.reserve(image.pixels.size());
   for (const glm::vec4& pixel : image.pixels) {
@@ -77,10 +77,13 @@ Exposure automatic_exposure(const Image& image) {
   double logarithms = 0;
   size_t count = 0;
   for (const float luminance : luminances) {
-    if (luminance >= least) logarithms += std::log2(double(luminance)), ++count;
+    if (luminance >= least) {
+      logarithms += std::log2(double(luminance));
+      ++count;
+    }
   }
   const double ev = std::log2(middle) - logarithms / double(count);
-  return {std::clamp(std::round(2 * ev) / 2, -most_ev, most_ev), true};
+  return {std::clamp(std::round(2 * ev) / 2, -max_ev, max_ev), true};
 }
 
 std::vector<uint8_t> srgb_bytes(const Image& image, const Exposure& exposure) {

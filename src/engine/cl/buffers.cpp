@@ -87,19 +87,23 @@ cl::Buffer filled_buffer(ClDevice& device, const char* what, const void* values,
 // Frees the old buffer first, so that both need not fit at once.
 cl::Buffer& GrowingBuffer::at_least(ClDevice& device, size_t bytes) {
   if (bytes <= bytes_ && buffer_()) return buffer_;
-  buffer_ = cl::Buffer(), bytes_ = 0;
-  buffer_ = device_buffer(device, bytes), bytes_ = bytes;
+  buffer_ = cl::Buffer();
+  bytes_ = 0;
+  buffer_ = device_buffer(device, bytes);
+  bytes_ = bytes;
   return buffer_;
 }
 
-constexpr size_t most_staged_bytes = 1 << 20;  // a wait takes about as long as a copy of this size
+constexpr size_t max_staged_bytes = 1 << 20;  // a wait takes about as long as a copy of this size
 
 // A buffer that became much too large is replaced too: a view that saw much once does not keep its memory.
 void UploadedBuffer::make_room(ClDevice& device, size_t bytes) {
   const size_t size = std::max<size_t>(bytes, 16);  // OpenCL makes no empty buffer
   if (buffer_() && size <= bytes_ && size >= bytes_ / 4) return;
-  buffer_ = cl::Buffer(), bytes_ = 0;
-  buffer_ = make_buffer(device, CL_MEM_READ_ONLY, size), bytes_ = size;
+  buffer_ = cl::Buffer();
+  bytes_ = 0;
+  buffer_ = make_buffer(device, CL_MEM_READ_ONLY, size);
+  bytes_ = size;
 }
 
 bool UploadedBuffer::Staged::is_read() const {
@@ -134,7 +138,7 @@ UploadedBuffer::Staged& UploadedBuffer::unused_staged() {
 void UploadedBuffer::put(ClDevice& device, const char* what, const void* data, size_t bytes) {
   make_room(device, bytes);
   if (bytes == 0) return;
-  if (bytes > most_staged_bytes) {
+  if (bytes > max_staged_bytes) {
     write_buffer(device, what, buffer_, data, bytes);
     return;
   }

@@ -12,7 +12,7 @@
 namespace lightgrid {
 
 static constexpr uint mask_group = 64, z_bin_group = 64;
-static constexpr size_t most_entries = 0xffffffffu;
+static constexpr size_t max_entries = 0xffffffffu;
 
 CullPipeline& LightCuller::State::pipeline(const TileBounds& bounds) {
   PipelineOptions options;
@@ -39,11 +39,13 @@ LightGrid LightCuller::State::cull(const TileBounds& bounds, GridStorage& storag
   require_view("cull");
   require_bounds(bounds, "cull");
   LightGrid grid;
-  grid.cells_x = int(params_.tiles_x), grid.cells_y = int(params_.tiles_y), grid.slices = int(params_.slices);
+  grid.cells_x = int(params_.tiles_x);
+  grid.cells_y = int(params_.tiles_y);
+  grid.slices = int(params_.slices);
   grid.index_bits = options_.index_bits == 32 || light_count_ > 65536 ? 32 : 16;
   const size_t cell_count = size_t(grid.cells_x) * grid.cells_y * grid.slices;
   grid.cell_bytes = cell_count * sizeof(cl_uint2);
-  if (cell_count > most_entries || grid.cell_bytes > device_.info().max_allocation_bytes) {
+  if (cell_count > max_entries || grid.cell_bytes > device_.info().max_allocation_bytes) {
     throw machine_error(
         "light culling: {} x {} x {} cells need more memory than {} allows; use larger tiles or fewer slices",
         grid.cells_x, grid.cells_y, grid.slices, device_.info().name);
@@ -81,17 +83,18 @@ void LightCuller::State::upload_masks() {
 }
 
 void LightCuller::State::set_room(const Room& room) {
-  params_.pool_batches = room.pool_batches, params_.staging_units = room.staging_units;
+  params_.pool_batches = room.pool_batches;
+  params_.staging_units = room.staging_units;
   params_.index_capacity = room.index_capacity;
 }
 
 // The last grid's sizes, or an estimate.
 LightCuller::State::Room LightCuller::State::first_room(size_t index_bytes) const {
   const size_t tiles = size_t(params_.tiles_x) * params_.tiles_y;
-  const size_t most_indices = std::min(most_entries, device_.info().max_allocation_bytes / index_bytes);
+  const size_t max_indices = std::min(max_entries, device_.info().max_allocation_bytes / index_bytes);
   return {std::max(params_.pool_batches, 2048 + light_stride_ / 4),
           std::max(params_.staging_units, uint(tiles * 4)),
-          uint(std::min(most_indices, std::max<size_t>(params_.index_capacity, tiles * 64)))};
+          uint(std::min(max_indices, std::max<size_t>(params_.index_capacity, tiles * 64)))};
 }
 
 // The whole chain is enqueued with the last call's sizes, with one wait at its end. If something did not fit,
@@ -119,7 +122,7 @@ void LightCuller::State::cull_into(LightGrid& grid, const TileBounds& bounds, Gr
     }
     const uint64_t total = counters[4] | uint64_t(counters[5]) << 32;
     const auto grow = [&](uint64_t wanted, uint64_t unit_bytes, const char* what, uint Room::*size) {
-      const uint64_t most = std::min<uint64_t>(most_entries, largest / unit_bytes);
+      const uint64_t most = std::min<uint64_t>(max_entries, largest / unit_bytes);
       if (wanted > most) {
         throw machine_error("light culling: {} {} need more memory than {} allows; {}", wanted, what,
                             device_.info().name, advice);
@@ -140,7 +143,8 @@ void LightCuller::State::cull_into(LightGrid& grid, const TileBounds& bounds, Gr
       throw machine_error("light culling: candidates and lists need more memory than {} can allocate; {}",
                           device_.info().name, advice);
     } else {
-      grid.index_count = total, grid.index_bytes = total * index_bytes;
+      grid.index_count = total;
+      grid.index_bytes = total * index_bytes;
       return;
     }
   }

@@ -13,10 +13,10 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t items_a_unit = 16;  // few enough that their buffers stay in the cache, enough to balance
-                                     // load
-constexpr size_t most_write_items = 512;  // each adds up the totals of all bins before its own
-constexpr size_t spare = 64;              // values that a vector load or store may access past the last
+constexpr size_t items_a_unit = 16;      // few enough that their buffers stay in the cache, enough to balance
+                                         // load
+constexpr size_t max_write_items = 512;  // each adds up the totals of all bins before its own
+constexpr size_t spare = 64;             // values that a vector load or store may access past the last
 
 // Near the golden section of n, and coprime to it: steps of this size visit all of n and are spread evenly
 // from the start.
@@ -77,7 +77,7 @@ class CullCpuPipeline : public CullPipeline {
                   {"bins", bins_.get()},
                   {"counters", job.counters},
                   {"p", job.params_buffer}});
-    const size_t run = (bins + most_write_items - 1) / most_write_items;
+    const size_t run = (bins + max_write_items - 1) / max_write_items;
     write_.launch(device_, "write_lists", cl::NDRange((bins + run - 1) / run), cl::NDRange(1),
                   {{"bins", bins_.get()},
                    {"run", cl_uint(run)},

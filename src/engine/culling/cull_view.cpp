@@ -12,7 +12,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr int most_tiles = 32000;  // a side; tile coordinates are stored in 15 bits
+constexpr int max_tiles = 32000;  // a side; tile coordinates are stored in 15 bits
 
 template <size_t most>
 std::array<float, most> keys_of(const CullView& view, const std::vector<float>& edges) {
@@ -208,8 +208,8 @@ void check_rigid(const CullView& view) {
 }  // namespace
 
 void check_view(const CullView& view, int tile) {
-  if (view.width < 1 || view.height < 1 || (view.width - 1) / tile >= most_tiles ||
-      (view.height - 1) / tile >= most_tiles) {
+  if (view.width < 1 || view.height < 1 || (view.width - 1) / tile >= max_tiles ||
+      (view.height - 1) / tile >= max_tiles) {
     throw input_error("view: {} x {} pixels is not a size that {}-pixel tiles can cover", view.width,
                       view.height, tile);
   }
@@ -245,10 +245,13 @@ ViewParams view_params(const CullView& view, int tile) {
   p.depth_a = float(p.orthographic ? 1.0 / clip[2][2] : clip[2][2]);
   p.depth_b = float(clip[3][2]);
   p.near_distance = float(near_distance(view));
-  p.width = view.width, p.height = view.height;
+  p.width = view.width;
+  p.height = view.height;
   p.tile_size = tile;
-  p.tiles_x = (view.width + tile - 1) / tile, p.tiles_y = (view.height + tile - 1) / tile;
-  p.bins_x = (p.tiles_x + BIN_TILES - 1) / BIN_TILES, p.bins_y = (p.tiles_y + BIN_TILES - 1) / BIN_TILES;
+  p.tiles_x = (view.width + tile - 1) / tile;
+  p.tiles_y = (view.height + tile - 1) / tile;
+  p.bins_x = (p.tiles_x + BIN_TILES - 1) / BIN_TILES;
+  p.bins_y = (p.tiles_y + BIN_TILES - 1) / BIN_TILES;
   return p;
 }
 
@@ -257,18 +260,27 @@ CullParams cull_params(const CullView& view, int tile) {
   const glm::dmat4& clip = view.clip_from_view;
   const glm::dmat4& m = view.view_from_world;  // column, row
   CullParams p{};
-  p.x_axis_x = float(m[0][0]), p.x_axis_y = float(m[1][0]), p.x_axis_z = float(m[2][0]);
-  p.y_axis_x = float(m[0][1]), p.y_axis_y = float(m[1][1]), p.y_axis_z = float(m[2][1]);
-  p.d_axis_x = float(-m[0][2]), p.d_axis_y = float(-m[1][2]), p.d_axis_z = float(-m[2][2]);
-  p.slope_x_scale = v.slope_x_scale, p.slope_x_offset = v.slope_x_offset;
-  p.slope_y_scale = v.slope_y_scale, p.slope_y_offset = v.slope_y_offset;
+  p.x_axis_x = float(m[0][0]);
+  p.x_axis_y = float(m[1][0]);
+  p.x_axis_z = float(m[2][0]);
+  p.y_axis_x = float(m[0][1]);
+  p.y_axis_y = float(m[1][1]);
+  p.y_axis_z = float(m[2][1]);
+  p.d_axis_x = float(-m[0][2]);
+  p.d_axis_y = float(-m[1][2]);
+  p.d_axis_z = float(-m[2][2]);
+  p.slope_x_scale = v.slope_x_scale;
+  p.slope_x_offset = v.slope_x_offset;
+  p.slope_y_scale = v.slope_y_scale;
+  p.slope_y_offset = v.slope_y_offset;
   const double ndc_x_offset = v.orthographic ? clip[3][0] : -clip[2][0];
   const double ndc_y_offset = v.orthographic ? clip[3][1] : -clip[2][1];
-  p.tile_x_scale = float(clip[0][0] * view.width / 2 / tile),
+  p.tile_x_scale = float(clip[0][0] * view.width / 2 / tile);
   p.tile_x_offset = float((1 + ndc_x_offset) * view.width / 2 / tile);
-  p.tile_y_scale = float(clip[1][1] * view.height / 2 / tile),
+  p.tile_y_scale = float(clip[1][1] * view.height / 2 / tile);
   p.tile_y_offset = float((1 + ndc_y_offset) * view.height / 2 / tile);
-  p.depth_a = v.depth_a, p.depth_b = v.depth_b;
+  p.depth_a = v.depth_a;
+  p.depth_b = v.depth_b;
   p.depth_a_rest = v.orthographic ? 0 : two_floats(clip[2][2]).rest;
   // Blended surfaces may lie past the farthest surface, where lights are scaled towards the eye; 1e12 m is
   // nearer than any scaled light.
@@ -277,9 +289,14 @@ CullParams cull_params(const CullView& view, int tile) {
   // which may fuse the product and the sum. SLACK covers the first term. docs/details/hard_cases.md#slack
   const float side_slack = 12 * 0x1p-24f * (std::abs(p.slope_x_offset) + std::abs(p.slope_y_offset));
   (v.orthographic ? p.side_slack_m : p.side_slack) = side_slack;
-  p.orthographic = v.orthographic, p.standard_depth = has_standard_depth(view);
-  p.width = v.width, p.height = v.height;
-  p.tile_size = v.tile_size, p.tiles_x = v.tiles_x, p.tiles_y = v.tiles_y, p.bins_x = v.bins_x,
+  p.orthographic = v.orthographic;
+  p.standard_depth = has_standard_depth(view);
+  p.width = v.width;
+  p.height = v.height;
+  p.tile_size = v.tile_size;
+  p.tiles_x = v.tiles_x;
+  p.tiles_y = v.tiles_y;
+  p.bins_x = v.bins_x;
   p.bins_y = v.bins_y;
   p.slices = uint(view.slice_edges.size() + 1);
   return p;

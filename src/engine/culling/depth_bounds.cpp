@@ -55,7 +55,8 @@ void LightCuller::State::read_layout(const DepthInput& depth) {
     throw input_error("depth_bounds: y is {} and row_pixels {}: the view begins past 2^32 values", depth.y,
                       row);
   }
-  params_.depth_row = uint(row * samples), params_.depth_first = uint(first);
+  params_.depth_row = uint(row * samples);
+  params_.depth_first = uint(first);
 }
 
 cl::Buffer LightCuller::State::straight_depth(const DepthInput& depth, uint first, uint row) {

@@ -15,8 +15,8 @@ namespace lightgrid {
 namespace {
 
 constexpr uint lane_count = 16;
-constexpr uint most_regions = 64, most_region_bins = 16;
-constexpr size_t most_lights =
+constexpr uint max_regions = 64, max_region_bins = 16;
+constexpr size_t max_lights =
     size_t(1) << 30;  // kernels count lights, and a bin's pairs of lights and tiles, in 32 bits
 
 void check_option(const char* name, int value, std::initializer_list<int> allowed) {
@@ -66,9 +66,9 @@ void LightCuller::State::require_bounds(const TileBounds& bounds, const char* ca
 }
 
 void LightCuller::State::set_lights(std::span<const CullLight> lights) {
-  if (lights.size() >= most_lights) {
+  if (lights.size() >= max_lights) {
     throw machine_error("light culling: {} lights are more than kernels can count; {} are the most",
-                        lights.size(), most_lights - 1);
+                        lights.size(), max_lights - 1);
   }
   light_count_ = uint(lights.size());
   light_stride_ = (light_count_ + lane_count - 1) / lane_count * lane_count;
@@ -78,7 +78,8 @@ void LightCuller::State::set_lights(std::span<const CullLight> lights) {
   const LightOrigin origin = choose_origin(lights);
   fixed_origin_ = origin.fixed;
   cone_slack_m_ = origin.cone_slack_m;
-  uploaded_origin_.reset(), masks_uploaded_ = false;
+  uploaded_origin_.reset();
+  masks_uploaded_ = false;
   if (fixed_origin_) upload_lights(*fixed_origin_, farthest_surface);
 }
 
@@ -135,20 +136,26 @@ void LightCuller::State::set_view(const CullView& view) {
 void LightCuller::State::choose_regions() {
   params_.region_bins = 4;
   const auto regions = [&](uint bins) { return (bins + params_.region_bins - 1) / params_.region_bins; };
-  while (regions(params_.bins_x) * regions(params_.bins_y) > most_regions &&
-         params_.region_bins < most_region_bins) {
+  while (regions(params_.bins_x) * regions(params_.bins_y) > max_regions &&
+         params_.region_bins < max_region_bins) {
     params_.region_bins *= 2;
   }
-  params_.regions_x = regions(params_.bins_x), params_.regions_y = regions(params_.bins_y);
+  params_.regions_x = regions(params_.bins_x);
+  params_.regions_y = regions(params_.bins_y);
 }
 
 void LightCuller::State::upload_params() {
   choose_regions();
-  params_.light_count = light_count_, params_.light_stride = light_stride_;
+  params_.light_count = light_count_;
+  params_.light_stride = light_stride_;
   const glm::dvec3 eye = view_.eye - uploaded_origin_.value_or(view_.eye);
   const TwoFloats x = two_floats(eye.x), y = two_floats(eye.y), z = two_floats(eye.z);
-  params_.eye_x = x.value, params_.eye_y = y.value, params_.eye_z = z.value;
-  params_.eye_rest_x = x.rest, params_.eye_rest_y = y.rest, params_.eye_rest_z = z.rest;
+  params_.eye_x = x.value;
+  params_.eye_y = y.value;
+  params_.eye_z = z.value;
+  params_.eye_rest_x = x.rest;
+  params_.eye_rest_y = y.rest;
+  params_.eye_rest_z = z.rest;
   if (uploaded_ && std::memcmp(&*uploaded_, &params_, sizeof params_) == 0) return;
   uploaded_.reset();
   params_upload_.put(device_, "light culling: parameters", std::vector<CullParams>{params_});

@@ -74,11 +74,11 @@ StraightView straightened(const CullView& view, DepthFormat format, int samples)
   const glm::dmat4& clip = view.clip_from_view;
   const double tilt_x = clip[0][2], tilt_y = clip[1][2], a = clip[2][2], b = clip[3][2];
   const Slopes x = slopes_of(view, 0), y = slopes_of(view, 1);
-  const double least_tilt =
+  const double min_tilt =
       std::min(tilt_x * x.low, tilt_x * x.high) + std::min(tilt_y * y.low, tilt_y * y.high);
-  const double most_tilt =
+  const double max_tilt =
       std::max(tilt_x * x.low, tilt_x * x.high) + std::max(tilt_y * y.low, tilt_y * y.high);
-  const double largest = b > 0 ? 1 + a - least_tilt : a - most_tilt;
+  const double largest = b > 0 ? 1 + a - min_tilt : a - max_tilt;
   if (!(b / largest > 0)) {
     throw input_error(
         "view: clip_from_view's depth row [{} {} {} {}] gives no depth to surfaces in front of the eye",
@@ -87,7 +87,10 @@ StraightView straightened(const CullView& view, DepthFormat format, int samples)
   StraightView s{.view = view};
   s.view.clip_from_view[0][2] = s.view.clip_from_view[1][2] = s.view.clip_from_view[2][2] = 0;
   s.view.clip_from_view[3][2] = b / largest;
-  s.tilt_x = float(tilt_x), s.tilt_y = float(tilt_y), s.offset = float(a), s.scale = float(1 / largest);
+  s.tilt_x = float(tilt_x);
+  s.tilt_y = float(tilt_y);
+  s.offset = float(a);
+  s.scale = float(1 / largest);
   s.nothing = b > 0 ? 0.0f : 1.0f;
   // Each coefficient, product and sum rounds once; a slope p * scale + offset by 3u (|slope| + |offset|).
   const double rounding = 8 * 0x1p-24 *

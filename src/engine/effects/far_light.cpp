@@ -21,7 +21,10 @@ extern const Setting<int> far_samples;
 
 // Far light gives back what ranges take away.
 void mean_ranges_without_end(Settings& s) {
-  if (s[far_samples] > 0) s.set(setting::range, LightRange::infinite), s.reset(far_samples);
+  if (s[far_samples] > 0) {
+    s.set(setting::range, LightRange::infinite);
+    s.reset(far_samples);
+  }
 }
 
 const Setting<int> far_samples{
@@ -48,11 +51,11 @@ std::optional<EffectNeed> decide(const Scene& scene, const FramePlan& plan) {
 
 LOOP_INPUTS(FarLightInputs, FAR_LIGHT_BASE_INPUTS);
 
-constexpr size_t far_group = 64;      // work-items of the group shape
-constexpr double least_box_m = 1e-3;  // of a side
+constexpr size_t far_group = 64;    // work-items of the group shape
+constexpr double min_box_m = 1e-3;  // of a side
 
 FarGrid grid_of(const WorldBox& box, const glm::dvec3& origin, int samples) {
-  const glm::dvec3 size = glm::max(box.max - box.min, least_box_m);
+  const glm::dvec3 size = glm::max(box.max - box.min, min_box_m);
   // Cells are cubes, as far as whole numbers of samples allow; along each axis there are at least two.
   double edge = std::cbrt(size.x * size.y * size.z / samples);
   glm::uvec3 count;
@@ -80,13 +83,14 @@ FarLookup lookup_of(const FarGrid& g, const glm::dvec3& origin, const View& view
   static_assert(sizeof lookup == sizeof rows + sizeof directions + 3 * sizeof(float));
   std::memcpy(&lookup, rows, sizeof rows);
   std::memcpy(&lookup.world_x_from_x, directions, sizeof directions);
-  lookup.last_x = float(g.size_x - 1), lookup.last_y = float(g.size_y - 1),
+  lookup.last_x = float(g.size_x - 1);
+  lookup.last_y = float(g.size_y - 1);
   lookup.last_z = float(g.size_z - 1);
   return lookup;
 }
 
 // Lights relative to `origin`, along the world's axes. Those that do not reach every surface send nothing.
-std::vector<ViewLight> lights_from(const glm::dvec3& origin, const Seen& seen) {
+std::vector<ViewLight> lights_from(const glm::dvec3& origin, const ViewState& seen) {
   View along;
   along.view_from_world = glm::dmat4(1);
   along.eye = origin;
@@ -101,15 +105,15 @@ bool sends_alike(const ViewLight& a, const ViewLight& b) {
   return a.type == b.type && a.position == b.position && a.direction == b.direction &&
          a.radiant_intensity == b.radiant_intensity && a.radius_m == b.radius_m &&
          a.cos_inner == b.cos_inner && a.cos_outer == b.cos_outer && a.window == b.window &&
-         a.most_falloff == b.most_falloff;
+         a.max_falloff == b.max_falloff;
 }
 
 // The volume, along the world's axes from its origin.
 class FarLightVolume : public EffectState {
  public:
-  explicit FarLightVolume(Work& work) : kernels_(work, "far_light") { follow(work); }
+  explicit FarLightVolume(PassContext& work) : kernels_(work, "far_light") { follow(work); }
 
-  bool follow(Work& work) override {
+  bool follow(PassContext& work) override {
     const WorldBox box = world_box(work.scene);
     const glm::dvec3 at = box.empty() ? work.view.eye : 0.5 * (box.min + box.max);
     FarGrid placed = grid_of(box.empty() ? WorldBox{at, at} : box, at, work.plan.settings[far_samples]);
@@ -122,12 +126,14 @@ class FarLightVolume : public EffectState {
     const bool moved = at != origin_ || std::memcmp(&placed, &grid_, sizeof grid_) != 0 ||
                        !std::ranges::equal(found, lights_, sends_alike);
     if (rebuilt || moved) filled_ = false;
-    origin_ = at, grid_ = placed, lights_ = std::move(found);
+    origin_ = at;
+    grid_ = placed;
+    lights_ = std::move(found);
     placed_ = false;
     return true;
   }
 
-  void before_lights(Work& work) override {
+  void before_lights(PassContext& work) override {
     if (!filled_) fill(work);
     if (!placed_)
       inputs_.far_lookup.put(*work.renderer.cl, work.plan.opengl, "placing far light",
@@ -141,7 +147,7 @@ class FarLightVolume : public EffectState {
   EffectFigures figures() const override { return {{"samples", double(samples())}}; }
   size_t memory_bytes() const override { return columns_.memory_bytes() + inputs_.bytes(); }
 
-  ReadFarLight read(Work& work) {
+  ReadFarLight read(PassContext& work) {
     ReadFarLight read{grid_, origin_, std::vector<glm::vec4>(bytes() / sizeof(glm::vec4))};
     read_buffer(*work.renderer.cl, "reading far light", inputs_.far_moments.memory->cl_buffer(),
                 read.moments.data(), bytes());
@@ -152,7 +158,7 @@ class FarLightVolume : public EffectState {
   size_t samples() const { return size_t(grid_.size_x) * grid_.size_y * grid_.size_z; }
   size_t bytes() const { return samples() * FAR_PLANES * sizeof(glm::vec4); }
 
-  void fill(Work& work) {
+  void fill(PassContext& work) {
     auto pass = work.timer.pass("fill_far_light", "cl");
     ClDevice& device = *work.renderer.cl;
     columns_.upload(device, work.plan, lights_);
@@ -160,7 +166,8 @@ class FarLightVolume : public EffectState {
     ArrayInput& moments = inputs_.far_moments;
     if (!moments.memory || moments.memory->size() != bytes()) {
       moments.memory.emplace(device, work.plan.opengl ? work.renderer.bridge : BridgeKind::none, bytes());
-      moments.texture = {}, moments.texture_bytes = 0;
+      moments.texture = {};
+      moments.texture_bytes = 0;
     }
     const size_t a_item = kernels_.lanes ? 16 : 1, a_group = kernels_.lanes ? 1 : far_group;
     const size_t items = (samples() + a_item * a_group - 1) / (a_item * a_group) * a_group;
@@ -169,10 +176,11 @@ class FarLightVolume : public EffectState {
                 columns_.columns() +
                     ClArguments{{"grid", grid_buffer_.buffer()}, {"moments", moments.memory->cl_buffer()}});
     pass.moves(columns_.memory_bytes(), bytes());
-    filled_ = true, in_texture_ = false;
+    filled_ = true;
+    in_texture_ = false;
   }
 
-  void to_texture(Work& work) {
+  void to_texture(PassContext& work) {
     auto pass = work.timer.pass("far_light_to_gl", "gl");
     ArrayInput& moments = inputs_.far_moments;
     const PixelGrid slice{int(grid_.size_x), int(grid_.size_y)};
@@ -198,7 +206,7 @@ class FarLightVolume : public EffectState {
   bool filled_ = false, placed_ = false, in_texture_ = false;
 };
 
-std::unique_ptr<EffectState> make(Work& work) { return std::make_unique<FarLightVolume>(work); }
+std::unique_ptr<EffectState> make(PassContext& work) { return std::make_unique<FarLightVolume>(work); }
 
 constexpr LightReader reader{
     .name = "far light",
@@ -206,7 +214,7 @@ constexpr LightReader reader{
     .position = reads,
     .color = reads,
     .cone = reads,
-    .most_falloff = reads,
+    .max_falloff = reads,
     .masks = reads,  // a light that does not reach every surface has no far light
     .shadows = "far light is not hidden: docs/far_light.md#errors",
     .effects = reads};
@@ -219,7 +227,7 @@ extern constexpr Effect far_light{.name = "far_light",
                                   .base = BaseOracle{.meant_by = "far-light"},
                                   .reader = &reader};
 
-ReadFarLight read_far_light(Work& work) {
+ReadFarLight read_far_light(PassContext& work) {
   return static_cast<FarLightVolume&>(*work.effects.find(far_light)).read(work);
 }
 

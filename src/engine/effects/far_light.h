@@ -1,7 +1,7 @@
 // For tests: the last frame's volume of far light on the host.
 #pragma once
 
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 #include "shared/effects/far_light.h"
 
 namespace lightgrid {
@@ -11,6 +11,6 @@ struct ReadFarLight {
   glm::dvec3 origin;               // of the grid's metres, in the world
   std::vector<glm::vec4> moments;  // FAR_PLANES planes, x fastest
 };
-ReadFarLight read_far_light(Work& work);
+ReadFarLight read_far_light(PassContext& work);
 
 }  // namespace lightgrid

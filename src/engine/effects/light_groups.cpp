@@ -9,7 +9,7 @@
 
 #include "plan/light_plan.h"
 #include "renderer/loop_inputs.h"
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 #include "shared/effects/light_groups.h"
 
 namespace lightgrid {
@@ -46,9 +46,12 @@ LOOP_INPUTS(GroupsOfSurfaces, LIGHT_GROUPS_SURFACE_INPUTS);
 
 class LightGroups : public EffectState {
  public:
-  bool follow(Work&) override { return followed_ = false, true; }
+  bool follow(PassContext&) override {
+    followed_ = false;
+    return true;
+  }
 
-  void before_lights(Work& work) override {
+  void before_lights(PassContext& work) override {
     if (followed_) return;
     std::vector<uint32_t> groups;
     for (const std::vector<int>* lights : {&work.plan.lights.local, &work.plan.lights.directional}) {
@@ -59,13 +62,16 @@ class LightGroups : public EffectState {
     followed_ = true;
   }
 
-  void bind() const override { lights_.bind(), surfaces_.bind(); }
+  void bind() const override {
+    lights_.bind();
+    surfaces_.bind();
+  }
   ClArguments reach_arguments() override { return lights_.arguments() + surfaces_.arguments(); }
   size_t memory_bytes() const override { return lights_.bytes() + surfaces_.bytes(); }
 
  private:
   // A camera that moves uploads nothing.
-  static void put(Work& work, ColumnInput& to, std::vector<uint32_t> groups,
+  static void put(PassContext& work, ColumnInput& to, std::vector<uint32_t> groups,
                   std::vector<uint32_t>& uploaded) {
     if (groups.empty()) groups.push_back(0);
     if (groups == uploaded) return;
@@ -79,7 +85,7 @@ class LightGroups : public EffectState {
   bool followed_ = false;
 };
 
-std::unique_ptr<EffectState> make(Work&) { return std::make_unique<LightGroups>(); }
+std::unique_ptr<EffectState> make(PassContext&) { return std::make_unique<LightGroups>(); }
 
 }  // namespace
 

@@ -13,14 +13,20 @@
 namespace lightgrid {
 namespace {
 
-#define LIGHTGRID_EGL_FUNCTIONS(X)                                                                          \
-  X(PFNEGLGETPROCADDRESSPROC, eglGetProcAddress)                                                            \
-  X(PFNEGLQUERYSTRINGPROC, eglQueryString)                                                                  \
-  X(PFNEGLGETPLATFORMDISPLAYPROC, eglGetPlatformDisplay) X(PFNEGLINITIALIZEPROC, eglInitialize)             \
-      X(PFNEGLBINDAPIPROC, eglBindAPI) X(PFNEGLCHOOSECONFIGPROC, eglChooseConfig)                           \
-          X(PFNEGLCREATECONTEXTPROC, eglCreateContext) X(PFNEGLDESTROYCONTEXTPROC, eglDestroyContext)       \
-              X(PFNEGLMAKECURRENTPROC, eglMakeCurrent) X(PFNEGLGETCURRENTCONTEXTPROC, eglGetCurrentContext) \
-                  X(PFNEGLGETERRORPROC, eglGetError)
+// clang-format off
+#define LIGHTGRID_EGL_FUNCTIONS(X) \
+  X(PFNEGLGETPROCADDRESSPROC, eglGetProcAddress) \
+  X(PFNEGLQUERYSTRINGPROC, eglQueryString) \
+  X(PFNEGLGETPLATFORMDISPLAYPROC, eglGetPlatformDisplay) \
+  X(PFNEGLINITIALIZEPROC, eglInitialize) \
+  X(PFNEGLBINDAPIPROC, eglBindAPI) \
+  X(PFNEGLCHOOSECONFIGPROC, eglChooseConfig) \
+  X(PFNEGLCREATECONTEXTPROC, eglCreateContext) \
+  X(PFNEGLDESTROYCONTEXTPROC, eglDestroyContext) \
+  X(PFNEGLMAKECURRENTPROC, eglMakeCurrent) \
+  X(PFNEGLGETCURRENTCONTEXTPROC, eglGetCurrentContext) \
+  X(PFNEGLGETERRORPROC, eglGetError)
+// clang-format on
 
 struct Egl {
 #define LIGHTGRID_EGL_MEMBER(type, name) type name = nullptr;

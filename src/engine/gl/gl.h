@@ -101,11 +101,15 @@ using NamedBufferStorageMem = void(APIENTRYP)(GLuint buffer, GLsizeiptr bytes, G
 using GetUnsignedBytei_v = void(APIENTRYP)(GLenum name, GLuint index, GLubyte* bytes);
 inline constexpr GLenum dedicated_memory_object = 0x9581, handle_type_opaque_fd = 0x9586,
                         num_device_uuids = 0x9596, device_uuid = 0x9597;
-#define LIGHTGRID_GL_MEMORY_FUNCTIONS(X)                                                                    \
-  X(CreateMemoryObjects, glCreateMemoryObjectsEXT)                                                          \
-  X(DeleteMemoryObjects, glDeleteMemoryObjectsEXT) X(MemoryObjectParameteriv, glMemoryObjectParameterivEXT) \
-      X(ImportMemoryFd, glImportMemoryFdEXT) X(NamedBufferStorageMem, glNamedBufferStorageMemEXT)           \
-          X(GetUnsignedBytei_v, glGetUnsignedBytei_vEXT)
+// clang-format off
+#define LIGHTGRID_GL_MEMORY_FUNCTIONS(X) \
+  X(CreateMemoryObjects, glCreateMemoryObjectsEXT) \
+  X(DeleteMemoryObjects, glDeleteMemoryObjectsEXT) \
+  X(MemoryObjectParameteriv, glMemoryObjectParameterivEXT) \
+  X(ImportMemoryFd, glImportMemoryFdEXT) \
+  X(NamedBufferStorageMem, glNamedBufferStorageMemEXT) \
+  X(GetUnsignedBytei_v, glGetUnsignedBytei_vEXT)
+// clang-format on
 
 #define LIGHTGRID_GL_DECLARE(type, name) extern type name;
 LIGHTGRID_GL_MEMORY_FUNCTIONS(LIGHTGRID_GL_DECLARE)

@@ -19,19 +19,21 @@
 namespace lightgrid {
 namespace {
 
-size_t stride_of(const Work& work) { return LAYER_STRIDE(work.grid().pixels()); }
+size_t stride_of(const PassContext& work) { return LAYER_STRIDE(work.grid().pixels()); }
 
 // Values: numbers, then depths, a layer each, then how many fragments each pixel has, and the most of any.
-size_t bytes_of_layers(const Work& work, size_t layers) { return (2 * layers + 1) * stride_of(work) * 4; }
+size_t bytes_of_layers(const PassContext& work, size_t layers) {
+  return (2 * layers + 1) * stride_of(work) * 4;
+}
 
-cl::Buffer& room_for(Work& work, size_t layers) {
+cl::Buffer& room_for(PassContext& work, size_t layers) {
   const size_t bytes = bytes_of_layers(work, layers);
-  if (work.plan.opengl && bytes > most_texture_bytes(GL_R32UI)) {
+  if (work.plan.opengl && bytes > max_texture_bytes(GL_R32UI)) {
     throw machine_error(
         "shadows: {} bytes of {} blended surfaces one behind the other are more than the {} that a buffer "
         "texture "
         "may have in this OpenGL; use raster=opencl or a smaller picture",
-        bytes, layers, most_texture_bytes(GL_R32UI));
+        bytes, layers, max_texture_bytes(GL_R32UI));
   }
   return work.shadows.layers.at_least(work.renderer, bytes, GL_R32UI, work.plan.opengl);
 }
@@ -53,11 +55,11 @@ cl::Buffer part_of(const cl::Buffer& buffer, size_t begin, size_t bytes) {
 
 class FragmentLayers : public PassCache {
  public:
-  explicit FragmentLayers(Work& work) : kernels_(work, "resolve") {}
-  bool follow(Work&) override { return true; }
+  explicit FragmentLayers(PassContext& work) : kernels_(work, "resolve") {}
+  bool follow(PassContext&) override { return true; }
   size_t memory_bytes() const override { return most_.bytes(); }
 
-  BlendedLayers find(Work& work, const BlendedTriangles* blended, const DepthBuffer& depth) {
+  BlendedLayers find(PassContext& work, const BlendedTriangles* blended, const DepthBuffer& depth) {
     size_t layers = blended ? list(work, *blended, depth) : draw(work);
     if (layers > capacity_) {
       capacity_ = layers;
@@ -76,7 +78,7 @@ class FragmentLayers : public PassCache {
 
  private:
   // All of OpenCL's. Returns the most fragments of a pixel.
-  size_t list(Work& work, const BlendedTriangles& blended, const DepthBuffer& depth) {
+  size_t list(PassContext& work, const BlendedTriangles& blended, const DepthBuffer& depth) {
     ClDevice& device = *work.renderer.cl;
     const size_t bytes = capacity_ * stride_of(work) * 4,
                  tiles = blended.lists.tiles_x * blended.lists.tiles_y;
@@ -113,7 +115,7 @@ class FragmentLayers : public PassCache {
   }
 
   // The same by OpenGL, over its depth image.
-  size_t draw(Work& work) {
+  size_t draw(PassContext& work) {
     const size_t stride = stride_of(work), bytes = bytes_of_layers(work, capacity_);
     layout_.reset();
     room_for(work, capacity_);
@@ -157,7 +159,7 @@ class FragmentLayers : public PassCache {
     return most;
   }
 
-  BlendedLayers parts(Work& work, size_t layers) {
+  BlendedLayers parts(PassContext& work, size_t layers) {
     BlendedLayers found;
     const cl::Buffer& room = work.shadows.layers.buffer->cl_buffer();
     const size_t bytes = stride_of(work) * 4;
@@ -183,7 +185,7 @@ class FragmentLayers : public PassCache {
   size_t capacity_ = 1;  // layers
 };
 
-BlendedLayers find_layers(Work& work, Cached<FragmentLayers>& cache, const BlendedTriangles* blended,
+BlendedLayers find_layers(PassContext& work, Cached<FragmentLayers>& cache, const BlendedTriangles* blended,
                           const DepthBuffer& depth) {
   work.shadows.layer_count = 0;
   if (work.plan.surfaces.blended.empty()) return {};
@@ -193,7 +195,7 @@ BlendedLayers find_layers(Work& work, Cached<FragmentLayers>& cache, const Blend
   return layers;
 }
 
-std::vector<HostShadowLayer> read_fragments(Work& work, const BlendedLayers& layers) {
+std::vector<HostShadowLayer> read_fragments(PassContext& work, const BlendedLayers& layers) {
   std::vector<HostShadowLayer> read(layers.numbers.size());
   std::vector<uint32_t> numbers(work.grid().pixels());
   for (size_t i = 0; i < read.size(); ++i) {

@@ -6,7 +6,7 @@
 
 namespace lightgrid {
 
-// In the memory of Work::shadows (shared/shadow_bits.h).
+// In the memory of PassContext::shadows (shared/shadow_bits.h).
 struct BlendedLayers {
   std::vector<cl::Buffer> numbers, depths;              // as a VisibilityBuffer has them: an image a layer
   std::vector<std::pair<uint32_t, int>> first_numbers;  // first number of each blended instance of the scene
@@ -14,11 +14,12 @@ struct BlendedLayers {
 };
 
 // blended: of OpenCL's rasteriser, whose numbers triangles then have; null: OpenGL draws them here over the
-// depth image, by the rays' numbers, which Work::shadows has. None where nothing blended is in view. Waits.
-BlendedLayers find_layers(Work& work, Cached<FragmentLayers>& cache, const BlendedTriangles* blended,
+// depth image, by the rays' numbers, which PassContext::shadows has. None where nothing blended is in view.
+// Waits.
+BlendedLayers find_layers(PassContext& work, Cached<FragmentLayers>& cache, const BlendedTriangles* blended,
                           const DepthBuffer& depth);
 
 // Their fragments, without shadows. Waits.
-std::vector<HostShadowLayer> read_fragments(Work& work, const BlendedLayers& layers);
+std::vector<HostShadowLayer> read_fragments(PassContext& work, const BlendedLayers& layers);
 
 }  // namespace lightgrid

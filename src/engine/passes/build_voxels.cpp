@@ -53,9 +53,9 @@ static const Setting<bool> voxel_reuse{
 
 class VoxelBuffers : public PassCache {
  public:
-  explicit VoxelBuffers(Work& work) : kernels(work, "voxels") { follow(work); }
+  explicit VoxelBuffers(PassContext& work) : kernels(work, "voxels") { follow(work); }
 
-  bool follow(Work& work) override {
+  bool follow(PassContext& work) override {
     axes = voxel_axes(work.view, work.plan.settings[setting::voxel_space]);
     lights.update(work, axes);
     if (kernels.use(defines_of(work))) filled.reset();
@@ -68,7 +68,7 @@ class VoxelBuffers : public PassCache {
     return bytes + texture_bytes;
   }
 
-  std::string lookup_defines(const Seen& seen) const {
+  std::string lookup_defines(const ViewState& seen) const {
     return fmt::format(" -DVOXEL_BITS={}{}", seen.plan.settings[voxel_bits],
                        axes.log_depth ? " -DVOXELS_LOG" : "");
   }
@@ -88,7 +88,7 @@ class VoxelBuffers : public PassCache {
   size_t texture_bytes = 0;
 
  private:
-  std::string defines_of(const Seen& seen) const {
+  std::string defines_of(const ViewState& seen) const {
     std::string defines = lookup_defines(seen);
     if (kernels.lanes && seen.plan.settings[setting::portable]) defines += " -DPORTABLE";
     for (const char* define : light_table_defines(seen.plan)) defines += fmt::format(" -D{}", define);
@@ -98,7 +98,7 @@ class VoxelBuffers : public PassCache {
 
 namespace {
 
-size_t volume_bytes(const Seen& seen) {
+size_t volume_bytes(const ViewState& seen) {
   const glm::uvec3 size = voxel_size(seen.plan.settings[setting::voxel_size]);
   return size_t(size.x) * size.y * size.z * 4 * size_t(seen.plan.settings[voxel_bits]) / 8;
 }
@@ -113,7 +113,7 @@ float stored_scale(const VoxelBuffers& s, int bits) {
   return float(std::exp2(std::floor(std::log2(brightest_half / most))));
 }
 
-void place(Work& work, VoxelBuffers& s, const TileDistances& distances) {
+void place(PassContext& work, VoxelBuffers& s, const TileDistances& distances) {
   auto pass = work.timer.pass("place_voxels", "cl");
   s.placed = place_voxels(work, s.axes, visible_box(work, distances));
   const int bits = work.plan.settings[voxel_bits];
@@ -134,7 +134,7 @@ void place(Work& work, VoxelBuffers& s, const TileDistances& distances) {
 
 }  // namespace
 
-VoxelVolume build_voxels(Work& work, Cached<VoxelBuffers>& cache, const TileDistances& distances,
+VoxelVolume build_voxels(PassContext& work, Cached<VoxelBuffers>& cache, const TileDistances& distances,
                          const DepthBuffer& depth) {
   VoxelBuffers& s = cache.of(work);
   s.shaded_from = depth;
@@ -169,7 +169,7 @@ VoxelVolume build_voxels(Work& work, Cached<VoxelBuffers>& cache, const TileDist
 }
 
 // Two 3D textures, interpolated between samples, and a uniform block; once a frame.
-static void voxels_to_gl(Work& work, const VoxelVolume& volume, VoxelBuffers& s) {
+static void voxels_to_gl(PassContext& work, const VoxelVolume& volume, VoxelBuffers& s) {
   if (!s.lookup_stale) return;
   auto pass = work.timer.pass("voxels_to_gl", "gl");
   const VoxelGrid& g = s.placed.grid;
@@ -178,7 +178,8 @@ static void voxels_to_gl(Work& work, const VoxelVolume& volume, VoxelBuffers& s)
     const auto make_volume = [&] {
       return make_texture_3d(half ? GL_RGBA16F : GL_RGBA32F, int(g.size_x), int(g.size_y), int(g.size_z));
     };
-    s.irradiance_texture = make_volume(), s.directions_texture = make_volume();
+    s.irradiance_texture = make_volume();
+    s.directions_texture = make_volume();
     s.lookup_block = make_buffer(sizeof(VoxelLookup), nullptr, GL_DYNAMIC_STORAGE_BIT);
     s.texture_bytes = volume.bytes;
   }
@@ -192,18 +193,19 @@ static void voxels_to_gl(Work& work, const VoxelVolume& volume, VoxelBuffers& s)
     work.renderer.pixel_copies.to_texture(from.gl_buffer(), GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT,
                                           {int(g.size_x), int(g.size_y)}, to.name(), int(g.size_z));
   };
-  copy(*volume.irradiance, s.irradiance_texture), copy(*volume.directions, s.directions_texture);
+  copy(*volume.irradiance, s.irradiance_texture);
+  copy(*volume.directions, s.directions_texture);
   s.texture_stale = false;
   pass.moves(volume.bytes, volume.bytes);
 }
 
 // The lights of any of the eight samples around each pixel of the last frame.
-static ListedLights listed_of_voxels(Work& work, Cached<VoxelBuffers>& cache) {
+static ListedLights listed_of_voxels(PassContext& work, Cached<VoxelBuffers>& cache) {
   const VoxelBuffers& s = cache.of(work);
   return list_voxels(work, {s.axes, s.placed, {}, {}}, s.shaded_from);
 }
 
-LightSource from_voxels(Work& work, Cached<VoxelBuffers>& cache, const VoxelVolume& volume,
+LightSource from_voxels(PassContext& work, Cached<VoxelBuffers>& cache, const VoxelVolume& volume,
                         const LightSource* grid) {
   const std::string exact = std::to_string(work.plan.settings[setting::voxel_lights_exact]);
   const auto in_gl = [&work, &cache, volume, exact, grid = grid ? std::optional(*grid) : std::nullopt] {
@@ -230,7 +232,7 @@ LightSource from_voxels(Work& work, Cached<VoxelBuffers>& cache, const VoxelVolu
                      [&work, &cache](auto&) { return listed_of_voxels(work, cache); });
 }
 
-ReadVoxels read_voxels(Work& work, Cached<VoxelBuffers>& cache) {
+ReadVoxels read_voxels(PassContext& work, Cached<VoxelBuffers>& cache) {
   VoxelBuffers& s = cache.of(work);
   ReadVoxels read{s.axes, s.placed, {}, {}};
   const size_t samples = size_t(s.placed.grid.size_x) * s.placed.grid.size_y * s.placed.grid.size_z;
@@ -247,7 +249,8 @@ ReadVoxels read_voxels(Work& work, Cached<VoxelBuffers>& cache) {
     for (glm::vec4& value : all) value *= s.placed.lookup.inverse_scale;
     return all;
   };
-  read.irradiance = values(*s.irradiance), read.directions = values(*s.directions);
+  read.irradiance = values(*s.irradiance);
+  read.directions = values(*s.directions);
   return read;
 }
 

@@ -19,12 +19,12 @@ struct VoxelVolume {
 // Places the volume around what is visible, and adds up the lights at its samples. Deterministic: a sample is
 // the sum of its lights in an order that depends on the lights alone. `depth`: what the frame shades from, if
 // OpenCL made it.
-VoxelVolume build_voxels(Work& work, Cached<VoxelBuffers>& cache, const TileDistances& distances,
+VoxelVolume build_voxels(PassContext& work, Cached<VoxelBuffers>& cache, const TileDistances& distances,
                          const DepthBuffer& depth = {});
 
 // The light of the volume. With voxel-lights-exact the lights of the pixel's cell that matter most are taken
 // out of it: `grid` has their lists, else it is null.
-LightSource from_voxels(Work& work, Cached<VoxelBuffers>& cache, const VoxelVolume& volume,
+LightSource from_voxels(PassContext& work, Cached<VoxelBuffers>& cache, const VoxelVolume& volume,
                         const LightSource* grid);
 
 // The last frame's volume on the host, for tests and the oracle.
@@ -33,10 +33,10 @@ struct ReadVoxels {
   PlacedVoxels placed;
   std::vector<glm::vec4> irradiance, directions;  // without the scale by which they are stored; x fastest
 };
-ReadVoxels read_voxels(Work& work, Cached<VoxelBuffers>& cache);
+ReadVoxels read_voxels(PassContext& work, Cached<VoxelBuffers>& cache);
 
 // The lights of any of the eight samples around each pixel, where `read` says that samples lie. depth: what
 // the frame shaded from; null: the depth image.
-ListedLights list_voxels(Work& work, const ReadVoxels& read, const DepthBuffer& depth);
+ListedLights list_voxels(PassContext& work, const ReadVoxels& read, const DepthBuffer& depth);
 
 }  // namespace lightgrid

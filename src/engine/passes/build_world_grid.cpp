@@ -12,9 +12,9 @@ namespace lightgrid {
 
 class ViewOfWorldGrid : public PassCache {
  public:
-  explicit ViewOfWorldGrid(Work& work) { follow(work); }
+  explicit ViewOfWorldGrid(PassContext& work) { follow(work); }
 
-  bool follow(Work& work) override {
+  bool follow(PassContext& work) override {
     const Settings& s = work.plan.settings;
     const WorldGridKey key{s[setting::world_grid], s[setting::world_cell], work.plan.lights.index_bits,
                            ranges_of(s), s[setting::raster] == RasterApi::opengl};
@@ -25,7 +25,7 @@ class ViewOfWorldGrid : public PassCache {
 
   size_t memory_bytes() const override { return grid->memory_bytes() + 2 * sizeof(WorldViewParams); }
 
-  void put_view(Work& work) {
+  void put_view(PassContext& work) {
     params = world_view_params(grid->layout(), work.view);
     in_cl.put(*work.renderer.cl, "uploading the view", std::vector<WorldViewParams>{params});
   }
@@ -43,7 +43,7 @@ class ViewOfWorldGrid : public PassCache {
 namespace {
 
 // shared/pixel_position.h does the same, but C++ compiles it for perspective views alone.
-glm::vec3 pixel_position(const Seen& seen, float x, float y, float depth) {
+glm::vec3 pixel_position(const ViewState& seen, float x, float y, float depth) {
   if (!seen.view.orthographic) return position_of_pixel(x, y, depth, seen.params);
   const ViewParams& p = seen.params;
   return {x * p.slope_x_scale + p.slope_x_offset, y * p.slope_y_scale + p.slope_y_offset,
@@ -51,7 +51,7 @@ glm::vec3 pixel_position(const Seen& seen, float x, float y, float depth) {
 }
 
 // Brings the lists up to date where few lights moved since they were right. Returns false if a build is due.
-bool update_world_grid(Work& work, SharedWorldGrid& grid) {
+bool update_world_grid(PassContext& work, SharedWorldGrid& grid) {
   if (!grid.serves(work.view, grid.lights_version())) return false;
   const auto changed = work.gpu.lights_changed_since(grid.lights_version());
   if (!changed) return false;
@@ -61,7 +61,8 @@ bool update_world_grid(Work& work, SharedWorldGrid& grid) {
   for (const int light : *changed) {
     const auto found = std::ranges::lower_bound(local, light);
     if (found == local.end() || *found != light) continue;
-    moved.push_back(uint32_t(found - local.begin())), of_scene.push_back(light);
+    moved.push_back(uint32_t(found - local.begin()));
+    of_scene.push_back(light);
   }
   auto pass = work.timer.pass("update_world_grid", "cl");
   const std::vector<CullLight> lights = cull_lights_of(work.scene, of_scene, ranges_of(work.plan.settings));
@@ -70,7 +71,7 @@ bool update_world_grid(Work& work, SharedWorldGrid& grid) {
   return true;
 }
 
-GlLightLoop grid_to_gl(Work& work, ViewOfWorldGrid& state) {
+GlLightLoop grid_to_gl(PassContext& work, ViewOfWorldGrid& state) {
   SharedWorldGrid& grid = *state.grid;
   {
     auto pass = work.timer.pass("grid_to_gl", "gl");
@@ -104,7 +105,7 @@ ClLightLoop grid_in_cl(const ViewOfWorldGrid& state) {
 
 // Rounds as C++ does. A device may round the position differently and then read a neighbouring cell's list,
 // which serves the position as well.
-ListedLights listed_of_world_grid(Work& work, Cached<ViewOfWorldGrid>& cache,
+ListedLights listed_of_world_grid(PassContext& work, Cached<ViewOfWorldGrid>& cache,
                                   const std::vector<float>& depth) {
   const ViewOfWorldGrid& state = cache.of(work);
   const HostWorldGrid host = state.grid->read();
@@ -123,7 +124,8 @@ ListedLights listed_of_world_grid(Work& work, Cached<ViewOfWorldGrid>& cache,
       std::vector<uint32_t> lights(host.indices.begin() + range.x, host.indices.begin() + range.x + range.y);
       lights.insert(lights.end(), host.everywhere().begin(), host.everywhere().end());
       std::ranges::sort(lights);
-      lists.first.push_back(lists.indices.size()), lists.count.push_back(uint32_t(lights.size()));
+      lists.first.push_back(lists.indices.size());
+      lists.count.push_back(uint32_t(lights.size()));
       lists.indices.insert(lists.indices.end(), lights.begin(), lights.end());
     }
   }
@@ -132,7 +134,7 @@ ListedLights listed_of_world_grid(Work& work, Cached<ViewOfWorldGrid>& cache,
 
 }  // namespace
 
-LightSource build_world_grid(Work& work, Cached<ViewOfWorldGrid>& cache) {
+LightSource build_world_grid(PassContext& work, Cached<ViewOfWorldGrid>& cache) {
   ViewOfWorldGrid& state = cache.of(work);
   SharedWorldGrid& grid = *state.grid;
   const bool right = grid.serves(work.view, work.gpu.lights_version());
@@ -149,7 +151,7 @@ LightSource build_world_grid(Work& work, Cached<ViewOfWorldGrid>& cache) {
                      [&work, &cache](auto& depth) { return listed_of_world_grid(work, cache, depth); });
 }
 
-const SharedWorldGrid& built_world_grid(Work& work, Cached<ViewOfWorldGrid>& cache) {
+const SharedWorldGrid& built_world_grid(PassContext& work, Cached<ViewOfWorldGrid>& cache) {
   return *cache.of(work).grid;
 }
 

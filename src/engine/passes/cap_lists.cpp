@@ -20,11 +20,11 @@ namespace {
 constexpr size_t cap_group = 64;
 constexpr size_t sample_group = 32;  // GROUP in kernels/culling/gpu/sample_*.cl
 // So that products with squared distances stay in the range of float (kernels/culling/cap_lists.cl).
-constexpr double least_inverse = 1e-20, most_inverse = 1e20;
+constexpr double min_inverse = 1e-20, max_inverse = 1e20;
 
 double over_intensity(double value, const ViewLight& light) {
   const glm::dvec3 i = largest_intensity(light);
-  return value * std::clamp(1 / (i.r + i.g + i.b), least_inverse, most_inverse);
+  return value * std::clamp(1 / (i.r + i.g + i.b), min_inverse, max_inverse);
 }
 
 std::vector<cl_uint> ranks_by_distance(const std::vector<ViewLight>& lights) {
@@ -52,14 +52,14 @@ cl_uint planes_of(DepthBoundsMode mode) {
 
 class ListCaps : public PassCache {
  public:
-  explicit ListCaps(Work& work) : sampling_(work, "culling") {}
+  explicit ListCaps(PassContext& work) : sampling_(work, "culling") {}
   size_t memory_bytes() const override {
     return lights_.bytes() + edges_.bytes() + params_.bytes() + nodes_.bytes() + leaves_.bytes() +
            eye_.bytes();
   }
-  bool follow(Work&) override { return stale_ = true; }
+  bool follow(PassContext&) override { return stale_ = true; }
 
-  void cap(Work& work, const CullParams& tiles, const TileBounds& bounds, const ViewGrid& grid) {
+  void cap(PassContext& work, const CullParams& tiles, const TileBounds& bounds, const ViewGrid& grid) {
     ClDevice& device = *work.renderer.cl;
     const Settings& s = work.plan.settings;
     const bool samples = samples_lists(s);
@@ -93,7 +93,7 @@ class ListCaps : public PassCache {
                   cl::NDRange(cap_group), arguments);
   }
 
-  void draw(Work& work, const CullParams& tiles, const TileBounds& bounds, const ViewGrid& grid) {
+  void draw(PassContext& work, const CullParams& tiles, const TileBounds& bounds, const ViewGrid& grid) {
     ClDevice& device = *work.renderer.cl;
     const Settings& s = work.plan.settings;
     NamedKernel& kernel = sampled("sample_tree", fmt::format("-DCAP={}{}", s[setting::list_cap],
@@ -115,7 +115,7 @@ class ListCaps : public PassCache {
   }
 
  private:
-  NamedKernel& capped(Work& work, const std::string& defines) {
+  NamedKernel& capped(PassContext& work, const std::string& defines) {
     if (!kernel_ || defines != defines_)
       kernel_ = NamedKernel(*work.renderer.kernels, "culling/cap_lists", defines);
     defines_ = defines;
@@ -143,7 +143,7 @@ class ListCaps : public PassCache {
   }
 
   // Kept while lights rest; the eye is not.
-  void upload_tree(Work& work) {
+  void upload_tree(PassContext& work) {
     ClDevice& device = *work.renderer.cl;
     if (tree_of_ != work.gpu.lights_version() || leaf_count_ == 0) {
       View world;
@@ -152,7 +152,8 @@ class ListCaps : public PassCache {
           lights_in_view(work.scene, world, ranges_of(work.plan.settings), work.plan.lights.local));
       nodes_.put(device, "uploading a tree of lights", tree.nodes);
       leaves_.put(device, "uploading a tree of lights", tree.lights);
-      leaf_count_ = tree.lights.size(), tree_of_ = work.gpu.lights_version();
+      leaf_count_ = tree.lights.size();
+      tree_of_ = work.gpu.lights_version();
     }
     const glm::mat3 axes(glm::transpose(glm::dmat3(work.view.view_from_world)));
     eye_.put(device, "uploading the view",
@@ -160,7 +161,7 @@ class ListCaps : public PassCache {
                                     glm::vec4(glm::vec3(work.view.eye), 0)});
   }
 
-  void upload(Work& work, const CullParams& tiles) {
+  void upload(PassContext& work, const CullParams& tiles) {
     ClDevice& device = *work.renderer.cl;
     const FramePlan& plan = work.plan;
     const auto lights = [&] {
@@ -196,7 +197,7 @@ class ListCaps : public PassCache {
   bool stale_ = true;
 };
 
-void cap_lists(Work& work, Cached<ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
+void cap_lists(PassContext& work, Cached<ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
                ViewGrid& grid) {
   const bool samples = samples_lists(work.plan.settings);
   if (work.plan.settings[setting::list_cap] == 0 || (samples && !work.plan.lists.sampled)) return;
@@ -208,15 +209,17 @@ void cap_lists(Work& work, Cached<ListCaps>& cache, const CullParams& tiles, con
   pass.moves(bytes, bytes);
 }
 
-ViewGrid lists_of_tree(Work& work, Cached<ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
-                       SharedGridStorage& storage) {
+ViewGrid lists_of_tree(PassContext& work, Cached<ListCaps>& cache, const CullParams& tiles,
+                       const TileBounds& bounds, SharedGridStorage& storage) {
   ListCaps& caps = cache.of(work);
   const FramePlan& plan = work.plan;
   ViewGrid grid;
   grid.storage = &storage;
-  grid.cells_x = int(tiles.tiles_x), grid.cells_y = int(tiles.tiles_y), grid.slices = plan.lists.slices;
+  grid.cells_x = int(tiles.tiles_x);
+  grid.cells_y = int(tiles.tiles_y);
+  grid.slices = plan.lists.slices;
   const size_t cells = size_t(tiles.tiles_x) * tiles.tiles_y * size_t(plan.lists.slices);
-  grid.index_count = cells * size_t(plan.settings[setting::list_cap]),
+  grid.index_count = cells * size_t(plan.settings[setting::list_cap]);
   grid.index_bits = plan.lights.index_bits;
   grid.cell_bytes = cells * sizeof(cl_uint2);
   grid.index_bytes = grid.index_count * size_t(plan.lights.index_bits / 8);

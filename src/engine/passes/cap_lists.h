@@ -10,11 +10,11 @@ namespace lightgrid {
 
 // Shortens the lists of a grid of these bounds to the plan's list-cap, in place; nothing without one. Its
 // memory stays as it is, but that sampled lists get factors.
-void cap_lists(Work& work, Cached<class ListCaps>& cache, const CullParams& tiles, const TileBounds& bounds,
-               ViewGrid& grid);
+void cap_lists(PassContext& work, Cached<class ListCaps>& cache, const CullParams& tiles,
+               const TileBounds& bounds, ViewGrid& grid);
 
 // The plan's light tree in place of culling: a grid of these bounds, whose lists are drawn from all lights.
-ViewGrid lists_of_tree(Work& work, Cached<class ListCaps>& cache, const CullParams& tiles,
+ViewGrid lists_of_tree(PassContext& work, Cached<class ListCaps>& cache, const CullParams& tiles,
                        const TileBounds& bounds, SharedGridStorage& storage);
 
 // cap_lists for a list of indices into `lights`, ascending before and after, of what has its middle here:

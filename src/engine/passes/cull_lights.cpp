@@ -9,7 +9,7 @@
 namespace lightgrid {
 namespace {
 
-ViewGrid cull(Work& work, LightCuller& culler, const char* name, const TileBounds& bounds,
+ViewGrid cull(PassContext& work, LightCuller& culler, const char* name, const TileBounds& bounds,
               SharedGridStorage& storage) {
   auto pass = work.timer.pass(name, "cl");
   const ViewGrid grid{culler.cull(bounds, storage), &storage};
@@ -18,7 +18,7 @@ ViewGrid cull(Work& work, LightCuller& culler, const char* name, const TileBound
 }
 
 // The grid has lists or masks.
-GlLightLoop grid_to_gl(Work& work, const ViewGrid& grid) {
+GlLightLoop grid_to_gl(PassContext& work, const ViewGrid& grid) {
   auto pass = work.timer.pass("grid_to_gl", "gl");
   pass.moves(grid.bytes(), grid.bytes());
   SharedGridStorage& storage = *grid.storage;
@@ -49,7 +49,8 @@ GlLightLoop grid_to_gl(Work& work, const ViewGrid& grid) {
 ClLightLoop grid_in_cl(const ViewGrid& grid) {
   ClLightLoop loop;
   if (grid.mask_bytes) return loop;
-  loop.cells = grid.storage->cells(grid.cell_bytes), loop.indices = grid.storage->indices(grid.index_bytes);
+  loop.cells = grid.storage->cells(grid.cell_bytes);
+  loop.indices = grid.storage->indices(grid.index_bytes);
   if (grid.z_bin_bytes) loop.z_bins = grid.storage->z_bins(grid.z_bin_bytes);
   if (grid.factor_bytes) {
     loop.defines = " -DLIST_FACTORS";
@@ -59,7 +60,7 @@ ClLightLoop grid_in_cl(const ViewGrid& grid) {
 }
 
 template <typename T>
-std::vector<T> read_shared(Work& work, SharedTexture& shared, size_t count) {
+std::vector<T> read_shared(PassContext& work, SharedTexture& shared, size_t count) {
   std::vector<T> values(count);
   if (count)
     read_buffer(*work.renderer.cl, "reading the light grid", shared.buffer->cl_buffer(), values.data(),
@@ -67,9 +68,10 @@ std::vector<T> read_shared(Work& work, SharedTexture& shared, size_t count) {
   return values;
 }
 
-void add_lists(Work& work, const ViewGrid& grid, size_t cells, ListedLights& lists) {
+void add_lists(PassContext& work, const ViewGrid& grid, size_t cells, ListedLights& lists) {
   for (const glm::uvec2& cell : read_shared<glm::uvec2>(work, grid.storage->cells_, cells)) {
-    lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+    lists.first.push_back(cell.x);
+    lists.count.push_back(cell.y);
   }
   if (grid.index_bits == 16) {
     const auto narrow = read_shared<uint16_t>(work, grid.storage->indices_, grid.index_count);
@@ -79,7 +81,7 @@ void add_lists(Work& work, const ViewGrid& grid, size_t cells, ListedLights& lis
   }
 }
 
-ListedLights listed_of_grid(Work& work, const ViewGrid& grid, const std::vector<float>& depth) {
+ListedLights listed_of_grid(PassContext& work, const ViewGrid& grid, const std::vector<float>& depth) {
   ListedLights lists;
   const size_t cells = size_t(grid.cells_x) * grid.cells_y * grid.slices;
   if (work.plan.settings[setting::grid_lists] == GridLists::masks) {
@@ -93,16 +95,17 @@ ListedLights listed_of_grid(Work& work, const ViewGrid& grid, const std::vector<
 
 }  // namespace
 
-ViewGrid cull_lights(Work& work, LightCuller& culler, SharedGridStorage& storage, const DepthBounds& bounds) {
+ViewGrid cull_lights(PassContext& work, LightCuller& culler, SharedGridStorage& storage,
+                     const DepthBounds& bounds) {
   return cull(work, culler, "cull_lights", bounds.opaque, storage);
 }
 
-ViewGrid cull_lights_for_blended(Work& work, LightCuller& culler, SharedGridStorage& storage,
+ViewGrid cull_lights_for_blended(PassContext& work, LightCuller& culler, SharedGridStorage& storage,
                                  const DepthBounds& bounds) {
   return cull(work, culler, "cull_lights_for_blended", bounds.blend, storage);
 }
 
-LightSource from_grid(Work& work, const ViewGrid& grid) {
+LightSource from_grid(PassContext& work, const ViewGrid& grid) {
   return LightSource([&work, grid] { return grid_to_gl(work, grid); }, grid_in_cl(grid), grid.bytes(),
                      [&work, grid](auto& depth) { return listed_of_grid(work, grid, depth); });
 }

@@ -7,11 +7,12 @@ namespace lightgrid {
 
 // The grid of opaque surfaces, or of blended ones, whose cells begin at the near plane. Kept in the view's
 // storage.
-ViewGrid cull_lights(Work& work, LightCuller& culler, SharedGridStorage& storage, const DepthBounds& bounds);
-ViewGrid cull_lights_for_blended(Work& work, LightCuller& culler, SharedGridStorage& storage,
+ViewGrid cull_lights(PassContext& work, LightCuller& culler, SharedGridStorage& storage,
+                     const DepthBounds& bounds);
+ViewGrid cull_lights_for_blended(PassContext& work, LightCuller& culler, SharedGridStorage& storage,
                                  const DepthBounds& bounds);
 
 // The lights of the pixel's cell.
-LightSource from_grid(Work& work, const ViewGrid& grid);
+LightSource from_grid(PassContext& work, const ViewGrid& grid);
 
 }  // namespace lightgrid

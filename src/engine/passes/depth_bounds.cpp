@@ -5,7 +5,7 @@
 
 namespace lightgrid {
 
-DepthBuffer depth_to_cl(Work& work, const DepthImage& depth) {
+DepthBuffer depth_to_cl(PassContext& work, const DepthImage& depth) {
   const size_t bytes = work.grid().values() * 4;
   auto pass = work.timer.pass("depth_to_cl", "gl");
   SharedBuffer& copy = work.shared_samples("depth", 4);
@@ -16,14 +16,14 @@ DepthBuffer depth_to_cl(Work& work, const DepthImage& depth) {
   return {copy.cl_buffer()};
 }
 
-DepthBounds depth_bounds(Work& work, LightCuller& culler, const DepthBuffer& depth) {
+DepthBounds depth_bounds(PassContext& work, LightCuller& culler, const DepthBuffer& depth) {
   if (work.plan.settings[setting::depth_bounds] == DepthBoundsMode::none) return culler.depth_bounds({});
   auto pass = work.timer.pass("depth_bounds", "cl");
   pass.moves(work.grid().values() * 4, size_t(work.params.tiles_x) * work.params.tiles_y * 8);
   return culler.depth_bounds({depth.values});
 }
 
-TileDistances tile_distances(Work& work, LightCuller& culler, const DepthBounds& bounds) {
+TileDistances tile_distances(PassContext& work, LightCuller& culler, const DepthBounds& bounds) {
   TileDistances distances;
   if (work.plan.settings[setting::depth_bounds] == DepthBoundsMode::none) return distances;
   auto pass = work.timer.pass("tile_distances", "cl");
@@ -33,7 +33,7 @@ TileDistances tile_distances(Work& work, LightCuller& culler, const DepthBounds&
   return distances;
 }
 
-DrawList visible_surfaces(Work& work, const TileDistances& distances) {
+DrawList visible_surfaces(PassContext& work, const TileDistances& distances) {
   return without_hidden(work.opaque, work.gpu.in_gl(), work.transforms, work.params, distances);
 }
 

@@ -8,7 +8,7 @@ namespace lightgrid {
 
 // Reversed depth: float's fine steps near 0 serve the far distances (Reed, "Depth Precision Visualized",
 // 2015).
-static void begin_depth(const Seen& seen, GLuint framebuffer, GLenum test) {
+static void begin_depth(const ViewState& seen, GLuint framebuffer, GLenum test) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, seen.grid().width, seen.grid().height);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -25,7 +25,7 @@ static uint32_t features_of_depth(uint32_t features) {
   return features & feature_mask ? features & (features_of_base_color | feature_mask) : 0;
 }
 
-GlTexture depth_of_centres(Work& work) {
+GlTexture depth_of_centres(PassContext& work) {
   if (work.grid().samples == 1) return {};
   GlTexture depth = make_texture_2d(work.targets.depth_format(), work.grid().width, work.grid().height);
   const GlFramebuffer framebuffer = make_framebuffer({}, depth.name());
@@ -37,7 +37,7 @@ GlTexture depth_of_centres(Work& work) {
   return depth;
 }
 
-DepthImage depth_prepass(Work& work, GLuint surface_numbers) {
+DepthImage depth_prepass(PassContext& work, GLuint surface_numbers) {
   auto pass = work.timer.pass("depth_prepass", "gl");
   const GLuint depth_alone = work.depth_framebuffer();
   const GLuint framebuffer =
@@ -52,7 +52,7 @@ DepthImage depth_prepass(Work& work, GLuint surface_numbers) {
   return {depth_alone};
 }
 
-DepthImage no_depth_yet(Work& work) {
+DepthImage no_depth_yet(PassContext& work) {
   const GLuint framebuffer = work.depth_framebuffer();
   begin_depth(work, framebuffer, GL_GREATER);
   return {framebuffer};
@@ -67,7 +67,7 @@ static uint32_t features_of_normals(uint32_t features) {
   return features & read;
 }
 
-NormalImage fill_normals(Work& work) {
+NormalImage fill_normals(PassContext& work) {
   auto pass = work.timer.pass("fill_normals", "gl");
   const NormalImage normals = normal_image_of(work);
   begin_depth(work, normals.framebuffer, GL_GEQUAL);

@@ -13,7 +13,7 @@ size_t written_bytes(const GBuffer& gbuffer) {
   return gbuffer.bytes() + (gbuffer.base_lighting == BaseLighting::in_image ? 16 : 0);
 }
 
-void clear(const Seen& seen, const GBuffer& gbuffer) {
+void clear(const ViewState& seen, const GBuffer& gbuffer) {
   const float background[4] = {seen.scene.background.r, seen.scene.background.g, seen.scene.background.b, 1};
   const float nothing[4] = {0, 0, 0, 0};
   if (gbuffer.base_lighting == BaseLighting::in_image)
@@ -27,7 +27,7 @@ void clear(const Seen& seen, const GBuffer& gbuffer) {
 
 // with_depth: writes the depth too, else tests it. Where depths are equal the last surface wins, as in
 // forward shading.
-GBuffer draw_surfaces(Work& work, const DrawList& surfaces, BaseLighting lit, bool with_depth) {
+GBuffer draw_surfaces(PassContext& work, const DrawList& surfaces, BaseLighting lit, bool with_depth) {
   auto pass = work.timer.pass("fill_gbuffer", "gl");
   const GBuffer gbuffer = gbuffer_of(work, lit);
   glDepthFunc(with_depth ? GL_GEQUAL : GL_EQUAL);
@@ -60,11 +60,11 @@ GBuffer draw_surfaces(Work& work, const DrawList& surfaces, BaseLighting lit, bo
 
 }  // namespace
 
-GBuffer fill_gbuffer(Work& work, BaseLighting base_lighting) {
+GBuffer fill_gbuffer(PassContext& work, BaseLighting base_lighting) {
   return draw_surfaces(work, work.opaque, base_lighting, true);
 }
 
-GBuffer fill_gbuffer(Work& work, const DrawList& surfaces, BaseLighting base_lighting) {
+GBuffer fill_gbuffer(PassContext& work, const DrawList& surfaces, BaseLighting base_lighting) {
   return draw_surfaces(work, surfaces, base_lighting, false);
 }
 

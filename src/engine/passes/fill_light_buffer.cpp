@@ -13,7 +13,7 @@
 namespace lightgrid {
 namespace {
 
-std::string defines_of_light_buffer(const Seen& seen, bool lanes) {
+std::string defines_of_light_buffer(const ViewState& seen, bool lanes) {
   const Settings& s = seen.plan.settings;
   // The same kernel for both BRDFs with a specular lobe.
   std::string defines =
@@ -28,11 +28,11 @@ std::string defines_of_light_buffer(const Seen& seen, bool lanes) {
 }  // namespace
 
 // The kernel.
-class LightSums : public PassCache {
+class LightBufferSums : public PassCache {
  public:
-  explicit LightSums(Work& work) : kernels(work, "resolve") { follow(work); }
+  explicit LightBufferSums(PassContext& work) : kernels(work, "resolve") { follow(work); }
 
-  bool follow(Work& work) override {
+  bool follow(PassContext& work) override {
     kernels.use(defines_of_light_buffer(work, kernels.lanes));
     work.cl_lights();
     return true;
@@ -43,7 +43,7 @@ class LightSums : public PassCache {
 
 namespace {
 
-void sums_to_gl(Work& work, const PrepassImage& image, SharedBuffer& from, GLuint to) {
+void sums_to_gl(PassContext& work, const PrepassImage& image, SharedBuffer& from, GLuint to) {
   const auto [width, height, samples] = work.grid();
   work.renderer.pixel_copies.to_texture(from.gl_buffer(), image.pixel, image.type, {width * samples, height},
                                         to);
@@ -51,7 +51,7 @@ void sums_to_gl(Work& work, const PrepassImage& image, SharedBuffer& from, GLuin
 
 }  // namespace
 
-NormalsInCl normals_to_cl(Work& work, const NormalImage& normals) {
+NormalsInCl normals_to_cl(PassContext& work, const NormalImage& normals) {
   const PrepassImage& image = normals.layout->image;
   const size_t bytes = work.grid().values() * image.bytes;
   const NormalsInCl in_cl = normals_in_cl_of(work, TargetUse::image);
@@ -63,10 +63,10 @@ NormalsInCl normals_to_cl(Work& work, const NormalImage& normals) {
   return in_cl;
 }
 
-LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const NormalsInCl& normals,
-                                  const DepthBuffer& depth, const LightSource& lights, TargetUse use,
-                                  const cl::Buffer& edges) {
-  LightSums& s = cache.of(work);
+LightBufferInCl fill_light_buffer(PassContext& work, Cached<LightBufferSums>& cache,
+                                  const NormalsInCl& normals, const DepthBuffer& depth,
+                                  const LightSource& lights, TargetUse use, const cl::Buffer& edges) {
+  LightBufferSums& s = cache.of(work);
   NamedKernel& kernel =
       s.kernels.of("shade_stored", " -DSTORED_NORMALS" + sample_defines(work.sample_places()));
   LightBufferInCl buffer{&light_buffer_layout(work.plan.settings), nullptr, nullptr};
@@ -95,7 +95,7 @@ LightBufferInCl fill_light_buffer(Work& work, Cached<LightSums>& cache, const No
   return buffer;
 }
 
-LightBuffer light_buffer_to_gl(Work& work, const LightBufferInCl& buffer) {
+LightBuffer light_buffer_to_gl(PassContext& work, const LightBufferInCl& buffer) {
   const int row = work.grid().width * work.grid().samples;
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);

@@ -20,13 +20,13 @@ constexpr size_t run_pixels = 4096, item_pixels = 16, group = 64;  // sizes of k
 
 class PixelEdges : public PassCache {
  public:
-  explicit PixelEdges(Work& work) : kernels_(work, "resolve") {}
-  bool follow(Work&) override { return true; }
+  explicit PixelEdges(PassContext& work) : kernels_(work, "resolve") {}
+  bool follow(PassContext&) override { return true; }
   size_t memory_bytes() const override { return triangles_.bytes() + depths_.bytes() + edges_.bytes(); }
 
-  PixelSurfaces find(Work& work, const Visibility& image, const RasterBuffers& raster) {
+  PixelSurfaces find(PassContext& work, const Visibility& image, const RasterBuffers& raster) {
     ClDevice& device = *work.renderer.cl;
-    const size_t pixels = work.grid().pixels(), room = pixels + Work::spare_pixels;
+    const size_t pixels = work.grid().pixels(), room = pixels + PassContext::spare_pixels;
     const PixelSurfaces found{triangles_.at_least(device, room * 4), depths_.at_least(device, room * 4),
                               edges_.at_least(device, (pixels + 15) / 16 * 2)};
     const Settings& settings = work.plan.settings;
@@ -60,7 +60,7 @@ class PixelEdges : public PassCache {
   GrowingBuffer triangles_, depths_, edges_;
 };
 
-PixelSurfaces find_edges(Work& work, Cached<PixelEdges>& cache, const Visibility& image,
+PixelSurfaces find_edges(PassContext& work, Cached<PixelEdges>& cache, const Visibility& image,
                          const RasterBuffers& raster) {
   PixelEdges& edges = cache.of(work);
   auto pass = work.timer.pass("find_edges", "cl");
@@ -68,7 +68,7 @@ PixelSurfaces find_edges(Work& work, Cached<PixelEdges>& cache, const Visibility
   return edges.find(work, image, raster);
 }
 
-SampleFigures sample_figures(Work& work, const Visibility& image, const PixelSurfaces& surfaces) {
+SampleFigures sample_figures(PassContext& work, const Visibility& image, const PixelSurfaces& surfaces) {
   const PixelGrid grid = work.grid();
   const auto read = [&](const cl::Buffer& buffer, auto& values) {
     read_buffer(*work.renderer.cl, "counting pixels at edges", buffer, values.data(),
@@ -76,7 +76,8 @@ SampleFigures sample_figures(Work& work, const Visibility& image, const PixelSur
   };
   std::vector<uint16_t> edges((grid.pixels() + 15) / 16);
   std::vector<uint32_t> seen(grid.values());
-  read(surfaces.edges, edges), read(image.triangle, seen);
+  read(surfaces.edges, edges);
+  read(image.triangle, seen);
   SampleFigures figures;
   for (size_t i = 0; i < grid.pixels(); ++i) {
     const std::span<const uint32_t> of(seen.data() + i * size_t(grid.samples), size_t(grid.samples));

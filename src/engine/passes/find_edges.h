@@ -4,7 +4,7 @@
 #include "cl/buffers.h"
 #include "passes/common/frame.h"
 #include "raster/raster_view.h"
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 
 namespace lightgrid {
 
@@ -17,10 +17,10 @@ struct PixelSurfaces {
 
 // Finds the edges of an image of samples and the data of its numbers. Numbers of neighbouring triangles that
 // are one surface in a pixel become one (kernels/resolve/join_surfaces.h).
-PixelSurfaces find_edges(Work& work, Cached<PixelEdges>& cache, const Visibility& image,
+PixelSurfaces find_edges(PassContext& work, Cached<PixelEdges>& cache, const Visibility& image,
                          const RasterBuffers& raster);
 
 // Waits.
-SampleFigures sample_figures(Work& work, const Visibility& image, const PixelSurfaces& surfaces);
+SampleFigures sample_figures(PassContext& work, const Visibility& image, const PixelSurfaces& surfaces);
 
 }  // namespace lightgrid

@@ -17,7 +17,7 @@ namespace lightgrid {
 namespace {
 
 // The lights whose masks meet that of the instance. All of them if no effect has masks.
-std::vector<uint32_t> lights_of_mask(const Seen& seen, int instance, const std::vector<uint32_t>& all) {
+std::vector<uint32_t> lights_of_mask(const ViewState& seen, int instance, const std::vector<uint32_t>& all) {
   if (!seen.plan.masks.needed) return all;
   const uint32_t mask = mask_of(seen.scene.instances[size_t(instance)]);
   std::vector<uint32_t> met;
@@ -37,7 +37,7 @@ std::vector<uint32_t> lights_reaching(const ViewBox& box, const std::vector<Ligh
 
 }  // namespace
 
-void ObjectLights::update(Work& work, const DrawList& list) {
+void ObjectLights::update(PassContext& work, const DrawList& list) {
   objects_.clear();
   lights_.clear();
   reaches_.clear();
@@ -63,7 +63,8 @@ void ObjectLights::update(Work& work, const DrawList& list) {
   upload_lists();
 }
 
-void ObjectLights::add_item(Work& work, const DrawItem& item, const std::vector<uint32_t>& candidates) {
+void ObjectLights::add_item(PassContext& work, const DrawItem& item,
+                            const std::vector<uint32_t>& candidates) {
   const GlMesh& mesh = work.gpu.in_gl().mesh(work.scene.instances[item.instance].mesh);
   const size_t first_object = objects_.size();
   for (const uint32_t cluster : item.clusters) {
@@ -101,7 +102,7 @@ void ObjectLights::upload_lists() {
   }
 }
 
-LightSource from_objects(Work& work, const ObjectLights& objects) {
+LightSource from_objects(PassContext& work, const ObjectLights& objects) {
   const auto in_gl = [&work, &objects] {
     GlLightLoop loop = light_loop(work);
     loop.defines.emplace_back("LIGHTS_OBJECT");
@@ -111,12 +112,13 @@ LightSource from_objects(Work& work, const ObjectLights& objects) {
   return LightSource(in_gl, {}, objects.lights().size() * sizeof(uint32_t));
 }
 
-static void count_bytes(const Seen& seen, const ObjectLights& objects, PassTimer::Scope& pass) {
+static void count_bytes(const ViewState& seen, const ObjectLights& objects, PassTimer::Scope& pass) {
   pass.moves(seen.plan.lights.local.size() * sizeof(LightReach) + objects.objects().size() * sizeof(ViewBox),
              objects.lights().size() * sizeof(uint32_t));
 }
 
-const ObjectLights& find_object_lights(Work& work, Cached<ObjectLights>& cache, const DrawList& surfaces) {
+const ObjectLights& find_object_lights(PassContext& work, Cached<ObjectLights>& cache,
+                                       const DrawList& surfaces) {
   auto pass = work.timer.pass("find_object_lights", "cpu");
   ObjectLights& objects = cache.of(work);
   objects.update(work, surfaces);
@@ -124,7 +126,7 @@ const ObjectLights& find_object_lights(Work& work, Cached<ObjectLights>& cache, 
   return objects;
 }
 
-const ObjectLights& find_blended_object_lights(Work& work, Cached<ObjectLights>& cache) {
+const ObjectLights& find_blended_object_lights(PassContext& work, Cached<ObjectLights>& cache) {
   ObjectLights& objects = cache.of(work);
   if (!work.plan.surfaces.blend) return objects;
   auto pass = work.timer.pass("find_blended_object_lights", "cpu");
@@ -156,7 +158,8 @@ LightReach::LightReach(const LightBounds& light)
     : position_(light.position), direction_(light.direction), radius_(light.radius_m) {
   const double angle = light.widened_angle_rad();
   cone_ = angle < std::numbers::pi / 2;
-  cos_ = std::cos(angle), sin_ = std::sin(angle);
+  cos_ = std::cos(angle);
+  sin_ = std::sin(angle);
 }
 
 bool LightReach::may_reach(const ViewBox& box) const {

@@ -39,20 +39,20 @@ class ObjectLights : public PassCache {
     IndexRanges ranges;                         // index ranges of these clusters
   };
 
-  explicit ObjectLights(Work&) {}
+  explicit ObjectLights(PassContext&) {}
   size_t memory_bytes() const override { return buffer_bytes_; }
-  bool follow(Work&) override { return true; }  // every frame updates it
+  bool follow(PassContext&) override { return true; }  // every frame updates it
 
   // Finds the objects of a draw list, in its order, and uploads their lights to the buffer that
   // shaders/lights/object.glsl reads.
-  void update(Work& work, const DrawList& list);
+  void update(PassContext& work, const DrawList& list);
 
   const std::vector<Object>& objects() const { return objects_; }
   const std::vector<uint32_t>& lights() const { return lights_; }  // indices into LightPlan::local
   GLuint texture() const { return texture_.name(); }
 
  private:
-  void add_item(Work& work, const DrawItem& item, const std::vector<uint32_t>& candidates);
+  void add_item(PassContext& work, const DrawItem& item, const std::vector<uint32_t>& candidates);
   void upload_lists();
 
   std::vector<LightReach> reaches_;
@@ -64,10 +64,11 @@ class ObjectLights : public PassCache {
 };
 
 // The lights of the current object (uniform lights_of_draw).
-LightSource from_objects(Work& work, const ObjectLights& objects);
+LightSource from_objects(PassContext& work, const ObjectLights& objects);
 
 // The pass: object-light pairs of opaque or blended surfaces, found on the CPU.
-const ObjectLights& find_object_lights(Work& work, Cached<ObjectLights>& cache, const DrawList& surfaces);
-const ObjectLights& find_blended_object_lights(Work& work, Cached<ObjectLights>& cache);
+const ObjectLights& find_object_lights(PassContext& work, Cached<ObjectLights>& cache,
+                                       const DrawList& surfaces);
+const ObjectLights& find_blended_object_lights(PassContext& work, Cached<ObjectLights>& cache);
 
 }  // namespace lightgrid

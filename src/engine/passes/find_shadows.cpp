@@ -31,7 +31,7 @@ namespace {
 // Work-groups of one tile on a GPU, which share its lights: lists are of very different lengths.
 constexpr size_t groups_a_tile = 2;
 
-constexpr size_t least_bytes = 64;  // of a buffer
+constexpr size_t min_bytes = 64;  // of a buffer
 
 const Setting<bool> shadow_reuse{
     670,
@@ -51,12 +51,15 @@ struct ReceiverImage {
 
 class ShadowBits : public PassCache {
  public:
-  explicit ShadowBits(Work& work) : kernels_(work, "shadows") {}
+  explicit ShadowBits(PassContext& work) : kernels_(work, "shadows") {}
 
-  bool follow(Work&) override { return followed_ = false, true; }
+  bool follow(PassContext&) override {
+    followed_ = false;
+    return true;
+  }
 
   // Whether the bits of the frame before are this frame's too. The view's next frame must then not find them.
-  bool unchanged(Work& work) {
+  bool unchanged(PassContext& work) {
     unchanged_ = work.plan.shadows.needed && work.plan.settings[shadow_reuse] &&
                  !work.plan.settings[setting::everything_on] && found_for_ &&
                  (followed_ || *found_for_ == shadow_inputs(work, scene(work)));
@@ -74,20 +77,24 @@ class ShadowBits : public PassCache {
   }
 
   // No light is hidden anywhere: the table holds no tile, and all have its empty row.
-  void clear(Work& work) {
+  void clear(PassContext& work) {
     work.shadows.traced.clear();
-    const size_t bytes = std::max(least_bytes, shadow_table_bytes(0, shadow_table_words(work.plan)));
+    const size_t bytes = std::max(min_bytes, shadow_table_bytes(0, shadow_table_words(work.plan)));
     if (cleared_ == bytes) return;
     fill_buffer(*work.renderer.cl, "clearing shadows", at_least(work, work.shadows.tiles, bytes, GL_RG32UI),
                 0, bytes);
-    at_least(work, work.shadows.bits, least_bytes, GL_R32UI);
-    lists_.clear(), layers_ = {}, cleared_ = bytes, bands_ = {}, found_for_.reset();
-    hand_over(work, bytes, least_bytes);
+    at_least(work, work.shadows.bits, min_bytes, GL_R32UI);
+    lists_.clear();
+    layers_ = {};
+    cleared_ = bytes;
+    bands_ = {};
+    found_for_.reset();
+    hand_over(work, bytes, min_bytes);
   }
 
   // The first image is that of opaque surfaces; the others are layers of blended ones, if there are any.
-  void find(Work& work, const VisibilityBuffer* visible, const DepthBuffer& depth, const cl::Buffer& numbers,
-            const BlendedTriangles* blended, const BlendedLayers& layers) {
+  void find(PassContext& work, const VisibilityBuffer* visible, const DepthBuffer& depth,
+            const cl::Buffer& numbers, const BlendedTriangles* blended, const BlendedLayers& layers) {
     found_for_.reset();
     layers_ = layers;
     if (band_ == 0) {
@@ -115,11 +122,11 @@ class ShadowBits : public PassCache {
       if (maps_) maps_->draw(*scene_);
     }
     const size_t bit_bytes =
-        std::max<size_t>(least_bytes, bands_.bands[band_].entries * shadow_entry_bytes(work.plan));
+        std::max<size_t>(min_bytes, bands_.bands[band_].entries * shadow_entry_bytes(work.plan));
     make_room(work, bit_bytes);
     launch(work, images, bands_.bands[band_]);
     if (bands_.bands.size() > 1)
-      again_ = [this, images](Work& of, const ShadowBand& band) { launch(of, images, band); };
+      again_ = [this, images](PassContext& of, const ShadowBand& band) { launch(of, images, band); };
     hand_over(work, room_.table_bytes, bit_bytes);
     if (work.grid().samples > 1) hand_over_rays(work);
     if (work.plan.settings[shadow_reuse] && bands_.bands.size() == 1)
@@ -128,7 +135,7 @@ class ShadowBits : public PassCache {
 
   void begin_bands() { band_ = 0; }
 
-  bool next_band(Work& work, const ShadedImage& image) {
+  bool next_band(PassContext& work, const ShadedImage& image) {
     if (bands_.bands.size() < 2) return false;
     if (band_ + 1 == bands_.bands.size()) {
       banded_.restore(work, image, std::span(bands_.bands).first(band_));
@@ -138,13 +145,13 @@ class ShadowBits : public PassCache {
     return true;
   }
 
-  const RayScene& scene(Work& work) {
+  const RayScene& scene(PassContext& work) {
     scene_ = work.gpu.in_rays(work.plan.settings[setting::texels], blended_casters(work.plan.settings));
     return *scene_;
   }
 
   // image: 0, of opaque surfaces; or 1 + that of a layer.
-  HostShadows read(Work& work, size_t image = 0) {
+  HostShadows read(PassContext& work, size_t image = 0) {
     ClDevice& device = *work.renderer.cl;
     HostShadows shadows;
     constexpr int side = HostShadows::side;
@@ -154,35 +161,40 @@ class ShadowBits : public PassCache {
       return shadows;
     }
     HostGrid grid = lists_.read(device, image);
-    shadows.cells = std::move(grid.cells), shadows.indices = std::move(grid.indices);
+    shadows.cells = std::move(grid.cells);
+    shadows.indices = std::move(grid.indices);
     const size_t entry_bytes = shadow_entry_bytes(work.plan);
     const auto read = [&](auto& values) {
       values.resize(shadows.indices.size() * entry_bytes / sizeof values[0]);
       read_bands(work, shadows, image, entry_bytes, reinterpret_cast<std::byte*>(values.data()));
     };
-    if (work.plan.shadows.bytes)
-      read(shadows.shares), shadows.bits = hidden_bits(shadows.shares);
-    else
+    if (work.plan.shadows.bytes) {
+      read(shadows.shares);
+      shadows.bits = hidden_bits(shadows.shares);
+    } else
       read(shadows.bits);
     return shadows;
   }
 
-  std::vector<HostShadowLayer> read_layers(Work& work) {
+  std::vector<HostShadowLayer> read_layers(PassContext& work) {
     std::vector<HostShadowLayer> layers = read_fragments(work, layers_);
     for (size_t i = 0; i < layers.size(); ++i) layers[i].shadows = read(work, i + 1);
     return layers;
   }
 
-  ShadowFigures figures(Work& work) {
+  ShadowFigures figures(PassContext& work) {
     ShadowFigures f;
     f.bytes = lists_.bytes() + work.shadows.bytes();
     if (lists_.pairs() == 0) return f;
     f.unchanged = unchanged_;
-    f.lights = size_t(std::ranges::count(work.plan.shadows.shadowed, 1)), f.bands = bands_.bands.size();
+    f.lights = size_t(std::ranges::count(work.plan.shadows.shadowed, 1));
+    f.bands = bands_.bands.size();
     std::vector<uint32_t> rays(parts_);
     read_buffer(*work.renderer.cl, "counting rays", rays_.get(), rays.data(), rays.size() * sizeof rays[0]);
     if (maps_) {
-      f.maps = f.lights, f.drawn = unchanged_ ? 0 : maps_->drawn_lights(), f.kept = f.maps - f.drawn;
+      f.maps = f.lights;
+      f.drawn = unchanged_ ? 0 : maps_->drawn_lights();
+      f.kept = f.maps - f.drawn;
       f.halvings = maps_->atlas().halvings;
       f.bytes += maps_->atlas().bytes;
     }
@@ -192,17 +204,19 @@ class ShadowBits : public PassCache {
 
  private:
   // Buffers only grow: where both would then be too large together, other views' needs have made them so.
-  void make_room(Work& work, size_t bit_bytes) {
+  void make_room(PassContext& work, size_t bit_bytes) {
     ShadowMemory& shadows = work.shadows;
     if (std::max(shadows.tiles.bytes(), room_.table_bytes) + std::max(shadows.bits.bytes(), bit_bytes) >
-        work.plan.settings[setting::shadow_memory])
-      shadows.tiles = {}, shadows.bits = {};
+        work.plan.settings[setting::shadow_memory]) {
+      shadows.tiles = {};
+      shadows.bits = {};
+    }
     at_least(work, shadows.tiles, room_.table_bytes, GL_RG32UI);
     at_least(work, shadows.bits, bit_bytes, GL_R32UI);
   }
 
   // The table and the bits of these tiles.
-  void launch(Work& work, const std::vector<ReceiverImage>& images, const ShadowBand& band) {
+  void launch(PassContext& work, const std::vector<ReceiverImage>& images, const ShadowBand& band) {
     ClDevice& device = *work.renderer.cl;
     // Drawn lights serve all lights of a tile.
     const size_t groups_here = kernels_.lanes || picks_shadows(work.plan.settings) ? 1 : groups_a_tile;
@@ -240,7 +254,7 @@ class ShadowBits : public PassCache {
 
   // Bits, or bytes, of all of an image's entries. Only the last of several bands has its own still: they are
   // found again.
-  void read_bands(Work& work, const HostShadows& shadows, size_t image, size_t entry, std::byte* to) {
+  void read_bands(PassContext& work, const HostShadows& shadows, size_t image, size_t entry, std::byte* to) {
     ClDevice& device = *work.renderer.cl;
     constexpr const char* what = "reading shadows";
     const cl::Buffer& bits = work.shadows.bits.buffer->cl_buffer();
@@ -261,24 +275,24 @@ class ShadowBits : public PassCache {
     }
   }
 
-  cl::Buffer& at_least(Work& work, SharedTexture& shared, size_t bytes, GLenum format) {
+  cl::Buffer& at_least(PassContext& work, SharedTexture& shared, size_t bytes, GLenum format) {
     return shared.at_least(work.renderer, bytes, format, work.plan.opengl);
   }
 
-  void hand_over(Work& work, size_t tile_bytes, size_t bit_bytes) {
+  void hand_over(PassContext& work, size_t tile_bytes, size_t bit_bytes) {
     if (!work.plan.opengl) return;
     const SharedBuffer::Written written[] = {{&*work.shadows.tiles.buffer, tile_bytes},
                                              {&*work.shadows.bits.buffer, bit_bytes}};
     SharedBuffer::hand_to_gl(written);
   }
 
-  ClArguments arguments_of_rays(Work& work) {
+  ClArguments arguments_of_rays(PassContext& work) {
     return (cells_ ? cells_->arguments(*work.renderer.cl) : ClArguments()) + scene_->arguments();
   }
 
   // For kernels that shade other points than pixels' centres. In each frame: other views may have made other
   // light cells.
-  void hand_over_rays(Work& work) {
+  void hand_over_rays(PassContext& work) {
     work.shadows.traced_defines =
         " -DSHADOWS_TRACED " + scene_->defines() + (cells_ ? " -DSHADOW_CELLS" : "");
     work.shadows.traced = arguments_of_rays(work) + ClArguments{{"number_offsets", offsets_.buffer()},
@@ -287,7 +301,7 @@ class ShadowBits : public PassCache {
   }
 
   // Brings everything up to the view, its lights and surfaces.
-  void prepare(Work& work, const VisibilityBuffer* visible, const BlendedTriangles* blended) {
+  void prepare(PassContext& work, const VisibilityBuffer* visible, const BlendedTriangles* blended) {
     const RayScene& rays = scene(work);
     const Settings& settings = work.plan.settings;
     if (settings[setting::shadows] == ShadowMethod::map) {
@@ -313,12 +327,12 @@ class ShadowBits : public PassCache {
     followed_ = true;
   }
 
-  static bool picks_by_masks(const Work& work) {
+  static bool picks_by_masks(const PassContext& work) {
     return picks_shadows(work.plan.settings) && work.plan.masks.needed;
   }
 
   // Instances keep their masks; their triangles' numbers change only when the tree is rebuilt.
-  void put_masks(Work& work, const RayScene& rays) {
+  void put_masks(PassContext& work, const RayScene& rays) {
     if (masked_builds_ == rays.builds()) return;
     masked_builds_ = rays.builds();
     std::vector<uint32_t> masks(std::max(rays.triangles(), 1u));
@@ -331,7 +345,7 @@ class ShadowBits : public PassCache {
     masks_.put(*work.renderer.cl, "uploading masks of triangles", masks);
   }
 
-  void put_offsets(Work& work, std::span<const int> instances, UploadedBuffer& to) {
+  void put_offsets(PassContext& work, std::span<const int> instances, UploadedBuffer& to) {
     std::vector<int32_t> offsets;
     uint32_t first = 0;
     for (const int i : instances) {
@@ -341,7 +355,7 @@ class ShadowBits : public PassCache {
     to.put(*work.renderer.cl, "uploading numbers of triangles", offsets);
   }
 
-  std::string defines_of(Work& work, const VisibilityBuffer* visible) const {
+  std::string defines_of(PassContext& work, const VisibilityBuffer* visible) const {
     const Settings& settings = work.plan.settings;
     std::string defines = scene_->defines();
     for (const char* define : shadow_defines(work.plan)) defines += fmt::format(" -D{}", define);
@@ -358,7 +372,7 @@ class ShadowBits : public PassCache {
   }
 
   // After the bands are known.
-  void use_kernels(Work& work, const VisibilityBuffer* visible) {
+  void use_kernels(PassContext& work, const VisibilityBuffer* visible) {
     kernels_.use(defines_of(work, visible) + (bands_.bands.size() > 1 ? " -DBANDS" : ""));
   }
 
@@ -371,9 +385,10 @@ class ShadowBits : public PassCache {
   UploadedBuffer lights_, view_, offsets_, blended_offsets_, first_entries_, masks_;
   GrowingBuffer rays_;
   ShadowRoom room_;
-  ShadowBands bands_;                                    // of the frame
-  size_t band_ = 0;                                      // that is shaded
-  std::function<void(Work&, const ShadowBand&)> again_;  // finds one of several bands of the last frame
+  ShadowBands bands_;  // of the frame
+  size_t band_ = 0;    // that is shaded
+  std::function<void(PassContext&, const ShadowBand&)>
+      again_;  // finds one of several bands of the last frame
   BandedImage banded_;
   int masked_builds_ = -1;  // RayScene::builds of masks_
   size_t parts_ = 0;        // counts of rays
@@ -384,7 +399,7 @@ class ShadowBits : public PassCache {
 
 namespace {
 
-const cl::Buffer& triangle_numbers_in_cl(Work& work, const RayScene& rays) {
+const cl::Buffer& triangle_numbers_in_cl(PassContext& work, const RayScene& rays) {
   auto pass = work.timer.pass("triangle_numbers", "gl");
   const TriangleImage drawn = draw_triangle_numbers(work, rays);
   SharedBuffer& copy = work.shared_samples("triangle numbers", 4);
@@ -398,8 +413,8 @@ const cl::Buffer& triangle_numbers_in_cl(Work& work, const RayScene& rays) {
 
 }  // namespace
 
-void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visible, const DepthBuffer& depth,
-                  const BlendedTriangles* blended) {
+void find_shadows(PassContext& work, PassCaches& caches, const VisibilityBuffer* visible,
+                  const DepthBuffer& depth, const BlendedTriangles* blended) {
   if (!work.plan.shadows.light_reaches) return;
   ShadowBits& shadows = caches.shadow_bits.of(work);
   work.shadows.layer_count = 0;
@@ -417,22 +432,22 @@ void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visibl
   pass.moves(work.grid().pixels() * 8 + layers.bytes + rays.memory_bytes(), work.shadows.bytes());
 }
 
-bool shadows_are_unchanged(Work& work, Cached<ShadowBits>& cache) {
+bool shadows_are_unchanged(PassContext& work, Cached<ShadowBits>& cache) {
   return work.plan.shadows.light_reaches && cache.of(work).unchanged(work);
 }
 
-static void begin_bands(Work& work, PassCaches& caches) {
+static void begin_bands(PassContext& work, PassCaches& caches) {
   if (work.plan.shadows.light_reaches) caches.shadow_bits.of(work).begin_bands();
 }
 
 // Shadows that take more memory than the setting shadow-memory allows are found in several bands of tiles,
 // and the frame is shaded once for each. Each time the band's pixels of its image are kept.
-static bool next_band(Work& work, PassCaches& caches, ShadedImage& image) {
+static bool next_band(PassContext& work, PassCaches& caches, ShadedImage& image) {
   return work.plan.shadows.light_reaches && caches.shadow_bits.of(work).next_band(work, image);
 }
 
 // Where light loops read shadows, the frame gets them and their figures.
-static void add_readers(Work& work, PassCaches& caches, Frame& frame) {
+static void add_readers(PassContext& work, PassCaches& caches, Frame& frame) {
   if (!work.plan.shadows.light_reaches) return;
   ShadowBits& shadows = caches.shadow_bits.of(work);
   if (!frame.lights_in_volume && !frame.shadows) frame.shadows = [&] { return shadows.read(work); };

@@ -12,11 +12,11 @@ namespace lightgrid {
 // where the plan's `shadows` is set. blended: of OpenCL's rasteriser; null: OpenGL draws them here, or none
 // is in view. Throws Error(machine) if the device has no doubles, Error(input) if a tile's bits alone take
 // more memory than there may be.
-void find_shadows(Work& work, PassCaches& caches, const VisibilityBuffer* visible, const DepthBuffer& depth,
-                  const BlendedTriangles* blended);
+void find_shadows(PassContext& work, PassCaches& caches, const VisibilityBuffer* visible,
+                  const DepthBuffer& depth, const BlendedTriangles* blended);
 
 // With the setting shadow-reuse: whether the bits of the view's last frame are those of this one, since
 // neither camera, lights, surfaces nor the lights that need shadows changed. find_shadows then finds nothing.
-bool shadows_are_unchanged(Work& work, Cached<ShadowBits>& cache);
+bool shadows_are_unchanged(PassContext& work, Cached<ShadowBits>& cache);
 
 }  // namespace lightgrid

@@ -6,16 +6,16 @@
 namespace lightgrid {
 
 struct FrameStage {
-  void (*begin)(Work&, PassCaches&) = nullptr;  // once per frame
+  void (*begin)(PassContext&, PassCaches&) = nullptr;  // once per frame
   // Each time that the technique has shaded the frame. May change the image. Returns whether the frame must
   // be shaded again.
-  bool (*shaded)(Work&, PassCaches&, ShadedImage& image) = nullptr;
-  void (*end)(Work&, PassCaches&, Frame&) = nullptr;  // adds figures and readers
+  bool (*shaded)(PassContext&, PassCaches&, ShadedImage& image) = nullptr;
+  void (*end)(PassContext&, PassCaches&, Frame&) = nullptr;  // adds figures and readers
 };
 
 // All stages, in their order.
-void begin_stages(Work& work, PassCaches& caches);
-bool shade_again(Work& work, PassCaches& caches, ShadedImage& image);
-void end_stages(Work& work, PassCaches& caches, Frame& frame);
+void begin_stages(PassContext& work, PassCaches& caches);
+bool shade_again(PassContext& work, PassCaches& caches, ShadedImage& image);
+void end_stages(PassContext& work, PassCaches& caches, Frame& frame);
 
 }  // namespace lightgrid

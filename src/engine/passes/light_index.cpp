@@ -24,7 +24,7 @@ const Setting<bool> unpack_in_float{
 
 // Returns whether each sample has its own indices and is shaded separately: the article's technique 1 with
 // samples. In technique 2 a pixel has one list, of the lights in front of its farthest sample.
-bool has_samples(const Seen& seen) {
+bool has_samples(const ViewState& seen) {
   return seen.grid().samples > 1 && seen.plan.settings[setting::lidr_volumes] == LidrVolumes::stencil;
 }
 
@@ -34,7 +34,7 @@ struct IndexImages {
   GLuint own_depth = 0;  // 0: the frame's
 };
 
-IndexImages index_images(Work& work, const LightIndexLayout& layout) {
+IndexImages index_images(PassContext& work, const LightIndexLayout& layout) {
   IndexImages images;
   for (uint32_t i = 0; i < layout.targets(); ++i) {
     const std::string name = "light_index_" + std::to_string(i);
@@ -50,10 +50,12 @@ IndexImages index_images(Work& work, const LightIndexLayout& layout) {
   return images;
 }
 
-void draw_farthest_depth(Work& work, GLuint depth) {
+void draw_farthest_depth(PassContext& work, GLuint depth) {
   glBindFramebuffer(GL_FRAMEBUFFER, work.targets.framebuffer({}, depth));
   glViewport(0, 0, work.grid().width, work.grid().height);
-  glEnable(GL_DEPTH_TEST), glDepthFunc(GL_ALWAYS), glDepthMask(GL_TRUE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_ALWAYS);
+  glDepthMask(GL_TRUE);
   bind_sampler_object(Sampler::depth_image, 0);
   bind_texture(Sampler::depth_image, work.targets.depth());
   draw_screen(work.program("shaders/screen.vert", "shaders/farthest_depth.frag", {}));
@@ -68,12 +70,13 @@ void clear(const LightIndexLayout& layout, GLuint framebuffer, GLint stencil) {
 }
 
 // Returns whether lights are not written where they are hidden.
-bool drops_hidden(const Seen& seen) {
+bool drops_hidden(const ViewState& seen) {
   return seen.plan.shadows.own && seen.plan.settings[setting::lidr_shadows] != LidrShadows::final_pass;
 }
 
 // Where the stencil marks what is inside, hidden pixels get no mark. Discarding them later would leave one.
-IndexDrawing::Programs programs_of(Work& work, const LightIndexLayout& layout, const GlLightLoop* shadows) {
+IndexDrawing::Programs programs_of(PassContext& work, const LightIndexLayout& layout,
+                                   const GlLightLoop* shadows) {
   const auto program = [&](const std::vector<std::string>& more) {
     std::vector<std::string> defines = layout.defines();
     defines.insert(defines.end(), more.begin(), more.end());
@@ -86,8 +89,8 @@ IndexDrawing::Programs programs_of(Work& work, const LightIndexLayout& layout, c
 }
 
 // Draws the lights of one pass over the surfaces.
-void draw_volumes(Work& work, const LightIndexOrder& state, const LightVolumes& volumes, GLuint framebuffer,
-                  const IndexShadows* shadows, uint32_t pass) {
+void draw_volumes(PassContext& work, const LightIndexOrder& state, const LightVolumes& volumes,
+                  GLuint framebuffer, const IndexShadows* shadows, uint32_t pass) {
   const LightIndexLayout& layout = state.layout();
   std::optional<GlLightLoop> input;
   if (shadows) input = shadows->input(work);
@@ -96,7 +99,9 @@ void draw_volumes(Work& work, const LightIndexOrder& state, const LightVolumes& 
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, work.grid().width, work.grid().height);
   clear(layout, framebuffer, drawing.cleared_stencil());
-  glEnable(GL_DEPTH_TEST), glDepthMask(GL_FALSE), glEnable(GL_STENCIL_TEST);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_STENCIL_TEST);
   begin_light_indices(layout);
   for (const VolumeBatch& batch : state.batches().batches) {
     if (batch.pass != pass) continue;
@@ -110,21 +115,23 @@ void draw_volumes(Work& work, const LightIndexOrder& state, const LightVolumes& 
   volumes.end();
   end_light_indices();
   glStencilMask(255);
-  glDisable(GL_STENCIL_TEST), glCullFace(GL_BACK);
+  glDisable(GL_STENCIL_TEST);
+  glCullFace(GL_BACK);
 }
 
-bool may_repeat(const Seen& seen) {
+bool may_repeat(const ViewState& seen) {
   return seen.plan.settings[setting::lidr_volumes] != LidrVolumes::stencil;
 }
 
 // shadows: of lights that are listed where they are hidden too.
-GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::vector<GLuint>& images,
+GlLightLoop index_loop(PassContext& seen, const LightIndexLayout& layout, const std::vector<GLuint>& images,
                        const IndexShadows* shadows, bool points_alone) {
   GlLightLoop loop = light_loop(seen);
   if (shadows) {
     const GlLightLoop input = shadows->input(seen);
     loop.defines.insert(loop.defines.end(), input.defines.begin(), input.defines.end());
-    loop.textures = input.textures, loop.blocks = input.blocks;
+    loop.textures = input.textures;
+    loop.blocks = input.blocks;
   }
   for (std::string& define : layout.defines()) loop.defines.push_back(std::move(define));
   loop.defines.emplace_back("LIGHTS_LIDR");
@@ -139,7 +146,7 @@ GlLightLoop index_loop(Work& seen, const LightIndexLayout& layout, const std::ve
 
 // For read-outs of a frame with samples: images of one sample, drawn at pixels' centres.
 struct CentreImages {
-  CentreImages(Work& work, const LightIndexLayout& layout) : depth(depth_of_centres(work)) {
+  CentreImages(PassContext& work, const LightIndexLayout& layout) : depth(depth_of_centres(work)) {
     std::vector<GLuint> names;
     for (uint32_t i = 0; i < layout.targets(); ++i) {
       images.push_back(make_texture_2d(layout.format(), work.grid().width, work.grid().height));
@@ -153,7 +160,7 @@ struct CentreImages {
 };
 
 // redraw: draws the images of a pass into a framebuffer.
-ListedLights read_light_index(Work& work, const LightIndexOrder& state,
+ListedLights read_light_index(PassContext& work, const LightIndexOrder& state,
                               const std::function<void(uint32_t pass, GLuint framebuffer)>& redraw) {
   const LightIndexLayout& layout = state.layout();
   const size_t stride = layout.targets() * 4, pixels = work.grid().pixels();
@@ -184,7 +191,8 @@ ListedLights read_light_index(Work& work, const LightIndexOrder& state,
 
 }  // namespace
 
-uint32_t order_light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache) {
+uint32_t order_light_index(PassContext& work, Cached<LightIndexOrder>& cache,
+                           Cached<LightVolumes>& volume_cache) {
   auto pass = work.timer.pass("light_volumes", "gl");
   LightIndexOrder& state = cache.of(work);
   LightVolumes& volumes = volume_cache.of(work);
@@ -193,7 +201,7 @@ uint32_t order_light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<Li
   return uint32_t(state.batches().passes.size());
 }
 
-LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache,
+LightSource light_index(PassContext& work, Cached<LightIndexOrder>& cache, Cached<LightVolumes>& volume_cache,
                         Cached<IndexShadows>& shadow_cache, bool numbered, uint32_t number) {
   const LightIndexOrder& state = cache.of(work);
   const LightVolumes& volumes = volume_cache.of(work);
@@ -222,8 +230,8 @@ LightSource light_index(Work& work, Cached<LightIndexOrder>& cache, Cached<Light
       [&work, &state, draw](auto&) { return read_light_index(work, state, draw); });
 }
 
-void tell_index_shadows(Work& work, Cached<IndexShadows>& shadow_cache, Cached<LightVolumes>& volume_cache,
-                        Frame& frame) {
+void tell_index_shadows(PassContext& work, Cached<IndexShadows>& shadow_cache,
+                        Cached<LightVolumes>& volume_cache, Frame& frame) {
   if (!work.plan.shadows.own) return;
   const IndexShadows& shadows = shadow_cache.of(work);
   frame.shadows = [&] { return shadows.read(work, volume_cache.of(work)); };

@@ -12,14 +12,14 @@ namespace {
 
 // Scenes with more triangles than this hand over only the instances in view: what each frame does for every
 // instance and cluster that it leaves out then counts.
-constexpr size_t most_kept_triangles = 1 << 20;
+constexpr size_t max_kept_triangles = 1 << 20;
 
 const Material& material_of(const Scene& scene, int instance) {
   return scene.materials[scene.meshes[scene.instances[instance].mesh].material];
 }
 
 // All of the scene's opaque and masked instances, in scene order. Empty where they have more than
-// most_kept_triangles.
+// max_kept_triangles.
 std::vector<int> kept_instances(const Scene& scene) {
   std::vector<int> kept;
   size_t triangles = 0;
@@ -27,7 +27,7 @@ std::vector<int> kept_instances(const Scene& scene) {
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
     if (mesh.indices.empty() || material_of(scene, i).alpha_mode == AlphaMode::blend) continue;
     triangles += mesh.indices.size() / 3;
-    if (triangles > most_kept_triangles) return {};
+    if (triangles > max_kept_triangles) return {};
     kept.push_back(i);
   }
   return kept;
@@ -35,7 +35,7 @@ std::vector<int> kept_instances(const Scene& scene) {
 
 // Instances of the scene, in their order, as the resolve kernels read them. Replaces `records`, whose memory
 // is used again.
-void set_surface_instances(const Seen& seen, std::span<const int> instances,
+void set_surface_instances(const ViewState& seen, std::span<const int> instances,
                            std::vector<SurfaceInstance>& records) {
   records.resize(instances.size());
   for (size_t k = 0; k < instances.size(); ++k) {
@@ -60,7 +60,7 @@ void set_surface_instances(const Seen& seen, std::span<const int> instances,
 // Draws some of a view's instances, in this order.
 class InstanceRasterizer {
  public:
-  InstanceRasterizer(Work& work, bool drawing_order)
+  InstanceRasterizer(PassContext& work, bool drawing_order)
       : scene(work.gpu.in_raster(work.plan.settings[setting::texels])),
         raster(*scene, *work.renderer.kernels,
                {.shape = work.plan.settings[setting::kernel_shape],
@@ -70,7 +70,7 @@ class InstanceRasterizer {
 
   // Draws those of `listed` that are in `drawn`. Both have the same order. Triangle numbers, and what is
   // uploaded for them, stay as long as `listed` does. `listed` stays in place until the next follow().
-  void follow(Work& work, std::span<const int> listed, std::span<const int> drawn) {
+  void follow(PassContext& work, std::span<const int> listed, std::span<const int> drawn) {
     work.gpu.in_raster(work.plan.settings[setting::texels]);  // brings `scene` up to date
     if (shape_version_ != work.gpu.shape_version() || instances_version_ != work.gpu.instances_version() ||
         !std::ranges::equal(listed, known_)) {
@@ -82,11 +82,12 @@ class InstanceRasterizer {
       if (in_view) drawn = drawn.subspan(1);
     }
     raster.set_camera({work.grid(), work.view.clip_from_view, work.view.view_from_world, work.view.eye});
-    listed_ = listed, uploaded_ = false;
+    listed_ = listed;
+    uploaded_ = false;
   }
 
   // `surfaces`, of the instances that follow() was given.
-  void upload_surfaces(Work& work) {
+  void upload_surfaces(PassContext& work) {
     if (uploaded_) return;
     set_surface_instances(work, listed_, records_);
     surfaces.put(*work.renderer.cl, "uploading instances", records_);
@@ -100,7 +101,7 @@ class InstanceRasterizer {
   UploadedBuffer surfaces;
 
  private:
-  void set_instances(Work& work, std::span<const int> listed) {
+  void set_instances(PassContext& work, std::span<const int> listed) {
     std::vector<RasterInstance> instances;
     for (const int i : listed) {
       const Instance& instance = work.scene.instances[i];
@@ -111,7 +112,8 @@ class InstanceRasterizer {
     }
     raster.set_instances(instances);
     known_.assign(listed.begin(), listed.end());
-    shape_version_ = work.gpu.shape_version(), instances_version_ = work.gpu.instances_version();
+    shape_version_ = work.gpu.shape_version();
+    instances_version_ = work.gpu.instances_version();
   }
 
   int shape_version_ = -1, instances_version_ = -1;  // when the instances were set; -1: never
@@ -123,14 +125,16 @@ class InstanceRasterizer {
 
 class OpaqueTriangles : public PassCache {
  public:
-  explicit OpaqueTriangles(Work& work) : of(work, false), kept(kept_instances(work.scene)) { follow(work); }
-  bool follow(Work& work) override {
+  explicit OpaqueTriangles(PassContext& work) : of(work, false), kept(kept_instances(work.scene)) {
+    follow(work);
+  }
+  bool follow(PassContext& work) override {
     of.follow(work, instances(work), work.plan.surfaces.opaque);
     return true;
   }
-  void upload(Work& work) override { of.upload_surfaces(work); }
+  void upload(PassContext& work) override { of.upload_surfaces(work); }
   size_t memory_bytes() const override { return of.memory_bytes() + of.scene->memory_bytes(); }
-  std::span<const int> instances(const Seen& seen) const {
+  std::span<const int> instances(const ViewState& seen) const {
     return kept.empty() ? seen.plan.surfaces.opaque : kept;
   }
 
@@ -140,11 +144,16 @@ class OpaqueTriangles : public PassCache {
 
 class BlendedTriangleLists : public PassCache {
  public:
-  explicit BlendedTriangleLists(Work& work) : of(work, true) { upload(work); }
-  bool follow(Work&) override { return followed = false, true; }
-  void upload(Work& work) override {
-    if (!followed)
-      of.follow(work, work.plan.surfaces.blended, work.plan.surfaces.blended), of.upload_surfaces(work);
+  explicit BlendedTriangleLists(PassContext& work) : of(work, true) { upload(work); }
+  bool follow(PassContext&) override {
+    followed = false;
+    return true;
+  }
+  void upload(PassContext& work) override {
+    if (!followed) {
+      of.follow(work, work.plan.surfaces.blended, work.plan.surfaces.blended);
+      of.upload_surfaces(work);
+    }
     followed = true;
   }
   size_t memory_bytes() const override { return of.memory_bytes(); }
@@ -152,7 +161,7 @@ class BlendedTriangleLists : public PassCache {
   bool followed = false;
 };
 
-static Visibility draw(Work& work, PassCaches& caches) {
+static Visibility draw(PassContext& work, PassCaches& caches) {
   auto pass = work.timer.pass("rasterize", "cl");
   InstanceRasterizer& r = caches.opaque_triangles.of(work).of;
   const Visibility image = r.raster.draw([&] { caches.upload(work); });
@@ -160,7 +169,7 @@ static Visibility draw(Work& work, PassCaches& caches) {
   return image;
 }
 
-VisibilityBuffer rasterize(Work& work, PassCaches& caches) {
+VisibilityBuffer rasterize(PassContext& work, PassCaches& caches) {
   const Visibility image = draw(work, caches);
   OpaqueTriangles& opaque = caches.opaque_triangles.of(work);
   VisibilityBuffer visible{
@@ -169,7 +178,7 @@ VisibilityBuffer rasterize(Work& work, PassCaches& caches) {
   return visible;
 }
 
-BlendedTriangles list_blended(Work& work, Cached<BlendedTriangleLists>& cache) {
+BlendedTriangles list_blended(PassContext& work, Cached<BlendedTriangleLists>& cache) {
   auto pass = work.timer.pass("list_blended", "cl");
   BlendedTriangleLists& blended = cache.of(work);
   blended.upload(work);

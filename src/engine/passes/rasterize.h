@@ -24,7 +24,7 @@ struct VisibilityBuffer {
   TriangleBuffer triangles() const { return {pixels ? pixels->triangles : image.triangle, instances}; }
 };
 
-VisibilityBuffer rasterize(Work& work, PassCaches& caches);
+VisibilityBuffer rasterize(PassContext& work, PassCaches& caches);
 
 // The blended triangles of each tile in drawing order, and what their numbers lead to: until the view's next
 // list_blended().
@@ -35,6 +35,6 @@ struct BlendedTriangles {
   std::span<const int> instances;  // numbers in the scene
 };
 
-BlendedTriangles list_blended(Work& work, Cached<BlendedTriangleLists>& cache);
+BlendedTriangles list_blended(PassContext& work, Cached<BlendedTriangleLists>& cache);
 
 }  // namespace lightgrid

@@ -7,7 +7,7 @@
 namespace lightgrid {
 
 template <typename Pixel>
-HostPixels<Pixel>::HostPixels(Work& work, SharedBuffer* in_cl, GLuint framebuffer, GLenum type,
+HostPixels<Pixel>::HostPixels(PassContext& work, SharedBuffer* in_cl, GLuint framebuffer, GLenum type,
                               std::vector<Pixel>& copy)
     : copy_(copy) {
   auto pass = work.timer.pass(read_back_pass, in_cl ? "cl" : "gl");
@@ -38,16 +38,19 @@ template class HostPixels<glm::vec4>;
 template class HostPixels<glm::u8vec4>;
 
 static std::vector<glm::vec4>& sized(Image& image, const View& view) {
-  image.width = view.width, image.height = view.height;
+  image.width = view.width;
+  image.height = view.height;
   return image.pixels;
 }
 
-HostImage::HostImage(Work& work, const ShadedImage& shaded, Image& copy)
+HostImage::HostImage(PassContext& work, const ShadedImage& shaded, Image& copy)
     : HostPixels(work, shaded.in_cl, shaded.framebuffer, GL_FLOAT, sized(copy, work.view)) {}
 
-HostPicture::HostPicture(Work& work, const DisplayedImage& displayed, std::vector<glm::u8vec4>& copy)
+HostPicture::HostPicture(PassContext& work, const DisplayedImage& displayed, std::vector<glm::u8vec4>& copy)
     : HostPixels(work, displayed.in_cl, displayed.framebuffer, GL_UNSIGNED_BYTE, copy) {}
 
-void read_back(Work& work, const ShadedImage& shaded, Image& image) { HostImage(work, shaded, image).keep(); }
+void read_back(PassContext& work, const ShadedImage& shaded, Image& image) {
+  HostImage(work, shaded, image).keep();
+}
 
 }  // namespace lightgrid

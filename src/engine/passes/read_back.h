@@ -22,7 +22,8 @@ class HostPixels {
   void keep();
 
  protected:
-  HostPixels(Work& work, SharedBuffer* in_cl, GLuint framebuffer, GLenum type, std::vector<Pixel>& copy);
+  HostPixels(PassContext& work, SharedBuffer* in_cl, GLuint framebuffer, GLenum type,
+             std::vector<Pixel>& copy);
 
  private:
   std::vector<Pixel>& copy_;
@@ -31,15 +32,15 @@ class HostPixels {
 
 // Its light.
 struct HostImage : HostPixels<glm::vec4> {
-  HostImage(Work& work, const ShadedImage& shaded, Image& copy);
+  HostImage(PassContext& work, const ShadedImage& shaded, Image& copy);
 };
 
 // Its picture in bytes (passes/tone_map.h).
 struct HostPicture : HostPixels<glm::u8vec4> {
-  HostPicture(Work& work, const DisplayedImage& displayed, std::vector<glm::u8vec4>& copy);
+  HostPicture(PassContext& work, const DisplayedImage& displayed, std::vector<glm::u8vec4>& copy);
 };
 
 // Copies the image to the host.
-void read_back(Work& work, const ShadedImage& shaded, Image& image);
+void read_back(PassContext& work, const ShadedImage& shaded, Image& image);
 
 }  // namespace lightgrid

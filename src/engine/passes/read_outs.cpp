@@ -18,8 +18,12 @@ bool sees_plane(float centre, const float* samples, std::span<const glm::ivec2> 
   double xx = 0, xy = 0, yy = 0, xd = 0, yd = 0, most = centre;
   for (size_t s = 0; s < places.size(); ++s) {
     const double x = places[s].x, y = places[s].y, d = double(samples[s]) - centre;
-    xx += x * x, xy += x * y, yy += y * y, xd += x * d, yd += y * d,
-        most = std::max(most, double(samples[s]));
+    xx += x * x;
+    xy += x * y;
+    yy += y * y;
+    xd += x * d;
+    yd += y * d;
+    most = std::max(most, double(samples[s]));
   }
   // The gradient of least squares; of two samples the one along their line.
   const double determinant = xx * yy - xy * xy;
@@ -34,7 +38,7 @@ bool sees_plane(float centre, const float* samples, std::span<const glm::ivec2> 
   return centre != 0;
 }
 
-std::vector<float> read_depth_of_samples(Work& work) {
+std::vector<float> read_depth_of_samples(PassContext& work) {
   SharedBuffer& copy = work.shared_samples("depth", 4);
   work.renderer.pixel_copies.to_buffer({work.depth_framebuffer(), GL_DEPTH_ATTACHMENT, work.targets.depth()},
                                        GL_DEPTH_COMPONENT, GL_FLOAT, work.grid(), copy.gl_buffer());
@@ -53,7 +57,7 @@ std::vector<float> read_depth_of_samples(Work& work) {
 
 }  // namespace
 
-std::vector<float> read_depth(Work& work) {
+std::vector<float> read_depth(PassContext& work) {
   if (work.grid().samples > 1) return read_depth_of_samples(work);
   std::vector<float> depth(work.grid().values());
   glBindFramebuffer(GL_READ_FRAMEBUFFER, work.depth_framebuffer());
@@ -61,7 +65,7 @@ std::vector<float> read_depth(Work& work) {
   return depth;
 }
 
-std::vector<uint32_t> indices_drawn(Work& work, const std::function<void()>& draw) {
+std::vector<uint32_t> indices_drawn(PassContext& work, const std::function<void()>& draw) {
   const int width = work.grid().width, height = work.grid().height;
   const GlTexture target = make_texture_2d(GL_R32UI, width, height);
   const GlTexture of_centres = depth_of_centres(work);
@@ -82,13 +86,13 @@ std::vector<uint32_t> indices_drawn(Work& work, const std::function<void()>& dra
 
 namespace {
 
-std::vector<std::string> slice_defines(const Seen& seen) {
+std::vector<std::string> slice_defines(const ViewState& seen) {
   return seen.plan.lists.slices > 1 ? std::vector<std::string>{"SLICES"} : std::vector<std::string>{};
 }
 
 }  // namespace
 
-std::vector<uint32_t> shaded_cells(Work& work) {
+std::vector<uint32_t> shaded_cells(PassContext& work) {
   return indices_drawn(work, [&] {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_EQUAL);
@@ -99,7 +103,7 @@ std::vector<uint32_t> shaded_cells(Work& work) {
   });
 }
 
-std::vector<uint32_t> cells_at_depths(Work& work, const std::vector<float>& depths) {
+std::vector<uint32_t> cells_at_depths(PassContext& work, const std::vector<float>& depths) {
   const GlTexture texture = make_texture_2d(GL_R32F, work.grid().width, work.grid().height);
   glTextureSubImage2D(texture.name(), 0, 0, 0, work.grid().width, work.grid().height, GL_RED, GL_FLOAT,
                       depths.data());
@@ -133,7 +137,7 @@ uint32_t PixelCells::cell(int x, int y, int slice) const {
   return cell_in_slice(cell_of_pixel(uint(x), uint(y), tile_, across_), uint(slice), across_, down_);
 }
 
-PixelCells cells_of_pixels(const Seen& seen, const std::vector<float>& depth) {
+PixelCells cells_of_pixels(const ViewState& seen, const std::vector<float>& depth) {
   return {cull_view(seen.view, seen.plan), depth, seen.params.tile_size, seen.params.tiles_x,
           seen.params.tiles_y};
 }
@@ -165,7 +169,7 @@ struct MoreImages {
 
 // Images over the frame's depth, cleared and bound: three, two of coats, one of models, one of reflectance.
 struct SurfaceTargets {
-  SurfaceTargets(Work& work, MoreImages more) : width(work.view.width), height(work.view.height) {
+  SurfaceTargets(PassContext& work, MoreImages more) : width(work.view.width), height(work.view.height) {
     std::vector<GLuint> names;
     for (int i = 0; i < 3 + 2 * more.coats + more.models + more.specular; ++i) {
       textures.push_back(make_texture_2d(GL_RGBA32F, width, height));
@@ -202,7 +206,11 @@ template <typename Read>
 SurfaceImages surface_images_of(MoreImages more, const Read& read) {
   SurfaceImages s{.normal_roughness = read(0), .base_color_metallic = read(1), .emissive_occlusion = read(2)};
   size_t next = 3;
-  if (more.coats) s.coat_normal_roughness = read(next), s.coat_factor = read(next + 1), next += 2;
+  if (more.coats) {
+    s.coat_normal_roughness = read(next);
+    s.coat_factor = read(next + 1);
+    next += 2;
+  }
   if (more.models) s.model = read(next++);
   if (more.specular) s.specular = read(next);
   return s;
@@ -210,7 +218,7 @@ SurfaceImages surface_images_of(MoreImages more, const Read& read) {
 
 }  // namespace
 
-SurfaceImages read_surfaces(Work& work) {
+SurfaceImages read_surfaces(PassContext& work) {
   const MoreImages more{.coats = (work.plan.surfaces.features & feature_clearcoat) != 0,
                         .models = (work.plan.surfaces.features & (feature_skin | feature_minnaert)) != 0,
                         .specular = (work.plan.surfaces.features & feature_specular) != 0};
@@ -241,7 +249,7 @@ SurfaceImages read_surfaces(Work& work) {
   return surfaces;
 }
 
-SurfaceImages read_gbuffer_surfaces(Work& work) {
+SurfaceImages read_gbuffer_surfaces(PassContext& work) {
   const MoreImages more{.coats = work.plan.surfaces.clearcoat,
                         .models = work.plan.surfaces.skin || work.plan.surfaces.minnaert,
                         .specular = work.plan.surfaces.specular};
@@ -261,7 +269,7 @@ namespace {
 // Two numbers a pixel over the frame's depth: the instance, and the triangle's place in the scene's indices.
 class TriangleTarget {
  public:
-  explicit TriangleTarget(Work& work)
+  explicit TriangleTarget(PassContext& work)
       : work_(work),
         texture_(make_texture_2d(GL_RG32UI, work.grid().width, work.grid().height)),
         centres_(depth_of_centres(work)),
@@ -287,14 +295,14 @@ class TriangleTarget {
   static constexpr GLuint none = 0xffffffffu;
 
  private:
-  Work& work_;
+  PassContext& work_;
   GlTexture texture_, centres_;
   GlFramebuffer framebuffer_;
 };
 
 }  // namespace
 
-ShownTriangles read_triangles(Work& work) {
+ShownTriangles read_triangles(PassContext& work) {
   TriangleTarget target(work);
   const std::vector<uint32_t> indices = work.gpu.in_gl().read_indices();
   ShownTriangles shown;

@@ -18,19 +18,19 @@ namespace lightgrid {
 
 // The depth image of the last frame: width * height, row 0 at the bottom, 0 for background. With several
 // samples a pixel: at centres, and 0 too where samples and centre do not see one plane.
-std::vector<float> read_depth(Work& work);
+std::vector<float> read_depth(PassContext& work);
 
 inline constexpr uint32_t no_cell = 0xffffffffu;
 
 // The unsigned integer that `draw` writes at each pixel, else no_cell. Uses the depth image of the last
 // frame.
-std::vector<uint32_t> indices_drawn(Work& work, const std::function<void()>& draw);
+std::vector<uint32_t> indices_drawn(PassContext& work, const std::function<void()>& draw);
 
 // The cell of each pixel that shows an opaque surface, else no_cell. Uses the depth image of the last frame.
-std::vector<uint32_t> shaded_cells(Work& work);
+std::vector<uint32_t> shaded_cells(PassContext& work);
 
 // The cell of each pixel if it had the given depth, as shaders find it.
-std::vector<uint32_t> cells_at_depths(Work& work, const std::vector<float>& depths);
+std::vector<uint32_t> cells_at_depths(PassContext& work, const std::vector<float>& depths);
 
 // The cells of a light grid that pixels read: compares the depths themselves with the edges' keys
 // (shared/slices.h). `view`: with the grid's slices and z-bins. `depth`: a value a pixel of the view, row 0
@@ -54,7 +54,7 @@ class PixelCells {
   std::array<float, MOST_SLICES> slices_;
   std::array<float, MOST_Z_BINS> z_bins_;
 };
-PixelCells cells_of_pixels(const Seen& seen, const std::vector<float>& depth);
+PixelCells cells_of_pixels(const ViewState& seen, const std::vector<float>& depth);
 
 // The lists of a grid's cells with each pixel's cell, as the oracle reads them. With z-bins (a word a light,
 // shared/slices.h), each pair of a cell and a z-bin that occurs at a pixel has its own list: the cell's
@@ -73,10 +73,10 @@ struct SurfaceImages {
 };
 
 // Draws and reads them. Uses the depth image of the last frame.
-SurfaceImages read_surfaces(Work& work);
+SurfaceImages read_surfaces(PassContext& work);
 
 // The surfaces of the last frame from its geometry buffer; without emission and blended surfaces.
-SurfaceImages read_gbuffer_surfaces(Work& work);
+SurfaceImages read_gbuffer_surfaces(PassContext& work);
 
 // A triangle by what it connects and which way it turns, so that two drawings of a mesh in different orders
 // can be compared.
@@ -97,6 +97,6 @@ struct ShownTriangles {
 };
 
 // Draws and reads them. Uses the depth image of the last frame.
-ShownTriangles read_triangles(Work& work);
+ShownTriangles read_triangles(PassContext& work);
 
 }  // namespace lightgrid

@@ -31,13 +31,16 @@ ClArguments source_arguments(const ClLightLoop& loop) {
 // The image and the kernels.
 class Resolver : public PassCache {
  public:
-  explicit Resolver(Work& work) : image(work.shared_pixels("image", 16)), kernels_(work, "resolve") {
+  explicit Resolver(PassContext& work) : image(work.shared_pixels("image", 16)), kernels_(work, "resolve") {
     upload(work);
   }
 
-  bool follow(Work&) override { return uploaded_ = false, true; }
+  bool follow(PassContext&) override {
+    uploaded_ = false;
+    return true;
+  }
 
-  void upload(Work& work) override {
+  void upload(PassContext& work) override {
     if (uploaded_) return;
     kernels_.use(resolve_defines(work));
     work.cl_lights();
@@ -48,19 +51,19 @@ class Resolver : public PassCache {
 
   // NVIDIA's compiler gives these kernels 80 registers and more. Then too few groups run side by side to hide
   // the memory's latency.
-  NamedKernel& kernel(Work& work, const char* stem, const std::string& more_defines = "") {
+  NamedKernel& kernel(PassContext& work, const char* stem, const std::string& more_defines = "") {
     const bool limit = work.renderer.cl->info().platform == "NVIDIA CUDA";
     return kernels_.of(stem, more_defines + (limit ? " -cl-nv-maxrregcount=64" : ""));
   }
 
-  const ClScene& scene(Work& work) {
+  const ClScene& scene(PassContext& work) {
     const ClScene& scene = work.gpu.in_cl(work.plan.settings[setting::texels]);
     scene_bytes_ = scene.memory_bytes();
     return scene;
   }
 
   // RESOLVE_ARGUMENTS of kernels/resolve/resolve_light.h.
-  ClArguments arguments(Work& work, const RasterBuffers& raster, const cl::Buffer& surfaces,
+  ClArguments arguments(PassContext& work, const RasterBuffers& raster, const cl::Buffer& surfaces,
                         const ClLightLoop& loop = {}) {
     const ClScene& s = scene(work);
     const ClLights& lights = work.cl_lights();
@@ -81,8 +84,10 @@ class Resolver : public PassCache {
   }
 
   bool lanes() const { return kernels_.lanes; }
-  PixelRange pixels(const Seen& seen) const { return over_pixels(seen, lanes(), group_width, group_height); }
-  void launch(Work& work, NamedKernel& kernel, const char* label, const ClArguments& arguments) const {
+  PixelRange pixels(const ViewState& seen) const {
+    return over_pixels(seen, lanes(), group_width, group_height);
+  }
+  void launch(PassContext& work, NamedKernel& kernel, const char* label, const ClArguments& arguments) const {
     const auto [items, group] = pixels(work);
     kernel.launch(*work.renderer.cl, label, items, group, arguments);
   }
@@ -91,7 +96,7 @@ class Resolver : public PassCache {
 
  private:
   // Material code by what the scene has, not the view: a camera that turns compiles nothing.
-  std::string resolve_defines(Work& work) {
+  std::string resolve_defines(PassContext& work) {
     std::string defines = light_defines(work, lanes(), work.plan.settings[setting::brdf]);
     if (work.plan.lights.any_directional) defines += " -DDIRECTIONAL";
     for (const Effect* effect : work.plan.effects) {
@@ -134,7 +139,7 @@ ClArguments surface_numbers_out(SharedBuffer* numbers) {
   return numbers ? ClArguments{{"surface_numbers", numbers->cl_buffer()}} : ClArguments();
 }
 
-Resolver& resolving(Work& work, Cached<Resolver>& cache) {
+Resolver& resolving(PassContext& work, Cached<Resolver>& cache) {
   Resolver& r = cache.of(work);
   r.upload(work);
   return r;
@@ -145,7 +150,7 @@ std::string specular_define(const Settings& settings) {
   return define ? fmt::format(" -D{}", define) : "";
 }
 
-cl_float4 background(const Seen& seen) {
+cl_float4 background(const ViewState& seen) {
   const glm::vec3& background = seen.scene.background;
   return {{background.r, background.g, background.b, 1}};
 }
@@ -161,13 +166,13 @@ struct ResolveOutput {
   const LightSource* lights = nullptr;  // null: it reads no lists
 };
 
-static ClArguments common_arguments(Work& work, Resolver& r, const VisibilityBuffer& visible,
+static ClArguments common_arguments(PassContext& work, Resolver& r, const VisibilityBuffer& visible,
                                     const ResolveOutput& output) {
   return r.arguments(work, visible.raster, visible.surfaces,
                      output.lights ? *output.lights->in_cl : ClLightLoop());
 }
 
-static void over_image(Work& work, Resolver& r, const VisibilityBuffer& visible,
+static void over_image(PassContext& work, Resolver& r, const VisibilityBuffer& visible,
                        const ResolveOutput& output) {
   NamedKernel& kernel = r.kernel(work, "resolve", output.defines);
   auto pass = work.timer.pass(output.label, "cl");
@@ -180,8 +185,9 @@ static void over_image(Work& work, Resolver& r, const VisibilityBuffer& visible,
 
 // Pixels whose samples see several surfaces; others keep what over_image() wrote. traced: arguments that come
 // first.
-static void over_edges(Work& work, Resolver& r, const VisibilityBuffer& visible, const ResolveOutput& output,
-                       const std::string& more_defines = "", const ClArguments& traced = {}) {
+static void over_edges(PassContext& work, Resolver& r, const VisibilityBuffer& visible,
+                       const ResolveOutput& output, const std::string& more_defines = "",
+                       const ClArguments& traced = {}) {
   if (!visible.pixels) return;
   const std::string label = std::string(output.label) + "_edges";
   NamedKernel& kernel = r.kernel(work, "resolve_edges", output.defines + more_defines);
@@ -202,7 +208,7 @@ static std::string averages(const Settings& settings) {
   return define ? fmt::format(" -D{}", define) : "";
 }
 
-ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+ShadedImage resolve(PassContext& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                     const LightSource& lights) {
   Resolver& r = resolving(work, cache);
   const ResolveOutput output{"resolve",
@@ -221,7 +227,7 @@ ShadedImage resolve(Work& work, Cached<Resolver>& cache, const VisibilityBuffer&
 }
 
 // The images that the kernels write.
-static ClArguments images_out(const Work& work, const GBufferInCl& g) {
+static ClArguments images_out(const PassContext& work, const GBufferInCl& g) {
   return ClArguments{
              {"background", background(work)},
              {"first", g.surfaces[0]->cl_buffer()},
@@ -232,7 +238,7 @@ static ClArguments images_out(const Work& work, const GBufferInCl& g) {
          surface_numbers_out(g.surface_numbers);
 }
 
-GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+GBufferInCl resolve_gbuffer(PassContext& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                             BaseLighting base_lighting) {
   Resolver& r = resolving(work, cache);
   GBufferInCl g = gbuffer_in_cl_of(work, base_lighting, TargetUse::gbuffer);
@@ -248,7 +254,7 @@ GBufferInCl resolve_gbuffer(Work& work, Cached<Resolver>& cache, const Visibilit
   return g;
 }
 
-NormalsInCl resolve_normals(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible) {
+NormalsInCl resolve_normals(PassContext& work, Cached<Resolver>& cache, const VisibilityBuffer& visible) {
   Resolver& r = resolving(work, cache);
   NormalsInCl normals = normals_in_cl_of(work, TargetUse::gbuffer);
   const char* define = normals.layout->define;
@@ -264,7 +270,7 @@ NormalsInCl resolve_normals(Work& work, Cached<Resolver>& cache, const Visibilit
   return normals;
 }
 
-ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+ShadedImage resolve_materials(PassContext& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                               const LightBufferInCl& sums) {
   Resolver& r = resolving(work, cache);
   const Settings& s = work.plan.settings;
@@ -287,7 +293,7 @@ ShadedImage resolve_materials(Work& work, Cached<Resolver>& cache, const Visibil
   return {0, &r.image};
 }
 
-ReflectedLight resolve_reflected(Work& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
+ReflectedLight resolve_reflected(PassContext& work, Cached<Resolver>& cache, const VisibilityBuffer& visible,
                                  uint32_t light) {
   Resolver& r = resolving(work, cache);
   const ReflectedLight reflected{&work.shared_pixels("reflected flux", 16),
@@ -303,7 +309,7 @@ ReflectedLight resolve_reflected(Work& work, Cached<Resolver>& cache, const Visi
   return reflected;
 }
 
-void blend_resolved(Work& work, Cached<Resolver>& cache, const BlendedTriangles& blended,
+void blend_resolved(PassContext& work, Cached<Resolver>& cache, const BlendedTriangles& blended,
                     const DepthBuffer& depth, const LightSource& lights) {
   Resolver& r = resolving(work, cache);
   NamedKernel& kernel = r.kernel(work, "blend", lights.in_cl->defines + sample_defines(work.grid().samples));

@@ -18,13 +18,14 @@ const char* average_define(const Settings& settings) {
   return nullptr;
 }
 
-ShadedImage resolve_samples(Work& work, const ShadedImage& image) {
+ShadedImage resolve_samples(PassContext& work, const ShadedImage& image) {
   if (image.in_cl || work.grid().samples == 1) return image;
   auto pass = work.timer.pass("resolve_samples", "gl");
   const ShadedImage resolved{work.targets.framebuffer({work.targets.resolved("resolved", GL_RGBA32F)}, 0)};
   glBindFramebuffer(GL_FRAMEBUFFER, resolved.framebuffer);
   glViewport(0, 0, work.grid().width, work.grid().height);
-  glDisable(GL_DEPTH_TEST), glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
   bind_sampler_object(Sampler::image, 0);
   bind_texture(Sampler::image, work.targets.texture("color", GL_RGBA32F));
   std::vector<std::string> defines;
@@ -34,7 +35,7 @@ ShadedImage resolve_samples(Work& work, const ShadedImage& image) {
   return resolved;
 }
 
-static bool average(Work& work, PassCaches&, ShadedImage& image) {
+static bool average(PassContext& work, PassCaches&, ShadedImage& image) {
   image = resolve_samples(work, image);
   return false;
 }

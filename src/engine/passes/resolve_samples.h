@@ -9,6 +9,6 @@ namespace lightgrid {
 const char* average_define(const Settings& settings);
 
 // The image itself where it has one sample a pixel.
-ShadedImage resolve_samples(Work& work, const ShadedImage& image);
+ShadedImage resolve_samples(PassContext& work, const ShadedImage& image);
 
 }  // namespace lightgrid

@@ -14,12 +14,12 @@ namespace lightgrid {
 // The kernel and its result.
 class SampleEdges : public PassCache {
  public:
-  explicit SampleEdges(Work& work) : kernels_(work, "resolve") {}
+  explicit SampleEdges(PassContext& work) : kernels_(work, "resolve") {}
 
-  bool follow(Work&) override { return true; }
+  bool follow(PassContext&) override { return true; }
   size_t memory_bytes() const override { return edges_.bytes(); }
 
-  cl::Buffer find(Work& work, const StoredSurfaces& surfaces, const DepthBuffer& depth) {
+  cl::Buffer find(PassContext& work, const StoredSurfaces& surfaces, const DepthBuffer& depth) {
     constexpr size_t group = 64;
     const size_t pixels = work.grid().pixels(), groups = pixels / group + 1;
     const size_t values = groups * group / 16;
@@ -52,7 +52,7 @@ class SampleEdges : public PassCache {
 };
 
 // The figures of these edges; null: all pixels are at one. bytes: of all images. Waits.
-static SampleFigures figures_of_edges(Work& work, const cl::Buffer& edges, const DepthBuffer& depth,
+static SampleFigures figures_of_edges(PassContext& work, const cl::Buffer& edges, const DepthBuffer& depth,
                                       size_t bytes) {
   const PixelGrid grid = work.grid();
   const size_t samples = size_t(grid.samples);
@@ -78,7 +78,7 @@ static SampleFigures figures_of_edges(Work& work, const cl::Buffer& edges, const
   return figures;
 }
 
-cl::Buffer sample_edges(Work& work, Cached<SampleEdges>& cache, const StoredSurfaces& surfaces,
+cl::Buffer sample_edges(PassContext& work, Cached<SampleEdges>& cache, const StoredSurfaces& surfaces,
                         const DepthBuffer& depth, size_t bytes_a_sample, Frame& frame) {
   if (work.grid().samples == 1) return {};
   cl::Buffer edges;

@@ -17,7 +17,7 @@ struct StoredSurfaces {
 
 // A bit a pixel, 16 in a ushort: 1 at edges (kernels/resolve/sample_edges.h). Null with one sample a pixel,
 // and with samples-shading=all, where every sample is shaded. Of several samples the frame gets the figures.
-cl::Buffer sample_edges(Work& work, Cached<SampleEdges>& cache, const StoredSurfaces& surfaces,
+cl::Buffer sample_edges(PassContext& work, Cached<SampleEdges>& cache, const StoredSurfaces& surfaces,
                         const DepthBuffer& depth, size_t bytes_a_sample, Frame& frame);
 
 }  // namespace lightgrid

@@ -11,12 +11,15 @@
 
 namespace lightgrid {
 
-static ShadedImage shade_opaque(Work& work, const DrawList& surfaces, const LightSource& lights,
+static ShadedImage shade_opaque(PassContext& work, const DrawList& surfaces, const LightSource& lights,
                                 bool depth_too) {
   const GlLightLoop& loop = lights.in_gl();
   auto pass = work.timer.pass("shade_forward", "gl");
   const ShadedImage image = begin_shading(work);
-  if (depth_too) glDepthFunc(GL_GEQUAL), glDepthMask(GL_TRUE);
+  if (depth_too) {
+    glDepthFunc(GL_GEQUAL);
+    glDepthMask(GL_TRUE);
+  }
   glDisable(GL_BLEND);
   loop.bind(work);
   draw_list(work, surfaces, DrawStreams::all,
@@ -27,17 +30,17 @@ static ShadedImage shade_opaque(Work& work, const DrawList& surfaces, const Ligh
   return image;
 }
 
-ShadedImage shade_forward(Work& work, const DrawList& surfaces, const LightSource& lights) {
+ShadedImage shade_forward(PassContext& work, const DrawList& surfaces, const LightSource& lights) {
   return shade_opaque(work, surfaces, lights, false);
 }
 
-ShadedImage shade_forward_and_depth(Work& work, const DrawList& surfaces, const LightSource& lights) {
+ShadedImage shade_forward_and_depth(PassContext& work, const DrawList& surfaces, const LightSource& lights) {
   return shade_opaque(work, surfaces, lights, true);
 }
 
 // If surfaces have the same depth, the last is visible, and only it gets light: all are drawn last to first,
 // and the stencil lets a pixel take one.
-void add_lights_forward(Work& work, const DrawList& surfaces, const LightSource& lights,
+void add_lights_forward(PassContext& work, const DrawList& surfaces, const LightSource& lights,
                         const ShadedImage& image) {
   GlLightLoop loop = lights.in_gl();
   loop.defines.emplace_back("ADDED");
@@ -46,8 +49,12 @@ void add_lights_forward(Work& work, const DrawList& surfaces, const LightSource&
   const GLint none = 0;
   glStencilMask(255);
   glClearNamedFramebufferiv(image.framebuffer, GL_STENCIL, 0, &none);
-  glEnable(GL_STENCIL_TEST), glStencilFunc(GL_EQUAL, 0, 255), glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
-  glEnable(GL_DEPTH_TEST), glDepthFunc(GL_EQUAL), glDepthMask(GL_FALSE);
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_EQUAL, 0, 255);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_EQUAL);
+  glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
@@ -56,7 +63,8 @@ void add_lights_forward(Work& work, const DrawList& surfaces, const LightSource&
   for (DrawItem& item : last_to_first) item.ranges = in_reverse(item.ranges, work.gpu.in_gl());
   draw_list(work, last_to_first, DrawStreams::all,
             work.programs({"shaders/scene.vert", "shaders/forward.frag", loop.defines}));
-  glDisable(GL_BLEND), glDisable(GL_STENCIL_TEST);
+  glDisable(GL_BLEND);
+  glDisable(GL_STENCIL_TEST);
   pass.moves(work.gpu.in_gl().geometry_bytes() + work.grid().values() * 21 + lights.bytes,
              work.grid().values() * 17);
 }
@@ -65,7 +73,7 @@ namespace {
 
 uint32_t features_of_limit(uint32_t features) { return features & features_of_base_color; }
 
-void limit_behind_opaque(Work& work) {
+void limit_behind_opaque(PassContext& work) {
   ScenePrograms& programs =
       work.programs({"shaders/scene.vert", "shaders/depth.frag", {"LIMIT"}, true, features_of_limit});
   InstanceDrawer drawer(work, DrawStreams::all);
@@ -80,7 +88,7 @@ void limit_behind_opaque(Work& work) {
 }
 
 template <typename Draw>
-void blend(Work& work, const ShadedImage& image, const LightSource& lights, const Draw& draw) {
+void blend(PassContext& work, const ShadedImage& image, const LightSource& lights, const Draw& draw) {
   if (!work.plan.surfaces.blend) return;
   const GlLightLoop& loop = lights.in_gl();
   auto pass = work.timer.pass("shade_blended", "gl");
@@ -102,12 +110,12 @@ void blend(Work& work, const ShadedImage& image, const LightSource& lights, cons
 
 }  // namespace
 
-void shade_blended(Work& work, const ShadedImage& image, const LightSource& lights) {
+void shade_blended(PassContext& work, const ShadedImage& image, const LightSource& lights) {
   blend(work, image, lights,
         [&](ScenePrograms& programs) { draw_list(work, work.blended, DrawStreams::all, programs); });
 }
 
-void shade_blended(Work& work, const ShadedImage& image, const ObjectLights& objects) {
+void shade_blended(PassContext& work, const ShadedImage& image, const ObjectLights& objects) {
   blend(work, image, from_objects(work, objects), [&](ScenePrograms& programs) {
     InstanceDrawer drawer(work, DrawStreams::all);
     for (const ObjectLights::Object& object : objects.objects()) {

@@ -7,18 +7,18 @@
 namespace lightgrid {
 
 // Shades opaque surfaces with each pixel's lights, at the prepass' depth.
-ShadedImage shade_forward(Work& work, const DrawList& surfaces, const LightSource& lights);
+ShadedImage shade_forward(PassContext& work, const DrawList& surfaces, const LightSource& lights);
 
 // The same without a prepass: finds the depth as well. The nearest surface is shown, of equal ones the last.
-ShadedImage shade_forward_and_depth(Work& work, const DrawList& surfaces, const LightSource& lights);
+ShadedImage shade_forward_and_depth(PassContext& work, const DrawList& surfaces, const LightSource& lights);
 
 // Adds these point and spot lights to an image of shade_forward, in another pass over the surfaces. Counts in
 // the stencil of the depth image. Requires reversed triangles.
-void add_lights_forward(Work& work, const DrawList& surfaces, const LightSource& lights,
+void add_lights_forward(PassContext& work, const DrawList& surfaces, const LightSource& lights,
                         const ShadedImage& image);
 
 // The image, cleared to the background and ready for surfaces at the prepass' depth.
-inline ShadedImage begin_shading(Work& work) {
+inline ShadedImage begin_shading(PassContext& work) {
   const ShadedImage image{work.color_framebuffer()};
   glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
   const float background[4] = {work.scene.background.r, work.scene.background.g, work.scene.background.b, 1};
@@ -32,10 +32,10 @@ inline ShadedImage begin_shading(Work& work) {
 class ObjectLights;
 
 // Blends blended surfaces over the image, back to front.
-void shade_blended(Work& work, const ShadedImage& image, const LightSource& lights);
+void shade_blended(PassContext& work, const ShadedImage& image, const LightSource& lights);
 
 // The same with lights by object, each object in one draw with all of its lights: a second draw would blend
 // the surface over itself.
-void shade_blended(Work& work, const ShadedImage& image, const ObjectLights& objects);
+void shade_blended(PassContext& work, const ShadedImage& image, const ObjectLights& objects);
 
 }  // namespace lightgrid

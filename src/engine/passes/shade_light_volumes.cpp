@@ -15,7 +15,7 @@ constexpr uint32_t lights_a_mark = 48;
 
 // Draws the marks of all lights in batches, and calls visit(pixel, light) for each shader invocation.
 template <typename Visit>
-void visit_pairs(Work& work, Cached<LightVolumes>& cache, const Visit& visit) {
+void visit_pairs(PassContext& work, Cached<LightVolumes>& cache, const Visit& visit) {
   const GlTexture centres = depth_of_centres(work);
   const GLuint depth = centres ? centres.name() : work.targets.depth();
   const int width = work.view.width, height = work.view.height;
@@ -48,10 +48,11 @@ void visit_pairs(Work& work, Cached<LightVolumes>& cache, const Visit& visit) {
   glDisable(GL_BLEND);
 }
 
-ListedLights read_pairs(Work& work, Cached<LightVolumes>& cache) {
+ListedLights read_pairs(PassContext& work, Cached<LightVolumes>& cache) {
   ListedLights lists;
   const size_t pixels = work.grid().pixels();
-  lists.count.resize(pixels), lists.cell_of_pixel.resize(pixels);
+  lists.count.resize(pixels);
+  lists.cell_of_pixel.resize(pixels);
   if (!work.plan.lights.any_local) return list_every_light(0);
   visit_pairs(work, cache, [&](size_t pixel, uint32_t) { ++lists.count[pixel]; });
   std::iota(lists.cell_of_pixel.begin(), lists.cell_of_pixel.end(), 0u);
@@ -62,7 +63,7 @@ ListedLights read_pairs(Work& work, Cached<LightVolumes>& cache) {
 }
 
 // Draws all lights with a fragment shader that adds what each does. bind: its inputs.
-void add_lights(Work& work, LightVolumes& volumes, GLuint framebuffer, const char* fragment,
+void add_lights(PassContext& work, LightVolumes& volumes, GLuint framebuffer, const char* fragment,
                 const std::vector<std::string>& defines, const auto& bind) {
   volumes.update(work);
   std::vector<std::string> all = light_loop(work).defines;
@@ -78,7 +79,7 @@ void add_lights(Work& work, LightVolumes& volumes, GLuint framebuffer, const cha
 
 }  // namespace
 
-void shade_light_volumes(Work& work, Cached<LightVolumes>& cache, const GBuffer& gbuffer) {
+void shade_light_volumes(PassContext& work, Cached<LightVolumes>& cache, const GBuffer& gbuffer) {
   if (!work.plan.lights.any_local) return;
   auto pass = work.timer.pass("shade_light_volumes", "gl");
   add_lights(work, cache.of(work), gbuffer.image.framebuffer, "shaders/deferred_light.frag",
@@ -87,11 +88,11 @@ void shade_light_volumes(Work& work, Cached<LightVolumes>& cache, const GBuffer&
   pass.moves(values * (4 + 16 + gbuffer.bytes()), values * 16);
 }
 
-HostLists listed_of_light_volumes(Work& work, Cached<LightVolumes>& cache) {
+HostLists listed_of_light_volumes(PassContext& work, Cached<LightVolumes>& cache) {
   return [&work, &cache](auto&) { return read_pairs(work, cache); };
 }
 
-LightBuffer draw_light_buffer(Work& work, Cached<LightVolumes>& cache, const NormalImage& normals) {
+LightBuffer draw_light_buffer(PassContext& work, Cached<LightVolumes>& cache, const NormalImage& normals) {
   auto pass = work.timer.pass("draw_light_buffer", "gl");
   const LightBuffer buffer = light_buffer_of(work);
   std::vector<GLuint> images = {buffer.first};

@@ -25,12 +25,12 @@ struct ObjectPrograms {
   ScenePrograms& base_and_lights;  // with the first of the object's
   ScenePrograms& lights;           // with further ones alone
 
-  static ScenePrograms& of(Work& work, const GlLightLoop& loop, const char* define) {
+  static ScenePrograms& of(PassContext& work, const GlLightLoop& loop, const char* define) {
     std::vector<std::string> defines = loop.defines;
     defines.emplace_back(define);
     return work.programs({"shaders/scene.vert", "shaders/forward.frag", std::move(defines)});
   }
-  ObjectPrograms(Work& work, const GlLightLoop& loop)
+  ObjectPrograms(PassContext& work, const GlLightLoop& loop)
       : base(of(work, base_lighting(work), "FIRST_OF_DRAWS")),
         base_and_lights(of(work, loop, "FIRST_OF_DRAWS")),
         lights(of(work, loop, "ADDED")) {}
@@ -39,7 +39,7 @@ struct ObjectPrograms {
 // Draws one object. Alpha is 0 or 1.
 class ObjectDraws {
  public:
-  ObjectDraws(Work& work, ObjectPrograms& programs, const ObjectLights::Object& object,
+  ObjectDraws(PassContext& work, ObjectPrograms& programs, const ObjectLights::Object& object,
               InstanceDrawer& drawer, PendingDraws& pending)
       : work_(work),
         programs_(programs),
@@ -79,7 +79,7 @@ class ObjectDraws {
     return program;
   }
 
-  Work& work_;
+  PassContext& work_;
   ObjectPrograms& programs_;
   const ObjectLights::Object& object_;
   InstanceDrawer& drawer_;
@@ -89,7 +89,7 @@ class ObjectDraws {
   int alpha_ = 1;
 };
 
-void draw_object(Work& work, ObjectPrograms& programs, const ObjectLights::Object& object,
+void draw_object(PassContext& work, ObjectPrograms& programs, const ObjectLights::Object& object,
                  uint32_t lights_a_draw, bool own_apart, InstanceDrawer& drawer, PendingDraws& pending) {
   ObjectDraws draws(work, programs, object, drawer, pending);
   const bool unlit =
@@ -103,7 +103,8 @@ void draw_object(Work& work, ObjectPrograms& programs, const ObjectLights::Objec
 
 }  // namespace
 
-ShadedImage shade_objects(Work& work, const ObjectLights& objects, uint32_t lights_a_draw, bool own_apart) {
+ShadedImage shade_objects(PassContext& work, const ObjectLights& objects, uint32_t lights_a_draw,
+                          bool own_apart) {
   auto pass = work.timer.pass("shade_objects", "gl");
   const ShadedImage image = begin_shading(work);
   glBlendEquation(GL_FUNC_ADD);
@@ -121,7 +122,7 @@ ShadedImage shade_objects(Work& work, const ObjectLights& objects, uint32_t ligh
   return image;
 }
 
-ListedLights listed_of_objects(Work& work, Cached<ObjectLights>& cache) {
+ListedLights listed_of_objects(PassContext& work, Cached<ObjectLights>& cache) {
   const ObjectLights& objects = cache.of(work);
   ListedLights lists{.indices = objects.lights()};
   for (const ObjectLights::Object& object : objects.objects()) {

@@ -22,14 +22,14 @@ bool holds_base_lighting(const GBufferInCl& gbuffer) {
 // The kernels.
 class TileShading : public PassCache {
  public:
-  explicit TileShading(Work& work) : kernels(work, "resolve") {
+  explicit TileShading(PassContext& work) : kernels(work, "resolve") {
     follow(work);
     if (work.plan.surfaces.skin || work.plan.surfaces.minnaert)
       models.put(*work.renderer.cl, "uploading models of materials", model_records(work.scene));
   }
 
   // Another camera at the same size, or moved lights.
-  bool follow(Work& work) override {
+  bool follow(PassContext& work) override {
     kernels.use(defines_of(work));
     work.cl_lights();
     return true;
@@ -41,7 +41,7 @@ class TileShading : public PassCache {
   UploadedBuffer models;  // MaterialModelRecord each
 
  private:
-  std::string defines_of(const Seen& seen) const {
+  std::string defines_of(const ViewState& seen) const {
     const Settings& settings = seen.plan.settings;
     std::string defines = fmt::format("-DBUFFER_BITS={}", settings[setting::buffer_bits]) +
                           light_defines(seen, kernels.lanes, settings[setting::brdf]);
@@ -55,7 +55,7 @@ class TileShading : public PassCache {
 
 namespace {
 
-void copy_attachment(Work& work, const GBuffer& gbuffer, int attachment, GLuint texture, GLenum type,
+void copy_attachment(PassContext& work, const GBuffer& gbuffer, int attachment, GLuint texture, GLenum type,
                      SharedBuffer& to) {
   work.renderer.pixel_copies.to_buffer(
       {gbuffer.framebuffer, GL_COLOR_ATTACHMENT0 + GLenum(attachment), texture}, GL_RGBA, type, work.grid(),
@@ -63,14 +63,14 @@ void copy_attachment(Work& work, const GBuffer& gbuffer, int attachment, GLuint 
 }
 
 // The image of one value a pixel.
-PixelGrid pixels_of(const Work& work) { return {work.grid().width, work.grid().height}; }
+PixelGrid pixels_of(const PassContext& work) { return {work.grid().width, work.grid().height}; }
 
-GLuint image_texture(Work& work) {
+GLuint image_texture(PassContext& work) {
   return work.grid().samples > 1 ? work.targets.resolved("resolved", GL_RGBA32F)
                                  : work.targets.texture("color", GL_RGBA32F);
 }
 
-GBufferInCl gbuffer_to_cl(Work& work, const GBuffer& gbuffer) {
+GBufferInCl gbuffer_to_cl(PassContext& work, const GBuffer& gbuffer) {
   const size_t values = work.grid().values();
   const GBufferInCl in_cl = gbuffer_in_cl_of(work, gbuffer.base_lighting, TargetUse::image);
   const bool base_lighting = holds_base_lighting(in_cl);
@@ -97,7 +97,7 @@ GBufferInCl gbuffer_to_cl(Work& work, const GBuffer& gbuffer) {
 }
 
 // Each sample gets the light of its pixel.
-void image_to_gl(Work& work, SharedBuffer& image) {
+void image_to_gl(PassContext& work, SharedBuffer& image) {
   const size_t bytes = work.grid().pixels() * 16;
   auto pass = work.timer.pass("image_to_gl", "gl");
   image.hand_to_gl(bytes);
@@ -110,8 +110,8 @@ void image_to_gl(Work& work, SharedBuffer& image) {
                          width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffer, const DepthBuffer& depth,
-               const LightSource& lights, const cl::Buffer& edges) {
+void add_light(PassContext& work, Cached<TileShading>& cache, const GBufferInCl& gbuffer,
+               const DepthBuffer& depth, const LightSource& lights, const cl::Buffer& edges) {
   TileShading& s = cache.of(work);
   const ClLights& table = work.cl_lights();
   auto pass = work.timer.pass("shade_tiles", "cl");
@@ -147,8 +147,8 @@ void add_light(Work& work, Cached<TileShading>& cache, const GBufferInCl& gbuffe
 
 }  // namespace
 
-ShadedImage shade_tiles(Work& work, PassCaches& caches, const GBuffer& gbuffer, const DepthBuffer& depth,
-                        const LightSource& lights, Frame& frame) {
+ShadedImage shade_tiles(PassContext& work, PassCaches& caches, const GBuffer& gbuffer,
+                        const DepthBuffer& depth, const LightSource& lights, Frame& frame) {
   const GBufferInCl in_cl = gbuffer.in_cl ? *gbuffer.in_cl : gbuffer_to_cl(work, gbuffer);
   StoredSurfaces surfaces{
       .bytes = in_cl.layout->images[0].bytes, .surface_numbers = in_cl.surface_numbers, .edges = in_cl.edges};

@@ -10,7 +10,7 @@ namespace lightgrid {
 // surfaces over it, the image is copied back; else it stays in OpenCL's buffer. The surfaces' numbers
 // are in OpenCL already (surface_numbers_to_cl).
 // Of several samples a pixel the image is their mean; the frame gets their figures.
-ShadedImage shade_tiles(Work& work, PassCaches& caches, const GBuffer& gbuffer, const DepthBuffer& depth,
-                        const LightSource& lights, Frame& frame);
+ShadedImage shade_tiles(PassContext& work, PassCaches& caches, const GBuffer& gbuffer,
+                        const DepthBuffer& depth, const LightSource& lights, Frame& frame);
 
 }  // namespace lightgrid

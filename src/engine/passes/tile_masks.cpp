@@ -8,16 +8,16 @@ namespace lightgrid {
 // The kernel's masks and its result.
 class TileMasks : public PassCache {
  public:
-  explicit TileMasks(Work& work) { follow(work); }
+  explicit TileMasks(PassContext& work) { follow(work); }
 
-  bool follow(Work& work) override {
+  bool follow(PassContext& work) override {
     masks_.put(*work.renderer.cl, "uploading masks of surfaces", work.plan.masks.values);
     return true;
   }
 
   size_t memory_bytes() const override { return masks_.bytes() + masks_of_tiles_.bytes(); }
 
-  cl::Buffer find(Work& work, const CullParams& tiles, const std::string& defines,
+  cl::Buffer find(PassContext& work, const CullParams& tiles, const std::string& defines,
                   const ClArguments& surfaces, size_t bytes_a_pixel) {
     const size_t all = size_t(tiles.bins_x) * tiles.bins_y * BIN_SIZE;
     ClDevice& device = *work.renderer.cl;
@@ -45,7 +45,7 @@ class TileMasks : public PassCache {
   std::string defines_;
 };
 
-cl::Buffer tile_masks(Work& work, Cached<TileMasks>& cache, const CullParams& tiles,
+cl::Buffer tile_masks(PassContext& work, Cached<TileMasks>& cache, const CullParams& tiles,
                       const VisibilityBuffer& visible) {
   return cache.of(work).find(work, tiles, fmt::format("-DTRIANGLES -DSAMPLES={}u", work.grid().samples),
                              ClArguments{{"triangles", visible.image.triangle},
@@ -54,8 +54,8 @@ cl::Buffer tile_masks(Work& work, Cached<TileMasks>& cache, const CullParams& ti
                              4);
 }
 
-cl::Buffer tile_masks(Work& work, Cached<TileMasks>& cache, const CullParams& tiles, SharedBuffer& numbers,
-                      const DepthBuffer& depth) {
+cl::Buffer tile_masks(PassContext& work, Cached<TileMasks>& cache, const CullParams& tiles,
+                      SharedBuffer& numbers, const DepthBuffer& depth) {
   const SurfaceNumberFormat& format = surface_number_format(work.plan.settings);
   return cache.of(work).find(
       work, tiles, fmt::format("-DNUMBER_BITS={} -DSAMPLES={}u", format.bits, work.grid().samples),

@@ -12,15 +12,15 @@ namespace lightgrid {
 // The kernel and its table.
 class ToneMap : public PassCache {
  public:
-  explicit ToneMap(Work& work) : kernel_(*work.renderer.kernels, "resolve/tone_map", "") {
+  explicit ToneMap(PassContext& work) : kernel_(*work.renderer.kernels, "resolve/tone_map", "") {
     const auto& least = srgb_thresholds();
     thresholds_.put(*work.renderer.cl, "uploading the curve of a display",
                     std::vector<float>(least.begin(), least.end()));
   }
-  bool follow(Work&) override { return true; }
+  bool follow(PassContext&) override { return true; }
   size_t memory_bytes() const override { return thresholds_.bytes(); }
 
-  void run(Work& work, SharedBuffer& image, float scale, SharedBuffer& picture) {
+  void run(PassContext& work, SharedBuffer& image, float scale, SharedBuffer& picture) {
     constexpr size_t group = 64;
     const size_t pixels = work.grid().pixels();
     kernel_.launch(*work.renderer.cl, "tone_map", cl::NDRange((pixels + group - 1) / group * group),
@@ -28,7 +28,7 @@ class ToneMap : public PassCache {
                    {{"image", image.cl_buffer()},
                     {"pixels", cl_uint(pixels)},
                     {"scale", scale},
-                    {"least_linear", thresholds_.buffer()},
+                    {"min_linear", thresholds_.buffer()},
                     {"picture", picture.cl_buffer()}});
   }
 
@@ -44,16 +44,17 @@ static GLuint color_of(GLuint framebuffer) {
   return GLuint(texture);
 }
 
-static void draw(Work& work, GLuint image, float scale, GLuint framebuffer) {
+static void draw(PassContext& work, GLuint image, float scale, GLuint framebuffer) {
   const GlProgram& program = work.renderer.program("shaders/screen.vert", "shaders/tone_map.frag", {});
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, work.view.width, work.view.height);
-  glDisable(GL_DEPTH_TEST), glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
   bind_sampler_object(Sampler::image, 0);
   bind_texture(Sampler::image, image);
   glUseProgram(program.name());
   glUniform1f(program.uniform("scale"), scale);
-  glUniform1fv(program.uniform("least_linear"), GLsizei(srgb_thresholds().size()), srgb_thresholds().data());
+  glUniform1fv(program.uniform("min_linear"), GLsizei(srgb_thresholds().size()), srgb_thresholds().data());
   draw_screen(program);
 }
 
@@ -63,7 +64,7 @@ void check_picture(const Settings& settings) {
         "set picture=bytes: an automatic exposure needs the finished picture; give --exposure a number");
 }
 
-DisplayedImage tone_map(Work& work, Cached<ToneMap>& cache, const ShadedImage& image) {
+DisplayedImage tone_map(PassContext& work, Cached<ToneMap>& cache, const ShadedImage& image) {
   const float scale = Exposure{*work.plan.settings[setting::display_ev]}.scale();
   const size_t pixels = work.grid().pixels();
   DisplayedImage displayed;

@@ -10,6 +10,6 @@ void check_picture(const Settings& settings);
 
 // The bytes of srgb_bytes (base/image.h) at the settings' exposure. Those of an image in OpenGL may differ by
 // one step where OpenGL does not round divisions correctly.
-DisplayedImage tone_map(Work& work, Cached<ToneMap>& cache, const ShadedImage& image);
+DisplayedImage tone_map(PassContext& work, Cached<ToneMap>& cache, const ShadedImage& image);
 
 }  // namespace lightgrid

@@ -34,7 +34,7 @@ Additions additions_of(const GrownLightBounds& reach, const Light& light, const 
     if (r.reflected == 0 || !may_reach(reach.grown(beside_m), r.box)) continue;
     const double nearest_m = distance_to(r.box, reach.light.position) - reach.slack_m - beside_m;
     all.emplace_back(i, rounding * r.reflected *
-                            most_irradiance(light, reach.light.radius_m, ranges_of(settings), nearest_m));
+                            max_irradiance(light, reach.light.radius_m, ranges_of(settings), nearest_m));
   }
   return all;
 }
@@ -49,7 +49,7 @@ double largest(const Additions& additions) {
 
 double display_step(double ev) { return 1 / (255 * 12.92 * 1.15 * std::exp2(ev)); }
 
-double most_reflected(const Scene& scene, int instance, Brdf brdf) {
+double max_reflected(const Scene& scene, int instance, Brdf brdf) {
   const Mesh& mesh = scene.meshes[size_t(scene.instances[size_t(instance)].mesh)];
   const Material& m = scene.materials[size_t(mesh.material)];
   constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -64,14 +64,14 @@ double most_reflected(const Scene& scene, int instance, Brdf brdf) {
   return diffuse + 1 / (2 * std::numbers::pi * alpha * alpha * alpha);
 }
 
-double most_irradiance(const Light& light, double range_m, const LightRanges& ranges, double nearest_m) {
+double max_irradiance(const Light& light, double range_m, const LightRanges& ranges, double nearest_m) {
   if (!(nearest_m > 0)) return std::numeric_limits<double>::infinity();
   const double share = std::isinf(range_m) ? 0 : std::min(nearest_m / range_m, 1.0);
   const double khr = 1 - std::pow(share, 4);
   const RangeWindow window = window_of(ranges);
   const double fade = window == RangeWindow::none ? 1 : window == RangeWindow::smooth ? khr * khr : khr;
   return brightest_intensity(light) * fade *
-         std::max(1 / (nearest_m * nearest_m), least_falloff(light, ranges));
+         std::max(1 / (nearest_m * nearest_m), min_falloff(light, ranges));
 }
 
 double leave_out_dim_lights(const Scene& scene, const View& view, const Settings& settings,
@@ -90,7 +90,7 @@ double leave_out_dim_lights(const Scene& scene, const View& view, const Settings
   for (const auto* instances : {&opaque, &blended}) {
     for (const int i : *instances) {
       Receiver& r = receivers.emplace_back(
-          Receiver{box_of(scene, i, view), most_reflected(scene, i, settings[setting::brdf])});
+          Receiver{box_of(scene, i, view), max_reflected(scene, i, settings[setting::brdf])});
       farthest_m = std::max(farthest_m, farthest_from(r.box, view.eye));
     }
   }

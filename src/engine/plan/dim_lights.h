@@ -16,10 +16,10 @@ double display_step(double ev);
 // The largest product of BRDF and cosine over all directions, of any channel. Infinite where no bound was
 // derived: coats, other reflectances than glTF's default, skin, Minnaert, vertex colours, Blinn-Phong. With
 // GGX, D <= 1 / (pi alpha^2), V n.l <= 1 / (2 alpha), F <= 1; a roughness map may reach ROUGHNESS_FLOOR.
-double most_reflected(const Scene& scene, int instance, Brdf brdf);
+double max_reflected(const Scene& scene, int instance, Brdf brdf);
 
 // The irradiance that a point or spot light brings no nearer than this, of its brightest channel.
-double most_irradiance(const Light& light, double range_m, const LightRanges& ranges, double nearest_m);
+double max_irradiance(const Light& light, double range_m, const LightRanges& ranges, double nearest_m);
 
 // Those of `casting` whose need is `rays` become too_dim, the dimmest first, as long as all of them together
 // add less than shadow-threshold steps to any instance in view. Returns how many steps they may

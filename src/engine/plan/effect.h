@@ -17,7 +17,7 @@ struct FramePlan;
 class Settings;
 struct View;
 struct Surface;  // oracle/shading.h
-struct Work;
+struct PassContext;
 struct LightReader;  // scene/light_readers.h
 class EffectState;   // renderer/effect_state.h
 
@@ -42,7 +42,7 @@ struct Effect {
   // that turns compiles nothing. Returns none if the settings leave the effect out: the plan does not mention
   // it.
   std::optional<EffectNeed> (*decide)(const Scene&, const FramePlan&);
-  std::unique_ptr<EffectState> (*make)(Work&);
+  std::unique_ptr<EffectState> (*make)(PassContext&);
   // The hooks that its text answers. ReachOracle is that of NAME_meets, too.
   std::optional<BaseOracle> base{};
   std::optional<ReachOracle> reach{};

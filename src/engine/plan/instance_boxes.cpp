@@ -26,7 +26,7 @@ static FlatAxes flat_axes_of(const glm::dmat3& world_from_object, const Aabb& bo
 }
 
 // Upper bound on the factor by which a matrix stretches; exact for axes at right angles.
-static double most_stretch(const glm::dmat3& m) {
+static double max_stretch(const glm::dmat3& m) {
   const glm::dmat3 squares = glm::transpose(m) * m;
   double most = 0;
   for (int i = 0; i < 3; ++i) most = std::max(most, glm::dot(glm::abs(squares[i]), dvec3(1)));
@@ -41,7 +41,7 @@ bool is_blended(const Scene& scene, int instance) {
 static dvec3 ahead_of(const View& view) { return -glm::transpose(glm::dmat3(view.view_from_world))[2]; }
 
 static void measure_triangles(const Mesh& mesh, const glm::dmat3& world_from_object, InstanceBox& box) {
-  const double stretch = most_stretch(world_from_object);
+  const double stretch = max_stretch(world_from_object);
   box.longest_m = std::min(box.farthest_m - box.nearest_m, stretch * double(mesh.longest_edge));
   box.sliver_m = stretch * double(mesh.longest_sliver);
   const FlatAxes flat = flat_axes_of(world_from_object, mesh.bounds);
@@ -57,16 +57,19 @@ InstanceBox box_of(const Scene& scene, int instance, const View& view) {
   const Mesh& mesh = scene.meshes[size_t(scene.instances[size_t(instance)].mesh)];
   const Aabb& bounds = mesh.bounds;
   InstanceBox box;
-  box.nearest_m = HUGE_VAL, box.farthest_m = -HUGE_VAL;
+  box.nearest_m = HUGE_VAL;
+  box.farthest_m = -HUGE_VAL;
   box.instance = instance;
   box.blended = is_blended(scene, instance);
   for (int i = 0; i < 8; ++i) {
     const glm::dvec4 corner(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
                             i & 4 ? bounds.max.z : bounds.min.z, 1);
     const dvec3 at(world_from_object * corner);
-    box.min = glm::min(box.min, at), box.max = glm::max(box.max, at);
+    box.min = glm::min(box.min, at);
+    box.max = glm::max(box.max, at);
     const double away_m = glm::dot(ahead_of(view), at - view.eye);
-    box.nearest_m = std::min(box.nearest_m, away_m), box.farthest_m = std::max(box.farthest_m, away_m);
+    box.nearest_m = std::min(box.nearest_m, away_m);
+    box.farthest_m = std::max(box.farthest_m, away_m);
   }
   measure_triangles(mesh, glm::dmat3(world_from_object), box);
   return box;

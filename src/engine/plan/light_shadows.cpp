@@ -35,7 +35,10 @@ Boxes boxes_of(const Scene& scene, const View& view, const std::vector<int>& opa
     }
   dvec3 min = view.eye, max = view.eye;
   for (const auto* some : {&boxes.casters, &boxes.receivers})
-    for (const InstanceBox& box : *some) min = glm::min(min, box.min), max = glm::max(max, box.max);
+    for (const InstanceBox& box : *some) {
+      min = glm::min(min, box.min);
+      max = glm::max(max, box.max);
+    }
   boxes.diameter_m = glm::length(max - min);
   return boxes;
 }
@@ -100,7 +103,8 @@ LightShadow plan_light(const LightBounds& light, int number, const View& view, c
   for (const InstanceBox& box : boxes.receivers) {
     const double of_box_m = errors.displaced_m(reach, box);
     if (!may_reach(reach.grown(of_box_m), box)) continue;
-    receivers.push_back(&box), beside_m = std::max(beside_m, of_box_m);
+    receivers.push_back(&box);
+    beside_m = std::max(beside_m, of_box_m);
   }
   const GrownLightBounds beside = reach.grown(beside_m);
   const auto in_reach = [&](const InstanceBox& box) { return may_reach(beside, box); };
@@ -108,8 +112,8 @@ LightShadow plan_light(const LightBounds& light, int number, const View& view, c
   if (!caster) return {number, ShadowNeed::no_caster};
   if (receivers.empty()) return {number, ShadowNeed::no_receiver};
   // Points of receivers that are not flat may be hidden by the receiver itself. Of many, all count as such.
-  constexpr size_t most_receivers = 8;
-  if (receivers.size() > most_receivers ||
+  constexpr size_t max_receivers = 8;
+  if (receivers.size() > max_receivers ||
       std::ranges::any_of(receivers, [](const InstanceBox* box) { return box->flat_axis < 0; }))
     return {number, ShadowNeed::rays, caster->instance};
   for (const InstanceBox& box : boxes.casters)

@@ -21,7 +21,8 @@ static void number_masks(const Scene& scene, MaskPlan& plan) {
 
 void plan_every_mask(const Scene& scene, const MaskNeeds& needs, const Settings& settings, bool opengl,
                      const ListPlan& lists, MaskPlan& plan) {
-  plan.values.clear(), plan.of_instance.clear();
+  plan.values.clear();
+  plan.of_instance.clear();
   plan.needed = true;
   number_masks(scene, plan);
   plan.tiles = lists.light_grid && needs.tiles && settings[setting::tile_masks] &&
@@ -35,7 +36,7 @@ MaskPlan plan_masks(const Scene& scene, std::span<const Effect* const> effects, 
   plan_every_mask(scene, needs, settings, opengl, lists, plan);
   if (needs.stencil)
     plan.stencil_bits =
-        std::min(settings[setting::stencil_masks], most_stencil_masks(settings[setting::volume_culling]));
+        std::min(settings[setting::stencil_masks], max_stencil_masks(settings[setting::volume_culling]));
   return plan;
 }
 

@@ -55,7 +55,10 @@ void plan_samples(const Scene& scene, const SampleNeeds& needs, bool opengl, boo
     decisions.push_back({"samples", true, fmt::format("samples={}", samples)});
   } else if (scene.samples > 1) {
     const std::string why_one = why_one_sample(scene, needs, opengl, of_one_sample, settings);
-    if (why_one.empty()) samples = scene.samples, settings.set(setting::samples, samples);
+    if (why_one.empty()) {
+      samples = scene.samples;
+      settings.set(setting::samples, samples);
+    }
     decisions.push_back({"samples", why_one.empty(),
                          fmt::format("the scene asks for {} a pixel{}{}", scene.samples,
                                      why_one.empty() ? "" : "; ", why_one)});

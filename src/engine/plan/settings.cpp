@@ -19,7 +19,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr double least_number = 1e-9, most_number = 1e9;
+constexpr double min_number = 1e-9, max_number = 1e9;
 
 // Only static objects change it, before main or while a library is loaded.
 std::vector<SettingRow>& rows() {
@@ -49,7 +49,7 @@ bool set_named(Settings& settings, const SettingRow& row, const std::string& val
 
 bool set_number(Settings& settings, const SettingRow& row, const std::string& value) {
   const auto number = row.flags.any_number ? parse_number<double>(value) : std::nullopt;
-  if (!number || !(*number >= least_number && *number <= most_number)) return false;
+  if (!number || !(*number >= min_number && *number <= max_number)) return false;
   settings.set_difference(row, setting_bits(*number) ^ row.bits.front());
   return true;
 }
@@ -65,7 +65,7 @@ std::string string_of(const Settings& settings, const SettingRow& row) {
 
 SettingNumber add_unlisted_setting() {
   static size_t count = 0;
-  if (count == Settings::most_settings) std::abort();
+  if (count == Settings::max_settings) std::abort();
   return {count++};
 }
 
@@ -96,7 +96,7 @@ void apply_setting(Settings& settings, const std::string& assignment) {
     return;
   }
   if (row->flags.any_number)
-    throw input_error("set {}: {} is a number from {:g} to {:g}", assignment, key, least_number, most_number);
+    throw input_error("set {}: {} is a number from {:g} to {:g}", assignment, key, min_number, max_number);
   throw input_error("set {}: \"{}\" is not a value of {}{}; values are {}", assignment, value, key,
                     did_you_mean(value, row->values), fmt::join(row->values, ", "));
 }

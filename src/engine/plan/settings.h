@@ -53,7 +53,7 @@ struct SettingRow : SettingNumber {
   std::vector<uint64_t> bits;  // of each value
 };
 
-// Returns the row's number, which it ignores. Ends the program if there are more than most_settings.
+// Returns the row's number, which it ignores. Ends the program if there are more than max_settings.
 SettingNumber add_setting(SettingRow row);
 SettingNumber add_unlisted_setting();
 
@@ -122,8 +122,10 @@ class Setting : public SettingNumber {
   static SettingRow row_of(int place, const char* key, const char* meaning, const auto& values,
                            const SettingFlags& flags) {
     SettingRow row{{0}, place, key, {}, meaning, flags, {}};
-    for (const auto& [name, value] : values)
-      row.values.push_back(name), row.bits.push_back(setting_bits(value));
+    for (const auto& [name, value] : values) {
+      row.values.push_back(name);
+      row.bits.push_back(setting_bits(value));
+    }
     return row;
   }
   static std::vector<std::pair<const char*, T>> with_names(std::initializer_list<const char*> numbers) {
@@ -191,11 +193,11 @@ class Settings {
 
   bool operator==(const Settings&) const = default;
 
-  static constexpr size_t most_settings = 128;
+  static constexpr size_t max_settings = 128;
 
  private:
-  std::array<uint64_t, most_settings> differences_{};  // by the number of the row
-  std::bitset<most_settings> given_;
+  std::array<uint64_t, max_settings> differences_{};  // by the number of the row
+  std::bitset<max_settings> given_;
 };
 
 // By place.

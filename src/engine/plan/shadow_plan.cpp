@@ -36,7 +36,7 @@ size_t place_of_light(const LightPlan& lights, int light) {
 void take_own_shadows(const Scene& scene, const View& view, const ShadowNeeds& needs,
                       const Settings& settings, const LightPlan& lights, ShadowPlan& plan) {
   const auto casts = [&](int i) { return scene.lights[size_t(i)].casts_shadow; };
-  plan.own = needs.most_own > 0 && std::ranges::any_of(lights.local, casts);
+  plan.own = needs.max_own > 0 && std::ranges::any_of(lights.local, casts);
   plan.light_reaches = plan.directional;
   if (!plan.needed) return;
   const auto end_of_local = plan.shadowed.begin() + std::ptrdiff_t(lights.local.size());
@@ -45,10 +45,10 @@ void take_own_shadows(const Scene& scene, const View& view, const ShadowNeeds& n
   std::vector<size_t> shadowed;
   for (size_t i = 0; i < lights.local.size(); ++i)
     if (plan.own_shadowed[i]) shadowed.push_back(i);
-  if (shadowed.size() > needs.most_own) {
+  if (shadowed.size() > needs.max_own) {
     const std::vector<ViewLight> in_view = lights_in_view(scene, view, ranges_of(settings), lights.local);
     std::ranges::stable_sort(shadowed, std::greater(), [&](size_t i) { return influence_of(in_view[i]); });
-    for (size_t i = needs.most_own; i < shadowed.size(); ++i) {
+    for (size_t i = needs.max_own; i < shadowed.size(); ++i) {
       plan.own_shadowed[shadowed[i]] = 0;
       const auto left_out = std::ranges::find(plan.casting, lights.local[shadowed[i]], &LightShadow::light);
       left_out->need = ShadowNeed::left_out;

@@ -12,7 +12,7 @@ struct ShadowNeeds {
   // The technique finds those of point and spot lights itself, of so many lights at most; the pass that all
   // techniques share is then left those of directional lights.
   bool own = false;
-  size_t most_own = SIZE_MAX;
+  size_t max_own = SIZE_MAX;
   const char* found_by = "rays";  // in words
   const char* why_none = "";      // if it is not the view
 };

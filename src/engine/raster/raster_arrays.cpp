@@ -10,9 +10,9 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t most_indices = 0xffffffffu - 64;
-constexpr size_t most_triangles = 0x7fffffffu;  // kernels compare their numbers as signed ones
-constexpr double least_cosine = 0.1;            // wider cones face away from next to nothing
+constexpr size_t max_indices = 0xffffffffu - 64;
+constexpr size_t max_triangles = 0x7fffffffu;  // kernels compare their numbers as signed ones
+constexpr double min_cosine = 0.1;             // wider cones face away from next to nothing
 
 using Corners = std::array<glm::dvec3, 3>;
 
@@ -36,8 +36,10 @@ void add_cone(const std::vector<Corners>& triangles, RasterCluster& cluster) {
   const glm::vec3 axis(glm::normalize(sum));
   double cosine = 1;
   for (const glm::dvec3& normal : normals) cosine = std::min(cosine, glm::dot(normal, glm::dvec3(axis)));
-  if (!(cosine > least_cosine)) return;
-  cluster.axis_x = axis.x, cluster.axis_y = axis.y, cluster.axis_z = axis.z;
+  if (!(cosine > min_cosine)) return;
+  cluster.axis_x = axis.x;
+  cluster.axis_y = axis.y;
+  cluster.axis_z = axis.z;
   cluster.sine = float(std::sqrt(std::max(0.0, 1 - cosine * cosine)) + 1e-5);
 }
 
@@ -51,7 +53,8 @@ RasterCluster cluster_of(const std::vector<Corners>& triangles) {
         cluster.half_x = cluster.half_y = cluster.half_z = cluster.radius = HUGE_VALF;
         return cluster;
       }
-      low = glm::min(low, p), high = glm::max(high, p);
+      low = glm::min(low, p);
+      high = glm::max(high, p);
     }
   }
   const glm::dvec3 center(glm::vec3((low + high) * 0.5));
@@ -62,8 +65,12 @@ RasterCluster cluster_of(const std::vector<Corners>& triangles) {
   for (const Corners& t : triangles) {
     for (const glm::dvec3& p : t) radius = std::max(radius, glm::length(p - center));
   }
-  cluster.center_x = float(center.x), cluster.center_y = float(center.y), cluster.center_z = float(center.z);
-  cluster.half_x = up(half.x), cluster.half_y = up(half.y), cluster.half_z = up(half.z);
+  cluster.center_x = float(center.x);
+  cluster.center_y = float(center.y);
+  cluster.center_z = float(center.z);
+  cluster.half_x = up(half.x);
+  cluster.half_y = up(half.y);
+  cluster.half_z = up(half.z);
   cluster.radius = up(radius);
   add_cone(triangles, cluster);
   return cluster;
@@ -92,7 +99,8 @@ void append_clusters(const RasterMesh& mesh, RasterMeshes& all) {
           {mesh.positions[corners[0]], mesh.positions[corners[1]], mesh.positions[corners[2]]});
     }
     RasterCluster& cluster = all.clusters.emplace_back(cluster_of(triangles));
-    cluster.first = uint32_t(place), cluster.count = uint32_t(end - first);
+    cluster.first = uint32_t(place);
+    cluster.count = uint32_t(end - first);
   }
 }
 
@@ -108,9 +116,11 @@ void append_positions(std::span<const glm::vec3> positions, std::vector<float>& 
 // Before any memory is taken: meshes may share their arrays.
 void check_meshes(std::span<const RasterMesh> meshes) {
   size_t indices = 0, vertices = 0;
-  for (const RasterMesh& mesh : meshes)
-    indices += mesh.indices.size(), vertices += mesh.positions.size() + 15;
-  if (std::max(indices, vertices) > most_indices)
+  for (const RasterMesh& mesh : meshes) {
+    indices += mesh.indices.size();
+    vertices += mesh.positions.size() + 15;
+  }
+  if (std::max(indices, vertices) > max_indices)
     throw machine_error("rasterizer: meshes have 2^32 indices or vertices or more");
   for (size_t m = 0; m < meshes.size(); ++m) {
     const RasterMesh& mesh = meshes[m];
@@ -130,10 +140,11 @@ void check_instance_numbers(std::span<const RasterInstance> instances,
   size_t triangles = 0, vertices = 0;
   for (const RasterInstance& instance : instances) {
     const RasterMeshPlace& mesh = meshes[instance.mesh];
-    triangles += mesh.triangles, vertices += clip_room(mesh);
+    triangles += mesh.triangles;
+    vertices += clip_room(mesh);
   }
   // Clusters are no more than triangles.
-  if (triangles > most_triangles || vertices > most_indices)
+  if (triangles > max_triangles || vertices > max_indices)
     throw machine_error("rasterizer: instances have 2^31 triangles or 2^32 vertices or more");
 }
 
@@ -182,7 +193,8 @@ std::vector<uint32_t> cluster_order(const RasterMesh& mesh) {
   for (const uint32_t i : mesh.indices) {
     const glm::dvec3 p = mesh.positions[i];
     if (!std::isfinite(p.x + p.y + p.z)) continue;
-    low = glm::min(low, p), high = glm::max(high, p);
+    low = glm::min(low, p);
+    high = glm::max(high, p);
   }
   const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1e-300});
   const int fine_bits = 3 * (levels - coarse_levels(count));
@@ -205,7 +217,8 @@ RasterMeshes raster_meshes(std::span<const RasterMesh> meshes) {
   RasterMeshes all;
   for (const RasterMesh& mesh : meshes) {
     RasterMeshPlace place;
-    place.first_index = uint32_t(all.indices.size()), place.triangles = uint32_t(mesh.indices.size() / 3);
+    place.first_index = uint32_t(all.indices.size());
+    place.triangles = uint32_t(mesh.indices.size() / 3);
     place.first_vertex = all.places.empty() ? 0 : all.places.back().first_vertex + all.places.back().vertices;
     place.vertices = uint32_t(mesh.positions.size());
     place.first_position = uint32_t(all.positions.size() / 3);
@@ -255,9 +268,11 @@ RasterInstances raster_instances(std::span<const RasterInstance> instances,
     const RasterMeshPlace& mesh = meshes[instance.mesh];
     triangles += mesh.triangles;
     RasterInstanceRecord record{};
-    record.first_triangle = uint32_t(triangles - mesh.triangles), record.triangle_count = mesh.triangles;
+    record.first_triangle = uint32_t(triangles - mesh.triangles);
+    record.triangle_count = mesh.triangles;
     record.first_index = mesh.first_index;
-    record.first_vertex = mesh.first_vertex, record.vertex_count = mesh.vertices;
+    record.first_vertex = mesh.first_vertex;
+    record.vertex_count = mesh.vertices;
     record.first_position = mesh.first_position;
     record.first_clip_vertex = uint32_t(all.clip_vertices);
     const bool mirrored = is_mirroring(glm::dmat3(instance.world_from_object));

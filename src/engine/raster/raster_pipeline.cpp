@@ -14,8 +14,8 @@
 namespace lightgrid {
 namespace {
 
-constexpr uint32_t chunks_a_unit = 8, most_chunks = 64;   // enough to share out evenly
-constexpr uint32_t most_tile_counts = uint32_t(1) << 24;  // over all chunks
+constexpr uint32_t chunks_a_unit = 8, max_chunks = 64;   // enough to share out evenly
+constexpr uint32_t max_tile_counts = uint32_t(1) << 24;  // over all chunks
 constexpr uint32_t clusters_an_item = 256;
 
 std::string alpha_masks(SampleMasks masks) {
@@ -40,7 +40,7 @@ class RasterCpuPipeline : public RasterPipeline {
   uint32_t chunks(const RasterParams& p) const override {
     const uint32_t units = uint32_t(std::max(1, device_.info().compute_units));
     const uint32_t most =
-        std::min({units * chunks_a_unit, most_chunks, most_tile_counts / (p.tiles_x * p.tiles_y)});
+        std::min({units * chunks_a_unit, max_chunks, max_tile_counts / (p.tiles_x * p.tiles_y)});
     return std::clamp<uint32_t>(p.pairs, 1, std::max<uint32_t>(1, most));
   }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* uploading = "rasterizer: scene";
 constexpr uint32_t first_entries_a_tile = 64;
-constexpr uint64_t most_numbers = 0xffffffffu;  // numbers of records or entries
+constexpr uint64_t max_numbers = 0xffffffffu;  // numbers of records or entries
 
 bool mirrors(const glm::dmat4& m) { return is_mirroring(glm::dmat3(m)); }
 
@@ -28,7 +28,7 @@ bool same_layout(const RasterInstance& a, const RasterInstance& b) {
           mirrors(a.world_from_object) == mirrors(b.world_from_object));
 }
 
-constexpr int most_pixels = 16384;
+constexpr int max_pixels = 16384;
 constexpr float guard_units =
     16368 * 256;  // from the view's centre: coordinates then differ by less than 2^23
 
@@ -45,8 +45,8 @@ void require_finite(const glm::dmat4& m, const char* name) {
 // Throws Error(input) as RasterView::set_camera says.
 void check_raster_camera(const RasterCamera& camera) {
   for (const int size : {camera.grid.width, camera.grid.height}) {
-    if (size < 1 || size > most_pixels)
-      throw input_error("rasterizer: a view of {} pixels; 1 to {} will do", size, most_pixels);
+    if (size < 1 || size > max_pixels)
+      throw input_error("rasterizer: a view of {} pixels; 1 to {} will do", size, max_pixels);
   }
   if (raster_samples(camera.grid.samples).empty())
     throw input_error("rasterizer: {} samples a pixel; 1, 2, 4 and 8 are possible", camera.grid.samples);
@@ -82,10 +82,13 @@ void check_raster_camera(const RasterCamera& camera) {
 // All but what depends on the scene and on room.
 RasterParams raster_params(const RasterCamera& camera) {
   RasterParams p{};
-  p.half_x = float(128 * camera.grid.width), p.half_y = float(128 * camera.grid.height);
-  p.guard_x = guard_units / p.half_x, p.guard_y = guard_units / p.half_y;
-  p.width = uint32_t(camera.grid.width), p.height = uint32_t(camera.grid.height);
-  p.tiles_x = (p.width + RASTER_TILE - 1) / RASTER_TILE,
+  p.half_x = float(128 * camera.grid.width);
+  p.half_y = float(128 * camera.grid.height);
+  p.guard_x = guard_units / p.half_x;
+  p.guard_y = guard_units / p.half_y;
+  p.width = uint32_t(camera.grid.width);
+  p.height = uint32_t(camera.grid.height);
+  p.tiles_x = (p.width + RASTER_TILE - 1) / RASTER_TILE;
   p.tiles_y = (p.height + RASTER_TILE - 1) / RASTER_TILE;
   return p;
 }
@@ -110,7 +113,9 @@ RasterFrameInstance raster_frame_instance(const RasterCamera& camera, const glm:
                                   : glm::normalize(object_from_eye * forward));
   const bool usable =
       !is_singular(linear) && std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z);
-  instance.eye_x = eye.x, instance.eye_y = eye.y, instance.eye_z = eye.z;
+  instance.eye_x = eye.x;
+  instance.eye_y = eye.y;
+  instance.eye_z = eye.z;
   instance.eye_is_point = two_sided || !usable ? RASTER_NONE : perspective ? 1 : 0;
   return instance;
 }
@@ -179,14 +184,17 @@ void RasterView::set_instances(std::span<const RasterInstance> instances) {
   s.last_alpha_material = -1;
   for (const RasterInstance& i : instances)
     s.last_alpha_material = std::max(s.last_alpha_material, i.alpha_material);
-  s.vertex_runs = uint32_t(made.vertex_runs.size()), s.pairs = uint32_t(made.pairs.size());
+  s.vertex_runs = uint32_t(made.vertex_runs.size());
+  s.pairs = uint32_t(made.pairs.size());
   s.records.put(s.device, uploading, made.records);
   s.triangle_instance.put(s.device, uploading, made.triangle_instance);
   s.runs.put(s.device, uploading, made.vertex_runs);
   s.pair_list.put(s.device, uploading, made.pairs);
   s.clip.at_least(s.device, made.clip_vertices * sizeof(cl_float4));
-  s.shown.indices = s.scene.indices.get(), s.shown.instances = s.records.buffer(),
-  s.shown.triangle_instance = s.triangle_instance.buffer(), s.shown.clip = s.clip.get();
+  s.shown.indices = s.scene.indices.get();
+  s.shown.instances = s.records.buffer();
+  s.shown.triangle_instance = s.triangle_instance.buffer();
+  s.shown.clip = s.clip.get();
 }
 
 void RasterView::set_drawn(size_t instance, bool drawn) {
@@ -257,12 +265,12 @@ bool RasterView::State::grow_room(const uint32_t (&counted)[RASTER_COUNTERS]) {
     room = uint32_t(std::min(most, wanted + wanted / 4));
   };
   if (blocks > params.record_blocks) {
-    grow(blocks, RASTER_BLOCK * sizeof(RasterRecord), most_numbers / RASTER_BLOCK,
+    grow(blocks, RASTER_BLOCK * sizeof(RasterRecord), max_numbers / RASTER_BLOCK,
          "blocks of 256 triangles in view", params.record_blocks);
     return true;
   }
   if (entries > params.entry_capacity) {
-    grow(entries, sizeof(cl_uint2), most_numbers, "pairs of a triangle and a tile or window",
+    grow(entries, sizeof(cl_uint2), max_numbers, "pairs of a triangle and a tile or window",
          params.entry_capacity);
     return true;
   }
@@ -291,7 +299,8 @@ void RasterView::run(bool image, const std::function<void()>& meanwhile) {
   const PixelGrid& grid = s.camera->grid;
   const uint32_t blocks = s.params.record_blocks, entries = s.params.entry_capacity;
   s.params = raster_params(*s.camera);
-  s.params.pairs = s.pairs, s.params.vertex_runs = s.vertex_runs;
+  s.params.pairs = s.pairs;
+  s.params.vertex_runs = s.vertex_runs;
   s.params.cones = s.options.cluster_cones;
   s.params.drawing_order = s.options.drawing_order;
   s.params.chunks = s.pipeline->chunks(s.params);
@@ -316,7 +325,8 @@ void RasterView::run(bool image, const std::function<void()>& meanwhile) {
   for (const RasterInstance& i : s.instances) {
     if (i.drawn) s.counts.triangles += s.scene.places[i.mesh].triangles;
   }
-  s.counts.clusters = counted[RASTER_VISIBLE], s.counts.records = counted[RASTER_RECORDS];
+  s.counts.clusters = counted[RASTER_VISIBLE];
+  s.counts.records = counted[RASTER_RECORDS];
   s.counts.tile_entries = counted[RASTER_ENTRIES];
   s.counts.invalid_triangles = counted[RASTER_INVALID];
 }

@@ -28,11 +28,15 @@ std::optional<uint32_t> BlockPool::take(size_t bytes) {
 void BlockPool::add_free(uint32_t first, uint32_t units) {
   if (units == 0) return;
   auto at = free_.emplace(first, units).first;
-  if (const auto next = std::next(at); next != free_.end() && first + units == next->first)
-    at->second += next->second, free_.erase(next);
+  if (const auto next = std::next(at); next != free_.end() && first + units == next->first) {
+    at->second += next->second;
+    free_.erase(next);
+  }
   if (at == free_.begin()) return;
-  if (const auto before = std::prev(at); before->first + before->second == first)
-    before->second += at->second, free_.erase(at);
+  if (const auto before = std::prev(at); before->first + before->second == first) {
+    before->second += at->second;
+    free_.erase(at);
+  }
 }
 
 void BlockPool::shrink(uint32_t unit, size_t bytes, size_t new_bytes) {

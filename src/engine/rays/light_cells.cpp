@@ -43,7 +43,8 @@ LightCellJob job_of(const CellLight& light) {
   job.grid.top = float(light.cos_outer > -1 ? std::max(light.cos_outer - 2e-3, -1.0) : -2.0);
   const double axis[3] = {light.axis_x, light.axis_y, light.axis_z};
   std::ranges::copy(axis, job.grid.toward);
-  std::ranges::fill(job.low, most), std::ranges::fill(job.high, -most);
+  std::ranges::fill(job.low, most);
+  std::ranges::fill(job.high, -most);
   return job;
 }
 
@@ -60,7 +61,10 @@ void lay_axis(const glm::dvec3& axis, const glm::dvec3& center, const glm::dvec3
                per_m = job.size / width_m;
   const glm::vec3 across(axis * per_m);
   const glm::dvec3 back = glm::dvec3(across) / glm::dot(glm::dvec3(across), glm::dvec3(across));
-  for (int k = 0; k < 3; ++k) cells[k] = across[k], metres[k] = float(back[k]);
+  for (int k = 0; k < 3; ++k) {
+    cells[k] = across[k];
+    metres[k] = float(back[k]);
+  }
   cells[3] = float(-per_m * glm::dot(axis, center) + 0.5 * job.size);
 }
 
@@ -92,7 +96,7 @@ size_t fixed_bytes(const CellLight& light, uint32_t triangles) {
 uint32_t entry_room(uint32_t entries) { return entries + 16; }
 size_t entry_bytes(uint32_t entries) { return entry_room(entries) * sizeof(LightCellEntry); }
 
-uint32_t most_entries(const std::vector<LightCellJob>& jobs) {
+uint32_t max_entries(const std::vector<LightCellJob>& jobs) {
   return std::ranges::max_element(jobs, {}, &LightCellJob::entry_room)->entry_room;
 }
 
@@ -114,20 +118,26 @@ uint32_t first_item(size_t unit) {
 
 void LightCells::shrink(Block& block, size_t bytes) {
   pool_.shrink(block.unit, block.bytes, bytes);
-  block.bytes = bytes, ++frees_;
+  block.bytes = bytes;
+  ++frees_;
 }
 
 void LightCells::free(Lists& lists) {
   for (Block* block : {&lists.fixed, &lists.entries}) shrink(*block, 0);
 }
 
-void LightCells::forget() { lists_.clear(), pool_.give_back_all(), ++frees_; }
+void LightCells::forget() {
+  lists_.clear();
+  pool_.give_back_all();
+  ++frees_;
+}
 
 void LightCells::forget_near(const glm::dvec3& low, const glm::dvec3& high) {
   for (auto at = lists_.begin(); at != lists_.end();) {
-    if (is_near(at->first, low, high))
-      free(at->second), at = lists_.erase(at);
-    else
+    if (is_near(at->first, low, high)) {
+      free(at->second);
+      at = lists_.erase(at);
+    } else
       ++at;
   }
 }
@@ -138,13 +148,17 @@ bool LightCells::evict_oldest() {
       lists_, {}, [](const auto& item) { return item.second.is_listed ? item.second.last_frame : SIZE_MAX; });
   if (oldest == lists_.end() || !oldest->second.is_listed || oldest->second.last_frame == frame_)
     return false;
-  free(oldest->second), lists_.erase(oldest);
+  free(oldest->second);
+  lists_.erase(oldest);
   return true;
 }
 
 bool LightCells::take(Block& block, size_t bytes) {
   for (;;) {
-    if (const auto unit = pool_.take(bytes)) return block = {*unit, bytes}, true;
+    if (const auto unit = pool_.take(bytes)) {
+      block = {*unit, bytes};
+      return true;
+    }
     if (bytes > max_bytes_ || (!pool_.grow(device_, bytes, max_bytes_) && !evict_oldest())) return false;
   }
 }
@@ -253,7 +267,8 @@ bool LightCells::has_taken(const CellLight& light, Lists& lists) {
   if (take(lists.fixed, fixed_bytes(light, lists.gathered)) &&
       take(lists.entries, entry_bytes(lists.entry_count)))
     return true;
-  free(lists), lists.refused = frees_;
+  free(lists);
+  lists.refused = frees_;
   return false;
 }
 
@@ -264,7 +279,8 @@ std::vector<LightCellJob> LightCells::jobs_of(Waiting& chosen) {
   for (const auto* item : chosen) {
     const auto& [light, lists] = *item;
     LightCellJob job = lists.job;
-    job.gathered = lists.gathered, job.size = cells_across(light, lists.gathered);
+    job.gathered = lists.gathered;
+    job.size = cells_across(light, lists.gathered);
     if (light.directional) lay_grid(job);
     job.first_start = first_item<uint32_t>(lists.fixed.unit);
     job.first_triangle = lists.fixed.unit + uint32_t(start_units(light, job.size));
@@ -278,13 +294,20 @@ std::vector<LightCellJob> LightCells::jobs_of(Waiting& chosen) {
 // Gives back the room that was too much. Returns false if there was too little.
 bool LightCells::settle(const CellLight& light, const LightCellJob& job, Lists& lists) {
   lists.entry_count = job.entries;
-  if (entry_room(job.entries) > job.entry_room) return free(lists), false;
-  if (job.list_length > longest_list(light.directional, lanes_))
-    return free(lists), lists.gathered = UINT32_MAX, true;
+  if (entry_room(job.entries) > job.entry_room) {
+    free(lists);
+    return false;
+  }
+  if (job.list_length > longest_list(light.directional, lanes_)) {
+    free(lists);
+    lists.gathered = UINT32_MAX;
+    return true;
+  }
   shrink(lists.fixed,
          start_units(light, job.size) * BlockPool::unit_bytes + job.triangles * sizeof(LightCellTriangle));
   shrink(lists.entries, job.entries * sizeof(LightCellEntry));
-  lists.table = table_of(job), lists.is_listed = true;
+  lists.table = table_of(job);
+  lists.is_listed = true;
   return true;
 }
 
@@ -302,7 +325,7 @@ void LightCells::launch_lanes(const RayScene& rays, const std::vector<LightCellJ
                                         {"job_count", cl_uint(jobs.size())},
                                         {"next_job", next},
                                         {"scratch", scratch},
-                                        {"scratch_items", cl_ulong(most_entries(jobs))},
+                                        {"scratch_items", cl_ulong(max_entries(jobs))},
                                         {"pool", pool_.buffer()}});
 }
 
@@ -320,7 +343,7 @@ void LightCells::list(const RayScene& rays, Waiting chosen) {
   if (jobs.empty()) return;
   cl::Buffer scratch;
   try {
-    if (lanes_) scratch = device_buffer(device_, workers(jobs) * most_entries(jobs) * sizeof(uint64_t));
+    if (lanes_) scratch = device_buffer(device_, workers(jobs) * max_entries(jobs) * sizeof(uint64_t));
   } catch (const Error&) {  // these lights keep the tree
     for (auto* item : chosen) free(item->second);
     for (auto* item : chosen) item->second.refused = frees_;

@@ -42,7 +42,7 @@ RayBox box_of(const RayTriangle& t) {
 }
 
 bool fits(const RayTriangle& t) {
-  return std::all_of(t.corners, t.corners + 9, [](float v) { return std::abs(v) <= most_ray_extent; });
+  return std::all_of(t.corners, t.corners + 9, [](float v) { return std::abs(v) <= max_ray_extent; });
 }
 
 // Calls body(instance's number, first triangle of its mesh, last + 1, number of the first) on all cores.
@@ -76,8 +76,12 @@ RayMoved ray_placement(const RayInstance& instance, const RayMeshData& mesh, con
                  .first_index = mesh.first_index,
                  .first_vertex = mesh.first_vertex};
   const glm::dmat4& m = instance.world_from_object;
-  for (int k = 0; k < 3; ++k)
-    moved.x[k] = m[0][k], moved.y[k] = m[1][k], moved.z[k] = m[2][k], moved.at[k] = m[3][k] - origin[k];
+  for (int k = 0; k < 3; ++k) {
+    moved.x[k] = m[0][k];
+    moved.y[k] = m[1][k];
+    moved.z[k] = m[2][k];
+    moved.at[k] = m[3][k] - origin[k];
+  }
   return moved;
 }
 

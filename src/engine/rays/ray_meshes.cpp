@@ -7,7 +7,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr uint64_t most_triangles = 0x7fffffffu;  // the top bit of a number is RAY_MASKED
+constexpr uint64_t max_mesh_triangles = 0x7fffffffu;  // the top bit of a number is RAY_MASKED
 
 bool all_finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -24,7 +24,8 @@ std::vector<RayMeshData> ray_meshes(std::span<const RayMesh> meshes) {
       throw input_error("rays: mesh {}: {} indices are no triangles", m, mesh.indices.size());
     RayMeshData& data =
         made.emplace_back(RayMeshData{.first_index = uint32_t(indices), .first_vertex = uint32_t(vertices)});
-    indices += mesh.indices.size(), vertices += mesh.positions.size();
+    indices += mesh.indices.size();
+    vertices += mesh.positions.size();
     if (std::max(indices, vertices) > 0xffffffffu)
       throw machine_error("rays: meshes have 2^32 indices or vertices or more");
     for (const uint32_t i : mesh.indices) {
@@ -33,8 +34,10 @@ std::vector<RayMeshData> ray_meshes(std::span<const RayMesh> meshes) {
       const glm::dvec3 p(mesh.positions[i]);
       if (!all_finite(p))
         data.finite = false;
-      else
-        data.low = glm::min(data.low, p), data.high = glm::max(data.high, p);
+      else {
+        data.low = glm::min(data.low, p);
+        data.high = glm::max(data.high, p);
+      }
     }
     data.positions.assign(mesh.positions.begin(), mesh.positions.end());
     data.indices.assign(mesh.indices.begin(), mesh.indices.end());
@@ -55,7 +58,7 @@ void check_ray_instances(std::span<const RayInstance> instances, std::span<const
     }
     triangles += meshes[instance.mesh].triangles();
   }
-  if (triangles > most_triangles)
+  if (triangles > max_mesh_triangles)
     throw machine_error("rays: instances have {} triangles, 2^31 or more", triangles);
 }
 
@@ -71,8 +74,10 @@ RayBounds ray_bounds(std::span<const RayInstance> instances, std::span<const Ray
       const glm::dvec3 q(instance.world_from_object * glm::dvec4(p, 1));
       if (!all_finite(q))
         all.finite = false;
-      else
-        all.low = glm::min(all.low, q), all.high = glm::max(all.high, q);
+      else {
+        all.low = glm::min(all.low, q);
+        all.high = glm::max(all.high, q);
+      }
     }
   }
   if (!(all.low.x <= all.high.x)) all.low = all.high = glm::dvec3(0);
@@ -86,7 +91,7 @@ static double reach_of(const RayBounds& bounds, const glm::dvec3& origin) {
 }
 
 bool all_are_valid(const RayBounds& bounds, const glm::dvec3& origin) {
-  return bounds.finite && reach_of(bounds, origin) <= most_ray_extent;
+  return bounds.finite && reach_of(bounds, origin) <= max_ray_extent;
 }
 
 }  // namespace lightgrid

@@ -17,7 +17,7 @@ struct RayMeshData {
   uint32_t triangles() const { return uint32_t(indices.size() / 3); }
 };
 
-constexpr float most_ray_extent = 0x1p50f;  // metres: products of three coordinates stay finite
+constexpr float max_ray_extent = 0x1p50f;  // metres: products of three coordinates stay finite
 
 // Both throw Error as RayScene has it.
 std::vector<RayMeshData> ray_meshes(std::span<const RayMesh> meshes);

@@ -25,7 +25,9 @@ PackedRays packed_rays(std::span<const RayPoint> points, size_t lights, std::spa
   }
   for (size_t i = 0; i < points.size(); ++i) {
     float* to = &packed.points[i / 16 * 64 + i % 16];
-    to[0] = points[i].position.x, to[16] = points[i].position.y, to[32] = points[i].position.z;
+    to[0] = points[i].position.x;
+    to[16] = points[i].position.y;
+    to[32] = points[i].position.z;
     to[48] = points[i].gap;
     packed.own[i] = points[i].own;
   }
@@ -44,7 +46,8 @@ std::vector<uint32_t> RayScene::occlusion(std::span<const RayPoint> points, std:
   if (!kernel) kernel = NamedKernel(s.programs, file, defines());
   UploadedBuffer on_device[4];
   constexpr const char* what = "rays: occlusion";
-  on_device[0].put(s.device, what, packed.points), on_device[1].put(s.device, what, packed.own);
+  on_device[0].put(s.device, what, packed.points);
+  on_device[1].put(s.device, what, packed.own);
   on_device[2].put(s.device, what, std::vector(lights.begin(), lights.end()));
   on_device[3].put(s.device, what, packed.packets);
   const cl::Buffer answers = device_buffer(s.device, hidden.size() * sizeof(uint32_t));

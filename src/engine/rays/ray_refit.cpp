@@ -29,7 +29,10 @@ RayRefit::RayRefit(ClDevice& device, ProgramCache& programs, const RayArrays& ar
     const RayNode& node = arrays.nodes[i];
     const int child[] = {node.child_0, node.child_1}, count[] = {node.count_0, node.count_1};
     for (int side = 0; side < 2; ++side) {
-      if (count[side] == 0) parents_[child[side]] = i, levels_[child[side]] = levels_[i] + 1;
+      if (count[side] == 0) {
+        parents_[child[side]] = i;
+        levels_[child[side]] = levels_[i] + 1;
+      }
       for (int t = 0; t < count[side]; ++t) node_of_place_[child[side] + t] = i;
     }
   }
@@ -68,7 +71,8 @@ void RayRefit::find_nodes(std::span<const RayMoved> moved) {
     while (end < list.size() && levels_[list[end]] == levels_[list[first]]) ++end;
     const uint32_t count = end - first;
     if (count <= few && !launches_.empty() && launches_.back().a_work_item > 1) {
-      launches_.back().count += count, launches_.back().a_work_item += count;
+      launches_.back().count += count;
+      launches_.back().a_work_item += count;
     } else {
       launches_.push_back({first, count, count <= few ? std::max(count, 2u) : 1});
     }
@@ -91,7 +95,10 @@ void RayRefit::refit(std::span<const size_t> moved, std::span<const RayInstance>
   if (!has_positions_) upload_meshes(meshes);
   put(device_, records_, records);
   put(device_, runs_, runs);
-  if (!std::ranges::equal(moved, moved_)) find_nodes(records), moved_.assign(moved.begin(), moved.end());
+  if (!std::ranges::equal(moved, moved_)) {
+    find_nodes(records);
+    moved_.assign(moved.begin(), moved.end());
+  }
   if (!triangles_kernel_) {
     triangles_kernel_ = NamedKernel(programs_, "rays/refit_triangles", "");
     nodes_kernel_ = NamedKernel(programs_, "rays/refit_nodes", "");

@@ -40,7 +40,8 @@ void RayScene::State::build(std::span<const RayInstance> given, const RayBounds&
   upload(device, nodes, arrays.nodes);
   if (device.info().cpu) {
     const WideTree wide = wide_tree(arrays.nodes);
-    upload(device, wide_nodes, wide.nodes), upload(device, wide_slots, wide.slots);
+    upload(device, wide_nodes, wide.nodes);
+    upload(device, wide_slots, wide.slots);
   }
   upload(device, triangles, arrays.triangles);
   upload(device, places, arrays.places);
@@ -84,7 +85,8 @@ void RayScene::set_origin(const glm::dvec3& origin) {
   if (!(glm::dot(rounded, rounded) < HUGE_VAL)) throw input_error("rays: the origin is not finite");
   if (s.options.origin && s.origin == rounded) return;
   s.options.origin = s.origin = rounded;
-  s.refit.reset(), s.has_instances = false;
+  s.refit.reset();
+  s.has_instances = false;
 }
 
 // Its tree can be kept if positions alone changed.

@@ -9,11 +9,11 @@ namespace lightgrid {
 
 namespace {
 
-constexpr int most_in_leaf = 4;
-constexpr float step_cost = 0.7f;    // of a node's boxes, in tests of a triangle
-constexpr int depth_of_halves = 32;  // from there on ranges are halved: 31 levels are left for 2^31 boxes
-constexpr int levels_of_tasks = 6;   // that are split before subtrees are handed to threads
-constexpr uint32_t least_in_task = 20000;  // boxes
+constexpr int max_in_leaf = 4;
+constexpr float step_cost = 0.7f;        // of a node's boxes, in tests of a triangle
+constexpr int depth_of_halves = 32;      // from there on ranges are halved: 31 levels are left for 2^31 boxes
+constexpr int levels_of_tasks = 6;       // that are split before subtrees are handed to threads
+constexpr uint32_t min_in_task = 20000;  // boxes
 
 static_assert(depth_of_halves + 31 < RAY_STACK);
 
@@ -31,14 +31,17 @@ class Builder {
   Builder(const std::vector<RayBox>& boxes, RayTree& tree) : items_(boxes.size()), tree_(tree) {
     for (uint32_t i = 0; i < boxes.size(); ++i) {
       RayItem& item = items_[i] = {{}, {}, i};
-      for (int k = 0; k < 3; ++k) item.low[k] = boxes[i].low[k], item.high[k] = boxes[i].high[k];
+      for (int k = 0; k < 3; ++k) {
+        item.low[k] = boxes[i].low[k];
+        item.high[k] = boxes[i].high[k];
+      }
     }
   }
 
   void build() {
     const uint32_t count = uint32_t(items_.size());
     tree_.nodes.resize(std::max(count, 1u));
-    if (count <= most_in_leaf) {
+    if (count <= max_in_leaf) {
       RayNode& root = tree_.nodes[0] = RayNode{.count_1 = RAY_NOTHING};
       set_child(root, 0, 0, count, bounds(0, count));
       if (count == 0) root.count_0 = RAY_NOTHING;
@@ -54,7 +57,7 @@ class Builder {
     for (int level = 0; level < levels_of_tasks; ++level) {
       std::vector<std::vector<Task>> children(tasks.size());
       parallel_for(int(tasks.size()), [&](int i) {
-        if (tasks[i].size() < least_in_task) return void(children[i] = {tasks[i]});
+        if (tasks[i].size() < min_in_task) return void(children[i] = {tasks[i]});
         split(tasks[i], children[i]);
       });
       tasks.clear();
@@ -74,10 +77,10 @@ class Builder {
   uint32_t middle(uint32_t first, uint32_t end, int depth, const RayItemBounds& box) {
     const uint32_t count = end - first, half = first + count / 2;
     if (count == 1) return first;
-    if (depth >= depth_of_halves) return count <= most_in_leaf ? first : half;
+    if (depth >= depth_of_halves) return count <= max_in_leaf ? first : half;
     const RaySplit best = best_ray_split({&items_[first], end - first});
-    if (count <= most_in_leaf && best.cost > (float(count) - step_cost) * box.area()) return first;
-    if (best.axis < 0) return count <= most_in_leaf ? first : half;
+    if (count <= max_in_leaf && best.cost > (float(count) - step_cost) * box.area()) return first;
+    if (best.axis < 0) return count <= max_in_leaf ? first : half;
     const auto left = [&](const RayItem& item) {
       return bin_of(item, best.axis, best.low, best.scale) <= best.last_bin;
     };

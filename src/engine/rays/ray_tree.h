@@ -12,7 +12,10 @@ namespace lightgrid {
 
 struct RayBox {
   glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
-  void add(const glm::vec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
+  void add(const glm::vec3& p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
 };
 
 struct RayTree {

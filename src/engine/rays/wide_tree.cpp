@@ -69,9 +69,12 @@ class Widener {
     std::fill_n(&made.planes[3][0], 3 * RAY_WIDTH, -no_box_m);
     int k = 0;
     for (const Child& c : opened(node)) {
-      for (int axis = 0; axis < 3; ++axis)
-        made.planes[axis][k] = c.low[axis], made.planes[3 + axis][k] = c.high[axis];
-      made.child[k] = c.count == 0 ? add(c.child) : c.child, made.count[k] = c.count;
+      for (int axis = 0; axis < 3; ++axis) {
+        made.planes[axis][k] = c.low[axis];
+        made.planes[3 + axis][k] = c.high[axis];
+      }
+      made.child[k] = c.count == 0 ? add(c.child) : c.child;
+      made.count[k] = c.count;
       wide_.slots[size_t(c.node)][size_t(c.side)] = RAY_WIDTH * place + k++;
     }
     wide_.nodes[size_t(place)] = made;

@@ -15,15 +15,29 @@ namespace {
 
 SurfaceVertex surface_vertex(const Mesh& mesh, size_t i) {
   SurfaceVertex v{};
-  v.normal_x = mesh.normals[i].x, v.normal_y = mesh.normals[i].y, v.normal_z = mesh.normals[i].z;
+  v.normal_x = mesh.normals[i].x;
+  v.normal_y = mesh.normals[i].y;
+  v.normal_z = mesh.normals[i].z;
   if (!mesh.tangents.empty()) {
     const glm::vec4& t = mesh.tangents[i];
-    v.tangent_x = t.x, v.tangent_y = t.y, v.tangent_z = t.z, v.handedness = t.w;
+    v.tangent_x = t.x;
+    v.tangent_y = t.y;
+    v.tangent_z = t.z;
+    v.handedness = t.w;
   }
-  if (!mesh.uv0.empty()) v.u0 = mesh.uv0[i].x, v.v0 = mesh.uv0[i].y;
-  if (!mesh.uv1.empty()) v.u1 = mesh.uv1[i].x, v.v1 = mesh.uv1[i].y;
+  if (!mesh.uv0.empty()) {
+    v.u0 = mesh.uv0[i].x;
+    v.v0 = mesh.uv0[i].y;
+  }
+  if (!mesh.uv1.empty()) {
+    v.u1 = mesh.uv1[i].x;
+    v.v1 = mesh.uv1[i].y;
+  }
   const glm::vec4 color = mesh.colors.empty() ? glm::vec4(1) : mesh.colors[i];
-  v.red = color.r, v.green = color.g, v.blue = color.b, v.alpha = color.a;
+  v.red = color.r;
+  v.green = color.g;
+  v.blue = color.b;
+  v.alpha = color.a;
   return v;
 }
 

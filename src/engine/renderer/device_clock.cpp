@@ -22,11 +22,14 @@ DeviceClock::~DeviceClock() {
 }
 
 void DeviceClock::start() {
-  spans_.clear(), open_.clear(), span_depth_.reset();
+  spans_.clear();
+  open_.clear();
+  span_depth_.reset();
   used_ = 0;
   ClProfiler& profiler = renderer_.cl->profiler();
   profiler.collect_each();  // events of a frame that failed
-  profiler.time_launches(true), profiler.time_copies(true);
+  profiler.time_launches(true);
+  profiler.time_copies(true);
 }
 
 void DeviceClock::mark(Span& span, int end) {
@@ -59,7 +62,8 @@ void DeviceClock::end() {
 
 std::optional<DeviceTimes> DeviceClock::stop() {
   ClProfiler& profiler = renderer_.cl->profiler();
-  profiler.time_launches(false), profiler.time_copies(false);
+  profiler.time_launches(false);
+  profiler.time_copies(false);
   const std::vector<ClProfiler::Timed> events = profiler.collect_each();
   const auto in_gl = [](const Span& span) { return span.in_gl; };
   if (!gl_has_clock_ && std::ranges::any_of(spans_, in_gl)) return {};

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 
 namespace lightgrid {
 
-void EffectStates::before_lights(Work& work) {
+void EffectStates::before_lights(PassContext& work) {
   std::vector<State> planned;
   for (const Effect* effect : work.plan.effects) {
     const auto made = std::ranges::find(states_, effect, &State::effect);
@@ -42,7 +42,7 @@ EffectState* EffectStates::find(const Effect& effect) const {
   return made == states_.end() ? nullptr : made->state.get();
 }
 
-void EffectStates::follow(Work& work) {
+void EffectStates::follow(PassContext& work) {
   std::erase_if(states_, [&](State& s) {
     return std::ranges::count(work.plan.effects, s.effect) == 0 || !s.state->follow(work);
   });

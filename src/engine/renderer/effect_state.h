@@ -11,7 +11,7 @@
 
 namespace lightgrid {
 
-struct Work;
+struct PassContext;
 
 using EffectFigures = std::map<std::string, double>;  // by key
 
@@ -21,17 +21,17 @@ class PassCache {
   virtual size_t memory_bytes() const { return 0; }
   // Called after the camera, the lights or the plan changed. Returns false if the cache no longer fits; it is
   // then made again at its next use.
-  virtual bool follow(Work&) { return false; }
+  virtual bool follow(PassContext&) { return false; }
   // Uploads that follow() may leave for later, as the rasteriser does not read them. PassCaches::upload calls
   // it while the device draws triangles; the pass calls it too, before it reads them. Only the first call
   // after follow() does anything.
-  virtual void upload(Work&) {}
+  virtual void upload(PassContext&) {}
 };
 
 // An effect's memory. It fills its inputs (renderer/loop_inputs.h), which light loops then read.
 class EffectState : public PassCache {
  public:
-  virtual void before_lights(Work& work) = 0;          // at the beginning of each frame
+  virtual void before_lights(PassContext& work) = 0;   // at the beginning of each frame
   virtual void bind() const = 0;                       // the inputs of shaders
   virtual ClArguments base_arguments() { return {}; }  // of kernels: EFFECT_PARAMETERS of the hook NAME_base,
   virtual ClArguments reach_arguments() { return {}; }  // and of NAME_reach
@@ -41,14 +41,14 @@ class EffectState : public PassCache {
 // The effects' states of a view, in the order of its plan.
 class EffectStates {
  public:
-  void before_lights(Work& work);  // makes the planned states that are missing
+  void before_lights(PassContext& work);  // makes the planned states that are missing
   void bind() const;
   ClArguments base_arguments();
   ClArguments reach_arguments();
   std::map<std::string, EffectFigures> figures() const;  // by the effect's name, of those that have any
   EffectState* find(const Effect& effect) const;         // null: none
 
-  void follow(Work& work);  // drops those that the plan no longer has, or that no longer fit
+  void follow(PassContext& work);  // drops those that the plan no longer has, or that no longer fit
   void clear() { states_.clear(); }
   size_t memory_bytes() const;
 

@@ -84,8 +84,8 @@ void GpuScene::update(const SceneChanges& changes) {
   if (changes.lights.empty()) return;
   ++lights_version_;
   changed_lights_.push_back(changes.lights);
-  constexpr size_t most_remembered = 8;
-  if (changed_lights_.size() > most_remembered) changed_lights_.pop_front();
+  constexpr size_t max_remembered = 8;
+  if (changed_lights_.size() > max_remembered) changed_lights_.pop_front();
 }
 
 std::optional<std::vector<int>> GpuScene::lights_changed_since(int version) const {
@@ -104,7 +104,8 @@ std::shared_ptr<RasterScene> GpuScene::in_raster(TexelLayout layout) {
   if (!held || in_raster_version_ != shape_version_) {
     if (!held) in_raster_ = held = std::make_shared<RasterScene>(*renderer_.cl);
     set_raster_meshes(scene_, *held);
-    in_raster_version_ = shape_version_, in_raster_has_masks_ = shows_masks(scene_);
+    in_raster_version_ = shape_version_;
+    in_raster_has_masks_ = shows_masks(scene_);
   }
   if (in_raster_has_masks_) {
     const ClScene& scene = in_cl(layout);
@@ -124,7 +125,8 @@ std::shared_ptr<RayScene> GpuScene::in_rays(TexelLayout layout, BlendedCasters b
   if (moved) held->set_origin(origin);
   if (reshaped) set_ray_meshes(scene_, *held);
   if (reshaped || moved || of.instances != instances_version_) set_ray_instances(scene_, by_blended, *held);
-  of.shape = shape_version_, of.instances = instances_version_;
+  of.shape = shape_version_;
+  of.instances = instances_version_;
   if (reshaped && by_blended == BlendedCasters::alpha) {
     held->set_masks(masks_with_blended(*renderer_.cl, scene_, layout, in_cl(layout).vertices()));
   } else if (reshaped && shows_masks(scene_)) {

@@ -18,7 +18,8 @@ std::optional<std::vector<WorldBox>> MovedInstances::since_last(const GpuScene& 
     if (before.world_from_object == instance.world_from_object && before.mesh_version == version) continue;
     const Placed after{instance.world_from_object, version,
                        world_box(scene.meshes[size_t(instance.mesh)], instance.world_from_object)};
-    moved.push_back(before.box), moved.push_back(after.box);
+    moved.push_back(before.box);
+    moved.push_back(after.box);
     before = after;
   }
   if (all) return std::nullopt;

@@ -2,7 +2,7 @@
 
 #include "plan/frame_plan.h"
 #include "plan/settings/kernels.h"
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 
 namespace lightgrid {
 
@@ -30,12 +30,12 @@ const SceneProgram& ScenePrograms::of(uint32_t features) {
   return *variants_.back().second;
 }
 
-static bool shades_in_lanes(const Work& work) {
+static bool shades_in_lanes(const PassContext& work) {
   const KernelShape shape = work.plan.settings[setting::kernel_shape];
   return shape == KernelShape::lanes || (shape == KernelShape::automatic && work.renderer.cl->info().cpu);
 }
 
-PassKernels::PassKernels(Work& work, std::string subject)
+PassKernels::PassKernels(PassContext& work, std::string subject)
     : lanes(shades_in_lanes(work)), programs_(*work.renderer.kernels), subject_(std::move(subject)) {}
 
 bool PassKernels::use(std::string defines) {
@@ -52,7 +52,7 @@ NamedKernel& PassKernels::of(const std::string& stem, const std::string& more) {
   return kernel;
 }
 
-PixelRange over_pixels(const Seen& seen, bool lanes, size_t group_width, size_t group_height) {
+PixelRange over_pixels(const ViewState& seen, bool lanes, size_t group_width, size_t group_height) {
   if (lanes) return {cl::NDRange(seen.params.tiles_x, seen.params.tiles_y), cl::NDRange(1, 1)};
   const auto whole = [](int pixels, size_t group) { return (size_t(pixels) + group - 1) / group * group; };
   return {cl::NDRange(whole(seen.view.width, group_width), whole(seen.view.height, group_height)),

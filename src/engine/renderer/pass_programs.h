@@ -14,8 +14,8 @@
 
 namespace lightgrid {
 
-struct Seen;
-struct Work;
+struct ViewState;
+struct PassContext;
 
 // A program and the uniforms that drawing sets; -1 if the program lacks one.
 struct SceneProgram {
@@ -54,7 +54,7 @@ class ScenePrograms {
 class PassKernels {
  public:
   // Kernels are kernels/SUBJECT/cpu/STEM.cl and kernels/SUBJECT/gpu/STEM.cl.
-  PassKernels(Work& work, std::string subject);
+  PassKernels(PassContext& work, std::string subject);
 
   // Sets the defines of all kernels. If they differ from the last ones, drops the kernels and returns true.
   bool use(std::string defines);
@@ -75,6 +75,6 @@ class PassKernels {
 struct PixelRange {
   cl::NDRange items, group;
 };
-PixelRange over_pixels(const Seen& seen, bool lanes, size_t group_width, size_t group_height);
+PixelRange over_pixels(const ViewState& seen, bool lanes, size_t group_width, size_t group_height);
 
 }  // namespace lightgrid

@@ -61,8 +61,10 @@ class PassTimer {
     }
     // Bytes of the inputs read and the outputs written.
     void moves(size_t read, size_t written) {
-      if (timer_)
-        timer_->records_[record_].bytes_read = read, timer_->records_[record_].bytes_written = written;
+      if (timer_) {
+        timer_->records_[record_].bytes_read = read;
+        timer_->records_[record_].bytes_written = written;
+      }
     }
 
    private:

@@ -30,7 +30,8 @@ TechniqueNeeds with_opengl_samples(TechniqueNeeds needs, const Renderer& rendere
   return needs;
 }
 
-Seen seen_by(const View& view, const Scene& scene, const Settings& settings, const TechniqueNeeds& needs) {
+ViewState seen_by(const View& view, const Scene& scene, const Settings& settings,
+                  const TechniqueNeeds& needs) {
   FramePlan plan = plan_frame(scene, view, settings, needs);
   const ViewParams params = params_of(view, plan, scene.ambient);
   return {scene, view, std::move(plan), params, {}, {}, {}};
@@ -40,9 +41,9 @@ Seen seen_by(const View& view, const Scene& scene, const Settings& settings, con
 
 RenderView::RenderView(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
                        const TechniqueNeeds& needs, std::shared_ptr<TargetPool> pool)
-    : Work(seen_by(view, gpu.scene(), with_tuned(settings, renderer.tuned),
-                   with_opengl_samples(needs, renderer, gpu.scene())),
-           renderer, gpu, pool ? pool : std::make_shared<TargetPool>()),
+    : PassContext(seen_by(view, gpu.scene(), with_tuned(settings, renderer.tuned),
+                          with_opengl_samples(needs, renderer, gpu.scene())),
+                  renderer, gpu, pool ? pool : std::make_shared<TargetPool>()),
       settings_(with_tuned(settings, renderer.tuned)),
       needs_(with_opengl_samples(needs, renderer, gpu.scene())),
       shared_pool_(std::move(pool)) {
@@ -127,7 +128,8 @@ void RenderView::lights_changed() {
 }
 
 void RenderView::draw_random(uint32_t seed) {
-  settings_.set(setting::list_seed, seed), plan.settings.set(setting::list_seed, seed);
+  settings_.set(setting::list_seed, seed);
+  plan.settings.set(setting::list_seed, seed);
   if (plan.settings[setting::range] != LightRange::stochastic) return;
   settings_.set(setting::light_seed, seed);
   look(view);
@@ -143,7 +145,8 @@ void RenderView::follow_view() {
   if (!plan.opengl) return;
   lights.upload(*this);
   if (preparing_) {
-    opaque.clear(), blended.clear();
+    opaque.clear();
+    blended.clear();
     return;
   }
   const GlScene& in_gl = gpu.in_gl();

@@ -7,15 +7,15 @@
 #include <memory>
 #include <optional>
 
+#include "renderer/pass_context.h"
 #include "renderer/shared_grids.h"
 #include "renderer/upload/culler_input.h"
-#include "renderer/work.h"
 
 namespace lightgrid {
 
 // Only recipes take it whole; passes take what the camera sees, or that and what works on it, and their own
 // cache.
-struct RenderView : Work {
+struct RenderView : PassContext {
   // All outlive it; it may add reversed triangles to the GPU scene. Unless draws_with_opengl() nothing of the
   // scene is uploaded to OpenGL. Views with the same pool draw into the same images in turn; without a pool
   // the view has its own. Throws Error(input) if the settings do not fit the view, Error(machine) if it needs

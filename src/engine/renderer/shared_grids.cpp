@@ -4,7 +4,7 @@
 
 namespace lightgrid {
 
-size_t most_texture_bytes(GLenum format) {
+size_t max_texture_bytes(GLenum format) {
   GLint texels = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
   return size_t(texels) * (format == GL_RG32UI ? 8 : format == GL_R32UI || format == GL_R32F ? 4 : 2);
@@ -22,11 +22,11 @@ cl::Buffer& SharedTexture::at_least(Renderer& renderer, size_t bytes, GLenum for
 
 cl::Buffer& SharedGridStorage::grown(SharedTexture& shared, size_t bytes, GLenum format) {
   const bool for_gl = bool(renderer_.gl);
-  if (for_gl && shared.bytes() < bytes && bytes > most_texture_bytes(format)) {
+  if (for_gl && shared.bytes() < bytes && bytes > max_texture_bytes(format)) {
     throw machine_error(
         "light grid: {} bytes are more than the {} that a buffer texture may have in this OpenGL; use "
         "larger tiles, fewer slices or fewer lights",
-        bytes, most_texture_bytes(format));
+        bytes, max_texture_bytes(format));
   }
   return shared.at_least(renderer_, bytes, format, for_gl);
 }
@@ -56,7 +56,7 @@ class SharedWorldGridStorage : public WorldGridStorage {
       : WorldGridStorage(*renderer.cl), renderer_(renderer), index_bits_(index_bits), for_gl_(for_gl) {}
 
   cl::Buffer& at_least(WorldArray array, size_t bytes) override {
-    if (const size_t most = most_bytes(array); bytes > most) {
+    if (const size_t most = max_bytes(array); bytes > most) {
       throw machine_error(
           "world grid: {} bytes are more than the {} that a buffer texture may have in this OpenGL; use "
           "larger cells (world-cell), smaller ranges or fewer lights",
@@ -66,8 +66,8 @@ class SharedWorldGridStorage : public WorldGridStorage {
   }
   cl::Buffer& buffer(WorldArray array) override { return shared(array).buffer->cl_buffer(); }
   size_t bytes(WorldArray array) const override { return arrays_[size_t(array)].bytes(); }
-  size_t most_bytes(WorldArray array) const override {
-    return for_gl_ ? most_texture_bytes(format_of(array)) : WorldGridStorage::most_bytes(array);
+  size_t max_bytes(WorldArray array) const override {
+    return for_gl_ ? max_texture_bytes(format_of(array)) : WorldGridStorage::max_bytes(array);
   }
   void swap_lists() override {
     std::swap(shared(WorldArray::cells), shared(WorldArray::old_cells));

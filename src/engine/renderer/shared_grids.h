@@ -22,7 +22,7 @@ struct SharedTexture {
 };
 
 // Most bytes that a buffer texture of this format may have. The OpenGL context is current.
-size_t most_texture_bytes(GLenum format);
+size_t max_texture_bytes(GLenum format);
 
 class SharedGridStorage : public GridStorage {
  public:

@@ -41,7 +41,8 @@ void scatter_over(Scene& scene, const SceneChoice& choice) {
     const auto [low, high] = parse_pair<float>(choice.light_radius, ',').value_or(std::pair(0.0f, 0.0f));
     if (!(low > 0) || !(high >= low) || std::isinf(high))
       throw input_error("light-radius {}: not MIN,MAX in metres with 0 < MIN <= MAX", choice.light_radius);
-    scatter.min_radius_m = low, scatter.max_radius_m = high;
+    scatter.min_radius_m = low;
+    scatter.max_radius_m = high;
   }
   scene.lights = scatter_lights(scene, scatter);
 }
@@ -62,16 +63,16 @@ float parse_ambient(const std::string& text) {
   return *radiance;
 }
 
-constexpr double most_exposure = 60;
+constexpr double max_exposure = 60;
 
 // Stops; empty: automatic.
 std::optional<double> parse_exposure(const SceneChoice& choice) {
   if (choice.exposure.empty() && find_builtin_scene(choice.scene)) return 0;
   if (choice.exposure.empty() || choice.exposure == "auto") return {};
   const auto ev = parse_number<double>(choice.exposure);
-  if (!ev || !(std::abs(*ev) <= most_exposure))
+  if (!ev || !(std::abs(*ev) <= max_exposure))
     throw input_error("exposure {}: neither auto nor a number of stops from {} to {}", choice.exposure,
-                      -most_exposure, most_exposure);
+                      -max_exposure, max_exposure);
   return ev;
 }
 
@@ -105,9 +106,9 @@ VirtualLightSettings virtual_settings(const SceneChoice& choice) {
   }
   if (!choice.virtual_from.empty() && choice.virtual_from != "all") {
     const auto from = parse_number<int>(choice.virtual_from);
-    if (!from || *from < 1 || *from > most_lights)
+    if (!from || *from < 1 || *from > max_lights)
       throw input_error("virtual-from {}: neither all nor a number of lights from 1 to {}",
-                        choice.virtual_from, most_lights);
+                        choice.virtual_from, max_lights);
     s.from = size_t(*from);
   }
   if (!choice.virtual_nearest.empty() && choice.virtual_nearest != "auto") {
@@ -147,7 +148,7 @@ const std::vector<ChoiceField>& choice_fields() {
   static const std::vector<ChoiceField> fields = {
       {"size", "image size, WxH", scene, &SceneChoice::size},
       {"lights", "scatter N lights; with --lights-file, its first N", scene, &SceneChoice::lights,
-       most_lights},
+       max_lights},
       {"files", "files that a glTF file may name: below (its folder; default) or anywhere", file,
        &SceneChoice::files},
       {"image-memory", "memory for decoded images, as 4G (default: by the memory that is free)", file,
@@ -161,7 +162,7 @@ const std::vector<ChoiceField>& choice_fields() {
       {"shadows", "lights that cast shadows: the N most important, all or none (default: as the scene says)",
        view, &SceneChoice::shadows},
       {"virtual-lights", "places N virtual point lights where surfaces reflect the others", view,
-       &SceneChoice::virtual_lights, most_virtual_lights},
+       &SceneChoice::virtual_lights, max_virtual_lights},
       {"virtual-from", "lights that are reflected: the N most important, or all (default)", view,
        &SceneChoice::virtual_from},
       {"virtual-nearest",
@@ -218,11 +219,11 @@ std::unique_ptr<VirtualLights> chosen_virtual_lights(Scene& scene, const SceneCh
 
 std::optional<size_t> chosen_casters(const std::string& text) {
   if (text.empty()) return {};
-  if (text == "all") return size_t(most_lights);
+  if (text == "all") return size_t(max_lights);
   if (text == "none") return 0;
   const auto count = parse_number<int>(text);
-  if (!count || *count < 0 || *count > most_lights)
-    throw input_error("shadows {}: neither all, none nor a number of lights from 0 to {}", text, most_lights);
+  if (!count || *count < 0 || *count > max_lights)
+    throw input_error("shadows {}: neither all, none nor a number of lights from 0 to {}", text, max_lights);
   return size_t(*count);
 }
 
@@ -422,11 +423,13 @@ std::vector<LoadedView> load_views(const std::vector<SceneChoice>& choices) {
       const WarningCollector collector;
       scene = std::make_shared<Scene>(load_scene(choice));
       loaded = &choice;
-      own.lights = scene->lights, own.ambient = scene->ambient;
+      own.lights = scene->lights;
+      own.ambient = scene->ambient;
       of_file = collector.warnings();
     }
     const WarningCollector collector;
-    scene->lights = own.lights, scene->ambient = own.ambient;
+    scene->lights = own.lights;
+    scene->ambient = own.ambient;
     const View view = choose_view(*scene, choice);
     views.push_back({scene, view, scene->lights, scene->ambient, of_file});
     add_distinct(views.back().warnings, collector.warnings());

@@ -21,7 +21,7 @@ namespace lightgrid {
 
 struct GltfLimits;  // scene/load_gltf.h
 
-inline constexpr int most_lights = 10'000'000, most_virtual_lights = 1'000'000;
+inline constexpr int max_lights = 10'000'000, max_virtual_lights = 1'000'000;
 
 // Fields as in docs/command_line.md.
 struct SceneChoice {

@@ -10,10 +10,15 @@ static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Fr
   bool unchanged = false;
   if (frame.shadow_figures) {
     const ShadowFigures figures = frame.shadow_figures();
-    result.lights = figures.lights, result.maps = figures.maps, result.drawn = figures.drawn;
-    result.kept = figures.kept, result.bytes = figures.bytes;
-    result.rays = figures.rays, result.undecided = figures.undecided;
-    result.halvings = figures.halvings, result.bands = figures.bands;
+    result.lights = figures.lights;
+    result.maps = figures.maps;
+    result.drawn = figures.drawn;
+    result.kept = figures.kept;
+    result.bytes = figures.bytes;
+    result.rays = figures.rays;
+    result.undecided = figures.undecided;
+    result.halvings = figures.halvings;
+    result.bands = figures.bands;
     unchanged = figures.unchanged;
   }
   result.dim_steps = plan.shadows.dim_steps;

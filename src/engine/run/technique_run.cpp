@@ -60,12 +60,12 @@ static double kept_per_pixel(Renderer& renderer, GpuScene& gpu, const View& view
 static const View& fitting(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
                            const Technique& technique, int file_bytes = 0) {
   // The image for the host, and an 8-bit picture; more than any technique's frame keeps.
-  constexpr double image_bytes = 16, picture_bytes = 4, most_bytes = 256;
+  constexpr double image_bytes = 16, picture_bytes = 4, max_bytes = 256;
   constexpr uint64_t spare_bytes = 128 << 20;
   const double pixels = double(view.grid().pixels()), usable = double(usable_memory());
   const bool in_host = renderer.cl->info().cpu || (renderer.gl && renderer.gl->software);
   if (std::max(view.width, view.height) <= counted_side ||
-      pixels * most_bytes * (1 + settings[setting::samples]) + spare_bytes < usable)
+      pixels * max_bytes * (1 + settings[setting::samples]) + spare_bytes < usable)
     return view;
   const std::string size = fmt::format("size {}x{}", view.width, view.height);
   double per_pixel = image_bytes + picture_bytes;
@@ -162,14 +162,14 @@ glm::u8vec4* TechniqueRun::show_picture() {
   return shown_picture_->pixels();
 }
 
-void TechniqueRun::run_profiled_frames(double most_ms) {
+void TechniqueRun::run_profiled_frames(double max_ms) {
   struct Enabled {
     PassTimer& timer;
     explicit Enabled(PassTimer& t) : timer(t) { timer.enabled = true; }
     ~Enabled() { timer.enabled = false; }  // also after an exception
   } enabled(view_.timer);
   const Timer timer;
-  for (int i = 0; i < 5 && (i == 0 || timer.elapsed_ms() < most_ms); ++i) {
+  for (int i = 0; i < 5 && (i == 0 || timer.elapsed_ms() < max_ms); ++i) {
     draws_bytes() ? run_picture(true) : run_frame(true);
   }
 }
@@ -204,7 +204,8 @@ FrameFigures TechniqueRun::result() const {
   }
   result.memory_total = view_.memory_bytes();
   result.memory_light_grid = frame_.light_grid_bytes();
-  result.built_by = frame_.built_by, result.built_with = frame_.built_with;
+  result.built_by = frame_.built_by;
+  result.built_with = frame_.built_with;
   result.memory_gbuffer = view_.targets.bytes(TargetUse::gbuffer);
   result.nan_pixels = count_nan_pixels(image_);
   result.inf_pixels = count_inf_pixels(image_);

@@ -28,7 +28,10 @@ class TechniqueRun {
   // Builds what frames of other views of the scene need: before a camera moves (RenderView::prepare).
   void prepare();
   // Another camera or size, for the frames that follow.
-  void look(const View& view) { hide(), view_.look(view); }
+  void look(const View& view) {
+    hide();
+    view_.look(view);
+  }
   // The same after the scene changed; its GpuScene is already updated.
   void look(const View& view, const SceneChanges& changes) {
     look(view);
@@ -54,7 +57,7 @@ class TechniqueRun {
   // One frame whose image stays on its device, for a window: frame().image. image() is then an older frame's.
   void draw_frame();
   // More frames with a wait after each pass, for pass times: up to five, or as many as fit in the time.
-  void run_profiled_frames(double most_ms = 1000);
+  void run_profiled_frames(double max_ms = 1000);
 
   // Frees what the next frame creates again (RenderView::release). All runs of a pool have to be released
   // before one of them draws again.
@@ -77,7 +80,10 @@ class TechniqueRun {
   FrameFigures result() const;
 
  private:
-  void hide() { shown_.reset(), shown_picture_.reset(); }
+  void hide() {
+    shown_.reset();
+    shown_picture_.reset();
+  }
   // ms, until it has been read: into shown_, into shown_picture_.
   double time_frame(const std::function<void()>& read);
   double time_image();

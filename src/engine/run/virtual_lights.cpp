@@ -17,7 +17,7 @@ namespace lightgrid {
 namespace {
 
 // All views together have at most this many pixels, and each view is this wide.
-constexpr size_t most_pixels = size_t(1) << 21;
+constexpr size_t max_pixels = size_t(1) << 21;
 constexpr int widest = 256, narrowest = 16;
 
 Settings settings_of_views(Settings s) {
@@ -30,7 +30,7 @@ Settings settings_of_views(Settings s) {
 
 int side_for(size_t views) {
   int side = widest;
-  while (side > narrowest && views * size_t(side) * size_t(side) > most_pixels) side /= 2;
+  while (side > narrowest && views * size_t(side) * size_t(side) > max_pixels) side /= 2;
   return side;
 }
 
@@ -99,11 +99,11 @@ void VirtualLights::place() {
   size_t views = 0;
   for (const Light& light : own) views += views_from(light, narrowest, near_m).size();
   const int side = side_for(views);
-  if (views * size_t(side) * size_t(side) > most_pixels) {
+  if (views * size_t(side) * size_t(side) > max_pixels) {
     throw input_error(
         "virtual-from: {} lights need {} views of {} x {} pixels, more than {} pixels; reflect "
         "fewer lights",
-        own.size(), views, side, side, most_pixels);
+        own.size(), views, side, side, max_pixels);
   }
   // The views' plans see these lights alone, so that none changes when virtual lights join them.
   std::swap(scene_.lights, own);

@@ -86,7 +86,10 @@ bool switch_light(const Rig& rig, const Pose& pose, Light& light) {
   if (found == rig.lights.end()) return false;
   Light now = found->second.rest;
   animate_light(pose, found->second.light, now);
-  if (pose.hidden[size_t(light.node)]) now.intensity = 0, now.radius_m = 0;
+  if (pose.hidden[size_t(light.node)]) {
+    now.intensity = 0;
+    now.radius_m = 0;
+  }
   bool changed = assign(light.color, now.color);
   changed |= assign(light.intensity, now.intensity);
   changed |= assign(light.radius_m, now.radius_m);

@@ -15,7 +15,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr int most_views = 100'000, max_path_depth = 8;
+constexpr int max_views = 100'000, max_path_depth = 8;
 constexpr uintmax_t max_file_bytes = 64 << 20;
 
 // `start` from another position, with its view space turned by `turn` (world from world).
@@ -83,9 +83,9 @@ class KeyFile {
   size_t frames() const {
     if (!json_.contains("frames")) return keys_.size();
     const nlohmann::json& frames = json_["frames"];
-    if (!frames.is_number_unsigned() || frames < 1u || frames > unsigned(most_views)) {
+    if (!frames.is_number_unsigned() || frames < 1u || frames > unsigned(max_views)) {
       throw input_error("camera-path {}: frames is {}, not a number from 1 to {}", path_, frames.dump(),
-                        most_views);
+                        max_views);
     }
     return frames.get<size_t>();
   }
@@ -126,8 +126,8 @@ class KeyFile {
 std::optional<int> count_of(const std::string& text, const std::string& name) {
   if (!text.starts_with(name + ":")) return {};
   const auto count = parse_number<int>(std::string_view(text).substr(name.size() + 1));
-  if (!count || *count < 1 || *count > most_views)
-    throw input_error("camera-path {}: not {}:N with N from 1 to {}", text, name, most_views);
+  if (!count || *count < 1 || *count > max_views)
+    throw input_error("camera-path {}: not {}:N with N from 1 to {}", text, name, max_views);
   return count;
 }
 

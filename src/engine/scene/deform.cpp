@@ -78,7 +78,10 @@ void make_tangents(Mesh& mesh, std::span<const glm::vec2> uv) {
     const double weight = glm::length(glm::cross(edge1, edge2)), sign = uv_area > 0 ? 1 : -1;
     const glm::dvec3 u(unit_or((edge1 * uv2.y - edge2 * uv1.y) * sign, glm::vec3(0)));
     const glm::dvec3 v(unit_or((edge2 * uv1.x - edge1 * uv2.x) * sign, glm::vec3(0)));
-    for (uint32_t vertex : {a, b, c}) along_u[vertex] += u * weight, along_v[vertex] += v * weight;
+    for (uint32_t vertex : {a, b, c}) {
+      along_u[vertex] += u * weight;
+      along_v[vertex] += v * weight;
+    }
   }
   mesh.tangents.resize(mesh.positions.size());
   for (size_t i = 0; i < mesh.tangents.size(); ++i) {

@@ -38,7 +38,8 @@ LightShare share_of(const Scene& scene, const Light& light, const LightRanges& r
   for (const ReachOracle& oracle : reach_oracles()) {
     if (!oracle.share) continue;
     const LightShare more = oracle.share(scene, light, ranges);
-    share.largest *= more.largest, share.of_surface = share.of_surface || more.of_surface;
+    share.largest *= more.largest;
+    share.of_surface = share.of_surface || more.of_surface;
   }
   return share;
 }

@@ -20,15 +20,15 @@ std::string trimmed(const std::string& text) {
 // Gives groups their numbers.
 class Numbers {
  public:
-  explicit Numbers(std::vector<std::string>& names) : names_(names) { names_.resize(size_t(most_groups)); }
+  explicit Numbers(std::vector<std::string>& names) : names_(names) { names_.resize(size_t(max_groups)); }
 
   // A group that is given by its number keeps it: no name may take it.
   void reserve(const GroupLists& lists) {
     for (const std::string& name : lists.groups.value_or(std::vector<std::string>())) {
       const auto number = parse_number<int64_t>(name);
       if (!number) continue;
-      if (*number < 0 || *number >= most_groups)
-        throw input_error("{}: group {} is not a number from 0 to {}", lists.where, name, most_groups - 1);
+      if (*number < 0 || *number >= max_groups)
+        throw input_error("{}: group {} is not a number from 0 to {}", lists.where, name, max_groups - 1);
       std::string& taken = names_[size_t(*number)];
       if (taken.empty()) taken = name;
     }
@@ -47,7 +47,7 @@ class Numbers {
     auto at = std::ranges::find(names_, name);
     if (at == names_.end()) at = std::ranges::find(names_, std::string());
     if (at == names_.end())
-      throw input_error("{}: \"{}\" is one group too many: there are at most {}", where, name, most_groups);
+      throw input_error("{}: \"{}\" is one group too many: there are at most {}", where, name, max_groups);
     *at = name;
     return int(at - names_.begin());
   }
@@ -106,7 +106,7 @@ void require_groups(const Scene& scene, const std::vector<bool>& dark) {
     throw input_error(
         "node \"{}\": the lists of {} lights leave it in none of the {} groups, so that no light would light "
         "it: use fewer lists, or groups",
-        scene.instances[i].name, scene.lights.size(), most_groups);
+        scene.instances[i].name, scene.lights.size(), max_groups);
   }
 }
 
@@ -120,7 +120,10 @@ bool calls_for_groups(const Scene& scene) {
 GroupLists::Names names_of_groups(const nlohmann::json& value) {
   std::vector<std::string> names;
   const auto add = [&](const nlohmann::json& element) {
-    if (element.is_string()) return names.push_back(element.get<std::string>()), true;
+    if (element.is_string()) {
+      names.push_back(element.get<std::string>());
+      return true;
+    }
     if (!element.is_number()) return false;
     const double number = element.get<double>();
     names.push_back(fmt::format("{}", number));
@@ -161,7 +164,7 @@ std::string words_of_groups(const Scene& scene, uint32_t mask) {
   if (mask == 0) return "no group";
   if (mask == all_groups) return "every group";
   std::vector<std::string> words;
-  for (size_t i = 0; i < size_t(most_groups); ++i) {
+  for (size_t i = 0; i < size_t(max_groups); ++i) {
     if (!(mask >> i & 1)) continue;
     const bool named = i < scene.group_names.size() && !scene.group_names[i].empty();
     words.push_back(named ? scene.group_names[i] : fmt::format("{}", i));

@@ -13,7 +13,7 @@
 
 namespace lightgrid {
 
-inline constexpr int most_groups = 32;
+inline constexpr int max_groups = 32;
 
 inline bool groups_meet(uint32_t light, uint32_t instance) { return (light & instance) != 0; }
 

@@ -38,12 +38,12 @@ double range_of(const Light& light, size_t index, const LightRanges& ranges) {
   return infinite;
 }
 
-double least_falloff(const Light& light, const LightRanges& ranges) {
+double min_falloff(const Light& light, const LightRanges& ranges) {
   const double intensity = brightest_intensity(light);
   return ranges.range == LightRange::stochastic && intensity > 0 ? ranges.alpha / intensity : 0;
 }
 
-double most_falloff(const Light& light) {
+double max_falloff(const Light& light) {
   constexpr double largest = 1e31;  // shared/punctual_light.h: LARGEST_ATTENUATION
   return 1 / std::max(double(light.nearest_m) * double(light.nearest_m), 1 / largest);
 }
@@ -80,7 +80,10 @@ static std::vector<glm::dvec3> surface_points(const Scene& scene, size_t count) 
     const double at = area * (double(n) + 0.5) / double(count);
     const auto part = std::ranges::lower_bound(parts, at, {}, &Part::area_until);
     double u = random_of(1, 2 * n), v = random_of(1, 2 * n + 1);
-    if (u + v > 1) u = 1 - u, v = 1 - v;
+    if (u + v > 1) {
+      u = 1 - u;
+      v = 1 - v;
+    }
     const glm::dvec3 a = corner(*part->instance, part->index);
     points.push_back(a + u * (corner(*part->instance, part->index + 1) - a) +
                      v * (corner(*part->instance, part->index + 2) - a));
@@ -98,9 +101,9 @@ struct SampledIrradiance {
 };
 
 SampledIrradiance sampled_irradiance(const Scene& scene) {
-  constexpr size_t count = 256, most_lights = 10'000;
+  constexpr size_t count = 256, max_lights = 10'000;
   const std::vector<glm::dvec3> points = surface_points(scene, count);
-  const size_t stride = scene.lights.size() / most_lights + 1;
+  const size_t stride = scene.lights.size() / max_lights + 1;
   SampledIrradiance sampled{std::vector<std::vector<double>>(points.size()), 0, double(stride)};
   for (size_t i = 0; i < scene.lights.size(); i += stride) {
     const Light& light = scene.lights[i];
@@ -122,7 +125,8 @@ CutoffEffect effect_of(double cutoff, const SampledIrradiance& sampled) {
       sum += irradiance;
       if (irradiance <= cutoff) continue;
       const double squares = cutoff / irradiance;  // square of distance over range
-      ++reach, kept += irradiance * (1 - squares * squares);
+      ++reach;
+      kept += irradiance * (1 - squares * squares);
     }
     share += sum > 0 ? kept / sum : 1;
   }

@@ -45,10 +45,10 @@ double range_of(const Light& light, size_t index, const LightRanges& ranges);
 // A light that reaches a point with the probability p = min(f / alpha, 1) counts 1 / p times: f / p = max(f,
 // alpha). This is alpha over the intensity, the least value of 1 / d^2 that shading uses within the light's
 // range. 0: as it is.
-double least_falloff(const Light& light, const LightRanges& ranges);
+double min_falloff(const Light& light, const LightRanges& ranges);
 
 // The largest 1 / distance^2 of a virtual light, by its nearest_m. Finite.
-double most_falloff(const Light& light);
+double max_falloff(const Light& light);
 
 // The scene's lights with their ranges as radius_m.
 std::vector<Light> lights_with_ranges(const Scene& scene, const LightRanges& ranges);

@@ -127,7 +127,8 @@ std::vector<Light> scatter_lights(const Scene& scene, const ScatterSettings& set
     const double radius = std::sqrt(lights_per_point * surface.area() / (std::numbers::pi * count));
     const WorldBox box = world_box(scene);
     const double bounded = std::min(radius, glm::length(box.max - box.min) / 4);
-    min_radius = float(0.6 * bounded), max_radius = float(1.4 * bounded);
+    min_radius = float(0.6 * bounded);
+    max_radius = float(1.4 * bounded);
   }
   // Intensity is radius^2 / 8 (scatter_one).
   if (!(double(max_radius) * max_radius / 8 <= double(std::numeric_limits<float>::max()))) {

@@ -26,8 +26,11 @@ void build(LightTree& tree, size_t node, std::span<Leaf> lights) {
   if (lights.empty()) return;
   glm::vec3 low = lights[0].position, high = low;
   double sum = 0;
-  for (const Leaf& l : lights)
-    low = glm::min(low, l.position), high = glm::max(high, l.position), sum += l.luminance;
+  for (const Leaf& l : lights) {
+    low = glm::min(low, l.position);
+    high = glm::max(high, l.position);
+    sum += l.luminance;
+  }
   tree.nodes[node] = {glm::vec4(low, float(sum)), glm::vec4(high, 0)};
   const size_t leaves = tree.lights.size();
   if (node >= leaves) {

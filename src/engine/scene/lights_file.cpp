@@ -28,17 +28,30 @@ class Place : public Json::json_sax_t {
   explicit Place(const std::filesystem::path& path) : path_(path) {}
 
   bool start_object(std::size_t) override {
-    if (depth_ == 2 && in_lights_) ++light_, field_.clear();
-    return ++depth_, true;
+    if (depth_ == 2 && in_lights_) {
+      ++light_;
+      field_.clear();
+    }
+    ++depth_;
+    return true;
   }
   bool key(std::string& name) override {
     if (depth_ == 1) in_lights_ = name == "lights";
     field_ = name;
     return true;
   }
-  bool end_object() override { return --depth_, true; }
-  bool start_array(std::size_t) override { return ++depth_, true; }
-  bool end_array() override { return --depth_, true; }
+  bool end_object() override {
+    --depth_;
+    return true;
+  }
+  bool start_array(std::size_t) override {
+    ++depth_;
+    return true;
+  }
+  bool end_array() override {
+    --depth_;
+    return true;
+  }
   bool null() override { return true; }
   bool boolean(bool) override { return true; }
   bool number_integer(Json::number_integer_t) override { return true; }
@@ -213,7 +226,8 @@ Light plain_light(const Fields& fields) {
   }
   const double inner = fields.number("inner_cone", 0, 0, float(std::numbers::pi));
   const double outer = fields.number("outer_cone", light.outer_cone_rad, 0, float(std::numbers::pi));
-  light.inner_cone_rad = float(inner), light.outer_cone_rad = float(outer);
+  light.inner_cone_rad = float(inner);
+  light.outer_cone_rad = float(outer);
   if (!(light.outer_cone_rad > 0)) throw fields.error("outer_cone", "is not above 0", outer);
   if (light.inner_cone_rad > light.outer_cone_rad) {
     const Error fault = fields.error("inner_cone", fmt::format("is above outer_cone {}", outer), inner);
@@ -261,7 +275,8 @@ std::vector<GroupLists> instance_groups(const std::filesystem::path& path, const
     const size_t before = all.size();
     for (size_t k = 0; k < scene.instances.size(); ++k) {
       if (scene.instances[k].name != fields.name()) continue;
-      all.push_back(lists), all.back().owner = int(k);
+      all.push_back(lists);
+      all.back().owner = int(k);
     }
     if (all.size() == before) throw input_error("{}: no node of this name shows a mesh", fields.where());
   }
@@ -275,7 +290,7 @@ Json to_json(const glm::vec3& v) { return {shortest(v.x), shortest(v.y), shortes
 
 nlohmann::ordered_json to_json(uint32_t groups) {
   nlohmann::ordered_json numbers = Json::array();
-  for (int i = 0; i < most_groups; ++i)
+  for (int i = 0; i < max_groups; ++i)
     if (groups >> i & 1) numbers.push_back(i);
   return numbers;
 }

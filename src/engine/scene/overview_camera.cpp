@@ -33,7 +33,10 @@ glm::dvec3 outermost(const std::vector<Placed>& instances, const Value& value) {
     if (!may_exceed) continue;
     for (const uint32_t index : placed.mesh->indices) {
       const glm::dvec3 p = point(placed.mesh->positions[index]);
-      if (value(p) > largest) largest = value(p), found = p;
+      if (value(p) > largest) {
+        largest = value(p);
+        found = p;
+      }
     }
   }
   return found;

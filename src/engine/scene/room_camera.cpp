@@ -122,11 +122,13 @@ bool in_hollow_object(const Scene& scene, const std::vector<Corners>& triangles,
   for (int i = 0; i < rays; ++i) {  // evenly over the sphere
     const double up = 1 - (2 * i + 1.0) / rays, across = std::sqrt(1 - up * up), turn = golden_angle * i;
     const Walls walls = walls_along(triangles, eye, {across * std::cos(turn), up, across * std::sin(turn)});
-    any += walls.any, outward += walls.outward, several += walls.several;
+    any += walls.any;
+    outward += walls.outward;
+    several += walls.several;
   }
   if (outward < nearly_all * any || several > few * any) return false;
-  constexpr ptrdiff_t most_lights = 16;
-  const auto end = scene.lights.begin() + std::min(most_lights, std::ssize(scene.lights));
+  constexpr ptrdiff_t max_lights = 16;
+  const auto end = scene.lights.begin() + std::min(max_lights, std::ssize(scene.lights));
   return std::none_of(scene.lights.begin(), end, [&](const Light& light) {
     return !is_directional(light) && nearest_hit(triangles, eye, light.position - eye).distance > 1;
   });
@@ -141,12 +143,12 @@ struct RoomPlace {
 std::optional<RoomPlace> camera_at(const std::vector<Corners>& triangles, const glm::dvec3& place,
                                    double top) {
   constexpr int walls = 14;
-  constexpr double eye_height_m = 1.7, least_height_m = 1, free_m = 1.5, back = 0.8;
+  constexpr double eye_height_m = 1.7, min_height_m = 1, free_m = 1.5, back = 0.8;
   const Hit floor = nearest_hit(triangles, place, {0, -1, 0});
   if (!floor.front || !std::isfinite(floor.distance)) return {};
   const double ground = place.y - floor.distance;
   const glm::dvec3 eye(place.x, ground + std::min(eye_height_m, 0.65 * (top - ground)), place.z);
-  if (eye.y - ground < least_height_m) return {};
+  if (eye.y - ground < min_height_m) return {};
   const std::vector<Corners> level = at_height(triangles, eye.y);
   std::array<double, directions> distance;
   int count = 0;
@@ -176,12 +178,12 @@ std::optional<RoomPlace> camera_at(const std::vector<Corners>& triangles, const 
 }  // namespace
 
 std::optional<Camera> room_camera(const Scene& scene) {
-  constexpr size_t most_triangles = 2'000'000;
+  constexpr size_t max_triangles = 2'000'000;
   const WorldBox box = world_box(scene);
   if (box.empty()) return {};
   const glm::dvec3 size = box.max - box.min;
   if (!(size.x >= 3 && size.y >= 2 && size.z >= 3 && glm::length(size) < 1e6)) return {};
-  const std::vector<Corners> triangles = triangles_of(scene, most_triangles);
+  const std::vector<Corners> triangles = triangles_of(scene, max_triangles);
   for (const double x : {0.5, 0.35, 0.65}) {
     for (const double z : {0.5, 0.35, 0.65}) {
       const auto found = camera_at(triangles, box.min + size * glm::dvec3(x, 0.5, z), box.max.y);

@@ -49,7 +49,8 @@ WorldBox world_box(const Mesh& mesh, const glm::dmat4& world_from_object) {
   WorldBox box = no_box;
   for (const glm::dvec3& corner : corners_of(mesh.bounds)) {
     const glm::dvec3 world(world_from_object * glm::dvec4(corner, 1));
-    box.min = glm::min(box.min, world), box.max = glm::max(box.max, world);
+    box.min = glm::min(box.min, world);
+    box.max = glm::max(box.max, world);
   }
   return box;
 }
@@ -59,7 +60,8 @@ WorldBox world_box(const Scene& scene) {
   for (const Instance& instance : scene.instances) {
     if (is_hidden(instance)) continue;
     const WorldBox box = world_box(scene.meshes[size_t(instance.mesh)], instance.world_from_object);
-    all.min = glm::min(all.min, box.min), all.max = glm::max(all.max, box.max);
+    all.min = glm::min(all.min, box.min);
+    all.max = glm::max(all.max, box.max);
   }
   return all;
 }

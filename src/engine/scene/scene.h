@@ -21,7 +21,10 @@ struct Aabb {
   glm::vec3 min = glm::vec3(std::numeric_limits<float>::max());
   glm::vec3 max = glm::vec3(std::numeric_limits<float>::lowest());
   bool empty() const { return min.x > max.x; }
-  void add(glm::vec3 p) { min = glm::min(min, p), max = glm::max(max, p); }
+  void add(glm::vec3 p) {
+    min = glm::min(min, p);
+    max = glm::max(max, p);
+  }
 };
 
 // One glTF primitive as an indexed triangle list. Attribute arrays are either empty or as long as positions.

@@ -27,15 +27,19 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
     out.radiant_intensity = glm::dvec3(light.color) * double(light.intensity);
     out.radius_m = range_of(light, lights.size() - 1, ranges);
     out.window = window_of(ranges);
-    out.least_falloff = least_falloff(light, ranges);
+    out.min_falloff = min_falloff(light, ranges);
     out.mask = mask_of(light);
     out.reach = reach_terms(scene, light, ranges, rotation);
     out.share = share_of(scene, light, ranges);
-    if (light.is_virtual) out.most_falloff = most_falloff(light);
-    if (light.outer_cone_rad != outer_rad)
-      outer_rad = light.outer_cone_rad, cos_outer = cone_cosine(outer_rad);
-    if (light.inner_cone_rad != inner_rad)
-      inner_rad = light.inner_cone_rad, cos_inner = cone_cosine(inner_rad);
+    if (light.is_virtual) out.max_falloff = max_falloff(light);
+    if (light.outer_cone_rad != outer_rad) {
+      outer_rad = light.outer_cone_rad;
+      cos_outer = cone_cosine(outer_rad);
+    }
+    if (light.inner_cone_rad != inner_rad) {
+      inner_rad = light.inner_cone_rad;
+      cos_inner = cone_cosine(inner_rad);
+    }
     const bool hard = light.inner_cone_rad >= light.outer_cone_rad;
     out.cos_outer = cos_outer;
     out.cos_inner = hard ? cos_outer + hard_edge : std::max(cos_inner, cos_outer + softest_edge);

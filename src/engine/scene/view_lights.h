@@ -28,9 +28,9 @@ struct ViewLight {
   double cos_inner = 1, cos_outer = 0;  // half-angles of the cone; cos_inner - cos_outer is at least
                                         // softest_edge or, of a hard edge, hard_edge
   RangeWindow window = RangeWindow::khr;
-  double least_falloff = 0;  // 1 / m^2: scene/light_ranges.h
+  double min_falloff = 0;  // 1 / m^2: scene/light_ranges.h
   uint32_t mask = full_mask;
-  double most_falloff =
+  double max_falloff =
       0;  // 1 / m^2: of a virtual light, whose 1 / distance^2 is at most this; 0: no such light
   // The shares that effects let through, in view space, and their bounds.
   ReachTerms reach{};

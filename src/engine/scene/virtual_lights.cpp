@@ -78,7 +78,8 @@ class Rows {
 void make_virtual(Light& light) {
   light.type = LightType::spot;
   light.is_virtual = true;
-  light.inner_cone_rad = 0, light.source_m = 0;
+  light.inner_cone_rad = 0;
+  light.source_m = 0;
   // The float below pi / 2: its cosine is 8e-8, and not below 0, so that cull tests use the cone.
   light.outer_cone_rad = std::nextafter(float(std::numbers::pi / 2), 0.0f);
 }
@@ -128,7 +129,8 @@ std::vector<Light> virtual_lights_of(const std::vector<ReflectedView>& views,
     light.name = fmt::format("virtual {}", i);
     make_virtual(light);
     if (!(rows.sum() > 0)) {
-      light.intensity = 0, light.radius_m = 0;
+      light.intensity = 0;
+      light.radius_m = 0;
       continue;
     }
     const double count = double(lights.size());

@@ -150,7 +150,8 @@ class Writer {
   json material_json(const Material& m) {
     json out = {{"name", m.name}}, pbr = json::object();
     pbr["baseColorFactor"] = {m.base_color.r, m.base_color.g, m.base_color.b, m.base_color.a};
-    pbr["metallicFactor"] = m.metallic, pbr["roughnessFactor"] = m.roughness;
+    pbr["metallicFactor"] = m.metallic;
+    pbr["roughnessFactor"] = m.roughness;
     add_slot(pbr, "baseColorTexture", m.base_color_map);
     add_slot(pbr, "metallicRoughnessTexture", m.metallic_roughness_map);
     out["pbrMetallicRoughness"] = pbr;
@@ -283,10 +284,12 @@ class Writer {
       for (int i = 0; i < 4; ++i) out.push_back(uint8_t(word >> (8 * i)));
     };
     for (const uint64_t word : {uint64_t(0x46546c67), uint64_t(2), size}) add_word(word);
-    add_word(text.size()), add_word(0x4e4f534a);
+    add_word(text.size());
+    add_word(0x4e4f534a);
     out.insert(out.end(), text.begin(), text.end());
     if (bytes_.empty()) return out;
-    add_word(bytes_.size()), add_word(0x004e4942);
+    add_word(bytes_.size());
+    add_word(0x004e4942);
     out.insert(out.end(), bytes_.begin(), bytes_.end());
     return out;
   }

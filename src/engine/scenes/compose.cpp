@@ -81,7 +81,10 @@ Camera& add_camera(Scene& scene, const std::string& name, glm::dvec3 eye, glm::d
 glm::dmat4 placed(glm::dvec3 position, double degrees, double scale) {
   const double quarters = degrees / 90;
   double c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
-  if (quarters == std::round(quarters)) c = std::round(c), s = std::round(s);
+  if (quarters == std::round(quarters)) {
+    c = std::round(c);
+    s = std::round(s);
+  }
   glm::dmat4 matrix(scale);
   matrix[0] = glm::dvec4(c, 0, -s, 0) * scale;
   matrix[2] = glm::dvec4(s, 0, c, 0) * scale;

@@ -137,8 +137,10 @@ class Gallery {
     if (bust_of_.size() <= size_t(material)) bust_of_.resize(size_t(material) + 1, -1);
     int& mesh = bust_of_[size_t(material)];
     if (mesh < 0) mesh = add_mesh(scene_, bust(material));
-    if (socle_ < 0)
-      socle_ = add_mesh(scene_, socle(porphyry_)), plinth_ = add_mesh(scene_, plinth(stone_, plinth_height));
+    if (socle_ < 0) {
+      socle_ = add_mesh(scene_, socle(porphyry_));
+      plinth_ = add_mesh(scene_, plinth(stone_, plinth_height));
+    }
     const glm::dmat4 turned = placed({0, 0, 0}, degrees);
     const auto place_of = [&](glm::dvec3 offset) {
       return glm::vec3(at + glm::dvec3(turned * glm::dvec4(offset * scale, 1)) +

@@ -85,8 +85,10 @@ class Hall {
         const bool glazed = bay % 3 == 1, gated = bay == 3 || bay == 6;
         if (glazed) add_instance(scene_, "stained glass", tympanum, matrix);
         if (bay % 2 == 0) add_instance(scene_, "vitrine", vitrine, matrix);
-        if (gated)
-          add_instance(scene_, "gate", gate, matrix), add_instance(scene_, "gate frame", gate_frame, matrix);
+        if (gated) {
+          add_instance(scene_, "gate", gate, matrix);
+          add_instance(scene_, "gate frame", gate_frame, matrix);
+        }
         add_point(scene_, "niche", {side * 6.15f, 2.75f, bay_z(bay)}, aisle_color(bay, side), 1.1f, 2.8f);
         add_point(scene_, "niche foot", {side * 6.0f, 1.1f, bay_z(bay) + 0.55f}, candle, 0.3f, 1.8f);
       }

@@ -29,7 +29,10 @@ Bitmap blank(const std::string& name, int size) {
 }
 
 uint8_t* put(uint8_t* texel, uint8_t r, uint8_t g, uint8_t b, uint8_t a) {
-  texel[0] = r, texel[1] = g, texel[2] = b, texel[3] = a;
+  texel[0] = r;
+  texel[1] = g;
+  texel[2] = b;
+  texel[3] = a;
   return texel + 4;
 }
 

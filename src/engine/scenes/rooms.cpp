@@ -66,8 +66,13 @@ class Rooms {
                       low + along * to + across + glm::vec3(0, height, 0));
     };
     const float first = 0.5f * (side - door_width);
-    if (!door) return box(0, side, 0), mesh;
-    box(0, first, 0), box(first + door_width, side, 0), box(first, first + door_width, door_height);
+    if (!door) {
+      box(0, side, 0);
+      return mesh;
+    }
+    box(0, first, 0);
+    box(first + door_width, side, 0);
+    box(first, first + door_width, door_height);
     return mesh;
   }
 
@@ -162,9 +167,11 @@ class Rooms {
 
   void add_moon() {
     Light moon;
-    moon.name = "moon", moon.type = LightType::directional;
+    moon.name = "moon";
+    moon.type = LightType::directional;
     moon.direction = glm::normalize(glm::vec3(-0.4f, -1, 0.35f));
-    moon.color = {0.6f, 0.75f, 1}, moon.intensity = 0.5f;
+    moon.color = {0.6f, 0.75f, 1};
+    moon.intensity = 0.5f;
     moon.groups = group(court);
     scene_.lights.push_back(moon);
   }

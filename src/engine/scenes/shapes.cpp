@@ -95,7 +95,8 @@ void add_sweep(Mesh& mesh, std::span<const glm::vec3> line, glm::vec3 sweep, boo
     const int columns = int(lower.size()) - 1;
     lower.insert(lower.end(), upper.begin(), upper.end());
     add_grid(mesh, columns, 1, lower);
-    lower.clear(), upper.clear();
+    lower.clear();
+    upper.clear();
   };
   for (int i = 0; i < segments; ++i) {
     if (!smooth || i == 0) add_point(i, along[i]);

@@ -106,7 +106,8 @@ class Square {
       for (const double x : {-22.5, -13.5, 13.5, 22.5}) add_house({x, 0, end * (end_z_m - front)}, turn);
       for (int i = 0; i < 9; ++i) {
         const double z = end * (48.5 + wide * i);
-        add_house({-street_x_m + front, 0, z}, 180), add_house({street_x_m - front, 0, z}, 0);
+        add_house({-street_x_m + front, 0, z}, 180);
+        add_house({street_x_m - front, 0, z}, 0);
       }
       for (const double x : {-4.5, 4.5}) add_house({x, 0, end * (street_end_m - front)}, turn);
     }
@@ -118,10 +119,16 @@ class Square {
     const int lit = 2 * (kind % 2) + int(random_.next() >> 63);
     const glm::dmat4 matrix = placed(at, degrees);
     const auto put = [&](const char* name, int mesh) { add_instance(scene_, name, mesh, matrix); };
-    put("facade", facades_[kind]), put("house body", bodies_[kind]), put("roof", roofs_[kind]);
-    put("chimneys", chimneys_[kind]), put("house trim", trims_[kind % 2]), put("shop inside", inside_);
-    put("shop window", window_), put("sign", signs_[shop]);
-    put("lit windows", lit_windows_[lit]), put("dark windows", dark_windows_[lit]);
+    put("facade", facades_[kind]);
+    put("house body", bodies_[kind]);
+    put("roof", roofs_[kind]);
+    put("chimneys", chimneys_[kind]);
+    put("house trim", trims_[kind % 2]);
+    put("shop inside", inside_);
+    put("shop window", window_);
+    put("sign", signs_[shop]);
+    put("lit windows", lit_windows_[lit]);
+    put("dark windows", dark_windows_[lit]);
     for (const street::Rectangle& w : street::windows(kind)) {
       const glm::dmat4 sill = matrix * placed({0, w.y0, (w.z0 + w.z1) / 2});
       add_instance(scene_, "railing", is_near(at, 30) ? railing_ : far_railing_, sill);
@@ -228,7 +235,10 @@ class Square {
     // On the setts, on both sides of the first camera's way.
     for (int i = 0; i < 6; ++i) {
       for (const double x : {-18.0, -15.6, -4.3, -1.6, 1.1}) add_table({x, 0, 9 + 2.9 * i}, number++);
-      if (i % 2 == 0) add_parasol({-16.8, 0, 10.4 + 2.9 * i}), add_parasol({-2.9, 0, 10.4 + 2.9 * i});
+      if (i % 2 == 0) {
+        add_parasol({-16.8, 0, 10.4 + 2.9 * i});
+        add_parasol({-2.9, 0, 10.4 + 2.9 * i});
+      }
     }
     for (const double side : {-1.0, 1.0}) {
       for (int i = 0; i < 6; ++i) add("bench", bench_, {side * 11.6, 0, -27 + 9.4 * i}, side > 0 ? 0 : 180);
@@ -254,7 +264,8 @@ class Square {
 
   void add_fountain() {
     const glm::dvec3 at(0, 0, -7);
-    add("fountain", fountain_, at), add("water", water_, at);
+    add("fountain", fountain_, at);
+    add("water", water_, at);
     for (int i = 0; i < 8; ++i) {
       const glm::dvec3 place = glm::dvec3(placed(at, 45.0 * i) * glm::dvec4(2.2, 0.75, 0, 1));
       add_point(scene_, "pool", place, pool_light, 5, 6);

@@ -37,16 +37,22 @@ void add_box_cards(Mesh& mesh, Random& random, glm::vec3 low, glm::vec3 high, in
     const float pick = random.uniform() * (top + 2 * long_side + 2 * short_side);
     const float within = random.uniform() * depth_m;
     glm::vec3 out(0);
-    if (pick < top)
-      p.y = high.y - within, out.y = 1;
-    else if (pick < top + long_side)
-      p.x = low.x + within, out.x = -1;
-    else if (pick < top + 2 * long_side)
-      p.x = high.x - within, out.x = 1;
-    else if (pick < top + 2 * long_side + short_side)
-      p.z = low.z + within, out.z = -1;
-    else
-      p.z = high.z - within, out.z = 1;
+    if (pick < top) {
+      p.y = high.y - within;
+      out.y = 1;
+    } else if (pick < top + long_side) {
+      p.x = low.x + within;
+      out.x = -1;
+    } else if (pick < top + 2 * long_side) {
+      p.x = high.x - within;
+      out.x = 1;
+    } else if (pick < top + 2 * long_side + short_side) {
+      p.z = low.z + within;
+      out.z = -1;
+    } else {
+      p.z = high.z - within;
+      out.z = 1;
+    }
     add_card(mesh, random, p, out, card_m * random.uniform(0.75f, 1.25f));
   }
 }

@@ -76,7 +76,10 @@ Mesh body(const street::Materials& m, int kind) {
   for (const float side : {-1.f, 1.f}) {
     std::vector<glm::vec3> upper = roof_line(kind, side * half), lower = upper;
     for (glm::vec3& p : lower) p.y = high;
-    if (side < 0) std::reverse(upper.begin(), upper.end()), std::reverse(lower.begin(), lower.end());
+    if (side < 0) {
+      std::reverse(upper.begin(), upper.end());
+      std::reverse(lower.begin(), lower.end());
+    }
     add_strip(mesh, lower, upper, {0, 0, side}, {side, 0, 0});
   }
   return finished(std::move(mesh), "house body", m.walls[kind]);

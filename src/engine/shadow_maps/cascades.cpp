@@ -45,7 +45,8 @@ std::vector<ShadowFace> cascades_of(const Light& light, const View& view, const 
     last_m = std::max(last_m, glm::dot(ahead, p - origin));
   }
   const double margin_m = 1e-3 * (last_m - first_m) + 1e-3;
-  first_m -= margin_m, last_m += margin_m;
+  first_m -= margin_m;
+  last_m += margin_m;
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
   std::vector<ShadowFace> faces;
   for (int i = 0; i < options.cascades; ++i) {

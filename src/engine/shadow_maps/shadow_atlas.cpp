@@ -40,7 +40,7 @@ double share_of_screen(const Light& light, const View& view, double far_m) {
 int size_of(double share, double largest, const ShadowMapOptions& options) {
   const double root = std::sqrt(share / largest);
   const double power = std::round(std::log2(std::max(double(options.size) * root, 1.0)));
-  return std::clamp(1 << int(power), least_shadow_size, std::max(options.size, least_shadow_size));
+  return std::clamp(1 << int(power), min_shadow_size, std::max(options.size, min_shadow_size));
 }
 
 std::vector<ShadowFace> faces_of(const Light& light, int size, const ShadowMapOptions& options) {
@@ -72,7 +72,9 @@ ShadowFace towards(const dvec3& ahead, double extent, int size, const ShadowMapO
   const dvec3 right = glm::normalize(glm::cross(ahead, aside));
   const int border = options.taps / 2;
   ShadowFace face{};
-  set(face.right, right), set(face.up, glm::cross(right, ahead)), set(face.ahead, ahead);
+  set(face.right, right);
+  set(face.up, glm::cross(right, ahead));
+  set(face.ahead, ahead);
   face.extent = float(extent * size / (size - 2 * border));
   face.size = uint(size);
   return face;
@@ -97,9 +99,9 @@ ShadowAtlas plan_shadow_atlas(std::span<const Light> lights, const View& view, c
     return sum;
   };
   ShadowAtlas atlas;
-  while (bytes() > options.most_bytes &&
-         std::ranges::any_of(sizes, [](int s) { return s > least_shadow_size; })) {
-    for (int& size : sizes) size = std::max(size / 2, least_shadow_size);
+  while (bytes() > options.max_bytes &&
+         std::ranges::any_of(sizes, [](int s) { return s > min_shadow_size; })) {
+    for (int& size : sizes) size = std::max(size / 2, min_shadow_size);
     ++atlas.halvings;
   }
   for (size_t i = 0; i < lights.size(); ++i) {

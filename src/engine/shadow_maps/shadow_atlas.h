@@ -16,11 +16,11 @@ struct ShadowMapOptions {
   int bits = 32;   // per texel: 16, 24 (which take 4 bytes) or 32 (float)
   int taps = 1;    // texels a side that a point asks: 1, or 3 or 5 with a filter
   int cascades = 4;  // per directional light: 1 to 4
-  size_t most_bytes = size_t(256) << 20;
+  size_t max_bytes = size_t(256) << 20;
   KernelShape shape = KernelShape::automatic;  // lanes on a CPU, group elsewhere; the same bits
 };
 
-constexpr int least_shadow_size = 16;
+constexpr int min_shadow_size = 16;
 
 struct ShadowAtlas {
   std::vector<ShadowFace> faces;
@@ -29,12 +29,12 @@ struct ShadowAtlas {
   // first.
   std::vector<std::array<uint32_t, 2>> lights;
   size_t texels = 0, bytes = 0;
-  int halvings = 0;  // how often all sizes were halved to fit into most_bytes
+  int halvings = 0;  // how often all sizes were halved to fit into max_bytes
 };
 
 // A light's size is the option's, times the root of its share of the screen (of its range's sphere, at most
 // the whole) over the largest share, rounded to a power of two, at least 16. Every light gets its maps: if
-// they take more than most_bytes, the sizes of all are halved until they fit or all are 16.
+// they take more than max_bytes, the sizes of all are halved until they fit or all are 16.
 //
 // A cascade is a square around the sphere around a part of the view's frustum, moved by whole texels only, so
 // that shadows do not swim: Valient, "Stable Rendering of Cascaded Shadow Maps" (ShaderX6, 2007). The parts

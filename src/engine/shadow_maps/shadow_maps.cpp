@@ -40,7 +40,8 @@ void ShadowMaps::draw(const RayScene& rays, const ShadowAtlas& atlas, const std:
   for (uint32_t face = 0; face < atlas.faces.size(); ++face) {
     if (!lost && face < kept.size() && kept[face]) continue;
     const uint across = std::max(atlas.faces[face].size / side, 1u);
-    tiles.push_back({count, face}), count += across * across;
+    tiles.push_back({count, face});
+    count += across * across;
   }
   if (count == 0) return;
   tiles_.put(device_, "shadow maps: tiles", tiles);
@@ -61,7 +62,8 @@ std::vector<uint8_t> ShadowMaps::look_up(const RayScene& rays, std::span<const R
   if (packets.empty()) return taps;
   UploadedBuffer on_device[3];
   constexpr const char* what = "shadow maps: look up";
-  on_device[0].put(device_, what, packed.points), on_device[1].put(device_, what, packed.own);
+  on_device[0].put(device_, what, packed.points);
+  on_device[1].put(device_, what, packed.own);
   on_device[2].put(device_, what, packed.packets);
   const cl::Buffer answers = device_buffer(device_, taps.size());
   kernel("look_up", rays)

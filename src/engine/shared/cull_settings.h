@@ -22,10 +22,8 @@ struct DepthBoundsRow {
 
 // In the order of DepthBoundsMode.
 inline constexpr DepthBoundsRow depth_bounds_modes[] = {
-    {DepthBoundsMode::none, "none"},
-    {DepthBoundsMode::minmax, "minmax"},
-    {DepthBoundsMode::halfz, "halfz"},
-    {DepthBoundsMode::halfz_modified, "halfz-modified"},
+    {DepthBoundsMode::none, "none"},     {DepthBoundsMode::minmax, "minmax"},
+    {DepthBoundsMode::halfz, "halfz"},   {DepthBoundsMode::halfz_modified, "halfz-modified"},
     {DepthBoundsMode::mask32, "mask32"},
 };
 
@@ -47,6 +45,7 @@ enum class WorldGridShape { columns, cubes, hashed };
 
 }  // namespace lightgrid
 #else
+// clang-format off
 #define DEPTH_NONE 0
 #define DEPTH_MINMAX 1          // least and greatest distance: Harada, McKee, Yang, "Forward+" (2012)
 #define DEPTH_HALFZ 2           // that interval cut at its middle: Thomas, "Tiled-Based Compute
@@ -54,6 +53,7 @@ enum class WorldGridShape { columns, cubes, hashed };
 #define DEPTH_HALFZ_MODIFIED 3  // both halves shrunk to the depths in them (the same)
 #define DEPTH_MASK32 4          // the interval in 32 slots, a bit for each occupied one: Harada, "A 2.5D
                                 // Culling for Forward+" (SIGGRAPH Asia 2012)
+// clang-format on
 #endif
 
 #if defined(__OPENCL_VERSION__)

@@ -43,10 +43,12 @@ static_assert(cull_tests_are_in_order());
 
 }  // namespace lightgrid
 #else
+// clang-format off
 #define CULL_SPHERE 0       // the sphere around the cell's box
 #define CULL_PLANES 1       // four side planes against the sphere's tangent rectangle on screen, and the
                             // distances
 #define CULL_AABB 2         // the cell's view-space box (Arvo 1990)
 #define CULL_PLANES_AABB 3  // both
 #define CULL_EXACT 4        // both, then the distance to the cell itself
+// clang-format on
 #endif

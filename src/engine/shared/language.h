@@ -13,5 +13,5 @@
 namespace lightgrid {
 // As in OpenCL C and GLSL.
 using uint = std::uint32_t;
-}
+}  // namespace lightgrid
 #endif

@@ -41,7 +41,9 @@ SHARED_FUNCTION LightTerms light_terms(Real3 normal, Real3 to_viewer, Arrival ar
   real arriving = arrival.attenuation * n_dot_l;
 #ifdef LAMBERT
   real diffuse = arriving;
-  t.specular = REAL(0.0f), t.weight = REAL(0.0f), t.rim = REAL(0.0f);
+  t.specular = REAL(0.0f);
+  t.weight = REAL(0.0f);
+  t.rim = REAL(0.0f);
 #else
   Real3 h = add3(arrival.to_light, to_viewer);
   real h_squared = max_real(dot3(h, h), REAL(1e-8f));
@@ -74,7 +76,9 @@ SHARED_FUNCTION LightTerms add_terms(LightTerms a, LightTerms b) {
 SHARED_FUNCTION LightTerms no_terms() {
   LightTerms t;
   t.diffuse = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
-  t.specular = REAL(0.0f), t.weight = REAL(0.0f), t.rim = REAL(0.0f);
+  t.specular = REAL(0.0f);
+  t.weight = REAL(0.0f);
+  t.rim = REAL(0.0f);
   return t;
 }
 

@@ -37,7 +37,7 @@ namespace lightgrid {
 //   position  view space, and 1 / radius^2 (next to 0: no range)
 //   color     radiant intensity, and the least 1 / distance^2
 //   cone      axis times scale, and offset: 1 inside, 0 outside
-//   most_falloff  of a virtual light, which fades with the cone's cosine itself and not with its square: the
+//   max_falloff  of a virtual light, which fades with the cone's cosine itself and not with its square: the
 //             most 1 / distance^2; 0 of other lights
 //   groups    a bit each. After all lights follow directional ones, and then the masks of instances, by
 //             MaskPlan::values
@@ -45,7 +45,7 @@ namespace lightgrid {
   ROW(IF_LIGHTS, Float4, position, light_positions, samplerBuffer) \
   ROW(IF_LIGHTS, Float4, color, light_colors, samplerBuffer)       \
   ROW(IF_SPOTS, Float4, cone, light_cones, samplerBuffer)          \
-  ROW(IF_VIRTUAL, float, most_falloff, light_falloffs, samplerBuffer)
+  ROW(IF_VIRTUAL, float, max_falloff, light_falloffs, samplerBuffer)
 
 // Identifies a light for light_reaches: its index, and in OpenCL the shadows at the pixels that read it and
 // the inputs of effects.

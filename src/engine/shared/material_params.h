@@ -37,7 +37,9 @@ layout(std140) uniform MaterialParamsBlock {
   vec4 specular;                  // the dielectric's reflectance at normal incidence; its strength
   vec4 uv_linear[MATERIAL_MAPS];  // column by column: u axis, v axis
   vec4 uv_offset[MATERIAL_MAPS];
+  // clang-format off
 } material;
+// clang-format on
 #elif !defined(__OPENCL_VERSION__)
 namespace lightgrid {
 struct MaterialParams {

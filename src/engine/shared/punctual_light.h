@@ -47,7 +47,7 @@ SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
 #endif
   real falloff = inverse_distance * inverse_distance;
 #ifdef VIRTUAL_LIGHTS
-  falloff = min_real(falloff, REAL(light.most_falloff > 0.0f ? light.most_falloff : LARGEST_ATTENUATION));
+  falloff = min_real(falloff, REAL(light.max_falloff > 0.0f ? light.max_falloff : LARGEST_ATTENUATION));
 #endif
 #ifdef LEAST_FALLOFF
   falloff = max_real(falloff, REAL(light.color.w));
@@ -58,7 +58,7 @@ SHARED_FUNCTION Arrival arrival_at(Real3 position, PunctualLight light) {
                light.cone.z * arrival.to_light.z;
   real angular = min_real(max_real(light.cone.w - along, REAL(0.0f)), REAL(1.0f));
 #ifdef VIRTUAL_LIGHTS
-  arrival.attenuation = arrival.attenuation * (light.most_falloff > 0.0f ? angular : angular * angular);
+  arrival.attenuation = arrival.attenuation * (light.max_falloff > 0.0f ? angular : angular * angular);
 #else
   arrival.attenuation = arrival.attenuation * (angular * angular);
 #endif

@@ -3,8 +3,10 @@
 
 #include "shared/language.h"
 
+// clang-format off
 #define RAY_STACK 64      // entries: no path from the root down is longer
-#define RAY_WIDTH 16     // children of a RayWideNode
+// clang-format on
+#define RAY_WIDTH 16            // children of a RayWideNode
 #define RAY_MASKED 0x80000000u  // in RayTriangle::number: its material's alpha may let light through
 #define RAY_BLENDS \
   0x80000000u             // in a mask's material: its alpha hides that share of a light, in place of a cutoff

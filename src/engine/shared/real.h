@@ -6,7 +6,9 @@
 
 #if defined(__OPENCL_VERSION__)
 #include "shared/lanes.h"
-#define SHARED_STRUCT(name) typedef struct name name; struct name
+#define SHARED_STRUCT(name) \
+  typedef struct name name; \
+  struct name
 #define EXACTLY
 #define REAL(x) ((real)(x))
 typedef struct Real3 {

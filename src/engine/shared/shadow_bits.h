@@ -112,7 +112,9 @@ static inline ShadowsHere shadows_here(global const uint2* tiles, global const u
   const bool is_held = of_table < held.y;
   ShadowsHere here;
   here.tiles = tiles + 1 + (size_t)(is_held ? 1 + of_table : 0) * words;
-  here.bits = bits, here.x = x % SHADOW_TILE, here.y = y % SHADOW_TILE;
+  here.bits = bits;
+  here.x = x % SHADOW_TILE;
+  here.y = y % SHADOW_TILE;
 #ifdef BLEND
   here.layer_words = (size_t)(is_held ? held.y : 0) * words;
 #endif

@@ -13,7 +13,7 @@ namespace lightgrid {
 #define SHADOW_GAP_M 1e-3f
 #define SHADOW_GAP_SHARE 0x1p-20f
 
-// A light of LightPlan::local. Listed pairs out of its reach get no ray: `least_squared` is more than the
+// A light of LightPlan::local. Listed pairs out of its reach get no ray: `min_squared` is more than the
 // square of its range, and the cone wider than its own, by what shading may round
 // (passes/find_shadows.cpp).
 typedef struct ShadowLight {

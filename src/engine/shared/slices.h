@@ -14,10 +14,14 @@
 // Inner edges, ascending, padded with infinity.
 #ifdef LIGHTGRID_GLSL
 #ifdef SLICES
+// clang-format off
 layout(std140) uniform SliceEdgesBlock { float keys[MOST_SLICES]; } slice_edges;
+// clang-format on
 #endif
 #ifdef Z_BINS
+// clang-format off
 layout(std140) uniform ZBinEdgesBlock { float keys[MOST_Z_BINS]; } z_bin_edges;
+// clang-format on
 #endif
 #define SLICE_EDGE(i) slice_edges.keys[i]
 #define Z_BIN_EDGE(i) z_bin_edges.keys[i]
@@ -35,16 +39,16 @@ namespace lightgrid {
 
 // Counts the edges at or below the key. `most` is a power of two minus one. 0 before the first edge and for a
 // NaN key.
-#define RETURN_REACHED(most, EDGE)                             \
-  uint reached = 0u;                                           \
-  for (uint ahead = most / 2u; ahead > 0u; ahead /= 2u) {      \
-    if (key >= EDGE(reached + ahead - 1u)) reached += ahead;   \
-  }                                                            \
+#define RETURN_REACHED(most, EDGE)                           \
+  uint reached = 0u;                                         \
+  for (uint ahead = most / 2u; ahead > 0u; ahead /= 2u) {    \
+    if (key >= EDGE(reached + ahead - 1u)) reached += ahead; \
+  }                                                          \
   return reached;
 
 #if !defined(LIGHTGRID_GLSL) || defined(SLICES)
 // 0 is the slice at the eye. `edges`: MOST_SLICES of them.
-SHARED_FUNCTION uint slice_of_key(float key EDGES){RETURN_REACHED(MOST_SLICES, SLICE_EDGE)}
+SHARED_FUNCTION uint slice_of_key(float key EDGES) { RETURN_REACHED(MOST_SLICES, SLICE_EDGE) }
 #endif
 #if !defined(LIGHTGRID_GLSL) || defined(Z_BINS)
 // The same for z-bins. `edges`: MOST_Z_BINS of them.

@@ -51,15 +51,15 @@ SHARED_FUNCTION float3 tone_mapped(float3 light) {
   return brightest < TONE_START ? c : compressed;
 }
 
-// The byte of a channel after the tone map. least_linear: of each byte the least value that it stands for,
+// The byte of a channel after the tone map. min_linear: of each byte the least value that it stands for,
 // and one that no channel reaches (srgb_thresholds, base/image.h).
 #if defined(__OPENCL_VERSION__)
-static inline int srgb_byte(float linear, global const float* least_linear) {
+static inline int srgb_byte(float linear, global const float* min_linear) {
 #elif defined(LIGHTGRID_GLSL)
-uniform float least_linear[257];
+uniform float min_linear[257];
 int srgb_byte(float linear) {
 #else
-static inline int srgb_byte(float linear, const float* least_linear) {
+static inline int srgb_byte(float linear, const float* min_linear) {
 #endif
   // Within one step: of x^(1/2.4), three square roots make a sum.
   const float half_root = sqrt(linear), quarter = sqrt(half_root), eighth = sqrt(quarter);
@@ -67,8 +67,8 @@ static inline int srgb_byte(float linear, const float* least_linear) {
                                            : 0.662002687f * half_root + 0.684122060f * quarter -
                                                  0.323583601f * eighth - 0.0225411470f * linear;
   int byte = clamp(TONE_WHOLE(255.0f * shown + 0.5f), 0, 255);
-  byte -= linear < least_linear[byte] ? 1 : 0;
-  byte += linear >= least_linear[byte + 1] ? 1 : 0;
+  byte -= linear < min_linear[byte] ? 1 : 0;
+  byte += linear >= min_linear[byte + 1] ? 1 : 0;
   return byte;
 }
 

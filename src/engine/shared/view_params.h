@@ -24,18 +24,20 @@ layout(std140) uniform ViewParamsBlock {
   // orthographic (depth_b - depth) * depth_a.
   float depth_a, depth_b;
   float near_distance;
-  uint orthographic;    // 0 or 1
-  uint width, height;   // image, pixels
-  uint tile_size;       // pixels a side
-  uint tiles_x, tiles_y;  // the last ones may be cut
-  uint bins_x, bins_y;  // a bin is BIN_TILES x BIN_TILES tiles
-  uint light_count;     // point and spot lights
+  uint orthographic;                      // 0 or 1
+  uint width, height;                     // image, pixels
+  uint tile_size;                         // pixels a side
+  uint tiles_x, tiles_y;                  // the last ones may be cut
+  uint bins_x, bins_y;                    // a bin is BIN_TILES x BIN_TILES tiles
+  uint light_count;                       // point and spot lights
   uint directional_count;                 // lights without a place
   float ambient_r, ambient_g, ambient_b;  // radiance from all sides, linear
 #ifndef VIEW_PARAMS_MEMBERS_ONLY
 } ViewParams;
 #else
+  // clang-format off
 } view;
+// clang-format on
 #endif
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)

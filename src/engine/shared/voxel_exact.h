@@ -47,7 +47,7 @@ SHARED_FUNCTION Arrival arrival_at_sample(Real3 at, PunctualLight light VOXEL_AR
   real inverse_squared = 1.0f / max_real(squared, REAL(1.2e-38f));
   real falloff = min_real(inverse_squared, 1.0f / core);
 #ifdef VIRTUAL_LIGHTS
-  falloff = min_real(falloff, REAL(light.most_falloff > 0.0f ? light.most_falloff : LARGEST_ATTENUATION));
+  falloff = min_real(falloff, REAL(light.max_falloff > 0.0f ? light.max_falloff : LARGEST_ATTENUATION));
 #endif
 #ifdef LEAST_FALLOFF
   falloff = max_real(falloff, REAL(light.color.w));
@@ -69,7 +69,7 @@ SHARED_FUNCTION Arrival arrival_at_sample(Real3 at, PunctualLight light VOXEL_AR
     real y = x > REAL(0.0f) ? 0.5f * root : 0.5f * soft_squared / root;
     real angular = x < -4.0f * scale * sqrt_real(q) ? REAL(0.0f) : min_real(y, REAL(1.0f));
 #ifdef VIRTUAL_LIGHTS
-    real fade = light.most_falloff > 0.0f ? angular : angular * angular;
+    real fade = light.max_falloff > 0.0f ? angular : angular * angular;
 #else
     real fade = angular * angular;
 #endif

@@ -74,7 +74,9 @@ typedef struct VoxelLookup {
   // As in VoxelSlice; with VOXELS_LOG at distance 1: elsewhere they grow with the distance's square.
   float half_diagonal_squared, core_squared;
 #ifdef LIGHTGRID_GLSL
+  // clang-format off
 } voxel_lookup;
+// clang-format on
 #else
 } VoxelLookup;
 #endif

@@ -69,8 +69,8 @@ layout(std140) uniform WorldGridBlock {
 #endif
   uint cells_x, cells_y, cells_z;  // counts of level 0: 1, or even
   // The lower edges of the first and of the last cell, were they as long as the others.
-  float least_x, least_y, least_z;
-  float most_x, most_y, most_z;
+  float min_x, min_y, min_z;
+  float max_x, max_y, max_z;
   uint shift_x, shift_y, shift_z;  // log2 of a block's cells
   uint blocks_x, blocks_y;         // counts of level 0
   uint bucket_bits;                // 0: a bucket is a block's number; else the bits of its key's hash
@@ -80,7 +80,9 @@ layout(std140) uniform WorldGridBlock {
 #ifndef LIGHTGRID_GLSL
 } WorldGridParams;
 #else
+  // clang-format off
 } world;
+// clang-format on
 #endif
 
 // From view space to cells from the grid's middle.
@@ -95,7 +97,9 @@ layout(std140) uniform WorldViewBlock {
 #ifndef LIGHTGRID_GLSL
 } WorldViewParams;
 #else
+  // clang-format off
 } world_view;
+// clang-format on
 #endif
 
 #if defined(__OPENCL_VERSION__)

@@ -79,9 +79,10 @@ static void adapt(TechniqueNeeds& needs, Settings& settings) {
       settings[setting::lidr_passes] > 1 || settings[setting::lidr_types] == LidrTypes::passes;
   const LidrShadows way = settings[setting::lidr_shadows];
   if (way == LidrShadows::pass) return;
-  needs.shadows.own = true, needs.shadows.found_by = way == LidrShadows::volumes ? "shadow volumes" : "maps";
-  if (way == LidrShadows::none) needs.shadows.most_own = 0;
-  if (way == LidrShadows::final_pass) needs.shadows.most_own = size_t(settings[lights_with_maps]);
+  needs.shadows.own = true;
+  needs.shadows.found_by = way == LidrShadows::volumes ? "shadow volumes" : "maps";
+  if (way == LidrShadows::none) needs.shadows.max_own = 0;
+  if (way == LidrShadows::final_pass) needs.shadows.max_own = size_t(settings[lights_with_maps]);
 }
 
 extern const Technique lidr{

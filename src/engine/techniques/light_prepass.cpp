@@ -78,8 +78,9 @@ static Frame render(RenderView& v) {
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
   if (settings[prepass_lights] == PrepassLights::tiles) return;
-  needs.lists.light_grid = needs.lists.capped = false, needs.lists.no_light_grid = "prepass-lights=volumes";
-  needs.surfaces.stencil = settings[setting::volume_culling] == VolumeCulling::stencil,
+  needs.lists.light_grid = needs.lists.capped = false;
+  needs.lists.no_light_grid = "prepass-lights=volumes";
+  needs.surfaces.stencil = settings[setting::volume_culling] == VolumeCulling::stencil;
   needs.masks.stencil = true;
 }
 

@@ -107,12 +107,12 @@ Frame draw_frame(const Technique& technique, RenderView& v) {
   return frame;
 }
 
-int most_samples(const Technique& technique, const Settings& settings) {
+int max_samples(const Technique& technique, const Settings& settings) {
   return adapted_needs(technique, settings).samples.most;
 }
 
 void check_samples(const Technique& technique, const Settings& settings) {
-  const int most = most_samples(technique, settings);
+  const int most = max_samples(technique, settings);
   if (settings[setting::samples] > 1 && settings[setting::samples_resolve] != SamplesResolve::linear &&
       !holds(technique.settings, "samples-resolve"))
     throw input_error(

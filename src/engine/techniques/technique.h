@@ -53,7 +53,7 @@ bool is_approximate(const Technique& technique, const Settings& settings);
 Frame draw_frame(const Technique& technique, RenderView& v);
 
 // The most samples a pixel that the technique can take with these settings.
-int most_samples(const Technique& technique, const Settings& settings);
+int max_samples(const Technique& technique, const Settings& settings);
 // Throws Error(input) where the setting samples is more.
 void check_samples(const Technique& technique, const Settings& settings);
 

@@ -8,9 +8,14 @@ namespace lightgrid {
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
   needs.lists.slices = settings.given(setting::slices);
-  if (!needs.lists.slices) settings.set(setting::slices, 1), needs.lists.no_slices = "slices is not given";
-  if (settings[setting::lights] == ShadedLights::all)
-    needs.lists.light_grid = needs.lists.capped = false, needs.lists.no_light_grid = "lights=all";
+  if (!needs.lists.slices) {
+    settings.set(setting::slices, 1);
+    needs.lists.no_slices = "slices is not given";
+  }
+  if (settings[setting::lights] == ShadedLights::all) {
+    needs.lists.light_grid = needs.lists.capped = false;
+    needs.lists.no_light_grid = "lights=all";
+  }
 }
 
 extern const Technique visibility{

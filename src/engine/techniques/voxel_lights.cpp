@@ -32,8 +32,10 @@ static Frame render(RenderView& v) {
 
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
   if (settings[setting::voxel_lights_exact] != 0) return;
-  needs.lists.light_grid = false, needs.lists.no_light_grid = "voxel-lights-exact=0";
-  needs.shadows.asked_for = false, needs.shadows.why_none = "lights are added up where no pixel asks for one";
+  needs.lists.light_grid = false;
+  needs.lists.no_light_grid = "voxel-lights-exact=0";
+  needs.shadows.asked_for = false;
+  needs.shadows.why_none = "lights are added up where no pixel asks for one";
 }
 
 extern const Technique voxel_lights{

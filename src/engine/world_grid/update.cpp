@@ -50,7 +50,8 @@ bool WorldGrid::update(std::span<const uint32_t> moved, std::span<const CullLigh
   update_lists();
   finish_lists(lights_version);
   asked_ = {};
-  ++updates_, moves_ += moved.size();
+  ++updates_;
+  moves_ += moved.size();
   return true;
 }
 
@@ -60,8 +61,12 @@ void WorldGrid::upload_moves() {
     const size_t bytes = from.size() * sizeof from[0];
     enqueue_write(device_, what, to.at_least(device_, std::max<size_t>(bytes, 16)), from.data(), bytes);
   };
-  put(moved_lights_, moved_.moved), put(moved_balls_, moved_.balls), put(moved_cones_, moved_.cones);
-  put(edits_, moved_.edits), put(edit_first_, moved_.edit_first), put(old_blocks_, moved_.old_blocks);
+  put(moved_lights_, moved_.moved);
+  put(moved_balls_, moved_.balls);
+  put(moved_cones_, moved_.cones);
+  put(edits_, moved_.edits);
+  put(edit_first_, moved_.edit_first);
+  put(old_blocks_, moved_.old_blocks);
   enqueue_write(device_, what, storage_->at_least(WorldArray::keys, sizes_[1]), moved_.keys.data(),
                 sizes_[1]);
   write_buffer(device_, what, buckets(), block_lights_.buckets.data(), sizes_[0]);
@@ -70,7 +75,8 @@ void WorldGrid::upload_moves() {
 
 void WorldGrid::update_lists() {
   blocks_ = moved_.keys.size();
-  sizes_[1] = blocks_ * 8, sizes_[2] = blocks_ * WORLD_BLOCK_CELLS * 8;
+  sizes_[1] = blocks_ * 8;
+  sizes_[2] = blocks_ * WORLD_BLOCK_CELLS * 8;
   check_count("cells", blocks_ * WORLD_BLOCK_CELLS, 8);
   upload_moves();
   storage_->swap_lists();

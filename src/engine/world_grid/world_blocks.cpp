@@ -46,14 +46,22 @@ inline void visit_blocks(const WorldBlocks& of, const WorldGridParams& p, uint32
   };
   const uint32_t some = of.x > 0, x = of.x > 1, y = of.y > 1, z = of.z > 1;
   const uint32_t row = of.first + p.blocks_x, layer = of.first + next_layer, both = row + next_layer;
-  visit_if(some, of.first), visit_if(x, of.first + 1), visit_if(y, row), visit_if(x & y, row + 1);
-  visit_if(z, layer), visit_if(x & z, layer + 1), visit_if(y & z, both), visit_if(x & y & z, both + 1);
+  visit_if(some, of.first);
+  visit_if(x, of.first + 1);
+  visit_if(y, row);
+  visit_if(x & y, row + 1);
+  visit_if(z, layer);
+  visit_if(x & z, layer + 1);
+  visit_if(y & z, both);
+  visit_if(x & y & z, both + 1);
 }
 
 // From numbers to places, and the stored blocks. Each part has `stride` numbers.
 void place_blocks(const WorldGridParams& p, size_t parts, size_t stride, WorldBlockLights& blocks) {
   const size_t count = block_count(p);
-  blocks.buckets.resize(count + 1), blocks.keys.clear(), blocks.first.clear();
+  blocks.buckets.resize(count + 1);
+  blocks.keys.clear();
+  blocks.first.clear();
   uint32_t place = 0, x = 0, y = 0, z = 0;
   for (size_t block = 0; block < count; ++block) {
     const uint32_t first = place;
@@ -64,11 +72,15 @@ void place_blocks(const WorldGridParams& p, size_t parts, size_t stride, WorldBl
       place += here;
     }
     blocks.buckets[block] = uint32_t(blocks.keys.size());
-    if (place > first) blocks.first.push_back(first), blocks.keys.push_back(world_key(x, y, z, 0));
+    if (place > first) {
+      blocks.first.push_back(first);
+      blocks.keys.push_back(world_key(x, y, z, 0));
+    }
     if (++x < p.blocks_x) continue;
     x = 0;
     if (++y < p.blocks_y) continue;
-    y = 0, ++z;
+    y = 0;
+    ++z;
   }
   blocks.buckets[count] = uint32_t(blocks.keys.size());
   blocks.first.push_back(place);
@@ -149,7 +161,8 @@ void move_world_lights(std::span<const WorldLight> now, std::span<const uint32_t
   std::vector<Edit> edits;
   std::vector<uint32_t> places(count + 1,
                                0);  // for each block, its number of edits, then where its next one goes
-  moves.balls.clear(), moves.cones.clear();
+  moves.balls.clear();
+  moves.cones.clear();
   for (uint32_t k = 0; k < now.size(); ++k) {
     const uint32_t i = moves.moved[k];
     const WorldLight& light = now[k];
@@ -157,21 +170,29 @@ void move_world_lights(std::span<const WorldLight> now, std::span<const uint32_t
     for_each_block(before, after, p, [&](uint32_t block, bool stays) {
       edits.push_back({block, k | edit_before | (stays ? edit_after : 0)});
       ++places[block];
-      if (!stays) --block_pairs[block], --layout.pairs;
+      if (!stays) {
+        --block_pairs[block];
+        --layout.pairs;
+      }
     });
     for_each_block(after, before, p, [&](uint32_t block, bool was) {
       if (was) return;
       edits.push_back({block, k | edit_after});
-      ++places[block], ++block_pairs[block], ++layout.pairs;
+      ++places[block];
+      ++block_pairs[block];
+      ++layout.pairs;
     });
     const bool cones = !layout.cones.empty();
     moves.balls.insert(moves.balls.end(), {layout.lights[i], light.ball});
     moves.cones.insert(moves.cones.end(), {cones ? layout.cones[i] : light.cone, light.cone});
-    layout.lights[i] = light.ball, layout.light_blocks[i] = light.of_cells;
+    layout.lights[i] = light.ball;
+    layout.light_blocks[i] = light.of_cells;
     if (cones) layout.cones[i] = light.cone;
   }
   moves.buckets.resize(count + 1);
-  moves.keys.clear(), moves.old_blocks.clear(), moves.edit_first.clear();
+  moves.keys.clear();
+  moves.old_blocks.clear();
+  moves.edit_first.clear();
   uint32_t place = 0, x = 0, y = 0, z = 0;
   for (uint32_t block = 0; block < count; ++block) {
     const uint32_t of_block = places[block];
@@ -181,12 +202,14 @@ void move_world_lights(std::span<const WorldLight> now, std::span<const uint32_t
       moves.keys.push_back(world_key(x, y, z, 0));
       moves.old_blocks.push_back(buckets[block] < buckets[block + 1] ? buckets[block] : ~0u);
       moves.edit_first.push_back(place);
-      places[block] = place, place += of_block;
+      places[block] = place;
+      place += of_block;
     }
     if (++x < p.blocks_x) continue;
     x = 0;
     if (++y < p.blocks_y) continue;
-    y = 0, ++z;
+    y = 0;
+    ++z;
   }
   moves.buckets[count] = uint32_t(moves.keys.size());
   moves.edit_first.push_back(place);

@@ -6,8 +6,8 @@
 namespace lightgrid {
 
 size_t sample_step(size_t lights) {
-  constexpr size_t most_sampled = 4096;
-  return lights / most_sampled + 1;
+  constexpr size_t max_sampled = 4096;
+  return lights / max_sampled + 1;
 }
 
 double sampled_median(std::span<const CullLight> lights) {
@@ -17,24 +17,25 @@ double sampled_median(std::span<const CullLight> lights) {
   return radii.empty() ? 0 : std::max(median_of(std::move(radii)), 1e-12);
 }
 
-void LitBox::add(const CullLight& light, double most_radius) {
+void LitBox::add(const CullLight& light, double max_radius) {
   if (!is_local(light)) return;
   if (light.radius_m > 0) least = std::min(least, light.radius_m);
-  if (light.radius_m > most_radius) return;
+  if (light.radius_m > max_radius) return;
   box.min = glm::min(box.min, light.position - light.radius_m);
   box.max = glm::max(box.max, light.position + light.radius_m);
 }
 
 void LitBox::add(const LitBox& other) {
   least = std::min(least, other.least);
-  box.min = glm::min(box.min, other.box.min), box.max = glm::max(box.max, other.box.max);
+  box.min = glm::min(box.min, other.box.min);
+  box.max = glm::max(box.max, other.box.max);
 }
 
-LitBox lit_box(std::span<const CullLight> lights, double most_radius) {
+LitBox lit_box(std::span<const CullLight> lights, double max_radius) {
   std::vector<LitBox> parts(parts_of(lights.size()));
   for_each_part(lights.size(), [&](size_t part, size_t begin, size_t end) {
     LitBox of_part;  // only this thread's: parts share cache lines
-    for (size_t i = begin; i < end; ++i) of_part.add(lights[i], most_radius);
+    for (size_t i = begin; i < end; ++i) of_part.add(lights[i], max_radius);
     parts[part] = of_part;
   });
   LitBox all;
@@ -46,7 +47,7 @@ WorldBox ordinary_box(const WorldBox& lit, const WorldBox& bounds) {
   if (lit.empty()) return {glm::dvec3(0), glm::dvec3(0)};
   const glm::dvec3 low = glm::max(lit.min, bounds.min), high = glm::min(lit.max, bounds.max);
   const WorldBox box = glm::all(glm::lessThanEqual(low, high)) ? WorldBox{low, high} : lit;
-  return {glm::clamp(box.min, -most_world_m, most_world_m), glm::clamp(box.max, -most_world_m, most_world_m)};
+  return {glm::clamp(box.min, -max_world_m, max_world_m), glm::clamp(box.max, -max_world_m, max_world_m)};
 }
 
 namespace {
@@ -54,7 +55,7 @@ namespace {
 // Frames times pixels that a build is for, times the time of a listed light at a pixel over that of an entry.
 constexpr double entries_of_listed = 1e5;
 
-constexpr size_t most_lights = 1024;  // that estimates go through, evenly chosen
+constexpr size_t max_lights = 1024;  // that estimates go through, evenly chosen
 
 // How many cells of an edge touch a ball, on average over the places that it may have between them: Steiner's
 // formula for a cube, or a square, grown by the ball.
@@ -86,7 +87,7 @@ struct LightSample {
 
 LightSample sample_of(std::span<const CullLight> lights, const WorldBox& bounds, bool columns) {
   LightSample sample;
-  const size_t step = lights.size() / most_lights + 1;
+  const size_t step = lights.size() / max_lights + 1;
   sample.lights_of_each = double(step);
   for (size_t i = 0; i < lights.size(); i += step)
     if (is_local(lights[i]) && lights[i].radius_m > 0) sample.lights.push_back(lights[i]);
@@ -139,23 +140,23 @@ double listed_at(const glm::dvec3& at, double edge, const LightSample& sample, b
 
 // A light's edge of its cells.
 double edge_of(const CullLight& light, const LightSample& sample, WorldGridShape shape, double cell) {
-  if (shape != WorldGridShape::hashed) return std::min(cell * sample.median, most_world_m);
-  double edge = std::min(cell * std::max(sample.least, sample.median / 64), most_world_m);
-  while (edge < std::min(cell * light.radius_m, most_world_m)) edge *= 2;
+  if (shape != WorldGridShape::hashed) return std::min(cell * sample.median, max_world_m);
+  double edge = std::min(cell * std::max(sample.least, sample.median / 64), max_world_m);
+  while (edge < std::min(cell * light.radius_m, max_world_m)) edge *= 2;
   return edge;
 }
 
 WorldCellEstimate estimate_cell(const LightSample& sample, WorldGridShape shape, double cell) {
-  constexpr size_t most_points = 64;
+  constexpr size_t max_points = 64;
   WorldCellEstimate estimate;
   if (sample.lights.empty()) return estimate;
   const bool columns = shape == WorldGridShape::columns;
   for (const CullLight& light : sample.lights) {
     const double cells = touched_cells(edge_of(light, sample, shape, cell), light.radius_m, columns);
-    const bool everywhere = cells > double(most_blocks_of_light) * WORLD_BLOCK_CELLS;
+    const bool everywhere = cells > double(max_blocks_of_light) * WORLD_BLOCK_CELLS;
     estimate.entries += (everywhere ? 1 : cells) * sample.lights_of_each;
   }
-  const size_t step = sample.lights.size() / most_points + 1;
+  const size_t step = sample.lights.size() / max_points + 1;
   double points = 0;
   for (size_t i = 0; i < sample.lights.size(); i += step, ++points) {
     // At a light's end, in the six directions in turn: what is lit is around lights, not inside of them.
@@ -171,7 +172,7 @@ WorldCellEstimate estimate_cell(const LightSample& sample, WorldGridShape shape,
   if (shape == WorldGridShape::hashed) return estimate;
   const glm::dvec3 cells = sample.extent / (cell * sample.median) + 2.0;
   estimate.blocks =
-      std::min(cells.x * cells.y * (columns ? 1 : cells.z) / WORLD_BLOCK_CELLS, double(most_world_blocks));
+      std::min(cells.x * cells.y * (columns ? 1 : cells.z) / WORLD_BLOCK_CELLS, double(max_world_blocks));
   return estimate;
 }
 
@@ -188,7 +189,10 @@ double choose_world_cell(std::span<const CullLight> lights, const WorldBox& boun
   for (const double cell : {1.0, 2.0, 0.5, 0.25}) {
     const WorldCellEstimate estimate = estimate_cell(sample, shape, cell);
     const double cost = entries_of_listed * estimate.listed + estimate.entries + estimate.blocks;
-    if (cost < least) least = cost, chosen = cell;
+    if (cost < least) {
+      least = cost;
+      chosen = cell;
+    }
   }
   return chosen;
 }

@@ -15,11 +15,11 @@
 
 namespace lightgrid {
 
-constexpr uint32_t most_world_blocks = 1u << 20;  // cubes and columns: a word each
-constexpr uint32_t most_blocks_of_light = 4096;   // a light that meets more is stored once, for every list
+constexpr uint32_t max_world_blocks = 1u << 20;  // cubes and columns: a word each
+constexpr uint32_t max_blocks_of_light = 4096;   // a light that meets more is stored once, for every list
 // Cells lie within this of the origin, and none is larger: the outer ones have no end anyway. The differences
 // of any double from a place there, and of two such places, are finite.
-constexpr double most_world_m = 1e290;
+constexpr double max_world_m = 1e290;
 
 // Neither endless nor anywhere that is not a number.
 inline bool is_local(const CullLight& light) {
@@ -53,21 +53,21 @@ size_t sample_step(size_t lights);
 // The median radius of the sample's lights with a radius above 0; 0: there is none.
 double sampled_median(std::span<const CullLight> lights);
 
-// The least radius above 0, and the box of the lights with at most `most_radius`.
+// The least radius above 0, and the box of the lights with at most `max_radius`.
 struct LitBox {
   static constexpr double inf = std::numeric_limits<double>::infinity();
   double least = inf;  // metres; infinite: no radius is above 0
   WorldBox box{glm::dvec3(inf), glm::dvec3(-inf)};
 
-  void add(const CullLight& light, double most_radius);
+  void add(const CullLight& light, double max_radius);
   void add(const LitBox& other);
 };
 
-LitBox lit_box(std::span<const CullLight> lights, double most_radius);
+LitBox lit_box(std::span<const CullLight> lights, double max_radius);
 
 // Where lights of ordinary size and surfaces (`bounds`) both are: elsewhere nothing needs small cells. The
 // lights' box alone where they do not meet; a point at the origin where there is no such light. Within
-// most_world_m.
+// max_world_m.
 WorldBox ordinary_box(const WorldBox& lit, const WorldBox& bounds);
 
 // The grid that a value of world-cell would make.

@@ -21,7 +21,7 @@ cl::Buffer& WorldGridStorage::at_least(WorldArray array, size_t bytes) {
   return buffers_[size_t(array)].at_least(device_, bytes);
 }
 
-size_t WorldGridStorage::most_bytes(WorldArray) const { return std::numeric_limits<size_t>::max(); }
+size_t WorldGridStorage::max_bytes(WorldArray) const { return std::numeric_limits<size_t>::max(); }
 
 void WorldGridStorage::swap_lists() {
   std::swap(buffers_[size_t(WorldArray::cells)], buffers_[size_t(WorldArray::old_cells)]);
@@ -56,7 +56,7 @@ NamedKernel& WorldGrid::kernel_of(const std::string& label) {
 }
 
 // The device has a limit for one buffer, and entries are counted in 32 bits.
-uint64_t WorldGrid::most_count(size_t bytes_each) const {
+uint64_t WorldGrid::max_count(size_t bytes_each) const {
   return std::min<uint64_t>(std::numeric_limits<uint32_t>::max() - 1,
                             device_.info().max_allocation_bytes / bytes_each);
 }
@@ -64,7 +64,7 @@ uint64_t WorldGrid::most_count(size_t bytes_each) const {
 // Throws Error(machine) if the device gives no buffer that large, or if there are more than 32 bits count.
 void WorldGrid::check_count(const char* what, uint64_t count, size_t bytes_each) const {
   const uint64_t most = device_.info().max_allocation_bytes;
-  if (count <= most_count(bytes_each)) return;
+  if (count <= max_count(bytes_each)) return;
   throw machine_error(
       "world grid: {} {} take {} bytes, more than the {} that this device gives to one buffer; use larger "
       "cells (world-cell), smaller ranges or fewer lights",
@@ -109,7 +109,8 @@ void WorldGrid::count_blocks() {
   pair_count_ = size_t(layout_.pairs);
   count_world_blocks(layout_, block_lights_);
   blocks_ = block_lights_.keys.size();
-  sizes_[0] = block_lights_.buckets.size() * 4, sizes_[1] = blocks_ * 8;
+  sizes_[0] = block_lights_.buckets.size() * 4;
+  sizes_[1] = blocks_ * 8;
   constexpr const char* what = "uploading blocks of lights";
   const auto put = [&](const cl::Buffer& to, const auto& from) {
     enqueue_write(device_, what, to, from.data(), from.size() * sizeof from[0]);
@@ -137,8 +138,8 @@ void WorldGrid::sort_pairs() {
        {"chunk", cl_uint(lights_chunk)},
        {"world", params()}});
   const size_t chunk = chunk_of(pair_count_, 2048), chunks = (pair_count_ + chunk - 1) / chunk;
-  const int most_bits = device_.info().cpu ? 11 : 8;
-  const int passes = (layout_.bucket_bits + most_bits - 1) / most_bits,
+  const int max_bits = device_.info().cpu ? 11 : 8;
+  const int passes = (layout_.bucket_bits + max_bits - 1) / max_bits,
             bits = (layout_.bucket_bits + passes - 1) / passes;
   const cl_uint digits = 1u << bits;
   totals_.at_least(device_, digits * chunks * 4);
@@ -208,7 +209,7 @@ void WorldGrid::find_blocks() {
 void WorldGrid::inherit() {
   const size_t chunk = chunk_of(blocks_, 16), chunks = (blocks_ + chunk - 1) / chunk;
   totals_.at_least(device_, chunks * 4);
-  const uint64_t room = most_count(8);
+  const uint64_t room = max_count(8);
   const cl::Buffer stop = counted(uint64_t(blocks_) * layout_.lights.size(), room);
   const auto step = [&](cl_uint write, const cl::Buffer& first, const cl::Buffer& members) {
     run("inherit", chunks,
@@ -243,7 +244,7 @@ void WorldGrid::write_lists() {
   check_count("cells", blocks_ * WORLD_BLOCK_CELLS, 8);
   storage_->at_least(WorldArray::cells, sizes_[2]);
   const size_t chunk = chunk_of(blocks_, 4), chunks = (blocks_ + chunk - 1) / chunk;
-  const uint64_t room = most_count(size_t(index_bits_) / 8);
+  const uint64_t room = max_count(size_t(index_bits_) / 8);
   const cl::Buffer stop = counted(uint64_t(listed_count_) * WORLD_BLOCK_CELLS, room);
   const auto step = [&](cl_uint write, const cl::Buffer& indices) {
     if (blocks_ == 0) return;
@@ -283,8 +284,7 @@ void WorldGrid::size_indices(uint64_t entries) {
   sizes_[3] = (entries_ + everywhere) * index_bytes;
   const bool too_small = storage_->bytes(WorldArray::indices) < sizes_[3];
   // More than needed, for lights that move, where that fits.
-  const size_t most =
-      std::min(storage_->most_bytes(WorldArray::indices), device_.info().max_allocation_bytes);
+  const size_t most = std::min(storage_->max_bytes(WorldArray::indices), device_.info().max_allocation_bytes);
   const size_t roomy = sizes_[3] + sizes_[3] / 4;
   storage_->at_least(WorldArray::indices, too_small && builds_ > 0 && roomy <= most ? roomy : sizes_[3]);
 }
@@ -319,7 +319,8 @@ void WorldGrid::build(std::span<const CullLight> lights, const WorldBox& bounds,
   lights_.enqueue(device_, what, layout_.lights);
   cones_.enqueue(device_, what, layout_.cones);
   levels_.enqueue(device_, what, layout_.levels);
-  pair_count_ = 0, moves_ = 0;
+  pair_count_ = 0;
+  moves_ = 0;
   block_pairs_.clear();
   counted_ = device_.info().cpu && has_few_blocks(layout_);
   if (counted_) {
@@ -341,9 +342,9 @@ bool HostWorldGrid::operator==(const HostWorldGrid& other) const {
 }
 
 glm::uvec2 HostWorldGrid::range_at(const glm::vec3& p) const {
-  return world_range(uint(world_coordinate(p.x, params.least_x, params.most_x)),
-                     uint(world_coordinate(p.y, params.least_y, params.most_y)),
-                     uint(world_coordinate(p.z, params.least_z, params.most_z)), params,
+  return world_range(uint(world_coordinate(p.x, params.min_x, params.max_x)),
+                     uint(world_coordinate(p.y, params.min_y, params.max_y)),
+                     uint(world_coordinate(p.z, params.min_z, params.max_z)), params,
                      {buckets.data(), keys.data(), cells.data()});
 }
 
@@ -371,7 +372,9 @@ HostWorldGrid WorldGrid::read() {
   HostWorldGrid host;
   host.params = layout_.params;
   constexpr const char* what = "reading the world grid";
-  host.buckets.resize(sizes_[0] / 4), host.keys.resize(sizes_[1] / 8), host.cells.resize(sizes_[2] / 8);
+  host.buckets.resize(sizes_[0] / 4);
+  host.keys.resize(sizes_[1] / 8);
+  host.cells.resize(sizes_[2] / 8);
   read_buffer(device_, what, buckets(), host.buckets.data(), sizes_[0]);
   read_buffer(device_, what, keys(), host.keys.data(), sizes_[1]);
   read_buffer(device_, what, cells(), host.cells.data(), sizes_[2]);

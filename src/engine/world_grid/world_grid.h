@@ -28,7 +28,7 @@ class WorldGridStorage {
   virtual cl::Buffer& at_least(WorldArray array, size_t bytes);
   virtual cl::Buffer& buffer(WorldArray array) { return buffers_[size_t(array)].get(); }
   virtual size_t bytes(WorldArray array) const { return buffers_[size_t(array)].bytes(); }
-  virtual size_t most_bytes(WorldArray array) const;
+  virtual size_t max_bytes(WorldArray array) const;
   virtual void swap_lists();  // cells and indices change places with the old ones
 
  protected:
@@ -106,7 +106,7 @@ class WorldGrid {
                             cl::NDRange(group), arguments);
   }
   NamedKernel& kernel_of(const std::string& label);
-  uint64_t most_count(size_t bytes_each) const;
+  uint64_t max_count(size_t bytes_each) const;
   void check_count(const char* what, uint64_t count, size_t bytes_each) const;
   uint64_t scan(size_t count, bool read);
   cl::Buffer counted(uint64_t most, uint64_t room);

@@ -33,16 +33,17 @@ void lay_cells(WorldLayout& layout, const glm::dvec3& extent) {
   WorldGridParams& p = layout.params;
   double x = 0, y = 0, z = 0;
   for (;; layout.cell_m *= 2) {
-    x = cells_across(extent.x, layout.cell_m, p.shift_x),
+    x = cells_across(extent.x, layout.cell_m, p.shift_x);
     y = cells_across(extent.y, layout.cell_m, p.shift_y);
     z = layout.columns ? 1 : cells_across(extent.z, layout.cell_m, p.shift_z);
-    if (x * y * z <= most_world_blocks * double(WORLD_BLOCK_CELLS) && std::max({x, y, z}) <= hashed_cells)
+    if (x * y * z <= max_world_blocks * double(WORLD_BLOCK_CELLS) && std::max({x, y, z}) <= hashed_cells)
       break;
   }
-  lay_axis({p.cells_x, p.shift_x, p.least_x, p.most_x}, x);
-  lay_axis({p.cells_y, p.shift_y, p.least_y, p.most_y}, y);
-  lay_axis({p.cells_z, p.shift_z, p.least_z, p.most_z}, z);
-  p.blocks_x = p.cells_x >> p.shift_x, p.blocks_y = p.cells_y >> p.shift_y;
+  lay_axis({p.cells_x, p.shift_x, p.min_x, p.max_x}, x);
+  lay_axis({p.cells_y, p.shift_y, p.min_y, p.max_y}, y);
+  lay_axis({p.cells_z, p.shift_z, p.min_z, p.max_z}, z);
+  p.blocks_x = p.cells_x >> p.shift_x;
+  p.blocks_y = p.cells_y >> p.shift_y;
   const uint blocks = p.blocks_x * p.blocks_y * std::max(p.cells_z >> p.shift_z, 1u);
   layout.bucket_bits = std::max<int>(std::bit_width(blocks - 1), 1);
   p.bucket_bits = 0;
@@ -50,9 +51,9 @@ void lay_cells(WorldLayout& layout, const glm::dvec3& extent) {
 
 void lay_hashed(WorldLayout& layout, size_t lights) {
   WorldGridParams& p = layout.params;
-  lay_axis({p.cells_x, p.shift_x, p.least_x, p.most_x}, hashed_cells);
-  lay_axis({p.cells_y, p.shift_y, p.least_y, p.most_y}, hashed_cells);
-  lay_axis({p.cells_z, p.shift_z, p.least_z, p.most_z}, hashed_cells);
+  lay_axis({p.cells_x, p.shift_x, p.min_x, p.max_x}, hashed_cells);
+  lay_axis({p.cells_y, p.shift_y, p.min_y, p.max_y}, hashed_cells);
+  lay_axis({p.cells_z, p.shift_z, p.min_z, p.max_z}, hashed_cells);
   p.blocks_x = p.blocks_y = 0;
   layout.bucket_bits = std::clamp<int>(std::bit_width(2 * lights), 4, 22);
   p.bucket_bits = uint(layout.bucket_bits);
@@ -78,7 +79,8 @@ void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, Wo
   WorldGridParams& p = layout.params = {};
   layout.cell = cell;
   layout.columns = shape == WorldGridShape::columns;
-  p.shift_x = p.shift_y = layout.columns ? 3 : 2, p.shift_z = layout.columns ? 0 : 2;
+  p.shift_x = p.shift_y = layout.columns ? 3 : 2;
+  p.shift_z = layout.columns ? 0 : 2;
   double median = sampled_median(lights);
   if (median == 0) {
     const double least = lit_box(lights, LitBox::inf).least;
@@ -87,7 +89,7 @@ void lay_out_world(std::span<const CullLight> lights, const WorldBox& bounds, Wo
   const LitBox lit = lit_box(lights, 32 * cell * median);
   const bool hashed = shape == WorldGridShape::hashed;
   const double least = lit.least < LitBox::inf ? std::max(lit.least, median / 64) : median;
-  layout.cell_m = std::min(cell * (hashed ? least : median), most_world_m);
+  layout.cell_m = std::min(cell * (hashed ? least : median), max_world_m);
   const WorldBox box = ordinary_box(lit.box, bounds);
   layout.middle = 0.5 * (box.min + box.max);
   const glm::dvec3 extent = in_grid(box.max - box.min, layout.columns);
@@ -120,7 +122,7 @@ WorldViewParams world_view_params(const WorldLayout& layout, const glm::dvec3& e
 
 namespace {
 
-constexpr float least_radius = 1e-18f;  // squares stay normal numbers
+constexpr float min_radius = 1e-18f;  // squares stay normal numbers
 // Cells from the middle to the end of a light whose cone is tested: squares stay finite.
 constexpr double farthest_cone = 1e15;
 
@@ -141,7 +143,7 @@ struct BlockSpan {
 
 inline BlockSpan span_of(const glm::vec4& ball, uint level, const WorldGridParams& p) {
   const Float4 at{ball.x, ball.y, ball.z, 0}, radius{ball.w, ball.w, ball.w, 0};
-  const Float4 least{p.least_x, p.least_y, p.least_z, 0}, most{p.most_x, p.most_y, p.most_z, 0};
+  const Float4 least{p.min_x, p.min_y, p.min_z, 0}, most{p.max_x, p.max_y, p.max_z, 0};
   const Int4 first = coordinates_of(at - radius, least, most),
              last = coordinates_of(at + radius, least, most);
   BlockSpan span;
@@ -172,7 +174,7 @@ inline float marked(float radius, bool cone) {
   WorldLight placed;
   placed.cone = {glm::vec3(light.direction), float(light.cos_outer - 1e-6)};
   const bool tested = cones && placed.cone.w >= 0 && sum + radius < farthest_cone;
-  placed.ball = {glm::vec3(at), marked(float(radius + slack) + least_radius, tested)};
+  placed.ball = {glm::vec3(at), marked(float(radius + slack) + min_radius, tested)};
   if (!is_local(light)) {
     placed.everywhere = light.radius_m >= 0 && is_local({light.position, 0});
     placed.ball.w = -1;
@@ -184,8 +186,8 @@ inline float marked(float radius, bool cone) {
   const double size_m = std::max(light.radius_m, slack * layout.cell_m);
   while (level + 1 < levels && std::ldexp(layout.cell_m, int(level)) < layout.cell * size_m) ++level;
   BlockSpan span = span_of(placed.ball, level, p);
-  while (level + 1 < levels && span.blocks() > most_blocks_of_light) span = span_of(placed.ball, ++level, p);
-  placed.everywhere = span.blocks() > most_blocks_of_light;
+  while (level + 1 < levels && span.blocks() > max_blocks_of_light) span = span_of(placed.ball, ++level, p);
+  placed.everywhere = span.blocks() > max_blocks_of_light;
   if (placed.everywhere) {
     placed.ball.w = -1;
     return placed;

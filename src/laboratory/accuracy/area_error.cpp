@@ -10,7 +10,7 @@
 
 namespace lightgrid {
 
-AreaTruth area_truth(const Seen& v, SceneOcclusion& occlusion, size_t most_at_edges) {
+AreaTruth area_truth(const ViewState& v, SceneOcclusion& occlusion, size_t max_at_edges) {
   constexpr size_t classified = 8192;
   constexpr int places_to_classify = 16;
   const bool casts = std::ranges::any_of(v.scene.lights, &Light::casts_shadow) &&
@@ -26,7 +26,7 @@ AreaTruth area_truth(const Seen& v, SceneOcclusion& occlusion, size_t most_at_ed
   const std::vector<SeenSurfaces> seen = oracle.surfaces_at(sample, places_to_classify);
   std::vector<uint32_t> edges, inside;
   for (size_t i = 0; i < sample.size(); ++i) (seen[i].at_edge() ? edges : inside).push_back(sample[i]);
-  const size_t most = affordable_samples(most_at_edges, v.scene);
+  const size_t most = affordable_samples(max_at_edges, v.scene);
   std::vector<uint32_t> pixels = sample_pixels(edges, most);
   const std::vector<uint32_t> of_inside = sample_pixels(inside, most / 2);
   pixels.insert(pixels.end(), of_inside.begin(), of_inside.end());
@@ -34,7 +34,8 @@ AreaTruth area_truth(const Seen& v, SceneOcclusion& occlusion, size_t most_at_ed
   AreaTruth truth;
   for (size_t i = 0; i < pixels.size(); ++i) {
     if (areas[i].blended || areas[i].undecided) continue;
-    truth.pixels.push_back(pixels[i]), truth.areas.push_back(areas[i]);
+    truth.pixels.push_back(pixels[i]);
+    truth.areas.push_back(areas[i]);
   }
   return truth;
 }
@@ -52,7 +53,8 @@ AreaError::Part part_error(const Image& image, const AreaTruth& truth, bool edge
       const double own = image.pixels[truth.pixels[i]][c], expected = truth.areas[i].radiance[c];
       const double apart = std::isnan(own) ? INFINITY : std::abs(own - expected);
       const double shown = std::isnan(own) ? INFINITY : std::min(own, white) - std::min(expected, white);
-      squares += apart * apart, squares_shown += shown * shown;
+      squares += apart * apart;
+      squares_shown += shown * shown;
       largest = std::max(largest, apart);
     }
   }

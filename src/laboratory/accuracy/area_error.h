@@ -5,7 +5,7 @@
 #include "base/image.h"
 #include "measures/results.h"
 #include "oracle/pixel_area.h"
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 
 namespace lightgrid {
 
@@ -16,7 +16,7 @@ struct AreaTruth {
 
 // At a sample of the view's pixels, at most so many at edges and half as many inside, with the model of the
 // view's settings. occlusion: of its scene.
-AreaTruth area_truth(const Seen& v, SceneOcclusion& occlusion, size_t most_at_edges = 1024);
+AreaTruth area_truth(const ViewState& v, SceneOcclusion& occlusion, size_t max_at_edges = 1024);
 
 // brightest: the reference's brightest channel. white: radiance that a display shows as white.
 AreaError area_error(const Image& image, const AreaTruth& truth, double brightest, double white);

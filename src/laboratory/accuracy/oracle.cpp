@@ -32,11 +32,14 @@ Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
   surface.unlit = surface.occlusion < 0;
   if (!s.model.pixels.empty()) {
     const MaterialModel& model = s.models.at(size_t(s.model.pixels[pixel].r));
-    surface.subsurface_color = model.subsurface_color, surface.roll_off = model.roll_off,
+    surface.subsurface_color = model.subsurface_color;
+    surface.roll_off = model.roll_off;
     surface.minnaert_k = model.minnaert_k;
   }
-  if (!s.specular.pixels.empty())
-    surface.f0 = s.specular.pixels[pixel], surface.f90 = s.specular.pixels[pixel].w;
+  if (!s.specular.pixels.empty()) {
+    surface.f0 = s.specular.pixels[pixel];
+    surface.f90 = s.specular.pixels[pixel].w;
+  }
   if (s.coat_factor.pixels.empty() || s.coat_factor.pixels[pixel].r == 0) return surface;
   surface.coat = s.coat_factor.pixels[pixel].r;
   surface.coat_roughness = s.coat_normal_roughness.pixels[pixel].w;
@@ -53,7 +56,7 @@ std::vector<float> read_depth(TechniqueRun& run) {
   return depth;
 }
 
-std::vector<ViewLight> local_lights(const Seen& v) {
+std::vector<ViewLight> local_lights(const ViewState& v) {
   return lights_in_view(v.scene, v.view, ranges_of(v.plan.settings), v.plan.lights.local);
 }
 
@@ -72,7 +75,7 @@ std::vector<uint32_t> masks_of_pixels(const FramePlan& plan, const Scene& scene,
 }
 
 LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, const SeenPairs* seen) {
-  const Seen& v = run.view();
+  const ViewState& v = run.view();
   std::vector<uint32_t> masks;
   if (v.plan.masks.needed) masks = masks_of_pixels(v.plan, v.scene, shown_triangles(run));
   if (!seen) return count_pairs(v.view, depth, local_lights(v), listed_lights(run, depth), nullptr, masks);
@@ -83,7 +86,7 @@ LitPairs count_listed_pairs(TechniqueRun& run, const std::vector<float>& depth, 
 }
 
 std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& truth) {
-  const Seen& v = run.view();
+  const ViewState& v = run.view();
   if (!run.frame().blended_shadows || !truth.casts() || v.plan.surfaces.blended.empty()) return {};
   LitPairs sum;
   for (const HostShadowLayer& layer : run.frame().blended_shadows()) {
@@ -95,7 +98,10 @@ std::optional<LitPairs> count_blended_pairs(TechniqueRun& run, ShadowTruth& trut
     const LitPairs pairs =
         count_pairs(v.view, layer.depth, local_lights(v),
                     list_every_light(uint32_t(v.plan.lights.local.size())), &shadows, masks);
-    sum.lit += pairs.lit, sum.leaked += pairs.leaked, sum.acned += pairs.acned, sum.either += pairs.either;
+    sum.lit += pairs.lit;
+    sum.leaked += pairs.leaked;
+    sum.acned += pairs.acned;
+    sum.either += pairs.either;
   }
   return sum;
 }

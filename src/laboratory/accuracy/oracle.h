@@ -19,7 +19,7 @@ Surface surface_of(const SurfaceImages& surfaces, uint32_t pixel);
 std::vector<float> read_depth(TechniqueRun& run);
 
 // The point and spot lights in view space, in the order of lists.
-std::vector<ViewLight> local_lights(const Seen& v);
+std::vector<ViewLight> local_lights(const ViewState& v);
 
 // The lights that the last frame of a run used on opaque surfaces (Frame::listed), or every point and spot
 // light at every pixel.

@@ -26,7 +26,8 @@ struct Sums {
   void add(float value, double exact) {
     const double difference = std::abs(double(value) - exact);
     const double error = std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;
-    largest = std::max(largest, error), squares += error * error;
+    largest = std::max(largest, error);
+    squares += error * error;
   }
 };
 
@@ -116,10 +117,10 @@ OracleError oracle_error(const Image& image, const Image& reference, const std::
 }
 
 size_t affordable_samples(size_t most, const Scene& scene) {
-  constexpr size_t most_pairs = 400'000'000, most_of_casters = 4'000'000, least = 100;
+  constexpr size_t max_pairs = 400'000'000, max_of_casters = 4'000'000, least = 100;
   const size_t casters = size_t(std::ranges::count_if(scene.lights, &Light::casts_shadow));
-  return std::min({most, std::max(most_pairs / std::max<size_t>(scene.lights.size(), 1), least),
-                   std::max(most_of_casters / std::max<size_t>(casters, 1), least)});
+  return std::min({most, std::max(max_pairs / std::max<size_t>(scene.lights.size(), 1), least),
+                   std::max(max_of_casters / std::max<size_t>(casters, 1), least)});
 }
 
 }  // namespace lightgrid

@@ -58,7 +58,7 @@ CastingLights casting_lights(const Scene& scene, const View& view, const LightRa
 
 bool ShadowTruth::casts() const { return std::ranges::any_of(scene_.lights, &Light::casts_shadow); }
 
-const SeenPairs* ShadowTruth::pairs(const Seen& v, const std::vector<float>& depth,
+const SeenPairs* ShadowTruth::pairs(const ViewState& v, const std::vector<float>& depth,
                                     const std::vector<SceneTriangle>& triangles) {
   if (!casts()) return nullptr;
   const Model model = model_of(v);
@@ -74,11 +74,11 @@ const SeenPairs* ShadowTruth::pairs(const Seen& v, const std::vector<float>& dep
   next_ = 1 - next_;
   d = {model, depth, triangles,
        std::make_unique<SeenPairs>(occlusion_->get(model.by_blended), shown, lights,
-                                   affordable_pixels(shown, lights, most_pairs_))};
+                                   affordable_pixels(shown, lights, max_pairs_))};
   return d.pairs.get();
 }
 
-std::unique_ptr<SeenPairs> ShadowTruth::at_pixels(const Seen& v, const std::vector<float>& depth,
+std::unique_ptr<SeenPairs> ShadowTruth::at_pixels(const ViewState& v, const std::vector<float>& depth,
                                                   const std::vector<CastingTriangle>& triangles,
                                                   const std::vector<uint32_t>& pixels, bool in_range) {
   if (!casts()) return nullptr;
@@ -89,7 +89,7 @@ std::unique_ptr<SeenPairs> ShadowTruth::at_pixels(const Seen& v, const std::vect
                                      ShownSurfaces{v.view, depth, triangles}, lights, pixels, in_range);
 }
 
-const SeenPairs* ShadowTruth::of_layer(const Seen& v, const HostShadowLayer& layer) {
+const SeenPairs* ShadowTruth::of_layer(const ViewState& v, const HostShadowLayer& layer) {
   if (!casts()) return nullptr;
   const Model model = model_of(v);
   for (const DecidedLayer& d : layers_) {
@@ -99,10 +99,10 @@ const SeenPairs* ShadowTruth::of_layer(const Seen& v, const HostShadowLayer& lay
   for (const glm::ivec2& t : layer.triangles) triangles.push_back({t.x, uint32_t(t.y)});
   const CastingLights lights = casting_lights(scene_, v.view, model.ranges, v.plan.lights.local);
   const ShownSurfaces shown{v.view, layer.depth, triangles};
-  if (layers_.size() >= most_layers) layers_.clear();
+  if (layers_.size() >= max_layers) layers_.clear();
   layers_.push_back({model, layer.depth, layer.triangles,
                      std::make_unique<SeenPairs>(occlusion_->get(model.by_blended), shown, lights,
-                                                 affordable_pixels(shown, lights, most_pairs_))});
+                                                 affordable_pixels(shown, lights, max_pairs_))});
   return layers_.back().pairs.get();
 }
 

@@ -9,7 +9,7 @@
 #include "passes/read_outs.h"
 #include "plan/settings/model.h"
 #include "plan/settings/shadows.h"
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 
 namespace lightgrid {
 
@@ -24,27 +24,27 @@ CastingLights casting_lights(const Scene& scene, const View& view, const LightRa
 // costs nothing.
 class ShadowTruth {
  public:
-  // most_pairs: in each view; of more, an even sample of the pixels is taken. The scene outlives it.
-  ShadowTruth(const Scene& scene, uint64_t most_pairs)
-      : scene_(scene), most_pairs_(most_pairs), occlusion_(std::make_unique<SceneOcclusion>(scene)) {}
+  // max_pairs: in each view; of more, an even sample of the pixels is taken. The scene outlives it.
+  ShadowTruth(const Scene& scene, uint64_t max_pairs)
+      : scene_(scene), max_pairs_(max_pairs), occlusion_(std::make_unique<SceneOcclusion>(scene)) {}
 
   bool casts() const;  // some light of the scene
   SceneOcclusion& occlusion() { return *occlusion_; }
 
   // The pairs of point and spot lights, in the order of lists, then of directional ones. Null if no light
   // casts; valid until the next call but one. triangles: the nearest opaque one of each pixel.
-  const SeenPairs* pairs(const Seen& v, const std::vector<float>& depth,
+  const SeenPairs* pairs(const ViewState& v, const std::vector<float>& depth,
                          const std::vector<SceneTriangle>& triangles);
 
   // The pairs of all lights of the scene, in its order, at `pixels`; in_range: without those that are out of
   // range. Null if no light casts.
-  std::unique_ptr<SeenPairs> at_pixels(const Seen& v, const std::vector<float>& depth,
+  std::unique_ptr<SeenPairs> at_pixels(const ViewState& v, const std::vector<float>& depth,
                                        const std::vector<CastingTriangle>& triangles,
                                        const std::vector<uint32_t>& pixels, bool in_range = true);
 
   // The pairs of point and spot lights at the fragments of a layer of blended surfaces. Null if no light
   // casts; valid until the next call.
-  const SeenPairs* of_layer(const Seen& v, const HostShadowLayer& layer);
+  const SeenPairs* of_layer(const ViewState& v, const HostShadowLayer& layer);
 
   // Another view, and `geometry`: whether instances moved or meshes deformed.
   void moved(bool geometry);
@@ -56,7 +56,7 @@ class ShadowTruth {
     BlendedCasters by_blended = BlendedCasters::none;
     bool operator==(const Model&) const = default;
   };
-  static Model model_of(const Seen& v) {
+  static Model model_of(const ViewState& v) {
     return {ranges_of(v.plan.settings), v.plan.settings[setting::shadow_blended]};
   }
   struct Decided {
@@ -71,10 +71,10 @@ class ShadowTruth {
     std::vector<glm::ivec2> triangles;
     std::unique_ptr<SeenPairs> pairs;
   };
-  static constexpr size_t most_layers = 64;
+  static constexpr size_t max_layers = 64;
 
   const Scene& scene_;
-  uint64_t most_pairs_;
+  uint64_t max_pairs_;
   std::unique_ptr<SceneOcclusion> occlusion_;  // it does not move
   Decided decided_[2];                         // OpenGL's surfaces, and those drawn in OpenCL
   std::vector<DecidedLayer> layers_;

@@ -56,7 +56,9 @@ SurfacesError surfaces_error(const Image& image, const SurfacesInDouble& in_doub
     for (int c = 0; c < 3; ++c) {
       const double own = image.pixels[in_double.pixels[i]][c], expected = in_double.radiance[i][c];
       const double apart = std::isnan(own) ? infinity : std::abs(own - expected);
-      sum += own, sum_in_double += expected, squares += apart * apart;
+      sum += own;
+      sum_in_double += expected;
+      squares += apart * apart;
       largest[i] = std::max(largest[i], apart);
     }
   }

@@ -45,11 +45,15 @@ KernelWork work_of(const CapturedFrame& frame, const CullingRun& run) {
   constexpr size_t bin = 8;
   const LightGrid& grid = run.grid();
   KernelWork work;
-  work.pixels = frame.depth.size(), work.lights = frame.lights.size();
-  work.tiles = size_t(grid.cells_x) * grid.cells_y, work.cells = grid.cell_bytes / 8;
+  work.pixels = frame.depth.size();
+  work.lights = frame.lights.size();
+  work.tiles = size_t(grid.cells_x) * grid.cells_y;
+  work.cells = grid.cell_bytes / 8;
   work.bins = ((grid.cells_x + bin - 1) / bin) * ((grid.cells_y + bin - 1) / bin);
-  work.indices = grid.index_count, work.index_bytes = grid.index_bytes;
-  work.mask_bytes = grid.mask_bytes, work.z_bins = size_t(run.settings()[setting::z_bins]);
+  work.indices = grid.index_count;
+  work.index_bytes = grid.index_bytes;
+  work.mask_bytes = grid.mask_bytes;
+  work.z_bins = size_t(run.settings()[setting::z_bins]);
   work.exact = row_of(run.settings()[setting::cull_test]).distance;
   for (const Light& light : frame.lights) work.cones |= has_cone(light);
   return work;
@@ -141,11 +145,14 @@ std::vector<BenchRow> measure_raster(ClDevice& device, ProgramCache& programs, c
 // The names of the rows that the contestants will have, from a frame too small to take time.
 std::vector<std::string> row_names(ClDevice& device, ProgramCache& programs, const BenchOptions& options) {
   BenchOptions small = options;
-  small.frames = 1, small.warmup = 0, small.step = nullptr;
+  small.frames = 1;
+  small.warmup = 0;
+  small.step = nullptr;
   const BenchCase tiny{"", {.lights = 4, .width = 64, .height = 36}};
   std::vector<std::string> names;
   Limits none;
-  none.operations = 1, none.flops.min = 1;
+  none.operations = 1;
+  none.flops.min = 1;
   for (const BenchRow& row :
        measure_case(device, programs, small, tiny, make_standard_frame(tiny.recipe), none)) {
     if (std::find(names.begin(), names.end(), row.name) == names.end()) names.push_back(row.name);

@@ -111,7 +111,10 @@ DeviceRun device_run(ClDevice& device, const std::function<void()>& work) {
 }
 
 void take(Samples& samples, double wall, const DeviceRun& run) {
-  if (samples.first.empty()) samples.first = run.rows, samples.kernels.resize(run.rows.size());
+  if (samples.first.empty()) {
+    samples.first = run.rows;
+    samples.kernels.resize(run.rows.size());
+  }
   double device = 0;
   for (size_t i = 0; i < run.rows.size() && i < samples.kernels.size(); ++i) {
     samples.kernels[i].push_back(run.rows[i].ms);
@@ -181,7 +184,10 @@ double PlainRead::fit(const cl::Buffer& buffer, size_t bytes, int tries) {
     items_ = times * units;
     for (int i = 0; i < tries + 1; ++i) {
       const double ms = run(buffer, bytes);
-      if (i > 0 && ms < best_ms) best_ms = ms, best = items_;
+      if (i > 0 && ms < best_ms) {
+        best_ms = ms;
+        best = items_;
+      }
     }
   }
   items_ = best;
@@ -245,7 +251,7 @@ MeasuredFrame measure_in_turn(ClDevice& device, ProgramCache& programs,
   });
   for (size_t i = 0; i < contestants.size(); ++i) measure_transfers(*contestants[i], measured.runs[i]);
   measured.plain_read = spread_of(reads);
-  measured.least_read_ms = std::min(least, measured.plain_read.min);
+  measured.min_read_ms = std::min(least, measured.plain_read.min);
   return measured;
 }
 

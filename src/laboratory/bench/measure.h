@@ -75,7 +75,7 @@ struct MeasuredRun {
 struct MeasuredFrame {
   std::vector<MeasuredRun> runs;  // one for each contestant
   Spread plain_read;              // time for the same depth buffer, in the same rounds
-  double least_read_ms = 0;       // the least of those and of the earlier runs that fitted it
+  double min_read_ms = 0;         // the least of those and of the earlier runs that fitted it
 };
 
 struct Rounds {

@@ -31,14 +31,14 @@ double test_flops(const KernelWork& w) {
 }
 
 // A bin has at least as many candidates as its longest list, and therefore at least its indices / 64.
-double least_candidates(const KernelWork& w) { return double(w.indices) / bin_tiles; }
+double min_candidates(const KernelWork& w) { return double(w.indices) / bin_tiles; }
 
 // The rasteriser: a position, a vertex in clip space, a triangle's corners, the pixels of its box, a pixel of
 // the image. An instance's clusters are at least its triangles / 64.
 constexpr double position_bytes = 12, clip_bytes = 16, corner_bytes = 12, box_bytes = 8,
                  visible_pixel_bytes = 8;
 constexpr double transform_flops = 24;  // twelve multiply-adds
-double least_clusters(const KernelWork& w) { return double(w.triangles) / RASTER_CLUSTER; }
+double min_clusters(const KernelWork& w) { return double(w.triangles) / RASTER_CLUSTER; }
 
 constexpr size_t max_length = 200;
 
@@ -72,8 +72,7 @@ std::optional<KernelCost> kernel_cost(const std::string& label, const KernelWork
       {"project_lights", {(world_bytes(w) + view_bytes(w)) * w.lights, project_flops * w.lights}},
       // These two are bounds of the CPU's form.
       {"cull_lights",
-       {interval_bytes * w.tiles + view_bytes(w) * least_candidates(w) + count_bytes * w.cells +
-            w.index_bytes,
+       {interval_bytes * w.tiles + view_bytes(w) * min_candidates(w) + count_bytes * w.cells + w.index_bytes,
         test_flops(w) * w.indices}},
       {"write_lists", {2.0 * w.index_bytes + (count_bytes + cell_bytes) * w.cells, 0}},
       // Launched only if the settings need their result.
@@ -82,8 +81,8 @@ std::optional<KernelCost> kernel_cost(const std::string& label, const KernelWork
       {"lists_to_masks", {cell_bytes * w.cells + w.index_bytes + w.mask_bytes, 0}},
       // The rasteriser's on CPUs; GPUs launch the first two and the last two of them.
       {"raster_transform", {(position_bytes + clip_bytes) * w.vertices, transform_flops * w.vertices}},
-      {"raster_clusters", {sizeof(RasterCluster) * least_clusters(w), 0}},
-      {"raster_order", {least_clusters(w) + id_bytes * w.clusters, 0}},
+      {"raster_clusters", {sizeof(RasterCluster) * min_clusters(w), 0}},
+      {"raster_order", {min_clusters(w) + id_bytes * w.clusters, 0}},
       {"raster_setup", {(corner_bytes + sizeof(RasterRecord)) * w.records, 0}},
       {"raster_scan", {2.0 * count_bytes * w.tiles, 0}},
       {"raster_fill", {box_bytes * w.records + id_bytes * w.tile_entries, 0}},
@@ -113,7 +112,7 @@ std::vector<BenchRow> contestant_rows(const ContestantParams& about, const Measu
   const double depth_bytes = double(PlainRead::bytes_read(4 * about.work.pixels));
   const bool culls = frame.plain_read.runs > 0;
   const double read_gb_s =
-      culls && depth_bytes > 0 ? 1e-6 * depth_bytes / frame.least_read_ms : limits.read_depth_gb_s();
+      culls && depth_bytes > 0 ? 1e-6 * depth_bytes / frame.min_read_ms : limits.read_depth_gb_s();
   const auto row = [&](const std::string& name, const char* kind, const Spread& ms,
                        std::optional<KernelCost> cost) {
     BenchRow r{name, kind, about.case_name, about.params, ms, cost, {}, {}};
@@ -128,7 +127,10 @@ std::vector<BenchRow> contestant_rows(const ContestantParams& about, const Measu
     rows.push_back(row(kernel.label, "kernel", kernel.ms, cost));
     rows.back().params["launches"] = kernel.launches;
     all_known &= cost.has_value();
-    if (cost) all.bytes += cost->bytes, all.flops += cost->flops;
+    if (cost) {
+      all.bytes += cost->bytes;
+      all.flops += cost->flops;
+    }
   }
   const std::optional<KernelCost> sum = all_known ? std::optional(all) : std::nullopt;
   if (culls) {

@@ -71,15 +71,18 @@ RasterRun::RasterRun(ClDevice& device, ProgramCache& programs, const Scene& scen
   const View view = make_view(choose_camera(scene, ""), width, height);
   raster_.set_camera({{width, height}, view.clip_from_view, view.view_from_world, view.eye});
   const auto tiles = [](int pixels) { return (size_t(pixels) + RASTER_TILE - 1) / RASTER_TILE; };
-  scene_.pixels = size_t(width) * size_t(height), scene_.tiles = tiles(width) * tiles(height);
+  scene_.pixels = size_t(width) * size_t(height);
+  scene_.tiles = tiles(width) * tiles(height);
   for (int i = 0; i < 2; ++i) run();
 }
 
 KernelWork RasterRun::work() const {
   const RasterCounts& counts = raster_.counts();
   KernelWork work = scene_;
-  work.triangles = counts.triangles, work.clusters = counts.clusters;
-  work.records = counts.records, work.tile_entries = counts.tile_entries;
+  work.triangles = counts.triangles;
+  work.clusters = counts.clusters;
+  work.records = counts.records;
+  work.tile_entries = counts.tile_entries;
   return work;
 }
 

@@ -67,7 +67,8 @@ float enter_box(const Shape& s, float x, float y, float nearest) {
     if (slope == 0 && (low > 0 || high < 0)) return nearest;
     if (slope == 0) continue;
     const float a = low / slope, b = high / slope;
-    t0 = std::max(t0, std::min(a, b)), t1 = std::min(t1, std::max(a, b));
+    t0 = std::max(t0, std::min(a, b));
+    t1 = std::min(t1, std::max(a, b));
   }
   return t0 <= t1 ? t0 : nearest;
 }
@@ -128,8 +129,10 @@ constexpr int calibration_tile = 16, calibration_width = 1920, calibration_heigh
 
 View room_view(int width, int height) {
   View view;
-  view.width = width, view.height = height;
-  view.near_m = room_near, view.far_m = room_far;
+  view.width = width;
+  view.height = height;
+  view.near_m = room_near;
+  view.far_m = room_far;
   const double near = room_near, far = room_far, tan_y = room_tan_y, tan_x = tan_y * width / height;
   view.clip_from_view = glm::dmat4(0);  // [column][row]; reversed depth
   view.clip_from_view[0][0] = 1 / tan_x;
@@ -149,7 +152,8 @@ Borders borders(int pixels, float tangent) {
   Borders b;
   for (int p = 0; p < pixels + calibration_tile; p += calibration_tile) {
     const float s = (2.0f * float(p) / float(pixels) - 1) * tangent;
-    b.slope.push_back(s), b.scale.push_back(1 / std::sqrt(1 + s * s));
+    b.slope.push_back(s);
+    b.scale.push_back(1 / std::sqrt(1 + s * s));
   }
   return b;
 }
@@ -170,7 +174,8 @@ TileGrid tile_grid(const std::vector<float>& distances, int width, int height) {
     for (int x = 0; x < width; ++x) {
       const size_t tile = size_t(y / calibration_tile) * tiles_x + x / calibration_tile;
       const float d = distances[size_t(y) * width + x];
-      grid.near[tile] = std::min(grid.near[tile], d), grid.far[tile] = std::max(grid.far[tile], d);
+      grid.near[tile] = std::min(grid.near[tile], d);
+      grid.far[tile] = std::max(grid.far[tile], d);
     }
   }
   return grid;
@@ -233,7 +238,8 @@ std::vector<Light> scatter_in_view(int count, Random& random, std::vector<float>
 
 CapturedFrame make_standard_frame(const FrameRecipe& recipe) {
   FrameRecipe calibration = recipe;
-  calibration.width = calibration_width, calibration.height = calibration_height;
+  calibration.width = calibration_width;
+  calibration.height = calibration_height;
   const std::vector<float> distances = room_distances(calibration);
   const TileGrid grid = tile_grid(distances, calibration.width, calibration.height);
 

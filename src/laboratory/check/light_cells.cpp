@@ -34,12 +34,12 @@ Edges edges_of_three(const View& view) {
 Edges edges_of_unreal(const View& view, const std::vector<ViewLight>& in_view,
                       const std::vector<int>& lights) {
   constexpr int tile = 64, slices = 32;
-  constexpr double cm = 100, scale = 4.05, near_offset = 9.5, least_far = 1000, last_far = 2e6;
+  constexpr double cm = 100, scale = 4.05, near_offset = 9.5, min_far = 1000, last_far = 2e6;
   Edges edges;
   const int across = (view.width + tile - 1) / tile, up = (view.height + tile - 1) / tile;
   for (int i = 0; i <= across; ++i) edges.x.push_back(2.0 * tile * i / view.width - 1);
   for (int i = up; i >= 0; --i) edges.y.push_back(1 - 2.0 * tile * i / view.height);
-  double furthest = least_far;
+  double furthest = min_far;
   for (const int i : lights) {
     const ViewLight& light = in_view[size_t(i)];
     if (std::isfinite(light.radius_m))
@@ -48,7 +48,8 @@ Edges edges_of_unreal(const View& view, const std::vector<ViewLight>& in_view,
   const double n = view.near_m * cm + near_offset, f = furthest + 10;
   const double o = (f - n * std::exp2((slices - 1) / scale)) / (f - n), b = (1 - o) / n;
   for (int k = 0; k <= slices; ++k) edges.z.push_back((std::exp2(k / scale) - o) / b / cm);
-  edges.z.front() = 0, edges.z.back() = last_far / cm;
+  edges.z.front() = 0;
+  edges.z.back() = last_far / cm;
   return edges;
 }
 

@@ -32,7 +32,8 @@ LightBox box_of_instance(const Scene& scene, int instance, const glm::dmat4& spa
     const glm::dvec4 corner(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
                             i & 4 ? bounds.max.z : bounds.min.z, 1);
     const dvec3 at(space_from_world * owner.world_from_object * corner);
-    box.min = glm::min(box.min, at), box.max = glm::max(box.max, at);
+    box.min = glm::min(box.min, at);
+    box.max = glm::max(box.max, at);
   }
   return box;
 }
@@ -180,7 +181,8 @@ class LimitCount {
   }
 
   void note(LimitPlace& place, size_t counted) {
-    place.frame = number_, place.counted = counted;
+    place.frame = number_;
+    place.counted = counted;
     if (counted > result_.worst.counted) result_.worst = place;
   }
 
@@ -313,8 +315,10 @@ std::optional<LimitPicture> limit_picture(const EngineLimit& limit, const Scene&
                                [&](const Light& l) { return !is_directional(l) && has_cone(l) == spots; });
   };
   LimitPicture picture{"visibility", "visibility", true, ""};
-  if (limit.scope == LimitScope::view && limit.order == LimitOrder::nearest)
-    picture.limited = fmt::format("visibility:view-cap={}", limit.most), picture.without_lost = false;
+  if (limit.scope == LimitScope::view && limit.order == LimitOrder::nearest) {
+    picture.limited = fmt::format("visibility:view-cap={}", limit.most);
+    picture.without_lost = false;
+  }
   if (limit.scope == LimitScope::view || limit.scope == LimitScope::distance) return picture;
   picture.without_lost = false;
   if (limit.scope == LimitScope::pool)

@@ -44,7 +44,7 @@ std::string words_of(const DroppedLight& dropped, const EngineLimit& limit, cons
                      places_of(dropped.places, limit.scope));
 }
 
-std::vector<std::string> sentences_of(const LimitResult& result, const Scene& scene, size_t most_lights) {
+std::vector<std::string> sentences_of(const LimitResult& result, const Scene& scene, size_t max_lights) {
   const EngineLimit& limit = *result.limit;
   std::vector<std::string> lines;
   if (result.holds()) {
@@ -57,7 +57,7 @@ std::vector<std::string> sentences_of(const LimitResult& result, const Scene& sc
                               words_of(result.worst, scene), counted_in(result)));
   std::vector<std::string> named;
   for (const DroppedLight& dropped : result.dropped) {
-    if (named.size() == most_lights) break;
+    if (named.size() == max_lights) break;
     named.push_back(words_of(dropped, limit, scene));
   }
   const size_t more = result.dropped.size() - named.size();

@@ -11,7 +11,7 @@ std::string words_of(const LimitPlace& place, const Scene& scene);  // `frame 3,
 std::string words_of(const DroppedLight& dropped, const EngineLimit& limit, const Scene& scene);
 
 // How full the worst place is; of a limit that does not hold also which lights it drops, at most
-// `most_lights` by name, and what to change.
-std::vector<std::string> sentences_of(const LimitResult& result, const Scene& scene, size_t most_lights);
+// `max_lights` by name, and what to change.
+std::vector<std::string> sentences_of(const LimitResult& result, const Scene& scene, size_t max_lights);
 
 }  // namespace lightgrid

@@ -77,7 +77,8 @@ RunResult refused_row(const ContestantRun& entry, const FrameFigures& reference)
   row.technique = entry.contestant->technique->name;
   row.refused = entry.refusal->what();
   row.settings = settings_of(*entry.contestant->technique, entry.contestant->settings);
-  row.lights_total = reference.lights_total, row.lights_in_view = reference.lights_in_view;
+  row.lights_total = reference.lights_total;
+  row.lights_in_view = reference.lights_in_view;
   return row;
 }
 
@@ -126,8 +127,9 @@ void measure_rows(CompareReport& report, const Compared& compared, std::vector<C
                   Measured& m) {
   const TechniqueRun& reference = m.reference.run();
   const bool at_rest = compared.options.path.empty();
-  report.rows.resize(entries.size()), report.images.resize(entries.size()),
-      report.listed.resize(entries.size());
+  report.rows.resize(entries.size());
+  report.images.resize(entries.size());
+  report.listed.resize(entries.size());
   const std::vector<size_t> order = order_of_rows(entries, reference);
   for (size_t i = 0; i < order.size(); ++i) {
     ContestantRun& entry = entries[order[i]];
@@ -147,7 +149,8 @@ CompareReport measure(const Compared& compared) {
   CompareReport report;
   report.scene = scene.name;
   report.ambient = scene.ambient;
-  report.width = view.width, report.height = view.height;
+  report.width = view.width;
+  report.height = view.height;
   report.cl_device = compared.renderer.cl->info().name;
   report.gl_device = compared.renderer.gl ? compared.renderer.gl->renderer : "none";
   report.commit = commit_of_build();

@@ -21,11 +21,11 @@ struct CompareOptions {
   int frames = 5, warmup = 1;
   size_t shaded_samples = 20000;  // pixels at which the oracle shades, for the model and precision errors
   ReferencePixels reference = ReferencePixels::automatic;
-  uint64_t seed = 1;                // seed of the reference's sample
-  double most_reference_ms = 60e3;  // limit for all of the reference's frames; beyond it, automatic takes a
-                                    // sample
-  std::vector<View> path;           // further frames with a moving camera: RunResult::moving
-  SceneMotion advance;              // motion of the scene along that path; empty: at rest
+  uint64_t seed = 1;               // seed of the reference's sample
+  double max_reference_ms = 60e3;  // limit for all of the reference's frames; beyond it, automatic takes a
+                                   // sample
+  std::vector<View> path;          // further frames with a moving camera: RunResult::moving
+  SceneMotion advance;             // motion of the scene along that path; empty: at rest
   bool flip = false;  // HDR-FLIP of each image (measures/flip.h), unless the reference is a sample
   std::function<Exposure(const Image& reference)> exposure;  // exposure of pictures as displayed; empty: none
   bool all_may_refuse = false;  // if all contestants are refused, report that instead of throwing

@@ -14,8 +14,8 @@ const std::vector<std::string> techniques_without_opengl = {"visibility:lights=a
 
 int parse_lights(const std::string& text) {
   const auto count = parse_number<int>(text);
-  if (!count || *count < 0 || *count > most_lights)
-    throw input_error("lights {}: not a number from 0 to {}", text, most_lights);
+  if (!count || *count < 0 || *count > max_lights)
+    throw input_error("lights {}: not a number from 0 to {}", text, max_lights);
   return *count;
 }
 
@@ -43,7 +43,9 @@ std::vector<SceneChoice> chosen_views(const CompareChoice& choice) {
       parse_size(size);
       for (const int lights : counts) {
         SceneChoice& view = views.emplace_back(choice.scene);
-        view.scene = scene, view.size = size, view.lights = lights;
+        view.scene = scene;
+        view.size = size;
+        view.lights = lights;
         view.ranges_of = keeps_ranges ? ranges_of_series(counts) : 0;
         view.device = choice.devices.device;
       }

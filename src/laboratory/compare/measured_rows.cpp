@@ -22,7 +22,7 @@ ReferenceTriangles triangles_of(TechniqueRun& reference) {
 }
 
 // They take about 45 seconds of processor time.
-constexpr uint64_t most_shadow_pairs = 10'000'000;
+constexpr uint64_t max_shadow_pairs = 10'000'000;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ Measured measured(Reference& reference, bool flip) {
   Measured m{.reference = reference,
              .depth = read_depth(reference.run()),
              .triangles = triangles_of(reference.run()),
-             .shadows = {reference.run().view().scene, most_shadow_pairs},
+             .shadows = {reference.run().view().scene, max_shadow_pairs},
              .result = reference.run().result()};
   if (reference.sampled()) return m;
   reference.image = reference.run().take_image();
@@ -92,10 +92,10 @@ void draw_every_light_with_samples(const Compared& compared, const std::vector<C
 // of the contestants, and at most for a few seconds.
 static void time_every_light(TechniqueRun& run, const Compared& compared, const Measured& m,
                              OwnSurfaces& own) {
-  constexpr double most_ms = 5000;
+  constexpr double max_ms = 5000;
   if (!std::holds_alternative<RunOfContestant>(m.reference.kind)) return;
   double ms = 0;
-  for (int frame = 0; frame < compared.options.frames && ms < most_ms; ++frame) ms += run.run_frame();
+  for (int frame = 0; frame < compared.options.frames && ms < max_ms; ++frame) ms += run.run_frame();
   run.run_profiled_frames(0);
   own.every_light = RunResult{run.result()};
 }
@@ -132,7 +132,10 @@ void draw_every_light_on_own_surfaces(CompareReport& report, const Compared& com
     report.own_surfaces->error = std::move(error);
     draw_every_light_with_samples(compared, entries, true, sampled_by(true, settings), m);
   });
-  if (failure) report.own_surfaces->why_not = failure->what(), m.every_light_on_own = {};
+  if (failure) {
+    report.own_surfaces->why_not = failure->what();
+    m.every_light_on_own = {};
+  }
 }
 
 namespace {

@@ -16,8 +16,8 @@ namespace {
 // Everything is built by then.
 constexpr size_t frames_to_settle = 2;
 constexpr size_t frames_before = 2;
-constexpr int resting_frames = 2;                        // per view
-constexpr uint64_t most_shadow_pairs_a_frame = 200'000;  // that the oracle decides in a frame
+constexpr int resting_frames = 2;                         // per view
+constexpr uint64_t max_shadow_pairs_per_frame = 200'000;  // that the oracle decides in a frame
 
 // One technique along the path.
 struct Path {
@@ -128,7 +128,7 @@ PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& 
     p.frame_ms.reserve(path.size());
     for (auto* times : {&p.resting_ms, &p.over_resting}) times->reserve(path.size() * resting_frames);
   }
-  ShadowTruth shadows(moving.gpu.scene(), most_shadow_pairs_a_frame);
+  ShadowTruth shadows(moving.gpu.scene(), max_shadow_pairs_per_frame);
   PathMemory memory{.frames = std::min<size_t>(100, path.size() / 2)};
   for (size_t frame = 0; frame < path.size(); ++frame) {
     if (frame == memory.frames) memory.bytes = resident_bytes();

@@ -67,8 +67,8 @@ void render_forward_at(RenderView& v, const std::vector<PixelBlock>& blocks, Ima
   read_back(v, shaded, image);
 }
 
-bool is_quick_for_forward(const View& view, size_t lights, double most_ms) {
-  return double(view.grid().values()) * double(lights) < 16e3 * most_ms;
+bool is_quick_for_forward(const View& view, size_t lights, double max_ms) {
+  return double(view.grid().values()) * double(lights) < 16e3 * max_ms;
 }
 
 double estimate_forward_ms(RenderView& v, const std::vector<PixelBlock>& shuffled) {

@@ -28,7 +28,7 @@ void render_forward_at(RenderView& v, const std::vector<PixelBlock>& blocks, Ima
 
 // True if there are so few pairs of a pixel and a light (16,000 a millisecond) that every machine is fast
 // enough.
-bool is_quick_for_forward(const View& view, size_t lights, double most_ms);
+bool is_quick_for_forward(const View& view, size_t lights, double max_ms);
 
 // Estimated milliseconds for a whole frame of `forward`, from increasing numbers of blocks until they take a
 // quarter of a second.

@@ -20,8 +20,10 @@ auto shares_of(const Settings& s) {
 
 Settings with_reference_shadows(const Compared& c, Settings settings) {
   settings = with_exact_shadows(std::move(settings));
-  if (c.every_light.point_shadows)
-    settings.set(setting::shadow_rays, 1), settings.set(setting::shadow_pick, 0);
+  if (c.every_light.point_shadows) {
+    settings.set(setting::shadow_rays, 1);
+    settings.set(setting::shadow_pick, 0);
+  }
   return settings;
 }
 
@@ -91,7 +93,7 @@ Reference choose_reference(const Compared& c, std::vector<ContestantRun>& entrie
     return {};
   }
   if (options.reference == ReferencePixels::full ||
-      (automatic && is_quick_for_forward(c.view, lights, options.most_reference_ms)))
+      (automatic && is_quick_for_forward(c.view, lights, options.max_reference_ms)))
     return {};
   const auto found = std::ranges::find_if(entries, [&](const auto& e) { return draws_reference(e, c); });
   const bool is_contestant = found != entries.end();
@@ -102,7 +104,7 @@ Reference choose_reference(const Compared& c, std::vector<ContestantRun>& entrie
   std::vector<PixelBlock> blocks = shuffled_blocks(c.view.grid(), options.seed);
   const double frame_ms = automatic ? estimate_forward_ms(run.view(), blocks) : 0;
   if (automatic &&
-      frame_ms * (is_contestant ? options.warmup + options.frames + 1 : 1) <= options.most_reference_ms)
+      frame_ms * (is_contestant ? options.warmup + options.frames + 1 : 1) <= options.max_reference_ms)
     return {OwnRun{std::move(own)}};
 
   const size_t most = sample_size(lights), a_block = PixelBlock::side * PixelBlock::side;

@@ -54,8 +54,8 @@ CullerOptions culler_options(const Settings& settings) {
 TechniqueNeeds grid_needs(const std::string& technique, const Settings& settings) {
   TechniqueNeeds needs = find_technique(technique).needs;
   if (!needs.lists.light_grid) throw input_error("technique {}: shades from no light grid", technique);
-  needs.lists.slices |= settings.given(setting::slices),
-      needs.lists.z_bins |= settings.given(setting::z_bins);
+  needs.lists.slices |= settings.given(setting::slices);
+  needs.lists.z_bins |= settings.given(setting::z_bins);
   return needs;
 }
 
@@ -119,7 +119,8 @@ FrameGrid FrameCuller::grid() {
   FrameGrid grid;
   grid.lists = read_grid(device_, grid_, storage_);
   grid.tile = settings_[setting::tile];
-  grid.slice_edges = view_.slice_edges, grid.z_bin_edges = view_.z_bin_edges;
+  grid.slice_edges = view_.slice_edges;
+  grid.z_bin_edges = view_.z_bin_edges;
   grid.settings = to_strings(settings_);
   return grid;
 }

@@ -90,7 +90,9 @@ FrameGrid read_grid_header(const JsonFile& file, const CapturedFrame& frame) {
                                           across(frame.view.width), across(frame.view.height), grid.tile,
                                           frame.view.width, frame.view.height));
   }
-  grid.lists.cells_x = cells[0], grid.lists.cells_y = cells[1], grid.lists.slices = cells[2];
+  grid.lists.cells_x = cells[0];
+  grid.lists.cells_y = cells[1];
+  grid.lists.slices = cells[2];
   grid.slice_edges = read_edges(file, "slice_edges", MOST_SLICES);
   grid.z_bin_edges = read_edges(file, "z_bin_edges", MOST_Z_BINS);
   if (grid.slice_edges.size() + 1 != size_t(cells[2])) {
@@ -162,7 +164,9 @@ CapturedFrame read_frame(const fs::path& folder) {
   CapturedFrame frame;
   frame.name = (folder.has_filename() ? folder : folder.parent_path()).filename().string();
   const FrameView view = read_view_file(folder / "view.json");
-  frame.view = view.view, frame.tile = view.tile, frame.surfaces_far_m = view.surfaces_far_m;
+  frame.view = view.view;
+  frame.tile = view.tile;
+  frame.surfaces_far_m = view.surfaces_far_m;
   frame.depth = read_depth_file(folder / "depth.f32", frame.view);
   frame.lights = load_lights_file(folder / "lights.json");
   return frame;

@@ -12,7 +12,8 @@ bool is_covered(const CapturedFrame& frame, int x, int y) {
 
 PixelCells cells_of(const CapturedFrame& frame, const FrameGrid& grid) {
   CullView view = cull_view(frame.view);
-  view.slice_edges = grid.slice_edges, view.z_bin_edges = grid.z_bin_edges;
+  view.slice_edges = grid.slice_edges;
+  view.z_bin_edges = grid.z_bin_edges;
   return {std::move(view), frame.depth, uint(grid.tile), uint(grid.lists.cells_x), uint(grid.lists.cells_y)};
 }
 
@@ -23,7 +24,10 @@ ListedLights lists_of_cells(const HostGrid& grid) {
     return lists;
   }
   lists.indices = grid.indices;
-  for (const glm::uvec2& cell : grid.cells) lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+  for (const glm::uvec2& cell : grid.cells) {
+    lists.first.push_back(cell.x);
+    lists.count.push_back(cell.y);
+  }
   return lists;
 }
 

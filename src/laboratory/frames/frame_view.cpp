@@ -11,7 +11,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double largest = 1e12;  // largest matrix element; above any world, and its square fits a float
-constexpr double least_scale = 1e-9, largest_scale = 1e9;
+constexpr double min_scale = 1e-9, largest_scale = 1e9;
 constexpr double rotation_tolerance = 5e-6;  // engines keep matrices in float
 constexpr double near_tolerance = 1e-3;      // relative
 
@@ -56,7 +56,7 @@ void read_projection(const JsonFile& file, View& view) {
   if (m[0][2] != 0 || m[1][2] != 0)
     throw row_error(2, "makes depth depend on x or y; oblique near planes are not supported");
   for (int i = 0; i < 2; ++i) {
-    if (!(m[i][i] >= least_scale && m[i][i] <= largest_scale)) {
+    if (!(m[i][i] >= min_scale && m[i][i] <= largest_scale)) {
       throw row_error(i, i ? "has no scale of y above 0 (row 0 of the depth image is at the bottom)"
                            : "has no scale of x above 0");
     }
@@ -141,7 +141,8 @@ FrameView read_view_file(const std::filesystem::path& path) {
       {"size", "tile", "near", "far", "surfaces_far", "clip_from_view", "view_from_world", "eye"});
   FrameView frame;
   const std::vector<int> size = file.wholes("size", 2, 1, max_frame_side);
-  frame.view.width = size[0], frame.view.height = size[1];
+  frame.view.width = size[0];
+  frame.view.height = size[1];
   if (file.has("tile")) frame.tile = file.whole("tile", 1, max_frame_side);
   if (frame.tile != 8 && frame.tile != 16 && frame.tile != 32 && frame.tile != 64) {
     throw file.error("tile", "is not 8, 16, 32 or 64");

@@ -129,9 +129,11 @@ std::vector<Failure> failures_of(Records records) {
     for (const FrontierRecord* r : views) {
       if (refused.empty()) refused = r->refused;
       if (!r->refused.empty()) continue;
-      lost += r->pairs.lost, wrong += r->pairs.wrong;
+      lost += r->pairs.lost;
+      wrong += r->pairs.wrong;
       if (r->pairs.shadows) shadows += r->pairs.shadows->faults();
-      nan_pixels += r->nan_pixels, overflow += r->overflow;
+      nan_pixels += r->nan_pixels;
+      overflow += r->overflow;
       finite &= is_of_family(*r) ? r->errors.authored && std::isfinite(r->errors.authored->total.rmse_rel)
                                  : errors_are_finite(*r);
     }
@@ -162,13 +164,16 @@ std::vector<ProcessConditions> process_conditions_of(const std::vector<FrontierP
   for (const FrontierPart& part : parts) {
     for (const FrontierConditions& c : part.conditions) {
       ProcessConditions& p = processes[{part.shard, c.process}];
-      p.shard = part.shard, p.process = c.process, ++p.rounds;
+      p.shard = part.shard;
+      p.process = c.process;
+      ++p.rounds;
       raise(p.others_percent, c.others_percent);
       raise(p.steal_percent, c.steal_percent);
       raise(p.temperature_c, c.temperature_c);
       widen(p.clock_mhz, c.clock_mhz);
       widen(p.power_w, c.power_w);
-      p.shared_rounds += is_shared(c), p.throttled_rounds += is_throttled(c);
+      p.shared_rounds += is_shared(c);
+      p.throttled_rounds += is_throttled(c);
     }
   }
   std::vector<ProcessConditions> all;

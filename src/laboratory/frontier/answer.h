@@ -209,10 +209,10 @@ std::string samples_csv_text(const FrontierAnswer& answer);
 std::string cull_csv_text(const FrontierAnswer& answer);
 
 // One self-contained HTML file made of frontier/page/*, parts of report/page/* and frontier.json. Pictures
-// are those that records name (FrontierRecord::image) in `pictures`, in at most `most_picture_bytes` of text
+// are those that records name (FrontierRecord::image) in `pictures`, in at most `max_picture_bytes` of text
 // (page_pictures); without such files the page shows none.
 std::string page_text(const FrontierAnswer& answer, const std::filesystem::path& pictures = {},
-                      size_t most_picture_bytes = size_t(24) << 20);
+                      size_t max_picture_bytes = size_t(24) << 20);
 
 // Writes all of these. Pictures that records name are looked for in `pictures` and copied into DIR/pictures
 // if they are elsewhere; the page holds at most `page_bytes` of them.

@@ -73,7 +73,7 @@ json page_data_of(const FrontierAnswer& answer, const PagePictures& pictures) {
 }  // namespace
 
 std::string page_text(const FrontierAnswer& answer, const std::filesystem::path& pictures,
-                      size_t most_picture_bytes) {
+                      size_t max_picture_bytes) {
   std::vector<std::string> names;
   if (!pictures.empty()) {
     for (const FrontierRecord& r : answer.part.records) names.push_back(r.image);
@@ -85,7 +85,7 @@ std::string page_text(const FrontierAnswer& answer, const std::filesystem::path&
                            "frontier/page/costs.js", "frontier/page/frontier.js"}) {
     script += embedded_file(name);
   }
-  const json data = page_data_of(answer, page_pictures(pictures, names, most_picture_bytes));
+  const json data = page_data_of(answer, page_pictures(pictures, names, max_picture_bytes));
   const std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
   return filled(embedded_file("frontier/page/index.html"),
                 {{"style", style}, {"script", script}, {"page", script_json(text)}});

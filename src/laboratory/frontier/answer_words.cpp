@@ -165,9 +165,16 @@ void add_break_even(const FrontierAnswer& answer, const std::string& scene,
       if (pair.scene != scene || !is_of_technique(pair.tighter, cost.technique)) continue;
       const double ns = cost.ns_per_pixel_light;
       const bool open = pair.rounds > 0 && pair.low <= ns && ns <= pair.high;
-      ++all, undecided += open, won += !open && pair.ns_per_pixel_light < ns;
+      ++all;
+      undecided += open;
+      won += !open && pair.ns_per_pixel_light < ns;
     }
-    if (all > most) best = &cost, most = all, most_won = won, most_undecided = undecided;
+    if (all > most) {
+      best = &cost;
+      most = all;
+      most_won = won;
+      most_undecided = undecided;
+    }
   }
   if (!best) return;
   sentences.push_back(
@@ -429,8 +436,11 @@ SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene
 // Describes the complete sweep, where others used the machine or it was throttled.
 static std::string conditions_in_words(const FrontierAnswer& answer) {
   int rounds = 0, shared = 0, throttled = 0;
-  for (const ProcessConditions& p : answer.processes)
-    rounds += p.rounds, shared += p.shared_rounds, throttled += p.throttled_rounds;
+  for (const ProcessConditions& p : answer.processes) {
+    rounds += p.rounds;
+    shared += p.shared_rounds;
+    throttled += p.throttled_rounds;
+  }
   std::vector<std::string> parts;
   if (shared > 0) parts.push_back(fmt::format("shared with others in {}", shared));
   if (throttled > 0) parts.push_back(fmt::format("throttled in {}", throttled));

@@ -18,7 +18,7 @@ namespace lightgrid {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr size_t least_pixels = 400, most_pixels = 20000;
+constexpr size_t min_pixels = 400, max_pixels = 20000;
 constexpr int places_a_side = 16;   // places per side of a pixel, in a truth of areas
 constexpr int rays_of_truth = 256;  // to a sphere; docs/shadows.md has their error
 
@@ -28,8 +28,10 @@ FrontierTruth chosen_truth(const Settings& common, bool casts, std::optional<boo
   FrontierTruth truth{.own_ranges = own_ranges.value_or(casts || areas)};
   if (areas) truth.places = places_a_side * places_a_side;
   const bool spheres = common.given(setting::shadow_source_m) || common[setting::shadow_rays] > 1;
-  if (casts && spheres && common[setting::shadow_source_m] > 0)
-    truth.source_m = common[setting::shadow_source_m], truth.shadow_rays = rays_of_truth;
+  if (casts && spheres && common[setting::shadow_source_m] > 0) {
+    truth.source_m = common[setting::shadow_source_m];
+    truth.shadow_rays = rays_of_truth;
+  }
   return truth;
 }
 
@@ -39,7 +41,8 @@ bool counts_shadow_pairs(const Settings& settings, const FrontierTruth& truth) {
 
 View part_of_view(const View& view, int x, int y, int width, int height, int scale) {
   View part = view;
-  part.width = width * scale, part.height = height * scale;
+  part.width = width * scale;
+  part.height = height * scale;
   const double across = double(view.width) / width, up = double(view.height) / height;
   for (int column = 0; column < 4; ++column) {
     glm::dvec4& c = part.clip_from_view[column];
@@ -67,11 +70,11 @@ void BruteForce::look(const View& view) {
 Settings BruteForce::meaning(const Settings& settings, double source_m) const {
   Settings meaning = meant_by(with_model(common_, settings));
   meaning = with_samples(std::move(meaning), truth_.places ? settings[setting::samples] : 1);
-  meaning.set(setting::samples_masks, settings[setting::samples_masks]),
-      meaning.set(setting::samples_resolve, settings[setting::samples_resolve]);
+  meaning.set(setting::samples_masks, settings[setting::samples_masks]);
+  meaning.set(setting::samples_resolve, settings[setting::samples_resolve]);
   meaning.set(setting::lights, ShadedLights::all);
-  meaning.set(setting::shadow_rays, source_m > 0 ? rays_of_truth : 1),
-      meaning.set(setting::shadow_source_m, source_m);
+  meaning.set(setting::shadow_rays, source_m > 0 ? rays_of_truth : 1);
+  meaning.set(setting::shadow_source_m, source_m);
   return meaning;
 }
 
@@ -201,7 +204,7 @@ void Precision::measure(const View& view, BruteForce& opengl, BruteForce* own, u
   const size_t lights = std::max<size_t>(v.scene.lights.size(), 1);
   Sample& all = samples_[0];
   all.pixels = oracle.decided(
-      random_pixels(oracle.pixels(), std::clamp(pairs_ / lights, least_pixels, most_pixels), seed),
+      random_pixels(oracle.pixels(), std::clamp(pairs_ / lights, min_pixels, max_pixels), seed),
       truth_.own_ranges);
   const std::vector<glm::dvec3> with_ranges = oracle.shade(all.pixels, true);
   all.truth = truth_.own_ranges ? with_ranges : oracle.shade(all.pixels, false);

@@ -38,14 +38,19 @@ std::optional<double> mean_clock_mhz(const fs::path& root) {
   double sum = 0;
   int count = 0;
   for (const fs::path& cpu : numbered(root / "sys/devices/system/cpu", "cpu")) {
-    if (const auto khz = number_in(cpu / "cpufreq/scaling_cur_freq")) sum += *khz / 1000, ++count;
+    if (const auto khz = number_in(cpu / "cpufreq/scaling_cur_freq")) {
+      sum += *khz / 1000;
+      ++count;
+    }
   }
   if (count > 0) return sum / count;
   std::ifstream file(root / "proc/cpuinfo");  // virtual machines have this alone
   for (std::string line; std::getline(file, line);) {
     const size_t colon = line.find(':');
-    if (line.starts_with("cpu MHz") && colon != std::string::npos)
-      sum += std::atof(line.c_str() + colon + 1), ++count;
+    if (line.starts_with("cpu MHz") && colon != std::string::npos) {
+      sum += std::atof(line.c_str() + colon + 1);
+      ++count;
+    }
   }
   if (count > 0) return sum / count;
   return {};
@@ -93,12 +98,16 @@ ConditionsReader::Counts ConditionsReader::count() const {
   }
   for (const fs::path& package : numbered(root_ / "sys/class/powercap", "intel-rapl:")) {
     if (std::ranges::count(package.filename().string(), ':') != 1) continue;  // a part of a package
-    if (const auto microjoules = number_in(package / "energy_uj"))
-      c.joules += *microjoules * 1e-6, c.has_joules = true;
+    if (const auto microjoules = number_in(package / "energy_uj")) {
+      c.joules += *microjoules * 1e-6;
+      c.has_joules = true;
+    }
   }
   for (const fs::path& cpu : numbered(root_ / "sys/devices/system/cpu", "cpu")) {
-    if (const auto times = number_in(cpu / "thermal_throttle/core_throttle_count"))
-      c.throttles += *times, c.has_throttles = true;
+    if (const auto times = number_in(cpu / "thermal_throttle/core_throttle_count")) {
+      c.throttles += *times;
+      c.has_throttles = true;
+    }
   }
   return c;
 }

@@ -71,7 +71,8 @@ BreakEven break_even_of(const FrontierRecord& a, const FrontierRecord& b) {
   }
   const auto ns_of = [&](double ms) { return std::max(ms, 0.0) * ns_per_ms / found.pairs_saved; };
   found.ns_per_pixel_light = ns_of(extra_ms.median);
-  found.low = ns_of(extra_ms.low), found.high = ns_of(extra_ms.high);
+  found.low = ns_of(extra_ms.low);
+  found.high = ns_of(extra_ms.high);
   found.rounds = extra_ms.runs;
   return found;
 }
@@ -87,8 +88,10 @@ struct Deviations {
 
   void add(const std::vector<PairsAndMs>& samples) {
     PairsAndMs mean;
-    for (const PairsAndMs& s : samples)
-      mean.pairs += s.pairs / double(samples.size()), mean.ms += s.ms / double(samples.size());
+    for (const PairsAndMs& s : samples) {
+      mean.pairs += s.pairs / double(samples.size());
+      mean.ms += s.ms / double(samples.size());
+    }
     for (const PairsAndMs& s : samples) {
       pairs_squared += (s.pairs - mean.pairs) * (s.pairs - mean.pairs);
       pairs_ms += (s.pairs - mean.pairs) * (s.ms - mean.ms);
@@ -174,7 +177,9 @@ std::vector<Growth> growth_of(Records records, const std::string& keep) {
       curve.samples.emplace_back(x, sum / double(of_views.size()));
     }
     const PowerLaw law = power_law(curve.samples);
-    curve.exponent = law.exponent, curve.low = law.low, curve.high = law.high;
+    curve.exponent = law.exponent;
+    curve.low = law.low;
+    curve.high = law.high;
   }
   return curves;
 }
@@ -213,7 +218,9 @@ EqualFlip equal_flip_along(const Group& family, const std::string& error, double
   std::vector<std::pair<double, double>> places;
   for (const EqualFlip::Sample& s : curve.samples) places.emplace_back(s.x, s.ms);
   const PowerLaw law = power_law(places);
-  curve.exponent = law.exponent, curve.low = law.low, curve.high = law.high;
+  curve.exponent = law.exponent;
+  curve.low = law.low;
+  curve.high = law.high;
   return curve;
 }
 

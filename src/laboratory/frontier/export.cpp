@@ -18,8 +18,8 @@ namespace {
 using Ordered = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr int most_views_depth = 8;
-constexpr uintmax_t most_views_bytes = uintmax_t(16) << 20;
+constexpr int max_views_depth = 8;
+constexpr uintmax_t max_views_bytes = uintmax_t(16) << 20;
 constexpr double same_number = 1e-9;  // another machine's sines
 
 Ordered numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
@@ -36,9 +36,11 @@ Camera named_camera(const View& view, const std::string& name) {
   camera.world_from_view[3] = glm::dvec4(view.eye, 1);
   camera.orthographic = view.orthographic;
   camera.aspect = double(view.width) / view.height;
-  camera.half_width_m = 1 / view.clip_from_view[0][0], camera.half_height_m = 1 / view.clip_from_view[1][1];
+  camera.half_width_m = 1 / view.clip_from_view[0][0];
+  camera.half_height_m = 1 / view.clip_from_view[1][1];
   camera.fov_y_rad = 2 * std::atan(1 / view.clip_from_view[1][1]);
-  camera.near_m = view.near_m, camera.far_m = view.far_m;
+  camera.near_m = view.near_m;
+  camera.far_m = view.far_m;
   return camera;
 }
 
@@ -60,7 +62,8 @@ Ordered view_json(const View& view) {
   Ordered out = Ordered::parse(view_file_text({.view = view}));
   out.erase("tile");
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
-  out["right"] = numbers(world_from_view[0]), out["up"] = numbers(world_from_view[1]);
+  out["right"] = numbers(world_from_view[0]);
+  out["up"] = numbers(world_from_view[1]);
   out["direction"] = numbers(-world_from_view[2]);
   if (!view.orthographic) out["fov_y_rad"] = named_camera(view, "").fov_y_rad;
   return out;
@@ -101,7 +104,7 @@ std::string camera_of(const ExportedScene& exported, const View& view) {
 void check_exported_views(const fs::path& path, const Scene& scene, const std::vector<View>& views) {
   const std::string where = path.string() + ": ";
   const nlohmann::json parsed =
-      parsed_json(read_small_file(path, most_views_bytes, "a file of views"), most_views_depth, where);
+      parsed_json(read_small_file(path, max_views_bytes, "a file of views"), max_views_depth, where);
   const JsonFields file(parsed, where);
   if (file.whole("lightgrid_views", 0) != 1) throw input_error("{}lightgrid_views: is not 1", where);
   if (file.text("lights_hash") != lights_hash(scene))

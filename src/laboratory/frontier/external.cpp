@@ -18,8 +18,8 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr uintmax_t most_description_bytes = uintmax_t(64) << 20, most_picture_bytes = uintmax_t(1) << 30;
-constexpr int most_description_depth = 8;
+constexpr uintmax_t max_description_bytes = uintmax_t(64) << 20, max_picture_bytes = uintmax_t(1) << 30;
+constexpr int max_description_depth = 8;
 constexpr double longest_timeout_s = 86400;
 
 // A label parts its technique and settings by these.
@@ -108,9 +108,9 @@ std::string ExternalRenderer::label() const {
 
 ExternalRenderer read_external_renderer(const fs::path& file_path) {
   const std::string path = file_path.string();
-  const std::string text = read_small_file(file_path, most_description_bytes, "a renderer's description");
+  const std::string text = read_small_file(file_path, max_description_bytes, "a renderer's description");
   const std::string where = path + ": ";
-  const json parsed = parsed_json(text, most_description_depth, where);
+  const json parsed = parsed_json(text, max_description_depth, where);
   const JsonFields file(parsed, where);
   file.check_fields({"name", "note", "settings", "surfaces", "command", "timeout_s", "scenes"});
   ExternalRenderer renderer{.name = name_of(file, path), .settings = settings_of(file, path)};
@@ -139,7 +139,7 @@ ExternalRenderer read_external_renderer(const fs::path& file_path) {
       renderer.scenes[scene] =
           frames_of(scenes.object(scene), fmt::format("{}scenes.{}.", where, scene), renderer.folder);
       for (const ExternalFrame& frame : renderer.scenes[scene].frames)
-        content += content_hash(read_small_file(frame.picture, most_picture_bytes, "a picture"));
+        content += content_hash(read_small_file(frame.picture, max_picture_bytes, "a picture"));
     }
     if (renderer.scenes.empty()) throw input_error("{}: scenes: is empty", path);
   }

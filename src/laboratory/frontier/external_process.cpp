@@ -22,7 +22,7 @@ extern char** environ;
 namespace lightgrid {
 namespace {
 
-constexpr size_t most_heard = size_t(1) << 20;
+constexpr size_t max_heard = size_t(1) << 20;
 constexpr double patience_s = 2;
 
 double now_s() {
@@ -83,17 +83,22 @@ void ExternalProcess::start() {
       posix_spawnp(&process_, arguments.front(), &actions, &attributes, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
-  close_one(input[1]), close_one(output[1]);
-  in_ = input[0], out_ = output[0];
-  heard_.clear(), answered_ = false;
+  close_one(input[1]);
+  close_one(output[1]);
+  in_ = input[0];
+  out_ = output[0];
+  heard_.clear();
+  answered_ = false;
   if (failure == 0) return;
   process_ = 0;
-  close_one(in_), close_one(out_);
+  close_one(in_);
+  close_one(out_);
   throw machine_error("{}: cannot be started: {}", command_.front(), strerror(failure));
 }
 
 void ExternalProcess::stop(double patience) {
-  close_one(in_), close_one(out_);
+  close_one(in_);
+  close_one(out_);
   if (process_ == 0) return;
   const double until_s = now_s() + patience;
   pid_t ended = 0;
@@ -138,7 +143,7 @@ bool ExternalProcess::receive(std::string& answer, double until_s) {
     }
     heard_.append(bytes, size_t(count));
     heard += size_t(count);
-    if (heard > most_heard) {
+    if (heard > max_heard) {
       stop(0);
       throw machine_error("{}: says more than 1 MiB without an answer", command_.front());
     }

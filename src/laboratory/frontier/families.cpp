@@ -25,9 +25,9 @@ namespace lightgrid {
 namespace {
 
 constexpr int family_rounds = 4;
-constexpr double most_counted_pairs = 1e8;  // on a view, by the oracle
+constexpr double max_counted_pairs = 1e8;  // on a view, by the oracle
 // Beyond so many, OpenGL's surfaces have no truth without ranges where OpenCL runs on a CPU: its minutes.
-constexpr double most_pairs_of_slow_truth = 1e10;
+constexpr double max_pairs_of_slow_truth = 1e10;
 
 struct FamilyStep {
   const char* series;
@@ -112,7 +112,8 @@ class FamilySweep {
     FrontierRecord base;
     base.point.scene = choice_.scene;
     base.series = step.series;
-    base.width = view.width, base.height = view.height;
+    base.width = view.width;
+    base.height = view.height;
     base.lights = step.lights;
     base.radius_scale = *scale;
     base.overlap = overlap;
@@ -148,7 +149,7 @@ class FamilySweep {
       Truths& truths = truths_[own_surfaces];
       truths.without_ranges.reset();
       if (!own_surfaces && !renderer_.gl) continue;
-      if (own_surfaces || !renderer_.cl->info().cpu || pairs <= most_pairs_of_slow_truth) {
+      if (own_surfaces || !renderer_.cl->info().cpu || pairs <= max_pairs_of_slow_truth) {
         // Lists of very many lights that end nowhere may be longer than OpenGL takes.
         const auto failure = failure_of([&] {
           Image image = truth_of(view, {.range = LightRange::infinite}, own_surfaces);
@@ -186,7 +187,7 @@ class FamilySweep {
   void measure_point(PointRun& run, FrontierRecord& record) {
     const std::string key = record.series + "\n" + record.point.label;
     if (const auto found = too_slow_.find(key); found != too_slow_.end()) return run.refuse(found->second);
-    const double most = job_.families->most_frame_s;
+    const double most = job_.families->max_frame_s;
     // The first frame compiles, and fills what is kept while lights rest.
     double seconds = run.draw() / 1000;
     if (seconds <= 20 * most) seconds = run.draw() / 1000;
@@ -227,8 +228,8 @@ class FamilySweep {
     }
     if (run.view().plan.settings[setting::range] == LightRange::infinite)
       pairs = std::max(pairs, double(covered.size()) * double(record.lights));
-    if (pairs > most_counted_pairs) {
-      const auto count = size_t(double(covered.size()) * most_counted_pairs / pairs);
+    if (pairs > max_counted_pairs) {
+      const auto count = size_t(double(covered.size()) * max_counted_pairs / pairs);
       const auto sample = random_pixels(covered, std::max<size_t>(count, 1), Random::mix(job_.seed));
       std::vector<float> sampled(depth.size(), 0);
       for (const uint32_t pixel : sample) sampled[pixel] = depth[pixel];
@@ -270,10 +271,10 @@ double overlap_of(const Scene& scene, const View& view, const std::vector<float>
 
 std::optional<double> scale_of_overlap(double overlap,
                                        const std::function<double(double scale)>& overlap_at) {
-  constexpr int most_steps = 40;
-  constexpr double most_scale = 1e4;
-  double low = 0, high = most_scale, scale = 1;
-  for (int step = 0; step < most_steps && low < high; ++step) {
+  constexpr int max_steps = 40;
+  constexpr double max_scale = 1e4;
+  double low = 0, high = max_scale, scale = 1;
+  for (int step = 0; step < max_steps && low < high; ++step) {
     const double reached = overlap_at(scale);
     if (std::abs(reached - overlap) <= overlap_tolerance * overlap) return scale;
     (reached < overlap ? low : high) = scale;

@@ -25,7 +25,7 @@ constexpr double slow_factor = 1.25, beaten_factor = 3;
 
 // Errors of further views are worth more than their times. With less time than these take in the fewest
 // rounds, errors are measured on fewer views.
-constexpr int least_timed_views = 2;
+constexpr int min_timed_views = 2;
 
 // With less time a point, as many points as possible are worth more than FLIP and flicker.
 constexpr double seconds_a_point_with_flip = 2;
@@ -112,7 +112,8 @@ class SceneSweep {
     FrontierRecord record;
     record.point = described(choice_.scene, point);
     record.view = view;
-    record.width = start_.width, record.height = start_.height;
+    record.width = start_.width;
+    record.height = start_.height;
     record.lights = int(scene_.lights.size());
     if (job_.truth != FrontierTruth()) record.truth = job_.truth;
     if (point.external) record.external = {point.external->note, point.runs()};
@@ -188,13 +189,17 @@ class SceneSweep {
         break;  // views whose times no earlier process has
       } else if (view > 0) {
         whole = whole && fits(view_s.whole + view_s.plain * double(int(views_.size()) - view - 1),
-                              job_.least_rounds, std::min(int(views_.size()), 2 * least_timed_views));
-        if (!whole && !fits(view_s.plain, job_.least_rounds, std::min(view + 1, least_timed_views))) break;
+                              job_.min_rounds_per_point, std::min(int(views_.size()), 2 * min_timed_views));
+        if (!whole && !fits(view_s.plain, job_.min_rounds_per_point, std::min(view + 1, min_timed_views)))
+          break;
       }
       const double before = seconds();
       measure_view(view, own, whole);
       used_views_ = view + 1;
-      if (view == 0) leave_out_unmeasured(), classify();
+      if (view == 0) {
+        leave_out_unmeasured();
+        classify();
+      }
       view_s.measured(seconds() - before, view, whole);
       if (whole) whole_views_ = view + 1;
     }
@@ -214,9 +219,10 @@ class SceneSweep {
     void measured(double s, int view, bool with_flip) {
       // The first view also writes pictures, profiles passes and draws random points four times as often.
       if (view == 0) s *= 0.5;
-      if (with_flip)
-        whole = s, plain = 0.6 * s;
-      else
+      if (with_flip) {
+        whole = s;
+        plain = 0.6 * s;
+      } else
         plain = s;
     }
   };
@@ -258,7 +264,8 @@ class SceneSweep {
       FrontierRecord record = record_of(*point, view);
       const ExternalFrame& frame = point->external->scenes.at(choice_.scene).frames[size_t(view)];
       figures_.measure_picture(*point, picture_of(frame, record.width, record.height), record);
-      record.frame_ms = frame.frame_ms, record.baseline_ms = frame.baseline_ms;
+      record.frame_ms = frame.frame_ms;
+      record.baseline_ms = frame.baseline_ms;
       record.processes.resize(record.frame_ms.size(), 0);
       apart_records_.push_back(std::move(record));
     }
@@ -317,7 +324,7 @@ class SceneSweep {
       begun = std::max(begun, int(std::ranges::count_if(m.records, is_timed)));
     if (begun > 0) return begun;
     int views = used_views_;
-    while (views > 1 && !fits(0, job_.least_rounds, views)) --views;
+    while (views > 1 && !fits(0, job_.min_rounds_per_point, views)) --views;
     return views;
   }
 
@@ -379,7 +386,8 @@ double load_average() {
 FrontierMachine machine_of(const Renderer& renderer) {
   FrontierMachine m;
   const ClDeviceInfo& device = renderer.cl->info();
-  m.cl_device = device.name, m.cl_driver = device.platform + " " + device.driver;
+  m.cl_device = device.name;
+  m.cl_driver = device.platform + " " + device.driver;
   m.gl_device = renderer.gl ? renderer.gl->renderer : "none";
   m.gl_driver = renderer.gl ? renderer.gl->version : "none";
   m.cl_kind = device.cpu ? "CPU" : "GPU";

@@ -18,7 +18,7 @@ struct FamilyPlan {
   double overlap = 10;
   std::vector<double> overlaps = {1, 3, 10, 30, 100, 300, 1000};  // at an equal number, ascending
   int number = 10'000;
-  double most_frame_s = 2;  // points that take longer are refused, and not tried on more lights
+  double max_frame_s = 2;  // points that take longer are refused, and not tried on more lights
 };
 
 struct FrontierJob {
@@ -28,7 +28,7 @@ struct FrontierJob {
   FrontierTruth truth;
   int views = 16;        // at most: fewer if the time allows no more
   double seconds = 180;  // for the scene, from loading to its last record
-  int least_rounds = 6, most_rounds = 120;
+  int min_rounds_per_point = 6, max_rounds_per_point = 120;
   int controls = 3;  // the baseline as this many points of its own, in each round
   // For several processes that share the rounds: the first measures the figures, the last completes the
   // records.

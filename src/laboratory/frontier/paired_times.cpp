@@ -67,11 +67,11 @@ std::vector<double> middle_values_of(const LogTimes& times) {
 // Where sorted values fall into two groups: the index of the first of the upper one, or 0. The gap is wider
 // than either group, and slow runs are not a single interruption.
 size_t second_mode(const std::vector<double>& sorted) {
-  constexpr double least_factor = 1.25, least_share = 0.1;
-  const size_t n = sorted.size(), least = std::max<size_t>(2, size_t(std::ceil(least_share * double(n))));
+  constexpr double min_factor = 1.25, min_share = 0.1;
+  const size_t n = sorted.size(), least = std::max<size_t>(2, size_t(std::ceil(min_share * double(n))));
   for (size_t i = least; i + least <= n; ++i) {
     const double gap = sorted[i] - sorted[i - 1];
-    if (gap >= std::log(least_factor) && gap > sorted[i - 1] - sorted.front() &&
+    if (gap >= std::log(min_factor) && gap > sorted[i - 1] - sorted.front() &&
         gap > sorted.back() - sorted[i])
       return i;
   }
@@ -167,14 +167,16 @@ RelativeTime relative_time(const LogTimes& times, double widen) {
   if (const auto modes = modes_of(times)) {
     const std::vector<double> values = middle_values_of(times);
     centre = modes->upper_share > 0.5 ? modes->upper : modes->lower;
-    below = centre - values.front(), above = values.back() - centre;
+    below = centre - values.front();
+    above = values.back() - centre;
     r.modes = {std::exp(modes->lower), std::exp(modes->upper)};
     r.slow_share = modes->upper_share;
   } else if (location.dof > 0) {
     below = above = student_t_quantile(0.975, location.dof) * standard_error(location);
   }
   r.estimate = std::exp(centre);
-  r.low = std::exp(centre - below - widen), r.high = std::exp(centre + above + widen);
+  r.low = std::exp(centre - below - widen);
+  r.high = std::exp(centre + above + widen);
   return r;
 }
 
@@ -182,7 +184,7 @@ std::vector<std::vector<double>> drawn_log_times(std::span<const LogTimes> point
                                                  uint64_t seed) {
   std::vector<Drawn> drawn;
   std::map<TimeBlock, size_t> blocks;
-  int most_dof = 1;
+  int max_dof = 1;
   for (const LogTimes& times : points) {
     const LogTimes units = times.empty() ? LogTimes() : units_of(times);
     Drawn& d = drawn.emplace_back();
@@ -191,14 +193,14 @@ std::vector<std::vector<double>> drawn_log_times(std::span<const LogTimes> point
     d.modes = modes_of(times);
     for (const auto& [block, ratios] : units)
       d.blocks.push_back(blocks.try_emplace(block, blocks.size()).first->second);
-    most_dof = std::max(most_dof, d.location.dof);
+    max_dof = std::max(max_dof, d.location.dof);
   }
   Normals normals(seed);
   std::vector<double> multipliers(blocks.size());
   std::vector<std::vector<double>> draws;
   for (int k = 0; k < count; ++k) {
     for (double& multiplier : multipliers) multiplier = normals.next();
-    std::vector<double> chi_squared(size_t(most_dof) + 1, 0.0);  // by degrees of freedom
+    std::vector<double> chi_squared(size_t(max_dof) + 1, 0.0);  // by degrees of freedom
     for (size_t dof = 1; dof < chi_squared.size(); ++dof) {
       const double normal = normals.next();
       chi_squared[dof] = chi_squared[dof - 1] + normal * normal;

@@ -30,7 +30,7 @@ uint64_t hash_of(const Image& image) {
   return hash;
 }
 
-constexpr int most_reduction = 8;
+constexpr int max_reduction = 8;
 constexpr float fine_quality = 85, coarse_quality = 60;  // WebP quality
 
 struct RgbPicture {
@@ -52,7 +52,8 @@ RgbPicture decoded(const std::string& png) {
   header.format = PNG_FORMAT_RGB;
   picture.rgb.resize(PNG_IMAGE_SIZE(header));
   if (!png_image_finish_read(&header, nullptr, picture.rgb.data(), 0, nullptr)) return {};
-  picture.width = int(header.width), picture.height = int(header.height);
+  picture.width = int(header.width);
+  picture.height = int(header.height);
   return picture;
 }
 
@@ -124,7 +125,7 @@ PictureFiles::Written PictureFiles::write(const std::string& scene, const Image&
 }
 
 PagePictures page_pictures(const std::filesystem::path& folder, const std::vector<std::string>& names,
-                           size_t most_bytes) {
+                           size_t max_bytes) {
   PagePictures pictures;
   std::vector<RgbPicture> distinct;
   std::map<std::string, int> index_of;  // by the bytes of the file
@@ -145,9 +146,9 @@ PagePictures page_pictures(const std::filesystem::path& folder, const std::vecto
     }
   }
   pictures.urls = webp_urls(distinct, 1, fine_quality);
-  while (size_of_all(pictures.urls) > most_bytes && pictures.reduced < most_reduction) {
+  while (size_of_all(pictures.urls) > max_bytes && pictures.reduced < max_reduction) {
     pictures.urls = webp_urls(distinct, pictures.reduced, coarse_quality);
-    if (size_of_all(pictures.urls) <= most_bytes) break;
+    if (size_of_all(pictures.urls) <= max_bytes) break;
     pictures.urls = webp_urls(distinct, ++pictures.reduced, fine_quality);
   }
   return pictures;

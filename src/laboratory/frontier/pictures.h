@@ -45,10 +45,10 @@ struct PagePictures {
   int reduced = 1;  // pixels a side that became one
 };
 
-// Reads the files of `names` in `folder`. At most `most_bytes` of text: first by a lower quality, then at
+// Reads the files of `names` in `folder`. At most `max_bytes` of text: first by a lower quality, then at
 // 1/2, 1/3, ... 1/8 of width and height, a block becoming its mean. A file that is missing or no PNG is left
 // out.
 PagePictures page_pictures(const std::filesystem::path& folder, const std::vector<std::string>& names,
-                           size_t most_bytes);
+                           size_t max_bytes);
 
 }  // namespace lightgrid

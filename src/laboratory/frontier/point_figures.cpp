@@ -91,7 +91,8 @@ std::optional<SeedErrors> seeds_over(const Group& views) {
   double variance = 0;
   for (const FrontierRecord* view : views) {
     const SeedErrors& seeds = *view->errors.seeds;
-    all.pictures += seeds.pictures, all.flip_pictures += seeds.flip_pictures;
+    all.pictures += seeds.pictures;
+    all.flip_pictures += seeds.flip_pictures;
     all.bias_mse_rel += seeds.bias_mse_rel / double(views.size());
     variance += seeds.bias_mse_rel_error * seeds.bias_mse_rel_error;
   }
@@ -99,10 +100,10 @@ std::optional<SeedErrors> seeds_over(const Group& views) {
   return all;
 }
 
-constexpr size_t least_views_of_interval = 6;
+constexpr size_t min_views_of_interval = 6;
 
 void add_intervals_over_views(const Group& views, PointFigures& point) {
-  if (views.size() < least_views_of_interval) return;
+  if (views.size() < min_views_of_interval) return;
   const auto add = [&](const char* kind, const auto& of) {
     for (const ErrorMeasure& measure : frontier_error_measures()) {
       point.over_views[{kind, measure.key}] = bootstrap_interval(
@@ -152,7 +153,8 @@ PointFigures over_views(const Group& views) {
   PointFigures all;
   all.point = views.front()->point;
   all.views = int(views.size());
-  all.width = views.front()->width, all.height = views.front()->height;
+  all.width = views.front()->width;
+  all.height = views.front()->height;
   all.truth = views.front()->truth;
   all.external = views.front()->external;
   all.exposure_ev = views.front()->exposure_ev;
@@ -162,7 +164,8 @@ PointFigures over_views(const Group& views) {
   d.hand_over_ms = median_interval(means_of_runs(with_times, &FrontierRecord::hand_over_ms));
   d.copy_ms = median_interval(means_of_runs(with_times, &FrontierRecord::copy_ms));
   d.read_back_ms = median_interval(means_of_runs(with_times, &FrontierRecord::read_back_ms));
-  all.p95_ms = percentile_of(views, 0.95), all.p99_ms = percentile_of(views, 0.99);
+  all.p95_ms = percentile_of(views, 0.95);
+  all.p99_ms = percentile_of(views, 0.99);
   for (const auto& [key, kind] : kinds_of_error) {
     all.errors.*kind = errors_over(views, [kind = kind](const FrontierRecord& v) { return v.errors.*kind; });
   }
@@ -184,7 +187,10 @@ PointFigures over_views(const Group& views) {
     all.memory_bytes = std::max(all.memory_bytes, view->memory_bytes);
     bytes_moved += view->bytes_moved;
     counted += view->bytes_moved > 0;
-    if (all.pass_ms.empty()) all.pass_ms = view->pass_ms, all.pass_bytes = view->pass_bytes;
+    if (all.pass_ms.empty()) {
+      all.pass_ms = view->pass_ms;
+      all.pass_bytes = view->pass_bytes;
+    }
     all.nan_pixels += view->nan_pixels;
     all.flip_views += view->errors.total.flip_mean.has_value();
     all.temporal_views += view->errors.temporal_rmse_rel.has_value();

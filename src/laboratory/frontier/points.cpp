@@ -287,7 +287,10 @@ FrontierPoint described(const std::string& scene, const ChosenPoint& point) {
 
 void PointRun::attempt(const std::function<void()>& work) {
   if (!refused_.empty()) return;
-  if (const std::optional<Error> failure = failure_of(work)) refused_ = failure->what(), run_.reset();
+  if (const std::optional<Error> failure = failure_of(work)) {
+    refused_ = failure->what();
+    run_.reset();
+  }
 }
 
 bool times_bytes(const Renderer& renderer) { return !renderer.cl->info().cpu; }
@@ -339,7 +342,8 @@ uint32_t PointRun::seed(int frame) const {
 }
 
 void PointRun::go_to_frame(int number, NumbersOfFrames numbers) {
-  frame_ = number, numbers_ = numbers;
+  frame_ = number;
+  numbers_ = numbers;
   if (!is_random()) return;
   attempt([&] { run_->draw_random(seed(0)); });
 }

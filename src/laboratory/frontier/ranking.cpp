@@ -15,7 +15,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr double most_off = 0.01;  // largest deviation of a control
+constexpr double max_deviation = 0.01;  // largest deviation of a control
 constexpr int draws_of_a_scene = 2000;
 constexpr double unranked = std::numeric_limits<double>::quiet_NaN();
 
@@ -76,7 +76,10 @@ int cheapest(const SceneTimes& scene, double error, const TimeOf& time_of) {
   for (size_t i = 0; i < scene.indices.size(); ++i) {
     if (!(scene.errors[i] <= error)) continue;
     const double time = time_of(i);
-    if (time < least) best = int(i), least = time;
+    if (time < least) {
+      best = int(i);
+      least = time;
+    }
   }
   return best;
 }
@@ -85,12 +88,12 @@ int cheapest(const SceneTimes& scene, double error, const TimeOf& time_of) {
 
 bool Control::passed() const {
   const bool inside = relative_time.low <= 1 && relative_time.high >= 1;
-  return (inside || !relative_time.has_interval()) && std::abs(relative_time.estimate - 1) <= most_off;
+  return (inside || !relative_time.has_interval()) && std::abs(relative_time.estimate - 1) <= max_deviation;
 }
 
 bool Control::is_precise(int processes) const {
   const double half_width = 0.5 * std::log(relative_time.high / relative_time.low);
-  return relative_time.runs > 1 && half_width <= most_off * std::sqrt(double(processes));
+  return relative_time.runs > 1 && half_width <= max_deviation * std::sqrt(double(processes));
 }
 
 double Control::widening() const { return passed() ? 0 : std::abs(std::log(relative_time.estimate)); }
@@ -193,7 +196,8 @@ void set_device_figures(FrontierAnswer& answer) {
   for (size_t i = 0; i < points.size(); ++i) {
     DeviceFigures& d = answer.points[i].device;
     d.log_times = points[i].log_times;
-    d.device_ms = points[i].frame_ms, d.relative_time = points[i].relative_time;
+    d.device_ms = points[i].frame_ms;
+    d.relative_time = points[i].relative_time;
     d.fronts = points[i].fronts;
   }
   answer.device_front_bands = front_bands_of(points, answer.device_controls);
@@ -253,7 +257,8 @@ static std::vector<CheapestWithin> cheapest_in_scene(const std::vector<PointFigu
   for (const double error : bearable_flips) {
     const int best = cheapest(scene, error, [&](size_t i) { return relative_time(times_of(i, 0)).estimate; });
     if (best < 0) continue;
-    within.error = error, within.point = scene.indices[size_t(best)];
+    within.error = error;
+    within.point = scene.indices[size_t(best)];
     within.relative_time = relative_time(times_of(size_t(best), 1), widening);
     const auto hits = std::ranges::count_if(scene.draws, [&](const std::vector<double>& draw) {
       return cheapest(scene, error, [&](size_t i) { return draw[i]; }) == best;

@@ -13,13 +13,14 @@
 namespace lightgrid {
 namespace {
 
-void add_time(const MeasuredPoint& point, size_t view, const FrameTimes& own, const FrameTimes& beside,
+void add_time(const MeasuredPoint& point, size_t view, const RoundTimes& own, const RoundTimes& beside,
               std::vector<TimeOfRecord>& times) {
   const FrontierRecord& record = point.records[view];
   if (!record.refused.empty()) return;
   times.push_back({record_key(record), own.ms, beside.ms, point.run.refused()});
   if (!own.device || !beside.device) return;
-  times.back().device = own.device, times.back().baseline_device_ms = beside.device->device_ms;
+  times.back().device = own.device;
+  times.back().baseline_device_ms = beside.device->device_ms;
 }
 
 bool is_refused(const FrontierRecord& record) { return !record.refused.empty(); }
@@ -30,14 +31,17 @@ std::vector<double> ratios_of(const MeasuredPoint& point) {
   for (size_t round = 0; round < size_t(point.rounds()); ++round) {
     double ms = 0, beside = 0;
     for (const FrontierRecord& record : point.records) {
-      if (!record.frame_ms.empty()) ms += record.frame_ms[round], beside += record.baseline_ms[round];
+      if (!record.frame_ms.empty()) {
+        ms += record.frame_ms[round];
+        beside += record.baseline_ms[round];
+      }
     }
     ratios.push_back(ms / beside);
   }
   return ratios;
 }
 
-constexpr size_t least_cull_rounds = 6, most_cull_rounds = 12;
+constexpr size_t min_cull_rounds = 6, max_cull_rounds = 12;
 constexpr double share_of_cull_rounds = 0.1;  // share of the remaining time
 
 // The points that another one differs from in the cull test alone.
@@ -103,7 +107,7 @@ std::vector<ChosenPoint> grown_points(const FrontierJob& job) {
 
 // Times `points` on a variant, whose record without a point is `base`.
 void time_variant(const std::vector<ChosenPoint>& points, Renderer& renderer, GpuScene& gpu, const View& view,
-                  const FrontierJob& job, FrontierRecord base, double most_s, RecordFile& file) {
+                  const FrontierJob& job, FrontierRecord base, double max_s, RecordFile& file) {
   const auto pool = std::make_shared<TargetPool>();
   std::vector<MeasuredPoint> measured;
   for (const ChosenPoint& point : points) {
@@ -113,7 +117,7 @@ void time_variant(const std::vector<ChosenPoint>& points, Renderer& renderer, Gp
     measured.back().records.front().refused = measured.back().run.refused();
     file.begin(measured.back().records.front());
   }
-  time_series(measured, renderer, gpu, view, job, growth_rounds, file, most_s);
+  time_series(measured, renderer, gpu, view, job, growth_rounds, file, max_s);
 }
 
 // How long variants take: the longest so far, per pixel of the image.
@@ -142,9 +146,9 @@ int TimeRounds::run() {
   int done = 0;
   for (const MeasuredPoint& point : points) done = std::max(done, point.rounds());
   // Each process takes its share, at least two rounds where there are several.
-  const int share = (job.most_rounds + job.processes - 1) / job.processes;
+  const int share = (job.max_rounds_per_point + job.processes - 1) / job.processes;
   const int before_this = job.processes > 1 ? done : 0;
-  const int least = job.processes > 1 ? std::min(done + 2, done + share) : job.least_rounds;
+  const int least = job.processes > 1 ? std::min(done + 2, done + share) : job.min_rounds_per_point;
   const int most = before_this + share;
   for (MeasuredPoint& point : points)
     point.slow_until =
@@ -180,7 +184,7 @@ void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& ti
   }
   Random random(Random::mix(job.seed) + uint64_t(round) * 1000 + uint64_t(view));
   for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[size_t(random.next() % i)]);
-  FrameTimes beside = timed(baseline, view);
+  RoundTimes beside = timed(baseline, view);
   for (size_t i = 0; i < order.size(); i += 2) {
     if (job.progress)
       job.progress(std::min(timer.elapsed_ms() / 1000 / job.seconds, 1.0),
@@ -189,7 +193,7 @@ void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& ti
     add_time(first, view, timed(first.run, view), beside, times);
     if (i + 1 == order.size()) break;
     MeasuredPoint& second = points[order[i + 1]];
-    const FrameTimes of_second = timed(second.run, view);
+    const RoundTimes of_second = timed(second.run, view);
     beside = timed(baseline, view);
     add_time(second, view, of_second, beside, times);
   }
@@ -198,7 +202,7 @@ void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& ti
 // The baseline's frame and the point's have the same history, or their ratio would hold the difference: a
 // look leaves uploads to the next frame, and other techniques' frames between push programs out of drivers'
 // caches.
-FrameTimes TimeRounds::timed(PointRun& run, size_t view) {
+RoundTimes TimeRounds::timed(PointRun& run, size_t view) {
   run.look(views[view]);
   run.draw_first_frame();
   const double ms = run.draw(&clock);
@@ -222,7 +226,9 @@ bool TimeRounds::are_controls_precise(int before_this) const {
   for (const MeasuredPoint& point : points) {
     for (const FrontierRecord& record : point.records) {
       FrontierRecord& times = of_this.emplace_back();
-      times.point = record.point, times.view = record.view, times.series = record.series;
+      times.point = record.point;
+      times.view = record.view;
+      times.series = record.series;
       const auto begin = std::min(size_t(before_this), record.frame_ms.size());
       times.frame_ms.assign(record.frame_ms.begin() + begin, record.frame_ms.end());
       times.baseline_ms.assign(record.baseline_ms.begin() + begin, record.baseline_ms.end());
@@ -241,15 +247,16 @@ void complete(const std::vector<MeasuredPoint>& points, RecordFile& file) {
 }
 
 void time_series(std::vector<MeasuredPoint>& measured, Renderer& renderer, GpuScene& gpu, const View& view,
-                 const FrontierJob& job, int rounds, RecordFile& file, double most_s) {
+                 const FrontierJob& job, int rounds, RecordFile& file, double max_s) {
   if (measured.empty()) return;
   PointRun baseline(renderer, gpu, view, job.baseline, std::make_shared<TargetPool>());
   FrontierJob of_series = job;
   of_series.progress = nullptr;  // its steps are variants
-  of_series.least_rounds = of_series.most_rounds = rounds;
-  of_series.process = 0, of_series.processes = 1;
+  of_series.min_rounds_per_point = of_series.max_rounds_per_point = rounds;
+  of_series.process = 0;
+  of_series.processes = 1;
   const Timer timer;
-  TimeRounds{of_series, timer, most_s, std::span(&view, 1), measured, baseline, file, DeviceClock(renderer)}
+  TimeRounds{of_series, timer, max_s, std::span(&view, 1), measured, baseline, file, DeviceClock(renderer)}
       .run();
   complete(measured, file);
 }
@@ -260,7 +267,7 @@ void measure_cull_times(std::vector<MeasuredPoint>& points, const View& view, do
   if (culled.empty()) return;
   // Without pass times it is not known what a frame takes.
   double round_s = 0;
-  size_t begun = most_cull_rounds;
+  size_t begun = max_cull_rounds;
   for (const MeasuredPoint* m : culled) {
     const FrontierRecord& record = m->records.front();
     for (const auto& [name, ms] : record.pass_ms) round_s += ms / 1000;
@@ -270,10 +277,10 @@ void measure_cull_times(std::vector<MeasuredPoint>& points, const View& view, do
   const auto fits = [&](size_t rounds) {
     return timer.elapsed_ms() / 1000 + double(rounds) * round_s <= share_of_cull_rounds * seconds;
   };
-  if (begun == 0 && !fits(least_cull_rounds)) return;
+  if (begun == 0 && !fits(min_cull_rounds)) return;
   for (MeasuredPoint* m : culled) m->run.look(view);
-  for (size_t round = begun; round < most_cull_rounds; ++round) {
-    if (round >= least_cull_rounds && !fits(1)) break;
+  for (size_t round = begun; round < max_cull_rounds; ++round) {
+    if (round >= min_cull_rounds && !fits(1)) break;
     std::map<std::string, double> times;
     std::ranges::reverse(culled);
     for (MeasuredPoint* m : culled) {
@@ -320,7 +327,8 @@ void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const Scene
     FrontierRecord record;
     record.point.scene = choice.scene;
     record.series = variant.series;
-    record.width = view.width, record.height = view.height;
+    record.width = view.width;
+    record.height = view.height;
     record.lights = int(scene.lights.size());
     record.radius_scale = variant.radius;
     time_variant(points, renderer, gpu, view, job, record, seconds - begun, file);

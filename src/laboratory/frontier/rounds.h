@@ -27,7 +27,7 @@ constexpr int slow_rounds = min_rounds;  // for slow points
 // happen to look quiet, and fewer intervals would hold the truth.
 constexpr int precise_rounds = 3;
 
-struct FrameTimes {
+struct RoundTimes {
   double ms = 0;
   std::optional<DeviceTimes> device;  // times of the same frame
 };
@@ -54,7 +54,7 @@ struct TimeRounds {
 
  private:
   void time_view(int round, size_t view, std::vector<TimeOfRecord>& times);
-  FrameTimes timed(PointRun& run, size_t view);
+  RoundTimes timed(PointRun& run, size_t view);
   bool are_certain() const;
   bool are_controls_precise(int before_this) const;  // rounds of earlier processes
 };
@@ -69,10 +69,10 @@ void measure_cull_times(std::vector<MeasuredPoint>& points, const View& view, do
                         RecordFile& file);
 
 // Times points on one view, beside the job's baseline, in `rounds` rounds, fewer if they would take more than
-// `most_s`, and completes their records, which are open.
+// `max_s`, and completes their records, which are open.
 void time_series(std::vector<MeasuredPoint>& measured, Renderer& renderer, GpuScene& gpu, const View& view,
                  const FrontierJob& job, int rounds, RecordFile& file,
-                 double most_s = std::numeric_limits<double>::infinity());
+                 double max_s = std::numeric_limits<double>::infinity());
 
 // The share of a scene's time that is left to growth.
 constexpr double share_of_growth = 0.12;

@@ -34,7 +34,8 @@ class SequenceTruth {
 
   void draw(const View& view, const SceneChanges& changes, bool first) {
     const bool moved = !first && view != view_;
-    frame_.step.clear(), frame_.carried.clear();
+    frame_.step.clear();
+    frame_.carried.clear();
     if (!first && !moved && changes.empty()) return;
     run_->look(view, changes);
     run_->run_frame(true);
@@ -43,7 +44,8 @@ class SequenceTruth {
     std::vector<float> depth = read_depth(*run_);
     if (moved) frame_.carried = carried_pixels(view, depth, view_, depth_);
     if (!first) frame_.step = step_map(frame_.shown, *seen_, before, frame_.carried);
-    depth_ = std::move(depth), view_ = view;
+    depth_ = std::move(depth);
+    view_ = view;
   }
   const TruthFrame& frame() const { return frame_; }
 
@@ -81,7 +83,8 @@ class SequencesOfScene {
     play(dolly, dolly_of(scene_, first_), {}, points, truths);
     const std::vector<Light> rest = scene_.lights;
     SceneChoice moving = choice_;
-    moving.light_motion = "orbit", moving.time.clear();
+    moving.light_motion = "orbit";
+    moving.time.clear();
     play(moving_lights, std::vector<View>(size_t(all_frames), first_), chosen_motion(scene_, moving), points,
          truths);
     scene_.lights = rest;
@@ -98,8 +101,10 @@ class SequencesOfScene {
  private:
   void play(Place sequence, const std::vector<View>& views, const SceneMotion& advance,
             std::vector<SequencePoint>& points, std::map<bool, SequenceTruth>& truths) {
-    for (SequencePoint& point : points)
-      point.plain = FlickerMeter(false), point.filtered = FlickerMeter(true);
+    for (SequencePoint& point : points) {
+      point.plain = FlickerMeter(false);
+      point.filtered = FlickerMeter(true);
+    }
     for (int frame = 0; frame < all_frames; ++frame) {
       if (job_.progress)
         job_.progress(double(sequence * all_frames + frame) / (3 * all_frames),
@@ -161,7 +166,8 @@ std::vector<CarriedPixel> carried_pixels(const View& view, const std::vector<flo
                    py = (clip.y / clip.w + 1) / 2 * before.height - 0.5, far = distance(clip.z / clip.w);
       if (!(px > -1 && px < before.width && py > -1 && py < before.height)) continue;
       CarriedPixel& pixel = carried[i];
-      pixel.x = int(std::floor(px)), pixel.y = int(std::floor(py));
+      pixel.x = int(std::floor(px));
+      pixel.y = int(std::floor(py));
       const double right = px - pixel.x, up = py - pixel.y;
       double sum = 0, weights[4] = {};
       for (int k = 0; k < 4; ++k) {

@@ -69,13 +69,13 @@ std::vector<bool> pareto_front(std::span<const std::pair<double, double>> points
   }
   std::sort(order.begin(), order.end(), [&](size_t i, size_t j) { return points[i] < points[j]; });
   std::vector<bool> front(points.size(), false);
-  double least_y = infinity;  // over the points of smaller x
+  double min_y = infinity;  // over the points of smaller x
   for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
     const auto [x, y] = points[order[begin]];
     for (end = begin; end < order.size() && points[order[end]].first == x; ++end) {
-      front[order[end]] = points[order[end]].second == y && y < least_y;
+      front[order[end]] = points[order[end]].second == y && y < min_y;
     }
-    least_y = std::min(least_y, y);
+    min_y = std::min(min_y, y);
   }
   return front;
 }

@@ -99,7 +99,8 @@ void ViewFigures::Truths::look(const View& view, const std::vector<View>& turn) 
   for (size_t frame = 1; frame < turn.size(); ++frame) turned[frame - 1].look(turn[frame]);
   brute.look(view);
   flip.reset();
-  reference.reset(), authored.reset();
+  reference.reset();
+  authored.reset();
   flicker.clear();
 }
 
@@ -311,7 +312,8 @@ void join(const std::vector<ImageError>& pictures, ImageError& mean, ImageError*
   std::vector<double> flips, visible;
   for (const ImageError& picture : pictures) {
     if (!picture.displayed) continue;
-    flips.push_back(picture.displayed->mean), visible.push_back(picture.displayed->visible);
+    flips.push_back(picture.displayed->mean);
+    visible.push_back(picture.displayed->visible);
   }
   mean.displayed = {moments(flips).first, moments(visible).first};
   if (deviation) deviation->displayed = {moments(flips).second, moments(visible).second};
@@ -352,7 +354,8 @@ void ViewFigures::measure_seeds(PointRun& run, Truths& truths, FrontierRecord& r
   }
   run.go_to_frame(0);
   SeedErrors& seeds = record.errors.seeds.emplace();
-  seeds.pictures = pictures, seeds.flip_pictures = flips;
+  seeds.pictures = pictures;
+  seeds.flip_pictures = flips;
   join(totals, record.errors.total, &seeds.deviation);
   if (ranges) record.errors.model = record.errors.total;
   if (truths.authored) {

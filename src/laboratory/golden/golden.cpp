@@ -16,10 +16,13 @@ namespace {
 // FNV-1a with a word a step. A pixel has the lower half of a hash.
 struct Hash {
   uint64_t value = 0xcbf29ce484222325;
-  void add(uint64_t word) { value = (value ^ word) * 0x100000001b3, value ^= value >> 32; }
+  void add(uint64_t word) {
+    value = (value ^ word) * 0x100000001b3;
+    value ^= value >> 32;
+  }
 };
 
-constexpr size_t most_tiles = 64;
+constexpr size_t max_tiles = 64;
 
 std::vector<std::string> hash_tiles(const GoldenView& view,
                                     const std::function<void(Hash& hash, size_t pixel)>& add) {
@@ -91,7 +94,7 @@ GoldenPixels golden_pixels(TechniqueRun& run) {
 GoldenView golden_view(const GoldenPixels& pixels) {
   const Image& image = pixels.image;
   GoldenView view{.width = image.width, .height = image.height, .stages = {}};
-  while (size_t(view.across()) * size_t(view.down()) > most_tiles) view.tile *= 2;
+  while (size_t(view.across()) * size_t(view.down()) > max_tiles) view.tile *= 2;
   size_t stage = 0;
   for (const std::vector<uint32_t>* words : {&pixels.triangles, &pixels.depth, &pixels.lists})
     view.stages[stage++] = hash_tiles(view, [&](Hash& hash, size_t pixel) { hash.add((*words)[pixel]); });

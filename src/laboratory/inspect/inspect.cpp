@@ -107,7 +107,8 @@ double pieces_margin(const Cell& cell, const std::vector<DepthInterval>& pieces,
   double best = -endless;
   for (const DepthInterval& piece : pieces) {
     Cell part = cell;
-    part.near = piece.near, part.far = piece.far;
+    part.near = piece.near;
+    part.far = piece.far;
     const TestMargins m = margins_of(part, light);
     const bool mask = settings[setting::depth_bounds] == DepthBoundsMode::mask32;
     best =
@@ -144,14 +145,18 @@ PixelInspection place_of(const CapturedFrame& frame, const FrameGrid& grid,
                          const std::vector<DepthInterval>& intervals, int x, int y) {
   const View& view = frame.view;
   PixelInspection pixel;
-  pixel.x = x, pixel.y = y;
+  pixel.x = x;
+  pixel.y = y;
   pixel.depth = frame.depth[view.grid().index(x, y)];
   pixel.covered = is_covered(frame, x, y);
   pixel.distance_m = pixel.covered ? -position_from_depth(view, x, y, pixel.depth).z : endless;
-  pixel.cell_x = x / grid.tile, pixel.cell_y = y / grid.tile;
+  pixel.cell_x = x / grid.tile;
+  pixel.cell_y = y / grid.tile;
   if (pixel.covered) pixel.slice = cells_of(frame, grid).slice(x, y);
-  pixel.x0 = pixel.cell_x * grid.tile, pixel.x1 = std::min(pixel.x0 + grid.tile, view.width);
-  pixel.y0 = pixel.cell_y * grid.tile, pixel.y1 = std::min(pixel.y0 + grid.tile, view.height);
+  pixel.x0 = pixel.cell_x * grid.tile;
+  pixel.x1 = std::min(pixel.x0 + grid.tile, view.width);
+  pixel.y0 = pixel.cell_y * grid.tile;
+  pixel.y1 = std::min(pixel.y0 + grid.tile, view.height);
   const DepthInterval interval = intervals[size_t(pixel.cell_y) * grid.lists.cells_x + pixel.cell_x];
   pixel.near_m = interval.near > -0.1 * far_away ? interval.near : -endless;
   pixel.far_m = interval.far < 0.1 * far_away ? interval.far : endless;
@@ -224,22 +229,28 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
   for (uint32_t i = 0; i < lights.size(); ++i) {
     LightVerdict& v = pixel.lights.emplace_back();
     const LightBounds bounds = bounds_of(lights[i]);
-    v.index = i, v.light = number[i], v.radius_m = lights[i].radius_m;
+    v.index = i;
+    v.light = number[i];
+    v.radius_m = lights[i].radius_m;
     v.listed = stands_in_cell(grid.lists, at, i);
     v.distance_m = pixel.covered ? glm::length(lights[i].position - here) : endless;
     v.lit = pixel.covered && is_lit(lights[i], here);
     if (std::binary_search(near.begin(), near.end(), i)) v.lit_pixels = count_lit(lights[i], surfaces);
     if (empty) {
-      v.test = "empty", v.margin_m = -endless;
+      v.test = "empty";
+      v.margin_m = -endless;
       continue;
     }
     v.margins = margins_of(cell, bounds);
     if (!pieces.empty()) v.margins.pieces = pieces_margin(cell, pieces, bounds, settings);
     const NamedMargin decided = deciding(margins_in_use(v.margins, settings[setting::cull_test]), v.listed);
-    v.test = decided.test, v.margin_m = decided.margin_m;
+    v.test = decided.test;
+    v.margin_m = decided.margin_m;
     v.touches = touches_cell(cell, bounds);
     if (v.listed && !grid.z_bin_edges.empty() && !bins_hold(grid.lists.z_bins[i], bin)) {
-      v.listed = false, v.test = "z-bins", v.margin_m = z_bin_margin(grid, bin, bounds);
+      v.listed = false;
+      v.test = "z-bins";
+      v.margin_m = z_bin_margin(grid, bin, bounds);
     }
   }
   std::stable_sort(pixel.lights.begin(), pixel.lights.end(),

@@ -83,10 +83,10 @@ bool add_shadows(PixelInspection& pixel, const Scene& scene, const PixelShadows&
 // `hidden by node 3 "column" triangle 12, 1.250 m from the light; the frame shades it: LEAKED`.
 std::string shadow_words(const ShadowVerdict& shadow, const Light& light);
 
-// Both omit dropped lights after the first `most_dropped`, but never lost ones.
-std::string inspection_table(const CapturedFrame& frame, const PixelInspection& pixel, int most_dropped);
+// Both omit dropped lights after the first `max_dropped`, but never lost ones.
+std::string inspection_table(const CapturedFrame& frame, const PixelInspection& pixel, int max_dropped);
 std::string inspection_json(const CapturedFrame& frame, const PixelInspection& pixel, const FrameGrid& grid,
-                            int most_dropped);
+                            int max_dropped);
 
 // Maps of listed lights, listed but unlit ones, and lost ones.
 struct InspectionMaps {

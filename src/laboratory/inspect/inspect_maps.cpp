@@ -20,10 +20,12 @@ InspectionMaps inspection_maps(const CapturedFrame& frame, const FrameGrid& grid
   maps.pairs = {pairs.listed, pairs.lit, pairs.lost, pairs.wrong};
   if (shadows) {
     maps.pairs.shadows = {pairs.leaked, pairs.acned, pairs.either, shadows->truth.pixels()};
-    maps.leaked = std::move(pairs.leaked_of_pixel), maps.acned = std::move(pairs.acned_of_pixel);
+    maps.leaked = std::move(pairs.leaked_of_pixel);
+    maps.acned = std::move(pairs.acned_of_pixel);
   }
   maps.covered = uint64_t(std::count_if(depth.begin(), depth.end(), [](float d) { return d > 0; }));
-  maps.listed = std::move(pairs.listed_of_pixel), maps.lost = std::move(pairs.lost_of_pixel);
+  maps.listed = std::move(pairs.listed_of_pixel);
+  maps.lost = std::move(pairs.lost_of_pixel);
   maps.top = top_of_scale(maps.listed);
   for (size_t i = 0; i < depth.size(); ++i) {
     maps.false_positives.push_back(maps.listed[i] -

@@ -15,11 +15,11 @@ namespace {
 using nlohmann::json;
 
 // The lights to show: all listed or lost ones, and the first dropped ones.
-std::vector<const LightVerdict*> shown(const PixelInspection& pixel, int most_dropped) {
+std::vector<const LightVerdict*> shown(const PixelInspection& pixel, int max_dropped) {
   std::vector<const LightVerdict*> rows;
   int dropped = 0;
   for (const LightVerdict& v : pixel.lights) {
-    if (v.listed || v.lit || dropped < most_dropped) rows.push_back(&v);
+    if (v.listed || v.lit || dropped < max_dropped) rows.push_back(&v);
     dropped += !v.listed && !v.lit;
   }
   return rows;
@@ -95,8 +95,8 @@ std::string shadow_words(const ShadowVerdict& shadow, const Light& light) {
   return text;
 }
 
-std::string inspection_table(const CapturedFrame& frame, const PixelInspection& p, int most_dropped) {
-  const auto rows = shown(p, most_dropped);
+std::string inspection_table(const CapturedFrame& frame, const PixelInspection& p, int max_dropped) {
+  const auto rows = shown(p, max_dropped);
   std::string text = p.covered ? fmt::format("pixel {},{}: depth {}, {:.4f} m away along the view axis\n",
                                              p.x, p.y, p.depth, p.distance_m)
                                : fmt::format("pixel {},{}: depth {}, background\n", p.x, p.y, p.depth);
@@ -122,8 +122,8 @@ std::string inspection_table(const CapturedFrame& frame, const PixelInspection& 
 }
 
 std::string inspection_json(const CapturedFrame& frame, const PixelInspection& p, const FrameGrid& grid,
-                            int most_dropped) {
-  const auto rows = shown(p, most_dropped);
+                            int max_dropped) {
+  const auto rows = shown(p, max_dropped);
   json lights = json::array();
   for (const LightVerdict* v : rows) {
     const Light& light = frame.lights[v->light];

@@ -36,7 +36,8 @@ std::optional<glm::dvec3> carried_value(const Image& before, const std::vector<C
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x + v.y + v.z); }
 
 void add_to(DisplayedFlip& sum, const DisplayedFlip& flip) {
-  sum.mean += flip.mean, sum.visible += flip.visible;
+  sum.mean += flip.mean;
+  sum.visible += flip.visible;
 }
 
 DisplayedFlip mean_flip(const DisplayedFlip& sum, int count) {

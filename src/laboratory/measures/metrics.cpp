@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr size_t pixels_at_once = 4096;
-constexpr double least_channel = 1e-3;  // relative to the brightest: denominators of relative errors
+constexpr double min_channel = 1e-3;  // relative to the brightest: denominators of relative errors
 
 bool same_bits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
 
@@ -32,8 +32,11 @@ struct Sums {
   double luminance = 0, light = 0, reference_light = 0;  // luminance: the reference's; light: in all channels
   double squares = 0, relative_squares = 0, largest = 0;
   Sums& operator+=(const Sums& other) {
-    luminance += other.luminance, light += other.light, reference_light += other.reference_light;
-    squares += other.squares, relative_squares += other.relative_squares;
+    luminance += other.luminance;
+    light += other.light;
+    reference_light += other.reference_light;
+    squares += other.squares;
+    relative_squares += other.relative_squares;
     largest = std::max(largest, other.largest);
     return *this;
   }
@@ -63,7 +66,7 @@ ImageDifference difference_of(const Image& image, const ReferenceAt& reference_a
       if (error == 0) continue;
       largest[i] = std::max(largest[i], error);
       of_run.squares += error * error;
-      const double over = std::max(reference[c], least_channel * brightest);
+      const double over = std::max(reference[c], min_channel * brightest);
       const double relative = over > 0 ? error / over : infinite;
       of_run.relative_squares += relative * relative;
     }
@@ -234,7 +237,10 @@ ErrorSteps error_steps(const Image& image, const Image& reference, int tile, dou
     return e.r + e.g + e.b;
   };
   double sums[2] = {}, pairs[2] = {};
-  const auto add = [&](double step, bool border) { sums[border] += std::abs(step), pairs[border] += 1; };
+  const auto add = [&](double step, bool border) {
+    sums[border] += std::abs(step);
+    pairs[border] += 1;
+  };
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const double here = error(x, y);
@@ -251,13 +257,15 @@ ErrorSteps error_steps(const Image& image, const Image& reference, int tile, dou
 
 void PictureMoments::add(const Image& image) {
   if (count_ == 0) {
-    width_ = image.width, height_ = image.height;
+    width_ = image.width;
+    height_ = image.height;
     sum_.assign(image.pixels.size(), glm::dvec3(0));
     squares_.assign(image.pixels.size(), glm::dvec3(0));
   }
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     const glm::dvec3 color(image.pixels[i]);
-    sum_[i] += color, squares_[i] += color * color;
+    sum_[i] += color;
+    squares_[i] += color * color;
   }
   ++count_;
 }
@@ -315,7 +323,9 @@ BiasOfPictures::Estimate BiasOfPictures::estimate() const {
   for (int a = 0; a < groups; ++a) {
     for (int b = 0; b < a; ++b) {
       const double product = products[a * groups + b];
-      with_others[a] += product, with_others[b] += product, all += 2 * product;
+      with_others[a] += product;
+      with_others[b] += product;
+      all += 2 * product;
     }
   }
   constexpr double n = groups;

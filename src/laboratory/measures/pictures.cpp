@@ -162,7 +162,10 @@ Image worst_of_blocks(const Image& picture, const Image& image, const Image& ref
   std::vector<double> worst(result.pixels.size(), -1);
   for_each_pixel(image.width, image.height, factor, [&](size_t block, size_t pixel) {
     const double d = distance(image.pixels[pixel], reference.pixels[pixel]);
-    if (d > worst[block]) worst[block] = d, result.pixels[block] = picture.pixels[pixel];
+    if (d > worst[block]) {
+      worst[block] = d;
+      result.pixels[block] = picture.pixels[pixel];
+    }
   });
   return result;
 }

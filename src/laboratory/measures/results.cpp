@@ -197,14 +197,20 @@ json pairs_json(const PairCounts& pairs) {
 }
 
 ShadowPairs& ShadowPairs::operator+=(const ShadowPairs& other) {
-  leaked += other.leaked, acned += other.acned, either += other.either;
-  pixels += other.pixels, pairs += other.pairs;
+  leaked += other.leaked;
+  acned += other.acned;
+  either += other.either;
+  pixels += other.pixels;
+  pairs += other.pairs;
   says_exact = says_exact && other.says_exact;
   return *this;
 }
 
 PairCounts& PairCounts::operator+=(const PairCounts& other) {
-  listed += other.listed, lit += other.lit, lost += other.lost, wrong += other.wrong;
+  listed += other.listed;
+  lit += other.lit;
+  lost += other.lost;
+  wrong += other.wrong;
   if (other.shadows && shadows) *shadows += *other.shadows;
   if (!shadows) shadows = other.shadows;
   return *this;

@@ -144,7 +144,7 @@ struct PathMemory {
 };
 
 // Half of a listed light is far more; 8-bit geometry buffers lose less.
-inline constexpr double most_unshaded = 0.01;
+inline constexpr double max_unshaded = 0.01;
 
 // How much an image's error, the sum of its channels with their signs, changes from a pixel to the next one
 // in its row or column: mean over pairs of pixels in two tiles, and in one, relative to the brightest
@@ -169,7 +169,7 @@ struct RunResult : FrameFigures {
   bool own_surfaces = false;
   std::optional<ImageError> same_surfaces;
   // The share of every light's light that is not in the image although no list lacks a light: above
-  // most_unshaded, its loop does not shade what it lists. Absent where lists lack lights or may, where the
+  // max_unshaded, its loop does not shade what it lists. Absent where lists lack lights or may, where the
   // picture is not forward's by nature, and where every light was not drawn on these surfaces.
   std::optional<double> unshaded;
   uint64_t overflow = 0;

@@ -96,7 +96,8 @@ std::optional<Speedup> speedup_of(const CompareReport& report, const RunResult& 
     return speedup;
   }
   if (adds_only_lists(row, *reference)) {
-    speedup.lists = speedup.total, speedup.api = 1;
+    speedup.lists = speedup.total;
+    speedup.api = 1;
     return speedup;
   }
   const bool other_api = draws_without_opengl(row) && !draws_without_opengl(*reference);

@@ -16,7 +16,7 @@ double window_at(const ViewLight& light, double distance) {
 // The probability with which a light with random ranges reaches a point of this 1 / distance^2 (Tokuyoshi and
 // Harada 2016).
 double probability(const ViewLight& light, double falloff) {
-  return light.least_falloff > 0 ? std::min(falloff / light.least_falloff, 1.0) : 1;
+  return light.min_falloff > 0 ? std::min(falloff / light.min_falloff, 1.0) : 1;
 }
 
 }  // namespace
@@ -26,8 +26,8 @@ double attenuation(const ViewLight& light, const glm::dvec3& position, bool wind
   const glm::dvec3 offset = position - light.position;
   const double distance = length_of(offset.x, offset.y, offset.z);
   double result = 1 / std::max(distance * distance, std::numeric_limits<double>::min());
-  const bool by_cosine = light.most_falloff > 0;  // a virtual light
-  if (by_cosine) result = std::min(result, light.most_falloff);
+  const bool by_cosine = light.max_falloff > 0;  // a virtual light
+  if (by_cosine) result = std::min(result, light.max_falloff);
   if (window && std::isfinite(light.radius_m)) {
     if (!(distance < light.radius_m)) return 0;  // before the ratio, which is 0 / 0 for a light of radius 0
     result *= window_at(light, distance) / probability(light, result);

@@ -22,7 +22,7 @@ constexpr double u = 0x1p-24;  // one rounding in float
 constexpr double no_end = std::numeric_limits<double>::infinity();
 constexpr double far_away = 1e17;       // the kernels' infinity is 1e18
 constexpr double farthest = 1e30;       // end of the boxes of endless cells, past all lights and surfaces
-constexpr double least_radius = 2e-18;  // metres, the least uploaded radius
+constexpr double min_radius = 2e-18;    // metres, the least uploaded radius
 constexpr double gentle_slope = 2;      // up to this slope the exact test converges in its three Newton steps
 constexpr double endless_near = -1e12;  // near of orthographic cells: the oracle's cones need a finite one
 
@@ -147,12 +147,12 @@ bool possibly_touches(const View& view, int tile, const Cell& cell, const Oracle
   const double sum = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + r, steep = steepest_slope(view);
   const double reach_of_slopes = cell.orthographic ? 1 : std::abs(p.z) + r;
   const double margin =
-      least_radius + 64 * u * sum + 44 * u * (2 * steep + tile_slope(view, tile)) * reach_of_slopes;
+      min_radius + 64 * u * sum + 44 * u * (2 * steep + tile_slope(view, tile)) * reach_of_slopes;
   const double near = cell.near == endless_near ? 0 : std::abs(cell.near);
   const bool endless = cell.far > far_away || cell.near == endless_near;
   const double ends =
       cell.far > far_away ? (cell.orthographic ? near : far_away) : std::max(near, std::abs(cell.far));
-  const double box_margin = least_radius + 32 * u * sum + u * (16 + 24 * steep) * (ends + reach_of_slopes);
+  const double box_margin = min_radius + 32 * u * sum + u * (16 + 24 * steep) * (ends + reach_of_slopes);
   const CellBox box = box_around(cell);
   if (outside(-p.z, cell.near, cell.far) > r + box_margin) return false;
   const CullTestRow& parts = row_of(test);

@@ -58,8 +58,10 @@ Polyhedron seen_from(const dvec3& apex, const Cell& cell) {
     const double constant = cell.orthographic ? -inward * bound : 0;
     shape.planes.push_back({normal / length, (glm::dot(normal, apex) + constant) / length});
   };
-  add_side({1, 0, 0}, cell.x0, 1), add_side({1, 0, 0}, cell.x1, -1);
-  add_side({0, 1, 0}, cell.y0, 1), add_side({0, 1, 0}, cell.y1, -1);
+  add_side({1, 0, 0}, cell.x0, 1);
+  add_side({1, 0, 0}, cell.x1, -1);
+  add_side({0, 1, 0}, cell.y0, 1);
+  add_side({0, 1, 0}, cell.y1, -1);
   shape.planes.push_back({{0, 0, -1}, -apex.z - cell.near});
   const bool bounded = std::isfinite(cell.far);
   if (bounded) shape.planes.push_back({{0, 0, 1}, apex.z + cell.far});

@@ -9,7 +9,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr double least_depth = 0x1p-126;  // less is not drawn
+constexpr double min_depth = 0x1p-126;  // less is not drawn
 constexpr double guard_units = 16368 * 256;
 constexpr int units_a_pixel = 256;  // a pixel
 
@@ -142,7 +142,7 @@ std::string wrong_at(const std::vector<CoveredPixel>& covered, uint32_t triangle
   const CoveredPixel* shown = nullptr;
   for (const CoveredPixel& c : covered) {
     if (c.triangle == triangle) shown = &c;
-    if (c.depth - c.bound > std::max<double>(depth, least_depth)) {
+    if (c.depth - c.bound > std::max<double>(depth, min_depth)) {
       return fmt::format("triangle {} at depth {} lies in front of triangle {} at {}", c.triangle, c.depth,
                          int32_t(triangle), depth);
     }

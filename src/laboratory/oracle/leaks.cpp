@@ -63,11 +63,15 @@ Leaks find_leaks(const Scene& scene, const View& view, const LightRanges& ranges
   std::map<std::pair<int, int>, uint64_t> leaks;
   std::map<std::pair<int, int>, Leaks::Received> received;
   for (const Row& row : rows) {
-    all.pixels += row.pixels, all.lit += row.lit, all.leaked += row.leaked, all.either += row.either;
+    all.pixels += row.pixels;
+    all.lit += row.lit;
+    all.leaked += row.leaked;
+    all.either += row.either;
     for (const auto& [pair, pixels] : row.leaks) leaks[pair] += pixels;
     for (const auto& [pair, of] : row.received) {
       Leaks::Received& sum = received[pair];
-      sum.seen += of.seen, sum.leaked += of.leaked;
+      sum.seen += of.seen;
+      sum.leaked += of.leaked;
     }
   }
   for (const auto& [pair, of] : received)

@@ -72,11 +72,14 @@ bool tally_shadow(const PairShadows& shadows, int width, uint32_t pixel, uint32_
   if (!shadows.truth.decided(pixel)) return true;
   const Sight sight = shadows.truth.at(pixel, light);
   if (sight == Sight::either) ++tally.either;
-  tally.hidden += sight == Sight::hidden, out.hidden_of_pixel[pixel] += sight == Sight::hidden;
+  tally.hidden += sight == Sight::hidden;
+  out.hidden_of_pixel[pixel] += sight == Sight::hidden;
   if (sight == Sight::either || !listed) return sight == Sight::seen;
   const bool leaked = sight == Sight::hidden && !hidden, acned = sight == Sight::seen && hidden;
-  tally.leaked += leaked, tally.acned += acned;
-  out.leaked_of_pixel[pixel] += leaked, out.acned_of_pixel[pixel] += acned;
+  tally.leaked += leaked;
+  tally.acned += acned;
+  out.leaked_of_pixel[pixel] += leaked;
+  out.acned_of_pixel[pixel] += acned;
   return sight == Sight::seen;
 }
 
@@ -89,8 +92,10 @@ Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered,
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return cell_at(a) < cell_at(b); });
   std::vector<uint32_t> pixels;
   std::vector<glm::dvec3> positions;
-  for (const size_t i : order)
-    pixels.push_back(covered[tile.indices[i]]), positions.push_back(tile.positions[i]);
+  for (const size_t i : order) {
+    pixels.push_back(covered[tile.indices[i]]);
+    positions.push_back(tile.positions[i]);
+  }
 
   const bool local_alone = shadows && shadows->shaded && shadows->shaded->local_alone;
   const uint32_t directional = shadows && !local_alone ? shadows->directional : 0;
@@ -115,8 +120,10 @@ Tally tally_tile(const TileOfPixels& tile, const std::vector<uint32_t>& covered,
         if (reaches && shadows)
           reaches = tally_shadow(*shadows, width, pixels[i], light, is_listed, tally, out);
         const bool lost = reaches && !is_listed;
-        out.lit_of_pixel[pixels[i]] += reaches, out.lost_of_pixel[pixels[i]] += lost;
-        tally.lit += reaches, tally.lost += lost;
+        out.lit_of_pixel[pixels[i]] += reaches;
+        out.lost_of_pixel[pixels[i]] += lost;
+        tally.lit += reaches;
+        tally.lost += lost;
       }
     }
   }
@@ -162,7 +169,9 @@ double add_tile(const Tile& tile, const uint32_t* begin, const uint32_t* end, Li
     if (!listed.contains(light)) sum.lost += pixels;
   }
   const uint64_t pairs = uint64_t(end - begin) * tile.covered;
-  sum.listed += pairs, sum.lit += lit, sum.perfect += tile.lit_pixels.size() * tile.covered;
+  sum.listed += pairs;
+  sum.lit += lit;
+  sum.perfect += tile.lit_pixels.size() * tile.covered;
   if (lit) ++sum.tiles_lit;
   if (!lit && pairs) ++sum.tiles_unlit;
   return lit ? double(pairs) / double(lit) : 0;
@@ -203,9 +212,14 @@ LitPairs count_pairs(const View& view, const std::vector<float>& depth, const st
   for_each_tile(view.width, covered, position_of, lights, [&](const TileOfPixels& tile) {
     const Tally tally = tally_tile(tile, covered, view.width, lights, lists, shadows, masks, out);
     std::lock_guard lock(adding);
-    out.listed += tally.listed, out.lit += tally.lit, out.lost += tally.lost, out.wrong += tally.wrong;
-    out.hidden += tally.hidden, out.either += tally.either;
-    out.leaked += tally.leaked, out.acned += tally.acned;
+    out.listed += tally.listed;
+    out.lit += tally.lit;
+    out.lost += tally.lost;
+    out.wrong += tally.wrong;
+    out.hidden += tally.hidden;
+    out.either += tally.either;
+    out.leaked += tally.leaked;
+    out.acned += tally.acned;
   });
   return out;
 }
@@ -236,7 +250,8 @@ LitBlocks find_lit_blocks(const View& view, const std::vector<float>& depth,
   constexpr int side = LitBlocks::side;
   LitBlocks out{.blocks_x = (view.width + side - 1) / side, .blocks_y = (view.height + side - 1) / side};
   const int count = out.blocks_x * out.blocks_y;
-  out.covered.resize(count), out.lit.resize(count);
+  out.covered.resize(count);
+  out.lit.resize(count);
   parallel_for(count, [&](int b) {
     const auto positions = covered_positions(view, depth, b % out.blocks_x * side, b / out.blocks_x * side);
     out.covered[b] = uint32_t(positions.size());
@@ -265,7 +280,8 @@ ListAccuracy measure_lists(const LitBlocks& blocks, int tile, const ListedLights
   }
   if (ratios.empty()) return out;
   std::sort(ratios.begin(), ratios.end());
-  out.p99 = ratios[(ratios.size() * 99 + 99) / 100 - 1], out.worst = ratios.back();
+  out.p99 = ratios[(ratios.size() * 99 + 99) / 100 - 1];
+  out.worst = ratios.back();
   return out;
 }
 

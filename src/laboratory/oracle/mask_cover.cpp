@@ -51,7 +51,8 @@ MaskCover::Range MaskCover::alpha_of_map(const TextureSlot& slot, const dvec2& u
   for (const double x : columns) {
     for (const double y : rows) {
       const double alpha = sampler.at(dvec2(x, y) / size, dvec2(0), dvec2(0)).a;
-      range.least = std::min(range.least, alpha), range.most = std::max(range.most, alpha);
+      range.least = std::min(range.least, alpha);
+      range.most = std::max(range.most, alpha);
     }
   }
   return range;
@@ -73,9 +74,12 @@ MaskCover::Range MaskCover::alpha(int instance, uint32_t triangle, const dvec3& 
   double alpha = m.base_color.a, factor_error = 0;
   if (!mesh.colors.empty()) {
     double color = 0, color_error = 0;
-    for (int k = 0; k < 3; ++k)
-      color += weights[k] * mesh.colors[v[k]].a, color_error += error[k] * std::abs(mesh.colors[v[k]].a);
-    factor_error = color_error * std::abs(alpha), alpha *= color;
+    for (int k = 0; k < 3; ++k) {
+      color += weights[k] * mesh.colors[v[k]].a;
+      color_error += error[k] * std::abs(mesh.colors[v[k]].a);
+    }
+    factor_error = color_error * std::abs(alpha);
+    alpha *= color;
   }
   Range range{1, 1};
   if (m.base_color_map.texture >= 0) {

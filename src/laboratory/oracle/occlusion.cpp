@@ -33,7 +33,8 @@ Occlusion::Occlusion(const Scene& scene, BlendedCasters by_blended)
     : scene_(scene), by_blended_(by_blended), masks_(scene), origin_(ray_origin(scene)) {
   const WorldBox box = world_box(scene);
   if (box.empty()) return;
-  middle_ = (box.min + box.max) * 0.5, diagonal_m_ = glm::length(box.max - box.min);
+  middle_ = (box.min + box.max) * 0.5;
+  diagonal_m_ = glm::length(box.max - box.min);
   vertex_error_m_ = std::max(rounded(box.min).error_m, rounded(box.max).error_m);
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
@@ -131,8 +132,12 @@ Occlusion::Met Occlusion::meet(int number, const RoundedPoint& light, const Roun
   for (int k = 0; k < 3; ++k) {
     weights[k] = side_of_edge(light, c[(k + 1) % 3], c[(k + 2) % 3], end);
     const int sign = weights[k].sign();
-    if (sign == 0) ++unsure, met.of_edge = k;
-    least = std::min(least, sign), most = std::max(most, sign);
+    if (sign == 0) {
+      ++unsure;
+      met.of_edge = k;
+    }
+    least = std::min(least, sign);
+    most = std::max(most, sign);
     if (least * most < 0) return {};
   }
   const bool crosses = from.sign() * to.sign() < 0;
@@ -149,11 +154,15 @@ Occlusion::Met Occlusion::meet(int number, const RoundedPoint& light, const Roun
       errors[k] = (weights[k].error + std::abs(shares[k]) * error) / (std::abs(sum) - error);
     }
   }
-  met.weights = shares, met.errors = errors;
+  met.weights = shares;
+  met.errors = errors;
   const CastingTriangle& t = numbers_[size_t(number)];
   const Cover cover = masks_.at(t.instance, t.triangle, shares, errors);
   if (cover == Cover::clear) return {};
-  if (cover == Cover::either) met.meeting = Meeting::unsure, met.of_edge = -1;
+  if (cover == Cover::either) {
+    met.meeting = Meeting::unsure;
+    met.of_edge = -1;
+  }
   return met;
 }
 
@@ -276,7 +285,8 @@ void Occlusion::sights(const Light& light, std::span<const Receiver* const> rece
       source = source_of(light, *r);
       if (!(glm::length(source.place - r->place.place) > r->gap_m)) continue;
       ends.push_back(end_of(light, source, *r));
-      box.min = glm::min(box.min, ends.back().place), box.max = glm::max(box.max, ends.back().place);
+      box.min = glm::min(box.min, ends.back().place);
+      box.max = glm::max(box.max, ends.back().place);
       reach = std::max(reach, reach_of(source, ends.back()));
     }
     // All ends as one that is known to within their distance: what it passes by, they do.
@@ -292,7 +302,10 @@ void Occlusion::sights(const Light& light, std::span<const Receiver* const> rece
   Corners own;
   for (size_t i = 0; i < receivers.size(); ++i) {
     const Receiver& r = *receivers[i];
-    if (r.own != known) own = corners_of(r.own), known = r.own;
+    if (r.own != known) {
+      own = corners_of(r.own);
+      known = r.own;
+    }
     answers[i] = through_veil(
         light, r,
         sight_of(light, r, own, last,

@@ -22,7 +22,8 @@ ivec2 cell_of(int number, int places) {
 }
 
 View enlarged(View view, int times) {
-  view.width *= times, view.height *= times;
+  view.width *= times;
+  view.height *= times;
   return view;
 }
 
@@ -89,7 +90,8 @@ static SeenSurfaces surfaces_of(const auto& seen) {
   for (const auto& s : seen) {
     of.covered += s.hit.has_value();
     if (!s.hit || std::ranges::count(known, s.hit->triangle) > 0) continue;
-    known.push_back(s.hit->triangle), triangles.push_back(s.hit->in_view);
+    known.push_back(s.hit->triangle);
+    triangles.push_back(s.hit->in_view);
   }
   of.surfaces = count_surfaces(std::move(triangles));
   return of;
@@ -110,7 +112,10 @@ std::vector<SeenSurfaces> AreaOracle::surfaces_at(std::span<const uint32_t> pixe
 std::vector<uint32_t> AreaOracle::lights_near(const std::vector<Seen>& seen) const {
   dvec3 least(INFINITY), most(-INFINITY);
   for (const Seen& s : seen)
-    if (s.hit) least = glm::min(least, s.position), most = glm::max(most, s.position);
+    if (s.hit) {
+      least = glm::min(least, s.position);
+      most = glm::max(most, s.position);
+    }
   std::vector<uint32_t> near;
   for (uint32_t i = 0; i < lights_.size(); ++i) {
     const ViewLight& light = lights_[i];

@@ -27,7 +27,10 @@ namespace {
 
 struct Box {
   explicit Box(const std::vector<glm::dvec3>& positions) {
-    for (const glm::dvec3& p : positions) low = glm::min(low, p), high = glm::max(high, p);
+    for (const glm::dvec3& p : positions) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
   }
 
   bool is_within_reach_of(const ViewLight& light) const {
@@ -79,8 +82,10 @@ void for_each_tile(int width, const std::vector<uint32_t>& pixels,
     const std::vector<uint32_t> near = lights_within_reach(lights, positions);
     for (const std::vector<uint32_t>& of_tile : group_by_tile(width, pixels_here)) {
       TileOfPixels tile;
-      for (const uint32_t i : of_tile)
-        tile.indices.push_back(of_region[i]), tile.positions.push_back(positions[i]);
+      for (const uint32_t i : of_tile) {
+        tile.indices.push_back(of_region[i]);
+        tile.positions.push_back(positions[i]);
+      }
       tile.lights = lights_within_reach(lights, near, tile.positions);
       body(tile);
     }

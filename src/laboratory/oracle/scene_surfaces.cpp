@@ -31,7 +31,10 @@ double decoded(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055
 const std::array<double, 256>& values_of_bytes(bool srgb) {
   static const auto tables = [] {
     std::array<std::array<double, 256>, 2> made{};
-    for (int i = 0; i < 256; ++i) made[0][i] = i / 255.0, made[1][i] = decoded(i / 255.0);
+    for (int i = 0; i < 256; ++i) {
+      made[0][i] = i / 255.0;
+      made[1][i] = decoded(i / 255.0);
+    }
     return made;
   }();
   return tables[srgb];
@@ -57,7 +60,8 @@ int wrapped(double i, int size, Wrap wrap) {
 
 TextureSampler::TextureSampler(const Bitmap& bitmap, const Texture& texture)
     : bitmap_(bitmap), texture_(texture) {
-  columns_.sizes = {bitmap.width}, rows_.sizes = {bitmap.height};
+  columns_.sizes = {bitmap.width};
+  rows_.sizes = {bitmap.height};
   while (has_levels(texture.min_filter) && std::max(columns_.sizes.back(), rows_.sizes.back()) > 1) {
     for (Side* side : {&columns_, &rows_}) side->sizes.push_back(std::max(side->sizes.back() / 2, 1));
   }
@@ -205,13 +209,17 @@ Surface SceneSurfaces::surface_at(const TriangleInView& triangle, const dvec2& p
   const Mesh& mesh = scene_.meshes[instance.mesh];
   const Material& m = scene_.materials[mesh.material];
   Surface s;
-  s.unlit = m.unlit, s.mask = mask_of(instance);
+  s.unlit = m.unlit;
+  s.mask = mask_of(instance);
   s.base_color = dvec3(color_of(triangle, w));
   if (m.unlit) return s;
-  s.metallic = m.metallic, s.roughness = m.roughness, s.emissive = m.emissive;
+  s.metallic = m.metallic;
+  s.roughness = m.roughness;
+  s.emissive = m.emissive;
   if (m.metallic_roughness_map.texture >= 0) {
     const dvec4 texel = sampled(m.metallic_roughness_map, triangle, w);
-    s.roughness *= texel.g, s.metallic *= texel.b;
+    s.roughness *= texel.g;
+    s.metallic *= texel.b;
   }
   if (m.occlusion_map.texture >= 0)
     s.occlusion = 1 + m.occlusion_strength * (sampled(m.occlusion_map, triangle, w).r - 1);
@@ -232,7 +240,8 @@ Surface SceneSurfaces::surface_at(const TriangleInView& triangle, const dvec2& p
       t = glm::normalize(t);
       const dvec3 bitangent = glm::cross(n, t) * tangent.w * (mirrored ? -1.0 : 1.0);
       dvec3 mapped = dvec3(sampled(map, triangle, w)) * 2.0 - 1.0;
-      mapped.x *= scale, mapped.y *= scale;
+      mapped.x *= scale;
+      mapped.y *= scale;
       n = glm::normalize(mapped.x * t + mapped.y * bitangent + mapped.z * n);
     }
     return back ? -n : n;
@@ -244,10 +253,12 @@ Surface SceneSurfaces::surface_at(const TriangleInView& triangle, const dvec2& p
   if (m.specular_map.texture >= 0) s.f90 *= sampled(m.specular_map, triangle, w).a;
   if (m.specular_color_map.texture >= 0) color_of_f0 *= dvec3(sampled(m.specular_color_map, triangle, w));
   s.f0 = glm::min(color_of_f0 * root * root, dvec3(1)) * s.f90;
-  s.subsurface_color = m.model.subsurface_color, s.roll_off = m.model.roll_off,
+  s.subsurface_color = m.model.subsurface_color;
+  s.roll_off = m.model.roll_off;
   s.minnaert_k = m.model.minnaert_k;
   if (m.clearcoat == 0) return s;
-  s.coat = m.clearcoat, s.coat_roughness = m.clearcoat_roughness;
+  s.coat = m.clearcoat;
+  s.coat_roughness = m.clearcoat_roughness;
   if (m.clearcoat_map.texture >= 0) s.coat *= sampled(m.clearcoat_map, triangle, w).r;
   if (m.clearcoat_roughness_map.texture >= 0)
     s.coat_roughness *= sampled(m.clearcoat_roughness_map, triangle, w).g;

@@ -54,13 +54,16 @@ SeenPairs::SeenPairs(const Occlusion& occlusion, const ShownSurfaces& shown, con
       if (!lights.casting[light]) continue;
       int last = -1;
       for (const std::vector<uint32_t>& block : blocks) {
-        asked.clear(), places.clear();
+        asked.clear();
+        places.clear();
         for (const uint32_t i : block) {
           if (in_range && !is_lit(lights.in_view[light], tile.positions[i])) continue;
           if (receivers[i].own.instance < 0)
             entries[i].push_back(light << 2 | uint32_t(Sight::either));
-          else
-            asked.push_back(&receivers[i]), places.push_back(i);
+          else {
+            asked.push_back(&receivers[i]);
+            places.push_back(i);
+          }
         }
         answers.resize(asked.size());
         const Light& source = *lights.casting[light];

@@ -70,7 +70,8 @@ TriangleDepth::TriangleDepth(const std::array<glm::vec4, 3>& clip, const std::ar
                              const std::array<SnappedPoint, 3>& snapped, const PixelGrid& grid) {
   const auto [least, greatest] =
       std::minmax({depth_in_view(clip[0]), depth_in_view(clip[1]), depth_in_view(clip[2])});
-  least_ = least, greatest_ = greatest;
+  least_ = least;
+  greatest_ = greatest;
   find_box(snapped, grid);
   find_snapped(part, snapped);
   find_exact(clip, grid);
@@ -83,7 +84,8 @@ void TriangleDepth::find_box(const std::array<SnappedPoint, 3>& p, const PixelGr
   const auto last = [](int64_t units, int size) {
     return int(std::min<int64_t>((units - 128) >> 8, size - 1));
   };
-  box_low_ = {first(left), first(bottom)}, box_high_ = {last(right, grid.width), last(top, grid.height)};
+  box_low_ = {first(left), first(bottom)};
+  box_high_ = {last(right, grid.width), last(top, grid.height)};
 }
 
 void TriangleDepth::find_snapped(const std::array<glm::vec4, 3>& part, const std::array<SnappedPoint, 3>& p) {
@@ -92,11 +94,13 @@ void TriangleDepth::find_snapped(const std::array<glm::vec4, 3>& part, const std
   const Real ax = Real(p[1].x - p[0].x) / 256, ay = Real(p[1].y - p[0].y) / 256,
              bx = Real(p[2].x - p[0].x) / 256, by = Real(p[2].y - p[0].y) / 256, area = ax * by - bx * ay;
   Plane& plane = snapped_;
-  plane.at_x = Real(p[0].x) / 256, plane.at_y = Real(p[0].y) / 256, plane.depth = z[0];
+  plane.at_x = Real(p[0].x) / 256;
+  plane.at_y = Real(p[0].y) / 256;
+  plane.depth = z[0];
   plane.right = ((z[1] - z[0]) * by - (z[2] - z[0]) * ay) / area;
   plane.up = ((z[2] - z[0]) * ax - (z[1] - z[0]) * bx) / area;
   // A difference of products, the area, a quotient and a product.
-  plane.right_bound = 6 * float_error * std::abs(plane.right),
+  plane.right_bound = 6 * float_error * std::abs(plane.right);
   plane.up_bound = 6 * float_error * std::abs(plane.up);
   plane.size = std::max({std::abs(z[0]), std::abs(z[1]), std::abs(z[2])});
 }
@@ -108,10 +112,10 @@ void TriangleDepth::find_exact(const std::array<glm::vec4, 3>& clip, const Pixel
   const Vector float_a = in_float(a), float_b = in_float(b);
   const Product n = product_of(a, b, float_a, float_b);
   const auto [distance, distance_bound] = distance_from_eye(v, n);
-  const Real least_distance = distance - distance_bound, size = size_of(v[0]) + size_of(v[1]) + size_of(v[2]);
-  if (size > 0x1p61L || distance + distance_bound < 0x1p-91L || least_distance > 0x1p91L) return;
+  const Real min_distance = distance - distance_bound, size = size_of(v[0]) + size_of(v[1]) + size_of(v[2]);
+  if (size > 0x1p61L || distance + distance_bound < 0x1p-91L || min_distance > 0x1p91L) return;
   shown_ = Shown::either;
-  if (!(least_distance > 0)) {
+  if (!(min_distance > 0)) {
     exact_.right_bound = exact_.up_bound = INFINITY;
     return;
   }
@@ -129,7 +133,7 @@ void TriangleDepth::find_exact(const std::array<glm::vec4, 3>& clip, const Pixel
     const Real sum_bound = std::abs(z0) * n.bound[i] + more_bound +
                            4 * float_error * (std::abs(z0 * n.value[i]) + std::abs(more));
     gradient[i] = sum / turn / pixels;
-    bound[i] = (sum_bound + std::abs(sum) * distance_bound / distance) / least_distance / pixels +
+    bound[i] = (sum_bound + std::abs(sum) * distance_bound / distance) / min_distance / pixels +
                2 * float_error * std::abs(gradient[i]);
   }
   int from = 0;
@@ -138,14 +142,19 @@ void TriangleDepth::find_exact(const std::array<glm::vec4, 3>& clip, const Pixel
   }
   const glm::vec4& c = clip[from];
   Plane& plane = exact_;
-  plane.at_x = (Real(c.x) / c.w + 1) * grid.width / 2, plane.at_y = (Real(c.y) / c.w + 1) * grid.height / 2;
-  plane.depth = Real(c.z) / c.w, plane.size = std::abs(plane.depth);
-  plane.right = gradient[0], plane.up = gradient[1], plane.right_bound = bound[0], plane.up_bound = bound[1];
+  plane.at_x = (Real(c.x) / c.w + 1) * grid.width / 2;
+  plane.at_y = (Real(c.y) / c.w + 1) * grid.height / 2;
+  plane.depth = Real(c.z) / c.w;
+  plane.size = std::abs(plane.depth);
+  plane.right = gradient[0];
+  plane.up = gradient[1];
+  plane.right_bound = bound[0];
+  plane.up_bound = bound[1];
   const Real steep = std::abs(gradient[0]) + std::abs(gradient[1]), steep_bound = bound[0] + bound[1];
   const Real range = 512 * (greatest_ - least_),
              range_bound = 2048 * float_error * std::max(std::abs(greatest_), std::abs(least_)) +
                            2 * float_error * steep;
-  const bool in_reach = size < 0x1p59L && least_distance > 0x1p-89L && distance + distance_bound < 0x1p89L;
+  const bool in_reach = size < 0x1p59L && min_distance > 0x1p-89L && distance + distance_bound < 0x1p89L;
   if (in_reach && steep + steep_bound < range - range_bound) shown_ = Shown::exact;
   if (steep - steep_bound > range + range_bound) shown_ = Shown::snapped;
 }
@@ -172,7 +181,8 @@ DepthAt TriangleDepth::in_plane(const Plane& plane, const SnappedPoint& sample) 
   Real low = least_, high = greatest_;
   if (std::isfinite(depth) && std::isfinite(bound)) {
     const Real held = std::clamp(depth, least_, greatest_);
-    low = std::max(held - bound, least_), high = std::min(held + bound, greatest_);
+    low = std::max(held - bound, least_);
+    high = std::min(held + bound, greatest_);
   }
   return {double((low + high) / 2), double((high - low) / 2 + of_clamp)};
 }

@@ -19,10 +19,11 @@ TriangleTree::TriangleTree(const std::vector<Corners>& triangles) : order_(trian
     WorldBox box{glm::dvec3(1e300), glm::dvec3(-1e300)};
     for (int i = first; i < first + count; ++i) {
       const WorldBox& of = boxes_[size_t(order_[size_t(i)])];
-      box.min = glm::min(box.min, of.min), box.max = glm::max(box.max, of.max);
+      box.min = glm::min(box.min, of.min);
+      box.max = glm::max(box.max, of.max);
     }
     nodes_[at].box = box;
-    if (count <= most_in_leaf) continue;
+    if (count <= max_in_leaf) continue;
     const glm::dvec3 size = box.max - box.min;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const auto place = [&](int t) {
@@ -32,7 +33,8 @@ TriangleTree::TriangleTree(const std::vector<Corners>& triangles) : order_(trian
     const auto begin = order_.begin() + first;
     std::nth_element(begin, begin + count / 2, begin + count,
                      [&](int a, int b) { return place(a) < place(b); });
-    nodes_[at].first = int(nodes_.size()), nodes_[at].count = 0;
+    nodes_[at].first = int(nodes_.size());
+    nodes_[at].count = 0;
     nodes_.push_back({.first = first, .count = count / 2});
     nodes_.push_back({.first = first + count / 2, .count = count - count / 2});
   }

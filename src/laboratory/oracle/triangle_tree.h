@@ -26,7 +26,8 @@ class TriangleTree {
       const Node& node = nodes_[size_t(stack[--height])];
       if (!meets(node.box, from, to, reach)) continue;
       if (node.count == 0) {
-        stack[height++] = node.first + 1, stack[height++] = node.first;
+        stack[height++] = node.first + 1;
+        stack[height++] = node.first;
         continue;
       }
       for (int i = 0; i < node.count; ++i) {
@@ -47,7 +48,10 @@ class TriangleTree {
     while (height > 0) {
       const Node& node = nodes_[size_t(stack[--height])];
       if (!shaft.meets(node.box)) continue;
-      if (node.count == 0) stack[height++] = node.first + 1, stack[height++] = node.first;
+      if (node.count == 0) {
+        stack[height++] = node.first + 1;
+        stack[height++] = node.first;
+      }
       for (int i = 0; i < node.count; ++i) {
         const int triangle = order_[size_t(node.first + i)];
         if (shaft.meets(boxes_[size_t(triangle)])) visit(triangle);
@@ -78,7 +82,7 @@ class TriangleTree {
     int count_ = 0;
   };
 
-  static constexpr int depth_limit = 64, most_in_leaf = 4;
+  static constexpr int depth_limit = 64, max_in_leaf = 4;
   struct Node {
     WorldBox box{};
     int first = 0, count = 0;  // range in order_; without triangles the first of two nodes

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int least_runs = 5;
+constexpr int min_runs = 5;
 
 struct Row {
   const json *row = nullptr, *view = nullptr;
@@ -79,10 +79,10 @@ Interval over(const Interval& a, const Interval& b) {
 
 void compare_times(const Row& now, const Row& earlier, AgainstResult& result) {
   const int runs = now.row->at("frame_ms").at("runs"), before = earlier.row->at("frame_ms").at("runs");
-  if (std::min(runs, before) < least_runs) {
+  if (std::min(runs, before) < min_runs) {
     result.told.push_back(
         fmt::format("{}: times are not compared: {} and {} frames make no interval (--frames {})", now.name,
-                    runs, before, least_runs));
+                    runs, before, min_runs));
     return;
   }
   const Interval a = time_of(*now.row), b = time_of(*earlier.row);

@@ -53,7 +53,8 @@ const Curve* leader_at(const Chart& chart, double x) {
   for (const Curve& curve : chart.curves) {
     for (const CurvePoint& point : curve.points) {
       if (point.x != x || !point.exact || (best && point.ms >= best_ms)) continue;
-      best = &curve, best_ms = point.ms;
+      best = &curve;
+      best_ms = point.ms;
     }
   }
   return best;

@@ -26,27 +26,34 @@ std::string view_stem(const CompareReport& report) {
 CompareReport without_images(const CompareReport& report) {
   CompareReport rest;
   rest.scene = report.scene;
-  rest.width = report.width, rest.height = report.height, rest.ambient = report.ambient;
-  rest.cl_device = report.cl_device, rest.gl_device = report.gl_device, rest.commit = report.commit;
-  rest.reference = report.reference, rest.reference_pixels = report.reference_pixels;
+  rest.width = report.width;
+  rest.height = report.height;
+  rest.ambient = report.ambient;
+  rest.cl_device = report.cl_device;
+  rest.gl_device = report.gl_device;
+  rest.commit = report.commit;
+  rest.reference = report.reference;
+  rest.reference_pixels = report.reference_pixels;
   rest.rows = report.rows;
   rest.reference_surfaces = report.reference_surfaces;
-  rest.brightest = report.brightest, rest.covered_pixels = report.covered_pixels;
+  rest.brightest = report.brightest;
+  rest.covered_pixels = report.covered_pixels;
   rest.own_surfaces = report.own_surfaces;
   rest.reference_errors = report.reference_errors;
   rest.path_memory = report.path_memory;
   rest.exposure = report.exposure;
   rest.warnings = report.warnings;
-  rest.lights_kept = report.lights_kept, rest.ranges_of = report.ranges_of;
+  rest.lights_kept = report.lights_kept;
+  rest.ranges_of = report.ranges_of;
   return rest;
 }
 
-ReportView finished_view(const fs::path& folder, const CompareReport& report, bool exr, size_t most_bytes) {
+ReportView finished_view(const fs::path& folder, const CompareReport& report, bool exr, size_t max_bytes) {
   ReportView view;
   view.verdict = verdict(report);
   view.choices = choices(report);
   view.figures = remarks(report);
-  view.pictures = save_pictures(folder, report, exr, most_bytes);
+  view.pictures = save_pictures(folder, report, exr, max_bytes);
   view.report = without_images(report);
   return view;
 }

@@ -110,7 +110,7 @@ std::string surfaces_figure(const CompareReport& report) {
 }
 
 // The share of pixels at which the pictures as displayed may differ, for nobody to tell them apart.
-constexpr double most_visible = 1e-4;
+constexpr double max_visible = 1e-4;
 
 bool looks_exact(const RunResult& row) {
   const ImageError* error = light_error(row);
@@ -118,7 +118,7 @@ bool looks_exact(const RunResult& row) {
       row.refused.empty() && row.nan_pixels == 0 &&
       (!row.pairs || (row.pairs->wrong == 0 && row.pairs->lost == row.overflow && shadow_faults(row) == 0));
   return faultless &&
-         (is_exact(row) || (error && error->displayed && error->displayed->visible <= most_visible));
+         (is_exact(row) || (error && error->displayed && error->displayed->visible <= max_visible));
 }
 
 // How sure it is that `row` is the fastest of those that `counts` accepts. Five frames or more hold the
@@ -195,7 +195,7 @@ uint64_t shadow_faults(const RunResult& row) {
 }
 
 bool passes_gates(const RunResult& row) {
-  return row.refused.empty() && row.nan_pixels == 0 && row.unshaded.value_or(0) <= most_unshaded &&
+  return row.refused.empty() && row.nan_pixels == 0 && row.unshaded.value_or(0) <= max_unshaded &&
          (!row.pairs || (row.pairs->lost == 0 && row.pairs->wrong == 0 && shadow_faults(row) == 0));
 }
 
@@ -304,15 +304,16 @@ std::vector<Choice> choices(const CompareReport& report) {
         alike == row ? "nothing faster is indistinguishable from every light" : visible_in_words(*alike);
     if (alike->overflow) choice.why += "; it has " + failed_gates(*alike);
     const std::string rule = fmt::format("FLIP as displayed may be above {} at one pixel of {}", visible_flip,
-                                         with_commas(uint64_t(1 / most_visible)));
+                                         with_commas(uint64_t(1 / max_visible)));
     choice.sure = alike == row ? rule : rule + "; " + choice.sure;
   }
   const RunResult *least = nullptr, *next = nullptr;
   for (const RunResult& other : report.rows) {
     if (!is_exact(other) || other.memory_total == 0) continue;
-    if (!least || other.memory_total < least->memory_total)
-      next = least, least = &other;
-    else if (!next || other.memory_total < next->memory_total)
+    if (!least || other.memory_total < least->memory_total) {
+      next = least;
+      least = &other;
+    } else if (!next || other.memory_total < next->memory_total)
       next = &other;
   }
   if (least) {

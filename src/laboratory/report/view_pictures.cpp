@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Png = std::vector<uint8_t>;
 
-constexpr int most_reduced = 16;
+constexpr int max_reduced = 16;
 
 bool has_image(const CompareReport& report, size_t row) { return !image_of(report, row).pixels.empty(); }
 
@@ -33,7 +33,10 @@ uint32_t heat_top(const CompareReport& report) {
   const auto consider = [&](const std::vector<uint32_t>& counts) {
     uint32_t low = ~0u, high = 0;
     for (uint32_t count : counts) {
-      if (count) low = std::min(low, count), high = std::max(high, count);
+      if (count) {
+        low = std::min(low, count);
+        high = std::max(high, count);
+      }
     }
     if (low >= high) flat_top = std::max(flat_top, high);
     if (low < high) top = std::max({top, percentile_99(counts), 1u});
@@ -133,16 +136,16 @@ size_t bytes_in_page(const ReportPictures& pictures) {
 }
 
 ReportPictures save_pictures(const fs::path& folder, const CompareReport& report, bool exr,
-                             size_t most_bytes) {
+                             size_t max_bytes) {
   make_folder(folder);
   ReportPictures pictures = make_pictures(report, 1);
   write_pictures(folder, report, pictures);
   if (exr) write_exr_files(folder, report);
-  while (most_bytes && pictures.reduced < most_reduced && bytes_in_page(pictures) > most_bytes) {
+  while (max_bytes && pictures.reduced < max_reduced && bytes_in_page(pictures) > max_bytes) {
     // Bytes grow with the area, or slightly more slowly.
-    const double excess = double(bytes_in_page(pictures)) / double(most_bytes);
+    const double excess = double(bytes_in_page(pictures)) / double(max_bytes);
     const int next = std::max(pictures.reduced + 1, int(pictures.reduced * std::sqrt(excess)));
-    pictures = make_pictures(report, std::min(next, most_reduced));
+    pictures = make_pictures(report, std::min(next, max_reduced));
   }
   return pictures;
 }

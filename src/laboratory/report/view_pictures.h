@@ -40,8 +40,8 @@ ReportPictures make_pictures(const CompareReport& report, int reduced);
 size_t bytes_in_page(const ReportPictures& pictures);
 
 // Writes the pictures (report.h), with .exr files if requested, and returns what a page of at most
-// `most_bytes` shows: reduced as far as necessary, and at most 16 times. 0: no limit.
+// `max_bytes` shows: reduced as far as necessary, and at most 16 times. 0: no limit.
 ReportPictures save_pictures(const std::filesystem::path& folder, const CompareReport& report, bool exr,
-                             size_t most_bytes);
+                             size_t max_bytes);
 
 }  // namespace lightgrid

@@ -78,7 +78,8 @@ void orthographic_behind_the_eye(Check& c) {
   const CullView view = view_through(box(5, -50, 50), 127, 73);
   std::vector<CullLight> lights;
   for (int i = 0; i < 60; ++i) lights.push_back(point({i % 7 - 3, i % 5 - 2, 48 - 1.6 * i}, 1 + i % 3));
-  c.grid(view, lights, {{-40, -20}}), c.grid(view, lights, {{-10, 10}});
+  c.grid(view, lights, {{-40, -20}});
+  c.grid(view, lights, {{-10, 10}});
   DepthImage depth;
   for (int i = 0; i < 127 * 73; ++i) depth.values.push_back(float(depth_at(view, i % 90 - 45)));
   c.bounds(view, depth, {});
@@ -87,7 +88,8 @@ void orthographic_behind_the_eye(Check& c) {
 
 void orthographic_off_centre(Check& c) {
   Lens lens = box(2, 0.1, 1000);
-  lens.shift_x = 4000, lens.shift_y = -900;
+  lens.shift_x = 4000;
+  lens.shift_y = -900;
   lights_of_all_kinds(c, view_through(lens, 127, 73));
 }
 
@@ -120,7 +122,8 @@ void huge_near(Check& c) {
   std::vector<CullLight> lights;
   for (int i = 0; i < 100; ++i)
     lights.push_back(point({(i % 10 - 5) * 200, (i / 10 - 5) * 200, -1.5e6}, 150));
-  c.grid(view, lights, {{1.4e6f, 1.6e6f}}), c.grid(view, lights, {{1.5e6f, 1.5e6f}});
+  c.grid(view, lights, {{1.4e6f, 1.6e6f}});
+  c.grid(view, lights, {{1.5e6f, 1.5e6f}});
 }
 
 void inside_a_light(Check& c) {
@@ -146,14 +149,16 @@ void behind_and_reaching_in(Check& c) {
   std::vector<CullLight> lights;
   for (int i = 0; i < 40; ++i)
     lights.push_back(point({(i % 8 - 4) * 2.0, (i / 8 - 2) * 2.0, 3}, 3.05 + i * 0.2));
-  c.grid(sixty(), lights, {{0.1f, 50}}), c.grid(field_of_view(170, 127, 73), lights, {{0.1f, 50}});
+  c.grid(sixty(), lights, {{0.1f, 50}});
+  c.grid(field_of_view(170, 127, 73), lights, {{0.1f, 50}});
 }
 
 void beyond_far(Check& c) {
   const CullView view = view_through({.near = 0.1, .far = 100}, 127, 73);
   const std::vector<CullLight> lights = {point({0, 0, -150}, 60), point({0, 0, -150}, 49),
                                          point({0, 0, -1e4}, 9950)};
-  c.grid(view, lights, {{90, 100}}), c.grid(view, lights, {every_distance});
+  c.grid(view, lights, {{90, 100}});
+  c.grid(view, lights, {every_distance});
 }
 
 CullView sliced(CullView view) {
@@ -231,8 +236,10 @@ void fields_to_179_9(Check& c) {
     };
     for (int i = -3; i <= 3; ++i) {
       for (int repeat = 0; repeat < 4; ++repeat) {
-        add(axis_x, axis_y + i, 0, 1), add(axis_x + 1, axis_y + i, 0, -1);
-        add(axis_x + i, axis_y, 1, 1), add(axis_x + i, axis_y + 1, 1, -1);
+        add(axis_x, axis_y + i, 0, 1);
+        add(axis_x + 1, axis_y + i, 0, -1);
+        add(axis_x + i, axis_y, 1, 1);
+        add(axis_x + i, axis_y + 1, 1, -1);
       }
     }
     verify::add(lights, grazing_lights(view, depth, 200, true, random));
@@ -247,7 +254,8 @@ void jittered(Check& c) {
   const CullView still = field_of_view(60, 64, 48);
   for (const auto& [x, y] : offsets) {
     CullView view = still;
-    view.clip_from_view[2][0] += 2 * x / view.width, view.clip_from_view[2][1] += 2 * y / view.height;
+    view.clip_from_view[2][0] += 2 * x / view.width;
+    view.clip_from_view[2][1] += 2 * y / view.height;
     const auto distance = [](int px, int py) { return 2 + (px * 5 + py * 3) % 20; };
     const DepthImage depth = depth_of(view, distance);
     // Tiny lights at the pixels' own positions: a matrix off by a fraction of a pixel moves outer pixels to
@@ -326,7 +334,8 @@ void eye_1e26_m_off(Check& c) {
       for (uint32_t i = 0; i < lights.size(); ++i) {
         if (!(lights[i].radius_m > 1.01 * glm::distance(lights[i].position, eye) + 1000)) continue;
         for (size_t cell = 0; cell < grid.cells.size(); ++cell) {
-          c.contacts(1), c.trials(1);
+          c.contacts(1);
+          c.trials(1);
           if (!std::ranges::binary_search(list_of(grid, cell), i))
             c.lost("{}: cell {} lost light {}, which reaches everything", to_string(options), cell, i);
         }

@@ -42,7 +42,8 @@ Tile tile_at(const View& view, const GroupImage& image, size_t pixel) {
       const float depth = image.depths[size_t(py) * size_t(view.width) + size_t(px)];
       if (!(depth > 0)) continue;
       const double distance = -position_from_depth(view, px, py, depth).z;
-      tile.near = std::min(tile.near, distance), tile.far = std::max(tile.far, distance);
+      tile.near = std::min(tile.near, distance);
+      tile.far = std::max(tile.far, distance);
     }
   }
   return tile;
@@ -71,10 +72,10 @@ std::vector<uint32_t> least(std::span<const uint32_t> all, int cap, const Key& k
 // another.
 bool as_dim(std::span<const uint32_t> kept, std::span<const uint32_t> expected, const auto& key) {
   if (kept.size() != expected.size()) return false;
-  double most_kept = 0, most_expected = 0;
-  for (const uint32_t light : kept) most_kept = std::max(most_kept, key(light));
-  for (const uint32_t light : expected) most_expected = std::max(most_expected, key(light));
-  return most_kept <= most_expected * 1.001 + 1e-9 || std::isinf(most_expected);
+  double max_kept = 0, max_expected = 0;
+  for (const uint32_t light : kept) max_kept = std::max(max_kept, key(light));
+  for (const uint32_t light : expected) max_expected = std::max(max_expected, key(light));
+  return max_kept <= max_expected * 1.001 + 1e-9 || std::isinf(max_expected);
 }
 
 struct CapTrials {
@@ -95,7 +96,10 @@ CapTrials compared(const Scene& scene, const View& view, const GroupImage& whole
     trials.shortened += kept.size() < all.size();
     const size_t here = pixel / size_t(view.width) / size_t(whole.tile) * 100000 +
                         pixel % size_t(view.width) / size_t(whole.tile);
-    if (here != tile_of) tile = tile_at(view, whole, pixel), tile_of = here;
+    if (here != tile_of) {
+      tile = tile_at(view, whole, pixel);
+      tile_of = here;
+    }
     const auto by_index = [](uint32_t i) { return double(i); };
     const auto by_distance = [&](uint32_t i) { return glm::dot(lights[i].position, lights[i].position); };
     const auto by_dimness = [&](uint32_t i) { return dimness(view, tile, lights[i]); };
@@ -224,7 +228,10 @@ void cut_and_turned_views(Check& c) {
   views.push_back(shadow_view({-3, 1.5, 2}, {0, 0.3, 0}, 33, 17));
   views.push_back(shadow_view({0, 6, 0.1}, {0, 0, 0}, 33, 17, 0.5));
   Camera camera = look_at({3, 2.5, 3.5}, {0, 0.3, 0});
-  camera.orthographic = true, camera.half_height_m = 2, camera.near_m = -20, camera.far_m = 30;
+  camera.orthographic = true;
+  camera.half_height_m = 2;
+  camera.near_m = -20;
+  camera.far_m = 30;
   views.push_back(make_view(camera, 47, 35));
   capped(c, scene, views, {4});
 }

@@ -42,7 +42,8 @@ Scan scan_tile(const CullView& view, const DepthImage& depth, int tile, size_t i
           scan.invalid = true;
         else if (value != depth_of_nothing(view)) {
           const double distance = distance_at(view, value);
-          scan.near = std::min(scan.near, distance), scan.far = std::max(scan.far, distance);
+          scan.near = std::min(scan.near, distance);
+          scan.far = std::max(scan.far, distance);
         }
       }
     }
@@ -139,7 +140,8 @@ std::vector<CullerOptions> every_tile() { return {{.tile = 16}, {.tile = 8}, {.t
 
 std::vector<CullerOptions> Check::in_both_shapes(const CullerOptions& options) const {
   CullerOptions lanes = options, group = options;
-  lanes.shape = KernelShape::lanes, group.shape = KernelShape::group;
+  lanes.shape = KernelShape::lanes;
+  group.shape = KernelShape::group;
   if (!engine.has_both_shapes()) return {lanes};
   return {lanes, group};
 }
@@ -218,7 +220,10 @@ void Check::hold_between(const CullView& view, std::span<const OracleLight> ligh
         fail(words(i, cell, light, "lists, which cannot touch it,"));
     }
     trials(touching[i].size() + list.size());
-    if (counts) listed_ += list.size(), touching_ += touching[i].size();
+    if (counts) {
+      listed_ += list.size();
+      touching_ += touching[i].size();
+    }
   }
 }
 

@@ -44,13 +44,17 @@ void awkward_size(Check& c, int width, int height) {
   c.pixels(view, lights, depth, every_tile());
 }
 void one_pixel_image(Check& c) { awkward_size(c, 1, 1); }
-void one_row_image(Check& c) { awkward_size(c, 17, 1), awkward_size(c, 1, 33); }
+void one_row_image(Check& c) {
+  awkward_size(c, 17, 1);
+  awkward_size(c, 1, 33);
+}
 
 // Compares the image's tiles with those of the larger image that it is cut from.
 void odd_size(Check& c) {
   const CullView large = field_of_view(60, 1296, 736), cut = [&] {
     CullView view = large;
-    view.width = 1279, view.height = 721;
+    view.width = 1279;
+    view.height = 721;
     return view;
   }();
   Random random(4);
@@ -72,7 +76,9 @@ void viewport(Check& c) {
   Random random(5);
   const CullView whole = field_of_view(60, 130, 90), part = field_of_view(60, 71, 37);
   DepthImage inside = scattered_depth(whole, random), cropped;
-  inside.row_pixels = 130, inside.x = 19, inside.y = 23;
+  inside.row_pixels = 130;
+  inside.x = 19;
+  inside.y = 23;
   for (int y = 0; y < 37; ++y)
     for (int x = 0; x < 71; ++x) cropped.values.push_back(inside.values[size_t(y + 23) * 130 + x + 19]);
   const auto lights = scattered_lights(part, 100, true, random);

@@ -245,7 +245,8 @@ void position_from_depth(Check& c) {
       DepthImage depth = rounded_depth(view, format, 10);
       for (int i = 0; i < 64 * 64; ++i) {  // each tile shows what its first pixel does
         const int first = i / 64 / 8 * 8 * 64 + i % 64 / 8 * 8;
-        depth.values[i] = depth.values[first], depth.distances[i] = depth.distances[first];
+        depth.values[i] = depth.values[first];
+        depth.distances[i] = depth.distances[first];
       }
       const auto found = c.engine.depth_bounds({.tile = 8, .depth_format = format.format}, view, depth);
       for (int tile = 0; tile < 64; ++tile) {

@@ -234,7 +234,8 @@ class DeviceEngine : public CullEngine {
       if (renderer.gl) reset_gl_state();
       const Frame frame = draw_frame(technique, v);
       GroupImage& image = images.emplace_back();
-      image.lights = v.plan.lights.local, image.tile = v.plan.settings[setting::tile];
+      image.lights = v.plan.lights.local;
+      image.tile = v.plan.settings[setting::tile];
       image.pixels = read_pixels(v, frame.image);
       image.depths = depths_of(v, frame);
       image.lists =
@@ -288,13 +289,13 @@ class DeviceEngine : public CullEngine {
 
   using Key = std::tuple<CullTest, DepthBoundsMode, KernelShape, int, DepthFormat, int, bool, int, bool, bool,
                          int, GridLists>;
-  static constexpr size_t most_cullers = 64;  // each has its own buffers
+  static constexpr size_t max_cullers = 64;  // each has its own buffers
 
   LightCuller& culler_of(CullerOptions o, const CullView& view, int samples = 1) {
     o.samples = samples;
     const Key key(o.cull_test, o.depth_bounds, o.shape, o.tile, o.depth_format, o.samples, o.blend,
                   o.index_bits, o.portable, o.pixel_centres, o.group_size, o.lists);
-    if (cullers_.size() >= most_cullers && !cullers_.contains(key)) cullers_.clear();
+    if (cullers_.size() >= max_cullers && !cullers_.contains(key)) cullers_.clear();
     auto& culler = cullers_[key];
     if (!culler) culler = std::make_unique<LightCuller>(device_, programs_, o);
     culler->set_view(view);

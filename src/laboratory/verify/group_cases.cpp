@@ -118,11 +118,11 @@ double difference(const GroupImage& image, const GroupImage& expected, uint32_t 
 // In each way: no lit pair is lost, no light is listed where no surface has its groups, and at the pixels of
 // each mask the picture is that of the lights alone which share a group with it.
 void groups_shown(Check& c, Scene scene, const std::vector<View>& views,
-                  const std::vector<Way>& ways = every_way(), size_t most_masks = 4) {
+                  const std::vector<Way>& ways = every_way(), size_t max_masks = 4) {
   for (Light& light : scene.lights) light.casts_shadow = false;
   std::set<uint32_t> masks;
   for (const Instance& instance : scene.instances) masks.insert(instance.groups);
-  while (masks.size() > most_masks) masks.erase(std::next(masks.begin(), long(masks.size() / 2)));
+  while (masks.size() > max_masks) masks.erase(std::next(masks.begin(), long(masks.size() / 2)));
   bool drawn = false;
   for (const Way& way : ways) {
     const Settings settings = settings_of(way);
@@ -135,7 +135,8 @@ void groups_shown(Check& c, Scene scene, const std::vector<View>& views,
       const std::vector<ViewLight> all = lights_in_view(scene, views[i]);
       for (const int light : image.lights) lights.push_back(all[size_t(light)]);
       const LitPairs pairs = count_pairs(views[i], image.depths, lights, image.lists, nullptr, image.groups);
-      c.trials(pairs.listed + pairs.lit), c.contacts(pairs.lit);
+      c.trials(pairs.listed + pairs.lit);
+      c.contacts(pairs.lit);
       if (pairs.lost > 0)
         c.lost_pairs(pairs.lost, "{} {}, view {}: {} of {} pairs are not listed", way.technique, way.settings,
                      i, pairs.lost, pairs.lit);
@@ -183,8 +184,11 @@ Light& add_grouped(Scene& scene, const dvec3& position, uint32_t groups, float r
 
 void add_sun(Scene& scene, const glm::vec3& direction, uint32_t groups) {
   Light sun;
-  sun.name = "sun", sun.type = LightType::directional, sun.groups = groups;
-  sun.direction = glm::normalize(direction), sun.intensity = 0.4f;
+  sun.name = "sun";
+  sun.type = LightType::directional;
+  sun.groups = groups;
+  sun.direction = glm::normalize(direction);
+  sun.intensity = 0.4f;
   scene.lights.push_back(sun);
 }
 

@@ -25,7 +25,7 @@ namespace lightgrid::verify {
 namespace {
 
 constexpr int views_a_setting = 8;       // for each class, because a new setting may require kernel builds
-constexpr int most_saved = 3;            // for each class
+constexpr int max_saved = 3;             // for each class
 constexpr size_t lights_in_both = 4096;  // limit per view if both shapes run: the other one may be slow
 
 struct HuntLoss {
@@ -59,7 +59,7 @@ struct ShrunkLoss {
   HuntLoss lost;
   HostGrid grid;  // grid of these lights
 };
-constexpr int most_runs = 200;  // runs of the culler to shrink one loss
+constexpr int max_runs = 200;  // runs of the culler to shrink one loss
 
 // With the grid of these lights; empty if the contact is found.
 std::optional<ShrunkLoss> still_lost(CullEngine& engine, const CullerOptions& options, const HuntView& view,
@@ -88,7 +88,8 @@ CapturedFrame frame_of(const HuntSetting& setting, const HuntView& h, const Shru
   const bool oblique = is_oblique(h.view);
   frame.view.near_m = oblique ? h.near : near_distance(h.view);
   frame.view.far_m = oblique ? no_end : distance_at(h.view, has_standard_depth(h.view) ? 1 : 0);
-  frame.tile = setting.options.tile, frame.surfaces_far_m = h.far;
+  frame.tile = setting.options.tile;
+  frame.surfaces_far_m = h.far;
   frame.lights = loss.lights;
   for (size_t i = loss.lost.contact.sample; i < h.depth.values.size(); i += size_t(h.depth.samples)) {
     frame.depth.push_back(h.depth.values[i]);
@@ -99,11 +100,15 @@ CapturedFrame frame_of(const HuntSetting& setting, const HuntView& h, const Shru
 FrameGrid grid_of(const HuntSetting& setting, const HuntView& h, const ShrunkLoss& loss) {
   const CullerOptions& o = setting.options;
   Settings s;
-  s.set(setting::cull_test, o.cull_test), s.set(setting::depth_bounds, o.depth_bounds),
-      s.set(setting::tile, o.tile), s.set(setting::grid_lists, o.lists);
-  s.set(setting::slices, setting.slices), s.set(setting::slice_spacing, setting.spacing),
-      s.set(setting::z_bins, setting.z_bins);
-  s.set(setting::kernel_shape, o.shape), s.set(setting::portable, o.portable);
+  s.set(setting::cull_test, o.cull_test);
+  s.set(setting::depth_bounds, o.depth_bounds);
+  s.set(setting::tile, o.tile);
+  s.set(setting::grid_lists, o.lists);
+  s.set(setting::slices, setting.slices);
+  s.set(setting::slice_spacing, setting.spacing);
+  s.set(setting::z_bins, setting.z_bins);
+  s.set(setting::kernel_shape, o.shape);
+  s.set(setting::portable, o.portable);
   return {loss.grid, o.tile, h.view.slice_edges, h.view.z_bin_edges, to_strings(s)};
 }
 
@@ -122,9 +127,8 @@ ShrunkLoss shrink_loss(CullEngine& engine, const CullerOptions& options, const H
   // First alone, then without ever smaller parts (Zeller, Hildebrandt, "Simplifying and Isolating
   // Failure-Inducing Input", 2002).
   int runs = 0;
-  for (size_t part = loss.lights.size(); part > 0 && runs < most_runs;
-       part = part == 1 ? 0 : (part + 1) / 2) {
-    for (size_t begin = 0; begin < loss.lights.size() && runs < most_runs;) {
+  for (size_t part = loss.lights.size(); part > 0 && runs < max_runs; part = part == 1 ? 0 : (part + 1) / 2) {
+    for (size_t begin = 0; begin < loss.lights.size() && runs < max_runs;) {
       ShrunkLoss less = without(loss, begin, begin + part);
       const bool smaller = less.lights.size() < loss.lights.size();
       runs += smaller;
@@ -166,11 +170,14 @@ std::vector<HuntClass> chosen_classes(const std::string& filter) {
 class Hunt {
  public:
   Hunt(CullEngine& engine, const HuntOptions& options) : engine_(engine), options_(options) {
-    report_.device = engine.name(), report_.seed = options.seed;
+    report_.device = engine.name();
+    report_.seed = options.seed;
     for (const HuntClass hunted : chosen_classes(options.filter)) {
-      classes_.push_back(hunted), report_.classes.push_back({.name = name_of(hunted)});
+      classes_.push_back(hunted);
+      report_.classes.push_back({.name = name_of(hunted)});
     }
-    saved_.resize(classes_.size()), cpu_ns_.resize(classes_.size());
+    saved_.resize(classes_.size());
+    cpu_ns_.resize(classes_.size());
   }
 
   HuntReport run() {
@@ -206,7 +213,8 @@ class Hunt {
     const Timer timer;
     const std::clock_t cpu = std::clock();
     const HuntView view = random_view(classes_[at], setting, seed);
-    setting.options.depth_format = view.format, setting.options.blend = view.blended;
+    setting.options.depth_format = view.format;
+    setting.options.blend = view.blended;
     const size_t count =
         setting.both_shapes ? std::min(lights_in_both, options_.lights_a_view) : options_.lights_a_view;
     const HuntLights lights = random_contacts(view, setting, count, Random::mix(seed));
@@ -226,12 +234,13 @@ class Hunt {
     const std::vector<CullLight> culled = cull_lights(lights.lights);
     const HostGrid grid = engine_.cull_depth(setting.options, view.view, culled, view.depth, view.blended);
     const std::vector<HuntLoss> lost = lost_contacts(view, lights.contacts, setting.options.tile, grid);
-    tally.contacts += lights.contacts.size(), contacts_ += lights.contacts.size();
+    tally.contacts += lights.contacts.size();
+    contacts_ += lights.contacts.size();
     if (setting.both_shapes && engine_.has_both_shapes()) compare_shapes(tally, view, setting, culled, grid);
     if (lost.empty()) return;
     if (tally.lost == 0) tally.why = words(setting, view, lights, lost[0], seed);
     tally.lost += lost.size();
-    if (options_.save.empty() || saved >= most_saved) return;
+    if (options_.save.empty() || saved >= max_saved) return;
     const ShrunkLoss loss = shrink_loss(engine_, setting.options, view, lights.lights, lost[0]);
     report_.saved.push_back(save_loss(options_.save, setting, view, loss, seed).string());
     ++saved;
@@ -240,7 +249,8 @@ class Hunt {
   void compare_shapes(HuntTally& tally, const HuntView& view, const HuntSetting& setting,
                       std::span<const CullLight> lights, const HostGrid& grid) {
     CullerOptions lanes = setting.options, group = setting.options;
-    lanes.shape = KernelShape::lanes, group.shape = KernelShape::group;
+    lanes.shape = KernelShape::lanes;
+    group.shape = KernelShape::group;
     for (const CullerOptions& shaped : {lanes, group}) {
       if (engine_.cull_depth(shaped, view.view, lights, view.depth, view.blended) == grid) continue;
       ++tally.shapes_differ;
@@ -275,8 +285,12 @@ class Hunt {
 HuntTally HuntReport::total() const {
   HuntTally sum{.name = "all"};
   for (const HuntTally& t : classes) {
-    sum.contacts += t.contacts, sum.lost += t.lost, sum.views += t.views, sum.refused += t.refused;
-    sum.shapes_differ += t.shapes_differ, sum.seconds += t.seconds;
+    sum.contacts += t.contacts;
+    sum.lost += t.lost;
+    sum.views += t.views;
+    sum.refused += t.refused;
+    sum.shapes_differ += t.shapes_differ;
+    sum.seconds += t.seconds;
   }
   return sum;
 }

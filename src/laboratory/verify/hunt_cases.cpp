@@ -29,8 +29,11 @@ void hunt_in(const RandomCase& hunted, CullEngine& engine, uint64_t seed, CaseHu
         hunted.run(c, random);
       },
       engine, 0);
-  ++tally.cases, tally.trials += outcome.trials, tally.contacts += outcome.contacts;
-  tally.lost += outcome.lost, tally.skipped += outcome.verdict == Verdict::skip;
+  ++tally.cases;
+  tally.trials += outcome.trials;
+  tally.contacts += outcome.contacts;
+  tally.lost += outcome.lost;
+  tally.skipped += outcome.verdict == Verdict::skip;
   if (outcome.verdict == Verdict::fail) tally.failed.push_back(seed);
   if (tally.why.empty() && !outcome.why.empty()) tally.why = fmt::format("seed {}: {}", seed, outcome.why);
   tally.seconds += timer.elapsed_ms() / 1000;
@@ -47,8 +50,12 @@ nlohmann::ordered_json json_of(const CaseHuntTally& t) {
 CaseHuntTally CaseHuntReport::total() const {
   CaseHuntTally sum{.name = "all"};
   for (const CaseHuntTally& t : classes) {
-    sum.cases += t.cases, sum.trials += t.trials, sum.contacts += t.contacts, sum.lost += t.lost;
-    sum.skipped += t.skipped, sum.seconds += t.seconds;
+    sum.cases += t.cases;
+    sum.trials += t.trials;
+    sum.contacts += t.contacts;
+    sum.lost += t.lost;
+    sum.skipped += t.skipped;
+    sum.seconds += t.seconds;
     sum.failed.insert(sum.failed.end(), t.failed.begin(), t.failed.end());
   }
   return sum;

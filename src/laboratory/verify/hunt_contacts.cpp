@@ -45,8 +45,10 @@ class Maker {
       const bool single = h_.elsewhere > 0 && i == 0;
       if (single || chance(random, h_.elsewhere))
         light = light_elsewhere(random);
-      else if (const auto contact = light_at_pixel(light, random))
-        contacts.push_back(*contact), contacts.back().light = uint32_t(i);
+      else if (const auto contact = light_at_pixel(light, random)) {
+        contacts.push_back(*contact);
+        contacts.back().light = uint32_t(i);
+      }
     }
   }
 
@@ -82,10 +84,11 @@ class Maker {
     };
     for (int attempt = 0; attempt < 8; ++attempt) {
       HuntContact c;
-      c.x = uint16_t(choose(h_.view.width, corner.x)), c.y = uint16_t(choose(h_.view.height, corner.y));
+      c.x = uint16_t(choose(h_.view.width, corner.x));
+      c.y = uint16_t(choose(h_.view.height, corner.y));
       c.sample = uint16_t(random.next() % uint64_t(h_.depth.samples));
       if (!setting_.options.pixel_centres || h_.depth.samples > 1) {
-        c.in_x = float(corner.x ? (corner.x + 1) / 2 : unit(random)),
+        c.in_x = float(corner.x ? (corner.x + 1) / 2 : unit(random));
         c.in_y = float(corner.y ? (corner.y + 1) / 2 : unit(random));
       }
       c.depth = stored_at(h_, c);
@@ -106,7 +109,8 @@ class Maker {
     const auto sign = [&](int end) { return end ? end : (random.next() & 1 ? 1 : -1); };
     const auto normal = [&](int axis, double coordinate, int end) {
       glm::dvec3 n(0);
-      n[axis] = end, n.z = flat ? 0 : end * coordinate / -p.z;
+      n[axis] = end;
+      n.z = flat ? 0 : end * coordinate / -p.z;
       return glm::normalize(n);
     };
     const glm::dvec3 nx = normal(0, p.x, sign(corner.x)), ny = normal(1, p.y, sign(corner.y));
@@ -185,7 +189,8 @@ class Maker {
     const double cosine = glm::dot(axis, to);
     while (outer < 3.14159f && !(std::cos(double(outer)) < cosine))
       outer = std::nextafter(outer, float(no_end));
-    light.outer_cone_rad = std::min(outer, 3.1415925f), light.inner_cone_rad = light.outer_cone_rad / 2;
+    light.outer_cone_rad = std::min(outer, 3.1415925f);
+    light.inner_cone_rad = light.outer_cone_rad / 2;
   }
 
   const HuntView& h_;

@@ -55,7 +55,9 @@ void add_own(Scene& scene, Random& random) {
   }
   if (random.next() % 4) return;
   Light& sun = scene.lights.emplace_back();
-  sun.type = LightType::directional, sun.direction = any_direction(random), sun.casts_shadow = true;
+  sun.type = LightType::directional;
+  sun.direction = any_direction(random);
+  sun.casts_shadow = true;
 }
 
 // OpenGL's scene follows the meshes that a rig deforms.
@@ -210,7 +212,8 @@ void MovingScene::move_camera() {
       view_ = views_[any_of(views_.size())];
       break;
     case 1:
-      view_.width = 1 + int(random_.next() % 130), view_.height = 1 + int(random_.next() % 90);
+      view_.width = 1 + int(random_.next() % 130);
+      view_.height = 1 + int(random_.next() % 90);
       break;
     default:
       move_eye(view_, any_direction(random_) * step_m());

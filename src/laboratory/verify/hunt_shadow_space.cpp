@@ -196,11 +196,14 @@ View random_shadow_view(const ShadowTriangles& triangles, Random& random) {
   const dvec3 eye = random.next() % 3 ? in_cube(random, 4)
                                       : target + any_direction(random) * double(random.uniform(0.02f, 1));
   Camera camera = look_at(eye, target);
-  camera.fov_y_rad = random.uniform(0.05f, 2.6f), camera.near_m = std::exp2(random.uniform(-12, -3));
+  camera.fov_y_rad = random.uniform(0.05f, 2.6f);
+  camera.near_m = std::exp2(random.uniform(-12, -3));
   if (random.next() % 5 == 0) camera.far_m = random.uniform(2, 30);
   if (random.next() % 6 == 0) {
-    camera.orthographic = true, camera.half_height_m = std::exp2(random.uniform(-4, 3));
-    camera.near_m = -20, camera.far_m = random.uniform(5, 60);
+    camera.orthographic = true;
+    camera.half_height_m = std::exp2(random.uniform(-4, 3));
+    camera.near_m = -20;
+    camera.far_m = random.uniform(5, 60);
   }
   return make_view(camera, size[0], size[1]);
 }
@@ -218,9 +221,9 @@ HuntedScene hunted_scene(const ShadowHuntClass& hunted, uint64_t seed) {
   const ShadowTriangles triangles = hunted.make(made.scene, random);
   add_lamps(made.scene, triangles, random);
   for (int i = 0; i < 3; ++i) made.views.push_back(random_shadow_view(triangles, random));
-  if (hunted.most_far_m > 0) {
+  if (hunted.max_far_m > 0) {
     const double far_m =
-        hunted.least_far_m * std::pow(hunted.most_far_m / hunted.least_far_m, double(random.uniform()));
+        hunted.min_far_m * std::pow(hunted.max_far_m / hunted.min_far_m, double(random.uniform()));
     const dvec3 far = any_direction(random) * far_m;
     for (Instance& instance : made.scene.instances) instance.world_from_object[3] += glm::dvec4(far, 0);
     for (Light& light : made.scene.lights) light.position += far;

@@ -21,7 +21,7 @@ using MakeScene = ShadowTriangles (*)(Scene& scene, Random& random);
 struct ShadowHuntClass {
   const char* name;
   MakeScene make;
-  double least_far_m = 0, most_far_m = 0;  // from the world's origin
+  double min_far_m = 0, max_far_m = 0;  // from the world's origin
 };
 
 HuntedScene hunted_scene(const ShadowHuntClass& hunted, uint64_t seed);

@@ -16,7 +16,8 @@ class ShadowHunt {
  public:
   ShadowHunt(CullEngine& engine, const HuntOptions& options)
       : engine_(engine), options_(options), classes_(chosen_shadow_classes(options.filter)) {
-    report_.device = engine.name(), report_.seed = options.seed;
+    report_.device = engine.name();
+    report_.seed = options.seed;
     for (const ShadowHuntClass& hunted : classes_) report_.classes.push_back({.name = hunted.name});
   }
 
@@ -55,15 +56,15 @@ class ShadowHunt {
   bool compare(ShadowHuntTally& tally, const HuntedScene& made, uint64_t seed) {
     Random random(seed);
     Settings settings;
-    settings.set(setting::everything_on, random.next() % 4 == 0),
-        settings.set(setting::portable, random.next() % 4 == 0);
+    settings.set(setting::everything_on, random.next() % 4 == 0);
+    settings.set(setting::portable, random.next() % 4 == 0);
     const std::vector<ShadowImage> images = engine_.shadows(made.scene, made.views, settings);
     if (images.empty()) throw input_error("the engine finds no shadows");
     std::vector<ShadowImage> by_others;
     if (random.next() % 16 == 0) {
       Settings lanes = settings, group = settings;
-      lanes.set(setting::kernel_shape, KernelShape::lanes),
-          group.set(setting::kernel_shape, KernelShape::group);
+      lanes.set(setting::kernel_shape, KernelShape::lanes);
+      group.set(setting::kernel_shape, KernelShape::group);
       by_others = engine_.shadows(made.scene, made.views, lanes);
       for (ShadowImage& image : engine_.shadows(made.scene, made.views, group))
         by_others.push_back(std::move(image));
@@ -74,12 +75,15 @@ class ShadowHunt {
       ShadowPairs pairs = count_shadow_pairs(made.scene, occlusion, made.views[i], images[i]);
       if (!pairs.why.empty()) pairs.why = fmt::format("seed {}, view {}: {}", seed, i, pairs.why);
       right = right && pairs.wrong() == 0;
-      decided_ += pairs.decided(), tally.pairs += pairs, ++tally.views;
+      decided_ += pairs.decided();
+      tally.pairs += pairs;
+      ++tally.views;
     }
     for (size_t i = 0; i < by_others.size(); ++i) {
       const std::string differ = difference(by_others[i], images[i % images.size()]);
       if (differ.empty()) continue;
-      right = false, ++tally.shapes_differ;
+      right = false;
+      ++tally.shapes_differ;
       if (tally.refusal.empty())
         tally.refusal = fmt::format("seed {}, view {}: the kernel shapes' {} differ", seed, i, differ);
     }
@@ -88,8 +92,8 @@ class ShadowHunt {
 
   // Sequences need many kernels, which one thread compiles, and decide few pairs.
   bool sequence_is_due() const {
-    constexpr double most_part = 0.25;  // of the time
-    return options_.contacts || sequences_ms_ < most_part * timer_.elapsed_ms();
+    constexpr double max_part = 0.25;  // of the time
+    return options_.contacts || sequences_ms_ < max_part * timer_.elapsed_ms();
   }
 
   // A sequence of frames from the scene on. Whether all is right.
@@ -99,15 +103,17 @@ class ShadowHunt {
     const std::span<const SequenceKind> kinds = sequence_kinds();
     const SequenceKind& kind = kinds[random.next() % kinds.size()];
     Settings settings = settings_of(kind);
-    settings.set(setting::portable, random.next() % 8 == 0),
-        settings.set(setting::everything_on, random.next() % 16 == 0);
+    settings.set(setting::portable, random.next() % 8 == 0);
+    settings.set(setting::everything_on, random.next() % 16 == 0);
     SequenceReport report = compare_sequence(engine_, made, kind, settings, options_.frames, random);
-    tally.frames += report.frames, tally.stale += report.stale;
+    tally.frames += report.frames;
+    tally.stale += report.stale;
     if (report.stale > 0 && tally.refusal.empty())
       tally.refusal = fmt::format("seed {}, {}", seed, report.why);
     if (!report.pairs.why.empty())
       report.pairs.why = fmt::format("seed {}, the last frame: {}", seed, report.pairs.why);
-    tally.pairs += report.pairs, decided_ += report.pairs.decided();
+    tally.pairs += report.pairs;
+    decided_ += report.pairs.decided();
     sequences_ms_ += timer.elapsed_ms();
     return report.stale == 0 && report.pairs.wrong() == 0;
   }
@@ -134,9 +140,13 @@ nlohmann::ordered_json json_of(const ShadowHuntTally& t) {
 ShadowHuntTally ShadowHuntReport::total() const {
   ShadowHuntTally sum{.name = "all"};
   for (const ShadowHuntTally& t : classes) {
-    sum.pairs += t.pairs, sum.views += t.views, sum.refused += t.refused;
-    sum.shapes_differ += t.shapes_differ, sum.seconds += t.seconds;
-    sum.frames += t.frames, sum.stale += t.stale;
+    sum.pairs += t.pairs;
+    sum.views += t.views;
+    sum.refused += t.refused;
+    sum.shapes_differ += t.shapes_differ;
+    sum.seconds += t.seconds;
+    sum.frames += t.frames;
+    sum.stale += t.stale;
     sum.failed.insert(sum.failed.end(), t.failed.begin(), t.failed.end());
     if (sum.refusal.empty()) sum.refusal = t.refusal;
   }
@@ -153,7 +163,8 @@ nlohmann::ordered_json to_json(const ShadowHuntReport& report) {
   nlohmann::ordered_json json = {
       {"device", report.device}, {"seed", report.seed}, {"seconds", report.seconds}};
   nlohmann::ordered_json all = json_of(report.total());
-  all.erase("name"), all.erase("seconds");
+  all.erase("name");
+  all.erase("seconds");
   json.update(all);
   json["classes"] = nlohmann::ordered_json::array();
   for (const ShadowHuntTally& tally : report.classes) json["classes"].push_back(json_of(tally));

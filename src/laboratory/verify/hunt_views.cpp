@@ -71,11 +71,12 @@ Block random_block(const HuntView& h, Random& random) {
   Block block;
   const bool edges = !h.view.slice_edges.empty() || !h.view.z_bin_edges.empty();
   const double t = unit(random);
-  block.a = random_distance(h, random), block.b = random_distance(h, random);
+  block.a = random_distance(h, random);
+  block.b = random_distance(h, random);
   block.kind = t < 0.05 ? Block::none : t < 0.45 ? Block::flat : t < 0.7 ? Block::layers : Block::rough;
   if (edges && chance(random, 0.35)) {
     block.kind = Block::edge;
-    block.value = value_on_edge(h, random),
+    block.value = value_on_edge(h, random);
     block.other = chance(random, 0.5) ? block.value : value_on_edge(h, random);
     return block;
   }
@@ -119,13 +120,15 @@ Plan mixed_plan(Random& random) {
   p.orthographic = chance(random, 0.25);
   p.half =
       p.orthographic ? log_between(random, 1e-4, 1e5) : log_between(random, gentlest_half, steepest_half);
-  p.standard = chance(random, 0.4), p.finite = p.orthographic || chance(random, 0.5);
+  p.standard = chance(random, 0.4);
+  p.finite = p.orthographic || chance(random, 0.5);
   if (chance(random, 0.3))
     p.off = between(random, -1, 1) * (p.orthographic ? 100 * p.half : std::min(1000.0, 20 * p.half));
   p.placed = chance(random, 0.5);
   p.unit_m = chance(random, 0.5) ? 1 : log_between(random, 1e-12, p.orthographic ? 1e6 : 1e12);
   p.eye_m = p.unit_m * log_between(random, 1, 1e6);
-  p.blended = chance(random, 0.3), p.oblique = !p.orthographic && chance(random, 0.2);
+  p.blended = chance(random, 0.3);
+  p.oblique = !p.orthographic && chance(random, 0.2);
   return p;
 }
 
@@ -134,7 +137,8 @@ Plan plan_of(HuntClass hunted, Random& random) {
   if (hunted == mixed) return mixed_plan(random);
   Plan p;
   p.half = half_of(5, 150, random);
-  p.placed = chance(random, 0.5), p.eye_m = log_between(random, 0.1, 1000);
+  p.placed = chance(random, 0.5);
+  p.eye_m = log_between(random, 0.1, 1000);
   const bool any_depth = hunted == d16 || hunted == d24 || hunted == blended;
   if (hunted == narrow) p.half = half_of(1, 5, random);
   if (hunted == narrowest) p.half = half_of(0.1, 1, random);
@@ -143,23 +147,34 @@ Plan plan_of(HuntClass hunted, Random& random) {
     p.half = log_between(random, 0.01, 5);
     p.off = (chance(random, 0.5) ? -1 : 1) * log_between(random, 0.1, 100);
   }
-  if (hunted == turned_far) p.placed = true, p.eye_m = log_between(random, 1e3, 1e15);
+  if (hunted == turned_far) {
+    p.placed = true;
+    p.eye_m = log_between(random, 1e3, 1e15);
+  }
   if (hunted == orthographic) p.orthographic = true;
-  if (hunted == standard) p.standard = true, p.finite = chance(random, 0.5);
+  if (hunted == standard) {
+    p.standard = true;
+    p.finite = chance(random, 0.5);
+  }
   if (hunted == finite_far) p.finite = true;
-  if (hunted == scaled)
-    p.unit_m = log_between(random, 1e-12, 1e15), p.eye_m = std::min(p.eye_m * p.unit_m, hunt_most_m);
+  if (hunted == scaled) {
+    p.unit_m = log_between(random, 1e-12, 1e15);
+    p.eye_m = std::min(p.eye_m * p.unit_m, hunt_most_m);
+  }
   if (hunted == oblique) {
-    p.oblique = true, p.standard = chance(random, 0.5);
+    p.oblique = true;
+    p.standard = chance(random, 0.5);
     if (chance(random, 0.3)) p.off = between(random, -2, 2) * p.half;
   }
   if (hunted == blended) p.blended = true;
   if (any_depth) {
-    p.standard = chance(random, 0.5), p.finite = chance(random, 0.5);
+    p.standard = chance(random, 0.5);
+    p.finite = chance(random, 0.5);
     p.orthographic = chance(random, 0.25);
   }
   if (p.orthographic) {
-    p.half = log_between(random, 1e-4, 1e5), p.finite = true;
+    p.half = log_between(random, 1e-4, 1e5);
+    p.finite = true;
     if (chance(random, 0.3)) p.off = between(random, -100, 100) * p.half;
   }
   return p;
@@ -196,7 +211,7 @@ DepthFormat format_of(HuntClass hunted, Random& random) {
 CullView lens_of(const HuntView& h, const Plan& p, const glm::ivec2& size, Random& random) {
   const double aspect = double(size.x) / size.y, metres = p.orthographic ? p.unit_m : 1;
   Lens lens{.near = h.near, .orthographic = p.orthographic};
-  lens.half_x = metres * (aspect >= 1 ? p.half : p.half * aspect),
+  lens.half_x = metres * (aspect >= 1 ? p.half : p.half * aspect);
   lens.half_y = metres * (aspect >= 1 ? p.half / aspect : p.half);
   lens.shift_x = p.off * metres * (chance(random, 0.8) ? 1 : 0);
   lens.shift_y = p.off * metres * between(random, -1, 1);
@@ -220,8 +235,10 @@ void tilt_near_plane(HuntView& h, const Plan& p, Random& random) {
   const double steepest = 1 + tilt, centre = 1 + nx * clip[2][0] / clip[0][0] + ny * clip[2][1] / clip[1][1];
   // Depth is 1 - k (f / steepest - near / d), or k (...) if standard; where k > 1 there is a far plane.
   const double k = (chance(random, 0.5) ? 1 : log_between(random, 0.5, 2)) * (p.standard ? -1 : 1);
-  clip[0][2] = k * nx / steepest, clip[1][2] = k * ny / steepest;
-  clip[2][2] = k * centre / steepest - (p.standard ? 0 : 1), clip[3][2] = k * h.near;
+  clip[0][2] = k * nx / steepest;
+  clip[1][2] = k * ny / steepest;
+  clip[2][2] = k * centre / steepest - (p.standard ? 0 : 1);
+  clip[3][2] = k * h.near;
 }
 
 void choose_lights_elsewhere(HuntView& h, Random& random) {
@@ -248,7 +265,8 @@ HuntSetting random_setting(Random& random, bool few) {
     choose_from_few(s, random);
     return s;
   }
-  o.cull_test = one_of(random, cull_tests).test, o.depth_bounds = one_of(random, depth_bounds_modes).mode;
+  o.cull_test = one_of(random, cull_tests).test;
+  o.depth_bounds = one_of(random, depth_bounds_modes).mode;
   s.slices = one_of(random, {1, 24});
   s.z_bins = one_of(random, {1, 64});
   s.spots = chance(random, 0.5);
@@ -337,7 +355,8 @@ HuntView random_view(HuntClass hunted, const HuntSetting& setting, uint64_t seed
   Random random(seed);
   HuntView h{.hunted = hunted};
   const Plan plan = plan_of(hunted, random);
-  h.format = format_of(hunted, random), h.blended = plan.blended;
+  h.format = format_of(hunted, random);
+  h.blended = plan.blended;
   choose_range(h, plan, random);
   h.view = lens_of(h, plan, one_of(random, sizes), random);
   if (plan.oblique) tilt_near_plane(h, plan, random);

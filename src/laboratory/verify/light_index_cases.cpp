@@ -339,7 +339,8 @@ void priority(Check& c, Random& random) {
     const dvec3 at = in_cube(random, 3);
     const float radius = random.uniform(20, 200);
     Light& light = add_lamp(scene, {at.x, std::abs(at.y), at.z}, radius);
-    light.casts_shadow = false, light.intensity = std::exp2(random.uniform(-3, 3));
+    light.casts_shadow = false;
+    light.intensity = std::exp2(random.uniform(-3, 3));
   }
   const View view = random_view_of_floor(random);
   Settings settings;

@@ -85,7 +85,10 @@ void radius_infinite(Check& c) { radius_of(c, {inf}, true); }
 // They must not be listed, and must not affect the lights in the same vector of lanes.
 void lists_nothing(Check& c, const std::vector<CullLight>& invalid) {
   std::vector<CullLight> lights;
-  for (const CullLight& light : invalid) lights.push_back(point({0, 0, -5}, 3)), lights.push_back(light);
+  for (const CullLight& light : invalid) {
+    lights.push_back(point({0, 0, -5}, 3));
+    lights.push_back(light);
+  }
   lights.push_back(point({0, 0, -5}, 3));
   for (const DepthInterval b : {DepthInterval{4, 6}, every_distance}) {
     const HostGrid grid = c.grid(sixty(), lights, {b});
@@ -277,8 +280,10 @@ void direction_zero(Check& c) {
 
 void cosine_out_of_range(Check& c) {
   std::vector<CullLight> lights;
-  for (const double cosine : {1.0000001, 1.5, 2.0, -1.0000001, -5.0})
-    lights.push_back({{0, 0, -1}, 9, {0, 0, -1}, cosine}), lights.push_back(point({0, 0, -5}, 2));
+  for (const double cosine : {1.0000001, 1.5, 2.0, -1.0000001, -5.0}) {
+    lights.push_back({{0, 0, -1}, 9, {0, 0, -1}, cosine});
+    lights.push_back(point({0, 0, -5}, 2));
+  }
   const HostGrid grid = c.grid_of_known_answer(sixty(), lights, {{4, 6}}, {});
   c.that(grid.cells.size() == tile_count(sixty(), 16), "no grid");
   for (size_t i = 0; i < grid.cells.size(); ++i) {
@@ -311,14 +316,10 @@ void spread_out(Check& c) {
 
 // Lights that are switched off by moving them far away.
 void parked(Check& c) {
-  constexpr double most_float = std::numeric_limits<float>::max(), most = std::numeric_limits<double>::max();
-  const glm::dvec3 positions[] = {{1e19, 0, 0},
-                                  {0, -1e30, 0},
-                                  {most_float, 0, 0},
-                                  {0, 0, -1e19},
-                                  {most_float, most_float, most_float},
-                                  {most, 0, 0},
-                                  {most, -most, most}};
+  constexpr double max_float = std::numeric_limits<float>::max(), most = std::numeric_limits<double>::max();
+  const glm::dvec3 positions[] = {
+      {1e19, 0, 0}, {0, -1e30, 0},      {max_float, 0, 0}, {0, 0, -1e19}, {max_float, max_float, max_float},
+      {most, 0, 0}, {most, -most, most}};
   const DepthImage depth = wall(small_sixty(), 1);
   for (const glm::dvec3& position : positions) {
     for (const size_t count : {1, 2, 300}) {

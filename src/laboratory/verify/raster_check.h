@@ -18,7 +18,9 @@ inline RasterInput raster_scene(int width, int height, bool two_sided = false, i
   input.camera = {.grid = {width, height}, .clip_from_view = glm::dmat4(0)};
   input.camera.grid.samples = samples;
   glm::dmat4& m = input.camera.clip_from_view;
-  m[0][0] = m[1][1] = 1, m[2][3] = -1, m[3][2] = 0.1;
+  m[0][0] = m[1][1] = 1;
+  m[2][3] = -1;
+  m[3][2] = 0.1;
   input.meshes.resize(1);
   input.instances = {{.two_sided = two_sided}};
   return input;

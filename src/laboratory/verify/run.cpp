@@ -138,7 +138,8 @@ VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines,
       const Timer timer;
       const Outcome outcome = run_case(*hard_case, *engine, options.adversarial_lights);
       report.cases.push_back({hard_case, engine->name(), outcome, timer.elapsed_ms()});
-      report.failed += outcome.verdict == Verdict::fail, report.unbuilt += outcome.unbuilt;
+      report.failed += outcome.verdict == Verdict::fail;
+      report.unbuilt += outcome.unbuilt;
     }
   }
   if (options.progress) options.progress(1, "done");
@@ -228,7 +229,9 @@ CaseResult compare_own_lists(const Replay& r, const FrameGrid& own) {
 
 void count_lost(Check& c, const Replay& r, const CullView& view, const CullerOptions& options) {
   FrameGrid grid;
-  grid.tile = options.tile, grid.slice_edges = view.slice_edges, grid.z_bin_edges = view.z_bin_edges;
+  grid.tile = options.tile;
+  grid.slice_edges = view.slice_edges;
+  grid.z_bin_edges = view.z_bin_edges;
   grid.lists = c.engine.cull_depth(options, view, r.lights, r.depth);
   const std::string wrong = malformed(grid.lists, r.lights.size());
   if (!c.that(wrong.empty(), "{}: {}", to_string(options), wrong)) return;
@@ -270,7 +273,8 @@ VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engine
         },
         *engine, 0);
     report.cases.push_back({&replayed, engine->name(), outcome, timer.elapsed_ms()});
-    report.failed += outcome.verdict == Verdict::fail, report.unbuilt += outcome.unbuilt;
+    report.failed += outcome.verdict == Verdict::fail;
+    report.unbuilt += outcome.unbuilt;
   }
   if (options.progress) options.progress(1, "done");
   return report;

@@ -163,7 +163,10 @@ void coverage(Check& c, Random& random) {
       }
       double px = x + reach * random.uniform(-1, 1), py = y + reach * random.uniform(-1, 1);
       const dvec2& p = at[size_t(random.next() % at.size())];
-      if (kind >= 3) px = std::floor(px) + 0.5 + p.x, py = std::floor(py) + 0.5 + p.y;
+      if (kind >= 3) {
+        px = std::floor(px) + 0.5 + p.x;
+        py = std::floor(py) + 0.5 + p.y;
+      }
       return raster_position(input, px, py, kind == 4 ? d : double(random.uniform(0.5f, 9)));
     };
     add_raster_triangle(input, corner);
@@ -195,7 +198,8 @@ void edge_lists(Check& c, Random& random) {
   const View view = shadow_view(eye, target, 1 + int(random.next() % 120), 1 + int(random.next() % 90),
                                 random.uniform(0.1f, 2));
   Settings settings;
-  settings.set(setting::samples, samples), settings.set(setting::tile, 8 << random.next() % 3);
+  settings.set(setting::samples, samples);
+  settings.set(setting::tile, 8 << random.next() % 3);
   const CullTestRow& row = cull_tests[random.next() % std::size(cull_tests)];
   settings.set(setting::cull_test, row.test);
   settings.set(setting::depth_bounds, depth_bounds_modes[random.next() % std::size(depth_bounds_modes)].mode);
@@ -217,7 +221,8 @@ void edge_lists(Check& c, Random& random) {
     const auto first = lists.indices.begin() + std::ptrdiff_t(lists.first.at(cell));
     for (uint32_t light = 0; light < lights.size(); ++light) {
       if (!is_lit(lights[light], position)) continue;
-      c.trials(1), c.contacts(1);
+      c.trials(1);
+      c.contacts(1);
       if (std::find(first, first + lists.count[cell], light) == first + lists.count[cell])
         c.lost("samples={}, tile={}, {}: light {} reaches sample {} of pixel {} {}", samples,
                settings[setting::tile], row.name, light, i % size_t(samples), x, y);

@@ -17,7 +17,8 @@ std::vector<ShadowImage> shadows(Check& c, const Scene& scene, const std::vector
   }
   settings.set(setting::everything_on, true);
   const std::vector<ShadowImage> of_all_lights = c.engine.shadows(scene, views, settings);
-  settings = {}, settings.set(setting::kernel_shape, KernelShape::group);
+  settings = {};
+  settings.set(setting::kernel_shape, KernelShape::group);
   const std::vector<ShadowImage> by_groups = c.engine.shadows(scene, views, settings);
   const Occlusion occlusion(scene);
   ShadowPairs all;

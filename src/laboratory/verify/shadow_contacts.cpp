@@ -37,7 +37,8 @@ void draw_arrival(CullEngine& engine, const Scene& scene, Scene displaced, const
   const std::string name =
       fmt::format("{}, {} moved", setting, changes.lights.empty() ? "casters" : "lights");
   frames->draw(view, {});
-  displaced.lights = scene.lights, displaced.instances = scene.instances;
+  displaced.lights = scene.lights;
+  displaced.instances = scene.instances;
   images.push_back({name, frames->draw(view, changes).shadows});
   for (int i = 1; i < frames_at_rest; ++i) frames->draw(view, {});
   images.push_back({name + " and rest", frames->draw(view, {}).shadows});

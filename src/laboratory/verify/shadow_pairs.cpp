@@ -28,7 +28,8 @@ TileReceivers receivers_of(const Occlusion& occlusion, const View& view, const S
     const size_t pixel = view.grid().index(x, y);
     if (image.triangles[pixel].instance < 0) continue;
     const double depth = image.depths[pixel];
-    tile.x.push_back(x), tile.y.push_back(y);
+    tile.x.push_back(x);
+    tile.y.push_back(y);
     tile.positions.push_back(position_from_depth(view, x, y, depth));
     tile.receivers.push_back(occlusion.receiver(view, x, y, depth, image.triangles[pixel]));
   }
@@ -89,7 +90,10 @@ void add_block(std::vector<ShadowPairs>& pairs, const Occlusion& occlusion,
   const Receiver* receivers[block];
   SightAnswer answers[block];
   for (size_t k = begin; k < std::min(begin + block, tile.x.size()); ++k) {
-    if (is_lit(l.in_view, tile.positions[k])) pixels[count] = k, receivers[count++] = &tile.receivers[k];
+    if (is_lit(l.in_view, tile.positions[k])) {
+      pixels[count] = k;
+      receivers[count++] = &tile.receivers[k];
+    }
   }
   occlusion.sights(l.light, {receivers, count}, answers, last);
   for (size_t i = 0; i < count; ++i) {
@@ -101,8 +105,11 @@ void add_block(std::vector<ShadowPairs>& pairs, const Occlusion& occlusion,
 }  // namespace
 
 ShadowPairs& ShadowPairs::operator+=(const ShadowPairs& more) {
-  seen += more.seen, hidden += more.hidden, either += more.either;
-  leaked += more.leaked, acned += more.acned;
+  seen += more.seen;
+  hidden += more.hidden;
+  either += more.either;
+  leaked += more.leaked;
+  acned += more.acned;
   if (why.empty()) why = more.why;
   return *this;
 }

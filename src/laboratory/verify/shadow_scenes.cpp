@@ -46,7 +46,8 @@ Instance& add_triangles(Scene& scene, std::span<const ShadowTriangle> triangles,
     const double length = glm::length(across);
     for (const vec3& p : t) {
       mesh.indices.push_back(uint32_t(mesh.positions.size()));
-      mesh.positions.push_back(p), mesh.uv0.emplace_back(p.x, p.y);
+      mesh.positions.push_back(p);
+      mesh.uv0.emplace_back(p.x, p.y);
       mesh.normals.push_back(length > 0 ? vec3(across / length) : vec3(0, 1, 0));
     }
   }
@@ -89,21 +90,27 @@ ShadowTriangles box_of(const vec3& low, const vec3& high) {
 
 Light& add_lamp(Scene& scene, const dvec3& position, float radius_m) {
   Light light;
-  light.name = "lamp", light.position = position, light.radius_m = radius_m, light.casts_shadow = true;
+  light.name = "lamp";
+  light.position = position;
+  light.radius_m = radius_m;
+  light.casts_shadow = true;
   return scene.lights.emplace_back(light);
 }
 
 Light& add_spot_lamp(Scene& scene, const dvec3& position, const dvec3& target, float outer_rad,
                      float radius_m) {
   Light& light = add_lamp(scene, position, radius_m);
-  light.type = LightType::spot, light.direction = vec3(glm::normalize(target - position));
-  light.outer_cone_rad = outer_rad, light.inner_cone_rad = outer_rad / 2;
+  light.type = LightType::spot;
+  light.direction = vec3(glm::normalize(target - position));
+  light.outer_cone_rad = outer_rad;
+  light.inner_cone_rad = outer_rad / 2;
   return light;
 }
 
 View shadow_view(const dvec3& eye, const dvec3& target, int width, int height, double fov_y_rad) {
   Camera camera = look_at(eye, target);
-  camera.fov_y_rad = fov_y_rad, camera.near_m = 0.01;
+  camera.fov_y_rad = fov_y_rad;
+  camera.near_m = 0.01;
   return make_view(camera, width, height);
 }
 
@@ -126,8 +133,12 @@ ShadowTriangles duplicate_soup(Random& random, int count) {
   ShadowTriangles made;
   for (int i = 0; i < count; ++i) {
     const vec3 a = corner_in(random, 1.8), b = a + corner_in(random, 0.8), c = a + corner_in(random, 0.8);
-    made.push_back({a, b, c}), made.push_back({c, b, a}), made.push_back({b, c, a});
-    made.push_back({a, a, b}), made.push_back({a, b, a + (b - a) * 2.0f}), made.push_back({c, c, c});
+    made.push_back({a, b, c});
+    made.push_back({c, b, a});
+    made.push_back({b, c, a});
+    made.push_back({a, a, b});
+    made.push_back({a, b, a + (b - a) * 2.0f});
+    made.push_back({c, c, c});
   }
   return made;
 }
@@ -136,7 +147,8 @@ ShadowTriangles coplanar_soup(Random& random, int count) {
   ShadowTriangles made;
   for (int i = 0; i < count; ++i) {
     const vec3 a = corner_in(random, 1.8), b = corner_in(random, 1.8), c = corner_in(random, 1.8);
-    made.push_back({a, b, c}), made.push_back({a, b, glm::mix(a, c, 0.5f)});
+    made.push_back({a, b, c});
+    made.push_back({a, b, glm::mix(a, c, 0.5f)});
     made.push_back({glm::mix(a, b, 0.25f), glm::mix(a, b, 0.75f), c});
   }
   return made;
@@ -170,7 +182,10 @@ ShadowTriangles soup_of_all_sizes(Random& random, int count) {
 
 dvec3 on_triangle(Random& random, const ShadowTriangle& t) {
   double u = random.uniform(), v = random.uniform();
-  if (u + v > 1) u = 1 - u, v = 1 - v;
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
   const uint64_t place = random.next() % 4, first = random.next() % 3;
   if (place < 2) u = 0;
   if (place == 1) v = double(random.next() % 2);

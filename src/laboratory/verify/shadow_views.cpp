@@ -41,7 +41,10 @@ void in_orthographic_views(Check& c) {
   const Scene scene = soup_scene(sliver_soup(random, 150), random, 24);
   for (const double half : {0.1, 2.5, 40.0}) {
     Camera camera = look_at({0.5, 2.2, 1}, {0, 0, 0});
-    camera.orthographic = true, camera.half_height_m = half, camera.near_m = -20, camera.far_m = 30;
+    camera.orthographic = true;
+    camera.half_height_m = half;
+    camera.near_m = -20;
+    camera.far_m = 30;
     shadows(c, scene, {make_view(camera, 80, 60)}, {.hidden = 0.005});
   }
 }
@@ -53,7 +56,8 @@ void standard_far_planes(Check& c) {
   for (const double far_m : {7.0, 8.5, 1e4}) {
     for (const double near_m : {1e-4, 0.1}) {
       Camera camera = look_at({3, 2, 4}, {0, 0, 0});
-      camera.near_m = near_m, camera.far_m = far_m;
+      camera.near_m = near_m;
+      camera.far_m = far_m;
       views.push_back(make_view(camera, 48, 36));
     }
   }
@@ -164,7 +168,10 @@ void beside_their_plane_from(Check& c, double up) {
   }
   shadows(c, scene, {view});
 }
-void beside_their_plane(Check& c) { beside_their_plane_from(c, 1), beside_their_plane_from(c, -1); }
+void beside_their_plane(Check& c) {
+  beside_their_plane_from(c, 1);
+  beside_their_plane_from(c, -1);
+}
 
 }  // namespace
 

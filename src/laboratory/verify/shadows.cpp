@@ -85,7 +85,10 @@ void through_shared_edges(Check& c) {
     add_triangles(scene, roof);
     for (int i = 0; i < 8; ++i) add_lamp(scene, {-1.96875 + i * 0.5, 2, 0.03125});
     Camera camera = look_at({0, 0.5, 0}, {0, 0, 0});
-    camera.orthographic = true, camera.half_height_m = 4, camera.near_m = 0.1, camera.far_m = 2;
+    camera.orthographic = true;
+    camera.half_height_m = 4;
+    camera.near_m = 0.1;
+    camera.far_m = 2;
     shadows(c, scene, {make_view(camera, 128, 128)}, {.seen = 0.05, .hidden = 0.5, .either = 0.03});
   }
 }
@@ -181,7 +184,10 @@ void box_of_instances(Check& c) {
   for (int side = 0; side < 6; ++side) {
     dmat4 m(0);
     const int axis = side / 2;
-    m[0][(axis + 1) % 3] = side % 2 ? -1 : 1, m[1][(axis + 2) % 3] = 1, m[2][axis] = 1, m[3][3] = 1;
+    m[0][(axis + 1) % 3] = side % 2 ? -1 : 1;
+    m[1][(axis + 2) % 3] = 1;
+    m[2][axis] = 1;
+    m[3][3] = 1;
     m[3][axis] = side % 2 ? 1 : -1;
     add_triangles(scene, square, m);
   }
@@ -323,8 +329,11 @@ void without_area(Check& c) {
   ShadowTriangles flat;
   for (int i = 0; i < 200; ++i) {
     const vec3 a = vec3(in_cube(random, 1.5)) + vec3(0, 1.5f, 0), b = vec3(in_cube(random, 1));
-    flat.push_back({a, a, a}), flat.push_back({a, a + b, a}), flat.push_back({a, a + b, a + b * 0.5f});
-    flat.push_back({a, a + b * 1e-20f, a - b * 1e-20f}), flat.push_back({a, a + b, a + b * 1.0001f});
+    flat.push_back({a, a, a});
+    flat.push_back({a, a + b, a});
+    flat.push_back({a, a + b, a + b * 0.5f});
+    flat.push_back({a, a + b * 1e-20f, a - b * 1e-20f});
+    flat.push_back({a, a + b, a + b * 1.0001f});
   }
   add_triangles(scene, flat);
   for (int i = 0; i < 24; ++i) add_lamp(scene, in_cube(random, 2) + dvec3(0, 2.2, 0));

@@ -17,14 +17,21 @@ void set_depth_row(glm::dmat4& clip, const Lens& lens) {
   const double n = lens.near, f = lens.far;
   double a, b;
   if (lens.orthographic) {
-    a = 1 / (f - n), b = f / (f - n);
-    if (lens.order == DepthOrder::standard) a = -a, b = -n / (f - n);
+    a = 1 / (f - n);
+    b = f / (f - n);
+    if (lens.order == DepthOrder::standard) {
+      a = -a;
+      b = -n / (f - n);
+    }
   } else if (lens.order == DepthOrder::reversed) {
-    a = endless ? 0 : n / (f - n), b = endless ? n : f * n / (f - n);
+    a = endless ? 0 : n / (f - n);
+    b = endless ? n : f * n / (f - n);
   } else {
-    a = endless ? -1 : -f / (f - n), b = endless ? -n : -f * n / (f - n);
+    a = endless ? -1 : -f / (f - n);
+    b = endless ? -n : -f * n / (f - n);
   }
-  clip[2][2] = a, clip[3][2] = b;
+  clip[2][2] = a;
+  clip[3][2] = b;
 }
 
 }  // namespace
@@ -32,11 +39,14 @@ void set_depth_row(glm::dmat4& clip, const Lens& lens) {
 CullView view_through(const Lens& lens, int width, int height) {
   CullView view{.width = width, .height = height};
   glm::dmat4& clip = view.clip_from_view = glm::dmat4(lens.orthographic ? 1 : 0);
-  clip[0][0] = 1 / lens.half_x, clip[1][1] = 1 / lens.half_y;
+  clip[0][0] = 1 / lens.half_x;
+  clip[1][1] = 1 / lens.half_y;
   if (lens.orthographic) {
-    clip[3][0] = -lens.shift_x / lens.half_x, clip[3][1] = -lens.shift_y / lens.half_y;
+    clip[3][0] = -lens.shift_x / lens.half_x;
+    clip[3][1] = -lens.shift_y / lens.half_y;
   } else {
-    clip[2][0] = lens.shift_x / lens.half_x, clip[2][1] = lens.shift_y / lens.half_y;
+    clip[2][0] = lens.shift_x / lens.half_x;
+    clip[2][1] = lens.shift_y / lens.half_y;
     clip[2][3] = -1;
   }
   set_depth_row(clip, lens);

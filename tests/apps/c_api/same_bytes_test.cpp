@@ -302,10 +302,16 @@ TEST(CThreads, MayTakeTurns) {
   OwnedDevice device;
   OwnedView view;
   std::vector<float> first, second;
-  std::thread([&] { device = open_device("auto"), view = open_view(device, scene, "forward_plus"); }).join();
+  std::thread([&] {
+    device = open_device("auto");
+    view = open_view(device, scene, "forward_plus");
+  }).join();
   std::thread([&] { first = rendered(view).values; }).join();
   second = rendered(view).values;
-  std::thread([&] { device.reset(), view.reset(); }).join();
+  std::thread([&] {
+    device.reset();
+    view.reset();
+  }).join();
   EXPECT_EQ(first, second);
 }
 
@@ -334,7 +340,8 @@ OwnedScene in_c(const Scene& from, const Words& fields) {
     lightgrid_material material;
     lightgrid_default_material(&material);
     for (int i = 0; i < 4; ++i) material.base_color[i] = m.base_color[i];
-    material.metallic = m.metallic, material.roughness = m.roughness;
+    material.metallic = m.metallic;
+    material.roughness = m.roughness;
     must(lightgrid_scene_add_material(made, &material, nullptr));
   }
   for (const Mesh& m : from.meshes) {
@@ -354,8 +361,13 @@ std::vector<lightgrid_light> lamps_of(const Scene& from) {
   for (const Light& l : from.lights) {
     lightgrid_light& lamp = lamps.emplace_back();
     lightgrid_default_light(&lamp);
-    for (int i = 0; i < 3; ++i) lamp.position[i] = l.position[i], lamp.color[i] = l.color[i];
-    lamp.intensity = l.intensity, lamp.radius_m = l.radius_m, lamp.casts_shadow = l.casts_shadow;
+    for (int i = 0; i < 3; ++i) {
+      lamp.position[i] = l.position[i];
+      lamp.color[i] = l.color[i];
+    }
+    lamp.intensity = l.intensity;
+    lamp.radius_m = l.radius_m;
+    lamp.casts_shadow = l.casts_shadow;
   }
   return lamps;
 }
@@ -394,10 +406,14 @@ TEST_P(CScenes, FromArraysAreDrawnAsTheirCppTwinsAndFollowWhatMoves) {
   };
   const auto set_lights = [&] { must(lightgrid_scene_set_lights(scene.get(), ours.data(), ours.size())); };
 
-  ours[1].position[0] += 1.7, theirs[1].position.x += 1.7;
-  ours[4].radius_m = 2.2f, theirs[4].radius_m = 2.2f;
-  ours[3].color[1] = 0.25f, theirs[3].color.y = 0.25f;
-  ours[5].intensity = 5, theirs[5].intensity = 5;
+  ours[1].position[0] += 1.7;
+  theirs[1].position.x += 1.7;
+  ours[4].radius_m = 2.2f;
+  theirs[4].radius_m = 2.2f;
+  ours[3].color[1] = 0.25f;
+  theirs[3].color.y = 0.25f;
+  ours[5].intensity = 5;
+  theirs[5].intensity = 5;
   set_lights();
   expect_the_same("lights that move and change");
 
@@ -406,12 +422,15 @@ TEST_P(CScenes, FromArraysAreDrawnAsTheirCppTwinsAndFollowWhatMoves) {
   must(lightgrid_scene_move_instance(scene.get(), 1, &ball[0][0]));
   expect_the_same("an instance that moves");
 
-  ours[0].type = LIGHTGRID_DIRECTIONAL, theirs[0].type = LightType::directional;
-  ours[2].type = LIGHTGRID_SPOT, theirs[2].type = LightType::spot;
+  ours[0].type = LIGHTGRID_DIRECTIONAL;
+  theirs[0].type = LightType::directional;
+  ours[2].type = LIGHTGRID_SPOT;
+  theirs[2].type = LightType::spot;
   set_lights();
   expect_the_same("lights of other types");
 
-  ours.pop_back(), theirs.pop_back();
+  ours.pop_back();
+  theirs.pop_back();
   set_lights();
   expect_the_same("fewer lights");
 

@@ -88,14 +88,26 @@ TEST(CErrors, TellTheFieldOfALight) {
   expect_wrong(set([&](lightgrid_light& l) { l.position[2] = INFINITY; }), "lights[1].position[2]");
   expect_wrong(set([&](lightgrid_light& l) { l.color[0] = -1; }), "lights[1].color[0]");
   expect_wrong(set([&](lightgrid_light& l) { l.type = lightgrid_light_type(9); }), "lights[1].type");
-  expect_wrong(set([&](lightgrid_light& l) { l.type = LIGHTGRID_SPOT, l.direction[2] = 0; }),
+  expect_wrong(set([&](lightgrid_light& l) {
+                 l.type = LIGHTGRID_SPOT;
+                 l.direction[2] = 0;
+               }),
                "lights[1].direction");
-  expect_wrong(set([&](lightgrid_light& l) { l.type = LIGHTGRID_SPOT, l.outer_cone_rad = 0; }),
+  expect_wrong(set([&](lightgrid_light& l) {
+                 l.type = LIGHTGRID_SPOT;
+                 l.outer_cone_rad = 0;
+               }),
                "lights[1].outer_cone_rad");
-  expect_wrong(
-      set([&](lightgrid_light& l) { l.type = LIGHTGRID_SPOT, l.inner_cone_rad = 2 * l.outer_cone_rad; }),
-      "lights[1].inner_cone_rad");
-  expect_wrong(set([&](lightgrid_light& l) { l.intensity = 3e38f, l.color[0] = 9; }), "lights[1].intensity");
+  expect_wrong(set([&](lightgrid_light& l) {
+                 l.type = LIGHTGRID_SPOT;
+                 l.inner_cone_rad = 2 * l.outer_cone_rad;
+               }),
+               "lights[1].inner_cone_rad");
+  expect_wrong(set([&](lightgrid_light& l) {
+                 l.intensity = 3e38f;
+                 l.color[0] = 9;
+               }),
+               "lights[1].intensity");
   size_t count = 0;
   must(lightgrid_scene_get_lights(scene.get(), nullptr, 0, &count));
   EXPECT_EQ(count, 2u);  // as before the errors
@@ -139,19 +151,23 @@ TEST(CErrors, TellTheFieldOfAMesh) {
   lightgrid_default_material(&material);
   material.base_color[3] = 2;
   expect_wrong(lightgrid_scene_add_material(made, &material, nullptr), "material.base_color[3]");
-  material.base_color[3] = 1, material.ior = 0.5f;
+  material.base_color[3] = 1;
+  material.ior = 0.5f;
   expect_wrong(lightgrid_scene_add_material(made, &material, nullptr), "material.ior");
   material.ior = 0;  // all is reflected
   EXPECT_EQ(lightgrid_scene_add_material(made, &material, nullptr), LIGHTGRID_OK);
-  material.roughness = 1, material.normal_map = 0;
+  material.roughness = 1;
+  material.normal_map = 0;
   expect_wrong(lightgrid_scene_add_material(made, &material, nullptr), "material.normal_map");
   material.normal_map = -1;
   must(lightgrid_scene_add_material(made, &material, nullptr));
   mesh.index_count = 4;
   expect_wrong(lightgrid_scene_add_mesh(made, &mesh, nullptr), "mesh.index_count");
-  mesh.index_count = 3, indices[2] = 3;
+  mesh.index_count = 3;
+  indices[2] = 3;
   expect_wrong(lightgrid_scene_add_mesh(made, &mesh, nullptr), "mesh.indices", "index 2 is 3");
-  indices[2] = 2, positions[4] = NAN;
+  indices[2] = 2;
+  positions[4] = NAN;
   expect_wrong(lightgrid_scene_add_mesh(made, &mesh, nullptr), "mesh.positions");
   positions[4] = 0;
   int32_t number = -1;
@@ -236,16 +252,24 @@ TEST(CErrors, AreWhatNullGives) {
   expect_wrong(lightgrid_report_save(nullptr, nullptr), "folder");
   EXPECT_EQ(lightgrid_device_name(nullptr), nullptr);
   EXPECT_EQ(lightgrid_report_json(nullptr), nullptr);
-  lightgrid_device_close(nullptr), lightgrid_scene_free(nullptr), lightgrid_view_close(nullptr);
-  lightgrid_lists_free(nullptr), lightgrid_report_free(nullptr), lightgrid_free(nullptr);
-  lightgrid_default_light(nullptr), lightgrid_default_material(nullptr), lightgrid_set_log(nullptr, nullptr);
+  lightgrid_device_close(nullptr);
+  lightgrid_scene_free(nullptr);
+  lightgrid_view_close(nullptr);
+  lightgrid_lists_free(nullptr);
+  lightgrid_report_free(nullptr);
+  lightgrid_free(nullptr);
+  lightgrid_default_light(nullptr);
+  lightgrid_default_material(nullptr);
+  lightgrid_set_log(nullptr, nullptr);
 }
 
 // Worked out by hand: one pixel of 4 x 2 is off by 0.5 in red, and the brightest channel is 2.
 TEST(CMeasures, AreThoseOfTheProgram) {
   Radiance image(4, 2), reference(4, 2);
-  std::ranges::fill(reference.values, 1.0f), reference.values[4] = 2;
-  image.values = reference.values, image.values[0] = 1.5f;
+  std::ranges::fill(reference.values, 1.0f);
+  reference.values[4] = 2;
+  image.values = reference.values;
+  image.values[0] = 1.5f;
   const auto measured = [&](const char* name) {
     double value = -1;
     must(lightgrid_measure(&image.image, &reference.image, name, &value));

@@ -117,7 +117,7 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
   const std::map<std::string, std::vector<std::string>> data = {
       {"light_groups",
        {"all_groups", "group_names", "GroupLists", "compile_groups", "light.groups", "instance.groups",
-        "].groups", "back().groups", "of->groups", "most_groups"}}};
+        "].groups", "back().groups", "of->groups", "max_groups"}}};
   const std::string table = code_of(text_at("src/engine/effects/effects.cpp"));
   for (const Effect* effect : all_effects) {
     const std::string name = effect->name, key = without_underscores(name, "-");
@@ -320,17 +320,17 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
     all.insert(member);
     texts[member] = {array, "glm::vec4 " + member + "(", "float " + member + "(const ViewLight"};
   }
-  EXPECT_THAT(all, testing::IsSupersetOf({"position", "color", "cone", "most_falloff"}));
+  EXPECT_THAT(all, testing::IsSupersetOf({"position", "color", "cone", "max_falloff"}));
   // All that names the newest columns. The others are read by every light loop.
   texts["cone"].push_back("light.cone.");
-  texts["most_falloff"].push_back("REAL(light.most_falloff");
+  texts["max_falloff"].push_back("REAL(light.max_falloff");
   const Naming expected = {
       {"src/engine/shared/light_table.h", all},
       {"src/engine/renderer/upload/lights.cpp", all},
       // Readers: the range alone; a cone's part in what arrives.
       {"shaders/lights/blocks.glsl", {"position"}},
-      {"src/engine/shared/punctual_light.h", {"cone", "most_falloff"}},
-      {"src/engine/shared/voxel_exact.h", {"cone", "most_falloff"}},
+      {"src/engine/shared/punctual_light.h", {"cone", "max_falloff"}},
+      {"src/engine/shared/voxel_exact.h", {"cone", "max_falloff"}},
       // A record of the culler's own, from LightBounds.
       {"kernels/culling/gpu/cull_lights.cl", {"cone"}},
   };
@@ -363,7 +363,7 @@ bool names_one(const std::string& code, const std::vector<std::string>& texts) {
 const std::vector<std::string> reading = {
     " arrival_at(",        "(arrival_at(",         " voxel_arrival(",         " attenuation(light",
     " arrival_at_sample(", "arrival_beyond(",      "radiant_intensity",       "influence_of(",
-    "largest_intensity(",  "brightest_intensity(", "light_importance(",       "most_irradiance(",
+    "largest_intensity(",  "brightest_intensity(", "light_importance(",       "max_irradiance(",
     "->luminance",         "record.luminance",     "double(light.intensity)", "= light.intensity * ",
     "= n.intensity"};
 
@@ -406,11 +406,11 @@ std::vector<std::string> marks_of(const std::string& factor) {
       {"position", {"position", "radius_m", "range_of(", "bounds_of(", "influence_of("}},
       {"color", reading},
       {"cone", {"has_cone(", "cos_outer", "bounds_of("}},
-      {"most_falloff", {"most_falloff"}},
+      {"max_falloff", {"max_falloff"}},
       {"masks", {"light_reaches(", "mask_of(", "share.of_surface", "->mask"}},
       {"shadows", {"light_reaches("}},
       {"effects", {"light_reaches(", "largest_intensity(", "influence_of(", "share_of("}}};
-  for (const char* of_distance : {"position", "color", "cone", "most_falloff"})
+  for (const char* of_distance : {"position", "color", "cone", "max_falloff"})
     marks[of_distance].insert(marks[of_distance].end(), arrivals.begin(), arrivals.end());
   const auto own = marks.find(factor);
   return own == marks.end() ? std::vector<std::string>{factor} : own->second;

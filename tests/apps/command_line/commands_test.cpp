@@ -302,7 +302,8 @@ TEST(PlanCommand, ReportsTheSamplesThatASceneRequests) {
     return run.out;
   };
   EXPECT_THAT(plan({}), HasSubstr("yes samples: the scene asks for 4 a pixel\n"));
-  EXPECT_THAT(plan({"--set", "samples=1"}), HasSubstr(" no samples: the scene asks for 4 a pixel; samples=1\n"));
+  EXPECT_THAT(plan({"--set", "samples=1"}),
+              HasSubstr(" no samples: the scene asks for 4 a pixel; samples=1\n"));
 }
 
 TEST(PlanCommand, TellsOfEachLightThatCastsWhetherItsShadowsAreFound) {

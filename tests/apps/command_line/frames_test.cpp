@@ -230,7 +230,8 @@ TEST_F(Frames, InspectTellsOfEachLightAtAPixel) {
   EXPECT_EQ(json["lost"], 0);
   int listed = 0, lit = 0;
   for (const auto& light : json["lights"]) {
-    listed += light["listed"].get<bool>(), lit += light["lit"].get<bool>();
+    listed += light["listed"].get<bool>();
+    lit += light["lit"].get<bool>();
     for (const char* key : {"light", "index", "name", "type", "distance", "radius", "test", "margin",
                             "margins", "touches_cell", "lit_pixels"}) {
       EXPECT_TRUE(light.contains(key)) << key;

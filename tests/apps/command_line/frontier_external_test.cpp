@@ -61,8 +61,9 @@ struct Sweep {
   }
   void expect_recomputed() const {
     if (!has_python()) return;
-    const ProgramRun run = run_words(
-        {"python3", std::string(source_folder) + "/tests/laboratory/frontier/recompute.py", folder.path / "out"});
+    const ProgramRun run =
+        run_words({"python3", std::string(source_folder) + "/tests/laboratory/frontier/recompute.py",
+                   folder.path / "out"});
     EXPECT_EQ(run.status, 0) << run.out << run.err;
   }
 };

@@ -62,7 +62,9 @@ void expect_ratios_about_one(const fs::path& folder) {
   for (const auto& run : csv_table(file_bytes(folder / "samples.csv"))) {
     if (!rows.contains(run.at("row"))) continue;
     const double ratio = std::stod(run.at("frame_ms")) / std::stod(run.at("baseline_ms"));
-    ++n, above += ratio > 2, below += ratio < 0.5;
+    ++n;
+    above += ratio > 2;
+    below += ratio < 0.5;
   }
   ASSERT_GE(n, 40);
   double tail = 0;  // P(more than k)

@@ -151,8 +151,8 @@ TEST_P(BridgeExchange, BringsEveryWordAndTexelInBothDirections) {
   const bool gpu = GetParam() == BridgeKind::imported;
   const cl_uint rounds = gpu ? 500 : 50;
   const double largest_log2 = gpu ? 23 : 15;  // number of words: 32 MiB
-  GLint most_texels = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels);
+  GLint max_texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max_texels);
   const auto write = compute_program_of(write_shader), check = compute_program_of(check_shader);
   PixelCopies copies(true);
   const std::vector<cl_uint> zeros(2 * rounds);
@@ -199,7 +199,7 @@ TEST_P(BridgeExchange, BringsEveryWordAndTexelInBothDirections) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, gl_counts.name());
     glUseProgram(check.name());
     glUniform1ui(2, round);
-    glUniform1ui(3, GLuint(most_texels));
+    glUniform1ui(3, GLuint(max_texels));
     dispatch_words(check, slot.words, seed + 1);
     glMemoryBarrier(GL_ALL_BARRIER_BITS);  // the next round may write this buffer: GPUs overlap dispatches
                                            // without a barrier

@@ -158,7 +158,8 @@ TEST_F(PixelCopiesOfContext, KeepEachBitByShader) {
     glGetTextureImage(texture.name(), 0, pixels.format, pixels.type, GLsizei(sizeof values), read.data());
     EXPECT_EQ(read, std::vector<uint32_t>(std::begin(values), std::end(values))) << pixels.name;
   };
-  written(written_pixels[0], floats), written(written_pixels[2], halves);
+  written(written_pixels[0], floats);
+  written(written_pixels[2], halves);
 }
 
 }  // namespace

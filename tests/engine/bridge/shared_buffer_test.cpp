@@ -206,7 +206,9 @@ TEST_P(SharedBufferOf, MayBeEmpty) {
 // An OpenGL that copies late, like a GPU: copies are delayed until a wait.
 struct LateCopies {
   LateCopies() {
-    copy = glCopyNamedBufferSubData, wait = glClientWaitSync, finish = glFinish;
+    copy = glCopyNamedBufferSubData;
+    wait = glClientWaitSync;
+    finish = glFinish;
     pending.clear();
     finishes = 0;
     glCopyNamedBufferSubData = [](GLuint from, GLuint to, GLintptr a, GLintptr b, GLsizeiptr bytes) {
@@ -216,11 +218,17 @@ struct LateCopies {
       run();
       return wait(sync, flags, time);
     };
-    glFinish = [] { ++finishes, run(), finish(); };
+    glFinish = [] {
+      ++finishes;
+      run();
+      finish();
+    };
   }
   ~LateCopies() {
     run();
-    glCopyNamedBufferSubData = copy, glClientWaitSync = wait, glFinish = finish;
+    glCopyNamedBufferSubData = copy;
+    glClientWaitSync = wait;
+    glFinish = finish;
   }
   static void run() {
     for (const auto& late : pending) late();

@@ -12,7 +12,10 @@ namespace {
 
 ClDeviceInfo device(const std::string& name, const std::string& driver = "1.0") {
   ClDeviceInfo info;
-  info.name = name, info.driver = driver, info.platform = "p", info.version = "v";
+  info.name = name;
+  info.driver = driver;
+  info.platform = "p";
+  info.version = "v";
   return info;
 }
 

@@ -85,7 +85,9 @@ CulledGrid cull_within(const View& view, const std::vector<ViewLight>& lights, c
   result.grid = culler.cull(bounds_of(culler), storage);
   result.params = culler.params();
   const HostGrid host = read_grid(test_device(), result.grid, storage);
-  result.cells = host.cells, result.indices = host.indices, result.masks = host.masks;
+  result.cells = host.cells;
+  result.indices = host.indices;
+  result.masks = host.masks;
   return result;
 }
 
@@ -132,15 +134,18 @@ inline View view_of(int width, int height, double fov_y_deg, double near_m = 0.1
                     double far_m = std::numeric_limits<double>::infinity()) {
   Camera camera;
   camera.fov_y_rad = glm::radians(fov_y_deg);
-  camera.near_m = near_m, camera.far_m = far_m;
+  camera.near_m = near_m;
+  camera.far_m = far_m;
   return make_view(camera, width, height);
 }
 
 inline View orthographic_view_of(int width, int height, double half_height_m, double near_m, double far_m) {
   Camera camera;
   camera.orthographic = true;
-  camera.half_height_m = half_height_m, camera.half_width_m = half_height_m * width / height;
-  camera.near_m = near_m, camera.far_m = far_m;
+  camera.half_height_m = half_height_m;
+  camera.half_width_m = half_height_m * width / height;
+  camera.near_m = near_m;
+  camera.far_m = far_m;
   return make_view(camera, width, height);
 }
 

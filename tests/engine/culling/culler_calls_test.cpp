@@ -212,7 +212,8 @@ TEST(CullerCalls, TakeBoundsOfTheirViewAsOftenAsIsWanted) {
   const uint64_t listed = entries(given);
   EXPECT_GT(listed, 0u);
   CullView sliced = view;
-  sliced.slice_edges = {1.4f}, sliced.z_bin_edges = {1.2f, 1.6f};
+  sliced.slice_edges = {1.4f};
+  sliced.z_bin_edges = {1.2f, 1.6f};
   sliced.view_from_world[3] = {1, 2, 3, 1};  // not used
   culler.set_view(sliced);
   EXPECT_GT(entries(given), listed);
@@ -258,7 +259,8 @@ TEST(CullerCalls, ThrowOpenClsErrorsAsOurs) {
     cl::Buffer& cells(size_t) override { return ClGridStorage::cells(64); }
   } small(test_device());
   LightGrid grid;
-  grid.cells_x = 1000, grid.cell_bytes = 8000;
+  grid.cells_x = 1000;
+  grid.cell_bytes = 8000;
   EXPECT_THAT(refusal(ErrorKind::machine, [&] { read_grid(test_device(), grid, small); }),
               HasSubstr("clEnqueueReadBuffer failed with CL_INVALID_VALUE"));
   LightCuller culler(test_device(), test_programs(), {});
@@ -269,7 +271,8 @@ TEST(CullerCalls, ThrowOpenClsErrorsAsOurs) {
 
 TEST(CullerCalls, CountInvalidDepthTilesOfTheLastDepthBounds) {
   std::vector<float> invalid = same_depth;
-  invalid[0] = NAN, invalid[40] = 2;
+  invalid[0] = NAN;
+  invalid[40] = 2;
   for (const KernelShape shape : kernel_shapes) {
     LightCuller culler(test_device(), test_programs(), {.shape = shape});
     culler.set_view(view_with_near(0.1));

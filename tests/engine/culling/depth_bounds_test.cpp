@@ -62,7 +62,8 @@ Exact scan(const View& view, const std::vector<float>& depth, int tile, int inde
         continue;
       }
       const double distance = std::min(-position_from_depth(view, x, y, value).z, double(far_away));
-      exact.nearest = std::min(exact.nearest, distance), exact.farthest = std::max(exact.farthest, distance);
+      exact.nearest = std::min(exact.nearest, distance);
+      exact.farthest = std::max(exact.farthest, distance);
       exact.any = true;
     }
   }

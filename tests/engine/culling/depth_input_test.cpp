@@ -152,7 +152,10 @@ TEST(DepthInput, TilesWithValuesThatAreNoDepthAreCountedOnce) {
     std::vector<float> depth(64 * 32, 0.5f);
     culler.depth_bounds({buffer_of(depth)});
     EXPECT_EQ(culler.invalid_depth_tiles(), 0u);
-    depth[0] = nan, depth[1] = -1, depth[20] = 2, depth[31 * 64 + 63] = INFINITY;  // in three tiles
+    depth[0] = nan;
+    depth[1] = -1;
+    depth[20] = 2;
+    depth[31 * 64 + 63] = INFINITY;  // in three tiles
     culler.depth_bounds({buffer_of(depth)});
     EXPECT_EQ(culler.invalid_depth_tiles(), 3u);
   }

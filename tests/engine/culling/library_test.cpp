@@ -72,7 +72,8 @@ TEST(Library, InstalledIsFoundByCMakeAndCullsInTheExampleWithoutOpenGl) {
   size_t pairs = 0, tiles = 0;
   for (int tile = 0; tile < 80 * 45; ++tile) {
     const size_t count = lights_of_tile(lights, depth, tile % 80, tile / 80).size();
-    pairs += count, tiles += count > 0;
+    pairs += count;
+    tiles += count > 0;
   }
   std::smatch numbers;
   ASSERT_TRUE(

@@ -138,10 +138,10 @@ TEST(LightCuller, FitsItsGroupsToTheDevice) {
   const View view = view_of(127, 73, 60);
   const std::vector<CullLight> lights = cull_lights_of(some_lights(300, false, 8));
   const std::vector<float> depth(127 * 73, 0.02f);
-  const auto grid_with = [&](size_t most_items) {
+  const auto grid_with = [&](size_t max_items) {
     ClDevice device;
     ProgramCache programs(device);
-    const_cast<ClDeviceInfo&>(device.info()).max_group_items = most_items;
+    const_cast<ClDeviceInfo&>(device.info()).max_group_items = max_items;
     const cl::Buffer values(device.context(), CL_MEM_COPY_HOST_PTR, depth.size() * sizeof(float),
                             const_cast<float*>(depth.data()));
     LightCuller culler(device, programs, {.shape = KernelShape::group});

@@ -324,7 +324,8 @@ TEST_P(LightGridUnder, NoSettingLosesAPixelsLight) {
       const int combination = int(std::size(depth_bounds_modes)) * int(GetParam()) + mode,
                 tile = 8 << combination % 4;
       CullerOptions options = grid_options(GetParam(), KernelShape::lanes);
-      options.tile = tile, options.depth_bounds = DepthBoundsMode(mode);
+      options.tile = tile;
+      options.depth_bounds = DepthBoundsMode(mode);
       SCOPED_TRACE(fmt::format("{} mode {} tile {}", named.name, mode, tile));
       const CulledGrid grid = cull_depth(named.view, lights, depth, options);
       ASSERT_EQ(grid.cells.size(), tile_count(named.view, tile));
@@ -334,7 +335,10 @@ TEST_P(LightGridUnder, NoSettingLosesAPixelsLight) {
         EXPECT_EQ(cull_depth(named.view, lights, depth, options), grid);
       }
       ListedLights lists;
-      for (const glm::uvec2 cell : grid.cells) lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+      for (const glm::uvec2 cell : grid.cells) {
+        lists.first.push_back(cell.x);
+        lists.count.push_back(cell.y);
+      }
       lists.indices = grid.indices;
       const ListAccuracy accuracy = measure_lists(lit, tile, lists);
       EXPECT_EQ(accuracy.lost, 0u);

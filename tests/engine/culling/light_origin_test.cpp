@@ -48,7 +48,10 @@ LitPairs pairs(const View& view, const std::vector<float>& depth, const std::vec
                KernelShape shape) {
   const CulledGrid grid = cull_depth(view, lights, depth, {.shape = shape});
   ListedLights lists;
-  for (const glm::uvec2 cell : grid.cells) lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+  for (const glm::uvec2 cell : grid.cells) {
+    lists.first.push_back(cell.x);
+    lists.count.push_back(cell.y);
+  }
   lists.indices = grid.indices;
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x)
@@ -120,7 +123,10 @@ TEST_P(Loss, NoneInTheSmallest) {
     SCOPED_TRACE(scale);
     View view = view_of(size, size, 60, 0.1 * scale);
     std::vector<ViewLight> lights = lights_at_the_wall(300, 7);
-    for (ViewLight& light : lights) light.position *= scale, light.radius_m *= scale;
+    for (ViewLight& light : lights) {
+      light.position *= scale;
+      light.radius_m *= scale;
+    }
     const LitPairs found = pairs(view, wall_depth(wall_m), lights, GetParam());
     EXPECT_EQ(found.lost, 0u);
     EXPECT_GT(found.lit, 1000u);
@@ -145,7 +151,8 @@ void expect_listed(double stretch, CullTest test) {
   const glm::dvec3 surface(side, side, -near_m / double(depth));
   CullView view{64, 64, glm::dmat4(0), glm::scale(glm::dmat4(1), glm::dvec3(1 + stretch))};
   view.clip_from_view[0][0] = view.clip_from_view[1][1] = focal;
-  view.clip_from_view[2][3] = -1, view.clip_from_view[3][2] = near_m;
+  view.clip_from_view[2][3] = -1;
+  view.clip_from_view[3][2] = near_m;
   glm::dvec3 at = surface / (1 + stretch);
   at.z = -(std::floor((radius_m - surface.z) / (1 + stretch) / rounding_m) - 1) * rounding_m;
   const double inside_m = radius_m - glm::length(at * (1 + stretch) - surface);

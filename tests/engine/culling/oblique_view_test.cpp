@@ -74,7 +74,10 @@ std::vector<float> random_surfaces(const Mirror& mirror, Random& random) {
 
 ListedLights lists_of(const CulledGrid& grid, int tile) {
   ListedLights lists;
-  for (const glm::uvec2 cell : grid.cells) lists.first.push_back(cell.x), lists.count.push_back(cell.y);
+  for (const glm::uvec2 cell : grid.cells) {
+    lists.first.push_back(cell.x);
+    lists.count.push_back(cell.y);
+  }
   lists.indices = grid.indices;
   for (int i = 0; i < width * height; ++i) {
     lists.cell_of_pixel.push_back(uint32_t(i / width / tile * grid.grid.cells_x + i % width / tile));
@@ -144,7 +147,8 @@ TEST(ObliqueView, BoundsHoldSurfacesAndLittleMoreAndSkyIsNone) {
           const float value = depth[size_t(y) * width + x];
           if (value == sky) continue;
           const double distance = -position_from_depth(mirror.view, x, y, value).z;
-          near = std::min(near, distance), far = std::max(far, distance);
+          near = std::min(near, distance);
+          far = std::max(far, distance);
         }
       }
       if (near > far) {
@@ -175,7 +179,8 @@ TEST(ObliqueView, RefusesSlicesAndZBins) {
   EXPECT_EQ(refusal_of(view), "");
   view.slice_edges = {2, 4};
   EXPECT_THAT(refusal_of(view), testing::HasSubstr("slice_edges"));
-  view.slice_edges.clear(), view.z_bin_edges = {3};
+  view.slice_edges.clear();
+  view.z_bin_edges = {3};
   EXPECT_THAT(refusal_of(view), testing::HasSubstr("z_bin_edges"));
 }
 

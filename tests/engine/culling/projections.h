@@ -27,19 +27,25 @@ inline Projection projection(std::string name, bool orthographic, bool standard,
                              double x0 = -0.8, double x1 = 0.8, double y0 = -0.5, double y1 = 0.5) {
   const double tip = orthographic ? 0 : 1;
   glm::dmat4 m(0);
-  m[0][0] = 2 / (x1 - x0), m[1][1] = 2 / (y1 - y0);
+  m[0][0] = 2 / (x1 - x0);
+  m[1][1] = 2 / (y1 - y0);
   m[orthographic ? 3 : 2][0] = (orthographic ? -1 : 1) * (x1 + x0) / (x1 - x0);
   m[orthographic ? 3 : 2][1] = (orthographic ? -1 : 1) * (y1 + y0) / (y1 - y0);
-  m[2][3] = -tip, m[3][3] = 1 - tip;
+  m[2][3] = -tip;
+  m[3][3] = 1 - tip;
   // Reversed: depth = 1 at near, 0 at far. Standard is 1 less that.
   const double span = far_m - near_m;
   if (orthographic) {
-    m[2][2] = 1 / span, m[3][2] = far_m / span;
+    m[2][2] = 1 / span;
+    m[3][2] = far_m / span;
   } else {
-    m[2][2] = std::isinf(far_m) ? 0 : near_m / span,
+    m[2][2] = std::isinf(far_m) ? 0 : near_m / span;
     m[3][2] = std::isinf(far_m) ? near_m : near_m * (far_m / span);
   }
-  if (standard) m[2][2] = -m[2][2] - tip, m[3][2] = (orthographic ? 1 : 0) - m[3][2];
+  if (standard) {
+    m[2][2] = -m[2][2] - tip;
+    m[3][2] = (orthographic ? 1 : 0) - m[3][2];
+  }
   return {std::move(name), orthographic, standard, near_m, far_m, m};
 }
 

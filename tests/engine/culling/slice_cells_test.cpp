@@ -133,7 +133,8 @@ TEST(SliceCells, ListWhatCertainlyTouchesThemInBothShapes) {
     EXPECT_GT(touching, 200u);
     options.shape = KernelShape::group;
     EXPECT_EQ(cull_cells(view, lights, intervals, options, edges), grid);
-    options.shape = KernelShape::lanes, options.portable = true;
+    options.shape = KernelShape::lanes;
+    options.portable = true;
     EXPECT_EQ(cull_cells(view, lights, intervals, options, edges), grid);
   }
 }

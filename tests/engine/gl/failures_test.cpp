@@ -30,13 +30,19 @@ std::string refusal(const Call& call) {
 // An OpenGL without memory: storage fails, and glGetError reports it once.
 struct NoMemory {
   NoMemory() {
-    buffer = glNamedBufferStorage, texture = glTextureStorage2D, error = glGetError;
+    buffer = glNamedBufferStorage;
+    texture = glTextureStorage2D;
+    error = glGetError;
     pending = GL_NO_ERROR;
     glNamedBufferStorage = [](GLuint, GLsizeiptr, const void*, GLbitfield) { pending = GL_OUT_OF_MEMORY; };
     glTextureStorage2D = [](GLuint, GLsizei, GLenum, GLsizei, GLsizei) { pending = GL_OUT_OF_MEMORY; };
     glGetError = [] { return std::exchange(pending, GLenum(GL_NO_ERROR)); };
   }
-  ~NoMemory() { glNamedBufferStorage = buffer, glTextureStorage2D = texture, glGetError = error; }
+  ~NoMemory() {
+    glNamedBufferStorage = buffer;
+    glTextureStorage2D = texture;
+    glGetError = error;
+  }
   static inline GLenum pending;
   PFNGLNAMEDBUFFERSTORAGEPROC buffer;
   PFNGLTEXTURESTORAGE2DPROC texture;
@@ -72,11 +78,18 @@ TEST_F(GlFailures, AProgramThatDoesNotCompileLeavesNoShaderBehind) {
   static int made = 0, deleted = 0;
   static PFNGLCREATESHADERPROC create = glCreateShader;
   static PFNGLDELETESHADERPROC remove = glDeleteShader;
-  glCreateShader = [](GLenum stage) { return ++made, create(stage); };
-  glDeleteShader = [](GLuint shader) { ++deleted, remove(shader); };
+  glCreateShader = [](GLenum stage) {
+    ++made;
+    return create(stage);
+  };
+  glDeleteShader = [](GLuint shader) {
+    ++deleted;
+    remove(shader);
+  };
   EXPECT_THAT(refusal([] { GlProgram("shaders/screen.vert", "shaders/screen.vert", {"main ["}); }),
               HasSubstr("does not compile"));
-  glCreateShader = create, glDeleteShader = remove;
+  glCreateShader = create;
+  glDeleteShader = remove;
   EXPECT_EQ(made, 2);
   EXPECT_EQ(deleted, 2);
 }
@@ -104,10 +117,15 @@ TEST_F(GlFailures, ResetStateIsThatOfANewContext) {
   const GlVertexArray array = make_vertex_array();
   for (const GLenum test : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_STENCIL_TEST})
     glEnable(test);
-  glBlendEquation(GL_MAX), glBlendFunc(GL_ONE, GL_ONE), glCullFace(GL_FRONT), glFrontFace(GL_CW),
-      glDepthFunc(GL_EQUAL);
-  glDepthMask(GL_FALSE), glStencilMask(1), glStencilFunc(GL_EQUAL, 1, 1),
-      glStencilOp(GL_ZERO, GL_ZERO, GL_ZERO);
+  glBlendEquation(GL_MAX);
+  glBlendFunc(GL_ONE, GL_ONE);
+  glCullFace(GL_FRONT);
+  glFrontFace(GL_CW);
+  glDepthFunc(GL_EQUAL);
+  glDepthMask(GL_FALSE);
+  glStencilMask(1);
+  glStencilFunc(GL_EQUAL, 1, 1);
+  glStencilOp(GL_ZERO, GL_ZERO, GL_ZERO);
   glColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_TRUE);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer.name());
   glBindVertexArray(array.name());

@@ -32,7 +32,8 @@ CasterVolumes volumes_of(const Scene& scene, const CastingLight& light) {
 
 Mesh mesh_of(std::vector<glm::vec3> positions, std::vector<uint32_t> indices) {
   Mesh mesh;
-  mesh.positions = std::move(positions), mesh.indices = std::move(indices);
+  mesh.positions = std::move(positions);
+  mesh.indices = std::move(indices);
   mesh.normals.resize(mesh.positions.size(), {0, 0, 1});
   for (const glm::vec3& p : mesh.positions) mesh.bounds.add(p);
   return mesh;

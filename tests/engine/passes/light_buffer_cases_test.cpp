@@ -208,7 +208,8 @@ void normals_of_any_direction(PassCheck& c) {
   PrepassInput input = wall_input(view);
   Random random(8);
   for (glm::vec4& normal : input.normals) normal = glm::vec4(glm::vec3(any_direction(random)), 0);
-  input.normals[40] = {0, 0, -1, 0}, input.normals[41] = {1, 0, 0, 0};
+  input.normals[40] = {0, 0, -1, 0};
+  input.normals[41] = {1, 0, 0, 0};
   hold_sums(c, scene, view, input, "normals of any direction");
 }
 

@@ -237,7 +237,8 @@ std::vector<LightExtent> random_extents(int count, double spread, bool balls) {
     if (balls) extents.back().radius = radius;
     if (!balls) extents.back().low.z = extents.back().high.z = 0;
   }
-  extents[5].low = glm::dvec3(-std::numeric_limits<double>::infinity()), extents[5].high = -extents[5].low;
+  extents[5].low = glm::dvec3(-std::numeric_limits<double>::infinity());
+  extents[5].high = -extents[5].low;
   extents[5].radius = std::numeric_limits<double>::infinity();
   return extents;
 }

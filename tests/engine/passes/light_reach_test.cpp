@@ -53,7 +53,8 @@ TEST(LightReach, KeepsEveryBoxWithAPointThatTheLightReaches) {
     }
     const bool may = LightReach(bounds_of(light)).may_reach(box);
     ASSERT_TRUE(may || !some) << trial;
-    kept += may, reached += some;
+    kept += may;
+    reached += some;
   }
   EXPECT_GT(reached, 1000);
   EXPECT_LT(kept, 1.6 * reached) << "few are kept in vain";
@@ -74,7 +75,8 @@ TEST(LightReach, OfTangentBallsAndOfLightsWithoutEndOrExtent) {
 
 TEST(LightReach, OfABoxThatAMatrixTurns) {
   Aabb box;
-  box.add({-1, -2, -3}), box.add({1, 2, 3});
+  box.add({-1, -2, -3});
+  box.add({1, 2, 3});
   const double s = std::sqrt(0.5);
   const glm::dmat4 turned{{s, s, 0, 0}, {-s, s, 0, 0}, {0, 0, 1, 0}, {5, 6, 7, 1}};
   const ViewBox in_view = box_in_view(turned, box);

@@ -23,7 +23,7 @@ View random_view(Random& random) {
   camera.fov_y_rad = random.uniform(0.2f, 2.6f);
   View view = make_view(camera, width, height);
   if (!camera.orthographic) {  // off the centre
-    view.clip_from_view[2][0] = random.uniform(-0.5f, 0.5f),
+    view.clip_from_view[2][0] = random.uniform(-0.5f, 0.5f);
     view.clip_from_view[2][1] = random.uniform(-0.5f, 0.5f);
   }
   return view;
@@ -47,8 +47,10 @@ Trial random_trial(Random& random) {
   t.light.radius_m = random.uniform(0.05f, 3);
   LightVolume volume{};
   volume.bounds = bounds_of(t.light);
-  volume.center = t.light.position, volume.radius = 1e9;
-  volume.first = {0, 0}, volume.end = {width, height};
+  volume.center = t.light.position;
+  volume.radius = 1e9;
+  volume.first = {0, 0};
+  volume.end = {width, height};
   t.bounds = screen_bounds(t.view, volume);
   return t;
 }
@@ -90,7 +92,10 @@ TEST(LightScreenBounds, AreThoseOfTheTangents) {
     glm::dvec2 low(1e9), high(-1e9);
     for (int i = 0; i < 20000; ++i) {
       const auto p = seen(t.view, t.light.position + on_sphere(random) * t.light.radius_m);
-      if (p) low = glm::min(low, glm::dvec2(*p)), high = glm::max(high, glm::dvec2(*p));
+      if (p) {
+        low = glm::min(low, glm::dvec2(*p));
+        high = glm::max(high, glm::dvec2(*p));
+      }
     }
     if (low.x < 0 || low.y < 0 || high.x > width || high.y > height) continue;
     ++looked_at;
@@ -109,7 +114,8 @@ TEST(LightScreenBounds, OfALightWithoutEndAreTheVolumes) {
   light.radius_m = std::numeric_limits<double>::infinity();
   LightVolume volume{};
   volume.bounds = bounds_of(light);
-  volume.first = {3, 4}, volume.end = {50, 60};
+  volume.first = {3, 4};
+  volume.end = {50, 60};
   Random random(5);
   const ScreenBounds bounds = screen_bounds(random_view(random), volume);
   EXPECT_EQ(bounds.first, volume.first);

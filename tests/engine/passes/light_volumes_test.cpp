@@ -66,7 +66,11 @@ View any_view(Random& random) {
   const double kind = random.uniform();
   camera.near_m = std::exp(random.uniform(-5, 1));
   if (kind < 0.3) camera.far_m = camera.near_m * std::exp(random.uniform(1, 9));
-  if (kind > 0.8) camera.orthographic = true, camera.far_m = camera.near_m + 100, camera.half_height_m = 10;
+  if (kind > 0.8) {
+    camera.orthographic = true;
+    camera.far_m = camera.near_m + 100;
+    camera.half_height_m = 10;
+  }
   camera.fov_y_rad = random.uniform() < 0.2 ? 2.97 : std::exp(random.uniform(-5, 0.6));
   return make_view(camera, 640, 360);
 }
@@ -170,7 +174,9 @@ TEST(LightVolumes, AreNoneOfLightsThatReachNothingInView) {
   EXPECT_TRUE(volumes_of(point_at({0, 0, -3}, 0)).empty());
   EXPECT_TRUE(volumes_of(point_at({0, 0, -3}, -1)).empty());
   ViewLight away = point_at({0, 0, 0.5}, 5);
-  away.type = LightType::spot, away.direction = {0, 0, 1}, away.cos_outer = 0.7;
+  away.type = LightType::spot;
+  away.direction = {0, 0, 1};
+  away.cos_outer = 0.7;
   EXPECT_TRUE(volumes_of(away).empty()) << "shines away";
 }
 

@@ -43,7 +43,8 @@ std::vector<double_surfaces::Hit> hits_of(const RenderView& v, const std::vector
     for (const int instance : v.plan.surfaces.opaque) {
       const uint32_t count = uint32_t(v.scene.meshes[v.scene.instances[instance].mesh].indices.size() / 3);
       if (triangle < count) {
-        hit.instance = instance, hit.triangle = triangle;
+        hit.instance = instance;
+        hit.triangle = triangle;
         break;
       }
       triangle -= count;
@@ -97,8 +98,10 @@ Errors errors_of(const Scene& scene, const View& view, const Settings& settings 
   }
   std::vector<Surface> surfaces;
   std::map<uint32_t, size_t> place;
-  for (const uint32_t pixel : pixels)
-    place[pixel] = surfaces.size(), surfaces.push_back(oracle.surface_at(pixel));
+  for (const uint32_t pixel : pixels) {
+    place[pixel] = surfaces.size();
+    surfaces.push_back(oracle.surface_at(pixel));
+  }
   const auto radiance = shade_pixels(
       view, r.depth, [&](uint32_t pixel) { return surfaces[place.at(pixel)]; }, lights_in_view(scene, view),
       {.brdf = settings[setting::brdf], .ambient = scene.ambient}, pixels);
@@ -113,7 +116,8 @@ Errors errors_of(const Scene& scene, const View& view, const Settings& settings 
     e.share_apart += apart > 1e-3 * brightest ? 1.0 / double(pixels.size()) : 0;
   }
   e.compared = pixels.size();
-  e.largest /= brightest, e.mean /= brightest * double(pixels.size());
+  e.largest /= brightest;
+  e.mean /= brightest * double(pixels.size());
   return e;
 }
 
@@ -168,7 +172,9 @@ Scene floor_scene(const Texture& sampler, glm::ivec2 size, bool maps_alike = tru
   const auto map = [&](TextureSlot& slot, int width, int height, bool srgb) {
     slot.texture = add_noise(scene, width, height, srgb, uint32_t(width * height) + scene.textures.size());
     Texture& t = scene.textures[slot.texture];
-    t.wrap_u = sampler.wrap_u, t.wrap_v = sampler.wrap_v, t.min_filter = sampler.min_filter,
+    t.wrap_u = sampler.wrap_u;
+    t.wrap_v = sampler.wrap_v;
+    t.min_filter = sampler.min_filter;
     t.mag_linear = sampler.mag_linear;
   };
   map(m.base_color_map, size.x, size.y, true);

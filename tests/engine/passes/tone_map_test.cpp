@@ -43,7 +43,8 @@ struct Given {
              {.surfaces = {.opengl = renderer.gl != nullptr}}) {}
   static Settings bytes_at(double ev) {
     Settings settings;
-    settings.set(setting::picture, PictureFormat::bytes), settings.set(setting::display_ev, ev);
+    settings.set(setting::picture, PictureFormat::bytes);
+    settings.set(setting::display_ev, ev);
     return settings;
   }
   std::vector<glm::u8vec4> picture(const ShadedImage& image) {
@@ -85,7 +86,8 @@ Differences from_host(const std::vector<glm::u8vec4>& picture, const Image& imag
       const uint8_t* expected = &bytes[(size_t(image.height - 1 - y) * image.width + x) * 3];
       for (int c = 0; c < 3; ++c) {
         const int apart = std::abs(int(pixel[c]) - int(expected[c]));
-        found.channels += apart > 0, found.largest = std::max(found.largest, apart);
+        found.channels += apart > 0;
+        found.largest = std::max(found.largest, apart);
       }
       EXPECT_EQ(pixel.w, 255);
     }

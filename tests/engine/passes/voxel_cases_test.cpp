@@ -22,7 +22,7 @@ namespace {
 struct FilledVoxels {
   ReadVoxels read;
   std::vector<ViewLight> lights;
-  glm::dvec2 most_slope{0};  // slope at the image's edge, where the volume is the view's
+  glm::dvec2 max_slope{0};  // slope at the image's edge, where the volume is the view's
 
   glm::uvec3 size() const {
     return {read.placed.grid.size_x, read.placed.grid.size_y, read.placed.grid.size_z};
@@ -48,12 +48,12 @@ struct FilledVoxels {
     const double step = std::log(place(g.size_z - 1) / place(0)) / (g.size_z - 1),
                  next = place(slice) * std::exp(step);
     const double deep = next - place(slice);
-    return VoxelCell::of({across * next + most_slope * deep, deep},
+    return VoxelCell::of({across * next + max_slope * deep, deep},
                          across.x * across.y * place(slice) * place(slice) * (step * place(slice)));
   }
 };
 
-glm::dvec2 most_slope(const View& view) {
+glm::dvec2 max_slope(const View& view) {
   const glm::dmat4& clip = view.clip_from_view;
   return {(1 + std::abs(clip[2][0])) / std::abs(clip[0][0]),
           (1 + std::abs(clip[2][1])) / std::abs(clip[1][1])};
@@ -82,7 +82,7 @@ FilledVoxels filled_voxels(Renderer& renderer, const VoxelCase& of, VoxelSpace s
   RenderView v(renderer, gpu, of.view, settings,
                {.surfaces = {.chosen_raster = true}, .lists = {.no_masks = true}});
   build_voxels(v, v.caches.voxels, {});
-  FilledVoxels filled{read_voxels(v, v.caches.voxels), {}, most_slope(of.view)};
+  FilledVoxels filled{read_voxels(v, v.caches.voxels), {}, max_slope(of.view)};
   View along;
   along.view_from_world = glm::dmat4(filled.read.axes.from_world);
   along.eye = filled.read.axes.origin;

@@ -20,7 +20,10 @@ WorldLayout random_blocks(const BlockCase& of, uint64_t seed) {
   Random random(seed);
   WorldLayout layout;
   WorldGridParams& p = layout.params;
-  p.shift_z = 2, p.cells_z = of.z << 2, p.blocks_x = of.x, p.blocks_y = of.y;
+  p.shift_z = 2;
+  p.cells_z = of.z << 2;
+  p.blocks_x = of.x;
+  p.blocks_y = of.y;
   for (size_t i = 0; i < of.lights; ++i) {
     WorldBlocks& blocks = layout.light_blocks.emplace_back();
     layout.lights.emplace_back(0);
@@ -32,7 +35,9 @@ WorldLayout random_blocks(const BlockCase& of, uint64_t seed) {
       return uint16_t(number);
     };
     uint32_t x = 0, y = 0, z = 0;
-    blocks.x = along(of.x, x), blocks.y = along(of.y, y), blocks.z = along(of.z, z);
+    blocks.x = along(of.x, x);
+    blocks.y = along(of.y, y);
+    blocks.z = along(of.z, z);
     blocks.first = (z * of.y + y) * of.x + x;
     layout.pairs += uint64_t(blocks.x) * blocks.y * blocks.z;
   }

@@ -122,7 +122,10 @@ void tangent_to_cells(PassCheck& c) {
     glm::dvec3 away = glm::abs(any_direction(random)), point;
     for (int axis = 0; axis < 3; ++axis) {
       point[axis] = double(random.next() % 31) - 15;
-      if (axis >= 3 - i % 3) away[axis] = 0, point[axis] += 0.125;  // between two corners
+      if (axis >= 3 - i % 3) {
+        away[axis] = 0;
+        point[axis] += 0.125;  // between two corners
+      }
     }
     points.push_back(point);
     lights.push_back({point - glm::normalize(away) * (1 - 1e-9), 1});

@@ -54,7 +54,10 @@ void lists_of_255(ListedWorld& lists) {
   for (glm::uvec2& cell : lists.grid.cells) cell.y = std::min(cell.y, 255u);
 }
 
-void next_cell(ListedWorld& lists) { lists.grid.params.least_x += 1, lists.grid.params.most_x += 1; }
+void next_cell(ListedWorld& lists) {
+  lists.grid.params.min_x += 1;
+  lists.grid.params.max_x += 1;
+}
 
 void none_everywhere(ListedWorld& lists) { lists.grid.params.everywhere_count = 0; }
 

@@ -117,7 +117,8 @@ TEST(WorldUpdate, IsRefusedWhereABuildIsDue) {
   SharedWorldGrid grid(test_devices(), WorldGridShape::cubes, 1, 16),
       hashed(test_devices(), WorldGridShape::hashed, 1, 16);
   EXPECT_FALSE(grid.update(few, those(lights, few), 1)) << "not built";
-  grid.build(lights, fixed_bounds, view, 0), hashed.build(lights, fixed_bounds, view, 0);
+  grid.build(lights, fixed_bounds, view, 0);
+  hashed.build(lights, fixed_bounds, view, 0);
   const HostWorldGrid built = grid.read();
   EXPECT_FALSE(hashed.update(few, those(lights, few), 1));
   EXPECT_FALSE(grid.update(many, those(lights, many), 1)) << "more than one in sixteen";

@@ -40,7 +40,8 @@ TEST(CoarseShadows, OfADirectionalLightAreThoseOnFarInstances) {
   add_instance(scene, "moon", 0, placed({0, 1e7, 0}));
   EXPECT_EQ(coarse_shadows(scene, {}).instances, 0) << "no sun";
   Light& sun = add_point(scene, "sun", {0, 0, 0}, {1, 1, 1}, 1, 5);
-  sun.type = LightType::directional, sun.casts_shadow = true;
+  sun.type = LightType::directional;
+  sun.casts_shadow = true;
   const CoarseShadows coarse = coarse_shadows(scene, {});
   EXPECT_EQ(coarse.instances, 1);
   EXPECT_EQ(coarse.first_instance, 1);

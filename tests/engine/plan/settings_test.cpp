@@ -40,7 +40,8 @@ TEST(Settings, EveryValueOfEveryKeyIsTakenAndToldBack) {
       apply_setting(settings, help.key + "=" + value);
       EXPECT_EQ(to_strings(settings).at(key), value);
       auto others = to_strings(settings), before = to_strings(Settings{});
-      others.erase(key), before.erase(key);
+      others.erase(key);
+      before.erase(key);
       EXPECT_EQ(others, before) << "no other setting moves";
     }
   }
@@ -55,7 +56,7 @@ TEST(Settings, EachRowHasItsKeyItsPlaceAndItsNumber) {
     last = row.place;
     EXPECT_TRUE(keys.insert(row.key).second) << row.key;
     EXPECT_TRUE(numbers.insert(row.number).second) << row.key;
-    EXPECT_LT(row.number, Settings::most_settings) << row.key;
+    EXPECT_LT(row.number, Settings::max_settings) << row.key;
   }
 }
 
@@ -117,7 +118,8 @@ TEST(Settings, ThePictureThatIsMeantHasNoApproximations) {
     apply_setting(settings, assignment);
   auto expected = to_strings(settings);
   expected["shadows"] = "exact";
-  expected["shadow_threshold"] = "off", expected["shadow_pick"] = "off";
+  expected["shadow_threshold"] = "off";
+  expected["shadow_pick"] = "off";
   EXPECT_EQ(to_strings(meant_by(settings)), expected);
 }
 
@@ -125,7 +127,8 @@ TEST(Settings, OnlyTheKeysThatAreKeptKeepTheirValues) {
   Settings settings;
   for (const SettingRow& help : setting_rows()) apply_setting(settings, help.key + "=" + help.values.back());
   auto expected = to_strings(Settings{});
-  expected["tile"] = "64", expected["cutoff"] = "0.0001";
+  expected["tile"] = "64";
+  expected["cutoff"] = "0.0001";
   EXPECT_EQ(
       to_strings(only_with(settings, [](const std::string& k) { return k == "tile" || k == "cutoff"; })),
       expected);

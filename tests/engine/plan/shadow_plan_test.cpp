@@ -85,7 +85,8 @@ TEST(ShadowPlan, LightsAreMarkedByTheirPlaceAmongPointAndSpotLightsThenDirection
   Room room = over_floor();
   room.put(room.box, {1, 0, 0});
   Light sun;
-  sun.type = LightType::directional, sun.casts_shadow = true;
+  sun.type = LightType::directional;
+  sun.casts_shadow = true;
   const Light lamp = room.scene.lights[0];
   Light dark = lamp, far = lamp;
   dark.casts_shadow = false;
@@ -272,7 +273,8 @@ TEST(ShadowPlan, TheSideOfAFloorThatIsAwayFromTheLightIsHidden) {
 TEST(ShadowPlan, AnOrthographicEyeMayLookFromAnySide) {
   Room room = over_floor();
   Camera camera = look_at({0, 2, 8}, {0, 0, 0});
-  camera.orthographic = true, camera.far_m = 100;
+  camera.orthographic = true;
+  camera.far_m = 100;
   room.view = make_view(camera, 64, 64);
   EXPECT_EQ(room.need(), ShadowNeed::rays);
 }
@@ -295,7 +297,8 @@ TEST(ShadowPlan, AFloorThatIsTurnedIsNotFlatToTheLastBit) {
   glm::dmat4& tilted = room.scene.instances[0].world_from_object;
   tilted[0][1] = 1e-6;
   EXPECT_EQ(room.need(), ShadowNeed::rays);
-  tilted[0][1] = 0, tilted[2][1] = 1e-6;
+  tilted[0][1] = 0;
+  tilted[2][1] = 1e-6;
   EXPECT_EQ(room.need(), ShadowNeed::rays);
 }
 

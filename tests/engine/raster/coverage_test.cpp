@@ -145,7 +145,10 @@ TriangleScene sheet(const RasterCamera& view, int cells, uint32_t seed, bool on_
       // turns over.
       double px = (double(x) / cells * 1.4 - 0.2 + random.between(-0.3, 0.3) / cells) * view.grid.width;
       double py = (double(y) / cells * 1.4 - 0.2 + random.between(-0.3, 0.3) / cells) * view.grid.height;
-      if (on_centres) px = std::floor(px) + 0.5, py = std::floor(py) + 0.5;
+      if (on_centres) {
+        px = std::floor(px) + 0.5;
+        py = std::floor(py) + 0.5;
+      }
       mesh.positions.push_back(at(view, px, py, on_centres ? 1.0 : random.between(1, 1.1)));
     }
   }

@@ -149,7 +149,8 @@ inline constexpr SnappedPoint standard_locations[4] = {
 inline Drawn sample_of(const Drawn& all, int sample) {
   Drawn one = all;
   one.grid.samples = 1;
-  one.triangles.clear(), one.depths.clear();
+  one.triangles.clear();
+  one.depths.clear();
   for (size_t i = size_t(sample); i < all.triangles.size(); i += 4) {
     one.triangles.push_back(all.triangles[i]);
     one.depths.push_back(all.depths[i]);

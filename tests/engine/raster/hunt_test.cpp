@@ -31,21 +31,30 @@ glm::dmat3 random_turn(RandomNumbers& random) {
 // Perspective, finite or not, or orthographic; off-centre.
 RasterCamera random_view(RandomNumbers& random) {
   RasterCamera view;
-  view.grid.width = 1 + random.below(130), view.grid.height = 1 + random.below(130);
+  view.grid.width = 1 + random.below(130);
+  view.grid.height = 1 + random.below(130);
   view.view_from_world = glm::dmat4(random_turn(random));
   view.eye = random_direction(random) * log_between(random, 0.01, 1e6);
   glm::dmat4& m = view.clip_from_view = glm::dmat4(0);
   const double scale = log_between(random, 0.05, 20), near = log_between(random, 1e-3, 10),
                far = near * log_between(random, 2, 1e5);
-  m[0][0] = scale, m[1][1] = scale * view.grid.width / view.grid.height;
+  m[0][0] = scale;
+  m[1][1] = scale * view.grid.width / view.grid.height;
   if (random.below(4) == 0) {
-    m[2][2] = 1 / (far - near), m[3][2] = far / (far - near), m[3][3] = 1;
+    m[2][2] = 1 / (far - near);
+    m[3][2] = far / (far - near);
+    m[3][3] = 1;
     m[3][0] = random.between(-1, 1);
     return view;
   }
-  m[2][3] = -1, m[3][2] = near;
-  m[2][0] = random.between(-0.5, 0.5), m[2][1] = random.between(-0.5, 0.5);
-  if (random.below(2) == 0) m[2][2] = near / (far - near), m[3][2] = far * near / (far - near);
+  m[2][3] = -1;
+  m[3][2] = near;
+  m[2][0] = random.between(-0.5, 0.5);
+  m[2][1] = random.between(-0.5, 0.5);
+  if (random.below(2) == 0) {
+    m[2][2] = near / (far - near);
+    m[3][2] = far * near / (far - near);
+  }
   return view;
 }
 
@@ -114,7 +123,9 @@ TEST(RasterHunt, FindsNoWrongPixel) {
       ASSERT_EQ(count_wrong(one, oracle_of(one, scene, standard_locations[s])), 0)
           << "scene " << i << ", sample " << s;
     }
-    triangles += result.counts.triangles, pixels += result.triangles.size(), covered += result.covered();
+    triangles += result.counts.triangles;
+    pixels += result.triangles.size();
+    covered += result.covered();
     invalid += result.counts.invalid_triangles;
   }
   EXPECT_GT(covered, pixels / 10);

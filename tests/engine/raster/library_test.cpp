@@ -25,8 +25,10 @@ char letter_at(int x, int y) {
   char letter = ' ';
   const double to_floor = -view.eye.y / ray.y;
   const glm::dvec3 on_floor = view.eye + ray * to_floor;
-  if (to_floor > 0 && std::abs(on_floor.x) < 20 && std::abs(on_floor.z) < 20)
-    nearest = to_floor, letter = '.';
+  if (to_floor > 0 && std::abs(on_floor.x) < 20 && std::abs(on_floor.z) < 20) {
+    nearest = to_floor;
+    letter = '.';
+  }
   const glm::dmat4 places[] = {placed(-2, 0, 0.4), placed(0.5, -3, 0.8)};
   for (int i = 0; i < 2; ++i) {
     const glm::dmat4 box_from_world = glm::inverse(places[i]);
@@ -36,9 +38,13 @@ char letter_at(int x, int y) {
     for (int axis = 0; axis < 3; ++axis) {
       const double low = axis == 1 ? 0 : -1, high = axis == 1 ? 2 : 1;
       const double a = (low - from[axis]) / along[axis], b = (high - from[axis]) / along[axis];
-      enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
+      enter = std::max(enter, std::min(a, b));
+      leave = std::min(leave, std::max(a, b));
     }
-    if (enter < leave && enter < nearest) nearest = enter, letter = "ab"[i];
+    if (enter < leave && enter < nearest) {
+      nearest = enter;
+      letter = "ab"[i];
+    }
   }
   return letter;
 }

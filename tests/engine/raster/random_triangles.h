@@ -25,12 +25,14 @@ inline void add_random_triangle(RandomNumbers& random, int kind, TriangleScene& 
   glm::vec3 corners[3];
   for (int k = 0; k < 3; ++k) {
     double px = x + random.between(-reach, reach), py = y + random.between(-reach, reach);
-    if (kind == 2)
-      px = x + (k == 0 ? -reach : reach), py = y + (k == 0   ? 1
-                                                    : k == 1 ? -1
-                                                             : -1.01) *
-                                                       random.between(0, 1) * reach;
-    if (kind == 3) px = std::round(px * 2) / 2, py = std::round(py * 2) / 2;
+    if (kind == 2) {
+      px = x + (k == 0 ? -reach : reach);
+      py = y + (k == 0 ? 1 : k == 1 ? -1 : -1.01) * random.between(0, 1) * reach;
+    }
+    if (kind == 3) {
+      px = std::round(px * 2) / 2;
+      py = std::round(py * 2) / 2;
+    }
     const double w = std::exp(random.between(std::log(0.1), std::log(1000.0)));
     corners[k] = at(view, px, py, kind == 3 ? std::exp2(std::round(std::log2(w)) + 1) : w);
     if (kind == 4)

@@ -22,7 +22,9 @@ ScannedCounts scanned(const char* kernel, size_t items, std::vector<uint32_t> co
                       uint32_t tiles_y, uint32_t chunks) {
   ClDevice& device = raster_device();
   RasterParams params{};
-  params.tiles_x = tiles_x, params.tiles_y = tiles_y, params.chunks = chunks;
+  params.tiles_x = tiles_x;
+  params.tiles_y = tiles_y;
+  params.chunks = chunks;
   const auto buffer_of = [&](void* data, size_t bytes) {
     return cl::Buffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, bytes, data);
   };

@@ -60,7 +60,8 @@ TEST_P(RasterScenes, GeometryIsOnTheDeviceOnce) {
   const size_t bytes = geometry.memory_bytes();
   EXPECT_GT(bytes, geometry.geometry_bytes());
   RasterView first = view_of(left), second = view_of(right);
-  first.draw(), second.draw();
+  first.draw();
+  second.draw();
   EXPECT_EQ(first.buffers().indices(), second.buffers().indices());
   EXPECT_EQ(geometry.memory_bytes(), bytes);
   // A view's own memory is for what it draws, whatever else the scene has.
@@ -70,7 +71,8 @@ TEST_P(RasterScenes, GeometryIsOnTheDeviceOnce) {
   RasterView of_empty(empty, raster_programs(), options), of_full = view_of(nothing);
   of_empty.set_instances({});
   of_empty.set_camera(left.camera);
-  of_empty.draw(), of_full.draw();
+  of_empty.draw();
+  of_full.draw();
   EXPECT_EQ(of_full.memory_bytes(), of_empty.memory_bytes());
 }
 

@@ -56,7 +56,8 @@ TEST_P(InstancesNotDrawn, LeaveTheOthersAsTheyAre) {
   scene.instances[1].world_from_object[3].x = 1;
   rasterizer.set_instances(scene.instances);
   expect_instance_1_left_out();
-  scene.instances[1].drawn = true, scene.instances[1].world_from_object[3].x = 0;
+  scene.instances[1].drawn = true;
+  scene.instances[1].world_from_object[3].x = 0;
   rasterizer.set_instances(scene.instances);
   EXPECT_TRUE(drawn_by(rasterizer, scene).same_image(all));
 }

@@ -170,12 +170,15 @@ TEST_P(RasterizerShapes, MasksThatDoNotServeTheSceneAreRefused) {
   RasterMasks masks = enough;
   masks.materials = cl::Buffer();
   EXPECT_THAT(refusal(ErrorKind::input, [&] { rasterizer.set_masks(masks); }), HasSubstr("materials"));
-  masks = enough, masks.vertices = cl::Buffer();
+  masks = enough;
+  masks.vertices = cl::Buffer();
   EXPECT_THAT(refusal(ErrorKind::input, [&] { rasterizer.set_masks(masks); }), HasSubstr("vertices"));
-  masks = enough, masks.materials = buffer(4 * sizeof(SurfaceMaterial));
+  masks = enough;
+  masks.materials = buffer(4 * sizeof(SurfaceMaterial));
   rasterizer.set_masks(masks);
   EXPECT_THAT(refusal(ErrorKind::input, [&] { rasterizer.draw(); }), HasSubstr("alpha_material is 4"));
-  masks = enough, masks.vertices = buffer((vertices - 1) * sizeof(SurfaceVertex));
+  masks = enough;
+  masks.vertices = buffer((vertices - 1) * sizeof(SurfaceVertex));
   rasterizer.set_masks(masks);
   EXPECT_THAT(refusal(ErrorKind::input, [&] { rasterizer.draw(); }), HasSubstr("vertices"));
   rasterizer.set_masks({});
@@ -272,7 +275,10 @@ class MemoryLimit {
 TEST(Rasterizer, RefusesMoreThanItCanNumberBeforeItTakesMemory) {
   const std::vector<glm::vec3> positions(3);
   std::vector<uint32_t> indices(3'000'000, 0);
-  for (size_t i = 1; i < indices.size(); i += 3) indices[i] = 1, indices[i + 1] = 2;
+  for (size_t i = 1; i < indices.size(); i += 3) {
+    indices[i] = 1;
+    indices[i + 1] = 2;
+  }
   const RasterMesh mesh{positions, indices};
   Rasterizer rasterizer(raster_device(), raster_programs());
   rasterizer.set_meshes({&mesh, 1});

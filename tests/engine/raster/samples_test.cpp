@@ -89,7 +89,8 @@ TEST_P(RasterSamples, AreTheCullersDepths) {
     for (int y = tile / 15 * 8; y < tile / 15 * 8 + 8; ++y) {
       for (int i = 4 * (y * 120 + tile % 15 * 8); i < 4 * (y * 120 + tile % 15 * 8 + 8); ++i) {
         if (depths[size_t(i)] == 0) continue;
-        near = std::min(near, 0.1 / depths[size_t(i)]), far = std::max(far, 0.1 / depths[size_t(i)]);
+        near = std::min(near, 0.1 / depths[size_t(i)]);
+        far = std::max(far, 0.1 / depths[size_t(i)]);
       }
     }
     const DepthInterval& found = bounds[size_t(tile)];

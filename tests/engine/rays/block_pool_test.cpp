@@ -41,9 +41,14 @@ TEST(BlockPool, BlocksNeverOverlapAndAllRoomComesBack) {
     } else {
       Block& block = blocks[size_t(random.below(int(blocks.size())))];
       const size_t kept = random.below(2) ? 0 : size_t(random.below(int(block.bytes)));
-      count(block, -1), pool.shrink(block.first, block.bytes, kept);
-      block.bytes = kept, count(block, 1);
-      if (kept == 0) block = blocks.back(), blocks.pop_back();
+      count(block, -1);
+      pool.shrink(block.first, block.bytes, kept);
+      block.bytes = kept;
+      count(block, 1);
+      if (kept == 0) {
+        block = blocks.back();
+        blocks.pop_back();
+      }
     }
     ASSERT_LE(*std::ranges::max_element(owners), 1) << "step " << step;
   }

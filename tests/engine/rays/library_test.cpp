@@ -23,7 +23,8 @@ bool boxes_hide(const glm::dvec3& point, const glm::dvec3& way) {
     for (int axis = 0; axis < 3; ++axis) {
       const double low = axis == 1 ? 0 : -1, high = axis == 1 ? 2 : 1;
       const double a = (low - from[axis]) / along[axis], b = (high - from[axis]) / along[axis];
-      enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
+      enter = std::max(enter, std::min(a, b));
+      leave = std::min(leave, std::max(a, b));
     }
     if (enter < leave) return true;
   }

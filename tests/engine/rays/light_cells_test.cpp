@@ -57,8 +57,10 @@ CellAnswers cell_answers(RayScene& scene, const LightCells& cells, const Queries
   const uint32_t lanes = shape == KernelShape::lanes ? 16 : 1;
   const PackedRays packed = packed_rays(q.points, q.lights.size(), q.packets);
   UploadedBuffer on_device[5];
-  on_device[0].put(device, "points", packed.points), on_device[1].put(device, "own", packed.own);
-  on_device[2].put(device, "lights", q.lights), on_device[3].put(device, "tables", cells.tables(lights));
+  on_device[0].put(device, "points", packed.points);
+  on_device[1].put(device, "own", packed.own);
+  on_device[2].put(device, "lights", q.lights);
+  on_device[3].put(device, "tables", cells.tables(lights));
   on_device[4].put(device, "packets", packed.packets);
   CellAnswers answers{std::vector<uint32_t>(q.packets.size()), std::vector<uint32_t>(q.packets.size())};
   const size_t bytes = q.packets.size() * sizeof(uint32_t);
@@ -93,7 +95,9 @@ std::vector<CellLight> cell_lights(const Queries& q, RandomNumbers& random) {
         CellLight{light.x, light.y, light.z, light.w != 0 ? range_m : HUGE_VAL, light.w == 0});
     if (light.w == 0 || random.below(3)) continue;
     const glm::dvec3 axis = random.direction();
-    made.axis_x = axis.x, made.axis_y = axis.y, made.axis_z = axis.z;
+    made.axis_x = axis.x;
+    made.axis_y = axis.y;
+    made.axis_z = axis.z;
     made.cos_outer = random.between(-0.9, 0.99);
   }
   return lights;
@@ -109,7 +113,8 @@ glm::dvec3 hard_direction(RandomNumbers& random, const std::vector<Corners>& tri
   if (kind == 1) to += glm::dvec3(c[size_t(first + 1) % 3] - c[size_t(first)]) * random.unit();
   if (kind >= 2) {
     const auto border = [&] { return 2.0 * random.below(int(cells) + 1) / cells - 1; };
-    to[first] = random.below(2) ? 1 : -1, to[(first + 1) % 3] = border();
+    to[first] = random.below(2) ? 1 : -1;
+    to[(first + 1) % 3] = border();
     to[(first + 2) % 3] = kind == 2 ? border() : random.between(-1, 1);
   }
   if (random.below(2)) to += random.direction() * glm::length(to) * std::pow(10.0, random.between(-8, -6));
@@ -148,7 +153,10 @@ void add_hard_points(Queries& q, const std::vector<Corners>& triangles, RandomNu
 struct Compared {
   size_t rays = 0, hidden = 0, unserved = 0, different = 0;
   Compared& operator+=(const Compared& c) {
-    rays += c.rays, hidden += c.hidden, unserved += c.unserved, different += c.different;
+    rays += c.rays;
+    hidden += c.hidden;
+    unserved += c.unserved;
+    different += c.different;
     return *this;
   }
 };
@@ -161,7 +169,8 @@ Compared compared_with_tree(RayScene& scene, const LightCells& cells, const Quer
   Compared c;
   for (size_t i = 0; i < tree.size(); ++i) {
     const uint32_t served = q.packets[i].lanes & ~answers.unserved[i];
-    c.rays += size_t(std::popcount(served)), c.unserved += size_t(std::popcount(answers.unserved[i]));
+    c.rays += size_t(std::popcount(served));
+    c.unserved += size_t(std::popcount(answers.unserved[i]));
     c.hidden += size_t(std::popcount(tree[i] & served));
     c.different += size_t(std::popcount((tree[i] ^ answers.hidden[i]) & served));
   }
@@ -278,8 +287,14 @@ class LightCellSequence {
   Compared step(const LightCellLimits& limits) {
     moved_ = 10;
     const int change = random_.below(10), one = random_.below(int(lights_.size()));
-    if (change == 0) lights_[size_t(one)] = any_light(), moved_ = one;
-    if (change == 1) lights_[size_t(one)].range_m = random_.between(0.3, 3), moved_ = one;
+    if (change == 0) {
+      lights_[size_t(one)] = any_light();
+      moved_ = one;
+    }
+    if (change == 1) {
+      lights_[size_t(one)].range_m = random_.between(0.3, 3);
+      moved_ = one;
+    }
     if (change == 2) std::swap(lights_[0], lights_[size_t(one)]);
     if (change == 3) lights_[size_t(one)].range_m = -1;
     if (change == 4) move_instance(random_.below(12));
@@ -318,7 +333,8 @@ class LightCellSequence {
     glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
     for (const glm::vec3& p : meshes_[size_t(instance)].positions) {
       const glm::dvec3 at(instances_[size_t(instance)].world_from_object * glm::dvec4(glm::dvec3(p), 1));
-      low = glm::min(low, at), high = glm::max(high, at);
+      low = glm::min(low, at);
+      high = glm::max(high, at);
     }
     cells_.forget_near(low, high);
   }
@@ -362,7 +378,8 @@ TEST_P(LightCellShapes, FollowWhateverChanges) {
     const Compared c = sequence.step({.bytes = size_t(1) << 28, .triangles = 3000});
     ASSERT_EQ(c.different, 0u) << "step " << step;
     EXPECT_FALSE(sequence.moved_has_lists()) << "step " << step;
-    served += c.rays, listed += sequence.listed() == sequence.lights();
+    served += c.rays;
+    listed += sequence.listed() == sequence.lights();
   }
   EXPECT_GT(served, size_t(steps) * 300);
   EXPECT_GT(listed, size_t(steps) / 4) << "steps in which all lights have lists";
@@ -377,7 +394,8 @@ TEST_P(LightCellShapes, StayWithinTheirMemory) {
   for (size_t step = 0; step < steps; ++step) {
     const Compared c = sequence.step({.bytes = bytes, .triangles = 3000});
     ASSERT_EQ(c.different, 0u) << "step " << step;
-    some += sequence.listed() != 0, all += sequence.listed() == sequence.lights();
+    some += sequence.listed() != 0;
+    all += sequence.listed() == sequence.lights();
     EXPECT_LE(sequence.memory_bytes(), bytes + 10 * sizeof(LightCellJob));
   }
   EXPECT_GT(some, steps * 2 / 3);
@@ -399,7 +417,8 @@ TEST_P(LightCellShapes, OfLightsThatAreGoneMakeRoomForOthers) {
     EXPECT_LE(cells.memory_bytes(), limits.bytes + sizeof(LightCellJob));
   }
   lights[0].x = 0.1;
-  cells.make(scene, lights, {.bytes = 0}), cells.make(scene, lights, {.bytes = 0});
+  cells.make(scene, lights, {.bytes = 0});
+  cells.make(scene, lights, {.bytes = 0});
   EXPECT_EQ(cells.tables(lights)[0].size, 0u) << "there is no room";
 }
 

@@ -28,8 +28,10 @@ struct MaskedSoup {
     }
     for (size_t i = 0; i < 3 * triangles.size(); ++i) {
       SurfaceVertex v{};
-      v.u0 = float(random.between(-2, 2)), v.v0 = float(random.between(-2, 2));
-      v.u1 = float(random.between(0, 1)), v.v1 = float(random.between(0, 1));
+      v.u0 = float(random.between(-2, 2));
+      v.v0 = float(random.between(-2, 2));
+      v.u1 = float(random.between(0, 1));
+      v.v1 = float(random.between(0, 1));
       v.alpha = float(random.between(0.7, 1));
       vertices.push_back(v);
     }
@@ -40,8 +42,12 @@ struct MaskedSoup {
     SurfaceMap& map = material.maps[SURFACE_BASE_COLOR];
     map.width = map.height = side;
     map.flags = flags;
-    map.uv_linear[0] = 0.5f, map.uv_linear[1] = 0.25f, map.uv_linear[2] = -0.5f, map.uv_linear[3] = 1;
-    map.uv_offset[0] = 0.125f, map.uv_offset[1] = -0.25f;
+    map.uv_linear[0] = 0.5f;
+    map.uv_linear[1] = 0.25f;
+    map.uv_linear[2] = -0.5f;
+    map.uv_linear[3] = 1;
+    map.uv_offset[0] = 0.125f;
+    map.uv_offset[1] = -0.25f;
   }
 
   uint32_t flags() const { return material.maps[SURFACE_BASE_COLOR].flags; }
@@ -82,13 +88,14 @@ struct MaskedSoup {
     double u = 0, v = 0, alpha = 0;
     for (int k = 0; k < 3; ++k) {
       const SurfaceVertex& s = vertices[3 * triangle + k];
-      u += double(weights[k]) * (flags() & MAP_UV1 ? s.u1 : s.u0),
-          v += double(weights[k]) * (flags() & MAP_UV1 ? s.v1 : s.v0);
+      u += double(weights[k]) * (flags() & MAP_UV1 ? s.u1 : s.u0);
+      v += double(weights[k]) * (flags() & MAP_UV1 ? s.v1 : s.v0);
       alpha += double(weights[k]) * s.alpha;
     }
     if (flags() & MAP_TRANSFORM) {
       const double given = u;
-      u = 0.5 * given - 0.5 * v + 0.125, v = 0.25 * given + v - 0.25;
+      u = 0.5 * given - 0.5 * v + 0.125;
+      v = 0.25 * given + v - 0.25;
     }
     double x_texel = u * side - 0.5, y_texel = v * side - 0.5;
     if (flags() & MAP_CLAMP_U) x_texel = std::clamp(x_texel, 0.0, side - 1.0);

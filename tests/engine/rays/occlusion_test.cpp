@@ -68,8 +68,10 @@ TEST_P(RaysByHand, ALightAtACornerSeesNothingOfTheTriangle) {
   for (int i = 0; i < 100; ++i) {
     const Corners c{glm::vec3(random.in_cube(2)), glm::vec3(random.in_cube(2)), glm::vec3(random.in_cube(2))};
     Queries q;
-    for (int k = 0; k < 3; ++k)
-      q.lights.push_back({glm::dvec3(c[k]), 1}), q.packets.push_back({0, uint32_t(k)});
+    for (int k = 0; k < 3; ++k) {
+      q.lights.push_back({glm::dvec3(c[k]), 1});
+      q.packets.push_back({0, uint32_t(k)});
+    }
     for (int k = 0; k < 16; ++k) q.points.push_back({.position = glm::vec3(random.in_cube(3))});
     RayScene scene = scene_of(placed({c}), {.shape = GetParam(), .origin = glm::dvec3(0)});
     EXPECT_EQ(scene.occlusion(q.points, q.lights, q.packets), std::vector<uint32_t>(3)) << i;
@@ -125,7 +127,8 @@ TEST_P(RaysInSoups, AreExactInBothShapes) {
 
 TEST_P(RaysInSoups, FarFromTheOriginMirroredAndScaled) {
   glm::dmat4 mirrored(1), scaled(1);
-  mirrored[0][0] = -1, mirrored[3] = {1e5, -2e5, 1e5 + 1.25, 1};
+  mirrored[0][0] = -1;
+  mirrored[3] = {1e5, -2e5, 1e5 + 1.25, 1};
   scaled = {{0, 0, 3, 0}, {0.5, 0, 0.25, 0}, {0, 1, 0, 0}, {1e5 + 3, -2e5, 1e5, 1}};
   const Placed scene = placed(soup.triangles, {mirrored, scaled});
   const std::vector<Corners> triangles = scene.relative(scene_of(scene).origin());

@@ -68,8 +68,10 @@ struct RayOracle {
    public:
     Line(const RayLight& light, const RayPoint& point) {
       for (int k = 0; k < 3; ++k) {
-        p_[k] = point.position[k], d_[k] = light.w != 0 ? (long double)light[k] - p_[k] : light[k];
-        squared_ += d_[k] * d_[k], doubt_ += std::abs(p_[k]) + std::abs(d_[k]);
+        p_[k] = point.position[k];
+        d_[k] = light.w != 0 ? (long double)light[k] - p_[k] : light[k];
+        squared_ += d_[k] * d_[k];
+        doubt_ += std::abs(p_[k]) + std::abs(d_[k]);
       }
     }
     bool is_far(const Corners& corners) const {
@@ -78,7 +80,9 @@ struct RayOracle {
         const long double a = corners[0][k], from = a - p_[k];
         size +=
             std::max(std::abs(corners[1][k] - a), std::abs(corners[2][k] - a));  // in all at least its edges
-        away += std::abs(from), from_squared += from * from, along += from * d_[k];
+        away += std::abs(from);
+        from_squared += from * from;
+        along += from * d_[k];
       }
       const long double reach = size + 2 * band * (doubt_ + away + size);
       return from_squared * squared_ - along * along > reach * reach * squared_;

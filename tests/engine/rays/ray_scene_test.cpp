@@ -130,7 +130,8 @@ TEST(RaysScene, AMovedSceneHasTheSameBits) {
 TEST(RaysScene, CornersThatAreNotFiniteHideNothingAndAreCounted) {
   const Soup soup = hard_soups()[0];
   Placed good = placed(soup.triangles), bad = good;
-  bad.positions[4].y = NAN, bad.positions[900 % bad.positions.size()].x = INFINITY;
+  bad.positions[4].y = NAN;
+  bad.positions[900 % bad.positions.size()].x = INFINITY;
   RayScene with = scene_of(bad, {.origin = glm::dvec3(0)});
   EXPECT_EQ(with.invalid_triangles(), 2u);
   EXPECT_EQ(with.triangles(), uint32_t(soup.triangles.size()));

@@ -62,8 +62,11 @@ inline std::vector<uint32_t> answers(const Placed& p, const Queries& q,
 struct Tally {
   size_t hidden = 0, seen = 0, either = 0, leaked = 0, acned = 0;
   Tally& operator+=(const Tally& t) {
-    hidden += t.hidden, seen += t.seen, either += t.either;
-    leaked += t.leaked, acned += t.acned;
+    hidden += t.hidden;
+    seen += t.seen;
+    either += t.either;
+    leaked += t.leaked;
+    acned += t.acned;
     return *this;
   }
 };
@@ -83,7 +86,8 @@ inline Tally against_oracle(const std::vector<Corners>& triangles, const Queries
       const Answer answer =
           RayOracle::all(triangles, q.lights[packet.light], q.points[packet.block * 16 + lane]);
       ++(answer == Answer::either ? t.either : answer == Answer::yes ? t.hidden : t.seen);
-      t.leaked += answer == Answer::yes && !hidden, t.acned += answer == Answer::no && hidden;
+      t.leaked += answer == Answer::yes && !hidden;
+      t.acned += answer == Answer::no && hidden;
     }
   });
   Tally sum;
@@ -91,13 +95,13 @@ inline Tally against_oracle(const std::vector<Corners>& triangles, const Queries
   return sum;
 }
 
-inline void expect_exact(const Tally& t, double most_either) {
+inline void expect_exact(const Tally& t, double max_either) {
   const size_t pairs = t.hidden + t.seen + t.either;
   EXPECT_EQ(t.leaked, 0u);
   EXPECT_EQ(t.acned, 0u);
   EXPECT_GT(t.hidden, pairs / 200);
   EXPECT_GT(t.seen, pairs / 200);
-  EXPECT_LT(double(t.either), most_either * double(pairs));
+  EXPECT_LT(double(t.either), max_either * double(pairs));
 }
 
 }  // namespace lightgrid

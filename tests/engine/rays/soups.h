@@ -100,7 +100,10 @@ struct Queries {
 // Sometimes on an edge, at a corner, or a little past one.
 inline glm::dvec3 on_triangle(RandomNumbers& random, const Corners& c) {
   double u = random.unit(), v = random.unit();
-  if (u + v > 1) u = 1 - u, v = 1 - v;
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
   const int edge = random.below(8);
   if (edge < 3) u = 0;
   if (edge == 1) v = random.below(2);

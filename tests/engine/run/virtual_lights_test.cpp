@@ -50,14 +50,18 @@ Mesh box_mesh() {
 
 Light lamp(double candela) {
   Light light;
-  light.name = "lamp", light.position = {0.3, 0.2, -0.1}, light.intensity = float(candela);
+  light.name = "lamp";
+  light.position = {0.3, 0.2, -0.1};
+  light.intensity = float(candela);
   return light;
 }
 
 Light spot_lamp(double candela, float outer_rad) {
   Light light = lamp(candela);
-  light.type = LightType::spot, light.direction = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
-  light.inner_cone_rad = 0.3f, light.outer_cone_rad = outer_rad;
+  light.type = LightType::spot;
+  light.direction = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
+  light.inner_cone_rad = 0.3f;
+  light.outer_cone_rad = outer_rad;
   return light;
 }
 
@@ -208,7 +212,10 @@ TEST(PlacedVirtualLights, FollowALightThatMoves) {
 // the plan names them.
 TEST(PlacedVirtualLights, JoinTheScenesLightsByTheirOption) {
   SceneChoice choice;
-  choice.size = "64x36", choice.virtual_lights = 20, choice.virtual_from = "1", choice.light_motion = "orbit";
+  choice.size = "64x36";
+  choice.virtual_lights = 20;
+  choice.virtual_from = "1";
+  choice.light_motion = "orbit";
   ChosenScene chosen = load_chosen_scene(choice);
   const size_t own = chosen.scene.lights.size() - 20;
   EXPECT_EQ(virtual_ones(chosen.scene).size(), 20u);
@@ -227,7 +234,8 @@ TEST(PlacedVirtualLights, JoinTheScenesLightsByTheirOption) {
     choice.virtual_from = wrong;
     EXPECT_THROW(load_chosen_scene(choice), Error) << wrong;
   }
-  choice.virtual_from = "all", choice.virtual_lights = 0;
+  choice.virtual_from = "all";
+  choice.virtual_lights = 0;
   EXPECT_THROW(load_chosen_scene(choice), Error) << "without virtual-lights";
 }
 

@@ -109,7 +109,8 @@ TEST(AnimationNodes, a_cubic_rotation_is_made_unit) {
 TEST(AnimationNodes, a_cubic_rotation_through_zero_keeps_the_key_before) {
   GltfBuilder made = GltfBuilder::triangle();
   std::vector<float> values(24, 0.0f);
-  values[4 + 3] = 1, values[16 + 3] = -1;  // the same rotation, as two opposite quaternions
+  values[4 + 3] = 1;
+  values[16 + 3] = -1;  // the same rotation, as two opposite quaternions
   animate(made, 0, "rotation", {0, 1}, "VEC4", values, "CUBICSPLINE");
   Scene scene = made.load();
   expect_near(at(world_at(scene, 0.5), {1, 2, 3}), {1, 2, 3});

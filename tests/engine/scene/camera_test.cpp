@@ -140,8 +140,15 @@ TEST(MakeView, RefusesWhatMakesNoProjection) {
   EXPECT_THAT(refused([](Camera& c) { c.world_from_view[2] = glm::dvec4(0); }), HasSubstr("no direction"));
   EXPECT_THAT(refused([](Camera& c) { c.world_from_view[1] = c.world_from_view[2]; }), HasSubstr("flat"));
   EXPECT_THAT(refused([&](Camera& c) { c.world_from_view[3].y = nan; }), HasSubstr("position"));
-  EXPECT_THAT(refused([&](Camera& c) { c.orthographic = true, c.far_m = inf; }), HasSubstr("orthographic"));
-  EXPECT_THAT(refused([](Camera& c) { c.orthographic = true, c.half_height_m = 0; }),
+  EXPECT_THAT(refused([&](Camera& c) {
+                c.orthographic = true;
+                c.far_m = inf;
+              }),
+              HasSubstr("orthographic"));
+  EXPECT_THAT(refused([](Camera& c) {
+                c.orthographic = true;
+                c.half_height_m = 0;
+              }),
               HasSubstr("half height"));
 }
 
@@ -276,7 +283,8 @@ TEST(ChooseCamera, DefaultFillsTheImage) {
               scene.instances[0].world_from_object * glm::dvec4(glm::dvec3(scene.meshes[0].positions[i]), 1);
           const glm::dvec3 screen =
               ndc(view, glm::dmat3(view.view_from_world) * (glm::dvec3(world) - view.eye));
-          low = glm::min(low, glm::dvec2(screen)), high = glm::max(high, glm::dvec2(screen));
+          low = glm::min(low, glm::dvec2(screen));
+          high = glm::max(high, glm::dvec2(screen));
           EXPECT_GT(screen.z, 0);
           EXPECT_LT(screen.z, 1);
         }
@@ -407,7 +415,8 @@ glm::dvec4 margins(const Scene& scene, const View& view) {
     for (const glm::vec3& p : scene.meshes[size_t(instance.mesh)].positions) {
       const glm::dvec4 clip =
           view.clip_from_view * view.view_from_world * instance.world_from_object * glm::dvec4(p, 1);
-      least = glm::min(least, glm::dvec2(clip) / clip.w), most = glm::max(most, glm::dvec2(clip) / clip.w);
+      least = glm::min(least, glm::dvec2(clip) / clip.w);
+      most = glm::max(most, glm::dvec2(clip) / clip.w);
     }
   return {1 + least.x, 1 - most.x, 1 + least.y, 1 - most.y};
 }

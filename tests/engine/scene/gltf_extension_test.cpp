@@ -81,7 +81,8 @@ TEST(GltfExtension, optional_and_not_supported_is_one_line_each) {
 TEST(GltfExtension, points_and_lines_are_one_line_per_kind) {
   GltfBuilder made = GltfBuilder::triangle();
   nlohmann::json points = made.primitive(), lines = made.primitive();
-  points["mode"] = 0, lines["mode"] = 3;
+  points["mode"] = 0;
+  lines["mode"] = 3;
   made.root["meshes"][0]["primitives"] = {made.primitive(), points, lines, points};
   const std::string warnings = warnings_of([&] { EXPECT_EQ(made.load().meshes.size(), 1u); });
   EXPECT_EQ(count_lines(warnings), 1u) << warnings;

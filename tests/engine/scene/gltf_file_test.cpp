@@ -32,7 +32,8 @@ TEST(GltfFile, chunks_of_unknown_type_after_the_binary_one_are_passed_over) {
   Bytes bytes = GltfBuilder::triangle().glb();
   const Bytes extra = bytes_of(std::vector<uint32_t>{4, 0x12345678, 99});
   bytes.insert(bytes.end(), extra.begin(), extra.end());
-  bytes[8] = static_cast<uint8_t>(bytes.size()), bytes[9] = static_cast<uint8_t>(bytes.size() >> 8);
+  bytes[8] = static_cast<uint8_t>(bytes.size());
+  bytes[9] = static_cast<uint8_t>(bytes.size() >> 8);
   const ModelFolder folder;
   EXPECT_EQ(load_gltf(folder.write("a.glb", bytes)).meshes.at(0).positions, corners);
 }

@@ -175,8 +175,10 @@ TEST(GltfImage, sizes_are_checked_before_anything_is_decoded) {
 // A PNG of side x side pixels, nearly all black, whose header says 1 x 1.
 Bytes png_that_inflates(int side) {
   Bytes pixels(size_t(side) * side * 3, 0);
-  for (int i = 0; i < 1000; ++i)
-    pixels[i * 3] = static_cast<uint8_t>(i), pixels[i * 3 + 1] = i / 256;  // no palette
+  for (int i = 0; i < 1000; ++i) {
+    pixels[i * 3] = static_cast<uint8_t>(i);
+    pixels[i * 3 + 1] = i / 256;  // no palette
+  }
   Bytes file = encode_png(side, side, 3, pixels);
   const Bytes header = png_header(1, 1);
   std::copy_n(header.begin(), 24, file.begin());
@@ -242,7 +244,8 @@ TEST(GltfImage, more_memory_than_there_is_is_not_offered) {
     made.root["textures"][i] = {{"source", i}};
     made.root["materials"][i] = {{"normalTexture", {{"index", i}}}};
     nlohmann::json& primitives = made.root["meshes"][0]["primitives"];
-    primitives[i] = made.primitive(), primitives[i]["material"] = i;
+    primitives[i] = made.primitive();
+    primitives[i]["material"] = i;
   }
   const std::string refusal = made.refusal({.texture_side = 32768, .max_image_bytes = 1 << 30});
   EXPECT_THAT(refusal, HasSubstr("25 images take 25.0 GiB decoded"));

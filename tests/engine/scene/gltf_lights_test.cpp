@@ -149,7 +149,8 @@ TEST(GltfLights, absent_fields_take_the_extensions_defaults) {
 TEST(GltfLights, one_light_on_many_nodes_is_many_lights) {
   GltfBuilder made = with_light({{"type", "point"}});
   json second = made.node();
-  second["name"] = "second", second["translation"] = {4, 0, 0};
+  second["name"] = "second";
+  second["translation"] = {4, 0, 0};
   made.root["nodes"].push_back(second);
   made.root["scenes"][0]["nodes"] = {0, 1};
   const Scene scene = made.load();

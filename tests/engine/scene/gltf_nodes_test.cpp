@@ -177,7 +177,9 @@ TEST(GltfNodes, properties_with_names_of_indices_are_other_programs_where_gltf_h
   made.root["asset"]["source"] = "https://example.org/model";
   made.root["asset"]["light"] = {{"node", -3}};
   made.root["scenes"][0]["camera"] = "front";
-  made.node()["source"] = 0.5, made.node()["material"] = "oak", made.node()["attributes"] = {1, "a"};
+  made.node()["source"] = 0.5;
+  made.node()["material"] = "oak";
+  made.node()["attributes"] = {1, "a"};
   made.root["meshes"][0]["index"] = -1;
   made.root["mesh"] = nullptr;
   EXPECT_EQ(made.load().instances.size(), 1u);

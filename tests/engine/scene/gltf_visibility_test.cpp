@@ -110,7 +110,9 @@ TEST(GltfVisibility, a_light_that_the_caller_replaced_is_neither_hidden_nor_anim
   animate(made, light_0 + "intensity", std::vector<float>{1, 8, 2}, "SCALAR", f32);
   Scene scene = made.load();
   Light own = scene.lights.at(0);
-  own.intensity = 7, own.radius_m = 3, own.node = -1;
+  own.intensity = 7;
+  own.radius_m = 3;
+  own.node = -1;
   scene.lights = {own};
   for (const double seconds : {0.0, 1.0, 2.0}) {
     EXPECT_TRUE(set_time(scene, seconds).lights.empty());

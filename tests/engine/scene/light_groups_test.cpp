@@ -169,7 +169,8 @@ TEST_F(LightGroupFiles, ALightsFileGivesGroupsToLightsAndInstances) {
 
 TEST_F(LightGroupFiles, MasksAreWrittenAsNumbersAndReadBack) {
   Scene scene = four_instances();
-  scene.lights[0].groups = 1u << 31 | 5u, scene.lights[1].groups = 0;
+  scene.lights[0].groups = 1u << 31 | 5u;
+  scene.lights[1].groups = 0;
   for (Light& light : scene.lights) light.position = {1, 2, 3};
   const std::vector<Light> before = scene.lights;
   load(scene, lights_file_text(before));

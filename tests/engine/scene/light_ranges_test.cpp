@@ -17,7 +17,7 @@ Light lamp(float intensity) {
 
 TEST(LightRanges, AreTheScenesUnlessOthersAreAskedFor) {
   EXPECT_EQ(range_of(lamp(8), 0, {}), 3);
-  EXPECT_EQ(least_falloff(lamp(8), {}), 0);
+  EXPECT_EQ(min_falloff(lamp(8), {}), 0);
 }
 
 TEST(LightRanges, EndWhereIrradianceFallsToTheCutoff) {

@@ -39,7 +39,7 @@ std::vector<uint32_t> check(const LightTree& tree, const std::vector<ViewLight>&
   glm::vec3 low(1e30f), high(-1e30f);
   for (const uint32_t light : below) {
     sum += lights[light].radiant_intensity.r;
-    low = glm::min(low, glm::vec3(lights[light].position)),
+    low = glm::min(low, glm::vec3(lights[light].position));
     high = glm::max(high, glm::vec3(lights[light].position));
   }
   EXPECT_EQ(glm::vec3(n.low), low);
@@ -73,7 +73,9 @@ TEST(LightTree, HasNoLightThatSendsNothing) {
 
 TEST(LightTree, IsFiniteWhereLightsAreNot) {
   std::vector<ViewLight> lights = random_lights(4);
-  lights[0].position.x = 1e300, lights[1].position.y = -1e30, lights[2].radiant_intensity = glm::dvec3(1e300);
+  lights[0].position.x = 1e300;
+  lights[1].position.y = -1e30;
+  lights[2].radiant_intensity = glm::dvec3(1e300);
   lights[3].position = lights[0].position;
   for (const LightTree::Node& node : light_tree(lights).nodes) {
     for (int k = 0; k < 4; ++k) {

@@ -146,7 +146,8 @@ TEST_F(LightsFile, SavedLightsAreLoadedAsTheyWere) {
   lights[0].position = {0.1, 1e6 + 1.0 / 3, -1e-9};
   lights[0].color = {0.1f, 1e-20f, 3.3333333f};
   lights[0].radius_m = 0.7f;
-  lights[0].casts_shadow = true, lights[0].source_m = 0.3f;
+  lights[0].casts_shadow = true;
+  lights[0].source_m = 0.3f;
   lights[1].type = LightType::spot;
   lights[1].direction = glm::normalize(glm::vec3(0.3f, -0.7f, 0.11f));
   lights[1].inner_cone_rad = 0.1f;
@@ -274,7 +275,10 @@ TEST(SharedLightsFiles, RedEclipseMapsAreRead) {
 TEST_F(LightsFile, AVirtualLightIsReadBackAsItWas) {
   Light light;
   make_virtual(light);
-  light.position = {1, 2, 3}, light.direction = {0, 1, 0}, light.intensity = 0.5f, light.nearest_m = 0.25f;
+  light.position = {1, 2, 3};
+  light.direction = {0, 1, 0};
+  light.intensity = 0.5f;
+  light.nearest_m = 0.25f;
   const std::vector<Light> loaded = load(lights_file_text({light}));
   ASSERT_EQ(loaded.size(), 1u);
   EXPECT_EQ(loaded[0], light);

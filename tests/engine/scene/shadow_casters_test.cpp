@@ -14,7 +14,9 @@ constexpr double pi = std::numbers::pi;
 
 Light light_of(LightType type, float intensity, float radius_m) {
   Light light;
-  light.type = type, light.intensity = intensity, light.radius_m = radius_m;
+  light.type = type;
+  light.intensity = intensity;
+  light.radius_m = radius_m;
   light.color = {0.5f, 1, 0.25f};
   return light;
 }

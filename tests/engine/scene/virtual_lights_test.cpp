@@ -16,7 +16,9 @@ using glm::dvec3;
 
 Light lamp(LightType type, float outer_cone_rad = 0.7f) {
   Light light;
-  light.type = type, light.position = {1, 2, 3}, light.direction = {0, -1, 0};
+  light.type = type;
+  light.position = {1, 2, 3};
+  light.direction = {0, -1, 0};
   light.outer_cone_rad = outer_cone_rad;
   return light;
 }
@@ -31,7 +33,9 @@ std::vector<ReflectedView> two_views() {
       ReflectedPixel& p = v.pixels.emplace_back();
       if (pixel == 0) continue;
       p.flux = glm::vec3(1, 0.5f, 0.25f) * (i == 0 ? 1.f : 3.f);
-      p.area_m2 = 0.5f, p.normal = {0, 0, 1}, p.ahead_m = 2;
+      p.area_m2 = 0.5f;
+      p.normal = {0, 0, 1};
+      p.ahead_m = 2;
     }
   }
   return views;

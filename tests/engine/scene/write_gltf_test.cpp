@@ -69,7 +69,10 @@ void expect_same_lights(const std::vector<Light>& a, std::vector<Light> b) {
     }
     b[i].direction = a[i].direction;
     if (is_directional(a[i])) b[i].position = a[i].position;
-    if (!has_cone(a[i])) b[i].inner_cone_rad = a[i].inner_cone_rad, b[i].outer_cone_rad = a[i].outer_cone_rad;
+    if (!has_cone(a[i])) {
+      b[i].inner_cone_rad = a[i].inner_cone_rad;
+      b[i].outer_cone_rad = a[i].outer_cone_rad;
+    }
     EXPECT_TRUE(a[i] == b[i]) << i << " " << a[i].name;
   }
 }
@@ -115,9 +118,14 @@ Scene triangle_with(const Light& light) {
 TEST(WriteGltf, LightsKeepTheirPlaceInDoubleTheirConesAndTheirExtras) {
   Light spot{.name = "spot", .type = LightType::spot, .position = {1e7 + 1.0 / 3, -2, 0.1}};
   spot.direction = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
-  spot.radius_m = 7.3f, spot.intensity = 123.4f, spot.color = {0.1f, 0.2f, 1};
-  spot.inner_cone_rad = 0.1f, spot.outer_cone_rad = std::numbers::pi_v<float> / 2;
-  spot.casts_shadow = true, spot.source_m = 0.05f, spot.groups = 0b101;
+  spot.radius_m = 7.3f;
+  spot.intensity = 123.4f;
+  spot.color = {0.1f, 0.2f, 1};
+  spot.inner_cone_rad = 0.1f;
+  spot.outer_cone_rad = std::numbers::pi_v<float> / 2;
+  spot.casts_shadow = true;
+  spot.source_m = 0.05f;
+  spot.groups = 0b101;
   Light endless{.name = "endless", .position = {1, 2, 3}};
   Light sun{.name = "sun", .type = LightType::directional, .direction = {0, -1, 0}};
   for (const Light& light : {spot, endless, sun}) {
@@ -140,12 +148,19 @@ TEST(WriteGltf, MaterialsKeepWhatTheirExtensionsHold) {
   m.base_color_map = {.texture = 0, .uv_set = 0};
   const float c = std::cos(0.7f), s = std::sin(0.7f);  // scaled, one side mirrored, and turned
   m.base_color_map.uv_from_vertex = {2 * c, -2 * s, -3 * s, -3 * c, 0.25f, -4};
-  m.emissive = {0.1f, 30, 2}, m.clearcoat = 0.5f, m.clearcoat_roughness = 0.25f, m.ior = 1.3f;
-  m.specular = 0.7f, m.specular_color = {0.5f, 1, 2};
-  m.alpha_mode = AlphaMode::mask, m.alpha_cutoff = 0.3f, m.double_sided = true;
+  m.emissive = {0.1f, 30, 2};
+  m.clearcoat = 0.5f;
+  m.clearcoat_roughness = 0.25f;
+  m.ior = 1.3f;
+  m.specular = 0.7f;
+  m.specular_color = {0.5f, 1, 2};
+  m.alpha_mode = AlphaMode::mask;
+  m.alpha_cutoff = 0.3f;
+  m.double_sided = true;
   const Scene back = read_back(scene);
   expect_same_material(m, back.materials.at(size_t(back.meshes.at(0).material)), scene, back);
-  m.unlit = true, m.clearcoat = 0;
+  m.unlit = true;
+  m.clearcoat = 0;
   EXPECT_TRUE(read_back(scene).materials.at(0).unlit);
 }
 

@@ -34,7 +34,8 @@ inline RayScene scene_of(const std::vector<glm::vec3>& positions, const std::vec
   RayScene rays(device(), programs(), {.origin = glm::dvec3(0)});
   const RayMesh mesh{positions, indices};
   const RayInstance instance{};
-  rays.set_meshes({&mesh, 1}), rays.set_instances({&instance, 1});
+  rays.set_meshes({&mesh, 1});
+  rays.set_instances({&instance, 1});
   return rays;
 }
 
@@ -56,8 +57,10 @@ inline RayScene card_over_floor() {
 inline Light lamp(LightType type) {
   Light light;
   light.type = type;
-  light.position = {0, light_height_m, 0}, light.direction = {0, -1, 0};
-  light.radius_m = 8, light.outer_cone_rad = 1.0f;
+  light.position = {0, light_height_m, 0};
+  light.direction = {0, -1, 0};
+  light.radius_m = 8;
+  light.outer_cone_rad = 1.0f;
   if (is_directional(light)) light.direction = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
   return light;
 }
@@ -115,7 +118,8 @@ inline Wrong wrong_points(const Light& light, const ShadowMapOptions& options,
   for (size_t i = 0; i < points.size(); ++i) {
     const double inside = inside_m(light, points[i].position);
     const bool leaked = inside > 0 && taps[i] < most, acned = inside < 0 && taps[i] > 0;
-    wrong.leaked += leaked, wrong.acned += acned;
+    wrong.leaked += leaked;
+    wrong.acned += acned;
     if (leaked || acned) wrong.furthest_m = std::max(wrong.furthest_m, std::abs(inside));
   }
   return wrong;
@@ -131,7 +135,7 @@ inline Wrong wrong_points(const Light& light, const ShadowMapOptions& options) {
 // The largest error of a texel on the floor, which the light sees from above. A texel's centre is at most
 // half a texel away along either side, and each tap of a filter a texel more: no point further from the edge
 // may be wrong.
-inline double most_wrong_m(const Light& light, const ShadowMapOptions& options) {
+inline double max_wrong_m(const Light& light, const ShadowMapOptions& options) {
   const ShadowAtlas atlas = plan_shadow_atlas({&light, 1}, view_from(5), glm::dvec3(0), room, options);
   const double texel_m = 2 * double(atlas.faces[0].extent) / options.size *
                          (is_directional(light) ? 1 / std::abs(light.direction.y) : light_height_m);

@@ -81,8 +81,10 @@ struct SeenTriangle {
 // False: the face's light sees nothing of it.
 bool see(const dvec3 (&corners)[3], const ShadowFace& face, SeenTriangle* t) {
   const auto& [a, b, c] = corners;
-  t->normal = glm::normalize(glm::cross(b - a, c - a)), t->offset = glm::dot(t->normal, a);
-  t->nearest = std::max(std::min({a.z, b.z, c.z}), 0.0), t->furthest = std::max({a.z, b.z, c.z});
+  t->normal = glm::normalize(glm::cross(b - a, c - a));
+  t->offset = glm::dot(t->normal, a);
+  t->nearest = std::max(std::min({a.z, b.z, c.z}), 0.0);
+  t->furthest = std::max({a.z, b.z, c.z});
   const double facing = face.parallel ? t->normal.z : t->offset;
   for (int k = 0; k < 3; ++k) {
     dvec3 p = corners[k], q = corners[(k + 1) % 3];
@@ -261,7 +263,8 @@ TEST(DrawFaces, KeptFacesAreDrawnAgainInABufferThatGrew) {
       atlas.faces.push_back(atlas.faces[face]);
       atlas.faces.back().first += first;
     }
-    atlas.texels += bytes / sizeof(float), atlas.bytes += bytes;
+    atlas.texels += bytes / sizeof(float);
+    atlas.bytes += bytes;
     maps.draw(rays, atlas, std::vector<uint8_t>(faces, 1));
     EXPECT_EQ(texels() == drawn, true) << growth;
   }

@@ -56,7 +56,7 @@ TEST(ShadowMapFaults, EachIsFound) {
     ShadowMaps maps(device(), faulty, options);
     maps.draw(rays, plan_shadow_atlas({&light, 1}, view_from(5), rays.origin(), room, options));
     const Wrong wrong = wrong_points(light, options, taps_at(maps, rays, floor_points()));
-    const bool found = wrong.furthest_m > most_wrong_m(light, options);
+    const bool found = wrong.furthest_m > max_wrong_m(light, options);
     EXPECT_EQ(found, std::string(fault.name) != "none")
         << fault.name << ": " << wrong.leaked << " leaked, " << wrong.acned << " acned, up to "
         << wrong.furthest_m << " m from the edge";

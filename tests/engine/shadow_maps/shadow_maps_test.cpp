@@ -15,7 +15,7 @@ TEST_P(OneCard, OnlyPointsWithinATexelOfTheEdgeAreWrong) {
     const ShadowMapOptions options{.size = size, .bits = bits, .taps = taps, .cascades = 1};
     const Light light = lamp(type);
     const Wrong wrong = wrong_points(light, options);
-    EXPECT_LE(wrong.furthest_m, most_wrong_m(light, options)) << size;
+    EXPECT_LE(wrong.furthest_m, max_wrong_m(light, options)) << size;
     EXPECT_LT(wrong.leaked + wrong.acned, last) << size;
     last = wrong.leaked + wrong.acned;
   }
@@ -81,7 +81,8 @@ TEST(ShadowCascades, EachHoldsItsPartOfTheFrustum) {
 // All of the room is nearer to the eye's light than the light is to the room.
 TEST(ShadowAtlas, ALightWithoutRangeReachesTheRoomFromAfar) {
   Light light = lamp(LightType::spot);
-  light.position = {0, 300, 0}, light.outer_cone_rad = 0.1f;
+  light.position = {0, 300, 0};
+  light.outer_cone_rad = 0.1f;
   light.radius_m = std::numeric_limits<float>::infinity();
   const ShadowMapOptions options{.size = 1024};
   const RayScene rays = card_over_floor();
@@ -93,8 +94,12 @@ TEST(ShadowAtlas, ALightWithoutRangeReachesTheRoomFromAfar) {
 
 TEST(ShadowAtlas, SizesFollowTheShareOfTheScreenAndNoLightIsLeftOut) {
   std::vector<Light> lights(3, lamp(LightType::point));
-  lights[0].radius_m = 1, lights[1].radius_m = 1, lights[2].radius_m = 1;
-  lights[0].position = {0, 0, 0}, lights[1].position = {0, 0, -15}, lights[2].position = {0, 0, -3000};
+  lights[0].radius_m = 1;
+  lights[1].radius_m = 1;
+  lights[2].radius_m = 1;
+  lights[0].position = {0, 0, 0};
+  lights[1].position = {0, 0, -15};
+  lights[2].position = {0, 0, -3000};
   const View view = view_from(5);
   const ShadowAtlas atlas = plan_shadow_atlas(lights, view, glm::dvec3(0), room, {.size = 256});
   ASSERT_EQ(atlas.faces.size(), 18u);
@@ -104,7 +109,7 @@ TEST(ShadowAtlas, SizesFollowTheShareOfTheScreenAndNoLightIsLeftOut) {
   EXPECT_EQ(atlas.texels, 6u * (256 * 256 + 64 * 64 + 16 * 16));
 
   const ShadowAtlas halved =
-      plan_shadow_atlas(lights, view, glm::dvec3(0), room, {.size = 256, .most_bytes = 500'000});
+      plan_shadow_atlas(lights, view, glm::dvec3(0), room, {.size = 256, .max_bytes = 500'000});
   EXPECT_EQ(halved.halvings, 1);
   EXPECT_EQ(halved.faces[0].size, 128u);
   EXPECT_EQ(halved.faces[6].size, 32u);

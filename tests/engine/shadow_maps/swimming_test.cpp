@@ -116,10 +116,14 @@ Temporal temporal_error(const ShadowMapOptions& options, bool stable, int frames
       if (!seen[i] || !seen_before[i]) continue;
       const bool flipped = taps[i] != before[i];
       const dvec3 at(posts.points[i].position);
-      ++t.seen, t.flipped += flipped, t.wrong += taps[i] != (truth[i / 16] >> i % 16 & 1);
+      ++t.seen;
+      t.flipped += flipped;
+      t.wrong += taps[i] != (truth[i / 16] >> i % 16 & 1);
       t.swam += flipped && cascade_of(atlas.faces, at) == cascade_of(faces_before, at);
     }
-    seen_before = seen, before = taps, faces_before = atlas.faces;
+    seen_before = seen;
+    before = taps;
+    faces_before = atlas.faces;
   }
   return t;
 }

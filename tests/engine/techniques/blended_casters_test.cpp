@@ -12,7 +12,9 @@ Scene veiled_scene() {
   Scene scene = glazed_scene();
   const int lace = add_material(scene, "speckled", {0.9f, 0.9f, 0.8f}, 0, 0.6f);
   Material& m = scene.materials[size_t(lace)];
-  m.base_color.a = 0.8f, m.alpha_mode = AlphaMode::blend, m.double_sided = true;
+  m.base_color.a = 0.8f;
+  m.alpha_mode = AlphaMode::blend;
+  m.double_sided = true;
   m.base_color_map.texture = add_speckles(scene, true);
   add_instance(scene, "speckled", add_mesh(scene, wall_mesh({0.2f, 0, -3.75f}, 1.2f, lace, "speckled")));
   add_instance(scene, "clear", int(scene.meshes.size()) - 1, placed({0.3, 0.1, 0.2}));
@@ -67,7 +69,8 @@ void add_shares(TechniqueRun& run, const HostShadowLayer& layer, Shares& sum) {
       const double share = hidden_share_at(layer.shadows, x, y, i),
                    slack = 0.51 / 255;  // half a step of a byte
       const bool right = share >= veil.least - slack && share <= veil.most + slack;
-      sum.right += right, sum.wrong += !right;
+      sum.right += right;
+      sum.wrong += !right;
       sum.partial += right && share > 0.02 && share < 0.98;
     }
   }
@@ -135,7 +138,8 @@ TEST(BlendedCasters, CostNothingWhereNothingBlendedCasts) {
   apply_setting(by_alpha, "shadow-blended=alpha");
   TechniqueRun none(test_devices(), scene, view, {}, find_technique("visibility")),
       alpha(test_devices(), scene, view, by_alpha, find_technique("visibility"));
-  none.run_frame(), alpha.run_frame();
+  none.run_frame();
+  alpha.run_frame();
   EXPECT_TRUE(identical(none.image(), alpha.image()));
   EXPECT_FALSE(alpha.view().plan.shadows.bytes);
   EXPECT_EQ(alpha.view().shadows.bytes(), none.view().shadows.bytes());

@@ -59,8 +59,10 @@ inline BlendedInDouble blended_in_double(TechniqueRun& run, ShadowTruth& truth) 
         undecided.insert(p);  // an edge passes through the centre
         continue;
       }
-      depth[p] = float(*there), triangles[p] = {own.x, uint32_t(own.y)};
-      at[p] = surfaces.surface_at(t, centre), alpha[p] = surfaces.base_color_at(t, centre).a;
+      depth[p] = float(*there);
+      triangles[p] = {own.x, uint32_t(own.y)};
+      at[p] = surfaces.surface_at(t, centre);
+      alpha[p] = surfaces.base_color_at(t, centre).a;
       pixels.push_back(p);
     }
     const auto seen = truth.at_pixels(v, depth, triangles, pixels);
@@ -83,7 +85,8 @@ inline BlendedInDouble blended_in_double(TechniqueRun& run, ShadowTruth& truth) 
     }
     glm::dvec3 color(under.image().pixels[pixel]);
     for (const auto& [place, f] : over) color = f.radiance * f.alpha + color * (1 - f.alpha);
-    found.pixels.push_back(pixel), found.radiance.push_back(color);
+    found.pixels.push_back(pixel);
+    found.radiance.push_back(color);
   }
   return found;
 }

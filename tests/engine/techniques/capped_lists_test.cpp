@@ -66,7 +66,8 @@ std::pair<double, double> interval_at(const Listed& listed, const View& view, in
   for (int py = y0; py < std::min(y0 + tile, height); ++py) {
     for (int px = x0; px < std::min(x0 + tile, width); ++px) {
       if (!(listed.depth[size_t(py) * width + size_t(px)] > 0)) continue;
-      near = std::min(near, distance(px, py)), far = std::max(far, distance(px, py));
+      near = std::min(near, distance(px, py));
+      far = std::max(far, distance(px, py));
     }
   }
   const double here = distance(x, y), ratio = plan.lists.far_m / plan.lists.near_m;
@@ -121,7 +122,10 @@ TEST_P(CappedGrids, KeepTheLightsOfTheirOrder) {
     Listed capped(scene, from(0), GetParam().technique, common + " list-cap=4 list-cap-order=" + order);
     for (const double eye : {0.0, 0.7}) {  // a camera that moves
       const View view = from(eye);
-      if (eye > 0) whole.look(view), capped.look(view);
+      if (eye > 0) {
+        whole.look(view);
+        capped.look(view);
+      }
       const std::vector<ViewLight> lights = lights_in_view(scene, view);
       size_t shortened = 0, wrong = 0;
       for (int y = 0; y < height; ++y) {
@@ -135,15 +139,15 @@ TEST_P(CappedGrids, KeepTheLightsOfTheirOrder) {
           if (kept.size() == all.size()) continue;
           ++shortened;
           const std::vector<double> keys = keys_at(whole, view, lights, order, x, y);
-          double most_kept = 0, least_left = 1e18;
+          double max_kept = 0, min_left = 1e18;
           for (const uint32_t light : all) {
             if (std::ranges::binary_search(kept, light))
-              most_kept = std::max(most_kept, keys[light]);
+              max_kept = std::max(max_kept, keys[light]);
             else
-              least_left = std::min(least_left, keys[light]);
+              min_left = std::min(min_left, keys[light]);
           }
           // Kernels round to float, and widen intervals by rounding and by a step of the depth.
-          wrong += most_kept > least_left * (order == "brightest" ? 1.001 : 1);
+          wrong += max_kept > min_left * (order == "brightest" ? 1.001 : 1);
         }
       }
       EXPECT_GT(shortened, size_t(width * height / 2)) << order;
@@ -290,7 +294,10 @@ TEST(CappedLists, OfAViewAreTheNearest) {
       ASSERT_GT(seen.size(), 8u);
       std::vector<size_t> kept;
       for (size_t i = 0; i < 8; ++i) kept.push_back(seen[i].second);
-      if (eye != 0) moving.look(view), moving.run_frame();
+      if (eye != 0) {
+        moving.look(view);
+        moving.run_frame();
+      }
       EXPECT_TRUE(identical(moving.image(), render(with_lights(scene, kept), view, technique)))
           << technique << " from " << eye;
       EXPECT_GT(count_listed_pairs(moving, read_depth(moving)).lost, 0u);

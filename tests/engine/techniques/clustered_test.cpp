@@ -49,7 +49,8 @@ TEST(Clustered, OneSliceIsForwardPlus) {
   const View view = small_view(127, 73);
   TechniqueRun one(test_devices(), scene, view, {{setting::slices, 1}}, find_technique("clustered"));
   TechniqueRun plus(test_devices(), scene, view, {}, find_technique("forward_plus"));
-  one.run_frame(), plus.run_frame();
+  one.run_frame();
+  plus.run_frame();
   EXPECT_EQ(one.frame().grid.value().cell_bytes, plus.frame().grid.value().cell_bytes);
   EXPECT_EQ(one.frame().grid.value().index_count, plus.frame().grid.value().index_count);
   EXPECT_TRUE(identical(one.image(), plus.image()));

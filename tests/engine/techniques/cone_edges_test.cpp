@@ -26,7 +26,8 @@ SmallScene scene_with_edges() {
                                      {right_angle, right_angle}}) {
     Light& light =
         add_spot(s.scene, "torch", {0, 0, -1}, {-0.5f + outer, 0, -4}, {1, 0.8f, 0.6f}, 9, 5, 10, 25);
-    light.inner_cone_rad = inner, light.outer_cone_rad = outer;
+    light.inner_cone_rad = inner;
+    light.outer_cone_rad = outer;
   }
   return s;
 }
@@ -52,7 +53,8 @@ TEST(ConeEdges, AreInTheListsOfEveryCullTest) {
   const Image forward = render(s.scene, view, "forward");
   for (const CullTestRow& row : cull_tests) {
     Settings settings;
-    settings.set(setting::cull_test, row.test), settings.set(setting::tile, 8);
+    settings.set(setting::cull_test, row.test);
+    settings.set(setting::tile, 8);
     EXPECT_TRUE(same_bytes(render(s.scene, view, "forward_plus", settings), forward)) << row.name;
   }
 }

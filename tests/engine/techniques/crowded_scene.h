@@ -19,7 +19,8 @@ inline View orthographic_view(double near_m) {
   Camera camera = look_at({0, 0, 0}, {0, 0, -1});
   camera.orthographic = true;
   camera.half_width_m = camera.half_height_m = 2;
-  camera.near_m = near_m, camera.far_m = 10;
+  camera.near_m = near_m;
+  camera.far_m = 10;
   return make_view(camera, 127, 73);
 }
 

@@ -41,7 +41,8 @@ TEST(DimLights, MoveNoPixelByMoreThanTheyMay) {
       for (Light& light : room.scene.lights)
         light.intensity *= float(display_step(ev) * threshold * std::exp2(double(random.uniform(-6, 4))));
       Settings settings;
-      settings.set(setting::display_ev, ev), settings.set(setting::shadow_threshold, threshold);
+      settings.set(setting::display_ev, ev);
+      settings.set(setting::shadow_threshold, threshold);
       if (i % 4 == 0) apply_setting(settings, "brdf=lambert");
       if (i % 5 == 0) apply_setting(settings, "window=smooth");
       GpuScene gpu(test_devices(), room.scene);
@@ -54,7 +55,8 @@ TEST(DimLights, MoveNoPixelByMoreThanTheyMay) {
       const double here = largest_step(run.image(), exact.image(), ev);
       EXPECT_LE(here, plan.shadows.dim_steps) << "room " << i;
       EXPECT_LT(plan.shadows.dim_steps, threshold) << "room " << i;
-      most = std::max(most, here), told = std::max(told, plan.shadows.dim_steps);
+      most = std::max(most, here);
+      told = std::max(told, plan.shadows.dim_steps);
       dim += size_t(std::ranges::count(plan.shadows.casting, ShadowNeed::too_dim, &LightShadow::need));
       shadowed += size_t(std::ranges::count(plan.shadows.casting, ShadowNeed::rays, &LightShadow::need));
       EXPECT_EQ(run.result().shadows->dim_steps, plan.shadows.dim_steps);
@@ -124,7 +126,8 @@ TEST(DimLights, ABoundIsNotMuchTooWide) {
 TEST(DimLights, ManyOfThemTogetherAddNoMoreThanOneMay) {
   DarkWall dark;
   Settings settings;
-  apply_setting(settings, "brdf=lambert"), settings.set(setting::shadow_threshold, 4);
+  apply_setting(settings, "brdf=lambert");
+  settings.set(setting::shadow_threshold, 4);
   const auto dim = [&](double share_of_a_step) {
     Light light = dark.scene.lights.at(0);
     light.intensity = float(share_of_a_step / dark.steps());
@@ -143,7 +146,8 @@ TEST(DimLights, NeedAnExposureThatIsKnown) {
   Random random(9);
   const RandomRoom room = random_room(random, 45, 31);
   Settings settings;
-  settings.set(setting::shadow_threshold, 1), settings.set(setting::display_ev, std::nullopt);
+  settings.set(setting::shadow_threshold, 1);
+  settings.set(setting::display_ev, std::nullopt);
   EXPECT_THROW(plan_frame(room.scene, room.view, settings, {}), Error);
   settings.set(setting::shadow_threshold, 0);
   EXPECT_NO_THROW(plan_frame(room.scene, room.view, settings, {}));
@@ -152,16 +156,18 @@ TEST(DimLights, NeedAnExposureThatIsKnown) {
 TEST(DimLights, WhatHasNoBoundIsNeverTooDim) {
   Random random(9);
   RandomRoom room = random_room(random, 45, 31);
-  EXPECT_LT(most_reflected(room.scene, 0, Brdf::ggx), 10);
-  EXPECT_LT(most_reflected(room.scene, 0, Brdf::lambert), most_reflected(room.scene, 0, Brdf::ggx));
+  EXPECT_LT(max_reflected(room.scene, 0, Brdf::ggx), 10);
+  EXPECT_LT(max_reflected(room.scene, 0, Brdf::lambert), max_reflected(room.scene, 0, Brdf::ggx));
   Material& m =
       room.scene.materials[size_t(room.scene.meshes[size_t(room.scene.instances[0].mesh)].material)];
   m.clearcoat = 0.1f;
-  EXPECT_TRUE(std::isinf(most_reflected(room.scene, 0, Brdf::ggx)));
-  m.clearcoat = 0, m.specular = 0.5f;
-  EXPECT_TRUE(std::isinf(most_reflected(room.scene, 0, Brdf::ggx)));
-  m.specular = 1, m.unlit = true;
-  EXPECT_EQ(most_reflected(room.scene, 0, Brdf::ggx), 0);
+  EXPECT_TRUE(std::isinf(max_reflected(room.scene, 0, Brdf::ggx)));
+  m.clearcoat = 0;
+  m.specular = 0.5f;
+  EXPECT_TRUE(std::isinf(max_reflected(room.scene, 0, Brdf::ggx)));
+  m.specular = 1;
+  m.unlit = true;
+  EXPECT_EQ(max_reflected(room.scene, 0, Brdf::ggx), 0);
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ constexpr glm::vec4 colors[] = {
 // forward_multipass.
 Scene lamps_alone(int lamps = 19) {
   Scene scene = small_scene(false).scene;
-  scene.instances.clear(), scene.meshes.clear();
+  scene.instances.clear();
+  scene.meshes.clear();
   for (int i = 0; i < lamps; ++i) {
     add_point(scene, "lamp", {-1.7f + 0.2f * float(i), 0.3f * float(i % 5) - 0.6f, -3.4f}, {1, 0.9f, 0.8f}, 1,
               2.5f);
@@ -150,7 +151,10 @@ TEST(EqualDepth, TheLaterInstanceIsSeenAtEveryDistance) {
     for (const bool large_last : {false, true}) {
       SCOPED_TRACE(fmt::format("{} m, {}", distance, large_last));
       Scene scene = lamps_alone();
-      for (Light& lamp : scene.lights) lamp.position.z = 0.5 - double(distance), lamp.radius_m = 40;
+      for (Light& lamp : scene.lights) {
+        lamp.position.z = 0.5 - double(distance);
+        lamp.radius_m = 40;
+      }
       const auto add = [&](bool large) {
         Mesh mesh;
         const float half = distance * (large ? 0.9f : 0.31f);

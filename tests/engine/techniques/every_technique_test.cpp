@@ -40,7 +40,8 @@ TEST_P(EveryTechnique, DrawsForwardsPictureThroughAJitteredMatrix) {
   const Scene scene = small_scene().scene;
   View view = small_view(47, 31);
   const Image still = render(scene, view, "forward");
-  view.clip_from_view[2][0] += 2 * 0.375 / view.width, view.clip_from_view[2][1] -= 2 * 0.25 / view.height;
+  view.clip_from_view[2][0] += 2 * 0.375 / view.width;
+  view.clip_from_view[2][1] -= 2 * 0.25 / view.height;
   ASSERT_FALSE(same_bytes(render(scene, view, "forward"), still)) << "the jitter is not seen at all";
   expect_forwards_picture(scene, view, *GetParam());
 }

@@ -116,12 +116,12 @@ TEST(SponzaEveryWay, IsTheImageOfEveryLightAtEveryPixel) {
 }
 
 // The small scene's wall and ball among lamps and torches of all sizes.
-Scene lamps(int count, float most_m) {
+Scene lamps(int count, float max_m) {
   Scene scene = small_scene(false).scene;
   Random random(7);
   for (int i = 0; i < count; ++i) {
     const glm::vec3 at{random.uniform(-2, 2), random.uniform(-1.5f, 1.5f), random.uniform(-4.2f, 0.5f)};
-    const float radius = random.uniform(0.1f, most_m);
+    const float radius = random.uniform(0.1f, max_m);
     if (i % 5 == 4) {
       add_spot(scene, "torch", at, at + glm::vec3(random.uniform(-1, 1), random.uniform(-1, 1), -1),
                {1, 1, 1}, 0.2f, radius, 5, random.uniform(10, 100));

@@ -86,7 +86,8 @@ TEST_P(FarLightWindows, FillTheVolumeWithWhatTheyTakeAway) {
       const double beyond = (1 - kept_by_window(GetParam(), d / range)) / (d * d) * kept_by_cone(light, -l);
       const glm::dvec3 e = glm::dvec3(light.color) * double(light.intensity) * beyond;
       for (int c = 0; c < 3; ++c) {
-        first[c] += e * l[c], of_axes[c] += e * (l[c] * l[c]);
+        first[c] += e * l[c];
+        of_axes[c] += e * (l[c] * l[c]);
         across[c] += e * (l[c == 2 ? 1 : 0] * l[c == 0 ? 1 : 2]);
       }
     }
@@ -134,7 +135,9 @@ LightLost light_lost(const Image& image, const Image& truth) {
   for (size_t i = 0; i < truth.pixels.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
       const double is = image.pixels[i][c], should = truth.pixels[i][c];
-      sum += is, whole += should, squares += (is - should) * (is - should);
+      sum += is;
+      whole += should;
+      squares += (is - should) * (is - should);
     }
   }
   return {1 - sum / whole, std::sqrt(squares / double(3 * truth.pixels.size()))};
@@ -148,7 +151,8 @@ TEST(FarLight, GivesBackWhatACutoffTakes) {
   for (const char* technique : {"forward", "visibility"}) {
     SCOPED_TRACE(technique);
     Settings endless;
-    endless.set(setting::brdf, Brdf::lambert), endless.set(setting::range, LightRange::infinite);
+    endless.set(setting::brdf, Brdf::lambert);
+    endless.set(setting::range, LightRange::infinite);
     const Image truth = render(scene, view, technique, endless);
     const auto lost = [&](int samples) {
       Settings settings = with_far_light(samples, 0.2);
@@ -218,7 +222,8 @@ TEST(FarLight, IsKeptWhileLightsRest) {
     EXPECT_EQ(fills(run), 0);
     EXPECT_TRUE(identical(run.image(), render(scene, moved, technique, settings)));
     scene.lights[1].position.x += 0.5f;
-    run.view().look(moved), run.view().lights_changed();
+    run.view().look(moved);
+    run.view().lights_changed();
     EXPECT_EQ(fills(run), 1);
     EXPECT_TRUE(identical(run.image(), render(scene, moved, technique, settings)));
   }
@@ -248,7 +253,8 @@ TEST(FarLight, IsNothingWhereNoLightEnds) {
   const View view = small_view(31, 23);
   for (const LightRange range : {LightRange::infinite, LightRange::stochastic}) {
     Settings without = with_far_light(0), with = with_far_light(512);
-    without.set(setting::range, range), with.set(setting::range, range);
+    without.set(setting::range, range);
+    with.set(setting::range, range);
     TechniqueRun run(test_devices(), scene, view, with, find_technique("visibility"));
     EXPECT_EQ(fills(run), 0);
     EXPECT_TRUE(identical(run.image(), render(scene, view, "visibility", without)));
@@ -262,7 +268,8 @@ TEST(FarLight, IsNothingWhereNoLightEnds) {
 TEST(FarLight, LeavesOutLightsOfAGroup) {
   SmallScene s = small_scene();
   for (Light& light : s.scene.lights) light.groups = 1;
-  s.scene.instances[0].groups = 2, s.scene.instances[1].groups = 1;
+  s.scene.instances[0].groups = 2;
+  s.scene.instances[1].groups = 1;
   const View view = small_view(47, 31);
   EXPECT_TRUE(identical(render(s.scene, view, "visibility", with_far_light(512, 2)),
                         render(s.scene, view, "visibility", with_far_light(0, 2))));
@@ -292,7 +299,8 @@ TEST(FarLight, AlbedoIsThatOfTheLobe) {
           const double visibility = 0.5 / (masking(l.z, n_dot_v) + masking(n_dot_v, l.z));
           const double weight = 4 * visibility * l.z * v_dot_h / cosine / (steps * steps);
           const double grazing = std::pow(1 - v_dot_h, 5);
-          base += weight * (1 - grazing), rim += weight * grazing;
+          base += weight * (1 - grazing);
+          rim += weight * grazing;
         }
       }
       const Lobe lobe{float(alpha), float(a2), float(n_dot_v), 0};
@@ -300,7 +308,8 @@ TEST(FarLight, AlbedoIsThatOfTheLobe) {
       const double apart = albedo.x + albedo.y - (base + rim);
       EXPECT_LT(std::abs(apart), 0.1) << roughness << " " << n_dot_v;
       EXPECT_LT(std::abs(albedo.y - rim), 0.1) << roughness << " " << n_dot_v;
-      squares += apart * apart, ++count;
+      squares += apart * apart;
+      ++count;
     }
   }
   EXPECT_LT(std::sqrt(squares / count), 0.03);

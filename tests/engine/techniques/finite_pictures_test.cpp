@@ -112,10 +112,14 @@ TEST_P(FinitePictures, OfAttributesWithoutDirectionOrPlace) {
   SmallScene s = small_scene();
   every_effect(s);
   Bitmap grey;  // half-way between its texels a normal map holds no direction
-  grey.name = "grey", grey.width = grey.height = 2;
+  grey.name = "grey";
+  grey.width = grey.height = 2;
   for (const uint8_t byte : {127, 128, 128, 127}) grey.rgba.insert(grey.rgba.end(), {byte, byte, byte, 255});
   const int map = add_texture(s.scene, std::move(grey), false);
-  for (Material& m : s.scene.materials) m.normal_map.texture = map, m.normal_scale = 0;
+  for (Material& m : s.scene.materials) {
+    m.normal_map.texture = map;
+    m.normal_scale = 0;
+  }
   for (Mesh& mesh : s.scene.meshes) {
     mesh.tangents.resize(mesh.positions.size(), glm::vec4(1, 0, 0, 1));
     mesh.uv0.resize(mesh.positions.size());

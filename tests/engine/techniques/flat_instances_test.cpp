@@ -39,7 +39,8 @@ TEST(FlatInstances, OfTwoSidesAreLitOnTheEyesSide) {
   const View view = small_view(48, 32);
   for (const glm::dvec3 scale : {glm::dvec3(2, 2, 0), glm::dvec3(-2, 2, 0)}) {
     Scene scene;
-    scene.background = {0, 0, 1}, scene.ambient = {0, 0, 0};
+    scene.background = {0, 0, 1};
+    scene.ambient = {0, 0, 0};
     const int paint = add_material(scene, "paint", {0.8f, 0.8f, 0.8f}, 0, 0.8f);
     scene.materials[size_t(paint)].double_sided = true;
     Mesh box;
@@ -53,7 +54,8 @@ TEST(FlatInstances, OfTwoSidesAreLitOnTheEyesSide) {
       int covered = 0, dark = 0;
       for (const glm::vec4& p : image.pixels) {
         const bool surface = glm::vec3(p) != scene.background;
-        covered += surface, dark += surface && !(p.g > 0);
+        covered += surface;
+        dark += surface && !(p.g > 0);
       }
       EXPECT_GT(covered, 100) << technique;
       EXPECT_EQ(dark, 0) << technique << " of " << covered;

@@ -15,7 +15,9 @@ inline Scene glazed_scene() {
   const auto glass = [&](const char* name, glm::vec3 color, float alpha) {
     const int added = add_material(scene, name, color, 0, 0.6f);
     Material& m = scene.materials[size_t(added)];
-    m.base_color.a = alpha, m.alpha_mode = AlphaMode::blend, m.double_sided = true;
+    m.base_color.a = alpha;
+    m.alpha_mode = AlphaMode::blend;
+    m.double_sided = true;
     return added;
   };
   const int blue = glass("blue", {0.4f, 0.5f, 0.9f}, 0.5f), lace = glass("lace", {0.9f, 0.9f, 0.8f}, 0.9f),

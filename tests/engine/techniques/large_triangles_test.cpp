@@ -16,11 +16,14 @@ class LargeTriangleMesh {
   void add(const vec3& a, const vec3& b, const vec3& c) {
     for (const vec3& p : {a, b, c}) {
       mesh_.indices.push_back(uint32_t(mesh_.positions.size()));
-      mesh_.positions.push_back(p), mesh_.normals.push_back({0, 1, 0}), mesh_.uv0.push_back({0, 0});
+      mesh_.positions.push_back(p);
+      mesh_.normals.push_back({0, 1, 0});
+      mesh_.uv0.push_back({0, 0});
     }
   }
   void add_quad(const vec3& from, const vec3& u, const vec3& v) {
-    add(from, from + u, from + u + v), add(from, from + u + v, from + v);
+    add(from, from + u, from + u + v);
+    add(from, from + u + v, from + v);
   }
   Scene scene() {
     Scene scene;
@@ -94,7 +97,8 @@ DistanceErrors errors_of(const View& view, const std::vector<float>& depth,
   for (const uint32_t pixel : pixels) {
     const double off = std::abs(
         distance_from(view, pixel, depth[pixel]) / distance_from(view, pixel, hits[pixel].depth) - 1);
-    e.rmse += off * off, e.most = std::max(e.most, off);
+    e.rmse += off * off;
+    e.most = std::max(e.most, off);
   }
   e.rmse = std::sqrt(e.rmse / double(pixels.size()));
   return e;
@@ -118,7 +122,8 @@ double bound_of(const Scene& scene, const dvec3& eye) {
 void expect_no_worse_than_forward(const LargeCase& c) {
   SCOPED_TRACE(c.name);
   Camera camera = look_at({1.5, 1.7, 6}, {0, 1, -2});
-  camera.near_m = c.near_m, camera.far_m = c.far_m;
+  camera.near_m = c.near_m;
+  camera.far_m = c.far_m;
   const View view = make_view(camera, 203, 117);
   const std::vector<float> forward = depth_drawn_by(c.scene, view, "forward"),
                            visibility = depth_drawn_by(c.scene, view, "visibility");

@@ -34,7 +34,7 @@ inline Scene clustered_lights(int overlap, int lights) {
 
 struct Pairs {
   LitPairs pairs;
-  uint32_t most_listed = 0, most_lit = 0;
+  uint32_t max_listed = 0, max_lit = 0;
   Image image;
 };
 
@@ -42,8 +42,8 @@ inline Pairs pairs_of(const Scene& scene, const View& view, const Settings& sett
   TechniqueRun run(test_devices(), scene, view, settings, find_technique("lidr"));
   run.run_frame();
   Pairs out{count_listed_pairs(run, read_depth(run)), 0, 0, run.image()};
-  for (uint32_t n : out.pairs.listed_of_pixel) out.most_listed = std::max(out.most_listed, n);
-  for (uint32_t n : out.pairs.lit_of_pixel) out.most_lit = std::max(out.most_lit, n);
+  for (uint32_t n : out.pairs.listed_of_pixel) out.max_listed = std::max(out.max_listed, n);
+  for (uint32_t n : out.pairs.lit_of_pixel) out.max_lit = std::max(out.max_lit, n);
   return out;
 }
 
@@ -53,8 +53,8 @@ inline constexpr double other_order = 1e-5;
 inline void expect_within_limit(const Scene& scene, const View& view, const Settings& settings,
                                 uint32_t limit, const Image& forward) {
   const Pairs p = pairs_of(scene, view, settings);
-  EXPECT_LE(p.most_lit, limit) << "the scene is no test of this row";
-  EXPECT_LE(p.most_listed, limit);
+  EXPECT_LE(p.max_lit, limit) << "the scene is no test of this row";
+  EXPECT_LE(p.max_listed, limit);
   EXPECT_EQ(p.pairs.lost, 0u);
   EXPECT_EQ(p.pairs.wrong, 0u);
   EXPECT_LT(compare_images(p.image, forward).max_rel, other_order);

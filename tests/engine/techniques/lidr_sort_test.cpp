@@ -8,7 +8,8 @@ namespace {
 
 Settings sorted_settings(LidrPacking packing, int overlap, int passes, LidrSort sort = LidrSort::view) {
   Settings settings = lidr_settings(packing, overlap);
-  settings.set(setting::lidr_passes, passes), settings.set(setting::lidr_sort, sort);
+  settings.set(setting::lidr_passes, passes);
+  settings.set(setting::lidr_sort, sort);
   return settings;
 }
 

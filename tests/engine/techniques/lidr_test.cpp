@@ -85,7 +85,8 @@ TEST(Lidr, TakesTheMemoryThatItsPageComputes) {
   TechniqueRun run(test_devices(), scene, view, lidr_settings(LidrPacking::bitshift, 16),
                    find_technique("lidr"));
   TechniqueRun forward(test_devices(), scene, view, {}, find_technique("forward"));
-  run.run_frame(), forward.run_frame();
+  run.run_frame();
+  forward.run_frame();
   const size_t pixels = 640 * 360;
   const size_t images = pixels * 16, stencil = pixels, meshes = light_mesh_bytes, volumes = 255 * 68;
   EXPECT_EQ(run.result().memory_light_grid, images);

@@ -21,7 +21,8 @@ TEST(Lidr, LightsAboutTheEyeTheNearPlaneAndEverything) {
   Camera ends = look_at({0, 0, 0}, {0, 0, -1});
   ends.far_m = 4.5;
   Camera orthographic = ends;
-  orthographic.orthographic = true, orthographic.half_width_m = orthographic.half_height_m = 2,
+  orthographic.orthographic = true;
+  orthographic.half_width_m = orthographic.half_height_m = 2;
   orthographic.near_m = -3;
   for (const View& view : {small_view(127, 73), make_view(ends, 127, 73), make_view(orthographic, 127, 73)}) {
     const Image forward = render(scene, view, "forward");
@@ -88,8 +89,10 @@ View random_view(Random& random) {
   camera.fov_y_rad = random.uniform(0.02f, 2.6f);
   if (random.uniform() < 0.3) camera.far_m = random.uniform(3, 8);
   if (random.uniform() < 0.2) {
-    camera.orthographic = true, camera.half_width_m = camera.half_height_m = random.uniform(0.1f, 3);
-    camera.near_m = -random.uniform(0, 5), camera.far_m = 10;
+    camera.orthographic = true;
+    camera.half_width_m = camera.half_height_m = random.uniform(0.1f, 3);
+    camera.near_m = -random.uniform(0, 5);
+    camera.far_m = 10;
   }
   return make_view(camera, int(random.uniform(8, 160)), int(random.uniform(8, 100)));
 }
@@ -103,7 +106,7 @@ TEST(Lidr, LosesNothingWhereThereIsRoom) {
     const Pairs p = pairs_of(scene, default_view(scene, 160, 90), {});
     size_t with_room = 0;
     for (size_t i = 0; i < p.pairs.lost_of_pixel.size(); ++i) {
-      if (p.pairs.listed_of_pixel[i] == p.most_listed) continue;
+      if (p.pairs.listed_of_pixel[i] == p.max_listed) continue;
       ++with_room;
       ASSERT_EQ(p.pairs.lost_of_pixel[i], 0u) << "pixel " << i;
     }
@@ -131,7 +134,7 @@ TEST(Lidr, LosesNothingOfRandomLightsInRandomViews) {
       Settings settings = lidr_settings(LidrPacking::bitshift, 16, 255, volumes);
       settings.set(setting::volume_mesh, VolumeMeshes(trial % 3));
       const Pairs p = pairs_of(scene, view, settings);
-      ASSERT_LE(p.most_listed, 16u);
+      ASSERT_LE(p.max_listed, 16u);
       ASSERT_EQ(p.pairs.lost, 0u) << "trial " << trial << " volumes " << int(volumes);
       ASSERT_EQ(p.pairs.wrong, 0u) << "trial " << trial << " volumes " << int(volumes);
       lit += p.pairs.lit;

@@ -26,7 +26,8 @@ Found found(const Scene& scene, const View& view, const std::vector<std::string>
   TechniqueRun run(devices, scene, view, applied, find_technique("visibility"));
   for (int frame = 0; frame < 2; ++frame) run.run_frame();
   devices.kernels->note_kernels(nullptr);
-  f.shadows = run.frame().shadows(), f.image = run.image();
+  f.shadows = run.frame().shadows();
+  f.image = run.image();
   return f;
 }
 

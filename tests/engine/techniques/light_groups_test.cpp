@@ -202,7 +202,8 @@ TEST(TileMasks, MoreMasksThanNumbersAreRefusedByName) {
                  placed({0.1 * (i % 20) - 1, 0.1 * (i / 20) - 1, -3}));
     scene.instances.back().groups = uint32_t(1 + i);
   }
-  scene.lights[0].groups = 1, scene.lights[1].groups = 1 << 8;
+  scene.lights[0].groups = 1;
+  scene.lights[1].groups = 1 << 8;
   const View view = small_view(64, 48);
   for (const char* technique : {"deferred", "deferred_tiled", "light_prepass"}) {
     try {

@@ -95,10 +95,12 @@ inline glm::dvec3 radiance_by_hand(const Scene& scene, const View& view, int x, 
   double highlight = 0, share = std::pow(1 - glm::dot(normal, viewer), 5), exponent = shininess;
   switch (variant) {
     case PrepassSpecular::plain:
-      highlight = specular, exponent = n;
+      highlight = specular;
+      exponent = n;
       break;
     case PrepassSpecular::fifth_term:
-      highlight = fifth * std::pow(specular / fifth, power), share = rim / specular;
+      highlight = fifth * std::pow(specular / fifth, power);
+      share = rim / specular;
       break;
     case PrepassSpecular::luminance:
       highlight = luminance * std::pow(std::min(specular / luminance, 1.0), power);

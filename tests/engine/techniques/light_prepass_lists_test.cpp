@@ -136,7 +136,8 @@ TEST(LightPrepass, HardCases) {
     for (const PrepassSpecular specular : variants) {
       for (const int bits : hard.in_all_formats ? std::vector{8, 16} : std::vector<int>()) {
         Settings settings = volumes(specular);
-        settings.set(setting::buffer_bits, bits), settings.set(setting::normals, NormalFormat::xyz8);
+        settings.set(setting::buffer_bits, bits);
+        settings.set(setting::normals, NormalFormat::xyz8);
         EXPECT_EQ(count_nan_pixels(render(s.scene, view, "light_prepass", settings)), 0u) << bits;
       }
     }
@@ -165,7 +166,8 @@ TEST(LightPrepass, TakesTheMemoryThatItsPageSays) {
     for (const auto& [format, normal] :
          {std::pair<NormalFormat, size_t>(NormalFormat::floats, 16), {NormalFormat::spheremap, 4}}) {
       Settings settings = volumes(PrepassSpecular::plain, Brdf::ggx);
-      settings.set(setting::buffer_bits, bits), settings.set(setting::normals, format);
+      settings.set(setting::buffer_bits, bits);
+      settings.set(setting::normals, format);
       EXPECT_EQ(result_of("light_prepass", settings).memory_gbuffer, pixels * (normal + sums));
       EXPECT_EQ(result_of("light_prepass", settings).memory_total,
                 scene_bytes + pixels * (normal + sums + 16 + 4));

@@ -60,7 +60,9 @@ TEST(LightPrepass, GivesMaterialsTheirSpecularReflectance) {
   const View view = small_view(63, 37);
   Scene scene = lit_wall(3, false, {0.8f, 0.7f, 0.6f}, 0.25f, 200);
   Material& m = scene.materials[0];
-  m.ior = 2.42f, m.specular = 0.5f, m.specular_color = {2, 7, 1};
+  m.ior = 2.42f;
+  m.specular = 0.5f;
+  m.specular_color = {2, 7, 1};
   for (size_t i = 0; i < std::size(variants); ++i) {
     const Image image = render(scene, view, "light_prepass", volumes(variants[i]));
     EXPECT_LT(error_by_hand(scene, view, image, variants[i]), 2e-5) << variant_names[i];

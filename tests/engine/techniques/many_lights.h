@@ -24,7 +24,8 @@ inline Scene many_lights() {
 // Blended surfaces have a grid of their own, or the same lists as objects.
 inline Scene with_glass() {
   SmallScene s{many_lights()};
-  s.wall_material = 0, s.ball_material = 1;
+  s.wall_material = 0;
+  s.ball_material = 1;
   add_pane_before_wall(s, 0.4f);
   return s.scene;
 }

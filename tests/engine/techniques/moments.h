@@ -16,7 +16,10 @@ class Moments {
  public:
   explicit Moments(size_t values) : sum_(values), squares_(values) {}
   void add(const std::vector<double>& values) {
-    for (size_t i = 0; i < values.size(); ++i) sum_[i] += values[i], squares_[i] += values[i] * values[i];
+    for (size_t i = 0; i < values.size(); ++i) {
+      sum_[i] += values[i];
+      squares_[i] += values[i] * values[i];
+    }
     ++count_;
   }
   size_t size() const { return sum_.size(); }

@@ -68,7 +68,8 @@ TEST(RasterInOpenCl, IsVisibilitysPictureWithEveryEffect) {
   const Scene scene = every_effect();
   View view = small_view(71, 37);
   expect_visibilitys_picture(scene, view);
-  view.clip_from_view[2][0] += 2 * 0.375 / view.width, view.clip_from_view[2][1] -= 2 * 0.25 / view.height;
+  view.clip_from_view[2][0] += 2 * 0.375 / view.width;
+  view.clip_from_view[2][1] -= 2 * 0.25 / view.height;
   expect_visibilitys_picture(scene, view);
 }
 

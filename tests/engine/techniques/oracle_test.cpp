@@ -135,7 +135,10 @@ INSTANTIATE_TEST_SUITE_P(Scales, Polished,
 // half of the coats a normal map.
 Scene polished_and_coated() {
   Scene scene = polished(1, 0.4f, 10);
-  for (Material& m : scene.materials) m.clearcoat = 1, m.clearcoat_roughness = 0.1f;
+  for (Material& m : scene.materials) {
+    m.clearcoat = 1;
+    m.clearcoat_roughness = 0.1f;
+  }
   scene.materials[1].normal_map.texture = add_speckles(scene, false);
   scene.materials[1].normal_scale = 0.3f;
   return scene;
@@ -216,9 +219,10 @@ Scene balls_of_all_models() {
   for (int i = 0; i < 5; ++i) {
     const int material = add_material(scene, "ball", {0.7f, 0.6f, 0.5f}, 0.1f, 0.5f);
     scene.materials[size_t(material)].model = models[i];
-    if (i == 4)
-      scene.materials[size_t(material)].clearcoat = 1,
+    if (i == 4) {
+      scene.materials[size_t(material)].clearcoat = 1;
       scene.materials[size_t(material)].clearcoat_roughness = 0.3f;
+    }
     add_instance(scene, "ball", add_mesh(scene, shapes::finished(ball, "ball", material)),
                  placed({2.1 * i - 4.2, i % 2 ? 0.8 : -0.8, -7 - 0.4 * i}));
   }
@@ -245,10 +249,16 @@ Scene balls_of_all_reflectances() {
     Material& m = scene.materials[size_t(material)];
     m.ior = iors[i];
     if (i == 5) m.specular = 0;
-    if (i == 6) m.specular = 0.6f, m.specular_color = {8, 2, 0.5f};
+    if (i == 6) {
+      m.specular = 0.6f;
+      m.specular_color = {8, 2, 0.5f};
+    }
     if (i == 7) m.specular_color = {1, 0.5f, 0};
     if (i == 8) m.specular_map.texture = m.specular_color_map.texture = add_speckles(scene, false);
-    if (i == 9) m.clearcoat = 0.7f, m.clearcoat_roughness = 0.3f;
+    if (i == 9) {
+      m.clearcoat = 0.7f;
+      m.clearcoat_roughness = 0.3f;
+    }
     add_instance(scene, "ball", add_mesh(scene, shapes::finished(ball, "ball", material)),
                  placed({2.1 * (i % 5) - 4.2, i < 5 ? 1.1 : -1.1, -7 - 0.2 * i}));
   }
@@ -261,7 +271,10 @@ TEST(SpecularShading, EveryTechniqueIsAsExactAsForward) {
 }
 
 void without_reflectance(Material& m) {
-  m.ior = 1.5f, m.specular = 1, m.specular_color = {1, 1, 1}, m.specular_map = m.specular_color_map = {};
+  m.ior = 1.5f;
+  m.specular = 1;
+  m.specular_color = {1, 1, 1};
+  m.specular_map = m.specular_color_map = {};
 }
 
 TEST(SpecularShading, InFloatIsTheOraclesWithinItsRounding) {

@@ -82,7 +82,9 @@ TEST(Overflow, ALightWithoutARangeFromBeyondTheSquareOfFloatAddsNothing) {
   const Image without = render(s.scene, view, "forward");
   for (const double far : {1e20, 3e38}) {
     Light& light = s.scene.lights.emplace_back();
-    light.name = "parked", light.position = {far, -far, 1}, light.intensity = 10;
+    light.name = "parked";
+    light.position = {far, -far, 1};
+    light.intensity = 10;
   }
   const Image with = render(s.scene, view, "forward");
   EXPECT_EQ(count_nan_pixels(with), 0u);

@@ -25,13 +25,16 @@ class DrawCounter {
     std::swap(glDeleteSync, delete_);
   }
   ~DrawCounter() {
-    glMultiDrawElementsBaseVertex = multi_draw_, glDrawElementsBaseVertex = draw_;
-    glFenceSync = fence_, glClientWaitSync = wait_, glDeleteSync = delete_;
+    glMultiDrawElementsBaseVertex = multi_draw_;
+    glDrawElementsBaseVertex = draw_;
+    glFenceSync = fence_;
+    glClientWaitSync = wait_;
+    glDeleteSync = delete_;
     counter = nullptr;
   }
   DrawCounter(const DrawCounter&) = delete;
 
-  size_t drawn = 0, most_waiting = 0, largest_draw = 0;
+  size_t drawn = 0, max_waiting = 0, largest_draw = 0;
   std::map<GLsync, size_t> fences;  // those that live: what had been drawn before each
 
  private:
@@ -41,7 +44,7 @@ class DrawCounter {
   void add(size_t indices) {
     drawn += indices;
     largest_draw = std::max(largest_draw, indices);
-    most_waiting = std::max(most_waiting, drawn - done_);
+    max_waiting = std::max(max_waiting, drawn - done_);
   }
 
   // These have the drivers' functions once they are swapped.
@@ -84,7 +87,7 @@ TEST(PendingDraws, AreFewInAPassOfVeryManyDraws) {
   DrawCounter counter;
   run.run_frame();
   const size_t most = once + 2 * portion + counter.largest_draw;
-  EXPECT_LE(counter.most_waiting, most);
+  EXPECT_LE(counter.max_waiting, most);
   EXPECT_GT(counter.drawn, 3 * most) << "too few draws to show a limit";
   EXPECT_TRUE(counter.fences.empty()) << "fences that nothing deletes";
 }

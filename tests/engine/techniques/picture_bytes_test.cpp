@@ -26,7 +26,8 @@ TEST_P(PictureBytes, AreThoseOfTheImage) {
   for (const SceneEffect& effect : effects()) effect.add(small);
   const View view = small_view(71, 37);
   const Image image = render(small.scene, view, name, settings);
-  settings.set(setting::picture, PictureFormat::bytes), settings.set(setting::display_ev, -1.5);
+  settings.set(setting::picture, PictureFormat::bytes);
+  settings.set(setting::display_ev, -1.5);
   TechniqueRun run(test_devices(), small.scene, view, settings, find_technique(name));
   for (const bool both : {true, false, true}) {
     const double ms = both ? run.run_frame() : run.run_picture();

@@ -29,8 +29,10 @@ Scene scene_of_sides() {
     const int material = add_material(scene, "box", {0.7f, 0.5f, 0.3f}, 0, 0.5f);
     if (i == 0) scene.materials[material].clearcoat = 0.5f;
     if (i == 1) scene.materials[material].emissive = {0.1f, 0.2f, 0.1f};
-    if (i == 2)
-      scene.materials[material].alpha_mode = AlphaMode::blend, scene.materials[material].base_color.a = 0.5f;
+    if (i == 2) {
+      scene.materials[material].alpha_mode = AlphaMode::blend;
+      scene.materials[material].base_color.a = 0.5f;
+    }
     if (i == 3) scene.materials[material].alpha_mode = AlphaMode::mask;
     const glm::vec3 at = sides[i];
     add("box", material, [&](Mesh& m) { shapes::add_sphere(m, at, 0.7f, 8); });
@@ -88,7 +90,8 @@ TEST_P(Prepared, CompileNothingForADirectionalLight) {
   Scene scene = scene_of_sides();
   scene.lights.resize(4);
   Light& sun = scene.lights.emplace_back(Light{.name = "sun", .type = LightType::directional});
-  sun.direction = {0, -1, 0}, sun.casts_shadow = true;
+  sun.direction = {0, -1, 0};
+  sun.casts_shadow = true;
   EXPECT_THAT(compiled_late(scene, *GetParam(), {}, 8), testing::IsEmpty());
 }
 

@@ -106,7 +106,7 @@ TEST_F(Stochastic, WithoutItsWeightTheMeanIsFarFromThatPicture) {
   for (int seed = 1; seed <= seeds; seed += 8) {
     ranges.seed = uint32_t(seed);
     std::vector<ViewLight> lights = lights_in_view(s.scene, run->view().view, ranges);
-    for (ViewLight& light : lights) light.least_falloff = 0;
+    for (ViewLight& light : lights) light.min_falloff = 0;
     unweighted.add(channels(shade_pixels(
         run->view().view, depth, [&](uint32_t pixel) { return surface_of(surfaces, pixel); }, lights,
         {.ambient = s.scene.ambient}, oracle->pixels())));

@@ -85,15 +85,16 @@ RelativeErrors relative_errors(Room& room, const std::vector<Light>& lights) {
   }
   result.lit = errors.size();
   std::sort(errors.begin(), errors.end());
-  result.median = errors.at(errors.size() / 2), result.p99 = errors.at(errors.size() * 99 / 100);
+  result.median = errors.at(errors.size() / 2);
+  result.p99 = errors.at(errors.size() * 99 / 100);
   return result;
 }
 
-void expect_the_casters_radiance(Room& room, const std::vector<Light>& lights, double least_lit,
+void expect_the_casters_radiance(Room& room, const std::vector<Light>& lights, double min_lit,
                                  double median = 1e-6) {
   const RelativeErrors errors = relative_errors(room, lights);
   EXPECT_EQ(errors.pixels, size_t(width) * height) << "walls fill the view";
-  EXPECT_GT(double(errors.lit), least_lit * double(errors.pixels));
+  EXPECT_GT(double(errors.lit), min_lit * double(errors.pixels));
   EXPECT_LT(errors.median, median);
   EXPECT_LT(errors.p99, 1e-4);
   testing::Test::RecordProperty("median", fmt::format("{:.2g}", errors.median));
@@ -127,7 +128,8 @@ TEST(RayCaster, ForwardHasItsRadianceUnderSpots) {
     Light spot = point_light({2.0 * i - 2, 1.5, 2}, {1, 0.7f, 0.4f}, 9);
     spot.type = LightType::spot;
     spot.direction = glm::normalize(glm::vec3(1.0f - float(i), -0.5f, -1));
-    spot.inner_cone_rad = 0.2f * float(i), spot.outer_cone_rad = 0.3f + 0.2f * float(i);
+    spot.inner_cone_rad = 0.2f * float(i);
+    spot.outer_cone_rad = 0.3f + 0.2f * float(i);
     if (i == 1) spot.radius_m = 7;
     lights.push_back(spot);
   }
@@ -165,7 +167,8 @@ TEST(RayCaster, ForwardHasItsRadianceUnderDirectionalLights) {
 TEST(RayCaster, ForwardHasItsRadianceNextToALight) {
   Room room = make_room();
   room.camera = look_at({0, -1.8, 0.1}, {0, -2, 0});
-  room.camera.fov_y_rad = 0.2, room.camera.near_m = 0.01;
+  room.camera.fov_y_rad = 0.2;
+  room.camera.near_m = 0.01;
   expect_the_casters_radiance(room, {point_light({0, -1.995, 0}, {1, 0.9f, 0.8f}, 1e-3f)}, 0.99, 1e-5);
 }
 
@@ -177,7 +180,8 @@ TEST(RayCaster, ForwardHasItsRadianceInAMillimetreOfTheWorld) {
   room.spheres = room.drawn;
   room.spheres.instances.clear();
   room.camera = look_at({0, 2e-5, 1e-5}, {0, 0, 0});
-  room.camera.fov_y_rad = 0.2, room.camera.near_m = 1e-6;
+  room.camera.fov_y_rad = 0.2;
+  room.camera.near_m = 1e-6;
   expect_the_casters_radiance(room, {point_light({0, 5e-7, 0}, {1, 0.9f, 0.8f}, 1e-11f)}, 0.99, 1e-5);
 }
 

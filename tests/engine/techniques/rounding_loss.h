@@ -17,7 +17,8 @@ inline std::vector<glm::dvec3> shade_in_double(const RenderView& v, const Surfac
   for (int i : v.plan.lights.local) local.push_back(all[i]);
   const auto surface_at = [&](uint32_t pixel) {
     Surface surface = surface_of(surfaces, pixel);
-    surface.emissive = {}, surface.unlit = false;
+    surface.emissive = {};
+    surface.unlit = false;
     return surface;
   };
   return shade_pixels(v.view, depth, surface_at, local, {}, pixels);

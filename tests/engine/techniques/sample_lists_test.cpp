@@ -22,7 +22,8 @@ using glm::dvec2, glm::dvec3, glm::ivec2;
 constexpr int units = 256;  // a pixel's side
 
 View in_units(View view) {
-  view.width *= units, view.height *= units;
+  view.width *= units;
+  view.height *= units;
   return view;
 }
 
@@ -109,7 +110,8 @@ TEST_P(EdgeLists, HoldEveryLightOfEachSurface) {
   const View view = default_view(scene, 64, 36);
   const auto drawn = [&](const char* technique, int samples, int tile) {
     Settings settings;
-    settings.set(setting::samples, samples), settings.set(setting::tile, tile);
+    settings.set(setting::samples, samples);
+    settings.set(setting::tile, tile);
     auto run =
         std::make_unique<TechniqueRun>(test_devices(), scene, view, settings, find_technique(technique));
     run->run_frame();

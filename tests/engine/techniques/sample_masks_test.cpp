@@ -19,7 +19,8 @@ Image drawn(const Scene& scene, const char* technique, int samples, const char* 
 
 int add_unlit(Scene& scene, const char* name, glm::vec3 color) {
   const int material = add_material(scene, name, color, 0, 1);
-  scene.materials[size_t(material)].unlit = true, scene.materials[size_t(material)].double_sided = true;
+  scene.materials[size_t(material)].unlit = true;
+  scene.materials[size_t(material)].double_sided = true;
   return material;
 }
 
@@ -54,7 +55,10 @@ struct Colors {
 };
 Colors colors_of(const Image& image) {
   Colors c;
-  for (const glm::vec4& p : image.pixels) c.green += p.g > 0.01f, c.mixed += p.r > 0.01f && p.b > 0.01f;
+  for (const glm::vec4& p : image.pixels) {
+    c.green += p.g > 0.01f;
+    c.mixed += p.r > 0.01f && p.b > 0.01f;
+  }
   return c;
 }
 
@@ -88,9 +92,13 @@ INSTANTIATE_TEST_SUITE_P(Techniques, SampleMasksAsTriangles,
 TEST(SampleMasks, HaveLessErrorAtTheirEdges) {
   for (const float repeats : {1.f, 2.5f}) {
     SmallScene s = small_scene(false);
-    effect("directional").add(s), effect("mask").add(s);
+    effect("directional").add(s);
+    effect("mask").add(s);
     for (glm::vec2& uv : s.scene.meshes[size_t(s.wall)].uv0) uv *= repeats;
-    for (Material& m : s.scene.materials) m.metallic = 0, m.roughness = 1;
+    for (Material& m : s.scene.materials) {
+      m.metallic = 0;
+      m.roughness = 1;
+    }
     const FineTruth truth(test_devices(), s.scene, small_view(FineTruth::side * 67, FineTruth::side * 41));
     const auto error = [&](int samples, const char* masks) {
       return truth.error(drawn(s.scene, "visibility", samples, masks), true);
@@ -111,7 +119,8 @@ TEST(SampleMasks, ChangeNothingWithoutAMaskInView) {
     SmallScene s = small_scene();
     if (mask) effect("mask").add(s);
     Settings settings;
-    settings.set(setting::samples, 4), settings.set(setting::samples_masks, SampleMasks::samples);
+    settings.set(setting::samples, 4);
+    settings.set(setting::samples_masks, SampleMasks::samples);
     const FramePlan plan = plan_frame(s.scene, small_view(67, 41), settings, {});
     const auto decision = std::ranges::find(plan.decisions, "masks of samples", &Decision::effect);
     ASSERT_NE(decision, plan.decisions.end());

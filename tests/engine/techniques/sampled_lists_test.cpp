@@ -249,7 +249,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(SampledLists, OfOneLightFarAboveOthersAlwaysHaveIt) {
   Scene scene = many_lights();
-  scene.lights[40].intensity *= 1e6f, scene.lights[40].radius_m = 30;
+  scene.lights[40].intensity *= 1e6f;
+  scene.lights[40].radius_m = 30;
   ListRun run(opencl_devices(), scene, sampled + std::string("2"));
   for (int i = 0; i < 8; ++i) {
     const Factors drawn = run.draw(seed_of(i));

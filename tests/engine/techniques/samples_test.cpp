@@ -24,7 +24,7 @@ TEST(Samples, AreTakenByTechniquesThatDeclareThemAndRefusedByOthersByName) {
     const bool declared = reads_setting(*technique, "samples");
     Settings settings;
     apply_setting(settings, "samples=8");
-    EXPECT_LE(most_samples(*technique, settings), declared ? 8 : 1) << technique->name;
+    EXPECT_LE(max_samples(*technique, settings), declared ? 8 : 1) << technique->name;
     if (declared) continue;
     try {
       TechniqueRun run(test_devices(), gpu, small_view(17, 9), settings, *technique);
@@ -40,7 +40,8 @@ TEST(Samples, AreTakenByTechniquesThatDeclareThemAndRefusedByOthersByName) {
 // The picture of the setting, and of one sample where the technique cannot take them.
 TEST(Samples, AreDrawnWhereTheSceneAsksForThem) {
   SmallScene plain = small_scene(), asks = small_scene();
-  effect("blend").add(plain), effect("blend").add(asks);
+  effect("blend").add(plain);
+  effect("blend").add(asks);
   asks.scene.samples = 4;
   const View view = small_view(33, 17);
   for (const Technique* technique : techniques()) {
@@ -107,12 +108,16 @@ TEST_F(SamplesOfVisibility, HaveTheSameBytesInEveryShapeTileAndListOfLights) {
 TEST_F(SamplesOfVisibility, HaveErrorsThatFallAtEdgesAndStayInside) {
   s_ = small_scene(false);
   effect("directional").add(s_);
-  for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
+  for (Material& m : s_.scene.materials) {
+    m.metallic = 0;
+    m.roughness = 1;
+  }
   const FineTruth truth = truth_of(s_.scene, 67, 41);
   std::vector<double> at_edges, inside;
   for (const char* samples : {"samples=1", "samples=2", "samples=4", "samples=8"}) {
     const Image image = draw(samples);
-    at_edges.push_back(truth.error(image, true)), inside.push_back(truth.error(image, false));
+    at_edges.push_back(truth.error(image, true));
+    inside.push_back(truth.error(image, false));
     RecordProperty(samples, fmt::format("edges {:.5f}, inside {:.5f}", at_edges.back(), inside.back()));
   }
   // With random places errors would fall by the square root of 2 per step; these places are spread evenly.
@@ -133,7 +138,8 @@ class SamplesResolve : public testing::Test {
   SamplesResolve() {
     s_.scene.background = {0.1f, 0.2f, 0.3f};
     Material& m = s_.scene.materials.emplace_back();
-    m.unlit = true, m.base_color = {20, 6, 1, 1};
+    m.unlit = true;
+    m.base_color = {20, 6, 1, 1};
     add_instance(s_.scene, "panel", add_mesh(s_.scene, wall_mesh({0.13f, 0.07f, -4}, 1.03f, 0, "panel")));
     s_.scene.instances[0].world_from_object = glm::rotate(glm::dmat4(1), 0.1, {0, 0, 1});
   }
@@ -153,7 +159,8 @@ class SamplesResolve : public testing::Test {
       const double share = (double(linear.pixels[i].r) - 0.1) / (20 - 0.1);
       if (share < 0.1 || share > 0.9) continue;
       EXPECT_NEAR(share * 4, std::round(share * 4), 1e-4);
-      check(share, i), ++edges;
+      check(share, i);
+      ++edges;
     }
     return edges;
   }
@@ -217,7 +224,8 @@ TEST_F(SamplesResolve, HasTheSameBytesInBothShapesAndInside) {
 
 TEST(SamplesResolves, IsRefusedWhereTilesAverage) {
   Settings settings;
-  apply_setting(settings, "samples=4"), apply_setting(settings, "samples-resolve=tonemapped");
+  apply_setting(settings, "samples=4");
+  apply_setting(settings, "samples-resolve=tonemapped");
   for (const char* technique : {"deferred_tiled", "forward_plus_compute"})
     EXPECT_THROW(check_samples(find_technique(technique), settings), Error);
   for (const char* technique : {"visibility", "world_grid", "forward", "lidr"})
@@ -259,7 +267,10 @@ TEST_F(SamplesOfOpenGl, ShowTheImageOfForwardInEveryTechniqueThatTakesThem) {
 TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesAndStaySmallInside) {
   s_ = small_scene(false);
   effect("directional").add(s_);
-  for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
+  for (Material& m : s_.scene.materials) {
+    m.metallic = 0;
+    m.roughness = 1;
+  }
   const FineTruth truth = truth_of(s_.scene, 67, 41);
   const Image one = draw("forward", 1), four = draw("forward", 4);
   // Random places would halve it.
@@ -323,7 +334,8 @@ TEST_F(SamplesOfOpenGl, ShowOneMaskInEveryPass) {
     if (i % 4 != 3) speckles.rgba[i] = 255;
   // The ball is black, and lit, so that lights are in the plan.
   for (Material& m : s_.scene.materials) m.unlit = &m == &s_.scene.materials[size_t(s_.wall_material)];
-  s_.scene.materials[1].base_color = {0, 0, 0, 1}, s_.scene.materials[1].metallic = 0;
+  s_.scene.materials[1].base_color = {0, 0, 0, 1};
+  s_.scene.materials[1].metallic = 0;
   std::vector<Image> seen = {draw("forward", 1)};
   for (const char* masks : {"samples-masks=centre", "samples-masks=samples", "samples-masks=coverage"}) {
     const auto with = [&](const char* technique) {
@@ -352,7 +364,10 @@ TEST_F(SamplesOfOpenGl, HaveErrorsThatFallAtEdgesWhereSamplesAreLit) {
   s_ = small_scene(false);
   effect("directional").add(s_);
   add_point(s_.scene, "far", {-1, 1, 0}, {1, 1, 1}, 20, 20);
-  for (Material& m : s_.scene.materials) m.metallic = 0, m.roughness = 1;
+  for (Material& m : s_.scene.materials) {
+    m.metallic = 0;
+    m.roughness = 1;
+  }
   const FineTruth truth = truth_of(s_.scene, 67, 41);
   const double inside = truth.error(draw("forward", 4), false);
   for (const char* technique :

@@ -137,7 +137,10 @@ std::map<std::string, std::string> read_but_not_declared(const Technique& techni
       bool alone = false;
       for (const std::string& one : others) {
         const std::string by_one = difference(base, seen_of(technique, with(context, {one})));
-        if (!by_one.empty()) alone = true, found.emplace(key_of(one), by_one);
+        if (!by_one.empty()) {
+          alone = true;
+          found.emplace(key_of(one), by_one);
+        }
       }
       if (!alone) found.emplace(fmt::format("{}", fmt::join(others, " ")), all);
     }

@@ -99,8 +99,10 @@ TEST(ShadowMemory, BandsHaveThePictureAndTheBitsOfOne) {
     settings.set(setting::shadow_memory, way.bytes);
     TechniqueRun banded(test_devices(), stage.gpu, stage.view, settings, find_technique(way.technique));
     for (const View* view : {&stage.view, &stage.view, &turned}) {
-      whole.look(*view), banded.look(*view);
-      whole.run_frame(), banded.run_frame();
+      whole.look(*view);
+      banded.look(*view);
+      whole.run_frame();
+      banded.run_frame();
       EXPECT_TRUE(identical(banded.image(), whole.image()));
       EXPECT_LE(bytes_in_bound(banded), way.bytes);
       EXPECT_GT(bytes_in_bound(whole), 2 * way.bytes);
@@ -144,7 +146,8 @@ TEST(ShadowMemory, HoldsTenThousandLights) {
   settings.set(setting::shadow_memory, 176 << 10);  // one tile alone needs 162 KiB
   TechniqueRun whole(test_devices(), stage.gpu, stage.view, {}, find_technique("visibility")),
       banded(test_devices(), stage.gpu, stage.view, settings, find_technique("visibility"));
-  whole.run_frame(), banded.run_frame();
+  whole.run_frame();
+  banded.run_frame();
   EXPECT_GT(whole.frame().shadow_figures().lights, 2500u);
   EXPECT_GT(banded.frame().shadow_figures().bands, 1u);
   EXPECT_LE(bytes_in_bound(banded), settings[setting::shadow_memory]);

@@ -40,7 +40,8 @@ struct Ruled {
 
   void draw() {
     trace_all(full);
-    ruled.run_frame(), full.run_frame();
+    ruled.run_frame();
+    full.run_frame();
   }
   size_t rays(const TechniqueRun& run) { return run.frame().shadow_figures().rays; }
 };
@@ -60,9 +61,11 @@ TEST(ShadowRulesPicture, HasTheBitsOfAllRays) {
       both.draw();
       EXPECT_TRUE(identical(both.ruled.image(), both.full.image()));
       for (const LightShadow& light : both.ruled.view().plan.shadows.casting) ++lights[light.need];
-      ruled += both.rays(both.ruled), full += both.rays(both.full);
+      ruled += both.rays(both.ruled);
+      full += both.rays(both.full);
       view.eye += double(random.uniform(0, 1)) * any_direction(random);
-      both.ruled.look(view), both.full.look(view);
+      both.ruled.look(view);
+      both.full.look(view);
     }
   }
   EXPECT_LT(ruled, full);
@@ -220,7 +223,9 @@ BesideWall farthest_beside(const View& view, const std::vector<float>& depth, do
       for (int axis = 0; axis < 2; ++axis) {
         const double off_m = std::abs(at[axis]) - half_m;
         if (off_m <= found.off_m) continue;
-        found.off_m = off_m, found.at = at, found.outwards = glm::dvec3(0);
+        found.off_m = off_m;
+        found.at = at;
+        found.outwards = glm::dvec3(0);
         found.outwards[axis] = at[axis] < 0 ? -1 : 1;
       }
     }
@@ -278,7 +283,9 @@ void add_slivers(Mesh& wall, float half_m) {
     for (const glm::vec3& p : {half_m * (out - along), half_m * 1.000001f * out, half_m * (out + along)}) {
       wall.indices.push_back(uint32_t(wall.positions.size()));
       wall.positions.push_back({p.x, p.y, 0});
-      wall.normals.push_back({}), wall.tangents.push_back({}), wall.uv0.push_back({});
+      wall.normals.push_back({});
+      wall.tangents.push_back({});
+      wall.uv0.push_back({});
     }
   }
 }
@@ -293,9 +300,11 @@ AnyWall any_wall(Random& random, int kind, float half_m, int material) {
   } else if (kind == 2) {
     Mesh slab;
     shapes::add_box(slab, {-half_m, -half_m, -0.3f * half_m}, {half_m, half_m, 0});
-    wall.name = "slab", wall.mesh = slab;
+    wall.name = "slab";
+    wall.mesh = slab;
   } else if (kind == 3) {
-    wall.name = "slivers", add_slivers(wall.mesh, half_m);
+    wall.name = "slivers";
+    add_slivers(wall.mesh, half_m);
   }
   for (glm::vec3& normal : wall.mesh.normals) normal = {0, 0, -1};
   wall.mesh = shapes::finished(std::move(wall.mesh), wall.name, material);
@@ -355,14 +364,19 @@ TEST_P(UnchangedShadows, CostNoKernelAndNoBit) {
   const View view = small_view(45, 31);
   Settings reuse, everything_on;
   apply_setting(reuse, "shadow-reuse=on");
-  apply_setting(everything_on, "shadow-reuse=on"), apply_setting(everything_on, "everything-on=on");
+  apply_setting(everything_on, "shadow-reuse=on");
+  apply_setting(everything_on, "everything-on=on");
   const Technique& technique = find_technique(GetParam());
   TechniqueRun without(test_devices(), gpu, view, {}, technique),
       with(test_devices(), gpu, view, reuse, technique),
       all(test_devices(), gpu, view, everything_on, technique);
   for (int frame = 0; frame < 3; ++frame) {
     SCOPED_TRACE(frame);
-    if (frame == 2) without.look(view), with.look(view), all.look(view);
+    if (frame == 2) {
+      without.look(view);
+      with.look(view);
+      all.look(view);
+    }
     const ShadowWork ruled = work_of_shadows(with), full = work_of_shadows(without);
     EXPECT_TRUE(identical(with.image(), without.image()));
     EXPECT_TRUE(same_bits(shadows_of(with), shadows_of(without)));
@@ -404,7 +418,9 @@ TEST(KeptMaps, OnlyThoseOfAChangedLightAreDrawn) {
   EXPECT_EQ(figures.drawn, figures.maps);
   scene.lights[2].position.x += 1e-3;
   const SceneChanges changes{.lights = {2}};
-  gpu.update(changes), run.look(view, changes), run.run_frame();
+  gpu.update(changes);
+  run.look(view, changes);
+  run.run_frame();
   figures = run.frame().shadow_figures();
   EXPECT_EQ(figures.drawn, 1u);
   EXPECT_EQ(figures.kept, figures.maps - 1);

@@ -15,10 +15,14 @@ namespace lightgrid {
 inline Scene shadowed_scene() {
   SmallScene s = small_scene();
   Scene& scene = s.scene;
-  scene.materials[size_t(s.ball_material)].metallic = 0,
+  scene.materials[size_t(s.ball_material)].metallic = 0;
   scene.materials[size_t(s.ball_material)].roughness = 0.8f;
-  for (Light& light : scene.lights)
-    light.radius_m = 4, light.casts_shadow = true, light.position.z += 0.9, light.position.y *= 0.6;
+  for (Light& light : scene.lights) {
+    light.radius_m = 4;
+    light.casts_shadow = true;
+    light.position.z += 0.9;
+    light.position.y *= 0.6;
+  }
   scene.lights[1].casts_shadow = false;
   add_spot(scene, "torch", {0, 0, -1}, {-0.5f, 0, -4}, {1, 1, 1}, 9, 5, 10, 25).casts_shadow = true;
   effect("directional").add(s);

@@ -32,7 +32,8 @@ Pictures& pictures_of(const std::string& name) {
     const Scene scene = name == "hall" ? hall_of_casters() : shadowed_scene();
     pictures = new Pictures{{scene, name == "hall" ? default_view(scene, shadow_width, shadow_height)
                                                    : small_view(shadow_width, shadow_height)}};
-    pictures->forward.run_frame(), pictures->visibility.run_frame();
+    pictures->forward.run_frame();
+    pictures->visibility.run_frame();
   }
   return *pictures;
 }
@@ -221,7 +222,10 @@ TEST(ShadowBits, AreTheSameUnderEverySetting) {
 
 TEST(ShadowBits, AreTheOraclesInAnOrthographicView) {
   Camera camera = look_at({0.3, 0.2, 0}, {0, 0, -4});
-  camera.orthographic = true, camera.half_width_m = 2, camera.half_height_m = 1.2, camera.far_m = 20;
+  camera.orthographic = true;
+  camera.half_width_m = 2;
+  camera.half_height_m = 1.2;
+  camera.far_m = 20;
   ShadowStage stage{shadowed_scene(), make_view(camera, 61, 37)};
   for (const char* technique : {"forward_plus", "visibility"}) {
     TechniqueRun run(test_devices(), stage.gpu, stage.view, {}, find_technique(technique));
@@ -284,7 +288,11 @@ TEST(ShadowBits, FollowEveryChange) {
     expect_new("an instance moved");
     Mesh& mesh = stage.scene.meshes[size_t(fence)];
     mesh.bounds = {};
-    for (glm::vec3& p : mesh.positions) p.x *= 1.4f, p.z += 0.2f * p.y, mesh.bounds.add(p);
+    for (glm::vec3& p : mesh.positions) {
+      p.x *= 1.4f;
+      p.z += 0.2f * p.y;
+      mesh.bounds.add(p);
+    }
     changed({.meshes = {fence}});
     expect_new("a mesh deformed");
     run.look(make_view(look_at({0.5, 0.3, 0.2}, {0, 0, -4}), 61, 37));

@@ -105,7 +105,8 @@ TEST(StoredSamples, ShowVisibilitysPictureInBothShapes) {
     const bool edge = visibility.figures.surfaces[i] > 0;
     EXPECT_EQ(stored.figures.surfaces[i] > 0, edge) << i;
     const double d = apart(stored.image, visibility.image, i) / brightest;
-    edges += edge, differ += edge && d > rounding_of_lights;
+    edges += edge;
+    differ += edge && d > rounding_of_lights;
     EXPECT_LT(d, edge ? 0.05 : rounding_of_lights) << i;
   }
   EXPECT_EQ(stored.figures.edge_pixels, edges);
@@ -152,7 +153,10 @@ TEST(StoredSamples, HaveErrorsThatFallAtEdges) {
   SmallScene s = small_scene(false);
   effect("directional").add(s);
   add_point(s.scene, "far", {-1, 1, 0}, {1, 1, 1}, 20, 20);
-  for (Material& m : s.scene.materials) m.metallic = 0, m.roughness = 1;
+  for (Material& m : s.scene.materials) {
+    m.metallic = 0;
+    m.roughness = 1;
+  }
   const FineTruth truth(test_devices(), s.scene, small_view(FineTruth::side * 67, FineTruth::side * 41));
   const auto error = [&](const char* set, bool at_edges) {
     return truth.error(render(s.scene, small_view(67, 41), "deferred_tiled", assigned(set)), at_edges);

@@ -36,8 +36,10 @@ TEST(Techniques, SettingsMakePicturesApproximateOrRandom) {
   for (const SettingsCase& c : cases) {
     Settings settings;
     std::string name = c.technique;
-    for (const char* assignment : c.assignments)
-      apply_setting(settings, assignment), name += std::string(" ") + assignment;
+    for (const char* assignment : c.assignments) {
+      apply_setting(settings, assignment);
+      name += std::string(" ") + assignment;
+    }
     const Technique& technique = find_technique(c.technique);
     EXPECT_EQ(is_approximate(technique, settings), c.approximate) << name;
     EXPECT_EQ(is_random(technique, settings), c.random) << name;

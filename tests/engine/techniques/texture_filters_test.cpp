@@ -27,7 +27,8 @@ std::vector<float> wall_through(Filter filter) {
   add_instance(scene, "wall", add_mesh(scene, shapes::finished(std::move(mesh), "wall", material)));
   Camera camera = look_at({0, 0, 0}, {0, 0, -1});
   camera.orthographic = true;
-  camera.half_width_m = camera.half_height_m = 32, camera.far_m = 10;  // a metre a pixel
+  camera.half_width_m = camera.half_height_m = 32;
+  camera.far_m = 10;  // a metre a pixel
   const Image image = render(scene, make_view(camera, 64, 64), "forward");
   std::vector<float> reds;
   for (const glm::vec4& pixel : image.pixels) reds.push_back(pixel.r);

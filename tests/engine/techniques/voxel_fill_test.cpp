@@ -63,7 +63,8 @@ TEST(VoxelLights, BothShapesFillTheSameBytes) {
   const View view = small_view(31, 23);
   Settings settings = sized(VoxelSize::s32x32x8);
   const auto volume = [&](KernelShape shape, int bits) {
-    settings.set(setting::kernel_shape, shape), apply_setting(settings, "voxel-bits=" + std::to_string(bits));
+    settings.set(setting::kernel_shape, shape);
+    apply_setting(settings, "voxel-bits=" + std::to_string(bits));
     TechniqueRun run(test_devices(), scene, view, settings, find_technique("voxel_lights"));
     run.run_frame();
     return read_voxels(run.view(), run.view().caches.voxels);
@@ -129,7 +130,8 @@ TEST(VoxelLights, TakesTheMemoryThatItsPageSays) {
     for (const int bits : {32, 16}) {
       const auto bytes = [&](VoxelSize size) {
         Settings settings = sized(size);
-        settings.set(setting::raster, raster), apply_setting(settings, "voxel-bits=" + std::to_string(bits));
+        settings.set(setting::raster, raster);
+        apply_setting(settings, "voxel-bits=" + std::to_string(bits));
         TechniqueRun run(test_devices(), scene, view, settings, find_technique("voxel_lights"));
         run.run_frame();
         return run.result().memory_total;

@@ -122,10 +122,11 @@ TEST(VoxelLights, ErrorFallsWithResolutionToItsBound) {
             const glm::dvec4 second = (field({x + step.x, y + step.y, z + step.z}) - 2.0 * field({x, y, z}) +
                                        field({x - step.x, y - step.y, z - step.z})) /
                                       1e-4;
-            vector += h[axis] * h[axis] / 8 * glm::length(glm::dvec3(second)),
-                weight += h[axis] * h[axis] / 8 * std::abs(second.w);
+            vector += h[axis] * h[axis] / 8 * glm::length(glm::dvec3(second));
+            weight += h[axis] * h[axis] / 8 * std::abs(second.w);
           }
-          of_vector = std::max(of_vector, vector), of_weight = std::max(of_weight, weight);
+          of_vector = std::max(of_vector, vector);
+          of_weight = std::max(of_weight, weight);
           brightest = std::max(brightest, field({x, y, z}).w);
         }
       }

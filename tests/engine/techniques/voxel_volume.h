@@ -36,7 +36,8 @@ struct Volume {
 
 inline Settings sized(VoxelSize size, VoxelSpace space = VoxelSpace::world) {
   Settings settings;
-  settings.set(setting::voxel_size, size), settings.set(setting::voxel_space, space);
+  settings.set(setting::voxel_size, size);
+  settings.set(setting::voxel_space, space);
   return settings;
 }
 

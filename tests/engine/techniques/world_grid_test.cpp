@@ -60,7 +60,8 @@ TEST(WorldGridTechnique, SharesListsAmongViewsAndFollowsLights) {
     changes.lights.push_back(i);
   }
   gpu.update(changes);
-  first.look(views[0], changes), second.look(views[1], changes);
+  first.look(views[0], changes);
+  second.look(views[1], changes);
   expect_forwards(first, views[0]);
   expect_forwards(second, views[1]);
   EXPECT_EQ(grid->builds(), before + 1) << "one build for both views";
@@ -73,7 +74,8 @@ TEST(WorldGridTechnique, SharesListsAmongViewsAndFollowsLights) {
     gpu.update(changes);
     changes.lights = {7, 100, 230};
   }
-  first.look(views[0], changes), second.look(views[1], changes);
+  first.look(views[0], changes);
+  second.look(views[1], changes);
   expect_forwards(first, views[0]);
   expect_forwards(second, views[1]);
   EXPECT_EQ(grid->builds(), before + 1);

@@ -21,7 +21,8 @@ void expect_the_bytes_of_none(const Scene& scene, const View& view, Settings set
   TechniqueRun on(devices, scene, view, settings, find_technique(technique));
   settings.set(setting::z_bins, 1);
   TechniqueRun off(devices, scene, view, settings, find_technique(technique));
-  on.run_frame(), off.run_frame();
+  on.run_frame();
+  off.run_frame();
   EXPECT_TRUE(identical(on.image(), off.image()));
   const LitPairs with = count_listed_pairs(on, read_depth(on));
   const LitPairs without = count_listed_pairs(off, read_depth(off));
@@ -101,7 +102,8 @@ TEST(ZBins, AreNeitherBuiltNorKeptWhereTheyAreOff) {
   const View view = small_view(17, 9);
   TechniqueRun off(test_devices(), scene, view, {}, find_technique("forward_plus"));
   TechniqueRun on(test_devices(), scene, view, {{setting::z_bins, 16}}, find_technique("forward_plus"));
-  off.run_frame(), on.run_frame();
+  off.run_frame();
+  on.run_frame();
   EXPECT_EQ(off.frame().grid.value().z_bin_bytes, 0u);
   EXPECT_EQ(on.frame().grid.value().z_bin_bytes, 4 * on.view().plan.lights.local.size());
   EXPECT_FALSE(off.view().opaque_grid().z_bins_.buffer);

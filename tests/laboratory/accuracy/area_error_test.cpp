@@ -38,7 +38,10 @@ TEST(AreaError, WorkedByHand) {
 SmallScene in_the_sun() {
   SmallScene s = small_scene(false);
   effect("directional").add(s);
-  for (Material& m : s.scene.materials) m.metallic = 0, m.roughness = 1;
+  for (Material& m : s.scene.materials) {
+    m.metallic = 0;
+    m.roughness = 1;
+  }
   return s;
 }
 

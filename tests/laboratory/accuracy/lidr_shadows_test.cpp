@@ -68,7 +68,9 @@ Agreement agreement(const HostShadows& in_gl, const HostShadows& in_cl, double s
     const glm::dvec3 at = position_from_depth(view, x, y, depth[pixel]);
     for (const uint32_t light : lit_lights(lights, at)) {
       const double gl = hidden_share_at(in_gl, x, y, light), cl = hidden_share_at(in_cl, x, y, light);
-      ++a.pairs, a.other += std::abs(gl - cl) > step, a.hidden += cl > 0.5;
+      ++a.pairs;
+      a.other += std::abs(gl - cl) > step;
+      a.hidden += cl > 0.5;
     }
   }
   return a;
@@ -121,7 +123,10 @@ TEST(LidrShadows, OfVolumesAreExactButForMasks) {
       << whole.pairs.leaked << " " << whole.pairs.acned;
   EXPECT_LT(whole.wrong(), way.wrong());
   Camera camera = look_at({0.3, 0.2, 0}, {0, 0, -4});
-  camera.orthographic = true, camera.half_width_m = 2, camera.half_height_m = 1.2, camera.far_m = 20;
+  camera.orthographic = true;
+  camera.half_width_m = 2;
+  camera.half_height_m = 1.2;
+  camera.far_m = 20;
   static ShadowStage* const parallel = new ShadowStage{unmasked->scene, make_view(camera, 131, 77)};
   const Way from_afar({"lidr-shadows=volumes"}, *parallel);
   EXPECT_LT(double(from_afar.wrong()), 1e-3 * double(from_afar.pairs.lit));

@@ -81,12 +81,14 @@ TEST(MapShadowBits, AreTheSameInBothKernelShapes) {
 // With one light: a pixel's share is that of its light between the pictures with the light and without.
 TEST_P(MapShadows, GiveLightLoopsTheShareOfTheTapsThatSeeTheLight) {
   SmallScene s = shadowed_scene_of_maps();
-  s.scene.lights.erase(s.scene.lights.begin(), s.scene.lights.begin() + 3), s.scene.lights.resize(1);
+  s.scene.lights.erase(s.scene.lights.begin(), s.scene.lights.begin() + 3);
+  s.scene.lights.resize(1);
   const char* technique = std::string(GetParam()) == "opencl" ? "visibility" : "forward";
   const MapsDrawn maps(s.scene, technique, {"shadows=map", "shadow-size=64", "shadow-filter=pcf3"});
   Scene lit = s.scene, dark = s.scene;
   lit.lights[0].casts_shadow = false;
-  dark.lights[0].casts_shadow = false, dark.lights[0].intensity = 0;
+  dark.lights[0].casts_shadow = false;
+  dark.lights[0].intensity = 0;
   const auto image_of = [&](const Scene& scene) {
     TechniqueRun run(software_devices(), scene, small_view(131, 77), {}, find_technique(technique));
     run.run_frame();

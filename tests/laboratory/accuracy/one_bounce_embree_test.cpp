@@ -31,7 +31,9 @@ Scene divided_room() {
   Mesh mesh;
   shapes::add_box(mesh, {-3, 0, -3}, {3, 3, 3});
   Light lamp;
-  lamp.position = {-1.5, 1.8, 0.4}, lamp.intensity = 40, lamp.color = {1, 0.8f, 0.6f};
+  lamp.position = {-1.5, 1.8, 0.4};
+  lamp.intensity = 40;
+  lamp.color = {1, 0.8f, 0.6f};
   Scene scene = room(std::move(mesh), {0.6f, 0.5f, 0.4f}, lamp);
   Mesh screen;
   shapes::add_box(screen, {-0.1f, 0, -1.5f}, {0.1f, 2.4f, 3});

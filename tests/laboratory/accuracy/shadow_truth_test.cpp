@@ -42,7 +42,8 @@ TEST(ShadowTruth, IsTheSameOnTheSurfacesOfBothRasterisers) {
     for (uint32_t light = 0; light < s.scene.lights.size(); ++light) {
       const Sight a = of_gl.at(p, light), b = of_cl.at(p, light);
       if (a == Sight::either || b == Sight::either) continue;
-      ++(a == b ? same : differing), hidden += a == Sight::hidden;
+      ++(a == b ? same : differing);
+      hidden += a == Sight::hidden;
     }
   }
   EXPECT_EQ(differing, 0u);
@@ -107,7 +108,8 @@ TEST(ShadowTruth, IsNoneWhereNoLightCasts) {
   EXPECT_FALSE(truth.casts());
   Shown gl(s.scene, "forward");
   EXPECT_EQ(truth.pairs(gl.run.view(), gl.depth, gl.triangles), nullptr);
-  s.scene.lights[0].casts_shadow = true, s.scene.lights[0].type = LightType::directional;
+  s.scene.lights[0].casts_shadow = true;
+  s.scene.lights[0].type = LightType::directional;
   EXPECT_TRUE(truth.casts());
 }
 

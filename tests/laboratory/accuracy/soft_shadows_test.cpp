@@ -21,7 +21,10 @@ constexpr double source_m = 0.2;
 // The ball stands between most lamps and a part of the wall.
 Scene soft_scene() {
   SmallScene s = small_scene();
-  for (Light& light : s.scene.lights) light.casts_shadow = true, light.radius_m = 4;
+  for (Light& light : s.scene.lights) {
+    light.casts_shadow = true;
+    light.radius_m = 4;
+  }
   return s.scene;
 }
 
@@ -87,9 +90,12 @@ Errors errors_of(const HostShadows& shadows, const std::vector<Pair>& pairs) {
   for (const Pair& pair : pairs) {
     if (!(pair.truth > 0 && pair.truth < 1)) continue;
     const double error = hidden_share_at(shadows, pair.x, pair.y, pair.light) - pair.truth;
-    e.mean += error, e.rms += error * error, ++e.count;
+    e.mean += error;
+    e.rms += error * error;
+    ++e.count;
   }
-  e.mean /= double(e.count), e.rms = std::sqrt(e.rms / double(e.count));
+  e.mean /= double(e.count);
+  e.rms = std::sqrt(e.rms / double(e.count));
   return e;
 }
 
@@ -249,8 +255,12 @@ std::vector<PickedPixel> picked_pixels(TechniqueRun& run, const Scene& scene, si
       if (adds == 0) continue;
       const double share =
           hidden_share(occlusion, light, receiver, soft ? source_m : 0, soft ? 16 : 1, random).share;
-      sum += adds, hidden += adds * share;
-      if (adds > most) most = adds, p.brightest = i;
+      sum += adds;
+      hidden += adds * share;
+      if (adds > most) {
+        most = adds;
+        p.brightest = i;
+      }
     }
     p.ratio = sum > 0 ? hidden / sum : 0;
     found[size_t(n)] = p;
@@ -263,9 +273,12 @@ Errors errors_of(const Shaded& shaded, const std::vector<PickedPixel>& pixels) {
   Errors e;
   for (const PickedPixel& p : pixels) {
     const double error = hidden_share_at(shaded.shadows, p.x, p.y, p.brightest) - p.ratio;
-    e.mean += error, e.rms += error * error, ++e.count;
+    e.mean += error;
+    e.rms += error * error;
+    ++e.count;
   }
-  e.mean /= double(e.count), e.rms = std::sqrt(e.rms / double(e.count));
+  e.mean /= double(e.count);
+  e.rms = std::sqrt(e.rms / double(e.count));
   return e;
 }
 
@@ -312,7 +325,8 @@ TEST(PickedShadows, LightsOfOtherGroupsTakeNoPart) {
   for (size_t i = 0; i < count; ++i) {
     scene.lights[i].groups = 1;
     Light other = scene.lights[i];
-    other.groups = 2, other.intensity *= 10;
+    other.groups = 2;
+    other.intensity *= 10;
     other.position = scene.lights[(i + 1) % count].position + glm::dvec3(0.3, 0.5, 0);
     scene.lights.push_back(other);
   }

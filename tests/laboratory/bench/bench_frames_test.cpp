@@ -22,7 +22,8 @@ std::vector<Tile> tiles_of(const CapturedFrame& frame) {
     for (int x = 0; x < frame.view.width; ++x) {
       const double distance = b / (double(frame.depth[size_t(y) * frame.view.width + x]) + a);
       Tile& tile = tiles[size_t(y / 16) * across + x / 16];
-      tile.near = std::min(tile.near, distance), tile.far = std::max(tile.far, distance);
+      tile.near = std::min(tile.near, distance);
+      tile.far = std::max(tile.far, distance);
     }
   }
   return tiles;

@@ -14,7 +14,12 @@ namespace {
 
 TEST(RasterCosts, AreTheBytesThatEachStepCannotAvoid) {
   KernelWork w;
-  w.pixels = 1000, w.tiles = 6, w.vertices = 10, w.triangles = 640, w.clusters = 4, w.records = 3,
+  w.pixels = 1000;
+  w.tiles = 6;
+  w.vertices = 10;
+  w.triangles = 640;
+  w.clusters = 4;
+  w.records = 3;
   w.tile_entries = 5;
   const auto bytes = [&](const char* label) { return kernel_cost(label, w)->bytes; };
   EXPECT_EQ(bytes("raster_transform"), 10 * (12 + 16));  // a position read, clip space written
@@ -36,7 +41,8 @@ TEST(RasterBench, HasARowForEachKernelWithItsBytes) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     if (scene.materials[mesh.material].alpha_mode == AlphaMode::blend) continue;
-    vertices += mesh.positions.size(), triangles += mesh.indices.size() / 3;
+    vertices += mesh.positions.size();
+    triangles += mesh.indices.size() / 3;
   }
   ClDevice device;
   BenchOptions options{.cases = {{"raster-small", {.width = 200, .height = 100}, {}, 0, "spheres"}},

@@ -86,7 +86,6 @@ TEST(LightLimits, StandInTheManual) {
   for (const EngineLimit& limit : engine_limits()) {
     EXPECT_THAT(page, testing::HasSubstr(fmt::format("\n| `{}` | {} ", id_of(limit), limit.most)));
     EXPECT_THAT(page, testing::HasSubstr(fmt::format("| {} | [source]({}) |", limit.versions, limit.source)));
-    
   }
   for (const UnlimitedEngine& engine : unlimited_engines())
     EXPECT_THAT(page, testing::HasSubstr(engine.source));
@@ -102,7 +101,10 @@ TEST(LightLimits, AViewTakesSoManyOfTheLightsThatItSees) {
       if (spots_too) level.spot({0, 0, -2}, {0, 0, -3});
       const int points = limit.most - (limit.order == LimitOrder::points_first) + more;
       for (int i = 0; i < points; ++i) level.point({0.01f * float(i % 7), 0, -11 + 0.015f * float(i)});
-      for (int i = 0; i < 40; ++i) level.point({0, 0, 5}), level.point({30, 0, -20});
+      for (int i = 0; i < 40; ++i) {
+        level.point({0, 0, 5});
+        level.point({30, 0, -20});
+      }
       const LimitResult result = result_of(level, id_of(limit));
       EXPECT_EQ(result.holds(), !more) << id_of(limit);
       EXPECT_EQ(result.worst.counted, size_t(limit.most) + more) << id_of(limit);
@@ -186,7 +188,10 @@ TEST(LightLimits, PrimitivesOfANodeAreOneMesh) {
   Level level;
   level.add_wall("floor", {-10, -10, -11}, 5);
   level.add_wall("floor", {5, 5, -11}, 5);
-  for (int i = 0; i < 5; ++i) level.point({-8, -8, -11}, 0.5f), level.point({8, 8, -11}, 0.5f);
+  for (int i = 0; i < 5; ++i) {
+    level.point({-8, -8, -11}, 0.5f);
+    level.point({8, 8, -11}, 0.5f);
+  }
   EXPECT_THAT(objects_of(level.scene), ElementsAre(0, 1, 1));
   EXPECT_EQ(result_of(level, "urp-forward/mesh").worst.counted, 10u);
   level.scene.instances[2].name = "ceiling";
@@ -291,7 +296,8 @@ TEST(LightLimits, ListsHoldTheLightsOfThePointsOfTheirCells) {
     size_t entries = 0;
     const glm::ivec3 cells =
         each_cell(layout, level.view, lights, all, [&](const glm::ivec3&, const LightBox&, const auto& list) {
-          lists.push_back(list), entries += list.size();
+          lists.push_back(list);
+          entries += list.size();
         });
     int held = 0;
     for (int n = 0; n < 200000; ++n) {

@@ -76,7 +76,7 @@ TEST(CompareTechniques, TellsWhoseLoopShadesLessThanItsListsHold) {
       {{&lists_alone, {}}, {&find_technique("forward_plus"), {}}, {&find_technique("visibility"), {}}});
   ASSERT_EQ(report.rows.size(), 3u);
   EXPECT_EQ(report.rows[0].pairs->lost, 0u);
-  EXPECT_GT(report.rows[0].unshaded.value(), most_unshaded);
+  EXPECT_GT(report.rows[0].unshaded.value(), max_unshaded);
   EXPECT_EQ(report.rows[1].unshaded.value(), 0);
   EXPECT_EQ(report.rows[2].unshaded.value(), 0) << "against every light on its own surfaces";
 }

@@ -68,11 +68,11 @@ TEST(ReferenceSample, HasFewerPixelsTheMoreLightsThereAre) {
   EXPECT_EQ(sample_size(100'000'000), 256u);
 }
 
-CompareReport compared(ReferencePixels reference, double most_ms, std::string* notice = nullptr) {
+CompareReport compared(ReferencePixels reference, double max_ms, std::string* notice = nullptr) {
   const Scene scene = small_scene().scene;
   const View view = small_view(640, 360);
   CompareOptions options{
-      .frames = 1, .warmup = 0, .shaded_samples = 50, .reference = reference, .most_reference_ms = most_ms};
+      .frames = 1, .warmup = 0, .shaded_samples = 50, .reference = reference, .max_reference_ms = max_ms};
   if (notice) options.notice = [=](const std::string& what) { *notice = what; };
   return compare_techniques(software_devices(), scene, view,
                             {{&find_technique("forward"), {}}, {&find_technique("deferred"), {}}}, options);

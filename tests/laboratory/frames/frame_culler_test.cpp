@@ -43,7 +43,8 @@ TEST(FrameCuller, LosesNothingWithStandardDepth) {
 
 TEST(FrameCuller, LosesNothingOffCentre) {
   CapturedFrame frame = small_frame(133, 71);
-  frame.view.clip_from_view[2][0] = 0.4, frame.view.clip_from_view[2][1] = -0.2;
+  frame.view.clip_from_view[2][0] = 0.4;
+  frame.view.clip_from_view[2][1] = -0.2;
   expect_none_lost(frame);
 }
 
@@ -77,7 +78,8 @@ TEST(FrameCuller, LosesNothingOfHostileLights) {
       light.position = {place, -place, 2.0};
       light.radius_m = radius;
       frame.lights.push_back(light);
-      light.type = LightType::spot, light.outer_cone_rad = radius > 1 ? 3.1f : 1e-3f;
+      light.type = LightType::spot;
+      light.outer_cone_rad = radius > 1 ? 3.1f : 1e-3f;
       frame.lights.push_back(light);
     }
   }
@@ -105,16 +107,25 @@ TEST(FrameCuller, LosesNothingInHostileViews) {
     const bool orthographic = trial % 4 == 3, standard = trial % 2;
     const double near = decades(-4, 4), far = near * decades(0.1, 6);
     glm::dmat4& clip = frame.view.clip_from_view = glm::dmat4(0);
-    clip[0][0] = decades(-4, 4), clip[1][1] = clip[0][0] * decades(-1, 1);
+    clip[0][0] = decades(-4, 4);
+    clip[1][1] = clip[0][0] * decades(-1, 1);
     const double from = standard ? far : near, to = standard ? near : far;  // at depth 1 and at depth 0
     if (orthographic) {
-      clip[3][0] = uniform(-2, 2), clip[3][1] = uniform(-2, 2), clip[3][3] = 1;
-      clip[2][2] = 1 / (to - from), clip[3][2] = to / (to - from);
+      clip[3][0] = uniform(-2, 2);
+      clip[3][1] = uniform(-2, 2);
+      clip[3][3] = 1;
+      clip[2][2] = 1 / (to - from);
+      clip[3][2] = to / (to - from);
     } else {
-      clip[2][0] = uniform(-2, 2), clip[2][1] = uniform(-2, 2), clip[2][3] = -1;
-      clip[2][2] = from / (to - from), clip[3][2] = from * to / (to - from);
+      clip[2][0] = uniform(-2, 2);
+      clip[2][1] = uniform(-2, 2);
+      clip[2][3] = -1;
+      clip[2][2] = from / (to - from);
+      clip[3][2] = from * to / (to - from);
     }
-    frame.view.orthographic = orthographic, frame.view.near_m = near, frame.view.far_m = far;
+    frame.view.orthographic = orthographic;
+    frame.view.near_m = near;
+    frame.view.far_m = far;
     const glm::dmat4 turn =
         look_at({0, 0, 0}, {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}).world_from_view;
     const glm::dvec3 eye =
@@ -234,7 +245,9 @@ struct CaptureOf : testing::TestWithParam<std::pair<const char*, Settings>> {};
 TEST_P(CaptureOf, HasTheGridThatTheRendererShadesFrom) {
   SmallScene small = small_scene();
   Light spot = small.scene.lights[0];
-  spot.type = LightType::spot, spot.position = {0, 1, -2}, spot.radius_m = 4;
+  spot.type = LightType::spot;
+  spot.position = {0, 1, -2};
+  spot.radius_m = 4;
   spot.direction = glm::normalize(glm::vec3(0.3f, -1, -0.5f));
   small.scene.lights.insert(small.scene.lights.begin() + 2, spot);
   spot.type = LightType::directional;

@@ -217,7 +217,8 @@ TEST(FrameFileFuzz, EveryMutationIsReadOrToldInOneLine) {
   const TempFolder folder;
   write_frame(folder.path, small_frame(9, 5));
   FrameGrid grid = small_grid();
-  grid.lists.cells_x = 1, grid.lists.cells_y = 1;
+  grid.lists.cells_x = 1;
+  grid.lists.cells_y = 1;
   grid.lists.cells.resize(2);
   write_frame_grid(folder.path, grid);
   ASSERT_EQ(fault_of(folder.path), "");

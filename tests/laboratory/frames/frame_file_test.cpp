@@ -141,7 +141,9 @@ TEST(FrameFile, OrthographicViewsAreRead) {
   CapturedFrame frame = small_frame();
   Camera camera = look_at({0, 0, 0}, {0, 0, -1});
   camera.orthographic = true;
-  camera.near_m = 0, camera.far_m = 50, camera.half_height_m = 8;
+  camera.near_m = 0;
+  camera.far_m = 50;
+  camera.half_height_m = 8;
   frame.view = make_view(camera, 37, 21);
   write_frame(folder.path, frame);
   const View read = read_frame(folder.path).view;

@@ -23,7 +23,9 @@ inline void write_bytes(const std::filesystem::path& path, const std::string& by
 
 inline FrameGrid small_grid() {
   FrameGrid grid;
-  grid.lists.cells_x = 3, grid.lists.cells_y = 2, grid.lists.slices = 2;
+  grid.lists.cells_x = 3;
+  grid.lists.cells_y = 2;
+  grid.lists.slices = 2;
   grid.slice_edges = {4.1f};
   for (uint32_t cell = 0; cell < 12; ++cell) {
     grid.lists.cells.push_back({grid.lists.indices.size(), cell % 4});

@@ -95,8 +95,10 @@ TEST(FrontierJson, HoldsTheAnswer) {
     "relative_rmse": 0.35000000000000003, "rel_mse": 2.5, "rel_mse_trimmed": 1.25, "smape": 0.625,
     "smape_trimmed": 0.3125, "energy_rel": -3.75, "rmse_of_mean": 7.5})");
   sampled["p99_rel"] = 0.011 * 5;
-  sampled["float_total_max_rel"] = 0.1 * 7, sampled["float_total_rmse_rel"] = 7.0 / 3;
-  sampled["float_truth_max_rel"] = 0.1 * 6, sampled["float_truth_rmse_rel"] = 2.0;
+  sampled["float_total_max_rel"] = 0.1 * 7;
+  sampled["float_total_rmse_rel"] = 7.0 / 3;
+  sampled["float_truth_max_rel"] = 0.1 * 6;
+  sampled["float_truth_rmse_rel"] = 2.0;
   EXPECT_EQ(error["in_double"], sampled);
   EXPECT_EQ(error["flip_views"], 2);
   EXPECT_EQ(error["temporal_views"], 1);

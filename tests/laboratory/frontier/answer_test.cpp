@@ -44,8 +44,11 @@ TEST(Answer, FrontsByTheDevicesClocksAreTheirOwn) {
   const auto timed = [](const char* technique, double ratio, double device_ms, double error) {
     FrontierRecord r = synthetic_record(synthetic_point("hall", technique), ratio, error);
     for (size_t run = 0; run < r.frame_ms.size(); ++run) {
-      r.device_ms.push_back(device_ms), r.baseline_device_ms.push_back(20);
-      r.hand_over_ms.push_back(3), r.copy_ms.push_back(0.5), r.read_back_ms.push_back(double(run));
+      r.device_ms.push_back(device_ms);
+      r.baseline_device_ms.push_back(20);
+      r.hand_over_ms.push_back(3);
+      r.copy_ms.push_back(0.5);
+      r.read_back_ms.push_back(double(run));
     }
     return r;
   };
@@ -85,7 +88,10 @@ TEST(Answer, FrontsByTheDevicesClocksAreTheirOwn) {
   EXPECT_THAT(
       answer_of({part}).sentences,
       Contains(HasSubstr("up to 0.01 in hall: deferred, 0.250 times forward_plus by the devices' clocks (")));
-  for (FrontierRecord& record : part.records) record.device_ms.clear(), record.baseline_device_ms.clear();
+  for (FrontierRecord& record : part.records) {
+    record.device_ms.clear();
+    record.baseline_device_ms.clear();
+  }
   const FrontierAnswer without = answer_of({part});
   EXPECT_THAT(without.device_cheapest_within, IsEmpty());
   EXPECT_FALSE(without.by_device);
@@ -125,7 +131,8 @@ TEST(Answer, SaysWhatTheBaselineIsOnThisMachine) {
   FrontierPart part = synthetic_part({synthetic_record(synthetic_point("hall", "forward_plus"), 1, 0.01),
                                       synthetic_record(synthetic_point("hall", "visibility"), 2, 0.01)});
   const auto said = [&](const char* gl_device, const char* baseline = "forward_plus") {
-    part.machine.gl_device = gl_device, part.baseline = baseline;
+    part.machine.gl_device = gl_device;
+    part.baseline = baseline;
     const FrontierAnswer answer = answer_of({part});
     const std::string sentence = answer.sentences.empty() ? "" : answer.sentences.front();
     const bool about = sentence.find("OpenGL runs") == 0 || sentence.find("On a Hopper") == 0;
@@ -147,15 +154,20 @@ TEST(Answer, SaysWhatTheBaselineIsOnThisMachine) {
 
 TEST(Answer, SumsTimesOverViewsRunByRunAndJoinsErrors) {
   FrontierRecord a = synthetic_record(synthetic_point("hall", "forward_plus"), 1, 0, 0), b = a;
-  a.frame_ms = {10, 20, 30}, a.baseline_ms = {100, 100, 100};
+  a.frame_ms = {10, 20, 30};
+  a.baseline_ms = {100, 100, 100};
   b.view = 1;
-  b.frame_ms = {2, 4, 6, 8}, b.baseline_ms = {20, 20, 20, 40};
+  b.frame_ms = {2, 4, 6, 8};
+  b.baseline_ms = {20, 20, 20, 40};
   a.errors.total = synthetic_error(0.1, 0.03, 0.3, 0.01, 0.25);
   b.errors.total = synthetic_error(0.3, 0.04, 0.4, 0.03);
   a.errors.deviation_rmse_rel = 0.5;
-  a.pairs = {10, 5, 1, 2}, b.pairs = {20, 6, 3, 4};
-  a.memory_bytes = 7, b.memory_bytes = 9;
-  a.bytes_moved = 100, b.bytes_moved = 300;
+  a.pairs = {10, 5, 1, 2};
+  b.pairs = {20, 6, 3, 4};
+  a.memory_bytes = 7;
+  b.memory_bytes = 9;
+  a.bytes_moved = 100;
+  b.bytes_moved = 300;
   b.nan_pixels = 11;
   const FrontierAnswer answer = answer_from({a, b});
   ASSERT_THAT(answer.points, SizeIs(1));
@@ -294,9 +306,12 @@ TEST(Answer, HasAFrontAgainstEachReference) {
 TEST(Answer, PointsOfOneRoundArePairedInTheirProcess) {
   FrontierRecord a = synthetic_record(synthetic_point("hall", "a"), 0.5, 0.1, 0, 6), b = a;
   b.point = synthetic_point("hall", "b");
-  b.frame_ms.resize(4), b.baseline_ms.resize(4);
-  a.processes = {0, 0, 0, 1, 1, 1}, b.processes = {0, 1, 1, 1};
-  a.baseline_ms = {100, 100, 100, 100, 100, 160}, b.baseline_ms = {100, 100, 100, 100};
+  b.frame_ms.resize(4);
+  b.baseline_ms.resize(4);
+  a.processes = {0, 0, 0, 1, 1, 1};
+  b.processes = {0, 1, 1, 1};
+  a.baseline_ms = {100, 100, 100, 100, 100, 160};
+  b.baseline_ms = {100, 100, 100, 100};
   const FrontierAnswer answer = answer_from({a, b});
   const auto blocks = [&](size_t i) {
     std::vector<std::pair<int, int>> found;
@@ -379,7 +394,8 @@ TEST(Answer, ControlsOfEachPartCount) {
       records.back().series = fmt::format("control {}", place);
     }
     FrontierPart part = synthetic_part(records);
-    part.shard = shard, part.shards = 2;
+    part.shard = shard;
+    part.shards = 2;
     for (FrontierRecord& r : part.records) r.shard = shard;
     return part;
   };
@@ -460,13 +476,17 @@ TEST(Failures, NameCauseAndFigureOnceAPoint) {
   };
   std::vector<FrontierRecord> records = {of("fine"),       of("loses"),   of("loses", 1), of("nan"),
                                          of("not-finite"), of("several"), of("half"),     of("half", 1)};
-  records[1].pairs.lost = 1000, records[2].pairs.lost = 234;
+  records[1].pairs.lost = 1000;
+  records[2].pairs.lost = 234;
   records[3].nan_pixels = 5;
   records[4].errors.total.rmse_rel = no_figure;
-  records[5].overflow = 2, records[5].pairs.wrong = 1;
+  records[5].overflow = 2;
+  records[5].pairs.wrong = 1;
   records[7].refused = "16 GiB";
   records.push_back(of("fine"));
-  records.back().series = "lights", records.back().lights = 10000, records.back().refused = "too many";
+  records.back().series = "lights";
+  records.back().lights = 10000;
+  records.back().refused = "too many";
   const FrontierAnswer answer = answer_from(records);
   std::vector<std::string> told;
   for (const Failure& f : answer.failures) told.push_back(f.point.label + ": " + f.cause + ": " + f.why);
@@ -517,7 +537,10 @@ TEST(Answer, SaysWhatTheFiguresSay) {
   EXPECT_THAT(answer_from({short_run("forward_plus", 1), short_run("visibility", 0.5)}).sentences[0],
               HasSubstr("is visibility: it takes 0.501 times as long (95 % interval 0.49"));
   FrontierRecord once = short_run("visibility", 0.5), base = short_run("forward_plus", 1);
-  for (FrontierRecord* record : {&once, &base}) record->frame_ms.resize(1), record->baseline_ms.resize(1);
+  for (FrontierRecord* record : {&once, &base}) {
+    record->frame_ms.resize(1);
+    record->baseline_ms.resize(1);
+  }
   EXPECT_THAT(answer_from({base, once}).sentences[0],
               HasSubstr("times as long (interval not measured: 1 round; at least 3 are needed)."));
   const SceneWords words = words_of_scene(answer, scenes_of(answer)[0]);
@@ -533,9 +556,10 @@ TEST(Answer, SaysWhatTheFiguresSay) {
 TEST(Answer, JoinsPartsOfOneSweepOnly) {
   FrontierPart a = synthetic_part({synthetic_record(synthetic_point("hall", "a"), 1, 0.1)});
   FrontierPart b = synthetic_part({synthetic_record(synthetic_point("hall", "b"), 0.5, 0.1), a.records[0]});
-  b.shard = 1, a.shards = b.shards = 2;
+  b.shard = 1;
+  a.shards = b.shards = 2;
   b.machine.cpu = "another";
-  a.warnings = {{"no lights"}},
+  a.warnings = {{"no lights"}};
   b.warnings = {{"no lights"}, {"no range", {"range=cutoff"}, "lightgrid frontier --set range=cutoff"}};
   const FrontierAnswer answer = answer_of({a, b});
   EXPECT_THAT(answer.points, SizeIs(2));

@@ -21,7 +21,10 @@ struct Differences {
 TEST(TruthOfAreas, IsTheOraclesMeanOfEachPixel) {
   SmallScene s = small_scene(false);
   effect("directional").add(s);
-  for (Material& m : s.scene.materials) m.metallic = 0, m.roughness = 1;
+  for (Material& m : s.scene.materials) {
+    m.metallic = 0;
+    m.roughness = 1;
+  }
   const View view = small_view(67, 41);  // whose sides 16 does not divide
   const FrontierTruth of_areas = chosen_truth({}, false, {}, true);
   EXPECT_EQ(of_areas, (FrontierTruth{true, 0, 1, 256}));
@@ -37,7 +40,8 @@ TEST(TruthOfAreas, IsTheOraclesMeanOfEachPixel) {
     for (const uint32_t pixel : pixels) {
       for (int c = 0; c < 3; ++c) {
         const double d = std::abs(double(image.pixels[pixel][c]) - areas[pixel].radiance[c]) / brightest;
-        found.largest = std::max(found.largest, d), found.rmse += d * d / (3.0 * double(pixels.size()));
+        found.largest = std::max(found.largest, d);
+        found.rmse += d * d / (3.0 * double(pixels.size()));
       }
     }
     found.rmse = std::sqrt(found.rmse);

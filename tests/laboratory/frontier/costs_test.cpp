@@ -113,7 +113,8 @@ TEST(Growth, FindsTheExponentOfEachSeries) {
     records.push_back(r);
     r.series = "pixels";
     r.radius_scale = 1;
-    r.width = n, r.height = 4;
+    r.width = n;
+    r.height = 4;
     r.frame_ms = {12};
     records.push_back(r);
   }

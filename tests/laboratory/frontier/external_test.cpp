@@ -199,25 +199,36 @@ TEST(ExrPicture, MayHaveHalves) {
     file += name + '\0' + type + '\0';
     add(size);
   };
-  add(20000630), add(2);
+  add(20000630);
+  add(2);
   attribute("channels", "chlist", 3 * 18 + 1);
   for (const char* name : {"B", "G", "R"}) {
     file += std::string(name) + '\0';
-    add(1), add(0), add(1), add(1);  // half
+    add(1);
+    add(0);
+    add(1);
+    add(1);  // half
   }
   file += '\0';
-  attribute("compression", "compression", 1), file += '\0';
+  attribute("compression", "compression", 1);
+  file += '\0';
   for (const char* window : {"dataWindow", "displayWindow"}) {
     attribute(window, "box2i", 16);
     for (const int edge : {0, 0, 1, 0}) add(edge);
   }
-  attribute("lineOrder", "lineOrder", 1), file += '\0';
-  attribute("pixelAspectRatio", "float", 4), add(1.0f);
-  attribute("screenWindowCenter", "v2f", 8), add(0.0f), add(0.0f);
-  attribute("screenWindowWidth", "float", 4), add(1.0f);
+  attribute("lineOrder", "lineOrder", 1);
+  file += '\0';
+  attribute("pixelAspectRatio", "float", 4);
+  add(1.0f);
+  attribute("screenWindowCenter", "v2f", 8);
+  add(0.0f);
+  add(0.0f);
+  attribute("screenWindowWidth", "float", 4);
+  add(1.0f);
   file += '\0';
   add(uint64_t(file.size()) + 8);
-  add(0), add(12);
+  add(0);
+  add(12);
   for (const uint16_t half : {0x3c00, 0x3800, 0x4000, 0x7bff, 0x0000, 0x0001}) add(half);
   const TempFolder folder;
   std::ofstream(folder.path / "half.exr", std::ios::binary) << file;

@@ -68,7 +68,8 @@ struct SmallFamily : testing::Test {
   }
   static SceneChoice choice() {
     SceneChoice choice;
-    choice.scene = "terrain", choice.size = "48x27";
+    choice.scene = "terrain";
+    choice.size = "48x27";
     return choice;
   }
   std::vector<float> depth() {
@@ -136,7 +137,7 @@ TEST_F(SmallFamily, TurnsOneKnobAndLosesNoLight) {
 }
 
 TEST_F(SmallFamily, RefusesWhatTakesTooLongAndDoesNotTryItOnMoreLights) {
-  job.families->most_frame_s = 0;
+  job.families->max_frame_s = 0;
   job.families->overlaps = {};
   const std::vector<FrontierRecord> records = measured();
   ASSERT_THAT(records, SizeIs(2 * 3));
@@ -147,7 +148,9 @@ TEST_F(SmallFamily, RefusesWhatTakesTooLongAndDoesNotTryItOnMoreLights) {
 FrontierRecord of_family(const std::string& label, int lights, double ms, double flip) {
   FrontierRecord r = synthetic_record(synthetic_point("terrain", "visibility"), 1, flip, 0, 4);
   r.point.label = label;
-  r.series = equal_overlap_series, r.overlap = 10, r.lights = lights;
+  r.series = equal_overlap_series;
+  r.overlap = 10;
+  r.lights = lights;
   r.frame_ms = {ms, 3 * ms, ms, 3 * ms};  // picked on the first and third
   return r;
 }
@@ -183,7 +186,8 @@ TEST(EqualFlips, AreAlsoOfTheDevicesClocks) {
   EXPECT_TRUE(answer_from(records).device_equal_flip.empty()) << "no device had a clock";
   for (FrontierRecord& r : records) {
     const double ms = r.point.label == "exact" ? 0.25 : 0.5;
-    r.device_ms = {ms, 2 * ms, ms, 2 * ms}, r.baseline_device_ms = {1, 1, 1, 1};
+    r.device_ms = {ms, 2 * ms, ms, 2 * ms};
+    r.baseline_device_ms = {1, 1, 1, 1};
     r.hand_over_ms = r.copy_ms = r.read_back_ms = {0, 0, 0, 0};
   }
   const FrontierAnswer answer = answer_from(records);

@@ -309,7 +309,9 @@ TEST_F(FrontierPage, DrawsFamiliesOfLights) {
     for (const std::string technique : {"visibility", "forward_plus"}) {
       FrontierRecord& r = records.emplace_back(
           synthetic_record(synthetic_point("terrain", technique), technique == "visibility" ? 0.3 : 1, 0.1));
-      r.series = equal_overlap_series, r.overlap = 10, r.lights = lights;
+      r.series = equal_overlap_series;
+      r.overlap = 10;
+      r.lights = lights;
       r.errors.authored.emplace().total.displayed = DisplayedFlip{0, 0};
       records.push_back(r);
       records.back().point = synthetic_point("terrain", technique, {{"range", "infinite"}});
@@ -339,9 +341,10 @@ TEST_F(FrontierPage, DrawsFamiliesOfLights) {
 TEST_F(FrontierPage, StacksThePassesOfTechniquesAsTheyAre) {
   FrontierPart part = synthetic_sweep();
   for (FrontierRecord& r : part.records) {
-    if (r.point.label == "clustered" && r.view == 0)
-      r.pass_ms = {{"cull_lights", 2}, {"shade_forward", 6}},
+    if (r.point.label == "clustered" && r.view == 0) {
+      r.pass_ms = {{"cull_lights", 2}, {"shade_forward", 6}};
       r.pass_bytes = {{"cull_lights", 1000}, {"shade_forward", 0}};
+    }
   }
   write_file(folder.path / "index.html", page_text(answer_of({part})));
   const json seen =

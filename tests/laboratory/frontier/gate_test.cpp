@@ -123,7 +123,8 @@ TEST(Gate, IsClosedByARatioThatIsWorseWithSignificance) {
 TEST(Gate, ComparesTimesOfEqualViewsAlone) {
   json now = frontier(), earlier = frontier();
   now["points"][0]["relative_time"] = {{"estimate", 1.0}, {"ci95", {0.76, 1.25}}};
-  now["points"][0]["timed_views"] = 1, earlier["points"][0]["timed_views"] = 2;
+  now["points"][0]["timed_views"] = 1;
+  earlier["points"][0]["timed_views"] = 2;
   const GateResult result = held_against(now, earlier, "");
   EXPECT_THAT(result.worse, IsEmpty());
   EXPECT_THAT(result.told, Contains(HasSubstr(": times of 1 views, earlier of 2: not compared")));

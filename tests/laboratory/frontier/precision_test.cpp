@@ -41,7 +41,8 @@ TEST(RandomPixels, MissAShareNoOftenerThanTheBound) {
       one_place |= pixel >= 300 && pixel < 360;
       spread |= pixel % 50 < 3;
     }
-    missed_in_one_place += !one_place, missed_spread += !spread;
+    missed_in_one_place += !one_place;
+    missed_spread += !spread;
   }
   const double bound = std::pow(0.94, 50) + 0.006;
   EXPECT_LE(missed_in_one_place / 20000.0, bound);

@@ -57,8 +57,9 @@ FrontierPart random_sweep(uint32_t seed) {
           if (timed_by_device) {
             record.baseline_device_ms.push_back(8 + view + 5 * noise(random));
             record.device_ms.push_back(record.baseline_device_ms.back() * (1.2 - ratio / 2 + noise(random)));
-            record.hand_over_ms.push_back(0.5), record.copy_ms.push_back(0.1),
-                record.read_back_ms.push_back(1);
+            record.hand_over_ms.push_back(0.5);
+            record.copy_ms.push_back(0.1);
+            record.read_back_ms.push_back(1);
           }
           // One process in the first scene, two in the second.
           record.processes.push_back(record.point.scene == "hall" ? 0 : int(record.processes.size()) / 3 % 2);

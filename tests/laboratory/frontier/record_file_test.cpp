@@ -195,7 +195,9 @@ TEST(RecordFile, KeepsFiguresAndRoundsOfASceneThatIsBeingMeasured) {
   for (const int tile : {8, 16}) {
     for (const int view : {0, 1}) {
       records.push_back(some_record(tile, view));
-      records.back().frame_ms.clear(), records.back().baseline_ms.clear(), records.back().cull_ms.clear();
+      records.back().frame_ms.clear();
+      records.back().baseline_ms.clear();
+      records.back().cull_ms.clear();
       records.back().processes.clear();
       for (const auto& [key, times] : times_by_device) (records.back().*times).clear();
     }
@@ -214,12 +216,20 @@ TEST(RecordFile, KeepsFiguresAndRoundsOfASceneThatIsBeingMeasured) {
     EXPECT_EQ(file.part().records.size(), 4u);
     EXPECT_TRUE(file.open_records().empty());
   }
-  records[0].cull_ms = {0.3}, records[2].cull_ms = {0.1};
+  records[0].cull_ms = {0.3};
+  records[2].cull_ms = {0.1};
   for (FrontierRecord& r : records) r.processes.clear();
-  records[0].frame_ms = {1}, records[0].baseline_ms = {2}, records[0].processes = {0};
-  records[0].device_ms = {0.5}, records[0].hand_over_ms = {0.25}, records[0].copy_ms = {0.125};
-  records[0].read_back_ms = {1.0 / 7}, records[0].baseline_device_ms = {1.5};
-  records[1].frame_ms = {1.0 / 3}, records[1].baseline_ms = {4}, records[1].processes = {0};
+  records[0].frame_ms = {1};
+  records[0].baseline_ms = {2};
+  records[0].processes = {0};
+  records[0].device_ms = {0.5};
+  records[0].hand_over_ms = {0.25};
+  records[0].copy_ms = {0.125};
+  records[0].read_back_ms = {1.0 / 7};
+  records[0].baseline_device_ms = {1.5};
+  records[1].frame_ms = {1.0 / 3};
+  records[1].baseline_ms = {4};
+  records[1].processes = {0};
   records[3].refused = "no memory";
   const std::string whole = part.text();
   const FrontierPart read = read_part(part.path, nullptr);
@@ -245,7 +255,9 @@ TEST(RecordFile, KeepsFiguresAndRoundsOfASceneThatIsBeingMeasured) {
 TEST(RecordFile, KnowsWhichProcessTookATime) {
   PartFile part;
   FrontierRecord record = some_record(8, 0);
-  record.frame_ms.clear(), record.baseline_ms.clear(), record.processes.clear();
+  record.frame_ms.clear();
+  record.baseline_ms.clear();
+  record.processes.clear();
   for (const auto& [name, times] : times_by_device) (record.*times).clear();
   const std::string key = record_key(record);
   {

@@ -180,7 +180,10 @@ TEST(FrontierShadowFigures, CloseTheGateWhereTheyGrowAndAnotherTruthIsNotCompare
   EXPECT_THAT(held_against(to_json(answer_of({worse})), earlier, "").worse,
               ElementsAre("hall, visibility:shadows=map: leaked_percent grew from 0.5 to 0.7"));
   FrontierPart other = sweep_with_shadows();
-  for (size_t i : {1, 5}) other.records[i].truth.reset(), other.records[i].pairs.shadows->leaked = 9;
+  for (size_t i : {1, 5}) {
+    other.records[i].truth.reset();
+    other.records[i].pairs.shadows->leaked = 9;
+  }
   const GateResult result = held_against(to_json(answer_of({other})), earlier, "");
   EXPECT_THAT(result.worse, IsEmpty());
   EXPECT_THAT(result.told, ElementsAre(HasSubstr("visibility:shadows=map: against another truth")));

@@ -90,7 +90,8 @@ inline std::vector<FrontierRecord> simulated_records(const SimulatedMachine& m, 
       for (size_t i = 0; i < order.size(); ++i) {
         if (i % 2 == 1) beside = time();
         FrontierRecord& record = records[2 * order[i] + view];
-        record.frame_ms.push_back(time()), record.baseline_ms.push_back(beside);
+        record.frame_ms.push_back(time());
+        record.baseline_ms.push_back(beside);
       }
     }
   }

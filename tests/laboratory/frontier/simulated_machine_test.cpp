@@ -26,7 +26,8 @@ Coverage coverage_on(const SimulatedMachine& machine, uint64_t seed) {
   const double truth = std::exp(0.3 * std::log(2.0));
   for (int trial = 0; trial < trials(); ++trial) {
     const RelativeTime r = relative_time(simulated_times(machine, {truth}, random)[0]);
-    c.held += r.low <= truth && truth <= r.high, ++c.all;
+    c.held += r.low <= truth && truth <= r.high;
+    ++c.all;
     c.bimodal += !r.modes.empty();
   }
   return c;
@@ -39,7 +40,9 @@ struct AgainstItself {
 
   void add(const RelativeTime& r) {
     const double log_estimate = std::log(r.estimate);
-    ++trials, sum += log_estimate, squares += log_estimate * log_estimate;
+    ++trials;
+    sum += log_estimate;
+    squares += log_estimate * log_estimate;
     held += r.low <= 1 && 1 <= r.high;
   }
 
@@ -105,7 +108,10 @@ TEST(SimulatedMachine, TheBaselineAgainstItselfIsOneWhereTimesAreSkewed) {
 
 // The first `rounds` rounds of each record.
 std::vector<FrontierRecord> first_rounds(std::vector<FrontierRecord> records, size_t rounds) {
-  for (FrontierRecord& r : records) r.frame_ms.resize(rounds), r.baseline_ms.resize(rounds);
+  for (FrontierRecord& r : records) {
+    r.frame_ms.resize(rounds);
+    r.baseline_ms.resize(rounds);
+  }
   return records;
 }
 
@@ -222,8 +228,10 @@ TEST(SimulatedMachine, ProbabilitiesOfTheFrontAreCalibrated) {
     double stated[bins] = {}, found[bins] = {}, counted[bins] = {};
     for (int trial = 0; trial < trials(); ++trial) {
       std::vector<double> truths, errors;
-      for (int i = 0; i < 12; ++i)
-        truths.push_back(std::exp(0.1 * uniform(random))), errors.push_back(uniform(random));
+      for (int i = 0; i < 12; ++i) {
+        truths.push_back(std::exp(0.1 * uniform(random)));
+        errors.push_back(uniform(random));
+      }
       const auto draws = drawn_log_times(simulated_times(machine, truths, random), 0, 400, random());
       const std::vector<double> p = front_probabilities(draws, errors);
       std::vector<double> log_truths;
@@ -231,7 +239,9 @@ TEST(SimulatedMachine, ProbabilitiesOfTheFrontAreCalibrated) {
       const std::vector<double> front = front_probabilities({log_truths}, errors);
       for (size_t i = 0; i < p.size(); ++i) {
         const int bin = std::min(int(p[i] * bins), bins - 1);
-        stated[bin] += p[i], found[bin] += front[i], ++counted[bin];
+        stated[bin] += p[i];
+        found[bin] += front[i];
+        ++counted[bin];
       }
     }
     for (int bin = 0; bin < bins; ++bin) {
@@ -279,7 +289,8 @@ TEST(SimulatedMachine, PicksAreReportedOnOtherRounds) {
     for (size_t i = 1; i < times.size(); ++i) {
       if (of(i, 0) < of(best, 0)) best = i;
     }
-    on_its_own += std::log(of(best, 0)) / trials(), on_the_others += std::log(of(best, 1)) / trials();
+    on_its_own += std::log(of(best, 0)) / trials();
+    on_the_others += std::log(of(best, 1)) / trials();
   }
   EXPECT_LT(on_its_own, -0.005);
   EXPECT_NEAR(on_the_others, 0, 0.001);

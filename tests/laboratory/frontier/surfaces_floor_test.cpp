@@ -42,7 +42,8 @@ struct MeasuredView {
     for (const ChosenPoint& point : job.points) {
       PointRun run(renderer, gpu, view, point, std::make_shared<TargetPool>());
       FrontierRecord& record = all.emplace_back();
-      record.point = described("scene", point), record.view = 1;
+      record.point = described("scene", point);
+      record.view = 1;
       figures.measure(run, record);
       EXPECT_EQ(record.refused, "") << record.point.label;
     }
@@ -74,10 +75,12 @@ TruthDifference difference_of(const Image& image, const Image& truth) {
       const double t = truth.pixels[i][c], x = image.pixels[i][c];
       found.rmse += (x - t) * (x - t) / (3 * pixels);
       found.rel_mse += (x - t) * (x - t) / (t * t + dark * dark) / (3 * pixels);
-      sum += x, sum_of_truth += t;
+      sum += x;
+      sum_of_truth += t;
     }
   }
-  found.rmse = std::sqrt(found.rmse), found.energy = sum / sum_of_truth - 1;
+  found.rmse = std::sqrt(found.rmse);
+  found.energy = sum / sum_of_truth - 1;
   return found;
 }
 

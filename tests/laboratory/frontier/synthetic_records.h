@@ -36,7 +36,8 @@ inline FrontierRecord synthetic_record(const FrontierPoint& point, double ratio,
   FrontierRecord record;
   record.point = point;
   record.view = view;
-  record.width = 64, record.height = 36;
+  record.width = 64;
+  record.height = 36;
   record.lights = 100;
   for (int run = 0; run < runs; ++run) {
     record.baseline_ms.push_back(100);
@@ -57,11 +58,16 @@ inline FrontierPart synthetic_part(std::vector<FrontierRecord> records) {
   part.request = "request";
   part.commit = "0123abc";
   part.baseline = "forward_plus";
-  part.machine.cl_device = "pthread-Intel Xeon", part.machine.gl_device = "AMD Radeon RX 7900";
-  part.machine.cl_driver = "3.1", part.machine.gl_driver = "22.3.6";
-  part.machine.cpu = "Intel Xeon <2 cores>", part.machine.governor = "unknown";
-  part.machine.clock_mhz = 2100, part.machine.threads = 2;
-  part.machine.load_at_start = 0.2, part.machine.load_at_end = 1.9;
+  part.machine.cl_device = "pthread-Intel Xeon";
+  part.machine.gl_device = "AMD Radeon RX 7900";
+  part.machine.cl_driver = "3.1";
+  part.machine.gl_driver = "22.3.6";
+  part.machine.cpu = "Intel Xeon <2 cores>";
+  part.machine.governor = "unknown";
+  part.machine.clock_mhz = 2100;
+  part.machine.threads = 2;
+  part.machine.load_at_start = 0.2;
+  part.machine.load_at_end = 1.9;
   part.records = std::move(records);
   return part;
 }

@@ -10,8 +10,11 @@ namespace {
 FrontierRecord of_view(const char* technique, double ratio, double error, int view, bool timed) {
   FrontierRecord r = synthetic_record(synthetic_point("hall", technique), ratio, error, view, timed ? 10 : 0);
   for (size_t run = 0; run < r.frame_ms.size(); ++run) {
-    r.device_ms.push_back(10 * ratio), r.baseline_device_ms.push_back(20);
-    r.hand_over_ms.push_back(3), r.copy_ms.push_back(0.5), r.read_back_ms.push_back(1);
+    r.device_ms.push_back(10 * ratio);
+    r.baseline_device_ms.push_back(20);
+    r.hand_over_ms.push_back(3);
+    r.copy_ms.push_back(0.5);
+    r.read_back_ms.push_back(1);
   }
   return r;
 }

@@ -85,7 +85,9 @@ TEST(Inspect, SaysWhichTestDroppedALightAndByHowMuch) {
 TEST(Inspect, SaysThatAConeDroppedASpot) {
   CapturedFrame frame = wall_at_ten_metres();
   Light spot = light_at({0, 0, 15}, 30);  // behind the camera, 25 m from the wall
-  spot.type = LightType::spot, spot.direction = {0, 0, 1}, spot.outer_cone_rad = 0.1f;
+  spot.type = LightType::spot;
+  spot.direction = {0, 0, 1};
+  spot.outer_cone_rad = 0.1f;
   frame.lights = {spot};
   spot.direction = {0, 0, -1};
   frame.lights.push_back(spot);
@@ -202,7 +204,8 @@ TEST(InspectMaps, CountListedLightsFalsePositivesAndLostOnes) {
   EXPECT_EQ(whole.false_positives[8 * 16 + 8], 0u);  // the first light reaches the four pixels in the middle
   EXPECT_EQ(whole.false_positives[0], 1u);
 
-  grid.lists.indices = {0, 1}, grid.lists.cells[0].y = 2;  // the third is lost everywhere
+  grid.lists.indices = {0, 1};
+  grid.lists.cells[0].y = 2;  // the third is lost everywhere
   const InspectionMaps holed = inspection_maps(frame, grid);
   EXPECT_EQ(holed.pairs.lost, 256u);
   EXPECT_EQ(holed.lost, std::vector<uint32_t>(256, 1));

@@ -21,7 +21,9 @@ TEST(InspectedShadows, NameWhatHidesALight) {
   SmallScene s = small_scene();
   s.scene.lights.resize(1);
   Light& light = s.scene.lights[0];
-  light.position = {0.9, -0.2, -1.8}, light.radius_m = 5, light.casts_shadow = true;
+  light.position = {0.9, -0.2, -1.8};
+  light.radius_m = 5;
+  light.casts_shadow = true;
   const View view = small_view(128, 96);
   TechniqueRun run(software_devices(), s.scene, view, {}, find_technique("visibility"));
   run.draw_frame();
@@ -64,7 +66,9 @@ TEST(InspectedShadows, AreToldOfDirectionalLights) {
   for (const int i : {0, 2}) s.scene.lights[size_t(i)].type = LightType::directional;
   s.scene.lights[0].direction = {0, 0, -1};
   Light& sun = s.scene.lights[2];
-  sun.direction = glm::normalize(glm::vec3(-1, 0, -1)), sun.casts_shadow = true, sun.name = "sun";
+  sun.direction = glm::normalize(glm::vec3(-1, 0, -1));
+  sun.casts_shadow = true;
+  sun.name = "sun";
   const View view = small_view(128, 96);
   TechniqueRun run(software_devices(), s.scene, view, {}, find_technique("visibility"));
   run.draw_frame();

@@ -187,7 +187,8 @@ TEST(Flicker, FollowsSurfaces) {
         picture.at(x, y) = glm::vec4(glm::vec3(truth.at(x, y)) + glm::vec3(error.at(x + frames - i, y)), 1);
       }
     }
-    truths.push_back(truth), pictures.push_back(picture);
+    truths.push_back(truth);
+    pictures.push_back(picture);
   }
   std::vector<CarriedPixel> carried(size_t(width * height));
   for (int y = 0; y < height; ++y) {
@@ -233,7 +234,8 @@ TEST(Flicker, IsThatOfTheScript) {
   std::vector<CarriedPixel> carried(size_t(width * height));
   nlohmann::json sequence = {{"width", width}, {"height", height}, {"newest", newest_frame_counts}};
   for (CarriedPixel& pixel : carried) {
-    pixel.x = int(random.next() % (width - 1)), pixel.y = int(random.next() % (height - 1));
+    pixel.x = int(random.next() % (width - 1));
+    pixel.y = int(random.next() % (height - 1));
     float sum = 0;
     for (float& weight : pixel.weights) sum += weight = random.uniform() < 0.6f ? random.uniform() : 0.0f;
     for (float& weight : pixel.weights) weight = sum > 0 ? weight / sum : 0;

@@ -99,7 +99,8 @@ TEST(BiasOfPictures, IsEstimatedWithoutBiasAndWithAnInterval) {
       double ignored = 0;
       for (int i = 0; i < 32; ++i) add_noisy(truth, bias, random, of_bias, moments, ignored);
       const BiasOfPictures::Estimate e = of_bias.estimate();
-      sum += e.mean_square, squares += e.mean_square * e.mean_square;
+      sum += e.mean_square;
+      squares += e.mean_square * e.mean_square;
       held += std::abs(e.mean_square - double(bias) * bias) <= 2.365 * e.standard_error;
     }
     const double mean = sum / trials, error = std::sqrt((squares / trials - mean * mean) / trials);
@@ -113,9 +114,13 @@ TEST(FrontierErrors, FlickerWhereTheDifferenceChangesFromFrameToFrame) {
   const Image dark = picture({{1, 1, 1}}), bright = picture({{3, 3, 3}}), off = picture({{1.5f, 1.5f, 1.5f}}),
               bright_off = picture({{3.5f, 3.5f, 3.5f}});
   ChangeOfError steady, flickering;
-  steady.add(off, dark), steady.add(bright_off, bright), steady.add(off, dark);
+  steady.add(off, dark);
+  steady.add(bright_off, bright);
+  steady.add(off, dark);
   EXPECT_EQ(steady.rmse(), 0);
-  flickering.add(dark, dark), flickering.add(bright_off, bright), flickering.add(dark, dark);
+  flickering.add(dark, dark);
+  flickering.add(bright_off, bright);
+  flickering.add(dark, dark);
   EXPECT_DOUBLE_EQ(flickering.rmse(), 0.5);
 }
 

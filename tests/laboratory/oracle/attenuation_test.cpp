@@ -53,7 +53,7 @@ TEST(Attenuation, SpotFallsWithTheSquareBetweenItsCones) {
 TEST(Attenuation, VirtualLightFallsWithTheCosineAndNotBelowItsNearestDistance) {
   // Cosine 0.6 from the axis at distance 5: 3/5 * 1/25. At half the nearest distance as at the whole: 1/4.
   ViewLight light{LightType::spot, {}, {0, 0, -1}, dvec3(1), infinity, 1, 0};
-  light.most_falloff = 0.25;
+  light.max_falloff = 0.25;
   EXPECT_NEAR(attenuation(light, {4, 0, -3}, true), 0.6 / 25, 1e-17);
   EXPECT_DOUBLE_EQ(attenuation(light, {0, 0, -1}, true), 0.25);
   EXPECT_DOUBLE_EQ(attenuation(light, {0, 0, -2}, true), 0.25);
@@ -78,7 +78,7 @@ TEST(Attenuation, FadesByTheWindowOfTheLight) {
 TEST(Attenuation, CountsARandomRangeByTheInverseOfItsProbability) {
   ViewLight light{.radius_m = 5};
   light.window = RangeWindow::none;
-  light.least_falloff = 0.25;
+  light.min_falloff = 0.25;
   EXPECT_DOUBLE_EQ(attenuation(light, {0, 4, 0}, true), 0.25);
   EXPECT_DOUBLE_EQ(attenuation(light, {0, 1, 0}, true), 1);  // p = 1
   EXPECT_EQ(attenuation(light, {0, 5, 0}, true), 0);

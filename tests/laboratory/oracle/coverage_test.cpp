@@ -56,7 +56,8 @@ TEST(Coverage, ATriangleThatFacesAwayCoversNothingUnlessItIsMirroredOrTwoSided) 
   EXPECT_THAT(covered_4x4(away), testing::IsEmpty());
   away.mirrored = true;
   EXPECT_EQ(covered_4x4(away).size(), 6u);
-  away.mirrored = false, away.two_sided = true;
+  away.mirrored = false;
+  away.two_sided = true;
   EXPECT_EQ(covered_4x4(away).size(), 6u);
   away.mirrored = true;
   EXPECT_EQ(covered_4x4(away).size(), 6u);

@@ -63,7 +63,8 @@ TEST_F(EffectTerms, AreAskedInTheViewsAxes) {
 
 TEST_F(EffectTerms, ADirectionalLightsPointIsItsDirection) {
   look();
-  scene.lights[0].type = LightType::directional, scene.lights[0].direction = {0, 1, 0};
+  scene.lights[0].type = LightType::directional;
+  scene.lights[0].direction = {0, 1, 0};
   EXPECT_EQ(light_reaches(lights_in_view(scene, view)[0], {-7, 0, 0}, full_mask), 1);
   scene.lights[0].direction = {0, -1, 0};
   EXPECT_EQ(light_reaches(lights_in_view(scene, view)[0], {7, 0, 0}, full_mask), 0);

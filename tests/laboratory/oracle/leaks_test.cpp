@@ -92,7 +92,8 @@ TEST(Leaks, SurfacesAreThoseThatTheViewShows) {
   c.lamp({0.1f, 0.25f, 0}, 100);  // under the shelf, which is in the way of half of the view
   EXPECT_EQ(lit(), 64u + 32u);
   glm::dmat4& mirrored = c.scene.instances[1].world_from_object;
-  mirrored[1].y = -1, mirrored[3].y = 2.5;  // at the same place, but now it faces down, and is not drawn
+  mirrored[1].y = -1;
+  mirrored[3].y = 2.5;  // at the same place, but now it faces down, and is not drawn
   EXPECT_EQ(lit(), 64u + 64u);
   c.scene.materials[0].double_sided = true;
   EXPECT_EQ(lit(), 64u + 32u);

@@ -8,7 +8,8 @@ namespace {
 
 ViewLight lamp(const glm::dvec3& position, const glm::dvec3& intensity) {
   ViewLight light;
-  light.position = position, light.radiant_intensity = intensity;
+  light.position = position;
+  light.radiant_intensity = intensity;
   return light;
 }
 

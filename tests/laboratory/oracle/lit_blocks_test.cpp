@@ -22,7 +22,8 @@ struct Wall {
 ViewLight point_light(glm::dvec3 position, double radius) {
   ViewLight light;
   light.type = LightType::point;
-  light.position = position, light.radius_m = radius;
+  light.position = position;
+  light.radius_m = radius;
   return light;
 }
 

@@ -162,17 +162,20 @@ void expect_naive_counts(const View& view, int light_count, uint32_t seed) {
 
   LitPairs naive;
   for (size_t i = 0; i < pixels; ++i) {
-    naive.listed_of_pixel.push_back(0), naive.lit_of_pixel.push_back(0);
+    naive.listed_of_pixel.push_back(0);
+    naive.lit_of_pixel.push_back(0);
     if (depth[i] == 0) continue;
     const dvec3 p = position_from_depth(view, int(i % view.width), int(i / view.width), depth[i]);
     const uint32_t cell = lists.cell_of_pixel[i];
     const auto begin = lists.indices.begin() + lists.first[cell], end = begin + lists.count[cell];
-    naive.listed_of_pixel[i] = uint32_t(end - begin), naive.listed += end - begin;
+    naive.listed_of_pixel[i] = uint32_t(end - begin);
+    naive.listed += end - begin;
     for (auto entry = begin; entry != end; ++entry) {
       naive.wrong += *entry >= lights.size() || std::find(begin, entry, *entry) != entry;
     }
     for (uint32_t light : lit_lights(lights, p)) {
-      ++naive.lit, ++naive.lit_of_pixel[i];
+      ++naive.lit;
+      ++naive.lit_of_pixel[i];
       naive.lost += std::find(begin, end, light) == end;
     }
   }

@@ -41,7 +41,8 @@ class EmbreeScene {
         vertices_.push_back(
             relative(glm::dvec3(instance.world_from_object * glm::dvec4(mesh.positions[i], 1))));
     }
-    device_ = rtcNewDevice(nullptr), scene_ = rtcNewScene(device_);
+    device_ = rtcNewDevice(nullptr);
+    scene_ = rtcNewScene(device_);
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* places = static_cast<float*>(rtcSetNewGeometryBuffer(
@@ -58,7 +59,10 @@ class EmbreeScene {
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene_);
   }
-  ~EmbreeScene() { rtcReleaseScene(scene_), rtcReleaseDevice(device_); }
+  ~EmbreeScene() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
@@ -66,7 +70,8 @@ class EmbreeScene {
     const glm::vec3 from = relative(light), step = relative(r.place.place) - from;
     RTCRay ray{from.x, from.y, from.z, 0, step.x, step.y, step.z, 0};
     ray.tfar = 1 - float(r.gap_m) / glm::length(step);
-    ray.mask = ~0u, ray.id = unsigned(first_[size_t(r.own.instance)]) + r.own.triangle;
+    ray.mask = ~0u;
+    ray.id = unsigned(first_[size_t(r.own.instance)]) + r.own.triangle;
 #if LIGHTGRID_EMBREE == 3
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -126,7 +131,8 @@ Disagreements compare_in(const Scene& scene, int pairs) {
     if (sight == Sight::hidden && !casts(scene, answer.by.instance)) continue;
     const bool hidden = embree.hidden(light, receiver);
     ++(sight == Sight::seen ? d.seen : sight == Sight::hidden ? d.hidden : d.either);
-    d.leaked += sight == Sight::hidden && !hidden, d.acned += sight == Sight::seen && hidden;
+    d.leaked += sight == Sight::hidden && !hidden;
+    d.acned += sight == Sight::seen && hidden;
   }
   return d;
 }

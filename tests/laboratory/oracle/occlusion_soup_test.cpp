@@ -63,7 +63,10 @@ std::vector<glm::vec3> random_triangles(Random& random, int count) {
       corners.insert(corners.end(),
                      {a, b, a + (b - a) * random.uniform(0, 1) + glm::vec3(point_in(random, 1e-3f))});
     } else if (kind == 2) {
-      const auto flat = [&](glm::vec3 p) { return p.y = 1.25f, p; };
+      const auto flat = [&](glm::vec3 p) {
+        p.y = 1.25f;
+        return p;
+      };
       corners.insert(corners.end(), {flat(a), flat(b), flat(a + glm::vec3(point_in(random, 3)))});
     } else {
       const glm::vec3 c = a + glm::vec3(point_in(random, 3)), d = c + b - a;
@@ -117,7 +120,8 @@ Soup soup_of(Random& random, const Scene& scene, const Occlusion& occlusion, con
     soup.triangles.push_back({points[i], points[i + 1], points[i + 2]});
   soup.light = moved(random, pair.light.position, by * 1e-7);
   soup.place = moved(random, pair.receiver.place.place, by * pair.receiver.place.error_m);
-  soup.eye = Point(pair.receiver.eye.place), soup.gap = Real(pair.receiver.gap_m);
+  soup.eye = Point(pair.receiver.eye.place);
+  soup.gap = Real(pair.receiver.gap_m);
   return soup;
 }
 
@@ -183,7 +187,9 @@ TEST(OcclusionSoup, WhatIsCertainStaysSoHoweverPositionsAreRounded) {
   Count all;
   for (unsigned seed = 1; seed <= 12; ++seed) {
     const Count c = check_soup(seed);
-    all.seen += c.seen, all.hidden += c.hidden, all.either += c.either;
+    all.seen += c.seen;
+    all.hidden += c.hidden;
+    all.either += c.either;
   }
   // A quarter of the lights shine close by an edge, another lies in a plane.
   EXPECT_GT(all.seen, 600);

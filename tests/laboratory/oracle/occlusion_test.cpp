@@ -118,7 +118,8 @@ TEST(Occlusion, DirectionalLightsComeFromFarAway) {
   const Scene scene = scene_of({ground_mesh(), roof_mesh()});
   const Occlusion occlusion(scene);
   Light sun;
-  sun.type = LightType::directional, sun.direction = {0.6f, -0.8f, 0};
+  sun.type = LightType::directional;
+  sun.direction = {0.6f, -0.8f, 0};
   EXPECT_EQ(sight_of(occlusion, sun, {1.4, 0, 0}), Sight::seen);
   EXPECT_EQ(sight_of(occlusion, sun, {3.4, 0, 0}), Sight::hidden);
   EXPECT_EQ(sight_of(occlusion, sun, {3.6, 0, 0}), Sight::seen);

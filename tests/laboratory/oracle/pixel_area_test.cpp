@@ -126,14 +126,18 @@ TEST(AreaOracle, CountsSurfacesAtSomePlaces) {
 // A sun from the eye's direction above; the caster's shadow ends within a pixel of the wall.
 TEST(AreaOracle, HasTheShareOfAPixelInShadow) {
   Placed p = with_quad({0, 0}, {16, 8});
-  p.scene.materials[0].unlit = false, p.scene.materials[0].base_color = {1, 1, 1, 1};
+  p.scene.materials[0].unlit = false;
+  p.scene.materials[0].base_color = {1, 1, 1, 1};
   p.scene.ambient = {0, 0, 0};
   // Behind the eye, in the sun's way: parallel light, so its shadow has its size.
   Placed caster = with_quad({-8, -8}, {8 + 5.375f, 40}, 1);
   add_instance(p.scene, "caster", add_mesh(p.scene, Mesh(caster.scene.meshes[0])));
   p.scene.materials[0].double_sided = true;
   Light& sun = p.scene.lights.emplace_back();
-  sun.type = LightType::directional, sun.direction = {0, 0, -1}, sun.intensity = 3, sun.casts_shadow = true;
+  sun.type = LightType::directional;
+  sun.direction = {0, 0, -1};
+  sun.intensity = 3;
+  sun.casts_shadow = true;
   const Occlusion occlusion(p.scene);
   const std::vector<PixelArea> areas = areas_of(p, &occlusion), lit = areas_of(p);
   for (int y = 0; y < 8; ++y) {

@@ -71,7 +71,9 @@ TEST(Position, RoundTripsThroughEveryKindOfProjection) {
 
 TEST(Position, RoundTripsThroughAnObliqueNearPlane) {
   View view = perspective_view(17, 9, 1, 0.5, 0.1, infinity);
-  view.clip_from_view[0][2] = 0.3, view.clip_from_view[1][2] = -0.2, view.clip_from_view[2][2] = 0.05;
+  view.clip_from_view[0][2] = 0.3;
+  view.clip_from_view[1][2] = -0.2;
+  view.clip_from_view[2][2] = 0.05;
   expect_round_trip(view, 3);
 }
 

@@ -74,7 +74,8 @@ TEST(RayCaster, RaysMeetPlanesAndTrianglesWhereTheyShould) {
   std::swap(triangle.corners[1], triangle.corners[2]);
   EXPECT_FALSE(hit_of(triangle, ray, 5)) << "from behind";
   std::swap(triangle.corners[1], triangle.corners[2]);
-  triangle.corners[1] = {0.5, 1, -2}, triangle.corners[2] = {0, 2, -2};
+  triangle.corners[1] = {0.5, 1, -2};
+  triangle.corners[2] = {0, 2, -2};
   EXPECT_FALSE(hit_of(triangle, ray, 5)) << "beside it";
 }
 

@@ -96,8 +96,11 @@ TEST(SceneSurfaces, NormalMapsTiltByTheirScaleAndBackSidesFaceTheEye) {
   Ground ground;
   ground.scene.bitmaps[0] = {"tilted", 1, 1, {204, 128, 255, 255}};
   Material& m = ground.scene.materials[0];
-  m.normal_map.texture = 0, m.normal_scale = 2, m.double_sided = true;
-  m.metallic = 0.25f, m.roughness = 0.5f;
+  m.normal_map.texture = 0;
+  m.normal_scale = 2;
+  m.double_sided = true;
+  m.metallic = 0.25f;
+  m.roughness = 0.5f;
   SceneSurfaces surfaces(ground.scene, ground.view);
   const dvec3 expected = glm::normalize(dvec3(1.2, 1, -2 * (128 / 127.5 - 1)));
   const Surface s = surfaces.surface_at(surfaces.triangle(0, {0, 1, 2}), {20.5, 5.5});

@@ -87,7 +87,8 @@ TEST(SeenPairs, HoldsTheRoofsShadow) {
 TEST(SeenPairs, OfAnyLightAreThoseOfEachPairAlone) {
   RoofFromAbove roof;
   Light sun = light_at({0, 0, 0});
-  sun.type = LightType::directional, sun.direction = {0, -1, 0};
+  sun.type = LightType::directional;
+  sun.direction = {0, -1, 0};
   roof.scene.lights.push_back(sun);
   roof.lights.in_view = lights_in_view(roof.scene, roof.view);
   roof.lights.casting = {&roof.scene.lights[0], nullptr, &roof.scene.lights[2], &roof.scene.lights[3]};
@@ -116,7 +117,8 @@ TEST(SeenPairs, OfAnyLightAreThoseOfEachPairAlone) {
 TEST(SeenPairs, KnowWhatBlendedTrianglesHideTogether) {
   RoofFromAbove roof;
   Material glass;
-  glass.alpha_mode = AlphaMode::blend, glass.base_color.a = 0.4f;
+  glass.alpha_mode = AlphaMode::blend;
+  glass.base_color.a = 0.4f;
   roof.scene.materials.push_back(glass);
   roof.scene.meshes[1].material = 1;
   const auto hidden_columns = [&](BlendedCasters by_blended) {
@@ -168,7 +170,10 @@ TEST(SeenPairs, WhatWasStoppedIsUndecided) {
   const RoofFromAbove roof;
   int asked = 0;
   const SeenPairs none(Occlusion(roof.scene), {roof.view, roof.depth, roof.triangles}, roof.lights,
-                       covered_pixels(roof.depth), true, [&] { return ++asked, true; });
+                       covered_pixels(roof.depth), true, [&] {
+                         ++asked;
+                         return true;
+                       });
   EXPECT_EQ(asked, 4) << "all tiles are in one region, which one thread takes";
   EXPECT_FALSE(none.decided(42));
   EXPECT_EQ(none.pairs(), 0u);

@@ -11,7 +11,10 @@ inline Mesh mesh_of(const std::vector<glm::vec3>& corners, int material = 0) {
   Mesh mesh;
   mesh.positions = corners;
   mesh.normals.assign(corners.size(), {0, 1, 0});
-  for (uint32_t i = 0; i < corners.size(); ++i) mesh.bounds.add(corners[i]), mesh.indices.push_back(i);
+  for (uint32_t i = 0; i < corners.size(); ++i) {
+    mesh.bounds.add(corners[i]);
+    mesh.indices.push_back(i);
+  }
   mesh.material = material;
   return mesh;
 }

@@ -22,7 +22,7 @@ inline glm::dvec3 random_direction(std::mt19937& random) {
 
 // The largest error of a channel over 1 + the value, over random points, materials and lights in front of
 // them.
-static double largest_error(Brdf lobe, double least_roughness) {
+static double largest_error(Brdf lobe, double min_roughness) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform;
   double largest = 0;
@@ -30,12 +30,12 @@ static double largest_error(Brdf lobe, double least_roughness) {
     Surface surface{.normal = random_direction(random),
                     .base_color = {uniform(random), uniform(random), uniform(random)},
                     .metallic = uniform(random),
-                    .roughness = std::max(uniform(random), least_roughness)};
+                    .roughness = std::max(uniform(random), min_roughness)};
     const glm::dvec3 position{uniform(random), uniform(random), -2 - uniform(random)};
     if (glm::dot(surface.normal, -position) < 0) surface.normal = -surface.normal;
 #ifdef CLEARCOAT
-    surface.coat = i % 8 == 0 ? 0 : uniform(random),
-    surface.coat_roughness = std::max(uniform(random), least_roughness);
+    surface.coat = i % 8 == 0 ? 0 : uniform(random);
+    surface.coat_roughness = std::max(uniform(random), min_roughness);
     surface.coat_normal = random_direction(random);
     if (glm::dot(surface.coat_normal, -position) < 0) surface.coat_normal = -surface.coat_normal;
 #endif

@@ -11,8 +11,10 @@ inline View perspective_view(int width, int height, double half_x, double half_y
                              double shift_x = 0, double shift_y = 0) {
   View view{.width = width, .height = height, .near_m = near_m, .far_m = far_m};
   glm::dmat4& clip = view.clip_from_view = glm::dmat4(0);
-  clip[0][0] = 1 / half_x, clip[1][1] = 1 / half_y;
-  clip[2][0] = shift_x / half_x, clip[2][1] = shift_y / half_y;
+  clip[0][0] = 1 / half_x;
+  clip[1][1] = 1 / half_y;
+  clip[2][0] = shift_x / half_x;
+  clip[2][1] = shift_y / half_y;
   const bool infinite = far_m == std::numeric_limits<double>::infinity();
   clip[2][2] = infinite ? 0 : near_m / (far_m - near_m);
   clip[3][2] = infinite ? near_m : far_m * near_m / (far_m - near_m);
@@ -24,9 +26,12 @@ inline View orthographic_view(int width, int height, double half_x, double half_
                               double far_m, double centre_x = 0, double centre_y = 0) {
   View view{.width = width, .height = height, .near_m = near_m, .far_m = far_m, .orthographic = true};
   glm::dmat4& clip = view.clip_from_view = glm::dmat4(1);
-  clip[0][0] = 1 / half_x, clip[1][1] = 1 / half_y;
-  clip[3][0] = -centre_x / half_x, clip[3][1] = -centre_y / half_y;
-  clip[2][2] = 1 / (far_m - near_m), clip[3][2] = far_m / (far_m - near_m);
+  clip[0][0] = 1 / half_x;
+  clip[1][1] = 1 / half_y;
+  clip[3][0] = -centre_x / half_x;
+  clip[3][1] = -centre_y / half_y;
+  clip[2][2] = 1 / (far_m - near_m);
+  clip[3][2] = far_m / (far_m - near_m);
   return view;
 }
 

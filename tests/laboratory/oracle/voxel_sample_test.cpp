@@ -10,7 +10,9 @@ namespace {
 // reach grows by 1.
 TEST(VoxelSample, OfOneLightByHand) {
   ViewLight lamp;
-  lamp.position = {2, 0, 0}, lamp.radiant_intensity = glm::dvec3(10), lamp.radius_m = 8;
+  lamp.position = {2, 0, 0};
+  lamp.radiant_intensity = glm::dvec3(10);
+  lamp.radius_m = 8;
   const VoxelSample s = voxel_sample({0, 0, 0}, {1, 0.25}, {&lamp, 1});
   const double expected = 2.5 * (1 - 16.0 / 4225) * 8 / std::sqrt(65.0);
   EXPECT_NEAR(s.irradiance.r, expected, 1e-15);

@@ -132,7 +132,8 @@ TEST(ChartsOverSettings, HaveALineAPackingAndFlatOnesForTheRest) {
   report.scene = "terrain";
   const auto add = [&](const char* technique, std::map<std::string, std::string> settings, double ms) {
     RunResult& row = report.rows.emplace_back();
-    row.technique = technique, row.settings = std::move(settings);
+    row.technique = technique;
+    row.settings = std::move(settings);
     row.frame_ms = {0.99 * ms, ms, ms, ms, 3};
   };
   add("forward_plus", {{"tile", "16"}}, 50);

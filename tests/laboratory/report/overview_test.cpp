@@ -17,7 +17,8 @@ struct Row {
 ReportView view(const char* scene, std::vector<Row> rows, int lights = 255) {
   ReportView v;
   v.report.scene = scene;
-  v.report.width = 4, v.report.height = 3;
+  v.report.width = 4;
+  v.report.height = 3;
   for (const Row& r : rows) {
     RunResult& row = v.report.rows.emplace_back();
     row.technique = r.technique;

@@ -104,7 +104,10 @@ TEST_F(ReportPage, ColorsPassesByWhatTheyDo) {
   const auto seen = seen_in_browser(folder.path, controls, "1280,900");
   ASSERT_TRUE(seen.is_object());
   std::set<std::string> names, colors;
-  for (const json& entry : seen["legend"]) names.insert(entry[0]), colors.insert(entry[1]);
+  for (const json& entry : seen["legend"]) {
+    names.insert(entry[0]);
+    colors.insert(entry[1]);
+  }
   EXPECT_THAT(names, testing::ElementsAre("depth bounds", "geometry buffer", "light and materials",
                                           "lists of lights", "the rest of the frame", "triangles and depth"));
   EXPECT_EQ(colors.size(), names.size());
@@ -209,8 +212,10 @@ TEST_F(ReportPage, OfSeveralViewsShowsAllAndOneOfThem) {
 
 TEST_F(ReportPage, DrawsACurveOverASettingThatOneViewSweeps) {
   CompareReport swept = synthetic_report(34, 18);
-  for (size_t i : {1, 5})
-    swept.rows[i].settings["cull-test"] = "aabb", swept.rows[i].settings["tile"] = i == 1 ? "16" : "32";
+  for (size_t i : {1, 5}) {
+    swept.rows[i].settings["cull-test"] = "aabb";
+    swept.rows[i].settings["tile"] = i == 1 ? "16" : "32";
+  }
   write_report(folder.path, swept);
   const auto seen = seen_in_browser(folder.path, controls, "1280,900");
   ASSERT_TRUE(seen.is_object());

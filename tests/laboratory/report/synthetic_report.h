@@ -129,7 +129,8 @@ inline CompareReport synthetic_report(int width, int height, int light_count = 6
   report.rows.back().skipped.pop_back();
   report.rows.emplace_back().technique = "light_prepass";
   report.rows.back().refused = "blending rounds <0.5 of a step> here";
-  report.images.emplace_back(), report.listed.emplace_back();
+  report.images.emplace_back();
+  report.listed.emplace_back();
   report.lit = lit;
   report.reference_surfaces = report.rows[0].error->surfaces;
   report.reference_errors =

@@ -75,7 +75,10 @@ TEST(TellingFigures, SayHowFarLightWithinRoundingIs) {
 
 TEST(TellingFigures, WithoutImagesOrOracleSayWhatIsLeft) {
   auto report = two_rows();
-  for (auto& row : report.rows) row.pairs.reset(), row.error.reset();
+  for (auto& row : report.rows) {
+    row.pairs.reset();
+    row.error.reset();
+  }
   EXPECT_THAT(telling_figures(report), ElementsAre(HasSubstr("11.3 times faster"),
                                                    "most of forward's frame is shade_forward (2,365 ms)"));
   report.listed = {{}, std::vector<uint32_t>(100, 3)};
@@ -206,8 +209,10 @@ TEST(Verdict, LeavesOutWhatWasRefused) {
 TEST(Verdict, NamesTheLargestMeasuredFactorFirstAndCreditsNoListsThatDoNotHelp) {
   CompareReport report = with_own_surfaces();
   report.gl_device = "llvmpipe (LLVM 15.0.6, 256 bits)";
-  report.rows[0].pairs->listed = 30'000, report.rows[0].frame_ms.median = 920;
-  report.rows[1].pairs->listed = 25'300, report.rows[1].frame_ms.median = 1000;
+  report.rows[0].pairs->listed = 30'000;
+  report.rows[0].frame_ms.median = 920;
+  report.rows[1].pairs->listed = 25'300;
+  report.rows[1].frame_ms.median = 1000;
   report.rows[2].pairs->listed = 25'300;
   EXPECT_EQ(
       verdict(report),

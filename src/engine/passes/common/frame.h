@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "gl/bindings.h"
+#include "renderer/pass_context.h"
 #include "renderer/shared_grids.h"
-#include "renderer/work.h"
 #include "scene/host_shadows.h"
 #include "scene/listed_lights.h"
 
@@ -72,8 +72,14 @@ struct ShadowFigures {
 
   // Adds the figures of other lights of the same frame.
   ShadowFigures& operator+=(const ShadowFigures& more) {
-    lights += more.lights, rays += more.rays, maps += more.maps, drawn += more.drawn, kept += more.kept;
-    bytes += more.bytes, undecided += more.undecided, halvings += more.halvings;
+    lights += more.lights;
+    rays += more.rays;
+    maps += more.maps;
+    drawn += more.drawn;
+    kept += more.kept;
+    bytes += more.bytes;
+    undecided += more.undecided;
+    halvings += more.halvings;
     return *this;
   }
 };

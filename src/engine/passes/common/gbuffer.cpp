@@ -23,7 +23,7 @@ std::vector<const char*> model_defines(const FramePlan& plan) {
 
 namespace {
 
-void require_numbers(const Seen& seen) {
+void require_numbers(const ViewState& seen) {
   if (!seen.plan.surfaces.skin && !seen.plan.surfaces.minnaert) return;
   const size_t models = material_models(seen.scene).size() - 1;
   if (models <= MOST_MODELS) return;
@@ -42,7 +42,7 @@ std::vector<size_t> images_of(const FramePlan& plan) {
 
 }  // namespace
 
-GBufferInCl gbuffer_in_cl_of(Work& work, BaseLighting base_lighting, TargetUse use) {
+GBufferInCl gbuffer_in_cl_of(PassContext& work, BaseLighting base_lighting, TargetUse use) {
   require_numbers(work);
   constexpr const char* names[gbuffer_most_images] = {"gbuffer 0", "gbuffer 1", "gbuffer 2", "gbuffer 3"};
   GBufferInCl g{.base_lighting = base_lighting,
@@ -51,11 +51,12 @@ GBufferInCl gbuffer_in_cl_of(Work& work, BaseLighting base_lighting, TargetUse u
   for (const size_t i : g.images)
     g.surfaces[i] = &work.shared_samples(names[i], g.layout->images[i].bytes, use);
   g.image = &work.shared_pixels("image", 16);
-  g.surface_numbers = surface_numbers_in_cl(work, use), g.number_bytes = surface_number_bytes(work.plan);
+  g.surface_numbers = surface_numbers_in_cl(work, use);
+  g.number_bytes = surface_number_bytes(work.plan);
   return g;
 }
 
-GBuffer gbuffer_of(Work& work, BaseLighting base_lighting) {
+GBuffer gbuffer_of(PassContext& work, BaseLighting base_lighting) {
   require_numbers(work);
   GBuffer g;
   g.models = model_defines(work.plan);
@@ -73,7 +74,8 @@ GBuffer gbuffer_of(Work& work, BaseLighting base_lighting) {
   if (base_lighting == BaseLighting::in_image) drawn.push_back(image);
   for (const size_t i : g.images)
     if (i >= gbuffer_coat) drawn.push_back(g.textures[i]);
-  g.surface_numbers = surface_number_image(work), g.number_bytes = surface_number_bytes(work.plan);
+  g.surface_numbers = surface_number_image(work);
+  g.number_bytes = surface_number_bytes(work.plan);
   if (g.surface_numbers) drawn.push_back(g.surface_numbers);
   g.framebuffer = work.targets.framebuffer(drawn, g.depth);
   g.depth_image = {work.depth_framebuffer()};

@@ -102,7 +102,7 @@ std::vector<const char*> model_defines(const FramePlan& plan);
 
 // The view's buffers, written or not. Both throw Error(input) where the scene has more models than a channel
 // of 8 bits can number. use: gbuffer where they are no copies.
-GBufferInCl gbuffer_in_cl_of(Work& work, BaseLighting base_lighting, TargetUse use);
+GBufferInCl gbuffer_in_cl_of(PassContext& work, BaseLighting base_lighting, TargetUse use);
 
 struct GBuffer {
   BaseLighting base_lighting = BaseLighting::in_image;
@@ -132,7 +132,7 @@ struct GBuffer {
 };
 
 // The view's geometry buffer in the layout of buffer-bits, drawn or not.
-GBuffer gbuffer_of(Work& work, BaseLighting base_lighting = BaseLighting::in_image);
+GBuffer gbuffer_of(PassContext& work, BaseLighting base_lighting = BaseLighting::in_image);
 
 // The defines of shaders that read the geometry buffer (shaders/common/read_gbuffer.glsl), whose textures
 // bind_gbuffer binds.

@@ -58,11 +58,11 @@ double reference_light(const Scene& scene, const FramePlan& plan) {
   return std::clamp(rounded, 0x1p-60, 0x1p60);
 }
 
-double stored_scale(const Seen& seen) {
+double stored_scale(const ViewState& seen) {
   return seen.plan.settings[setting::buffer_bits] == 32 ? 1 : reference_light(seen.scene, seen.plan);
 }
 
-std::vector<std::string> light_buffer_defines(const Seen& seen) {
+std::vector<std::string> light_buffer_defines(const ViewState& seen) {
   const Settings& s = seen.plan.settings;
   std::vector<std::string> defines = {
       fmt::format("LIGHT_EXPONENT {:.1f}", double(s[setting::prepass_shininess])),
@@ -71,7 +71,7 @@ std::vector<std::string> light_buffer_defines(const Seen& seen) {
   return defines;
 }
 
-NormalImage normal_image_of(Work& work) {
+NormalImage normal_image_of(PassContext& work) {
   NormalImage n;
   n.layout = &normal_layout(work.plan.settings);
   n.texture = work.targets.texture(n.layout->image.name, n.layout->image.format, TargetUse::gbuffer);
@@ -83,13 +83,13 @@ NormalImage normal_image_of(Work& work) {
   return n;
 }
 
-NormalsInCl normals_in_cl_of(Work& work, TargetUse use) {
+NormalsInCl normals_in_cl_of(PassContext& work, TargetUse use) {
   const NormalLayout& layout = normal_layout(work.plan.settings);
   return {&layout, &work.shared_samples("normals", layout.image.bytes, use),
           surface_numbers_in_cl(work, use)};
 }
 
-LightBuffer light_buffer_of(Work& work, bool from_cl) {
+LightBuffer light_buffer_of(PassContext& work, bool from_cl) {
   LightBuffer b;
   b.layout = &light_buffer_layout(work.plan.settings);
   b.in_a_row = from_cl && work.grid().samples > 1;
@@ -102,7 +102,7 @@ LightBuffer light_buffer_of(Work& work, bool from_cl) {
   return b;
 }
 
-LightSource from_light_buffer(const Seen& seen, const LightBuffer& buffer) {
+LightSource from_light_buffer(const ViewState& seen, const LightBuffer& buffer) {
   const auto in_gl = [&seen, buffer] {
     GlLightLoop loop = base_lighting(seen);
     loop.defines.emplace_back("LIGHTS");

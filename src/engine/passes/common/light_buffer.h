@@ -65,10 +65,10 @@ size_t bytes_of_light_buffer(const Settings& settings);  // a sample
 double reference_light(const Scene& scene, const FramePlan& plan);
 
 // Sums are stored divided by this: 1 in 32 bits, in 8 and 16 the reference light.
-double stored_scale(const Seen& seen);
+double stored_scale(const ViewState& seen);
 
 // Defines of shaders that write the light buffer and of those that read it.
-std::vector<std::string> light_buffer_defines(const Seen& seen);
+std::vector<std::string> light_buffer_defines(const ViewState& seen);
 
 // In OpenGL.
 struct NormalImage {
@@ -87,9 +87,9 @@ struct LightBuffer {
 };
 
 // The view's images, drawn or not.
-NormalImage normal_image_of(Work& work);
+NormalImage normal_image_of(PassContext& work);
 // from_cl: OpenCL writes the buffer, whose copies are images of one sample.
-LightBuffer light_buffer_of(Work& work, bool from_cl = false);
+LightBuffer light_buffer_of(PassContext& work, bool from_cl = false);
 
 // Normals as plain bytes in OpenCL's memory, row 0 at the bottom.
 struct NormalsInCl {
@@ -100,7 +100,7 @@ struct NormalsInCl {
 };
 
 // The view's buffer, written or not. use: gbuffer where it is no copy.
-NormalsInCl normals_in_cl_of(Work& work, TargetUse use);
+NormalsInCl normals_in_cl_of(PassContext& work, TargetUse use);
 
 // The sums in OpenCL's memory. second: null without a fifth term.
 struct LightBufferInCl {
@@ -110,6 +110,6 @@ struct LightBufferInCl {
 };
 
 // The light of the sums.
-LightSource from_light_buffer(const Seen& seen, const LightBuffer& buffer);
+LightSource from_light_buffer(const ViewState& seen, const LightBuffer& buffer);
 
 }  // namespace lightgrid

@@ -9,13 +9,13 @@ namespace lightgrid {
 // over masks and z-bins take two a light and one a word, those of voxel-lights-exact two a light.
 static constexpr size_t longest_plain_loop = 16384;
 
-void GlLightLoop::bind(Work& work) const {
+void GlLightLoop::bind(PassContext& work) const {
   work.bind_lights();
   for (const Binding& binding : textures) bind_texture(binding.sampler, binding.texture, binding.element);
   for (const Block& block : blocks) bind_block(block.block, block.buffer);
 }
 
-GlLightLoop base_lighting(const Seen& seen) {
+GlLightLoop base_lighting(const ViewState& seen) {
   GlLightLoop loop;
   if (seen.plan.settings[setting::brdf] == Brdf::blinn) loop.defines.emplace_back("BLINN");
   if (seen.plan.settings[setting::brdf] == Brdf::lambert) loop.defines.emplace_back("LAMBERT");
@@ -27,7 +27,7 @@ GlLightLoop base_lighting(const Seen& seen) {
   return loop;
 }
 
-GlLightLoop light_loop(const Seen& seen) {
+GlLightLoop light_loop(const ViewState& seen) {
   GlLightLoop loop = base_lighting(seen);
   if (seen.plan.lights.any_local) loop.defines.emplace_back("LIGHTS");
   for (const char* define : light_table_defines(seen.plan)) loop.defines.emplace_back(define);
@@ -35,7 +35,7 @@ GlLightLoop light_loop(const Seen& seen) {
   return loop;
 }
 
-LightSource every_light(const Seen& seen) {
+LightSource every_light(const ViewState& seen) {
   return LightSource([&seen] { return light_loop(seen); }, ClLightLoop{});
 }
 

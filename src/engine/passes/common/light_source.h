@@ -24,7 +24,7 @@ struct GlLightLoop {
   };
   std::vector<Block> blocks;  // uniform blocks besides the view's
 
-  void bind(Work& work) const;  // binds these textures, the lights and the view
+  void bind(PassContext& work) const;  // binds these textures, the lights and the view
 };
 
 // The loop of kernels/resolve/resolve_light.h.
@@ -58,11 +58,11 @@ class LightSource {
 };
 
 // Every light of the scene at every pixel.
-LightSource every_light(const Seen& seen);
+LightSource every_light(const ViewState& seen);
 
 // The beginning of every loop over point and spot lights; a source adds its own loop and input.
-GlLightLoop light_loop(const Seen& seen);
+GlLightLoop light_loop(const ViewState& seen);
 // A loop without point and spot lights: ambient, emissive and directional light alone.
-GlLightLoop base_lighting(const Seen& seen);
+GlLightLoop base_lighting(const ViewState& seen);
 
 }  // namespace lightgrid

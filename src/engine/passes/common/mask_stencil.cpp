@@ -4,7 +4,7 @@
 
 namespace lightgrid {
 
-void draw_masked(Work& work, const DrawList& list, GLuint framebuffer, ScenePrograms& programs) {
+void draw_masked(PassContext& work, const DrawList& list, GLuint framebuffer, ScenePrograms& programs) {
   if (work.plan.masks.stencil_bits == 0) return draw_list(work, list, DrawStreams::all, programs);
   const StencilMasks masks = stencil_masks(work);
   const GLint nothing = 0;

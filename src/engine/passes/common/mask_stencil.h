@@ -7,6 +7,6 @@ namespace lightgrid {
 
 // Draws a list. With MaskPlan::stencil_bits each pixel's stencil has the mask of the surface that is
 // left there, in its low bits; pixels without a surface have none. framebuffer: the bound one.
-void draw_masked(Work& work, const DrawList& list, GLuint framebuffer, ScenePrograms& programs);
+void draw_masked(PassContext& work, const DrawList& list, GLuint framebuffer, ScenePrograms& programs);
 
 }  // namespace lightgrid

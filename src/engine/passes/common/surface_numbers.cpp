@@ -28,7 +28,7 @@ std::string words_of_masks(const FramePlan& plan) {
   return effect == plan.effects.end() ? "masks" : words_of(**effect);
 }
 
-void require_numbers_of(const Seen& seen) {
+void require_numbers_of(const ViewState& seen) {
   const int bits = seen.plan.settings[setting::number_bits];
   if (seen.plan.masks.values.size() <= size_t(1) << bits) return;
   const std::string key = setting::number_bits_key;
@@ -40,7 +40,7 @@ void require_numbers_of(const Seen& seen) {
 
 }  // namespace
 
-GLuint surface_number_image(Work& work) {
+GLuint surface_number_image(PassContext& work) {
   if (!has_surface_numbers(work.plan)) return 0;
   require_numbers_of(work);
   const SurfaceNumberFormat& format = surface_number_format(work.plan.settings);
@@ -52,13 +52,13 @@ GLuint surface_number_image(Work& work) {
   return texture;
 }
 
-SharedBuffer* surface_numbers_in_cl(Work& work, TargetUse use) {
+SharedBuffer* surface_numbers_in_cl(PassContext& work, TargetUse use) {
   if (!has_surface_numbers(work.plan)) return nullptr;
   require_numbers_of(work);
   return &work.shared_samples("surface numbers", surface_number_format(work.plan.settings).bytes, use);
 }
 
-SharedBuffer& surface_numbers_to_cl(Work& work, GLuint framebuffer, int attachment, GLuint texture) {
+SharedBuffer& surface_numbers_to_cl(PassContext& work, GLuint framebuffer, int attachment, GLuint texture) {
   const size_t bytes = work.grid().values() * surface_number_bytes(work.plan);
   auto pass = work.timer.pass("group_numbers_to_cl", "gl");
   SharedBuffer& copy = *surface_numbers_in_cl(work, TargetUse::image);
@@ -97,7 +97,7 @@ bool some(const std::vector<bool>& of) { return std::ranges::find(of, true) != o
 
 }  // namespace
 
-StencilMasks stencil_masks(const Seen& seen) {
+StencilMasks stencil_masks(const ViewState& seen) {
   const FramePlan& plan = seen.plan;
   std::vector<Members> bits;
   for (int bit = 0; bit < 32; ++bit) {
@@ -122,9 +122,9 @@ StencilMasks stencil_masks(const Seen& seen) {
     throw input_error("scene \"{}\": its {} need {} bits of a stencil, and {}={} has {}: use {}={}",
                       seen.scene.name, words_of_masks(plan), out.bits, key,
                       plan.settings[setting::stencil_masks], plan.masks.stencil_bits, key,
-                      out.bits > most_stencil_masks(plan.settings[setting::volume_culling]) ? "off"
-                      : out.bits <= 6                                                       ? "6"
-                                                                                            : "8");
+                      out.bits > max_stencil_masks(plan.settings[setting::volume_culling]) ? "off"
+                      : out.bits <= 6                                                      ? "6"
+                                                                                           : "8");
   for (size_t b = 0; b < bits.size(); ++b) {
     for (size_t i = 0; i < out.of_light.size(); ++i) out.of_light[i] |= uint8_t(bits[b].lights[i] << b);
     for (size_t i = 0; i < out.of_surface.size(); ++i) out.of_surface[i] |= uint8_t(bits[b].surfaces[i] << b);

@@ -30,11 +30,11 @@ size_t surface_number_bytes(const FramePlan& plan);
 
 // The view's image, drawn or not; 0: there is none. Throws Error(input) where the scene has more masks than
 // numbers of these bits.
-GLuint surface_number_image(Work& work);
+GLuint surface_number_image(PassContext& work);
 // The same as bytes in OpenCL's memory, row 0 at the bottom; null: there is none.
-SharedBuffer* surface_numbers_in_cl(Work& work, TargetUse use);
+SharedBuffer* surface_numbers_in_cl(PassContext& work, TargetUse use);
 // Copies the image, which is this attachment of a framebuffer, into that memory.
-SharedBuffer& surface_numbers_to_cl(Work& work, GLuint framebuffer, int attachment, GLuint texture);
+SharedBuffer& surface_numbers_to_cl(PassContext& work, GLuint framebuffer, int attachment, GLuint texture);
 
 // SURFACE_NUMBER_ARGUMENTS of kernels/resolve/surface_numbers.h, and the define of its numbers.
 ClArguments surface_number_arguments(const FramePlan& plan, SharedBuffer* numbers);
@@ -47,6 +47,6 @@ struct StencilMasks {
   int bits = 0;                     // that are needed
 };
 // Throws Error(input) where they need more bits than the plan has.
-StencilMasks stencil_masks(const Seen& seen);
+StencilMasks stencil_masks(const ViewState& seen);
 
 }  // namespace lightgrid

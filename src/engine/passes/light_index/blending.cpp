@@ -139,7 +139,7 @@ GlTexture index_image() {
   return image;
 }
 
-std::vector<uint16_t> blend_in_opengl(Work& work, const LightIndexLayout& layout,
+std::vector<uint16_t> blend_in_opengl(PassContext& work, const LightIndexLayout& layout,
                                       const std::vector<std::vector<uint32_t>>& rounds) {
   std::vector<GlTexture> images;
   std::vector<GLuint> names;
@@ -153,7 +153,9 @@ std::vector<uint16_t> blend_in_opengl(Work& work, const LightIndexLayout& layout
   const float none[4] = {};
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   glViewport(0, 0, probe_size, probe_size);
-  glDisable(GL_DEPTH_TEST), glDisable(GL_STENCIL_TEST), glDisable(GL_CULL_FACE);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_STENCIL_TEST);
+  glDisable(GL_CULL_FACE);
   for (uint32_t i = 0; i < layout.targets(); ++i)
     glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, GLint(i), none);
   begin_light_indices(layout);
@@ -193,7 +195,7 @@ std::string why_blending_fails(const LightIndexLayout& layout, const LightIndexB
   return failed ? fmt::format("{}, and so {} of {} states", first, failed, pixels) : "";
 }
 
-void require_exact_blending(Work& work, const LightIndexLayout& layout) {
+void require_exact_blending(PassContext& work, const LightIndexLayout& layout) {
   static std::map<std::string, std::string> tried;
   const GlContext& gl = *work.renderer.gl;
   const auto [found, added] = tried.try_emplace(gl.renderer + gl.version + layout.name());

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "passes/light_index/layout.h"
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 
 namespace lightgrid {
 
@@ -35,6 +35,6 @@ using LightIndexBlender = std::function<std::vector<uint16_t>(
 std::string why_blending_fails(const LightIndexLayout& layout, const LightIndexBlender& blend);
 
 // Tests this machine's blending, each layout once a process. Throws Error(machine) if it fails.
-void require_exact_blending(Work& work, const LightIndexLayout& layout);
+void require_exact_blending(PassContext& work, const LightIndexLayout& layout);
 
 }  // namespace lightgrid

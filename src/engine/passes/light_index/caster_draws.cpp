@@ -7,14 +7,17 @@
 
 namespace lightgrid {
 
-CasterDraws::CasterDraws(Work&) : array_(make_vertex_array()) {}
+CasterDraws::CasterDraws(PassContext&) : array_(make_vertex_array()) {}
 
-void CasterDraws::make_volumes(Work& work, const RayScene& rays) {
+void CasterDraws::make_volumes(PassContext& work, const RayScene& rays) {
   const LightRanges ranges = ranges_of(work.plan.settings);
   const int shape = work.gpu.shape_version(), instances = work.gpu.instances_version(),
             lights = work.gpu.lights_version();
   if (shape == shape_ && instances == instances_ && lights == lights_ && ranges_ == ranges) return;
-  shape_ = shape, instances_ = instances, lights_ = lights, ranges_ = ranges;
+  shape_ = shape;
+  instances_ = instances;
+  lights_ = lights;
+  ranges_ = ranges;
   std::vector<CastingLight> casting;
   for (const int i : work.plan.lights.local) {
     const Light& light = work.scene.lights[size_t(i)];
@@ -28,7 +31,7 @@ void CasterDraws::make_volumes(Work& work, const RayScene& rays) {
   glVertexArrayElementBuffer(array_.name(), indices_.name());
 }
 
-void CasterDraws::begin_frame(Work& work, const RayScene& rays) {
+void CasterDraws::begin_frame(PassContext& work, const RayScene& rays) {
   auto pass = work.timer.pass("shadow_volumes", "gl");
   make_volumes(work, rays);
   const glm::dvec3 origin = rays.origin() - work.view.eye;
@@ -47,17 +50,24 @@ void CasterDraws::begin_frame(Work& work, const RayScene& rays) {
   pass.moves(work.grid().values() * 4, work.grid().values() * 4);
 }
 
-void CasterDraws::draw(Work& work, std::span<const LightVolume> lights) const {
+void CasterDraws::draw(PassContext& work, std::span<const LightVolume> lights) const {
   const GlProgram& program = work.program("shaders/shadow_volume.vert", "shaders/depth.frag", {});
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glViewport(0, 0, work.grid().width, work.grid().height);
   glBindVertexArray(array_.name());
   glUseProgram(program.name());
   glUniformMatrix4fv(program.uniform("clip_from_rays"), 1, GL_FALSE, glm::value_ptr(clip_from_rays_));
-  glEnable(GL_DEPTH_CLAMP), glEnable(GL_CLIP_DISTANCE0), glEnable(GL_DEPTH_TEST), glDepthMask(GL_FALSE);
-  glEnable(GL_STENCIL_TEST), glEnable(GL_SCISSOR_TEST), glDisable(GL_CULL_FACE), glFrontFace(GL_CCW);
+  glEnable(GL_DEPTH_CLAMP);
+  glEnable(GL_CLIP_DISTANCE0);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_STENCIL_TEST);
+  glEnable(GL_SCISSOR_TEST);
+  glDisable(GL_CULL_FACE);
+  glFrontFace(GL_CCW);
   glDepthFunc(GL_GREATER);  // fails behind the surface: depth is reversed
-  glStencilMask(255), glStencilFunc(GL_ALWAYS, 0, 255);
+  glStencilMask(255);
+  glStencilFunc(GL_ALWAYS, 0, 255);
   glStencilOpSeparate(GL_BACK, GL_KEEP, GL_INCR_WRAP, GL_KEEP);
   glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_KEEP);
   const GLint light = program.uniform("light"), none = 0;

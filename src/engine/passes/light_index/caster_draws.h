@@ -14,22 +14,22 @@ inline bool has_own_shadow(const FramePlan& plan, size_t light) {
 
 class CasterDraws {
  public:
-  explicit CasterDraws(Work& work);
+  explicit CasterDraws(PassContext& work);
   size_t memory_bytes() const { return index_bytes_; }
 
   // Once a frame: makes volumes again if a light, an instance or a mesh moved, and copies the depth image.
-  void begin_frame(Work& work, const RayScene& rays);
+  void begin_frame(PassContext& work, const RayScene& rays);
 
   // A stencil value for each pixel in the rectangles of these light volumes, which share no pixel: not 0
   // where a triangle is between light and surface. Counts faces behind the surface ("Carmack's reverse":
   // Everitt, Kilgard, "Practical and Robust Stenciled Shadow Volumes", 2002), modulo 256. Leaves another
   // framebuffer bound; the textures of IndexShadows::input are bound.
-  void draw(Work& work, std::span<const LightVolume> lights) const;
+  void draw(PassContext& work, std::span<const LightVolume> lights) const;
 
   GLuint stencil() const { return stencil_; }  // to be sampled
 
  private:
-  void make_volumes(Work& work, const RayScene& rays);
+  void make_volumes(PassContext& work, const RayScene& rays);
 
   std::vector<CasterVolumes::Range> of_light_;
   GlBuffer indices_;

@@ -28,7 +28,9 @@ LightExtent extent_on_screen(const LightVolume& v) {
   return {glm::dvec3(v.low_px, 0), glm::dvec3(v.high_px, 0)};
 }
 
-bool on_screen(const Seen& seen) { return seen.plan.settings[setting::lidr_volumes] != LidrVolumes::stencil; }
+bool on_screen(const ViewState& seen) {
+  return seen.plan.settings[setting::lidr_volumes] != LidrVolumes::stencil;
+}
 
 // Contains every mesh that a view draws for a light, whatever its distance, as long as slack is at most 1/64
 // of the range (light_volumes.cpp). The coarsest ball has its corners at 1.263 of the radius; a box, and a
@@ -41,7 +43,7 @@ double still_radius(const LightBounds& bounds, VolumeMeshes meshes) {
 }
 
 // In world space, so that they do not depend on the camera.
-std::vector<LightExtent> still_extents(const Seen& seen) {
+std::vector<LightExtent> still_extents(const ViewState& seen) {
   std::vector<LightExtent> extents;
   const Settings& settings = seen.plan.settings;
   const auto lights = lights_in_view(seen.scene, seen.view, ranges_of(settings), seen.plan.lights.local);
@@ -59,22 +61,23 @@ bool contains(const LightVolume& volume, double radius) {
 
 }  // namespace
 
-LightIndexOrder::LightIndexOrder(Work& work)
+LightIndexOrder::LightIndexOrder(PassContext& work)
     : layout_(light_index_layout(work.plan.settings, work.plan.lights.local.size(), share_bits_of(work))),
       group_of_light_(work.plan.lights.local.size(), no_group) {
   require_exact_blending(work, layout_);
   find_influence(work);
 }
 
-bool LightIndexOrder::follow(Work& work) {
+bool LightIndexOrder::follow(PassContext& work) {
   if (group_of_light_.size() != work.plan.lights.local.size()) return false;
   grouped_ = false;
   find_influence(work);
   return true;
 }
 
-void LightIndexOrder::find_influence(const Seen& seen) {
-  influence_.clear(), type_.clear();
+void LightIndexOrder::find_influence(const ViewState& seen) {
+  influence_.clear();
+  type_.clear();
   for (const ViewLight& light :
        lights_in_view(seen.scene, seen.view, ranges_of(seen.plan.settings), seen.plan.lights.local)) {
     influence_.push_back(influence_of(light));
@@ -84,13 +87,13 @@ void LightIndexOrder::find_influence(const Seen& seen) {
 }
 
 // Groups in all passes of a type.
-static uint32_t groups_of_type(const LightIndexLayout& layout, const Seen& seen) {
+static uint32_t groups_of_type(const LightIndexLayout& layout, const ViewState& seen) {
   return layout.groups * uint32_t(seen.plan.settings[setting::lidr_passes]);
 }
 
 // The groups of all lights in the scene. False if a volume is larger than its extent there: far away, where
 // rounding is large.
-bool LightIndexOrder::put_in_still_groups(const Seen& seen, const std::vector<LightVolume>& volumes) {
+bool LightIndexOrder::put_in_still_groups(const ViewState& seen, const std::vector<LightVolume>& volumes) {
   const Settings& settings = seen.plan.settings;
   for (const LightVolume& v : volumes) {
     if (!contains(v, still_radius(v.bounds, settings[setting::volume_mesh]))) return false;
@@ -111,7 +114,7 @@ bool LightIndexOrder::put_in_still_groups(const Seen& seen, const std::vector<Li
   return true;
 }
 
-void LightIndexOrder::put_in_groups_of_view(const Seen& seen, const std::vector<LightVolume>& volumes) {
+void LightIndexOrder::put_in_groups_of_view(const ViewState& seen, const std::vector<LightVolume>& volumes) {
   const uint32_t groups = groups_of_type(layout_, seen);
   for (uint32_t type = 0; type < light_types; ++type) {
     std::vector<LightExtent> extents;
@@ -129,7 +132,7 @@ void LightIndexOrder::put_in_groups_of_view(const Seen& seen, const std::vector<
 
 // With stencil, lights that do not touch in space share no pixel, whatever the camera; with front faces, the
 // rectangles on screen must not touch.
-void LightIndexOrder::put_in_groups(const Seen& seen, std::vector<LightVolume>& volumes) {
+void LightIndexOrder::put_in_groups(const ViewState& seen, std::vector<LightVolume>& volumes) {
   if (on_screen(seen) || !grouped_) {
     const bool still =
         seen.plan.settings[setting::lidr_sort] == LidrSort::still && put_in_still_groups(seen, volumes);
@@ -144,7 +147,7 @@ void LightIndexOrder::put_in_groups(const Seen& seen, std::vector<LightVolume>& 
 
 // Rounds in which no two volumes share a pixel, because the stencil marks one volume at a time. A single
 // round if nothing is marked and each draw's channels are fixed.
-std::vector<uint32_t> LightIndexOrder::rounds_of(const Seen& seen,
+std::vector<uint32_t> LightIndexOrder::rounds_of(const ViewState& seen,
                                                  const std::vector<LightVolume>& volumes) const {
   if (on_screen(seen) && (layout_.sorted() || layout_.groups == 1))
     return std::vector<uint32_t>(volumes.size(), 0);
@@ -153,7 +156,7 @@ std::vector<uint32_t> LightIndexOrder::rounds_of(const Seen& seen,
   return draw_rounds(extents);
 }
 
-void LightIndexOrder::order(const Seen& seen, std::vector<LightVolume> volumes) {
+void LightIndexOrder::order(const ViewState& seen, std::vector<LightVolume> volumes) {
   const bool sorted = layout_.sorted();
   // Most influence first if lidr-order says so, else scene order.
   if (seen.plan.settings[by_priority]) {

@@ -20,24 +20,24 @@ struct LightIndexBatches {
 class LightIndexOrder : public PassCache {
  public:
   // Throws Error as light_index does.
-  explicit LightIndexOrder(Work& work);
+  explicit LightIndexOrder(PassContext& work);
   // Lights that come into view need groups as well.
-  bool follow(Work& work) override;
+  bool follow(PassContext& work) override;
 
   const LightIndexLayout& layout() const { return layout_; }
   // Lights without a group in any pass are left out.
-  void order(const Seen& seen, std::vector<LightVolume> volumes);
+  void order(const ViewState& seen, std::vector<LightVolume> volumes);
   const LightIndexBatches& batches() const { return batches_; }
   // How often the scene's lights were put into groups, with lidr-sort=still.
   int sorted_still() const { return still_[0].sorted(); }
 
  private:
   bool before(uint32_t a, uint32_t b) const { return influence_[a] > influence_[b]; }
-  void find_influence(const Seen& seen);
-  void put_in_groups(const Seen& seen, std::vector<LightVolume>& volumes);
-  void put_in_groups_of_view(const Seen& seen, const std::vector<LightVolume>& volumes);
-  bool put_in_still_groups(const Seen& seen, const std::vector<LightVolume>& volumes);
-  std::vector<uint32_t> rounds_of(const Seen& seen, const std::vector<LightVolume>& volumes) const;
+  void find_influence(const ViewState& seen);
+  void put_in_groups(const ViewState& seen, std::vector<LightVolume>& volumes);
+  void put_in_groups_of_view(const ViewState& seen, const std::vector<LightVolume>& volumes);
+  bool put_in_still_groups(const ViewState& seen, const std::vector<LightVolume>& volumes);
+  std::vector<uint32_t> rounds_of(const ViewState& seen, const std::vector<LightVolume>& volumes) const;
 
   LightIndexLayout layout_;
   std::vector<double> influence_;         // one per light

@@ -11,7 +11,7 @@ namespace lightgrid {
 static constexpr GLuint not_inside = 1;
 static constexpr GLuint has_room = 128;  // top bit: the count is not exhausted
 
-IndexDrawing::IndexDrawing(const Seen& seen, const LightIndexLayout& layout, const LightVolumes& volumes,
+IndexDrawing::IndexDrawing(const ViewState& seen, const LightIndexLayout& layout, const LightVolumes& volumes,
                            const Programs& programs)
     : layout_(layout),
       volumes_(volumes),

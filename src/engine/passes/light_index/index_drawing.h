@@ -21,7 +21,7 @@ class IndexDrawing {
   struct Programs {
     GLuint mark, write;
   };
-  IndexDrawing(const Seen& seen, const LightIndexLayout& layout, const LightVolumes& volumes,
+  IndexDrawing(const ViewState& seen, const LightIndexLayout& layout, const LightVolumes& volumes,
                const Programs& programs);
 
   // The initial stencil value: the number of free slots.

@@ -13,10 +13,10 @@
 namespace lightgrid {
 namespace {
 
-constexpr size_t least_table_bytes = 64;  // least size of a buffer
+constexpr size_t min_table_bytes = 64;  // least size of a buffer
 constexpr size_t corner_bytes = 16;
 
-bool reads_maps(const Seen& seen) {
+bool reads_maps(const ViewState& seen) {
   return seen.plan.settings[setting::lidr_shadows] != LidrShadows::volumes;
 }
 
@@ -31,8 +31,8 @@ GLenum texel_format(const Settings& settings) {
                                                 : GL_R16UI;
 }
 
-size_t most_texel_bytes(const Settings& settings) {
-  return most_texture_bytes(settings[setting::shadow_bits] == 16 ? GL_R16UI : GL_R32UI);
+size_t max_texel_bytes(const Settings& settings) {
+  return max_texture_bytes(settings[setting::shadow_bits] == 16 ? GL_R16UI : GL_R32UI);
 }
 
 void add(std::vector<uint32_t>& words, const float (&v)[3]) {
@@ -46,7 +46,7 @@ std::vector<uint8_t> shadowed_of(const FramePlan& plan) {
   return shadowed;
 }
 
-std::vector<uint32_t> light_words(const Seen& seen, const glm::dvec3& origin, const ShadowAtlas* atlas) {
+std::vector<uint32_t> light_words(const ViewState& seen, const glm::dvec3& origin, const ShadowAtlas* atlas) {
   const FramePlan& plan = seen.plan;
   std::vector<uint32_t> words;
   for (size_t i = 0; i < plan.lights.local.size(); ++i) {
@@ -54,9 +54,11 @@ std::vector<uint32_t> light_words(const Seen& seen, const glm::dvec3& origin, co
     const Light& light = seen.scene.lights[number];
     const glm::vec3 at(light.position - origin);
     const float range = std::min(float(range_of(light, number, ranges_of(plan.settings))), 1e18f);
-    add(words, {at.x, at.y, at.z}), words.push_back(std::bit_cast<uint32_t>(range));
+    add(words, {at.x, at.y, at.z});
+    words.push_back(std::bit_cast<uint32_t>(range));
     words.push_back(has_own_shadow(plan, i));
-    words.push_back(atlas ? atlas->lights[i][0] : 0), words.push_back(atlas ? atlas->lights[i][1] : 0);
+    words.push_back(atlas ? atlas->lights[i][0] : 0);
+    words.push_back(atlas ? atlas->lights[i][1] : 0);
     words.push_back(0);
   }
   return words;
@@ -65,10 +67,14 @@ std::vector<uint32_t> light_words(const Seen& seen, const glm::dvec3& origin, co
 std::vector<uint32_t> face_words(const ShadowAtlas& atlas) {
   std::vector<uint32_t> words;
   for (const ShadowFace& face : atlas.faces) {
-    add(words, face.from), words.push_back(std::bit_cast<uint32_t>(face.extent));
-    add(words, face.right), words.push_back(std::bit_cast<uint32_t>(face.range_m));
-    add(words, face.up), words.push_back(face.size);
-    add(words, face.ahead), words.push_back(face.first);
+    add(words, face.from);
+    words.push_back(std::bit_cast<uint32_t>(face.extent));
+    add(words, face.right);
+    words.push_back(std::bit_cast<uint32_t>(face.range_m));
+    add(words, face.up);
+    words.push_back(face.size);
+    add(words, face.ahead);
+    words.push_back(face.first);
   }
   return words;
 }
@@ -76,39 +82,40 @@ std::vector<uint32_t> face_words(const ShadowAtlas& atlas) {
 }  // namespace
 
 void IndexShadows::Table::put(const std::vector<uint32_t>& words) {
-  const size_t needed = std::max(words.size() * sizeof words[0], least_table_bytes);
+  const size_t needed = std::max(words.size() * sizeof words[0], min_table_bytes);
   if (bytes < needed) {
     texture = GlTexture();
-    buffer = make_buffer(needed, nullptr), bytes = needed;
+    buffer = make_buffer(needed, nullptr);
+    bytes = needed;
     texture = make_buffer_texture(GL_RGBA32UI, buffer.name());
   }
   if (!words.empty())
     glNamedBufferSubData(buffer.name(), 0, GLsizeiptr(words.size() * sizeof words[0]), words.data());
 }
 
-IndexShadows::IndexShadows(Work& work) {
+IndexShadows::IndexShadows(PassContext& work) {
   if (reads_maps(work)) {
     const Settings& settings = work.plan.settings;
-    maps_.emplace(work, taps_of(settings), most_texel_bytes(settings));
+    maps_.emplace(work, taps_of(settings), max_texel_bytes(settings));
   } else {
     casters_.emplace(work);
   }
 }
 
-bool IndexShadows::follow(Work&) {
+bool IndexShadows::follow(PassContext&) {
   view_uploaded_ = false;
   return true;
 }
 
 size_t IndexShadows::memory_bytes() const {
-  size_t bytes = corners_.bytes() + texels_.bytes() + lights_.bytes + faces_.bytes + least_table_bytes;
+  size_t bytes = corners_.bytes() + texels_.bytes() + lights_.bytes + faces_.bytes + min_table_bytes;
   if (scene_) bytes += scene_->memory_bytes();
   if (maps_) bytes += maps_->memory_bytes();
   if (casters_) bytes += casters_->memory_bytes();
   return bytes;
 }
 
-void IndexShadows::find(Work& work, bool numbered) {
+void IndexShadows::find(PassContext& work, bool numbered) {
   // A map has no share of a light for alpha to hide.
   const bool opaque = work.plan.settings[setting::shadow_blended] == BlendedCasters::opaque;
   scene_ = work.gpu.in_rays(work.plan.settings[setting::texels],
@@ -127,14 +134,15 @@ void IndexShadows::find(Work& work, bool numbered) {
   pass.moves(work.gpu.in_gl().geometry_bytes(), work.grid().values() * 4);
 }
 
-void IndexShadows::upload_corners(Work& work) {
+void IndexShadows::upload_corners(PassContext& work) {
   const int shape = work.gpu.shape_version(), instances = work.gpu.instances_version();
   if (shape == shape_ && instances == instances_) return;
-  shape_ = shape, instances_ = instances;
+  shape_ = shape;
+  instances_ = instances;
   auto pass = work.timer.pass("triangle_corners", "cl");
   const size_t triangles = scene_->triangles(),
-               bytes = std::max(triangles * 3 * corner_bytes, least_table_bytes);
-  if (const size_t most = most_texture_bytes(GL_R32UI) * 4; bytes > most) {
+               bytes = std::max(triangles * 3 * corner_bytes, min_table_bytes);
+  if (const size_t most = max_texture_bytes(GL_R32UI) * 4; bytes > most) {
     throw machine_error(
         "shadows: {} bytes of triangles are more than the {} that a buffer texture may have in this "
         "OpenGL; use lidr-shadows=pass",
@@ -149,7 +157,7 @@ void IndexShadows::upload_corners(Work& work) {
   pass.moves(scene_->memory_bytes(), bytes);
 }
 
-void IndexShadows::upload_view(Work& work) {
+void IndexShadows::upload_view(PassContext& work) {
   const glm::dvec3 origin = scene_->origin(), eye = work.view.eye - origin;
   const glm::dmat3 view_from_world(work.view.view_from_world);
   glm::vec4 block[4];
@@ -165,10 +173,10 @@ void IndexShadows::upload_view(Work& work) {
   if (maps_) faces_.put(face_words(maps_->atlas()));
 }
 
-void IndexShadows::draw_maps(Work& work) {
+void IndexShadows::draw_maps(PassContext& work) {
   auto pass = work.timer.pass("shadow_maps", "cl");
-  const size_t bytes = std::max(maps_->atlas().bytes, least_table_bytes),
-               most = most_texel_bytes(work.plan.settings);
+  const size_t bytes = std::max(maps_->atlas().bytes, min_table_bytes),
+               most = max_texel_bytes(work.plan.settings);
   if (bytes > most) {
     throw machine_error(
         "shadows: {} bytes of shadow maps are more than the {} that a buffer texture may have in this "
@@ -181,7 +189,7 @@ void IndexShadows::draw_maps(Work& work) {
   pass.moves(scene_->memory_bytes(), bytes);
 }
 
-GlLightLoop IndexShadows::input(Work& work) const {
+GlLightLoop IndexShadows::input(PassContext& work) const {
   GlLightLoop loop;
   loop.textures = {{Sampler::receiver_triangles, triangles_},
                    {Sampler::triangle_corners, corners_.texture.name()},
@@ -201,14 +209,15 @@ GlLightLoop IndexShadows::input(Work& work) const {
   return loop;
 }
 
-ShadowFigures IndexShadows::figures(const Work& work) const {
+ShadowFigures IndexShadows::figures(const PassContext& work) const {
   ShadowFigures f;
   f.lights = size_t(std::ranges::count(work.plan.shadows.own_shadowed, 1));
   constexpr size_t depth_stencil = 8;
   f.bytes = corners_.bytes() + work.grid().values() * 4;
   if (casters_) f.bytes += casters_->memory_bytes() + work.grid().values() * depth_stencil;
   if (maps_) {
-    f.maps = f.drawn = f.lights, f.halvings = maps_->atlas().halvings;
+    f.maps = f.drawn = f.lights;
+    f.halvings = maps_->atlas().halvings;
     f.bytes += maps_->atlas().bytes;
   }
   return f;

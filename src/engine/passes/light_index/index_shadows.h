@@ -15,7 +15,7 @@ namespace lightgrid {
 constexpr uint32_t shadow_share_bits = 4;
 
 // 0: the view's light index images have no shares.
-inline uint32_t share_bits_of(const Seen& seen) {
+inline uint32_t share_bits_of(const ViewState& seen) {
   return seen.plan.shadows.own && seen.plan.settings[setting::lidr_shadows] == LidrShadows::prepass_soft
              ? shadow_share_bits
              : 0;
@@ -23,32 +23,32 @@ inline uint32_t share_bits_of(const Seen& seen) {
 
 class IndexShadows : public PassCache {
  public:
-  explicit IndexShadows(Work& work);
-  bool follow(Work& work) override;
+  explicit IndexShadows(PassContext& work);
+  bool follow(PassContext& work) override;
   size_t memory_bytes() const override;
 
   // Once a frame, after its depth image: the triangles that pixels show, unless find_shadows has drawn them
   // in this frame (numbered), and shadow maps or volumes. Throws Error(machine) if the device has no doubles,
   // or if an OpenGL cannot read as many bytes.
-  void find(Work& work, bool numbered);
+  void find(PassContext& work, bool numbered);
 
   // The defines and textures with which a program includes index_shadow.glsl.
-  GlLightLoop input(Work& work) const;
+  GlLightLoop input(PassContext& work) const;
 
   // With shadow volumes: draws those of these lights, which share no pixel, before a program reads them.
   // input() must be bound. Leaves another framebuffer bound.
-  void draw_casters(Work& work, std::span<const LightVolume> lights) const {
+  void draw_casters(PassContext& work, std::span<const LightVolume> lights) const {
     if (casters_) casters_->draw(work, lights);
   }
 
   // The shares that a frame's programs found, at each pixel in a light's rectangle: for the oracle.
-  HostShadows read(Work& work, const LightVolumes& volumes) const;
-  ShadowFigures figures(const Work& work) const;
+  HostShadows read(PassContext& work, const LightVolumes& volumes) const;
+  ShadowFigures figures(const PassContext& work) const;
 
  private:
-  void upload_corners(Work& work);
-  void upload_view(Work& work);
-  void draw_maps(Work& work);
+  void upload_corners(PassContext& work);
+  void upload_view(PassContext& work);
+  void draw_maps(PassContext& work);
 
   struct Table {
     GlBuffer buffer;

@@ -11,7 +11,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr uint32_t most_targets = 4;
+constexpr uint32_t max_targets = 4;
 
 const char* name_of(LidrPacking packing) {
   return packing == LidrPacking::sort            ? "sort"
@@ -30,14 +30,19 @@ LightIndexLayout row_of(LidrPacking packing, uint32_t overlap, uint32_t lights, 
   LightIndexLayout row{.packing = packing, .overlap = overlap, .lights = lights, .share_bits = share_bits};
   if (share_bits) row.share_shift = index_bits;
   if (packing == LidrPacking::sort) {
-    row.groups = overlap, row.channels = index_bits > 8 ? 2 : 1;
+    row.groups = overlap;
+    row.channels = index_bits > 8 ? 2 : 1;
     if (share_bits) row.share_shift = 8 * row.channels++;  // a channel of its own
   } else if (row.maxblended()) {
-    row.slots = std::min(overlap, 2u), row.groups = overlap / row.slots;
-    row.channels = row.slots, row.channel_bits = index_bits > 8 ? 16 : 8;
+    row.slots = std::min(overlap, 2u);
+    row.groups = overlap / row.slots;
+    row.channels = row.slots;
+    row.channel_bits = index_bits > 8 ? 16 : 8;
   } else {
-    row.slots = std::min(overlap, 8u), row.groups = overlap / row.slots;
-    row.shift = 8 / row.slots, row.channels = (index_bits + share_bits + row.shift - 1) / row.shift;
+    row.slots = std::min(overlap, 8u);
+    row.groups = overlap / row.slots;
+    row.shift = 8 / row.slots;
+    row.channels = (index_bits + share_bits + row.shift - 1) / row.shift;
     // Shaders read groups as whole texels.
     if (share_bits && row.groups > 1) row.channels = (row.channels + 3) / 4 * 4;
   }
@@ -52,14 +57,14 @@ std::string why_not(const LightIndexLayout& row) {
     return "two passes find the greatest and least index of two lights each, four in all; use "
            "lidr-packing=bitshift or maxblend-sort";
   }
-  if (row.targets() > most_targets) {
+  if (row.targets() > max_targets) {
     return fmt::format("it takes {} targets of {} channels, and {} is the most; use lidr-overlap={}",
-                       row.targets(), row.target_channels(), most_targets, row.overlap / 2);
+                       row.targets(), row.target_channels(), max_targets, row.overlap / 2);
   }
   return "";
 }
 
-uint32_t least_that_holds(size_t lights) {
+uint32_t min_that_holds(size_t lights) {
   for (const uint32_t most : {15u, 255u, 65535u}) {
     if (lights <= most) return most;
   }
@@ -100,19 +105,19 @@ std::string LightIndexLayout::name() const {
 }
 
 LightIndexLayout light_index_layout(const Settings& settings, size_t lights, uint32_t share_bits) {
-  const uint32_t most_lights =
-      settings[setting::lidr_lights] ? uint32_t(settings[setting::lidr_lights]) : least_that_holds(lights);
-  if (lights > most_lights) {
+  const uint32_t max_lights =
+      settings[setting::lidr_lights] ? uint32_t(settings[setting::lidr_lights]) : min_that_holds(lights);
+  if (lights > max_lights) {
     throw input_error("lidr: {} point and spot lights are more than the {} that have an index{}", lights,
-                      most_lights, most_lights < 65535 ? "; use lidr-lights=auto" : "");
+                      max_lights, max_lights < 65535 ? "; use lidr-lights=auto" : "");
   }
   uint32_t overlap = uint32_t(settings[setting::lidr_overlap]);
   if (!overlap) {
     for (overlap = 16; overlap > 1; overlap /= 2) {
-      if (why_not(row_of(settings[setting::lidr_packing], overlap, most_lights, share_bits)).empty()) break;
+      if (why_not(row_of(settings[setting::lidr_packing], overlap, max_lights, share_bits)).empty()) break;
     }
   }
-  const LightIndexLayout row = row_of(settings[setting::lidr_packing], overlap, most_lights, share_bits);
+  const LightIndexLayout row = row_of(settings[setting::lidr_packing], overlap, max_lights, share_bits);
   if (const std::string why = why_not(row); !why.empty())
     throw input_error("lidr: no images hold {}: {}", row.name(), why);
   return row;

@@ -50,13 +50,13 @@ class Neighbours {
   }
 
  private:
-  static constexpr double most_cells = 64;
+  static constexpr double max_cells = 64;
 
   template <typename Visit>
   bool each_cell(const LightExtent& e, const Visit& visit) const {
     const glm::dvec3 low = glm::floor(e.low / cell_), high = glm::floor(e.high / cell_),
                      count = high - low + 1.0;
-    if (!(count.x * count.y * count.z <= most_cells) || !(glm::length(low) < 1e15)) return false;
+    if (!(count.x * count.y * count.z <= max_cells) || !(glm::length(low) < 1e15)) return false;
     for (double z = low.z; z <= high.z; ++z) {
       for (double y = low.y; y <= high.y; ++y) {
         for (double x = low.x; x <= high.x; ++x) visit(key(int64_t(x), int64_t(y), int64_t(z)));
@@ -114,7 +114,8 @@ const std::vector<uint32_t>& StillLightGroups::of(std::vector<LightExtent> exten
                                                   uint32_t slots) {
   if (sorted_ && extents == extents_ && order == order_) return groups_;
   ++sorted_;
-  extents_ = std::move(extents), order_ = std::move(order);
+  extents_ = std::move(extents);
+  order_ = std::move(order);
   std::vector<LightExtent> in_order;
   for (const uint32_t light : order_) in_order.push_back(extents_[light]);
   const std::vector<uint32_t> found = group_lights(in_order, groups, slots);

@@ -48,7 +48,10 @@ void add_shares(const LightVolume& volume, const std::vector<uint8_t>& shares, i
         }
       }
       std::vector<uint32_t> bits = hidden_bits(values);
-      if (!keep_shares) values.clear(), values.shrink_to_fit();
+      if (!keep_shares) {
+        values.clear();
+        values.shrink_to_fit();
+      }
       of_tile[size_t(ty) * size_t(tiles_x) + size_t(tx)].push_back(
           {volume.light, std::move(bits), std::move(values)});
     }
@@ -56,7 +59,7 @@ void add_shares(const LightVolume& volume, const std::vector<uint8_t>& shares, i
 }
 
 // Lights may be hidden in part.
-bool filtered(const Seen& seen) {
+bool filtered(const ViewState& seen) {
   const LidrShadows way = seen.plan.settings[setting::lidr_shadows];
   return (way == LidrShadows::prepass_soft || way == LidrShadows::final_pass) &&
          seen.plan.settings[setting::shadow_taps] > 1;
@@ -64,10 +67,11 @@ bool filtered(const Seen& seen) {
 
 }  // namespace
 
-HostShadows IndexShadows::read(Work& work, const LightVolumes& volumes) const {
+HostShadows IndexShadows::read(PassContext& work, const LightVolumes& volumes) const {
   constexpr int side = HostShadows::side;
   HostShadows all;
-  all.tiles_x = (work.grid().width + side - 1) / side, all.tiles_y = (work.grid().height + side - 1) / side;
+  all.tiles_x = (work.grid().width + side - 1) / side;
+  all.tiles_y = (work.grid().height + side - 1) / side;
   TileEntries of_tile(size_t(all.tiles_x) * size_t(all.tiles_y));
   GlLightLoop loop = input(work);
   if (share_bits_of(work)) loop.defines.push_back(fmt::format("LIDR_SHARE_BITS {}u", share_bits_of(work)));

@@ -18,7 +18,10 @@ struct Shape {
   std::vector<glm::dvec3> points;
   std::vector<Triangle> triangles;
 
-  void quad(int a, int b, int c, int d) { triangles.push_back({a, b, c}), triangles.push_back({a, c, d}); }
+  void quad(int a, int b, int c, int d) {
+    triangles.push_back({a, b, c});
+    triangles.push_back({a, c, d});
+  }
 };
 
 // Distance of a triangle's plane from the origin.
@@ -92,8 +95,12 @@ LightMesh box_mesh() {
   for (int corner = 0; corner < 8; ++corner) {
     shape.points.emplace_back(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
   }
-  shape.quad(0, 4, 6, 2), shape.quad(1, 3, 7, 5), shape.quad(0, 1, 5, 4);
-  shape.quad(2, 6, 7, 3), shape.quad(0, 2, 3, 1), shape.quad(4, 5, 7, 6);
+  shape.quad(0, 4, 6, 2);
+  shape.quad(1, 3, 7, 5);
+  shape.quad(0, 1, 5, 4);
+  shape.quad(2, 6, 7, 3);
+  shape.quad(0, 2, 3, 1);
+  shape.quad(4, 5, 7, 6);
   return finished(shape);
 }
 

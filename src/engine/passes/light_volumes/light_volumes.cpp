@@ -109,7 +109,8 @@ void shape_volume(const View& view, const LightBounds& light, VolumeMeshes meshe
   glm::dmat3 axes = axes_along(light.direction) * size;
   if (angle <= narrow_rad) {
     volume.mesh = pyramid;
-    axes[0] *= std::tan(angle), axes[1] *= std::tan(angle);
+    axes[0] *= std::tan(angle);
+    axes[1] *= std::tan(angle);
   } else {
     volume.mesh = first_cone +
                   uint32_t(std::clamp(std::ceil((angle - narrow_rad) / cone_step_rad), 1.0, double(cones))) -
@@ -123,12 +124,14 @@ void find_pixels(const View& view, const glm::dvec2& low, const glm::dvec2& high
   const glm::dvec2 size(view.width, view.height);
   volume.low_px = glm::clamp((low * 0.5 + 0.5) * size, glm::dvec2(0), size);
   volume.high_px = glm::clamp((high * 0.5 + 0.5) * size, glm::dvec2(0), size);
-  volume.first = glm::ivec2(glm::floor(volume.low_px)), volume.end = glm::ivec2(glm::ceil(volume.high_px));
+  volume.first = glm::ivec2(glm::floor(volume.low_px));
+  volume.end = glm::ivec2(glm::ceil(volume.high_px));
 }
 
 void cover_screen(const View& view, LightVolume& volume) {
   volume.clip_from_mesh = glm::mat4(1);
-  volume.center = {0, 0, 0}, volume.radius = std::numeric_limits<double>::infinity();
+  volume.center = {0, 0, 0};
+  volume.radius = std::numeric_limits<double>::infinity();
   volume.crosses_near = true;
   find_pixels(view, glm::dvec2(-1), glm::dvec2(1), volume);
 }
@@ -144,24 +147,30 @@ bool place_volume(const View& view, const Frustum& frustum, LightVolume& volume)
   for (const glm::vec3& position : mesh.positions) {
     const glm::dvec3 p(volume.view_from_mesh * glm::dvec4(position, 1));
     corners.push_back(p);
-    low = glm::min(low, p), high = glm::max(high, p), nearest = std::min(nearest, -p.z);
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+    nearest = std::min(nearest, -p.z);
     for (int i = 0; i < frustum.count; ++i) {
       inside[i] = std::max(
           inside[i], glm::dot(glm::dvec3(frustum.planes[i]), p) + frustum.planes[i].w >= 0 ? 1.0 : -1.0);
     }
     const glm::dvec4 clip = view.clip_from_view * glm::dvec4(p, 1);
-    screen_low = glm::min(screen_low, glm::dvec2(clip) / clip.w),
+    screen_low = glm::min(screen_low, glm::dvec2(clip) / clip.w);
     screen_high = glm::max(screen_high, glm::dvec2(clip) / clip.w);
   }
   for (int i = 0; i < frustum.count; ++i) {
     if (inside[i] < 0) return false;
   }
-  volume.center = 0.5 * (low + high), volume.radius = 0;
+  volume.center = 0.5 * (low + high);
+  volume.radius = 0;
   for (const glm::dvec3& p : corners) volume.radius = std::max(volume.radius, glm::length(p - volume.center));
   volume.clip_from_mesh = glm::mat4(view.clip_from_view * volume.view_from_mesh);
   // Rounding: 1e-5 of the distance, as for clusters.
   volume.crosses_near = nearest < view.near_m + 1e-5 * (std::abs(view.near_m) + volume.radius);
-  if (volume.crosses_near) screen_low = glm::dvec2(-1), screen_high = glm::dvec2(1);
+  if (volume.crosses_near) {
+    screen_low = glm::dvec2(-1);
+    screen_high = glm::dvec2(1);
+  }
   find_pixels(view, screen_low, screen_high, volume);
   return true;
 }
@@ -172,7 +181,8 @@ const std::vector<LightMesh>& light_meshes() {
   static const std::vector<LightMesh> meshes = [] {
     std::vector<LightMesh> all = {everything_mesh()};
     for (uint32_t i = 0; i < balls; ++i) all.push_back(ball_mesh(int(i)));
-    all.push_back(box_mesh()), all.push_back(pyramid_mesh());
+    all.push_back(box_mesh());
+    all.push_back(pyramid_mesh());
     for (int i = 1; i <= cones; ++i) all.push_back(cone_mesh(narrow_rad + i * cone_step_rad));
     return all;
   }();
@@ -212,7 +222,7 @@ static std::vector<LightVolume> whole_screens(const View& view, std::span<const 
   return volumes;
 }
 
-LightVolumes::LightVolumes(Work& work) : array_(make_vertex_array()) {
+LightVolumes::LightVolumes(PassContext& work) : array_(make_vertex_array()) {
   glGetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits_);
   std::vector<glm::vec3> positions;
   std::vector<uint16_t> indices;
@@ -246,11 +256,11 @@ LightVolumes::LightVolumes(Work& work) : array_(make_vertex_array()) {
 
 size_t LightVolumes::memory_bytes() const { return mesh_bytes_ + instance_bytes_; }
 
-bool LightVolumes::follow(Work& work) {
+bool LightVolumes::follow(PassContext& work) {
   return instance_bytes_ == work.plan.lights.local.size() * sizeof(VolumeInstance);
 }
 
-const std::vector<LightVolume>& LightVolumes::update(const Seen& seen) {
+const std::vector<LightVolume>& LightVolumes::update(const ViewState& seen) {
   const std::vector<ViewLight> lights =
       lights_in_view(seen.scene, seen.view, ranges_of(seen.plan.settings), seen.plan.lights.local);
   const PlannedLights planned = seen.plan.lights.planned;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "plan/settings/surfaces.h"
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 #include "scene/view_lights.h"
 
 namespace lightgrid {
@@ -67,13 +67,13 @@ std::vector<LightVolume> light_volumes(const View& view, std::span<const ViewLig
 // attributes of an instance.
 class LightVolumes : public PassCache {
  public:
-  explicit LightVolumes(Work& work);
+  explicit LightVolumes(PassContext& work);
   size_t memory_bytes() const override;
-  bool follow(Work& work) override;
+  bool follow(PassContext& work) override;
 
   // Computes and uploads the frame's volumes: the cost per frame of a moving camera or moving lights. In the
   // lights' order; where the stencil has masks, those of the same mask one after the other.
-  const std::vector<LightVolume>& update(const Seen& seen);
+  const std::vector<LightVolume>& update(const ViewState& seen);
   // The same in the caller's order, to which the indices of draw() refer.
   void upload_volumes(std::vector<LightVolume> volumes);
   const std::vector<LightVolume>& volumes() const { return volumes_; }

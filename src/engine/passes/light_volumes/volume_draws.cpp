@@ -25,7 +25,7 @@
 
 namespace lightgrid {
 
-VolumeDraws::VolumeDraws(Work& work, LightVolumes& volumes, const char* fragment,
+VolumeDraws::VolumeDraws(PassContext& work, LightVolumes& volumes, const char* fragment,
                          std::vector<std::string> defines)
     : seen_(work), culling_(work.plan.settings[setting::volume_culling]), volumes_(volumes) {
   if (culling_ == VolumeCulling::depth_bounds) defines.emplace_back("DEPTH_BOUNDS");
@@ -132,7 +132,7 @@ void VolumeDraws::draw_rectangles(size_t first, size_t end) {
   glBindVertexArray(0);
 }
 
-void begin_adding_lights(Work& work, GLuint framebuffer) {
+void begin_adding_lights(PassContext& work, GLuint framebuffer) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   if (work.plan.stencil && work.plan.masks.stencil_bits == 0) {
@@ -158,7 +158,7 @@ double reach(const LightBounds& light) {
 
 // The least slope, coordinate / distance, of what is in front of the eye of the circle of radius r about (c,
 // d): its tangent's, a root of (d^2 - r^2) s^2 - 2 c d s + c^2 - r^2, written so that nothing cancels.
-double least_slope(double c, double d, double r) {
+double min_slope(double c, double d, double r) {
   constexpr double none = -std::numeric_limits<double>::infinity();
   const double squared = c * c + d * d - r * r;
   if (squared <= 0) return none;  // the eye is in the circle
@@ -181,8 +181,8 @@ void cut_to_tangents(const View& view, const LightBounds& light, ScreenBounds& b
   const int size[2] = {view.width, view.height};
   for (int axis = 0; axis < 2; ++axis) {
     const double c = light.position[axis];
-    const glm::dvec2 slopes = view.orthographic ? glm::dvec2(c - r, c + r)
-                                                : glm::dvec2(least_slope(c, d, r), -least_slope(-c, d, r));
+    const glm::dvec2 slopes =
+        view.orthographic ? glm::dvec2(c - r, c + r) : glm::dvec2(min_slope(c, d, r), -min_slope(-c, d, r));
     const double offset = view.orthographic ? clip[3][axis] : -clip[2][axis];
     const glm::ivec2 between = pixels_between(slopes, clip[axis][axis], offset, size[axis]);
     bounds.first[axis] = std::max(bounds.first[axis], between.x);

@@ -13,7 +13,8 @@ class VolumeDraws {
  public:
   // fragment takes LIGHT_VOLUME (the light comes with its volume, else as a uniform `light`), DEPTH_BOUNDS
   // (the uniform depth_bounds) and EARLY_TESTS (discarded pixels reset their mark too) besides `defines`.
-  VolumeDraws(Work& work, LightVolumes& volumes, const char* fragment, std::vector<std::string> defines);
+  VolumeDraws(PassContext& work, LightVolumes& volumes, const char* fragment,
+              std::vector<std::string> defines);
 
   const GlProgram& program() const { return *program_; }
 
@@ -28,7 +29,7 @@ class VolumeDraws {
   void draw_rectangles(size_t first, size_t end);
   void test_mask(size_t volume) const;
 
-  const Seen& seen_;
+  const ViewState& seen_;
   VolumeCulling culling_;
   LightVolumes& volumes_;
   const GlProgram *program_ = nullptr, *marking_ = nullptr;
@@ -37,7 +38,7 @@ class VolumeDraws {
 
 // Sets state for lights that add to the images of a framebuffer, which has the frame's depth. If volumes are
 // marked in its stencil, that is cleared, unless it has the masks of the surfaces.
-void begin_adding_lights(Work& work, GLuint framebuffer);
+void begin_adding_lights(PassContext& work, GLuint framebuffer);
 
 struct ScreenBounds {
   glm::ivec2 first, end;  // pixels: first <= p < end

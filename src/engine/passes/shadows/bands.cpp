@@ -33,7 +33,8 @@ std::vector<Rectangle> rectangles_of(const ShadowBand& band, const PixelGrid& gr
   return all;
 }
 
-void copy_rectangles(Work& work, const ShadowBand& band, const cl::Buffer& from, const cl::Buffer& to) {
+void copy_rectangles(PassContext& work, const ShadowBand& band, const cl::Buffer& from,
+                     const cl::Buffer& to) {
   constexpr const char* what = "copying a band of the image";
   constexpr size_t pixel = sizeof(cl_float4);
   const size_t pitch = size_t(work.grid().width) * pixel;
@@ -48,7 +49,7 @@ void copy_rectangles(Work& work, const ShadowBand& band, const cl::Buffer& from,
   }
 }
 
-void copy_rectangles(Work& work, const ShadowBand& band, GLuint from, GLuint to) {
+void copy_rectangles(PassContext& work, const ShadowBand& band, GLuint from, GLuint to) {
   glDisable(GL_SCISSOR_TEST);
   for (const Rectangle& r : rectangles_of(band, work.grid())) {
     const GLint x = GLint(r.x), y = GLint(r.y), right = GLint(r.x + r.width), top = GLint(r.y + r.height);
@@ -56,7 +57,7 @@ void copy_rectangles(Work& work, const ShadowBand& band, GLuint from, GLuint to)
   }
 }
 
-GLuint kept_in_gl(Work& work) {
+GLuint kept_in_gl(PassContext& work) {
   return work.targets.framebuffer({work.targets.texture("image of bands", GL_RGBA32F)}, 0);
 }
 
@@ -64,47 +65,48 @@ GLuint kept_in_gl(Work& work) {
 
 size_t shadow_table_bytes(size_t tiles, size_t words) { return (1 + (tiles + 1) * words) * sizeof(cl_uint2); }
 
-ShadowRoom shadow_room(size_t tiles, size_t words, size_t lights, size_t entry_bytes, size_t most_bytes,
-                       size_t most_table, size_t most_bits) {
-  const size_t least_bits = lights * entry_bytes,
-               needed = std::max(shadow_table_bytes(1, words) + least_bits, 2 * shadow_table_bytes(1, words));
-  if (needed > most_bytes)
+ShadowRoom shadow_room(size_t tiles, size_t words, size_t lights, size_t entry_bytes, size_t max_bytes,
+                       size_t max_table, size_t max_bits) {
+  const size_t min_bits = lights * entry_bytes,
+               needed = std::max(shadow_table_bytes(1, words) + min_bits, 2 * shadow_table_bytes(1, words));
+  if (needed > max_bytes)
     throw input_error(
         "shadows: a tile with {} lights that cast needs {} bytes, more than shadow-memory allows ({}); raise "
         "shadow-memory, or let fewer lights cast",
-        lights, needed, most_bytes);
-  if (shadow_table_bytes(1, words) > most_table || least_bits > most_bits)
+        lights, needed, max_bytes);
+  if (shadow_table_bytes(1, words) > max_table || min_bits > max_bits)
     throw input_error(
         "shadows: a tile with {} lights that cast needs a table of {} bytes and bits of {}, more than the "
         "device allows ({} and {}); let fewer lights cast",
-        lights, shadow_table_bytes(1, words), least_bits, most_table, most_bits);
+        lights, shadow_table_bytes(1, words), min_bits, max_table, max_bits);
   ShadowRoom room;
-  const size_t whole = shadow_table_bytes(tiles, words), half = std::min(most_bytes / 2, most_table);
+  const size_t whole = shadow_table_bytes(tiles, words), half = std::min(max_bytes / 2, max_table);
   room.tiles = whole <= half ? tiles : tiles_in(half, words);
   room.table_bytes = shadow_table_bytes(room.tiles, words);
-  room.bit_bytes = std::min(most_bytes - room.table_bytes, most_bits);
-  if (room.bit_bytes >= least_bits) return room;
+  room.bit_bytes = std::min(max_bytes - room.table_bytes, max_bits);
+  if (room.bit_bytes >= min_bits) return room;
   // Half of the memory does not suffice for the bits of one tile.
-  room.tiles = std::min(room.tiles, tiles_in(most_bytes - least_bits, words));
+  room.tiles = std::min(room.tiles, tiles_in(max_bytes - min_bits, words));
   room.table_bytes = shadow_table_bytes(room.tiles, words);
-  room.bit_bytes = std::min(most_bytes - room.table_bytes, most_bits);
+  room.bit_bytes = std::min(max_bytes - room.table_bytes, max_bits);
   return room;
 }
 
 ShadowBands shadow_bands(std::span<const glm::uvec2> cells, const ShadowRoom& room, size_t entry_bytes) {
   ShadowBands all;
-  const size_t most_entries = room.bit_bytes / entry_bytes;
+  const size_t max_entries = room.bit_bytes / entry_bytes;
   for (size_t tile = 0; tile < cells.size(); ++tile) {
     ShadowBand* band = all.bands.empty() ? nullptr : &all.bands.back();
-    if (!band || band->tiles == room.tiles || band->entries + cells[tile].y > most_entries)
+    if (!band || band->tiles == room.tiles || band->entries + cells[tile].y > max_entries)
       band = &all.bands.emplace_back(ShadowBand{tile});
     all.first_entries.push_back(uint32_t(band->entries));
-    ++band->tiles, band->entries += cells[tile].y;
+    ++band->tiles;
+    band->entries += cells[tile].y;
   }
   return all;
 }
 
-void BandedImage::keep(Work& work, const ShadedImage& image, const ShadowBand& band) {
+void BandedImage::keep(PassContext& work, const ShadedImage& image, const ShadowBand& band) {
   if (image.in_cl) {
     const cl::Buffer& kept = in_cl_.at_least(*work.renderer.cl, work.grid().pixels() * sizeof(cl_float4));
     return copy_rectangles(work, band, image.in_cl->cl_buffer(), kept);
@@ -112,7 +114,7 @@ void BandedImage::keep(Work& work, const ShadedImage& image, const ShadowBand& b
   copy_rectangles(work, band, image.framebuffer, kept_in_gl(work));
 }
 
-void BandedImage::restore(Work& work, const ShadedImage& image, std::span<const ShadowBand> bands) {
+void BandedImage::restore(PassContext& work, const ShadedImage& image, std::span<const ShadowBand> bands) {
   for (const ShadowBand& band : bands) {
     if (image.in_cl)
       copy_rectangles(work, band, in_cl_.get(), image.in_cl->cl_buffer());

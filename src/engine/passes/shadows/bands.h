@@ -24,11 +24,11 @@ struct ShadowRoom {
 // The bytes of the table: its first pair of words, the rows of its tiles, and the empty row.
 size_t shadow_table_bytes(size_t tiles, size_t words);
 
-// Both parts together take at most most_bytes, the table at most half of it.
-// words: pairs of words a tile. most_table, most_bits: what the device allows. Throws Error(input), which
-// says what is needed, if most_bytes does not suffice for a tile that lists all lights.
-ShadowRoom shadow_room(size_t tiles, size_t words, size_t lights, size_t entry_bytes, size_t most_bytes,
-                       size_t most_table, size_t most_bits);
+// Both parts together take at most max_bytes, the table at most half of it.
+// words: pairs of words a tile. max_table, max_bits: what the device allows. Throws Error(input), which
+// says what is needed, if max_bytes does not suffice for a tile that lists all lights.
+ShadowRoom shadow_room(size_t tiles, size_t words, size_t lights, size_t entry_bytes, size_t max_bytes,
+                       size_t max_table, size_t max_bits);
 
 // The bands of a frame's tiles. cells: first entry and number of entries per tile.
 struct ShadowBands {
@@ -41,8 +41,8 @@ ShadowBands shadow_bands(std::span<const glm::uvec2> cells, const ShadowRoom& ro
 class BandedImage {
  public:
   // Copies a band's pixels out of the image, or all bands' pixels back into it.
-  void keep(Work& work, const ShadedImage& image, const ShadowBand& band);
-  void restore(Work& work, const ShadedImage& image, std::span<const ShadowBand> bands);
+  void keep(PassContext& work, const ShadedImage& image, const ShadowBand& band);
+  void restore(PassContext& work, const ShadedImage& image, std::span<const ShadowBand> bands);
   size_t memory_bytes() const { return in_cl_.bytes(); }  // beside the view's targets
 
  private:

@@ -59,7 +59,8 @@ Caster caster_of(const Mesh& mesh, const MeshEdges& edges, const glm::dmat4& wor
   for (const uint32_t vertex : mesh.indices) {
     const dvec3 p(world_from_object * glm::dvec4(mesh.positions[vertex], 1));
     caster.corners.push_back(p);
-    caster.low = glm::min(caster.low, p), caster.high = glm::max(caster.high, p);
+    caster.low = glm::min(caster.low, p);
+    caster.high = glm::max(caster.high, p);
   }
   for (size_t i = 0; i < caster.corners.size(); i += 3) {
     const dvec3 centre = (caster.corners[i] + caster.corners[i + 1] + caster.corners[i + 2]) / 3.0;
@@ -89,7 +90,8 @@ void add_prisms(const CastingLight& light, const Caster& caster, std::vector<uin
     if (!(facing > 0 || facing < 0)) continue;  // edge-on, or no area
     // Counter-clockwise as the light sees it.
     const uint32_t a = 3 * t, b = facing > 0 ? a + 1 : a + 2, c = facing > 0 ? a + 2 : a + 1;
-    add(near(a), near(b), near(c)), add(far(c), far(b), far(a));
+    add(near(a), near(b), near(c));
+    add(far(c), far(b), far(a));
     for (uint32_t k = 0; k < 3; ++k) {
       const uint32_t edge = caster.edges->of_triangle[3 * t + k];
       const bool from_first = (edge & 1) == (facing > 0 ? 0u : 1u);
@@ -100,8 +102,10 @@ void add_prisms(const CastingLight& light, const Caster& caster, std::vector<uin
   for (const uint32_t edge : touched) {
     auto [a, b] = caster.edges->ends[edge];
     if (sides[edge] < 0) std::swap(a, b);
-    for (int n = std::abs(sides[edge]); n > 0; --n)
-      add(near(b), near(a), far(a)), add(near(b), far(a), far(b));
+    for (int n = std::abs(sides[edge]); n > 0; --n) {
+      add(near(b), near(a), far(a));
+      add(near(b), far(a), far(b));
+    }
     sides[edge] = 0;  // it may come again
   }
 }

@@ -54,7 +54,7 @@ size_t shadow_entry_bytes(const FramePlan& plan) {
   return (plan.shadows.bytes ? SHADOW_WORDS_OF_BYTES : SHADOW_WORDS_OF_BITS) * sizeof(uint32_t);
 }
 
-std::vector<CullLight> shining_lights(const Seen& seen) {
+std::vector<CullLight> shining_lights(const ViewState& seen) {
   std::vector<CullLight> lights =
       cull_lights_of(seen.scene, seen.plan.lights.local, ranges_of(seen.plan.settings));
   for (const int i : seen.plan.lights.directional)
@@ -62,14 +62,14 @@ std::vector<CullLight> shining_lights(const Seen& seen) {
   return lights;
 }
 
-std::vector<CullLight> shadowed_lights(const Seen& seen, std::vector<CullLight> lights) {
+std::vector<CullLight> shadowed_lights(const ViewState& seen, std::vector<CullLight> lights) {
   for (size_t i = 0; i < lights.size(); ++i) {
     if (!seen.plan.shadows.shadowed[i]) lights[i].radius_m = -1;
   }
   return lights;
 }
 
-std::vector<ShadowLight> shadow_light_records(const Seen& seen, const std::vector<CullLight>& shadowed,
+std::vector<ShadowLight> shadow_light_records(const ViewState& seen, const std::vector<CullLight>& shadowed,
                                               const glm::dvec3& origin) {
   const Settings& settings = seen.plan.settings;
   std::vector<ShadowLight> records;
@@ -88,7 +88,7 @@ std::vector<ShadowLight> shadow_light_records(const Seen& seen, const std::vecto
   return records;
 }
 
-ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
+ShadowView shadow_view(const ViewState& seen, const glm::dvec3& origin) {
   const View& view = seen.view;
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
   const glm::dvec3 from = view.eye - origin, eye = view.orthographic ? world_from_view[2] : from;
@@ -102,7 +102,7 @@ ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin) {
   return v;
 }
 
-ShadowInputs shadow_inputs(Work& work, const RayScene& rays) {
+ShadowInputs shadow_inputs(PassContext& work, const RayScene& rays) {
   ShadowInputs inputs{work.view, work.scene.lights, shining_lights(work), work.plan.shadows.shadowed,
                       {},        rays.builds()};
   for (const Instance& i : work.scene.instances)

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "culling/light_culler.h"
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 #include "shared/shadow_records.h"
 
 namespace lightgrid {
@@ -16,14 +16,14 @@ size_t shadow_table_words(const FramePlan& plan);  // pairs of words a tile (sha
 size_t shadow_entry_bytes(const FramePlan& plan);  // bytes per pair of a tile and a light
 
 // In this order, as shining: directional ones everywhere.
-std::vector<CullLight> shining_lights(const Seen& seen);
+std::vector<CullLight> shining_lights(const ViewState& seen);
 // Lights without shadows are listed nowhere, directional ones in every tile that shows a surface.
-std::vector<CullLight> shadowed_lights(const Seen& seen, std::vector<CullLight> shining);
+std::vector<CullLight> shadowed_lights(const ViewState& seen, std::vector<CullLight> shining);
 
 // origin: of the rays. Without stamps. Lights without shadows reach nothing.
-std::vector<ShadowLight> shadow_light_records(const Seen& seen, const std::vector<CullLight>& shadowed,
+std::vector<ShadowLight> shadow_light_records(const ViewState& seen, const std::vector<CullLight>& shadowed,
                                               const glm::dvec3& origin);
-ShadowView shadow_view(const Seen& seen, const glm::dvec3& origin);
+ShadowView shadow_view(const ViewState& seen, const glm::dvec3& origin);
 
 // All that shadows follow from and that may change: of a scene's other parts nothing does.
 struct ShadowInputs {
@@ -35,6 +35,6 @@ struct ShadowInputs {
   int builds;                                         // number of builds of the tree
   bool operator==(const ShadowInputs&) const = default;
 };
-ShadowInputs shadow_inputs(Work& work, const RayScene& rays);
+ShadowInputs shadow_inputs(PassContext& work, const RayScene& rays);
 
 }  // namespace lightgrid

@@ -16,21 +16,28 @@ namespace {
 
 CullerOptions options_of(const FramePlan& plan) {
   CullerOptions options = culler_options(plan);
-  options.cull_test = default_cull_test, options.depth_bounds = DepthBoundsMode::minmax;
-  options.tile = SHADOW_TILE, options.samples = 1, options.blend = false, options.index_bits = 0,
+  options.cull_test = default_cull_test;
+  options.depth_bounds = DepthBoundsMode::minmax;
+  options.tile = SHADOW_TILE;
+  options.samples = 1;
+  options.blend = false;
+  options.index_bits = 0;
   options.lists = GridLists::lists;
   return options;
 }
 
 }  // namespace
 
-void ShadowLists::look(Work& work, const std::vector<CullLight>& lights) {
+void ShadowLists::look(PassContext& work, const std::vector<CullLight>& lights) {
   if (!culler_) culler_.emplace(*work.renderer.cl, *work.renderer.kernels, options_of(work.plan));
-  if (lights != lights_) culler_->set_lights(lights), lights_ = lights;
+  if (lights != lights_) {
+    culler_->set_lights(lights);
+    lights_ = lights;
+  }
   culler_->set_view(cull_view(work.view));
 }
 
-void ShadowLists::list(Work& work, std::span<const cl::Buffer> depths) {
+void ShadowLists::list(PassContext& work, std::span<const cl::Buffer> depths) {
   images_.resize(std::min(images_.size(), depths.size()));
   while (images_.size() < depths.size()) images_.push_back(std::make_unique<Image>(*work.renderer.cl));
   size_t entries = 0;
@@ -63,19 +70,19 @@ HostGrid ShadowLists::read(ClDevice& device, size_t image) {
   return read_grid(device, images_[image]->grid, images_[image]->storage);
 }
 
-ShadowBands ShadowLists::bands(Work& work, ShadowRoom& room) {
+ShadowBands ShadowLists::bands(PassContext& work, ShadowRoom& room) {
   const FramePlan& plan = work.plan;
-  const size_t most_bytes = plan.settings[setting::shadow_memory], entry = shadow_entry_bytes(plan),
+  const size_t max_bytes = plan.settings[setting::shadow_memory], entry = shadow_entry_bytes(plan),
                words = shadow_table_words(plan) * images();
   const auto most = [&](GLenum format) {
-    return plan.opengl ? most_texture_bytes(format) : std::numeric_limits<size_t>::max();
+    return plan.opengl ? max_texture_bytes(format) : std::numeric_limits<size_t>::max();
   };
   room = {tiles(), shadow_table_bytes(tiles(), words), pairs() * entry};
-  if (room.table_bytes + room.bit_bytes <= most_bytes && room.table_bytes <= most(GL_RG32UI) &&
+  if (room.table_bytes + room.bit_bytes <= max_bytes && room.table_bytes <= most(GL_RG32UI) &&
       room.bit_bytes <= most(GL_R32UI))
     return {{{0, tiles(), pairs()}}, {}};
   room = shadow_room(tiles(), words, size_t(std::ranges::count(plan.shadows.shadowed, 1)) * images(), entry,
-                     most_bytes, most(GL_RG32UI), most(GL_R32UI));
+                     max_bytes, most(GL_RG32UI), most(GL_R32UI));
   std::vector<std::vector<glm::uvec2>> listed;
   std::vector<glm::uvec2> together(tiles());
   for (size_t i = 0; i < images(); ++i) {

@@ -14,9 +14,9 @@ namespace lightgrid {
 class ShadowLists {
  public:
   // After the view or the lights changed. lights: as shadowed_lights has them.
-  void look(Work& work, const std::vector<CullLight>& lights);
+  void look(PassContext& work, const std::vector<CullLight>& lights);
   // Lists between the depths of each image's tiles. Throws Error(machine) past 2^32 pairs.
-  void list(Work& work, std::span<const cl::Buffer> depths);
+  void list(PassContext& work, std::span<const cl::Buffer> depths);
   void clear() { images_.clear(); }
 
   size_t images() const { return images_.size(); }  // 0: nothing was listed
@@ -37,7 +37,7 @@ class ShadowLists {
 
   // How the frame's shadows fit into memory, and how much of it a band takes. All images' shadows of a tile
   // are in the same band.
-  ShadowBands bands(Work& work, ShadowRoom& room);
+  ShadowBands bands(PassContext& work, ShadowRoom& room);
 
  private:
   struct Image {

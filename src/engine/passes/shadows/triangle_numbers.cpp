@@ -4,7 +4,7 @@
 
 namespace lightgrid {
 
-TriangleImage draw_triangle_numbers(Work& work, const RayScene& rays) {
+TriangleImage draw_triangle_numbers(PassContext& work, const RayScene& rays) {
   const GLuint numbers = work.targets.texture("triangle numbers", GL_R32UI),
                framebuffer = work.targets.framebuffer({numbers}, work.targets.depth());
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);

@@ -2,7 +2,7 @@
 // image.
 #pragma once
 
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 
 namespace lightgrid {
 
@@ -10,6 +10,6 @@ namespace lightgrid {
 struct TriangleImage {
   GLuint image = 0, framebuffer = 0;
 };
-TriangleImage draw_triangle_numbers(Work& work, const RayScene& rays);
+TriangleImage draw_triangle_numbers(PassContext& work, const RayScene& rays);
 
 }  // namespace lightgrid

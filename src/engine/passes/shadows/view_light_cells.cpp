@@ -15,14 +15,14 @@ const Setting<bool> shadow_cells{
 
 }  // namespace
 
-bool ViewLightCells::serve(const Work& work, bool lanes) {
+bool ViewLightCells::serve(const PassContext& work, bool lanes) {
   const Settings& settings = work.plan.settings;
   return (!lanes || work.renderer.cl->info().cpu) && settings[shadow_cells] &&
          settings[setting::shadows] == ShadowMethod::exact && !soft_shadows(settings);
 }
 
 // With a light's own range, and not with what a view's rounding adds to it: lists then serve all views.
-void ViewLightCells::look(Work& work, const std::vector<ShadowLight>& records,
+void ViewLightCells::look(PassContext& work, const std::vector<ShadowLight>& records,
                           const std::vector<CullLight>& lights) {
   shared_ = work.gpu.light_cells(blended_casters(work.plan.settings));
   lights_.clear();
@@ -33,7 +33,7 @@ void ViewLightCells::look(Work& work, const std::vector<ShadowLight>& records,
   }
 }
 
-void ViewLightCells::make(Work& work, const RayScene& rays) {
+void ViewLightCells::make(PassContext& work, const RayScene& rays) {
   shared_->make(work.gpu, rays, lights_, work.plan.settings[setting::shadow_memory]);
 }
 

@@ -23,19 +23,19 @@ bool may_see(const ShadowFace& face, const WorldBox& box, const glm::dvec3& orig
 
 }  // namespace
 
-static ShadowMapOptions options_of(const Settings& settings, int taps, size_t most_bytes) {
+static ShadowMapOptions options_of(const Settings& settings, int taps, size_t max_bytes) {
   return {.size = settings[setting::shadow_size],
           .bits = settings[setting::shadow_bits],
           .taps = taps,
-          .most_bytes = std::min(settings[setting::shadow_memory], most_bytes),
+          .max_bytes = std::min(settings[setting::shadow_memory], max_bytes),
           .shape = settings[setting::kernel_shape]};
 }
 
-ViewShadowMaps::ViewShadowMaps(Work& work, int taps, size_t most_bytes)
-    : options_(options_of(work.plan.settings, taps, most_bytes)),
+ViewShadowMaps::ViewShadowMaps(PassContext& work, int taps, size_t max_bytes)
+    : options_(options_of(work.plan.settings, taps, max_bytes)),
       maps_(*work.renderer.cl, *work.renderer.kernels, options_) {}
 
-void ViewShadowMaps::look(const Work& work, const RayScene& rays, const std::vector<uint8_t>& shadowed,
+void ViewShadowMaps::look(const PassContext& work, const RayScene& rays, const std::vector<uint8_t>& shadowed,
                           bool keeps) {
   const glm::dvec3 origin = rays.origin();
   const FramePlan& plan = work.plan;
@@ -49,11 +49,11 @@ void ViewShadowMaps::look(const Work& work, const RayScene& rays, const std::vec
   }
   const std::vector<ShadowFace> before = std::move(atlas_.faces);
   atlas_ = plan_shadow_atlas(lights, work.view, origin, world_box(work.scene), options_);
-  if (atlas_.bytes > options_.most_bytes)
+  if (atlas_.bytes > options_.max_bytes)
     throw input_error(
         "shadow maps: {} faces of {} x {} texels need {} bytes, more than shadow-memory allows ({}): raise "
         "it, or let fewer lights cast",
-        atlas_.faces.size(), least_shadow_size, least_shadow_size, atlas_.bytes, options_.most_bytes);
+        atlas_.faces.size(), min_shadow_size, min_shadow_size, atlas_.bytes, options_.max_bytes);
   // In the order of ShadowPlan::shadowed; those without shadows have no face, and no kernel asks for them.
   std::vector<std::array<uint32_t, 2>> by_number(numbers.size());
   for (size_t i = 0, next = 0; i < numbers.size(); ++i)

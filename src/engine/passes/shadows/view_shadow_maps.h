@@ -4,7 +4,7 @@
 
 #include "plan/settings/shadows.h"
 #include "renderer/moved_instances.h"
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 #include "shadow_maps/shadow_maps.h"
 
 namespace lightgrid {
@@ -12,13 +12,15 @@ namespace lightgrid {
 class ViewShadowMaps {
  public:
   // With the settings of the view's plan, which stay as they are, but for `taps` and the most bytes.
-  explicit ViewShadowMaps(Work& work) : ViewShadowMaps(work, work.plan.settings[setting::shadow_taps]) {}
-  ViewShadowMaps(Work& work, int taps, size_t most_bytes = ~size_t(0));
+  explicit ViewShadowMaps(PassContext& work)
+      : ViewShadowMaps(work, work.plan.settings[setting::shadow_taps]) {}
+  ViewShadowMaps(PassContext& work, int taps, size_t max_bytes = ~size_t(0));
 
   // When the view, lights or surfaces moved: which maps, and their sizes. shadowed: as FramePlan's, whether a
   // light has maps. Throws Error(input) where even the least sizes take more than the setting shadow-memory.
   // keeps: draw() then draws only those of which something changed since they were drawn.
-  void look(const Work& work, const RayScene& rays, const std::vector<uint8_t>& shadowed, bool keeps = false);
+  void look(const PassContext& work, const RayScene& rays, const std::vector<uint8_t>& shadowed,
+            bool keeps = false);
   // All of them, unless they are kept. texels: of
   // atlas().bytes, for a reader besides kernels, into which all are drawn; null: its own.
   void draw(const RayScene& rays, const cl::Buffer& texels = {});

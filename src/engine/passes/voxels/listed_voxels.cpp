@@ -13,7 +13,7 @@ namespace {
 
 class VoxelLister {
  public:
-  VoxelLister(const Seen& seen, ReadVoxels read)
+  VoxelLister(const ViewState& seen, ReadVoxels read)
       : seen_(seen),
         r_(std::move(read)),
         size_(r_.placed.grid.size_x, r_.placed.grid.size_y, r_.placed.grid.size_z) {
@@ -41,7 +41,10 @@ class VoxelLister {
     uint64_t brick = ~uint64_t(0);
     std::vector<uint32_t> near;
     for (const auto& [key, cell] : cell_of) {
-      if (key / cells_of_brick != brick) brick = key / cells_of_brick, near = lights_near(brick);
+      if (key / cells_of_brick != brick) {
+        brick = key / cells_of_brick;
+        near = lights_near(brick);
+      }
       lights[cell] = lights_around(cell_of_key(key), near);
       lists.count[cell] = uint32_t(lights[cell].size());
     }
@@ -115,7 +118,8 @@ class VoxelLister {
     for (int corner = 1; corner < 8; ++corner) {
       const glm::dvec3 p = sample_at(
           {corner & 1 ? last.x : first.x, corner & 2 ? last.y : first.y, corner & 4 ? last.z : first.z});
-      low = glm::min(low, p), high = glm::max(high, p);
+      low = glm::min(low, p);
+      high = glm::max(high, p);
     }
     for (uint z = first.z; z <= last.z; ++z)
       grown = std::max(grown, double(r_.placed.slices[z].half_diagonal_squared));
@@ -138,7 +142,7 @@ class VoxelLister {
     return around;
   }
 
-  const Seen& seen_;
+  const ViewState& seen_;
   ReadVoxels r_;
   glm::uvec3 size_;
   std::vector<LightBounds> lights_;
@@ -146,7 +150,7 @@ class VoxelLister {
 
 }  // namespace
 
-ListedLights list_voxels(Work& work, const ReadVoxels& read, const DepthBuffer& shaded_from) {
+ListedLights list_voxels(PassContext& work, const ReadVoxels& read, const DepthBuffer& shaded_from) {
   std::vector<float> depth(work.grid().pixels());
   if (shaded_from.values()) {
     read_buffer(*work.renderer.cl, "reading depth", shaded_from.values, depth.data(),

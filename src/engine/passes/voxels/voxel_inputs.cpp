@@ -23,8 +23,9 @@ double rounded_down(double size) {
 // From the eye along the view's own axes, to the world's.
 void add(VisibleBox& box, const glm::dmat3& world_from_view, glm::dvec3 from_eye) {
   const glm::dvec3 p = world_from_view * from_eye;
-  box.low = glm::min(box.low, p), box.high = glm::max(box.high, p);
-  box.nearest_m = std::min(box.nearest_m, -from_eye.z),
+  box.low = glm::min(box.low, p);
+  box.high = glm::max(box.high, p);
+  box.nearest_m = std::min(box.nearest_m, -from_eye.z);
   box.farthest_m = std::max(box.farthest_m, -from_eye.z);
 }
 
@@ -45,7 +46,7 @@ void add_part(VisibleBox& box, const glm::dmat3& world_from_view, const ViewPara
   }
 }
 
-void add_tiles(VisibleBox& box, const Seen& seen, const glm::dmat3& world_from_view,
+void add_tiles(VisibleBox& box, const ViewState& seen, const glm::dmat3& world_from_view,
                const TileDistances& distances) {
   const ViewParams& p = seen.params;
   const double near = seen.view.near_m, far = seen.plan.lists.far_m;
@@ -62,7 +63,7 @@ void add_tiles(VisibleBox& box, const Seen& seen, const glm::dmat3& world_from_v
 }
 
 // The boxes of instances, where they lie in the box of the whole view.
-void add_instances(VisibleBox& box, const Seen& seen, const glm::dmat3& world_from_view,
+void add_instances(VisibleBox& box, const ViewState& seen, const glm::dmat3& world_from_view,
                    const std::vector<int>& instances) {
   if (instances.empty()) return;
   constexpr double none = std::numeric_limits<double>::infinity();
@@ -83,8 +84,10 @@ void add_instances(VisibleBox& box, const Seen& seen, const glm::dmat3& world_fr
   add_part(view, world_from_view, seen.params, {0, 0, seen.params.width, seen.params.height}, near, far);
   const glm::dvec3 low = glm::max(all.low, view.low), high = glm::min(all.high, view.high);
   if (glm::any(glm::greaterThan(low, high))) return;
-  box.low = glm::min(box.low, low), box.high = glm::max(box.high, high);
-  box.nearest_m = std::min(box.nearest_m, near), box.farthest_m = std::max(box.farthest_m, far);
+  box.low = glm::min(box.low, low);
+  box.high = glm::max(box.high, high);
+  box.nearest_m = std::min(box.nearest_m, near);
+  box.farthest_m = std::max(box.farthest_m, far);
 }
 
 // Cells between samples are boxes of this size, or at most.
@@ -121,7 +124,9 @@ glm::dmat3 scaled_rows(const glm::dvec3& scale, const glm::dmat3& m) {
 void place_boxes(PlacedVoxels& placed, const VoxelAxes& axes, const View& view, glm::dvec3 first,
                  glm::dvec3 spacing) {
   VoxelGrid& g = placed.grid;
-  g.origin_x = float(first.x), g.origin_y = float(first.y), g.spacing_x = float(spacing.x),
+  g.origin_x = float(first.x);
+  g.origin_y = float(first.y);
+  g.spacing_x = float(spacing.x);
   g.spacing_y = float(spacing.y);
   for (uint k = 0; k < g.size_z; ++k) {
     placed.slices.push_back(slice_of(first.z + k * spacing.z, spacing, spacing.x * spacing.y * spacing.z));
@@ -131,8 +136,10 @@ void place_boxes(PlacedVoxels& placed, const VoxelAxes& axes, const View& view, 
   const glm::dvec3 eye = axes.from_world * (view.eye - axes.origin);
   set_places(placed.lookup, scaled_rows(1.0 / spacing, volume_from_view), (eye - first) / spacing);
   VoxelLookup& l = placed.lookup;
-  l.spacing_x = float(spacing.x), l.spacing_y = float(spacing.y), l.spacing_z = float(spacing.z);
-  l.half_diagonal_squared = placed.slices[0].half_diagonal_squared,
+  l.spacing_x = float(spacing.x);
+  l.spacing_y = float(spacing.y);
+  l.spacing_z = float(spacing.z);
+  l.half_diagonal_squared = placed.slices[0].half_diagonal_squared;
   l.core_squared = placed.slices[0].core_squared;
   set_directions(placed.lookup, glm::transpose(volume_from_view));
 }
@@ -150,7 +157,7 @@ void place_in_world(PlacedVoxels& placed, const VoxelAxes& axes, const View& vie
 }
 
 // Parallel views: the image across and up, distance away.
-void place_in_parallel_view(PlacedVoxels& placed, const VoxelAxes& axes, const Seen& seen,
+void place_in_parallel_view(PlacedVoxels& placed, const VoxelAxes& axes, const ViewState& seen,
                             const VisibleBox& box, glm::dvec3 size) {
   const glm::dvec3 a = at_pixel(seen.params, 0, 0, 0),
                    b = at_pixel(seen.params, seen.params.width, seen.params.height, 0);
@@ -159,7 +166,8 @@ void place_in_parallel_view(PlacedVoxels& placed, const VoxelAxes& axes, const S
   place_boxes(placed, axes, seen.view, low, glm::max((high - low) / (size - 1.0), 1e-6));
 }
 
-void place_in_projection(PlacedVoxels& placed, const Seen& seen, const VisibleBox& box, glm::dvec3 size) {
+void place_in_projection(PlacedVoxels& placed, const ViewState& seen, const VisibleBox& box,
+                         glm::dvec3 size) {
   const glm::dvec3 a = at_pixel(seen.params, 0, 0, 1),
                    b = at_pixel(seen.params, seen.params.width, seen.params.height, 1);
   const glm::dvec3 low = glm::min(a, b), spacing = (glm::max(a, b) - low) / (size - 1.0);
@@ -168,7 +176,9 @@ void place_in_projection(PlacedVoxels& placed, const Seen& seen, const VisibleBo
                far = std::max(rounded_up(box.farthest_m), near * 1.01);
   const double step = std::log(far / near) / (size.z - 1);
   VoxelGrid& g = placed.grid;
-  g.origin_x = float(low.x), g.origin_y = float(low.y), g.spacing_x = float(spacing.x),
+  g.origin_x = float(low.x);
+  g.origin_y = float(low.y);
+  g.spacing_x = float(spacing.x);
   g.spacing_y = float(spacing.y);
   for (uint k = 0; k < g.size_z; ++k) {
     const double place = near * std::exp(k * step), next = near * std::exp((k + 1) * step);
@@ -187,7 +197,7 @@ void place_in_projection(PlacedVoxels& placed, const Seen& seen, const VisibleBo
 
 }  // namespace
 
-VisibleBox visible_box(const Seen& seen, const TileDistances& distances) {
+VisibleBox visible_box(const ViewState& seen, const TileDistances& distances) {
   constexpr double none = std::numeric_limits<double>::infinity();
   VisibleBox box{glm::dvec3(none), glm::dvec3(-none), none, -none};
   const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(seen.view.view_from_world));
@@ -212,11 +222,14 @@ VoxelAxes voxel_axes(const View& view, VoxelSpace space) {
   return {glm::dmat3(1, 0, 0, 0, 0, 1, 0, 1, 0), glm::round(view.eye / step_m) * step_m, false};
 }
 
-PlacedVoxels place_voxels(const Seen& seen, const VoxelAxes& axes, const VisibleBox& box) {
+PlacedVoxels place_voxels(const ViewState& seen, const VoxelAxes& axes, const VisibleBox& box) {
   PlacedVoxels placed{};
   const glm::uvec3 size = voxel_size(seen.plan.settings[setting::voxel_size]);
-  placed.grid.size_x = size.x, placed.grid.size_y = size.y, placed.grid.size_z = size.z;
-  placed.lookup.last_x = float(size.x - 1), placed.lookup.last_y = float(size.y - 1),
+  placed.grid.size_x = size.x;
+  placed.grid.size_y = size.y;
+  placed.grid.size_z = size.z;
+  placed.lookup.last_x = float(size.x - 1);
+  placed.lookup.last_y = float(size.y - 1);
   placed.lookup.last_z = float(size.z - 1);
   if (seen.plan.settings[setting::voxel_space] == VoxelSpace::world) {
     place_in_world(placed, axes, seen.view, box, size);
@@ -243,9 +256,11 @@ constexpr double wide = 1e30;  // 1 - cosine of the cone of a light without one:
 
 uint64_t spread_bits(uint64_t x) {
   x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffff, x = (x | x << 16) & 0x1f0000ff0000ff,
+  x = (x | x << 32) & 0x1f00000000ffff;
+  x = (x | x << 16) & 0x1f0000ff0000ff;
   x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3, x = (x | x << 2) & 0x1249249249249249;
+  x = (x | x << 4) & 0x10c30c30c30c30c3;
+  x = (x | x << 2) & 0x1249249249249249;
   return x;
 }
 
@@ -253,7 +268,10 @@ uint64_t spread_bits(uint64_t x) {
 // they enlarge no box of small ones.
 std::vector<uint32_t> neighbours_first(const std::vector<glm::dvec4>& lights) {
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-  for (const glm::dvec4& l : lights) low = glm::min(low, glm::dvec3(l)), high = glm::max(high, glm::dvec3(l));
+  for (const glm::dvec4& l : lights) {
+    low = glm::min(low, glm::dvec3(l));
+    high = glm::max(high, glm::dvec3(l));
+  }
   // Half of it: all of it may be more than a double holds.
   const glm::dvec3 size = glm::max(0.5 * high - 0.5 * low, 0.5e-9);
   const double large = 0.25 * glm::length(size);
@@ -274,7 +292,7 @@ std::vector<uint32_t> neighbours_first(const std::vector<glm::dvec4>& lights) {
 
 }  // namespace
 
-void GroupedLights::sort(const Seen& seen) {
+void GroupedLights::sort(const ViewState& seen) {
   std::vector<glm::dvec4> by;
   by.reserve(seen.plan.lights.local.size());
   for (const int i : seen.plan.lights.local) {
@@ -287,7 +305,7 @@ void GroupedLights::sort(const Seen& seen) {
   order_ = neighbours_first(sorted_by_);
 }
 
-void GroupedLights::update(Work& work, const VoxelAxes& axes) {
+void GroupedLights::update(PassContext& work, const VoxelAxes& axes) {
   sort(work);
   View along;
   along.view_from_world = glm::dmat4(axes.from_world);
@@ -314,12 +332,13 @@ void GroupedLights::update(Work& work, const VoxelAxes& axes) {
       // Rounded outward.
       const float from = std::nextafter(float(at[axis] - radius), -far_off * 10),
                   to = std::nextafter(float(at[axis] + radius), far_off * 10);
-      low = lane == 0 ? from : std::min(low, from), high = lane == 0 ? to : std::max(high, to);
+      low = lane == 0 ? from : std::min(low, from);
+      high = lane == 0 ? to : std::max(high, to);
     }
     places[(4 * g + 3) * group + lane] = float(radius);
     const glm::dvec3 color = light.radius_m > 0 ? largest_intensity(light) : glm::dvec3(0);
     colors[n] = glm::vec4(glm::vec3(color),
-                          float(std::min(light.least_falloff, double(std::numeric_limits<float>::max()))));
+                          float(std::min(light.min_falloff, double(std::numeric_limits<float>::max()))));
     brightest_ = std::max({brightest_, colors[n].x, colors[n].y, colors[n].z});
     if (cones.empty()) continue;
     const bool spot = has_cone(light);
@@ -327,13 +346,15 @@ void GroupedLights::update(Work& work, const VoxelAxes& axes) {
     // Directions are those to the light: the axis is turned around.
     cones[2 * n] = glm::vec4(glm::vec3(-light.direction * scale), spot ? float(-light.cos_outer * scale) : 1);
     cones[2 * n + 1] = glm::vec4(float(scale), spot ? float(1 - light.cos_outer) : float(wide),
-                                 float(1 - light.cos_outer * light.cos_outer), float(light.most_falloff));
+                                 float(1 - light.cos_outer * light.cos_outer), float(light.max_falloff));
   }
   const bool same =
       version_ > 0 && places == places_ && boxes == boxes_ && colors == colors_ && cones == cones_;
   if (same) return;
   ++version_;
-  places_ = std::move(places), boxes_ = std::move(boxes), colors_ = std::move(colors),
+  places_ = std::move(places);
+  boxes_ = std::move(boxes);
+  colors_ = std::move(colors);
   cones_ = std::move(cones);
   ClDevice& device = *work.renderer.cl;
   constexpr const char* what = "uploading lights of voxels";

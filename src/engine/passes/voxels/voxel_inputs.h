@@ -4,7 +4,7 @@
 
 #include "cl/buffers.h"
 #include "passes/voxels/voxel_settings.h"
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 #include "shared/voxel_volume.h"
 
 namespace lightgrid {
@@ -17,7 +17,7 @@ struct VisibleBox {
 
 // Encloses opaque surfaces by the depth bounds of tiles, and blended ones by their boxes. Without depth
 // bounds it encloses all by their boxes. A view that shows nothing gets a box at the near plane.
-VisibleBox visible_box(const Seen& seen, const TileDistances& distances);
+VisibleBox visible_box(const ViewState& seen, const TileDistances& distances);
 
 // The axes of the volume: where lights are for the kernel that fills it.
 struct VoxelAxes {
@@ -39,14 +39,14 @@ struct PlacedVoxels {
 // Samples on the faces of the box too, so that nothing visible lies outside. In the world they lie at whole
 // multiples of their spacing, which is a power of 2^(1/4) metres: while the camera moves little, the same
 // points stay samples. grid.groups, scale and largest are left to the caller.
-PlacedVoxels place_voxels(const Seen& seen, const VoxelAxes& axes, const VisibleBox& box);
+PlacedVoxels place_voxels(const ViewState& seen, const VoxelAxes& axes, const VisibleBox& box);
 
 glm::uvec3 voxel_size(VoxelSize size);
 
 class GroupedLights {
  public:
   // Places the plan's lights along these axes, and uploads them where they differ from the last ones.
-  void update(Work& work, const VoxelAxes& axes);
+  void update(PassContext& work, const VoxelAxes& axes);
 
   uint32_t groups() const { return groups_; }
   // Grows whenever a light changed.
@@ -59,7 +59,7 @@ class GroupedLights {
   UploadedBuffer boxes, places, colors, cones;
 
  private:
-  void sort(const Seen& seen);
+  void sort(const ViewState& seen);
 
   std::vector<glm::dvec4>
       sorted_by_;                // world position and radius of the plan's lights, by which order_ was made

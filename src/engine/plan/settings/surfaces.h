@@ -63,6 +63,6 @@ inline const Setting<TexelLayout> texels{
 namespace lightgrid {
 
 // The most bits that group-stencil may use: counting faces needs one of the 8.
-inline int most_stencil_masks(VolumeCulling culling) { return culling == VolumeCulling::stencil ? 7 : 8; }
+inline int max_stencil_masks(VolumeCulling culling) { return culling == VolumeCulling::stencil ? 7 : 8; }
 
 }  // namespace lightgrid

@@ -54,7 +54,7 @@ void InstanceDrawer::draw(const IndexRanges& ranges) {
   }
 }
 
-void draw_list(Work& work, const DrawList& list, DrawStreams streams, ScenePrograms& programs) {
+void draw_list(PassContext& work, const DrawList& list, DrawStreams streams, ScenePrograms& programs) {
   InstanceDrawer drawer(work, streams);
   for (const DrawItem& item : list) {
     drawer.bind(item.instance, programs.of(work.plan.surfaces.features_of_instance[item.instance]));
@@ -62,7 +62,7 @@ void draw_list(Work& work, const DrawList& list, DrawStreams streams, SceneProgr
   }
 }
 
-void draw_triangles(Work& work, const DrawList& list, const std::vector<std::string>& defines,
+void draw_triangles(PassContext& work, const DrawList& list, const std::vector<std::string>& defines,
                     const std::function<uint32_t(int instance)>& first) {
   const SceneProgram& program =
       work.programs({"shaders/scene.vert", "shaders/triangles.frag", defines}).of(0);

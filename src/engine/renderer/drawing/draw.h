@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "gl/gl.h"
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 
 namespace lightgrid {
 
@@ -14,7 +14,7 @@ enum class DrawStreams { positions_where_possible, all };
 // Draws parts of instances; changes only state that differs from the last bind.
 class InstanceDrawer {
  public:
-  InstanceDrawer(Work& work, DrawStreams streams) : work_(work), streams_(streams) {}
+  InstanceDrawer(PassContext& work, DrawStreams streams) : work_(work), streams_(streams) {}
 
   // Binds the program with the instance's material and matrices; sets winding by whether the instance
   // mirrors, and face culling unless double-sided. The caller may set its own uniforms afterwards.
@@ -22,7 +22,7 @@ class InstanceDrawer {
   void draw(const IndexRanges& ranges);
 
  private:
-  Work& work_;
+  PassContext& work_;
   DrawStreams streams_;
   const SceneProgram* program_ = nullptr;
   int material_ = -1, instance_ = -1;
@@ -30,11 +30,11 @@ class InstanceDrawer {
 };
 
 // Draws a list with a program for each instance's features.
-void draw_list(Work& work, const DrawList& list, DrawStreams streams, ScenePrograms& programs);
+void draw_list(PassContext& work, const DrawList& list, DrawStreams streams, ScenePrograms& programs);
 
 // Draws a list with shaders/triangles.frag. first: of an instance, the number that the shader adds to those
 // of its triangles with -DRAY_NUMBERS, else the instance's own.
-void draw_triangles(Work& work, const DrawList& list, const std::vector<std::string>& defines,
+void draw_triangles(PassContext& work, const DrawList& list, const std::vector<std::string>& defines,
                     const std::function<uint32_t(int instance)>& first);
 
 // A triangle that covers the image (shaders/screen.vert).

@@ -36,7 +36,9 @@ bool hidden(const Aabb& box, const glm::dmat4& view_from_object, const ViewParam
     const double scale = view.orthographic ? 1 : 1 / distance;
     const glm::dvec2 pixel((p.x * scale - view.slope_x_offset) / view.slope_x_scale,
                            (p.y * scale - view.slope_y_offset) / view.slope_y_scale);
-    low = glm::min(low, pixel), high = glm::max(high, pixel), nearest = std::min(nearest, distance);
+    low = glm::min(low, pixel);
+    high = glm::max(high, pixel);
+    nearest = std::min(nearest, distance);
   }
   nearest *= 1 - rounding;
   const auto tile_of = [&](double pixel, uint tiles_on_axis) {

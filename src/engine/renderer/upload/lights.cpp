@@ -10,8 +10,8 @@
 #include "plan/settings/grid.h"
 #include "plan/settings/kernels.h"
 #include "plan/settings/model.h"
+#include "renderer/pass_context.h"
 #include "renderer/upload/culler_input.h"
-#include "renderer/work.h"
 
 namespace lightgrid {
 namespace {
@@ -44,7 +44,7 @@ glm::vec4 position(const ViewLight& light) {
 glm::vec4 color(const ViewLight& light) {
   // A light of radius 0 lights nothing, not even its own position.
   return {light.radius_m > 0 ? glm::vec3(light.radiant_intensity) : glm::vec3(0),
-          float(std::min(light.least_falloff, max_float))};
+          float(std::min(light.min_falloff, max_float))};
 }
 
 glm::vec4 cone(const ViewLight& light) {
@@ -55,7 +55,7 @@ glm::vec4 cone(const ViewLight& light) {
   return {glm::vec3(light.direction * scale), float(-light.cos_outer * scale)};
 }
 
-float most_falloff(const ViewLight& light) { return float(light.most_falloff); }
+float max_falloff(const ViewLight& light) { return float(light.max_falloff); }
 
 // The conditions of LIGHT_TABLE.
 constexpr auto IF_LIGHTS = [](const FramePlan& plan) { return plan.lights.any_local; };
@@ -90,7 +90,7 @@ LightTable light_table(const FramePlan& plan, std::span<const ViewLight> lights)
   return table;
 }
 
-LightTable light_table(const Seen& seen) {
+LightTable light_table(const ViewState& seen) {
   return light_table(seen.plan, lights_in_view(seen.scene, seen.view, ranges_of(seen.plan.settings)));
 }
 
@@ -134,7 +134,7 @@ bool GlLights::Sized::put(size_t size, const void* data) {
   return true;
 }
 
-void GlLights::upload(const Seen& seen) {
+void GlLights::upload(const ViewState& seen) {
   const FramePlan& plan = seen.plan;
   view_block_.put(sizeof seen.params, &seen.params);
   const CullView culled = cull_view(seen.view, plan);
@@ -194,7 +194,7 @@ void ClLightColumns::upload(ClDevice& device, const FramePlan& plan, std::span<c
   put(columns_, device, light_table(plan, lights));
 }
 
-void ClLights::upload(ClDevice& device, const Seen& seen) {
+void ClLights::upload(ClDevice& device, const ViewState& seen) {
   const LightTable table = light_table(seen);
   put(columns_, device, table);
   directional.put(device, what, table.directional);
@@ -242,7 +242,7 @@ ClArguments ShadowMemory::arguments() {
           {"shadow_bits", bits.buffer ? bits.buffer->cl_buffer() : cl::Buffer()}};
 }
 
-std::string light_defines(const Seen& seen, bool lanes, Brdf brdf) {
+std::string light_defines(const ViewState& seen, bool lanes, Brdf brdf) {
   std::string defines;
   if (lanes) defines += fmt::format(" -DTILE={}", seen.plan.settings[setting::tile]);
   if (lanes && seen.plan.settings[setting::portable]) defines += " -DPORTABLE";

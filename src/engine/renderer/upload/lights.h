@@ -20,7 +20,7 @@
 
 namespace lightgrid {
 
-struct Seen;
+struct ViewState;
 
 #define LIGHT_COLUMN_COUNT(...) +1
 inline constexpr size_t light_column_count = 0 LIGHT_TABLE(LIGHT_COLUMN_COUNT);
@@ -40,7 +40,7 @@ std::vector<std::string> reach_defines(const FramePlan& plan);
 class GlLights {
  public:
   // Buffers are kept unless their sizes change.
-  void upload(const Seen& seen);
+  void upload(const ViewState& seen);
   void bind() const;
   size_t light_bytes() const { return light_bytes_; }
 
@@ -75,7 +75,7 @@ class ClLightColumns {
 
 class ClLights : public ClLightColumns {
  public:
-  void upload(ClDevice& device, const Seen& seen);
+  void upload(ClDevice& device, const ViewState& seen);
   size_t memory_bytes() const;
 
   UploadedBuffer directional, view, bin_edges, slice_edges;  // shared/slices.h
@@ -103,6 +103,6 @@ struct ShadowMemory {
 
 // The -D names that light loops in OpenCL take for a view and its plan (kernels/resolve/shade_pixels.h).
 // lanes: the kernel's items take a tile. brdf: the kernel's, which may serve several values of the setting.
-std::string light_defines(const Seen& seen, bool lanes, Brdf brdf);
+std::string light_defines(const ViewState& seen, bool lanes, Brdf brdf);
 
 }  // namespace lightgrid

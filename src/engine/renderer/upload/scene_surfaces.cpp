@@ -146,7 +146,8 @@ class TexelWriter {
   SurfaceMap map(const TextureSlot& slot, const PlacedChain& placed) const {
     SurfaceMap record{};
     record.base = placed.base;
-    record.width = placed.chain.width, record.height = placed.chain.height,
+    record.width = placed.chain.width;
+    record.height = placed.chain.height;
     record.last_level = placed.chain.last_level;
     std::copy(placed.chain.level_first.begin(), placed.chain.level_first.end(), record.level_first);
     record.flags = sampler_flags(texture_of(slot));
@@ -246,16 +247,21 @@ SurfaceMaterial factors_of(const Material& m, int model) {
   SurfaceMaterial record{};
   std::memcpy(record.base_color, &m.base_color, sizeof record.base_color);
   std::memcpy(record.emissive, &m.emissive, sizeof record.emissive);
-  record.metallic = m.metallic, record.roughness = m.roughness;
-  record.normal_scale = m.normal_scale, record.occlusion_strength = m.occlusion_strength;
+  record.metallic = m.metallic;
+  record.roughness = m.roughness;
+  record.normal_scale = m.normal_scale;
+  record.occlusion_strength = m.occlusion_strength;
   record.alpha_cutoff = m.alpha_cutoff;
-  record.coat = m.clearcoat, record.coat_roughness = m.clearcoat_roughness;
+  record.coat = m.clearcoat;
+  record.coat_roughness = m.clearcoat_roughness;
   record.coat_normal_scale = m.clearcoat_normal_scale;
   const glm::vec3 f0 = dielectric_f0(m);
   std::memcpy(record.f0, &f0, sizeof record.f0);
   record.specular = m.specular;
   std::memcpy(record.subsurface, &m.model.subsurface_color, sizeof record.subsurface);
-  record.roll_off = m.model.roll_off, record.minnaert_k = m.model.minnaert_k, record.model = float(model);
+  record.roll_off = m.model.roll_off;
+  record.minnaert_k = m.model.minnaert_k;
+  record.model = float(model);
   if (m.unlit) record.flags |= SURFACE_UNLIT;
   if (m.double_sided) record.flags |= SURFACE_DOUBLE_SIDED;
   return record;
@@ -290,7 +296,8 @@ std::vector<MaterialModelRecord> model_records(const Scene& scene) {
                                            {.subsurface = {}, .roll_off = 0, .minnaert_k = 1, .spare = {}});
   for (size_t i = 0; i < std::min(models.size(), records.size()); ++i) {
     std::memcpy(records[i].subsurface, &models[i].subsurface_color, sizeof records[i].subsurface);
-    records[i].roll_off = models[i].roll_off, records[i].minnaert_k = models[i].minnaert_k;
+    records[i].roll_off = models[i].roll_off;
+    records[i].minnaert_k = models[i].minnaert_k;
   }
   return records;
 }

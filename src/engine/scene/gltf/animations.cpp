@@ -255,7 +255,8 @@ std::vector<Animation> read_animations(Document& doc, std::vector<PlacedNode>& n
   for (PlacedNode& node : nodes) {
     node.off = !node.visible && !node.blinks;
     if (node.parent < 0) continue;
-    node.off |= nodes[node.parent].off, node.blinks |= nodes[node.parent].blinks;
+    node.off |= nodes[node.parent].off;
+    node.blinks |= nodes[node.parent].blinks;
     node.moves |= nodes[node.parent].moves;
     node.scales |= nodes[node.parent].scales;
   }

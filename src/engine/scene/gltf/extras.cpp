@@ -77,7 +77,7 @@ bool read_names(const json& value, GroupLists::Names& out) {
 // compile_groups refuses these numbers too, but the old place must ignore them.
 bool read_groups(const json& value, GroupLists::Names& out) {
   const auto is_number = [](const json& element) {
-    return !element.is_number() || (element.get<double>() >= 0 && element.get<double>() < most_groups);
+    return !element.is_number() || (element.get<double>() >= 0 && element.get<double>() < max_groups);
   };
   if (!(value.is_array() ? std::ranges::all_of(value, is_number) : is_number(value))) return false;
   return read_names(value, out);

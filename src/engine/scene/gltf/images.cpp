@@ -51,7 +51,8 @@ void read_webp_header(const Document& doc, Encoded& image) {
   if (WebPGetFeatures(image.bytes.data(), image.bytes.size(), &features) != VP8_STATUS_OK)
     throw doc.error("{}: cannot be decoded: its WebP header is broken", image.place);
   if (features.has_animation) throw doc.error("{}: is an animated WebP image", image.place);
-  image.width = features.width, image.height = features.height;
+  image.width = features.width;
+  image.height = features.height;
 }
 
 // glTF allows these two of stb_image's formats.
@@ -82,7 +83,10 @@ size_t pixels_of(const Encoded& image) { return size_t(image.width) * size_t(ima
 void fetch(Document& doc, int index, uint64_t usable, Encoded& out) {
   const ImageEntry& entry = doc.images[index];
   if (entry.fault) throw *entry.fault;
-  if (entry.roughness) out.glossiness = entry.roughness->glossiness, index = entry.roughness->image;
+  if (entry.roughness) {
+    out.glossiness = entry.roughness->glossiness;
+    index = entry.roughness->image;
+  }
   const bool named_by_uri = entry.name.empty() && !entry.uri.starts_with("data:");
   out.place = label("image", index, named_by_uri ? entry.uri : entry.name);
   if (entry.view >= 0) {
@@ -147,7 +151,9 @@ Bitmap decode(const Document& doc, const Encoded& image) {
 void convert_to_roughness(Bitmap& bitmap, float glossiness) {
   for (size_t i = 0; i < bitmap.rgba.size(); i += 4) {
     const float roughness = 255 - glossiness * float(bitmap.rgba[i + 3]);
-    bitmap.rgba[i] = 0, bitmap.rgba[i + 1] = uint8_t(roughness + 0.5f), bitmap.rgba[i + 2] = 0;
+    bitmap.rgba[i] = 0;
+    bitmap.rgba[i + 1] = uint8_t(roughness + 0.5f);
+    bitmap.rgba[i + 2] = 0;
     bitmap.rgba[i + 3] = 255;
   }
 }

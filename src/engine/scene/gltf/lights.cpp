@@ -35,7 +35,8 @@ bool read_cone(Document& doc, const tinygltf::SpotLight& spot, const std::string
     return false;
   }
   const double inner = nearest("innerConeAngle", spot.innerConeAngle, outer);
-  light.outer_cone_rad = static_cast<float>(outer), light.inner_cone_rad = static_cast<float>(inner);
+  light.outer_cone_rad = static_cast<float>(outer);
+  light.inner_cone_rad = static_cast<float>(inner);
   // Two doubles may round to one float, which would be a hard edge.
   if (inner < outer)
     light.inner_cone_rad = std::min(light.inner_cone_rad, std::nextafter(light.outer_cone_rad, 0.0f));
@@ -126,7 +127,8 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
                       glm::length(glm::dvec3(placed.world_from_node[2])));
     if (const PlacedExtras& extras = own.has_lists() ? own : common; extras.has_lists()) {
       groups.push_back(extras.lists);
-      groups.back().owner = static_cast<int>(out.size()), groups.back().where = doc.place(place);
+      groups.back().owner = static_cast<int>(out.size());
+      groups.back().where = doc.place(place);
     }
     if (switched) rig.lights[light.node] = {index, light};
     out.push_back(std::move(light));
@@ -157,7 +159,9 @@ void read_perspective(const Document& doc, const tinygltf::PerspectiveCamera& in
   if (!(in.aspectRatio >= 0)) throw doc.error("{}: aspectRatio is {}", place, in.aspectRatio);
   if (in.zfar != 0 && !(in.zfar > in.znear))
     throw doc.error("{}: zfar is {}, not beyond znear {}", place, in.zfar, in.znear);
-  out.fov_y_rad = in.yfov, out.aspect = in.aspectRatio, out.near_m = in.znear;
+  out.fov_y_rad = in.yfov;
+  out.aspect = in.aspectRatio;
+  out.near_m = in.znear;
   if (in.zfar != 0) out.far_m = in.zfar;
 }
 
@@ -167,8 +171,10 @@ void read_orthographic(const Document& doc, const tinygltf::OrthographicCamera& 
   if (!(in.znear >= 0 && in.zfar > in.znear))
     throw doc.error("{}: znear is {}, zfar is {}", place, in.znear, in.zfar);
   out.orthographic = true;
-  out.half_width_m = std::abs(in.xmag), out.half_height_m = std::abs(in.ymag);
-  out.near_m = in.znear, out.far_m = in.zfar;
+  out.half_width_m = std::abs(in.xmag);
+  out.half_height_m = std::abs(in.ymag);
+  out.near_m = in.znear;
+  out.far_m = in.zfar;
 }
 
 Camera read_camera(const Document& doc, const PlacedNode& placed) {

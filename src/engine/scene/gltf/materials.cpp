@@ -186,8 +186,11 @@ int roughness_texture(Document& doc, int texture, float glossiness) {
 // of refraction of 0 reflects its specular colour at normal incidence.
 void read_specular_glossiness(Document& doc, const tinygltf::Value& in, const std::string& place,
                               Material& out) {
-  out.base_color = glm::vec4(1), out.specular_color = glm::vec3(1);
-  out.metallic = 0, out.ior = 0, out.specular = 1;
+  out.base_color = glm::vec4(1);
+  out.specular_color = glm::vec3(1);
+  out.metallic = 0;
+  out.ior = 0;
+  out.specular = 1;
   read_numbers(doc, in, "diffuseFactor", place, in_unit, out.base_color);
   read_numbers(doc, in, "specularFactor", place, in_unit, out.specular_color);
   const float glossiness =

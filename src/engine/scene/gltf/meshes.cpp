@@ -73,7 +73,7 @@ class MeshReader {
                   node.skin >= 0 && is_mirrored(placed.world_from_node),
                   node.skin >= 0 && (placed.scales || placed.blinks) ? index : -1};
     const std::vector<Drawn>& meshes = meshes_of(use);
-    casts_shadow_ = extras_of(doc_.extras.nodes, placed.node).casts_shadow.value_or(true),
+    casts_shadow_ = extras_of(doc_.extras.nodes, placed.node).casts_shadow.value_or(true);
     file_node_ = placed.node;
     if (const auto copies = read_instances(doc_, placed.node)) return add_copies(index, meshes, *copies);
     for (const Drawn& drawn : meshes)
@@ -155,8 +155,10 @@ class MeshReader {
                           .label = place,
                           .tangents = tangent_need(scene_.materials[primitive->mesh.material])};
       if (skinned) {
-        shape.skin = use.skin, shape.skin_weights = std::move(primitive->skin);
-        shape.mirrored = use.mirrored, shape.winding_node = use.winding_node;
+        shape.skin = use.skin;
+        shape.skin_weights = std::move(primitive->skin);
+        shape.mirrored = use.mirrored;
+        shape.winding_node = use.winding_node;
       }
       add_at_rest(in.primitives[i], use, std::move(primitive->mesh), std::move(shape));
     }

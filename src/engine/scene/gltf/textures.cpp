@@ -12,13 +12,13 @@ namespace lightgrid::gltf {
 namespace {
 
 void warn_of_faults(const std::vector<DecodedImage>& images) {
-  constexpr size_t most_named = 8;
+  constexpr size_t max_named = 8;
   std::set<std::string> faults;  // two bitmaps can be made of one image
   for (const DecodedImage& image : images)
-    if (image.fault && faults.insert(image.fault->what()).second && faults.size() <= most_named)
+    if (image.fault && faults.insert(image.fault->what()).second && faults.size() <= max_named)
       log_warning_line(std::string(image.fault->what()) + "; a checkerboard is drawn in its place");
-  if (faults.size() > most_named)
-    log_warning("{} more images are missing or broken", faults.size() - most_named);
+  if (faults.size() > max_named)
+    log_warning("{} more images are missing or broken", faults.size() - max_named);
 }
 
 Bitmap checkerboard() {

@@ -22,7 +22,7 @@
 #define FAR_PLANES 7
 
 // The planes, in a texture one behind the other, and the volume's place in the view.
-#define FAR_LIGHT_BASE_INPUTS(ROW)                     \
+#define FAR_LIGHT_BASE_INPUTS(ROW)                \
   ROW(ArrayInput, Float4, far_moments, sampler3D) \
   ROW(BlockInput, FarLookup, far_lookup, FarLookupBlock)
 #define FAR(member) INPUT(far_lookup).member
@@ -62,11 +62,14 @@ SHARED_STRUCT(FarLight) { FarMoments red, green, blue; };
 
 SHARED_FUNCTION FarMoments add_moments(FarMoments m, real weight, FarMoments more) {
   FarMoments sum;
-  sum.x = mad_real(weight, more.x, m.x), sum.y = mad_real(weight, more.y, m.y);
+  sum.x = mad_real(weight, more.x, m.x);
+  sum.y = mad_real(weight, more.y, m.y);
   sum.z = mad_real(weight, more.z, m.z);
-  sum.xx = mad_real(weight, more.xx, m.xx), sum.yy = mad_real(weight, more.yy, m.yy);
+  sum.xx = mad_real(weight, more.xx, m.xx);
+  sum.yy = mad_real(weight, more.yy, m.yy);
   sum.zz = mad_real(weight, more.zz, m.zz);
-  sum.xy = mad_real(weight, more.xy, m.xy), sum.xz = mad_real(weight, more.xz, m.xz);
+  sum.xy = mad_real(weight, more.xy, m.xy);
+  sum.xz = mad_real(weight, more.xz, m.xz);
   sum.yz = mad_real(weight, more.yz, m.yz);
   return sum;
 }
@@ -75,10 +78,15 @@ SHARED_FUNCTION FarMoments add_moments(FarMoments m, real weight, FarMoments mor
 SHARED_FUNCTION FarMoments far_factors(Real3 direction, real mean, real first, real second) {
   Real3 scaled = scale3(direction, second), twice = scale3(scaled, REAL(2.0f));
   FarMoments f;
-  f.x = first * direction.x, f.y = first * direction.y, f.z = first * direction.z;
-  f.xx = mad_real(scaled.x, direction.x, mean), f.yy = mad_real(scaled.y, direction.y, mean),
+  f.x = first * direction.x;
+  f.y = first * direction.y;
+  f.z = first * direction.z;
+  f.xx = mad_real(scaled.x, direction.x, mean);
+  f.yy = mad_real(scaled.y, direction.y, mean);
   f.zz = mad_real(scaled.z, direction.z, mean);
-  f.xy = twice.x * direction.y, f.xz = twice.x * direction.z, f.yz = twice.y * direction.z;
+  f.xy = twice.x * direction.y;
+  f.xz = twice.x * direction.z;
+  f.yz = twice.y * direction.z;
   return f;
 }
 
@@ -214,7 +222,8 @@ SHARED_FUNCTION Real3 far_radiance(FarLight light, Lobe l, Real3 normal, Real3 t
 #endif
 
 // The radiance that a surface reflects of the light at its place.
-SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p, FarLight light FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
+SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p,
+                                            FarLight light FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
   Real3 normal = far_direction(p.normal FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
   Real3 irradiance =
       far_sums(light, far_factors(normal, REAL(3.0f / 32.0f), REAL(0.5f), REAL(15.0f / 32.0f)));
@@ -251,8 +260,8 @@ SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p, FarLight light FAR_L
                   mad_real(p.f0.z, albedo.x, rim) * radiance.z));
 #ifdef CLEARCOAT
   Real3 of_coat = far_albedo(p.coat_lobe);
-  Real3 coat =
-      far_radiance(light, p.coat_lobe, p.coat_normal, p.to_viewer, of_coat.z FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
+  Real3 coat = far_radiance(light, p.coat_lobe, p.coat_normal, p.to_viewer,
+                            of_coat.z FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
   back = add3(UNDER_COAT(p, back), scale3(coat, p.coat * (of_coat.x + of_coat.y)));
 #endif
 #endif

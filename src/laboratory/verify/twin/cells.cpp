@@ -22,9 +22,14 @@ Projected project(const TwinInputs& in) {
     const ViewSphere s = view_sphere(l[0], l[stride], l[2 * stride], l[3 * stride], p);
     const ViewCone k = view_cone(l, stride, p);
     float* v = lights.values.data() + i;
-    v[VIEW_X * stride] = s.x, v[VIEW_Y * stride] = s.y, v[VIEW_D * stride] = s.d, v[VIEW_R * stride] = s.r;
-    v[VIEW_CONE * stride] = k.x, v[(VIEW_CONE + 1) * stride] = k.y;
-    v[(VIEW_CONE + 2) * stride] = k.d, v[(VIEW_CONE + 3) * stride] = k.cosine;
+    v[VIEW_X * stride] = s.x;
+    v[VIEW_Y * stride] = s.y;
+    v[VIEW_D * stride] = s.d;
+    v[VIEW_R * stride] = s.r;
+    v[VIEW_CONE * stride] = k.x;
+    v[(VIEW_CONE + 1) * stride] = k.y;
+    v[(VIEW_CONE + 2) * stride] = k.d;
+    v[(VIEW_CONE + 3) * stride] = k.cosine;
     lights.tiles.push_back(tile_rect(s, l[3 * stride], p));
   }
   return lights;

@@ -33,7 +33,8 @@ Extremes extremes_of(const std::vector<uint>& keys, uint begin, uint end) {
   for (const uint key : keys) {
     e.lowest = min(e.lowest, key);
     if (key < begin || key >= end || key == 0) continue;
-    e.low = min(e.low, key), e.high = max(e.high, key);
+    e.low = min(e.low, key);
+    e.high = max(e.high, key);
   }
   return e;
 }
@@ -45,13 +46,22 @@ void bounds_of_tile(const std::vector<uint>& keys, int mode, const CullParams& p
   const Interval whole_tile = interval_of(all, p);
   const bool depths = all.high != 0 && all.high <= ONE_BITS;
   const float middle = 0.5f * (whole_tile.near + whole_tile.far);
-  planes[0] = whole_tile.near, planes[1] = whole_tile.far, planes[2] = FAR_AWAY, planes[3] = -FAR_AWAY;
-  if (mode == DEPTH_HALFZ && all.high != 0) planes[1] = planes[2] = middle, planes[3] = whole_tile.far;
+  planes[0] = whole_tile.near;
+  planes[1] = whole_tile.far;
+  planes[2] = FAR_AWAY;
+  planes[3] = -FAR_AWAY;
+  if (mode == DEPTH_HALFZ && all.high != 0) {
+    planes[1] = planes[2] = middle;
+    planes[3] = whole_tile.far;
+  }
   if (mode == DEPTH_HALFZ_MODIFIED && depths) {
     const uint cut = KEY(as_uint(depth_of_distance(middle, &p)));
     const Interval nearer = interval_of(extremes_of(keys, cut, 0xffffffffu), p),
                    farther = interval_of(extremes_of(keys, 0, cut), p);
-    planes[0] = nearer.near, planes[1] = nearer.far, planes[2] = farther.near, planes[3] = farther.far;
+    planes[0] = nearer.near;
+    planes[1] = nearer.far;
+    planes[2] = farther.near;
+    planes[3] = farther.far;
   }
   if (mode == DEPTH_MASK32) {
     const bool bounded = depths && whole_tile.far != FAR_AWAY;
@@ -66,7 +76,8 @@ void bounds_of_tile(const std::vector<uint>& keys, int mode, const CullParams& p
 void blend_bounds_of_tile(const std::vector<uint>& keys, const CullParams& p, float planes[4]) {
   const Extremes all = extremes_of(keys, 0, 0xffffffffu);
   const Interval i = blend_interval(all.lowest, all.high, &p);
-  planes[0] = i.near, planes[1] = i.far;
+  planes[0] = i.near;
+  planes[1] = i.far;
 }
 
 int planes_of(int mode) {

@@ -73,7 +73,8 @@ struct Desktop::Parts {
     event.window = window;
     event.root = DefaultRootWindow(x);
     event.time = next_time();
-    event.x = px, event.y = py;
+    event.x = px;
+    event.y = py;
     event.same_screen = True;
     return event;
   }

@@ -28,10 +28,17 @@ class Desktop {
   PngPixels picture();  // the screen's picture; empty while the size is about to change
 
   void key(const std::string& name, bool down);  // X11's name: "w", "space", "F12"
-  void tap(const std::string& name) { key(name, true), key(name, false); }
+  void tap(const std::string& name) {
+    key(name, true);
+    key(name, false);
+  }
   void point(int x, int y);
   void button(bool down, int x, int y);
-  void click(int x, int y) { point(x, y), button(true, x, y), button(false, x, y); }
+  void click(int x, int y) {
+    point(x, y);
+    button(true, x, y);
+    button(false, x, y);
+  }
 
   // Drops a file as a file manager does (XDND). Returns whether the window's program fetched its name.
   bool drop(const std::string& path, double seconds);

@@ -4,21 +4,21 @@
 
 #include "kernels/culling/cell.h"
 
-typedef struct Middle {
+typedef struct CellCentre {
   float x, y;            // slopes; orthographic: metres
   float half_x, half_y;  // half the tile's size: likewise
   float near, far;
   uint orthographic;
-} Middle;
+} CellCentre;
 
-static inline Middle middle_of(uint cell, global const float* bounds, uint planes,
-                               global const float* slice_edges, constant CullParams* p) {
+static inline CellCentre cell_centre_of(uint cell, global const float* bounds, uint planes,
+                                        global const float* slice_edges, constant CullParams* p) {
   const uint tiles = p->tiles_x * p->tiles_y, tile = cell % tiles, slice = cell / tiles;
   const uint tx = tile % p->tiles_x, ty = tile / p->tiles_x;
   const TileSides s = tile_sides((float)tx, (float)ty, p);
   bounds += (size_t)(ty / BIN_TILES * p->bins_x + tx / BIN_TILES) * planes * BIN_SIZE +
             slot_of_tile(tx % BIN_TILES, ty % BIN_TILES);
-  Middle m = {
+  CellCentre m = {
       0.5f * (s.x0 + s.x1), 0.5f * (s.y0 + s.y1), 0.5f * (s.x1 - s.x0), 0.5f * (s.y1 - s.y0), bounds[0],
       bounds[BIN_SIZE],     p->orthographic};
   if (planes == 4) {
@@ -32,7 +32,7 @@ static inline Middle middle_of(uint cell, global const float* bounds, uint plane
 
 // The point of the ray that is as far away as this, or as near to that as the cell reaches: x, y, distance,
 // and metres to a unit of slopes there.
-static inline float4 point_of_middle(float distance, Middle m) {
+static inline float4 point_of_centre(float distance, CellCentre m) {
   const float d = fmax(fmin(distance, m.far), m.near), scale = m.orthographic ? 1.0f : d;
   return (float4)(m.x * scale, m.y * scale, d, scale);
 }

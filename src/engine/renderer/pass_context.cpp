@@ -1,4 +1,4 @@
-#include "renderer/work.h"
+#include "renderer/pass_context.h"
 
 #include <fmt/format.h>
 
@@ -31,14 +31,14 @@ static PassTimer::Clock clock_of(Renderer& renderer) {
   return clock;
 }
 
-Work::Work(Seen seen, Renderer& renderer, GpuScene& gpu, std::shared_ptr<TargetPool> pool)
-    : Seen(std::move(seen)),
+PassContext::PassContext(ViewState seen, Renderer& renderer, GpuScene& gpu, std::shared_ptr<TargetPool> pool)
+    : ViewState(std::move(seen)),
       renderer(renderer),
       gpu(gpu),
       timer(clock_of(renderer)),
       targets(std::move(pool), grid(), plan.stencil) {}
 
-std::vector<std::string> Work::view_defines(std::vector<std::string> defines) {
+std::vector<std::string> PassContext::view_defines(std::vector<std::string> defines) {
   if (view.orthographic) defines.emplace_back("ORTHOGRAPHIC");
   const bool samples = plan.opengl && grid().samples > 1;
   if (samples) defines.push_back(fmt::format("SAMPLES {}", grid().samples));
@@ -47,13 +47,14 @@ std::vector<std::string> Work::view_defines(std::vector<std::string> defines) {
     std::string offsets;
     for (const glm::ivec2& place : sample_places())
       offsets += fmt::format("{}vec2({}, {}) / 256.0", offsets.empty() ? "" : ", ", place.x, place.y);
-    defines.push_back(masks), defines.push_back("SAMPLE_OFFSETS " + offsets);
+    defines.push_back(masks);
+    defines.push_back("SAMPLE_OFFSETS " + offsets);
   }
   if (plan.settings[setting::everything_on]) defines.emplace_back("EVERYTHING_ON");
   return defines;
 }
 
-ScenePrograms& Work::programs(SurfaceShaders shaders) {
+ScenePrograms& PassContext::programs(SurfaceShaders shaders) {
   std::string key = fmt::format("{} {}", shaders.vertex, shaders.fragment);
   for (const std::string& name : shaders.defines) key += " " + name;
   auto found = programs_.find(key);
@@ -68,16 +69,16 @@ ScenePrograms& Work::programs(SurfaceShaders shaders) {
   return found->second;
 }
 
-const GlProgram& Work::program(const std::string& vertex, const std::string& fragment,
-                               std::vector<std::string> defines) {
+const GlProgram& PassContext::program(const std::string& vertex, const std::string& fragment,
+                                      std::vector<std::string> defines) {
   return renderer.program(vertex, fragment, view_defines(std::move(defines)));
 }
 
-GLuint Work::color_framebuffer() {
+GLuint PassContext::color_framebuffer() {
   return targets.framebuffer({targets.texture("color", GL_RGBA32F)}, targets.depth());
 }
 
-const std::vector<glm::ivec2>& Work::sample_places() {
+const std::vector<glm::ivec2>& PassContext::sample_places() {
   if (!sample_places_.empty()) return sample_places_;
   if (grid().samples == 1 || !plan.opengl) {
     const auto places = raster_samples(grid().samples);
@@ -95,22 +96,25 @@ const std::vector<glm::ivec2>& Work::sample_places() {
   return sample_places_;
 }
 
-SharedBuffer& Work::shared_pixels(const std::string& name, size_t bytes, TargetUse use) {
+SharedBuffer& PassContext::shared_pixels(const std::string& name, size_t bytes, TargetUse use) {
   return targets.buffer(*renderer.cl, renderer.bridge, name, (grid().pixels() + spare_pixels) * bytes, use);
 }
 
-SharedBuffer& Work::shared_samples(const std::string& name, size_t bytes, TargetUse use) {
+SharedBuffer& PassContext::shared_samples(const std::string& name, size_t bytes, TargetUse use) {
   return targets.buffer(*renderer.cl, renderer.bridge, name, (grid().values() + spare_pixels) * bytes, use);
 }
 
-const ClLights& Work::cl_lights() {
-  if (!cl_lights_) cl_lights_stale_ = true, cl_lights_.emplace();
+const ClLights& PassContext::cl_lights() {
+  if (!cl_lights_) {
+    cl_lights_stale_ = true;
+    cl_lights_.emplace();
+  }
   if (cl_lights_stale_) cl_lights_->upload(*renderer.cl, *this);
   cl_lights_stale_ = false;
   return *cl_lights_;
 }
 
-ClArguments Work::light_arguments() {
+ClArguments PassContext::light_arguments() {
   ClArguments arguments = cl_lights().columns() + effects.reach_arguments();
   return plan.shadows.light_reaches ? std::move(arguments) + shadows.arguments() : arguments;
 }
@@ -125,13 +129,13 @@ std::array<std::unique_ptr<PassCache>*, 19> PassCaches::all() {
           &tone_map.made_};
 }
 
-void PassCaches::follow(Work& work) {
+void PassCaches::follow(PassContext& work) {
   for (std::unique_ptr<PassCache>* cache : all()) {
     if (*cache && !(*cache)->follow(work)) cache->reset();
   }
 }
 
-void PassCaches::upload(Work& work) {
+void PassCaches::upload(PassContext& work) {
   for (std::unique_ptr<PassCache>* cache :
        {&opaque_triangles.made_, &blended_triangles.made_, &resolver.made_}) {
     if (*cache) (*cache)->upload(work);

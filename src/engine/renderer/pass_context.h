@@ -20,7 +20,7 @@
 namespace lightgrid {
 
 // Facts on the host; passes read them only. A function that takes no more draws and uploads nothing.
-struct Seen {
+struct ViewState {
   const Scene& scene;
   View view;
   FramePlan plan;
@@ -33,8 +33,8 @@ struct Seen {
 };
 
 // Beside what is seen, the machine, the scene in its memory, and the view's images, programs and clock.
-struct Work : Seen {
-  Work(Seen seen, Renderer& renderer, GpuScene& gpu, std::shared_ptr<TargetPool> pool);
+struct PassContext : ViewState {
+  PassContext(ViewState seen, Renderer& renderer, GpuScene& gpu, std::shared_ptr<TargetPool> pool);
 
   Renderer& renderer;
   GpuScene& gpu;
@@ -56,7 +56,11 @@ struct Work : Seen {
 
   // Binds the view's uniform blocks, and point, spot and directional lights as the shaders read them
   // (shared/punctual_light.h).
-  void bind_lights() const { lights.bind(), shadows.bind(), effects.bind(); }
+  void bind_lights() const {
+    lights.bind();
+    shadows.bind();
+    effects.bind();
+  }
   GlLights lights;
   // The same for kernels: uploaded by the first call after look().
   const ClLights& cl_lights();
@@ -81,11 +85,11 @@ struct Work : Seen {
   std::vector<glm::ivec2> sample_places_;  // once they are known
 };
 
-// One cache; T(Work&) makes it at first use.
+// One cache; T(PassContext&) makes it at first use.
 template <typename T>
 class Cached {
  public:
-  T& of(Work& work) {
+  T& of(PassContext& work) {
     if (!made_) made_ = std::make_unique<T>(work);
     return static_cast<T&>(*made_);
   }
@@ -105,7 +109,7 @@ struct PassCaches {
   Cached<class ListCaps> list_caps;                                 // passes/cap_lists.cpp
   Cached<class Resolver> resolver;                                  // passes/resolve.cpp
   Cached<class TileShading> tile_shading;                           // passes/shade_tiles.cpp
-  Cached<class LightSums> light_sums;                               // passes/fill_light_buffer.cpp
+  Cached<class LightBufferSums> light_sums;                         // passes/fill_light_buffer.cpp
   Cached<class LightVolumes> light_volumes;                         // passes/light_volumes/light_volumes.h
   Cached<class LightIndexOrder> light_index;                        // passes/light_index.cpp
   Cached<class IndexShadows> index_shadows;                         // passes/light_index/index_shadows.h
@@ -116,8 +120,8 @@ struct PassCaches {
   Cached<class FragmentLayers> fragment_layers;                     // passes/blended_layers.cpp
   Cached<class ToneMap> tone_map;                                   // passes/tone_map.cpp
 
-  void follow(Work& work);
-  void upload(Work& work);  // of those that upload while the device draws triangles
+  void follow(PassContext& work);
+  void upload(PassContext& work);  // of those that upload while the device draws triangles
   void clear();
   size_t memory_bytes() const;
 
