@@ -7,7 +7,7 @@
 // records, lists, counts  as culling/cpu/project_lights.cl writes them, `runs` counts a region
 // spread         stride through the patches of 2 x 2 bins, coprime to their number: spreads each
 //                thread's work-items over the screen
-// light_masks   with -DSURFACE_MASKS: of each light, bits (scene/light_masks.h)
+// light_masks   with -DSURFACE_MASKS: of each light, bits (scene/effect_terms.h)
 // bounds         as culling/cpu/depth_bounds.cl writes them
 // tile_masks    with -DSURFACE_MASKS: of each bin's tiles, in slots, the masks that their surfaces have
 //                (culling/tile_masks.cl)
