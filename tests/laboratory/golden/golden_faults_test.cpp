@@ -19,8 +19,7 @@ std::vector<KernelFault> kernel_faults() {
   return {
       {"corners_a_16th_of_a_pixel_to_the_right", "lane_rint(live ? sx : zero)",
        "lane_rint(live ? sx + (real)(16.0f) : zero)", "triangles"},
-      {"depth_bias", "out->zx = zx, out->zy = zy;",
-       "out->zx = zx, out->zy = zy, out->z0 *= (real)(0.99999f);", "depth"},
+      {"depth_bias", "out->zx = zx;", "out->zx = zx; out->z0 *= (real)(0.99999f);", "depth"},
       {"last_light_of_a_list_lost", "(uint2)(first, n)", "(uint2)(first, max(n, 1u) - 1)", "lists"},
       {"brighter_by_a_thousandth", "real falloff = inverse_distance * inverse_distance;",
        "real falloff = inverse_distance * inverse_distance * REAL(1.001f);", "radiance"},
