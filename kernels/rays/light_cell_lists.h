@@ -8,7 +8,7 @@
 #define ROW_SLACK 1e-3f  // of a cell: rounding of where a plane leaves a row
 
 #if LANES == 1
-// Where entries go. Each cell's number of entries is counted first, from starts[1] on. Then starts hold where
+// The memory of entries. Each cell's number of entries is counted first, from starts[1] on. Then starts hold where
 // cells begin, and each entry moves the start of the next cell.
 typedef struct LightCellItems {
   volatile global uint* starts;

@@ -23,7 +23,7 @@ inline std::string code_without_comments(const std::string& text) {
   return code.append(at, text.cend());
 }
 
-// Whether `statement`, whose brackets are empty, has parts joined by commas and is no declaration.
+// Returns whether `statement`, whose brackets are empty, is no declaration and has parts joined by commas.
 inline bool is_joined(std::string statement) {
   static const std::regex arguments(R"((\w)<[^<>]*>)");
   static const std::regex head(

@@ -17,7 +17,7 @@ namespace lightgrid {
 struct VirtualLightError {
   double bias = 0;      // error of the sum over all pixels
   double mean_abs = 0;  // mean over pixels, for single placements; with the truth's noise
-  double rms = 0;       // over pixels, of single placements; without the truth's own noise
+  double rms = 0;       // over pixels, of single placements; without the reference's own noise
   double spread = 0;  // the part of it that changes from one placement to the next: the root of the variance
 };
 

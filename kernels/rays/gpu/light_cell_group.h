@@ -1,4 +1,4 @@
-// What the kernels that make light cells on GPUs share. Work-groups with the same second number share a
+// Shared by the kernels that make light cells on GPUs. Work-groups with the same second number share a
 // light, and its triangles or cells are divided among their items.
 #pragma once
 

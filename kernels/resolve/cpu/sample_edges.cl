@@ -1,7 +1,7 @@
 // Pixels at edges, of stored samples (kernels/resolve/sample_edges.h), for CPUs: a work-item takes 16.
 //
 // first … fourth  images of samples, WORDS words each; null: none
-// SURFACE_NUMBER_ARGUMENTS  kernels/resolve/surface_numbers.h; with -DNUMBER_BITS alone
+// SURFACE_NUMBER_ARGUMENTS  kernels/resolve/surface_numbers.h; only with -DNUMBER_BITS
 // depths   reversed depth of each sample
 // pixels   of the view
 // edges    out: a bit a pixel, 16 in a value; room for whole groups of 64

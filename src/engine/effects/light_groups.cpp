@@ -17,7 +17,7 @@ namespace {
 
 bool lacks(uint32_t groups) { return groups != all_groups; }
 
-// The first light or instance that lacks a group, and how many there are of both.
+// Names the first light or instance without some group, and counts both.
 std::string witness(const Scene& scene) {
   const auto light = std::ranges::find_if(scene.lights, lacks, &Light::groups);
   const auto instance = std::ranges::find_if(scene.instances, lacks, &Instance::groups);

@@ -446,7 +446,7 @@ static bool next_band(PassContext& work, PassCaches& caches, ShadedImage& image)
   return work.plan.shadows.light_reaches && caches.shadow_bits.of(work).next_band(work, image);
 }
 
-// Where light loops read shadows, the frame gets them and their figures.
+// The frame gets shadows and their figures if its light loops read them.
 static void add_readers(PassContext& work, PassCaches& caches, Frame& frame) {
   if (!work.plan.shadows.light_reaches) return;
   ShadowBits& shadows = caches.shadow_bits.of(work);

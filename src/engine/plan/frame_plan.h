@@ -20,7 +20,7 @@ struct FramePlan {
   ListPlan lists;
   MaskPlan masks;
   ShadowPlan shadows;
-  bool stencil = false;  // 8 bits beside depth
+  bool stencil = false;  // 8 bits next to depth
   bool reversed_triangles = false;
   Decisions decisions;
 };

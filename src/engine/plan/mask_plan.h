@@ -8,9 +8,9 @@
 namespace lightgrid {
 
 struct MaskNeeds {
-  bool tiles = false;    // its tiles may have the masks of their surfaces
-  bool stencil = false;  // that of light volumes may test them in the stencil
-  const char* of = "";   // which lights' masks light loops test, if not all lights'
+  bool tiles = false;    // its tiles may store the masks of their surfaces
+  bool stencil = false;  // light volumes may test masks in the stencil
+  const char* of = "";   // in words: the lights whose masks are tested, if not all
 };
 
 struct MaskPlan {

@@ -22,7 +22,7 @@ const char* shadows_of_one_sample(bool opengl, bool stored, const ShadowPlan& sh
                                                     : nullptr;
 }
 
-// Why one sample per pixel is drawn, although the scene asks for more; empty: they are drawn. The same for
+// Why one sample per pixel is drawn, although the scene requests more; empty: they are drawn. The same for
 // every view of the scene.
 std::string why_one_sample(const Scene& scene, const SampleNeeds& needs, bool opengl,
                            const char* of_one_sample, const Settings& settings) {

@@ -18,10 +18,10 @@ struct ShadowNeeds {
 };
 
 struct ShadowPlan {
-  // Some light of the scene casts a shadow: light loops ask whether it reaches a point
+  // Some light of the scene casts a shadow: light loops test whether it reaches a point
   // (shared/light_table.h). The same for every view and time, so that a camera that moves compiles nothing.
   bool light_reaches = false;
-  bool directional = false;  // as light_reaches, of directional lights alone
+  bool directional = false;  // as light_reaches, only for directional lights
   bool needed = false;       // shadows of some light must be found in this frame
   bool bytes = false;        // a share of a light may be hidden: a byte per pixel and light, not a bit
   std::vector<LightShadow> casting;  // all lights that cast, in scene order

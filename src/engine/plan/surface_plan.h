@@ -20,9 +20,9 @@ enum class PlannedInstances {
 };
 
 struct SurfaceNeeds {
-  bool opengl = true;               // draws with OpenGL; false: OpenCL alone
+  bool opengl = true;               // draws with OpenGL; false: only with OpenCL
   bool chosen_raster = false;       // draws with OpenGL, or with the setting raster=opencl without
-  bool stencil = false;             // beside the depth buffer
+  bool stencil = false;             // next to the depth buffer
   bool reversed_triangles = false;  // a second index buffer, with each mesh's triangles last to first
   bool stored = false;              // where OpenCL draws, light passes read surfaces that another pass stored
 };

@@ -1,4 +1,4 @@
-// What a technique requires of each part of the plan, and the effects that its light can have.
+// The requirements of a technique for each part of the plan, and the effects that its light can have.
 #pragma once
 
 #include "plan/effect.h"

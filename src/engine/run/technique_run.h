@@ -18,7 +18,7 @@ class TechniqueRun {
  public:
   // pool: images that runs share (RenderView); call draw_frame() before reading targets after other runs'
   // frames. Throws Error(machine), with a size that fits, if the memory does not suffice for a frame, or
-  // after release() for its image and file_bytes per pixel beside it.
+  // after release() for its image and file_bytes per pixel in addition.
   TechniqueRun(Renderer& renderer, GpuScene& gpu, const View& view, const Settings& settings,
                const Technique& technique, std::shared_ptr<TargetPool> pool = nullptr, int file_bytes = 0);
   // With its own GPU scene.

@@ -27,7 +27,7 @@ struct LightShare {
 };
 
 // For an effect that keeps lights from surfaces: a light reaches only surfaces whose mask shares a bit with
-// its own. Code that knows no point of a surface takes masks in place of NAME_meets: lists of objects, tiles
+// its own. Code without a point of a surface reads masks in place of NAME_meets: lists of objects, tiles
 // and the stencil leave out lights that would add nothing. One effect at most has masks. They are the oracle
 // of NAME_meets.
 struct SurfaceMasks {

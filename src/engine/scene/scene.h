@@ -181,7 +181,7 @@ struct Scene {
   bool has_own_lights = false;  // its file has some, if only hidden ones: it is given no default lights
   glm::vec3 ambient{0.02f};     // constant radiance from all sides; occlusion maps darken it
   glm::vec3 background{0};      // radiance without any surface
-  int samples = 1;              // a pixel, that it asks to be drawn with: 1, 2, 4 or 8 (docs/samples.md)
+  int samples = 1;              // samples per pixel that it requests: 1, 2, 4 or 8 (docs/samples.md)
   std::vector<std::string> group_names;  // names of light groups, by number; empty: it has none
   std::shared_ptr<const Rig> rig;        // moving parts; null: none. Copies of a scene share it
   std::optional<double> time_s;          // time of the pose, as last given to set_time; empty: at rest

@@ -26,7 +26,7 @@
 //   points
 //                      of a surface. Light loops leave a light out before they compute its distance.
 //
-// What an effect reads of a surface is a list of its own, NAME_SURFACE_INPUTS, of ColumnInputs with one value
+// The values that an effect reads of a surface are a separate list, NAME_SURFACE_INPUTS, of ColumnInputs with one value
 // of 32 bits for each number of a surface (shared/surface_values.h). Functions of hooks end their parameters
 // with NAME_SURFACE_INPUTS(TAKEN_VALUE), and get the values at the point. The program declares the inputs. It
 // finds the list in the text before it compiles: the list must not stand under a condition.

@@ -98,7 +98,7 @@ SHARED_STRUCT(PunctualLight){LIGHT_TABLE(LIGHT_MEMBER) INDEX_MEMBER SHADOW_MEMBE
 #define SEEN_SHARE(light) REAL(1.0f)
 #endif
 
-// Whether all effects let a light reach a surface, and the part that they let pass to a point of it.
+// Returns whether all effects let a light reach a surface, and the share that reaches a point of it.
 #ifdef __OPENCL_VERSION__
 #define INPUT_OF_REACH(kind, type, name, resource) , from->name
 #define LIGHT_OF_EFFECTS const ReachInputs *from, uint light,

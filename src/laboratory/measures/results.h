@@ -169,7 +169,7 @@ struct RunResult : FrameFigures {
   bool own_surfaces = false;
   std::optional<ImageError> same_surfaces;
   // The share of every light's light that is not in the image although no list lacks a light: above
-  // max_unshaded, its loop does not shade what it lists. Absent where lists lack lights or may, where the
+  // max_unshaded, its loop does not shade what it lists. Absent if lists may miss lights, where the
   // picture is not forward's by nature, and where every light was not drawn on these surfaces.
   std::optional<double> unshaded;
   uint64_t overflow = 0;
@@ -213,7 +213,7 @@ struct ReferenceErrors {
 struct OwnSurfaces {
   std::string why_not;              // it was not drawn; empty if it was
   std::optional<ImageError> error;  // with `surfaces`, `silhouettes` and `displayed`
-  // Its times and passes, where no row tells what shorter lists are worth (measures/speedup.h).
+  // Its times and passes, if no row shows what shorter lists save (measures/speedup.h).
   std::optional<RunResult> every_light = {};
 };
 

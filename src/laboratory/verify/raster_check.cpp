@@ -61,7 +61,7 @@ void compare_raster(Check& c, const RasterInput& input, const RasterImage& image
   }
 }
 
-// Vertices a little beside a lattice, or on samples' places.
+// Vertices slightly next to a lattice, or on samples' places.
 void add_sheet(RasterInput& input, int cells, bool on_places, Random& random) {
   const PixelGrid& grid = input.camera.grid;
   const std::vector<glm::dvec2> places = sample_places(grid.samples);

@@ -54,7 +54,7 @@ std::optional<RasterImage> raster(Check& c, const RasterInput& input);
 
 // Cases of one and of several samples. `input` is a scene without triangles.
 
-// A sheet of triangles over the whole image: each sample is covered, and of 11 parts of the sheet, in which
+// A sheet of triangles over the complete image: each sample is covered, and of 11 parts of the sheet, in which
 // no two triangles touch, one covers it. Corners are anywhere, or each on a sample's place.
 void covers_once(Check& c, RasterInput input, int cells, bool on_places, Random random);
 // A thousand slivers around (x, y), their other corners `radius` pixels away.

@@ -244,7 +244,7 @@ TEST(Adding, ThePlanAndTheNeedsHaveAMemberForEachPart) {
   EXPECT_EQ(members_of("src/engine/plan/instance_boxes.h", "InstanceBox"), 10u) << "of lists as well";
 }
 
-// What they call depends on the plan: stages of a frame (passes/frame_stages.h), effects, light sources.
+// The functions that they call depend on the plan: stages of a frame (passes/frame_stages.h), effects, light sources.
 TEST(Adding, TheRunnerAndTheRecipesNameNoEffect) {
   for (const char* file : {"src/engine/techniques/registry.cpp", "src/engine/techniques/recipes.cpp",
                            "src/engine/run/technique_run.cpp"}) {

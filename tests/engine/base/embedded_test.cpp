@@ -111,7 +111,7 @@ TEST(WithIncludes, AnEffectsHooksAreThoseOfItsInputs) {
                                  "#else\n#define IF_SKY_LIGHT_REACH(X)\n#endif\n"));
 }
 
-// What an effect reads of surfaces stands before all texts of effects, as a point that is shaded has it.
+// The values that an effect reads of surfaces stand before all texts of effects, as a point that is shaded has it.
 TEST(WithIncludes, AnEffectsSurfaceInputsStandBeforeTheTexts) {
   const EmbeddedFiles files = {
       {"main", "#include \"shared/effects.h\"\nSURFACE_EFFECTS(X)\n"},

@@ -11,7 +11,7 @@
 namespace lightgrid {
 namespace {
 
-// Lights shine upwards in the world only, and half as brightly on surfaces whose mask lacks bit 3.
+// Lights shine upwards in the world only, and half as brightly on surfaces whose mask has no bit 3.
 ReachTerm upwards(const Scene&, const Light& light, const LightRanges&, const glm::dmat3& from_world) {
   if (light.name != "up") return {};
   const glm::dvec3 up = from_world * glm::dvec3(0, 1, 0);

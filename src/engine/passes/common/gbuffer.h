@@ -35,7 +35,7 @@ struct GBufferImage {
 // With SurfacePlan::specular another one:
 //   [3]  of the dielectric part: reflectance at normal incidence red, green, blue, as their square roots in 8
 //        and 16 bits; at grazing incidence
-// Where effects have masks, an image of its own has the surfaces' numbers (surface_numbers.h).
+// If effects have masks, a separate image has the surfaces' numbers (surface_numbers.h).
 // Only a model's number is stored: its parameters are exact at any number of bits.
 // In fixed point, u = (n - (s + 1)) / s with s = 127 or 32767 and n the stored
 // integer; all other channels are n / 255 or n / 65535.

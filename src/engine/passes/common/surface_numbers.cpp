@@ -22,7 +22,7 @@ size_t surface_number_bytes(const FramePlan& plan) {
 
 namespace {
 
-// Of the effect that has masks.
+// The name of the effect that has masks.
 std::string words_of_masks(const FramePlan& plan) {
   const auto effect = std::ranges::find_if(plan.effects, [](const Effect* e) { return has_masks(*e); });
   return effect == plan.effects.end() ? "masks" : words_of(**effect);

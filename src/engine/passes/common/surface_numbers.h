@@ -1,4 +1,4 @@
-// Surfaces for light passes over pixels, which do not know the instance there. Two ways of Stone, "The Dark
+// Surfaces for light passes over pixels, which have no instance there. Two ways of Stone, "The Dark
 // Side of Deferred Shading: Light Groups" (2009): an image next to the surfaces' has the number of each
 // pixel's surface (MaskPlan::of_instance), by which the values that effects read of it are found
 // (shared/surface_values.h); or the stencil has a few bits of its mask, and the hardware tests them.
@@ -13,7 +13,7 @@ struct SurfaceNumberFormat {
   int bits;
   const char* name;     // name of the target, counted as memory_bytes.gbuffer
   GLenum format, type;  // format of the texture, one unsigned channel; type of glReadPixels
-  size_t bytes;         // a pixel
+  size_t bytes;         // per pixel
 };
 
 inline constexpr SurfaceNumberFormat surface_number_formats[] = {
@@ -25,7 +25,7 @@ const SurfaceNumberFormat& surface_number_format(const Settings& settings);
 
 // Returns whether there is an image of numbers: an effect has masks, and the stencil does not test them.
 bool has_surface_numbers(const FramePlan& plan);
-// Its bytes a pixel, or 0.
+// Bytes per pixel of that image, or 0.
 size_t surface_number_bytes(const FramePlan& plan);
 
 // The view's image, drawn or not; 0: there is none. Throws Error(input) where the scene has more masks than

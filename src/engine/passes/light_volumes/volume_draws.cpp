@@ -12,7 +12,7 @@
 // stencil       Faces behind the surface are counted, back plus one, front minus one; nonzero means inside.
 //               Then the same back faces are drawn where it is nonzero, and reset it to 0.
 //
-// Where the stencil has masks (MaskPlan::stencil_bits), a light is drawn only where its own shares a bit with
+// If the stencil has masks (MaskPlan::stencil_bits), a light is drawn only where its own shares a bit with
 // the surface's; lights come sorted by their masks. Faces are then not counted: each turns the top bit over,
 // only at pixels whose mask shares a bit. Behind a surface inside the volume there is an odd number of faces.
 #include "passes/light_volumes/volume_draws.h"

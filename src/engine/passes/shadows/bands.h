@@ -25,7 +25,7 @@ struct ShadowRoom {
 size_t shadow_table_bytes(size_t tiles, size_t words);
 
 // Both parts together take at most max_bytes, the table at most half of it.
-// words: pairs of words a tile. max_table, max_bits: what the device allows. Throws Error(input), which
+// words: pairs of words per tile. max_table, max_bits: what the device allows. Throws Error(input), which
 // says what is needed, if max_bytes does not suffice for a tile that lists all lights.
 ShadowRoom shadow_room(size_t tiles, size_t words, size_t lights, size_t entry_bytes, size_t max_bytes,
                        size_t max_table, size_t max_bits);

@@ -54,7 +54,7 @@ void ViewShadowMaps::look(const PassContext& work, const RayScene& rays, const s
         "shadow maps: {} faces of {} x {} texels need {} bytes, more than shadow-memory allows ({}): raise "
         "it, or let fewer lights cast",
         atlas_.faces.size(), min_shadow_size, min_shadow_size, atlas_.bytes, options_.max_bytes);
-  // In the order of ShadowPlan::shadowed; those without shadows have no face, and no kernel asks for them.
+  // In the order of ShadowPlan::shadowed; those without shadows have no face, and no kernel reads one.
   std::vector<std::array<uint32_t, 2>> by_number(numbers.size());
   for (size_t i = 0, next = 0; i < numbers.size(); ++i)
     if (shadowed[i]) by_number[i] = atlas_.lights[next++];

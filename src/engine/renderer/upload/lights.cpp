@@ -16,7 +16,7 @@
 namespace lightgrid {
 namespace {
 
-// A column's values, one a light of plan.lights.local.
+// A column's values, one per light of plan.lights.local.
 struct LightColumn {
   bool needed = false;  // by the plan; no values if not
   Sampler sampler{};    // of its buffer texture

@@ -33,7 +33,7 @@ std::vector<const char*> light_table_defines(const FramePlan& plan);
 // The defines with which light loops read a frame's shadows, and find_shadows writes them
 // (shared/shadow_bits.h). None where the plan's `light_reaches` is not set.
 std::vector<const char*> shadow_defines(const FramePlan& plan);
-// Those, and the defines by which light loops ask the effects that answer NAME_meets or NAME_reach.
+// Adds the defines with which light loops call NAME_meets and NAME_reach of effects.
 std::vector<std::string> reach_defines(const FramePlan& plan);
 
 // Uniform blocks and buffer textures, as OpenGL's shaders read them.
