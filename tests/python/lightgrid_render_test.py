@@ -176,6 +176,20 @@ class ListsOfLights(unittest.TestCase):
         np.testing.assert_array_equal(drawn, depth)
         np.testing.assert_array_equal(triangles == 0xFFFFFFFF, depth == 0)
 
+    def test_hold_a_light_under_a_matrix_that_is_not_quite_rigid(self):
+        """One light reaches pixel (31, 31) by less than 1e-9 m; the others, 2^20 m away, make its position round."""
+        near, radius, depth = 0.001, 2.0**-10, np.full((64, 64), 0.1, np.float32)
+        distance = near / float(depth[0, 0])
+        for stretch in (0, 2.4e-6, 3.5e-6, 4.9e-6):
+            clip = [[100, 0, 0, 0], [0, 100, 0, 0], [0, 0, 0, near], [0, 0, -1, 0]]
+            projection = lg.Projection(clip, np.diag([1 + stretch] * 3 + [1]), (0, 0, 0), (64, 64))
+            side = -1 / 64 / 100 * distance / (1 + stretch)
+            z = -np.floor((distance + radius) / (1 + stretch) * 2**32 - 1) / 2**32
+            lights = lg.lights(position=[(side, -side, z)] + [(side, -side, z + 2**20 + 0.1875)] * 127,
+                               radius_m=[radius] + [1] * 127)
+            for test in ("sphere", "planes", "aabb", "planes+aabb", "exact"):
+                self.assertIn(0, device.cull(projection, depth, lights, cull_test=test).at(31, 31), (test, stretch))
+
     def test_live_as_long_as_their_arrays(self):
         def indices():
             projection = hall().projection(size)

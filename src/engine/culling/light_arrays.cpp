@@ -17,7 +17,11 @@ bool is_light(const CullLight& light) {
          std::isfinite(light.position.z);
 }
 
-bool has_cone(const CullLight& light) { return light.cos_outer >= 0; }
+// Kernels make the axis a unit vector, in float. An axis whose square under- or overflows has no direction there.
+bool has_cone(const CullLight& light) {
+  const double length = glm::length(light.direction);
+  return light.cos_outer >= 0 && length >= 1e-15 && length <= 1e15;
+}
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 

@@ -35,7 +35,7 @@ struct CullLight {
   glm::dvec3 position{0};  // finite
   // Zero contribution past it. Infinite: no range; 0: the point alone; negative or NaN: listed nowhere.
   double radius_m = std::numeric_limits<double>::infinity();
-  glm::dvec3 direction{0, 0, -1};  // unit, the spot's axis
+  glm::dvec3 direction{0, 0, -1};  // the spot's axis; shorter than 10^-15, past 10^15 or NaN: no cone
   // Cosine of a spot's outer half-angle; below 0 (no cone, or one past 90 degrees) the sphere decides.
   double cos_outer = -1;
   uint32_t mask = 0xffffffffu;  // read where tiles have masks (TileBounds::masks)

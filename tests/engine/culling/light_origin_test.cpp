@@ -144,7 +144,7 @@ CullLight lamp(const glm::dvec3& position, double radius, double cos_outer = -1)
 
 // A light 2^20 m from the others, so that its position rounds to 2^-32 m or coarser, reaches one pixel by
 // less than that. view_from_world is (1 + stretch) times a rotation, which check_view accepts.
-void expect_listed(double stretch, CullTest test) {
+void expect_listed(double stretch, CullTest test, double cos_outer) {
   constexpr double rounding_m = 0x1p-32, radius_m = 0x1p-10, focal = 100, distance = 0.01, near_m = 0.001;
   const float depth = float(near_m / distance);
   const double side = (2 * 31.5 / 64 - 1) / focal * distance;
@@ -158,7 +158,8 @@ void expect_listed(double stretch, CullTest test) {
   const double inside_m = radius_m - glm::length(at * (1 + stretch) - surface);
   ASSERT_TRUE(inside_m > 0 && inside_m < 3 * rounding_m) << inside_m;
   std::vector<CullLight> lights(128, lamp(at + glm::dvec3(0, 0, 0x1p20 + 0.1875), 1));
-  lights[0] = lamp(at, radius_m);
+  lights[0] = lamp(at, radius_m, cos_outer);
+  lights[0].direction = {0, 0, 1};  // from behind the surface
 
   LightCuller culler(test_device(), test_programs(), {.cull_test = test});
   culler.set_lights(lights);
@@ -174,8 +175,10 @@ void expect_listed(double stretch, CullTest test) {
 TEST(StretchedViews, LoseNoLight) {
   for (const CullTestRow& row : cull_tests) {
     for (const double stretch : {0.0, 2.4e-6, 3.5e-6, 4.9e-6}) {
-      SCOPED_TRACE(testing::Message() << row.name << ", " << stretch);
-      expect_listed(stretch, row.test);
+      for (const double cos_outer : {-1.0, 0.5}) {  // without a cone, and with one around the pixel
+        SCOPED_TRACE(testing::Message() << row.name << ", " << stretch << ", " << cos_outer);
+        expect_listed(stretch, row.test, cos_outer);
+      }
     }
   }
 }
@@ -195,6 +198,19 @@ TEST(ChooseOrigin, GivesConesTheLargestRoundingOfASpot) {
       choose_origin(std::vector{lamp({0, 0, 0}, 1, 0.5), lamp({0, 0, 0}, 1), lamp({100, 20, 8}, 1, 0.5)});
   ASSERT_TRUE(origin.fixed);
   EXPECT_EQ(origin.cone_slack_m, 128 * 0x1p-24 * (1 + double(MAX_STRETCH)));
+}
+
+// Kernels divide the axis by its length in float: where that is 0 or infinite, the sphere has to decide.
+TEST(LightArrays, HaveNoConeWithoutADirection) {
+  CullLight light = lamp({0, 0, 0}, 1, 0.5);
+  for (const double length : {1e-15, 0.1, 3.0, 1e15}) {
+    light.direction = {0, 0, length};
+    EXPECT_EQ(light_arrays(std::vector{light}, {0, 0, 0}, 0, 1)[7], 0.5f - 1e-6f) << length;
+  }
+  for (const double length : {0.0, 1e-25, 1e25, double(NAN), double(INFINITY)}) {
+    light.direction = {0, 0, length};
+    EXPECT_EQ(light_arrays(std::vector{light}, {0, 0, 0}, 0, 1)[7], 2.0f) << length;
+  }
 }
 
 TEST(ChooseOrigin, LeavesOutParkedLights) {
