@@ -120,8 +120,8 @@ TEST(VoxelLights, BothShapesFillTheSameBytesUnderThousandsOfLights) {
   }
 }
 
-// docs/details/voxel_lights.md#memory: 32 bytes a sample, 16 in 16 bits, and as much in OpenGL where that
-// draws; a slice has a record of 16 bytes.
+// docs/techniques/voxel_lights.md#what-it-costs: 32 bytes per sample, 16 in 16 bits, and as much in OpenGL if
+// that draws; a slice has a record of 16 bytes.
 TEST(VoxelLights, TakesTheMemoryThatItsPageSays) {
   const Scene scene = small_scene().scene;
   const View view = small_view(31, 23);
