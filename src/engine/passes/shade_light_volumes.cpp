@@ -6,6 +6,7 @@
 #include "passes/common/light_source.h"
 #include "passes/depth_prepass.h"
 #include "passes/light_volumes/volume_draws.h"
+#include "renderer/drawing/draw.h"
 
 namespace lightgrid {
 namespace {
@@ -62,14 +63,21 @@ ListedLights read_pairs(PassContext& work, Cached<LightVolumes>& cache) {
   return lists;
 }
 
-// Draws all lights with a fragment shader that adds what each does. bind: its inputs.
-void add_lights(PassContext& work, LightVolumes& volumes, GLuint framebuffer, const char* fragment,
-                const std::vector<std::string>& defines, const auto& bind) {
-  volumes.update(work);
+// The defines of a shader that reads lights and the geometry buffer. Effects that the stencil's masks stand for
+// are not tested again.
+std::vector<std::string> defines_of_lights(PassContext& work) {
   std::vector<std::string> all = light_loop(work).defines;
   for (const Effect* effect : work.plan.effects) {
     if (work.plan.masks.stencil_bits > 0 && has_masks(*effect)) std::erase(all, define_of(*effect));
   }
+  return all;
+}
+
+// Draws all lights with a fragment shader that adds what each does. bind: its inputs.
+void add_lights(PassContext& work, LightVolumes& volumes, GLuint framebuffer, const char* fragment,
+                const std::vector<std::string>& defines, const auto& bind) {
+  volumes.update(work);
+  std::vector<std::string> all = defines_of_lights(work);
   all.insert(all.end(), defines.begin(), defines.end());
   begin_adding_lights(work, framebuffer);
   bind();
@@ -84,6 +92,28 @@ void shade_light_volumes(PassContext& work, Cached<LightVolumes>& cache, const G
   auto pass = work.timer.pass("shade_light_volumes", "gl");
   add_lights(work, cache.of(work), gbuffer.image.framebuffer, "shaders/deferred_light.frag",
              gbuffer_defines(gbuffer), [&] { bind_gbuffer(gbuffer); });
+  const size_t values = work.grid().values();
+  pass.moves(values * (4 + 16 + gbuffer.bytes()), values * 16);
+}
+
+void shade_full_screen(PassContext& work, const GBuffer& gbuffer) {
+  if (!work.plan.lights.any_local) return;
+  auto pass = work.timer.pass("shade_full_screen", "gl");
+  std::vector<std::string> defines = defines_of_lights(work);
+  for (const std::string& define : gbuffer_defines(gbuffer)) defines.push_back(define);
+  defines.emplace_back("LIGHT_RANGE");
+  begin_adding_lights(work, gbuffer.image.framebuffer);
+  glDisable(GL_DEPTH_TEST);
+  bind_gbuffer(gbuffer);
+  const GlProgram& program = work.program("shaders/screen.vert", "shaders/deferred_light.frag", defines);
+  glUseProgram(program.name());
+  const size_t lights = work.plan.lights.local.size();
+  for (size_t first = 0; first < lights; first += longest_plain_loop) {
+    glUniform2ui(program.uniform("light_range"), GLuint(first),
+                 GLuint(std::min(first + longest_plain_loop, lights)));
+    draw_screen(program);
+  }
+  glDisable(GL_BLEND);
   const size_t values = work.grid().values();
   pass.moves(values * (4 + 16 + gbuffer.bytes()), values * 16);
 }

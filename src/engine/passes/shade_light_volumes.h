@@ -11,6 +11,9 @@ namespace lightgrid {
 // by the setting volume-culling (docs/techniques/deferred.md).
 void shade_light_volumes(PassContext& work, Cached<LightVolumes>& cache, const GBuffer& gbuffer);
 
+// Adds all point and spot lights to `gbuffer.image` in one pass over the screen, without culling.
+void shade_full_screen(PassContext& work, const GBuffer& gbuffer);
+
 // The (pixel, light) pairs for which the last frame ran the light shader.
 HostLists listed_of_light_volumes(PassContext& work, Cached<LightVolumes>& cache);
 

@@ -5,10 +5,6 @@
 
 namespace lightgrid {
 
-// llvmpipe ends a shader's loops after 65,535 iterations together (shaders/lights/blocks.glsl); the loops
-// over masks and z-bins take two a light and one a word, those of voxel-lights-exact two a light.
-static constexpr size_t longest_plain_loop = 16384;
-
 void GlLightLoop::bind(PassContext& work) const {
   work.bind_lights();
   for (const Binding& binding : textures) bind_texture(binding.sampler, binding.texture, binding.element);

@@ -9,6 +9,11 @@
 
 namespace lightgrid {
 
+// Lights that one plain loop may visit. llvmpipe ends a shader's loops after 65,535 iterations together
+// (shaders/lights/blocks.glsl). The loops over masks and z-bins take two per light and one per word, those of
+// voxel-lights-exact two per light.
+inline constexpr size_t longest_plain_loop = 16384;
+
 // The loop of shaders/forward.frag.
 struct GlLightLoop {
   std::vector<std::string> defines;  // which loop, and its input
