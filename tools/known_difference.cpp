@@ -17,6 +17,7 @@
 #include "frontier/measure.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr double planted = 0.02;

@@ -33,6 +33,7 @@
 #include "verify/engine.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr uint32_t packets_at_once = 64;  // as rays/ray_occlusion.cpp

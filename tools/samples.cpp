@@ -8,6 +8,7 @@
 #include "support/fine_truth.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr float display_white = 1;  // light above it is shown as white, and an error in it is not seen

@@ -20,6 +20,7 @@
 #include "shadow_maps/shadow_maps.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 using glm::dvec3;

@@ -10,6 +10,7 @@
 #include "support/virtual_light_error.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 #ifdef LIGHTGRID_EMBREE

@@ -26,6 +26,7 @@
 #include "world_grid/world_cell.h"
 
 using namespace lightgrid;
+using namespace lightgrid::lab;
 
 namespace {
 

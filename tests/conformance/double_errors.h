@@ -14,6 +14,7 @@
 #include "support/double_surfaces.h"
 
 namespace lightgrid {
+using namespace lab;
 
 struct DoubleErrors {
   size_t pixels = 0, compared = 0;

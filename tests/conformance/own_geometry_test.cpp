@@ -3,6 +3,7 @@
 #include "conformance/own_model.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 using nlohmann::json;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 using nlohmann::json;

@@ -4,6 +4,7 @@
 #include "scenes/shapes.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 struct MapCase {

@@ -2,6 +2,7 @@
 #include "conformance/own_model.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 using nlohmann::json;

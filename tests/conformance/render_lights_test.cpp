@@ -2,6 +2,7 @@
 #include "conformance/picture.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 #define NEEDS(model) LIGHTGRID_NEEDS_SHARED("scenes/conformance/" model)

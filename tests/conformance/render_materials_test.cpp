@@ -5,6 +5,7 @@
 #include <algorithm>
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 #define NEEDS(model) LIGHTGRID_NEEDS_SHARED("scenes/conformance/" model)

@@ -11,6 +11,7 @@
 #include "support/shared_files.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr int width = 400, height = 300;

@@ -6,6 +6,7 @@
 #include "plan/settings/kernels.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 // Mean errors, of the brightest channel: float's rounding alone, and that of a depth whose corners are

@@ -4,7 +4,7 @@
 
 #include "verify/run.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 struct CapFault {
@@ -63,4 +63,4 @@ INSTANTIATE_TEST_SUITE_P(Verify, FaultyCaps, testing::ValuesIn(cap_faults()),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

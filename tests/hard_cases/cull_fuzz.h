@@ -11,7 +11,7 @@
 #include "verify/check.h"
 #include "verify/hunt_space.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 class Bytes {
  public:
@@ -204,4 +204,4 @@ inline std::string fuzz_once(CullEngine& engine, const uint8_t* data, size_t siz
   return "";
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

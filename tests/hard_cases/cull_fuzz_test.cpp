@@ -4,7 +4,7 @@
 #include "hard_cases/cull_fuzz.h"
 #include "support/long_tests.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 const uint64_t inputs = long_tests() ? 400 : 48;
@@ -34,4 +34,4 @@ TEST(CullFuzz, RandomInputsGiveWholeGridsThatBothShapesAgreeOn) {
 }
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -5,7 +5,7 @@
 #include "hard_cases/cull_fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace lightgrid::verify;
+  using namespace lightgrid::lab::verify;
   static const auto engine = device_engine("");
   const std::string wrong = fuzz_once(*engine, data, size);
   if (!wrong.empty()) {

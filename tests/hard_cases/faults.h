@@ -1,7 +1,7 @@
 // Faults of naive culling code that NaiveCuller can have.
 #pragma once
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 enum class Fault {
   none,
@@ -61,4 +61,4 @@ enum class Fault {
   last_sample_as_first,
 };
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

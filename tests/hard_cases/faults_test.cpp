@@ -7,7 +7,7 @@
 #include "hard_cases/naive_culler.h"
 #include "verify/run.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 constexpr uint64_t few_adversarial_lights = 4096;
@@ -156,4 +156,4 @@ INSTANTIATE_TEST_SUITE_P(HardCases, FaultyCuller, testing::ValuesIn(faults()),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -8,7 +8,7 @@
 #include "verify/check.h"
 #include "verify/inputs.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 struct Frame {
@@ -106,4 +106,4 @@ TEST(FloatTwin, SeesASingleDifference) {
 }
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

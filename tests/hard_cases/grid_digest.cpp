@@ -8,7 +8,8 @@
 #include "verify/inputs.h"
 
 using namespace lightgrid;
-using namespace lightgrid::verify;
+using namespace lightgrid::lab;
+using namespace lightgrid::lab::verify;
 
 namespace {
 

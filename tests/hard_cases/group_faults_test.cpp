@@ -4,7 +4,7 @@
 
 #include "verify/run.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 struct GroupFault {
@@ -114,4 +114,4 @@ INSTANTIATE_TEST_SUITE_P(Verify, FaultyGroups, testing::ValuesIn(group_faults())
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

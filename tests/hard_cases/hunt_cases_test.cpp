@@ -9,7 +9,7 @@
 #include "plan/settings/samples.h"
 #include "verify/hunt_cases.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 // The library with what it returns altered as a fault would.
@@ -98,4 +98,4 @@ TEST(HuntOfCases, RefusesAFilterThatNamesNone) {
 }
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

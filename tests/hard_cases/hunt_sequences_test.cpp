@@ -11,7 +11,7 @@
 #include "verify/hunt_shadows.h"
 #include "verify/run.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 // Draws the scene as it was before lights changed where nothing else did, as if shadow-reuse overlooked them.
@@ -183,4 +183,4 @@ TEST(HuntOfStaleSequences, AStaleFrameFailsTheHuntAndItsSeedShowsItAgain) {
 }
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

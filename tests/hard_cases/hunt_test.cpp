@@ -17,7 +17,7 @@
 #include "support/temp_folder.h"
 #include "verify/hunt.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 // The library with its input altered as a fault of naive code would.
@@ -249,4 +249,4 @@ TEST(HuntCommand, RefusesWhatIsNoHunt) {
 }
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

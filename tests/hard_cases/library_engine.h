@@ -3,7 +3,7 @@
 
 #include "verify/engine.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 struct LibraryEngine : CullEngine {
   std::unique_ptr<CullEngine> library = device_engine("");
@@ -24,4 +24,4 @@ struct LibraryEngine : CullEngine {
   }
 };
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

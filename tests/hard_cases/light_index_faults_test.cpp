@@ -8,7 +8,7 @@
 #include "oracle/position.h"
 #include "verify/run.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 // A pixel's list, and where it is.
@@ -134,4 +134,4 @@ INSTANTIATE_TEST_SUITE_P(Verify, FaultyLightIndices, testing::ValuesIn(light_ind
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

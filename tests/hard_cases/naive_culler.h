@@ -17,7 +17,7 @@
 #include "oracle/position.h"
 #include "verify/views.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 class NaiveCuller : public CullEngine {
  public:
@@ -210,4 +210,4 @@ class NaiveCuller : public CullEngine {
   std::atomic<uint64_t> runs_ = 0;
 };
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -11,7 +11,7 @@
 #include "hard_cases/faults.h"
 #include "verify/views.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 struct DepthInterval64 {
   double near, far;
@@ -123,4 +123,4 @@ class NaiveDepth {
   Fault fault_;
 };
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -9,7 +9,7 @@
 #include "oracle/cell.h"
 #include "verify/views.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 class NaiveLightTest {
  public:
@@ -98,4 +98,4 @@ class NaiveLightTest {
   Fault fault_;
 };
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -13,7 +13,7 @@
 #include "raster/raster_samples.h"
 #include "verify/engine.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 class NaiveRasterizer {
  public:
@@ -139,4 +139,4 @@ inline RasterImage naive_image(const RasterInput& input, Fault fault) {
   return NaiveRasterizer(input, fault).draw();
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -4,7 +4,7 @@
 #include "support/paths.h"
 #include "support/run_command.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 CommandOutcome digest(const std::string& before, const std::string& size = "") {
@@ -48,4 +48,4 @@ INSTANTIATE_TEST_SUITE_P(Oclgrind, ShapeDigest, testing::Values("lanes", "group"
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

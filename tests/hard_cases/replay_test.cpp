@@ -12,7 +12,7 @@
 #include "support/temp_folder.h"
 #include "verify/run.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 VerifyReport replay_by(Fault fault, const CapturedFrame& frame, std::vector<CullView> views = {}) {
@@ -120,4 +120,4 @@ TEST(ReplayCommand, RefusesSettingsThatItVariesItself) {
 }
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -7,7 +7,7 @@
 #include "verify/hunt_shadows.h"
 #include "verify/run.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 struct ShadowFault {
@@ -137,4 +137,4 @@ INSTANTIATE_TEST_SUITE_P(Verify, FaultyShadows, testing::ValuesIn(shadow_faults(
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

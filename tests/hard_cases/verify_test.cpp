@@ -14,7 +14,7 @@
 #include "support/run_program.h"
 #include "verify/run.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 struct HardCasesOf : testing::TestWithParam<const char*> {};
@@ -112,4 +112,4 @@ TEST(VerifyCommand, RefusesAFilterThatNamesNothing) {
 }
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -12,6 +12,7 @@
 #include "scene/scene.h"
 
 namespace lightgrid::double_surfaces {
+using namespace lab;
 
 using glm::dvec2, glm::dvec3, glm::dvec4;
 

@@ -9,6 +9,7 @@
 #include "run/technique_run.h"
 
 namespace lightgrid {
+using namespace lab;
 
 struct FineTruth {
   static constexpr int side = 16;

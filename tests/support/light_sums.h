@@ -10,6 +10,7 @@
 #include "scene/view_lights.h"
 
 namespace lightgrid {
+using namespace lab;
 
 struct LightSums {
   glm::dvec3 diffuse{0};                     // channels 1 to 3

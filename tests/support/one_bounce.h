@@ -20,6 +20,7 @@
 #include "scene/random.h"
 
 namespace lightgrid {
+using namespace lab;
 
 class OneBounce {
  public:

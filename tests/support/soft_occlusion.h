@@ -8,6 +8,7 @@
 #include "scene/random.h"
 
 namespace lightgrid {
+using namespace lab;
 
 // x, y: from -1 to 1.
 inline glm::dvec2 on_disc(double x, double y) {

@@ -12,6 +12,7 @@
 #include "run/virtual_lights.h"
 
 namespace lightgrid {
+using namespace lab;
 
 // Relative to the mean of the truth. Channels count alike.
 struct VirtualLightError {

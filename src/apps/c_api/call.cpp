@@ -8,7 +8,7 @@
 #include "cl/error.h"
 #include "run/scene_choice.h"
 
-namespace lightgrid::c {
+namespace lightgrid::app::c {
 namespace {
 
 struct LastError {
@@ -93,12 +93,12 @@ std::vector<std::string> words_of(const char* const* words) {
   return all;
 }
 
-}  // namespace lightgrid::c
+}  // namespace lightgrid::app::c
 
 extern "C" {
 
-const char* lightgrid_error_message(void) { return lightgrid::c::last_error().message.c_str(); }
-const char* lightgrid_error_field(void) { return lightgrid::c::last_error().field.c_str(); }
+const char* lightgrid_error_message(void) { return lightgrid::app::c::last_error().message.c_str(); }
+const char* lightgrid_error_field(void) { return lightgrid::app::c::last_error().field.c_str(); }
 void lightgrid_free(char* text) { std::free(text); }
 
 }  // extern "C"

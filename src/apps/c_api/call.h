@@ -9,7 +9,7 @@
 #include "base/log.h"
 #include "c_api/lightgrid.h"
 
-namespace lightgrid::c {
+namespace lightgrid::app::c {
 
 // Thrown by a progress function's wish. No Error: a comparison records those as refusals and goes on.
 struct Cancelled {};
@@ -58,4 +58,4 @@ char* text_for_caller(const std::string& text);
 // The strings of a null-terminated array; none for null.
 std::vector<std::string> words_of(const char* const* words);
 
-}  // namespace lightgrid::c
+}  // namespace lightgrid::app::c

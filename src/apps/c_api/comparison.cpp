@@ -8,11 +8,12 @@
 #include "report/report.h"
 
 struct lightgrid_report {
-  lightgrid::CompareReport report;
+  lightgrid::lab::CompareReport report;
   std::string json;
 };
 
-namespace lightgrid::c {
+namespace lightgrid::app::c {
+using namespace lab;
 namespace {
 
 int checked_whole(const std::string& name, const std::string& text, int least, int most) {
@@ -56,10 +57,10 @@ bool is_answered(const Warning& warning, const std::vector<std::string>& given) 
 }
 
 }  // namespace
-}  // namespace lightgrid::c
+}  // namespace lightgrid::app::c
 
 using namespace lightgrid;
-using namespace lightgrid::c;
+using namespace lightgrid::app::c;
 
 extern "C" {
 

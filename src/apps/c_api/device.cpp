@@ -12,7 +12,8 @@
 #include "run/tables.h"
 #include "scenes/builtin.h"
 
-namespace lightgrid::c {
+namespace lightgrid::app::c {
+using namespace lab;
 namespace {
 
 struct OpenGlTurn {
@@ -113,10 +114,10 @@ Turn::~Turn() {
   }
 }
 
-}  // namespace lightgrid::c
+}  // namespace lightgrid::app::c
 
 using namespace lightgrid;
-using namespace lightgrid::c;
+using namespace lightgrid::app::c;
 
 extern "C" {
 

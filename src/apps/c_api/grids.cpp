@@ -6,10 +6,11 @@
 #include "plan/settings/surfaces.h"
 
 struct lightgrid_lists {
-  lightgrid::FrameGrid grid;
+  lightgrid::lab::FrameGrid grid;
 };
 
-namespace lightgrid::c {
+namespace lightgrid::app::c {
+using namespace lab;
 namespace {
 
 View view_of(const lightgrid_projection& in) {
@@ -72,10 +73,10 @@ DeviceScene::Raster& raster_of(OpenDevice& device, DeviceScene& held) {
 }
 
 }  // namespace
-}  // namespace lightgrid::c
+}  // namespace lightgrid::app::c
 
 using namespace lightgrid;
-using namespace lightgrid::c;
+using namespace lightgrid::app::c;
 
 extern "C" {
 

@@ -13,7 +13,7 @@
 #include "run/scene_choice.h"
 #include "run/technique_run.h"
 
-namespace lightgrid::c {
+namespace lightgrid::app::c {
 
 // A scene that may change between frames. Its counters tell what changed since a device or a view last read
 // it.
@@ -121,19 +121,19 @@ Camera camera_of(const lightgrid_camera& camera);
 lightgrid_projection projection_of(const View& view);
 glm::dmat4 matrix_of(const double* values, const char* name);
 
-}  // namespace lightgrid::c
+}  // namespace lightgrid::app::c
 
 struct lightgrid_device {
-  std::shared_ptr<lightgrid::c::OpenDevice> device;
+  std::shared_ptr<lightgrid::app::c::OpenDevice> device;
 };
 
 struct lightgrid_scene {
-  std::shared_ptr<lightgrid::c::LoadedScene> loaded;
+  std::shared_ptr<lightgrid::app::c::LoadedScene> loaded;
 };
 
 struct lightgrid_view {
-  std::shared_ptr<lightgrid::c::OpenDevice> device;
-  std::shared_ptr<lightgrid::c::DeviceScene> scene;
+  std::shared_ptr<lightgrid::app::c::OpenDevice> device;
+  std::shared_ptr<lightgrid::app::c::DeviceScene> scene;
   const lightgrid::Technique* technique = nullptr;
   lightgrid::Settings settings;
   lightgrid::View view;
@@ -145,8 +145,8 @@ struct lightgrid_view {
 
 // Keeps the memory of a frame's image, and what that needs.
 struct lightgrid_frame {
-  std::shared_ptr<lightgrid::c::OpenDevice> device;
-  std::shared_ptr<lightgrid::c::DeviceScene> scene;
+  std::shared_ptr<lightgrid::app::c::OpenDevice> device;
+  std::shared_ptr<lightgrid::app::c::DeviceScene> scene;
   std::shared_ptr<lightgrid::GpuScene> gpu;
   std::shared_ptr<lightgrid::TechniqueRun> run;
 };

@@ -6,7 +6,8 @@
 #include "measures/flip.h"
 #include "measures/metrics.h"
 
-namespace lightgrid::c {
+namespace lightgrid::app::c {
+using namespace lab;
 namespace {
 
 constexpr int max_side = 16384;
@@ -74,10 +75,10 @@ const lightgrid_image& checked(const lightgrid_image* image, const std::string& 
   return in;
 }
 
-}  // namespace lightgrid::c
+}  // namespace lightgrid::app::c
 
 using namespace lightgrid;
-using namespace lightgrid::c;
+using namespace lightgrid::app::c;
 
 extern "C" {
 

@@ -7,7 +7,7 @@
 #include "base/image.h"
 #include "c_api/call.h"
 
-namespace lightgrid::c {
+namespace lightgrid::app::c {
 
 // Throws Error(input) that names the field, unless there is an image of that format and, if they are not 0,
 // sides.
@@ -33,4 +33,4 @@ inline void read_pixels(const lightgrid_image& from, void* to) {
     std::memcpy(static_cast<char*>(to) + size_t(y) * row, row_of(from, y), row);
 }
 
-}  // namespace lightgrid::c
+}  // namespace lightgrid::app::c

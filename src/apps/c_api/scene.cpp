@@ -9,7 +9,7 @@
 #include "scene/lights_file.h"
 #include "scene/virtual_lights.h"
 
-namespace lightgrid::c {
+namespace lightgrid::app::c {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -246,10 +246,10 @@ Camera camera_of(const lightgrid_camera& in) {
   return camera;
 }
 
-}  // namespace lightgrid::c
+}  // namespace lightgrid::app::c
 
 using namespace lightgrid;
-using namespace lightgrid::c;
+using namespace lightgrid::app::c;
 
 extern "C" {
 

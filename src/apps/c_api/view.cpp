@@ -5,7 +5,8 @@
 #include "plan/plan_changes.h"
 #include "plan/settings/picture.h"
 
-namespace lightgrid::c {
+namespace lightgrid::app::c {
+using namespace lab;
 namespace {
 
 std::shared_ptr<TechniqueRun> make_run(const lightgrid_view& v, const View& view) {
@@ -53,10 +54,10 @@ lightgrid_projection projection_of(const View& view) {
   return out;
 }
 
-}  // namespace lightgrid::c
+}  // namespace lightgrid::app::c
 
 using namespace lightgrid;
-using namespace lightgrid::c;
+using namespace lightgrid::app::c;
 
 extern "C" {
 

@@ -16,7 +16,8 @@
 #include "compare/contestants.h"
 #include "frames/capture.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 struct BenchCommand {
@@ -199,4 +200,4 @@ void add_bench(CommandLine& line) {
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -12,7 +12,8 @@
 #include "frames/capture.h"
 #include "frames/frame_summary.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 struct CaptureOptions {
@@ -90,4 +91,4 @@ void add_capture(CommandLine& line) {
   command.option("--json", o->json, "summary as JSON into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -24,7 +24,8 @@
 #include "run/technique_run.h"
 #include "scene/hidden.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 using nlohmann::ordered_json;
@@ -324,4 +325,4 @@ void add_check(CommandLine& line) {
   command.option("--html", o->html, "a page with pictures of what limits look like, into a file");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

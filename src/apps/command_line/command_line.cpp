@@ -14,7 +14,7 @@
 #include "base/version.h"
 #include "gl/context.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 void Subcommand::option(const std::string& names, std::string& value, const std::string& help) {
   CLI::Option* option = app_.add_option(names, value, help);
@@ -178,4 +178,4 @@ std::string CommandLine::with_option(const std::string& message) const {
   return message;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

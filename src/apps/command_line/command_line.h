@@ -9,9 +9,9 @@
 
 namespace CLI {
 class App;
-}
+}  // namespace CLI
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 // Returns the exit status.
 using Command = std::function<int()>;
@@ -62,4 +62,4 @@ class CommandLine {
   std::string unused_gl_ = "auto";  // for commands that open no OpenGL and only check the option
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -5,7 +5,7 @@
 
 #include "command_line/command_line.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 void add_render(CommandLine& line);
 void add_compare(CommandLine& line);
@@ -25,4 +25,4 @@ void add_check(CommandLine& line);
 void add_view(CommandLine& line);
 void add_manual(CommandLine& line);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -20,7 +20,8 @@
 #include "report/report.h"
 #include "report/speedup_words.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 struct CompareCommand {
@@ -161,4 +162,4 @@ void add_compare(CommandLine& line) {
   command.option("--json", o->json, "results.json also into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -11,7 +11,8 @@
 #include "compare/contestants.h"
 #include "frames/frame_summary.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 struct CullOptions {
@@ -69,4 +70,4 @@ void add_cull(CommandLine& line) {
   command.option("--json", o->json, "summary as JSON into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -13,7 +13,7 @@
 #include "command_line/commands.h"
 #include "command_line/options.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 struct DevicesOptions {
@@ -179,4 +179,4 @@ void add_devices(CommandLine& line) {
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -13,7 +13,7 @@
 #include "base/log.h"
 #include "cl/cache_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 namespace {
 
@@ -100,4 +100,4 @@ void TemporaryCache::tell() const {
   log_info("{}; kernels are compiled in each run (set XDG_CACHE_HOME to a writable folder with room)", why_);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 // Sets the variables in docs/devices.md#environment, except those that the user has set. main calls it first,
 // before other threads start and before any OpenCL or EGL call. The libraries do not change a host program's
@@ -30,4 +30,4 @@ class TemporaryCache {
   std::string why_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -4,7 +4,7 @@
 
 #include "base/version.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 using nlohmann::ordered_json;
 
@@ -45,4 +45,4 @@ ordered_json sarif_log(const std::string& tool, const std::vector<FindingRule>& 
           {"runs", ordered_json::array({run})}};
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

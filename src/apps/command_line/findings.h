@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 struct FindingRule {
   std::string id, description;
@@ -23,4 +23,4 @@ struct Finding {
 nlohmann::ordered_json sarif_log(const std::string& tool, const std::vector<FindingRule>& rules,
                                  const std::vector<Finding>& findings);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -29,7 +29,8 @@
 
 extern char** environ;
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 namespace fs = std::filesystem;
@@ -329,4 +330,4 @@ void add_frontier(CommandLine& line) {
   command.option("--json", o->json, "frontier.json also into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -15,7 +15,8 @@
 #include "measures/words.h"
 #include "plan/settings/samples.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 
 namespace fs = std::filesystem;
 
@@ -187,4 +188,4 @@ void ask(FrontierJob& job, const SceneRequest& request, const Shard& shard) {
   job.truth = request.truth;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

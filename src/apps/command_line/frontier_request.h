@@ -10,7 +10,7 @@
 #include "command_line/options.h"
 #include "frontier/measure.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 struct FrontierCommand {
   SceneChoice scene;                // shared by all scenes
@@ -23,7 +23,7 @@ struct FrontierCommand {
   bool no_growth = false, sequences = false, families = false;
 };
 
-using Externals = std::vector<std::shared_ptr<const ExternalRenderer>>;
+using Externals = std::vector<std::shared_ptr<const lab::ExternalRenderer>>;
 
 struct Shard {
   int index = 0, count = 1;
@@ -36,15 +36,15 @@ SceneChoice choice_of(const FrontierCommand& o, const std::string& scene);
 
 // A scene's points, and what they are held to.
 struct SceneRequest {
-  std::vector<ChosenPoint> points;
-  FrontierTruth truth;
+  std::vector<lab::ChosenPoint> points;
+  lab::FrontierTruth truth;
   bool casts = false;  // some light of the scene
 };
 
 // The points of the techniques and settings that are named, of a family, or the default ones; `shadows`: for
 // a scene whose lights cast.
-std::vector<ChosenPoint> points_of(const FrontierCommand& o, const Settings& common, bool opengl,
-                                   const std::optional<FrontierTruth>& shadows = {});
+std::vector<lab::ChosenPoint> points_of(const FrontierCommand& o, const Settings& common, bool opengl,
+                                        const std::optional<lab::FrontierTruth>& shadows = {});
 SceneRequest request_of_scene(const FrontierCommand& o, bool casts, const Settings& common, bool opengl);
 void add_external_points(const Externals& externals, const std::string& scene, SceneRequest& request);
 
@@ -52,15 +52,15 @@ void add_external_points(const Externals& externals, const std::string& scene, S
 std::filesystem::path folder_of_scene(const FrontierCommand& o, size_t scene);
 
 // Parts of one sweep agree in this.
-std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>& points,
+std::string request_of(const FrontierCommand& o, const std::vector<lab::ChosenPoint>& points,
                        const std::vector<SceneRequest>& of_scenes, const Externals& externals);
 
 // Checks what the command is asked for, before a device opens and before the first scene is measured. Returns
 // whether a light casts, scene by scene. Throws Error(input).
 std::vector<bool> check_request(const FrontierCommand& o, const Externals& externals);
 
-FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Shard& shard);
+lab::FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Shard& shard);
 // Gives the job the points of a scene that the shard measures.
-void ask(FrontierJob& job, const SceneRequest& request, const Shard& shard);
+void ask(lab::FrontierJob& job, const SceneRequest& request, const Shard& shard);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -20,7 +20,8 @@
 #include "measures/metrics.h"
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 using nlohmann::json;
@@ -341,4 +342,4 @@ void add_golden(CommandLine& line) {
   command.option("--sarif", o->sarif, "of check: differences as SARIF 2.1.0 into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -22,7 +22,8 @@
 #include "plan/settings/grid.h"
 #include "plan/settings/samples.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 struct InspectOptions {
@@ -256,4 +257,4 @@ void add_inspect(CommandLine& line) {
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

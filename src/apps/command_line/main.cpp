@@ -52,7 +52,7 @@ std::vector<std::string> command_to_copy(int argc, char** argv) {
   return words;
 }
 
-int run(const lightgrid::Command& command) {
+int run(const lightgrid::app::Command& command) {
   try {
     const int status = command();
     check_stdout();
@@ -67,6 +67,7 @@ int run(const lightgrid::Command& command) {
 
 int main(int argc, char** argv) {
   using namespace lightgrid;
+  using namespace lightgrid::app;
   reserve_standard_streams();
   prepare_environment();
   const TemporaryCache cache;

@@ -10,7 +10,7 @@
 #include "scenes/builtin.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 std::vector<CLI::App*> commands_of(CLI::App& app) {
@@ -236,4 +236,4 @@ void add_manual(CommandLine& line) {
   command.option("form", *form, "page (for man), bash, zsh or fish");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

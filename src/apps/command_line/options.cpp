@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/write_file.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 namespace {
 
@@ -122,4 +122,4 @@ void write_json(const std::string& destination, const std::string& text) {
   write_file(destination, whole);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

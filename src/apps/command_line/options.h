@@ -8,7 +8,7 @@
 #include "command_line/command_line.h"
 #include "run/scene_choice.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 void add_scene_options(Subcommand& command, SceneChoice& choice);
 void add_file_options(Subcommand& command, SceneChoice& choice);     // options of reading a glTF file
@@ -34,4 +34,4 @@ int with_output_folder(const std::filesystem::path& folder, const std::function<
 // Writes JSON text to a file, or to stdout for "-".
 void write_json(const std::string& destination, const std::string& text);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -14,7 +14,8 @@
 #include "plan/settings/samples.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 struct PlanOptions {
@@ -107,4 +108,4 @@ void add_plan(CommandLine& line) {
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

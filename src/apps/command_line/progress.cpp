@@ -10,7 +10,7 @@
 #include "base/log.h"
 #include "base/timer.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 constexpr int width = 20, text = 40, rest = 14;
@@ -91,4 +91,4 @@ void ProgressLines::run(std::chrono::duration<double> interval) {
   }
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

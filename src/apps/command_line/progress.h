@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 // Draws the bar on stderr, with an estimate of the time left, and clears it when `done` (0 to 1) reaches 1.
 // If stderr is no terminal, updates the process's ProgressLines instead.
@@ -33,4 +33,4 @@ class ProgressLines {
   std::thread thread_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -18,7 +18,8 @@
 #include "plan/plan_changes.h"
 #include "run/technique_run.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 constexpr int exr_encoder_bytes = 72;  // per pixel that does not compress: planes, blocks and the file
@@ -121,4 +122,4 @@ void add_render(CommandLine& line) {
   command.option("--json", o->json, "results as JSON into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -14,7 +14,7 @@
 #include "scene/load_gltf.h"
 #include "scenes/builtin.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 struct Contents {
@@ -162,4 +162,4 @@ void add_info(CommandLine& line) {
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

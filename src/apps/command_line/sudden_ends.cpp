@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 namespace {
 
@@ -96,12 +96,13 @@ std::filesystem::path nearest_existing(std::filesystem::path folder) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app
 
 // Takes the place of the C library's, for drivers too. A handler of SIGABRT would not do: LLVM puts its own
 // in its place, after which abort() calls no other.
 extern "C" void abort() {
   using namespace lightgrid;
+  using namespace lightgrid::app;
   if (const std::string_view why = lacking(); ends().main_runs && !why.empty()) end_with(why);
   raise(SIGABRT);
   signal(SIGABRT, SIG_DFL);
@@ -109,7 +110,7 @@ extern "C" void abort() {
   _exit(128 + SIGABRT);
 }
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 SuddenEnds::SuddenEnds(const std::filesystem::path& cache) {
   Ends& s = ends();
@@ -127,4 +128,4 @@ SuddenEnds::SuddenEnds(const std::filesystem::path& cache) {
 
 SuddenEnds::~SuddenEnds() { ends().main_runs = 0; }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

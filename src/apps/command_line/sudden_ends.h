@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 // While it exists, a driver that ends the process does so with status 3 and a line that says why: LLVM calls
 // exit(1) and PoCL abort() if the disk under PoCL's cache is full; without memory they also throw in threads
@@ -21,4 +21,4 @@ class SuddenEnds {
 inline constexpr std::string_view out_of_memory_line =
     "lightgrid: out of memory; a smaller --size, scene or number of lights would help\n";
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -8,7 +8,7 @@
 #include "run/tables.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 // "tile=16 slices=24": the keys with their defaults.
@@ -56,4 +56,4 @@ void add_techniques(CommandLine& line) {
   command.option("--json", *json, "as JSON into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

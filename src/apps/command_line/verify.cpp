@@ -15,7 +15,8 @@
 #include "measures/results.h"
 #include "verify/run.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 struct VerifyCommand {
@@ -120,4 +121,4 @@ void add_verify(CommandLine& line) {
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

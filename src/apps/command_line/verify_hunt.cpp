@@ -11,7 +11,8 @@
 #include "verify/hunt_cases.h"
 #include "verify/hunt_shadows.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 constexpr double max_minutes = 100'000;
@@ -118,4 +119,4 @@ int run_hunt(const HuntCommand& o, verify::CullEngine& engine, const std::string
                  : tell(verify::hunt_shadows(engine, options), json);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

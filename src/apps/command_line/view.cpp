@@ -11,7 +11,8 @@
 #include "view/viewer.h"
 #endif
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 struct ViewOptions {
@@ -141,4 +142,4 @@ void add_view(CommandLine& line) {
   command.option("--screenshot", o->screenshot, "the last frame of a script as a PNG");
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

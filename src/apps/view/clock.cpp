@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 namespace {
 
@@ -129,4 +129,4 @@ FrameTimes frame_times(const std::vector<PassRecord>& records) {
   return frame;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -11,7 +11,7 @@
 #include "scene/light_motion.h"
 #include "view/controls.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 // Lights by light_motion, and the animations of the scene's file.
 class Motion {
@@ -92,4 +92,4 @@ class Timings {
 // The times of one frame: records that contain that frame alone. A pass that ran twice counts as their sum.
 FrameTimes frame_times(const std::vector<PassRecord>& records);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

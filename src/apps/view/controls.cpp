@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 const std::array<const char*, 9>& map_names() {
   static const std::array<const char*, 9> names = {"picture", "listed", "lit",        "lost", "hidden",
@@ -123,4 +123,4 @@ std::string render_command(const std::string& scene_words, int width, int height
   return line + " -o view.png";
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -10,7 +10,7 @@
 #include "plan/settings.h"
 #include "scene/light_motion.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 // The map that a side shows.
 enum class SideMap { picture, listed, lit, lost, hidden, leaked, acned, difference, edges };
@@ -114,4 +114,4 @@ std::string shell_word(const std::string& word);
 std::string render_command(const std::string& scene_words, int width, int height, const std::string& camera,
                            const std::string& time_words, const SideControls& side);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 constexpr double steepest_rad =
@@ -103,4 +103,4 @@ View FlyCamera::view(int width, int height) {
   return make_view(choose_camera(scene_, text_, aspect_), width, height);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -7,7 +7,7 @@
 #include "scene/camera.h"
 #include "view/controls.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 // Its state is the text for --camera, with decimals that suit the scene's size. The view is computed from
 // that text, so that a command line with it gives the same picture to the bit.
@@ -50,4 +50,4 @@ class FlyCamera {
   double size_m_ = 1;        // the scene's
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

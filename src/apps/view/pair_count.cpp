@@ -9,7 +9,8 @@
 #include "plan/settings/grid.h"
 #include "plan/settings/model.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 
 ListedFrame read_listed_frame(TechniqueRun& run) {
   const RenderView& v = run.view();
@@ -126,4 +127,4 @@ void PairCount::leave_scene() {
   std::lock_guard lock(job_->reads_scene);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -14,11 +14,11 @@
 #include "oracle/lit_set.h"
 #include "run/technique_run.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 // The last frame of a side, copied from the devices, with the lights that it listed.
 struct ListedFrame {
-  CapturedFrame frame;
+  lab::CapturedFrame frame;
   std::vector<ViewLight> lights;  // point and spot lights, in the lists' order
   ListedLights lists;
 };
@@ -37,7 +37,7 @@ struct CountChoice {
 class PairCount {
  public:
   // It outlives this.
-  explicit PairCount(SceneOcclusion& occlusion) : occlusion_(occlusion) {}
+  explicit PairCount(lab::SceneOcclusion& occlusion) : occlusion_(occlusion) {}
   ~PairCount() { leave_scene(); }
   PairCount(const PairCount&) = delete;
 
@@ -48,7 +48,7 @@ class PairCount {
   double progress() const { return job_ ? std::min(1.0, double(job_->tiles_done) / job_->tiles) : 0; }
   // The last count, if it is of this choice and done; else null, and a running one of another choice ends
   // soon. `wait`: waits for it.
-  const LitPairs* result(const CountChoice& choice, bool wait);
+  const lab::LitPairs* result(const CountChoice& choice, bool wait);
   // Ends what runs, and returns when it no longer reads the scene, which may then change.
   void leave_scene();
 
@@ -56,22 +56,22 @@ class PairCount {
   struct Job {
     CountChoice choice;
     ListedFrame listed;
-    std::vector<int> places;              // in the scene, of listed.lights
-    std::vector<int> directional;         // lights in the scene, counted besides where all lights are
-    std::optional<FrameShadows> shadows;  // if they are counted
+    std::vector<int> places;                   // in the scene, of listed.lights
+    std::vector<int> directional;              // lights in the scene, counted besides where all lights are
+    std::optional<lab::FrameShadows> shadows;  // if they are counted
     std::atomic<bool> stops = false;
     std::atomic<int> tiles_done = 0;
     int tiles = 1;
     std::mutex reads_scene;
   };
   static void count_light_alone(Job& job, const TechniqueRun& run);
-  static std::optional<LitPairs> count(Job& job, SceneOcclusion& occlusion);
+  static std::optional<lab::LitPairs> count(Job& job, lab::SceneOcclusion& occlusion);
 
-  SceneOcclusion& occlusion_;
+  lab::SceneOcclusion& occlusion_;
   std::shared_ptr<Job> job_;
-  std::future<std::optional<LitPairs>> running_;
-  std::optional<LitPairs> done_;
+  std::future<std::optional<lab::LitPairs>> running_;
+  std::optional<lab::LitPairs> done_;
   CountChoice done_choice_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

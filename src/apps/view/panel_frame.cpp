@@ -8,7 +8,8 @@
 
 #include "view/panels.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 constexpr float chart_height = 70;
@@ -235,4 +236,4 @@ void show_plan(const Shown& shown) {
   ImGui::EndTabBar();
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

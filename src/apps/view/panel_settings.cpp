@@ -7,7 +7,8 @@
 #include "techniques/technique.h"
 #include "view/panels.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 std::string about_technique(const std::string& name) {
@@ -97,4 +98,4 @@ void show_settings(Controls& controls, bool of_shadows) {
   ImGui::EndTable();
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -8,7 +8,8 @@
 #include "plan/settings/shadows.h"
 #include "view/panels.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 constexpr float casting_lines_high = 9;  // height of the list
@@ -94,4 +95,4 @@ void show_shadows(Controls& controls, const Shown& shown) {
   ImGui::EndTabBar();
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

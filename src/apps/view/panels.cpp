@@ -10,7 +10,8 @@
 
 #include "scenes/builtin.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 
 namespace {
 
@@ -315,4 +316,4 @@ void show_overlay(const Controls& controls, const Shown& shown) {
   draw.PopClipRect();
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

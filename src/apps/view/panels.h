@@ -12,7 +12,7 @@
 #include "view/side.h"
 #include "view/side_map.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 inline constexpr int panel_width = 420;
 
@@ -40,8 +40,8 @@ struct Shown {
   std::array<const MapOfSide*, 2> maps;
   std::array<std::string, 2> notes;  // why the side does not show what it should yet; empty: it does
   std::array<PlanHistory, 2>& plans;
-  std::array<std::optional<PixelInspection>, 2> pixel;  // at Controls::pixel
-  bool pixel_is_new = false;                            // clicked since the last frame
+  std::array<std::optional<lab::PixelInspection>, 2> pixel;  // at Controls::pixel
+  bool pixel_is_new = false;                                 // clicked since the last frame
   std::array<std::string, 2> commands;
   std::string note;  // result of the last action
   bool note_is_new = false;
@@ -85,4 +85,4 @@ void show_pixel(Controls& controls, const Shown& shown);
 void show_plan(const Shown& shown);
 void show_commands(Controls& controls, const Shown& shown);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

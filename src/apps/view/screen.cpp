@@ -5,7 +5,7 @@
 #include "gl/bindings.h"
 #include "renderer/drawing/draw.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 Screen::Screen(Renderer& renderer) : renderer_(renderer), sampler_(make_sampler()) {
   glSamplerParameteri(sampler_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -88,4 +88,4 @@ void Screen::save(const std::filesystem::path& path) {
   write_file(path, encode_png(width_, height_, 3, rgb));
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -6,7 +6,7 @@
 
 #include "renderer/renderer.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 struct ScreenImage {
   GLuint texture = 0;   // linear RGBA
@@ -40,4 +40,4 @@ class Screen {
   GlSampler sampler_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -11,7 +11,7 @@
 #include "run/scene_choice.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -286,4 +286,4 @@ void Script::play(int frame, Controls& controls, Input& input) const {
   }
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -8,7 +8,7 @@
 
 #include "view/controls.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 struct ScriptAction {
   int frame = 0;
@@ -30,4 +30,4 @@ class Script {
   std::vector<ScriptAction> actions_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/timer.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 static constexpr size_t median_frames = 15;
 
@@ -104,4 +104,4 @@ void Side::keep_picture() {
   }
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

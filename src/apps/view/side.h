@@ -8,7 +8,7 @@
 #include "view/clock.h"
 #include "view/controls.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 class Side {
  public:
@@ -66,4 +66,4 @@ class Side {
   size_t picture_number_ = 0;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -12,7 +12,8 @@
 #include "passes/read_back.h"
 #include "plan/settings/samples.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 
 PixelInspection lights_at(const ListedFrame& listed, PicturePixel pixel) {
   const CapturedFrame& frame = listed.frame;
@@ -212,4 +213,4 @@ const Image& ReferencePicture::draw(const View& view, const Settings& settings) 
   return run_->image();
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -13,33 +13,33 @@
 #include "view/pair_count.h"
 #include "view/side.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 // The lights at a pixel that the frame listed or the oracle finds lit: lost first, then lit, then the rest;
 // each group by distance. Tests are empty. Of the place only what a pixel has without a light grid is set.
-PixelInspection lights_at(const ListedFrame& listed, PicturePixel pixel);
+lab::PixelInspection lights_at(const ListedFrame& listed, PicturePixel pixel);
 
 // The decision of culling about each light at the pixel: the frame's depth is culled once more, with the
 // run's settings. Empty if the technique's plan has no light grid.
-std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const CapturedFrame& frame,
-                                             PicturePixel pixel);
+std::optional<lab::PixelInspection> inspect_pixel(TechniqueRun& run, const lab::CapturedFrame& frame,
+                                                  PicturePixel pixel);
 
 // Adds the deciding tests and their margins, and up to `max_dropped` dropped lights, those nearest to the
 // cell first.
-void add_margins(PixelInspection& lights, const PixelInspection& inspection, int max_dropped);
+void add_margins(lab::PixelInspection& lights, const lab::PixelInspection& inspection, int max_dropped);
 
 // The lines of a light: "lamp 3 1.20 of 3.00 m", "kept by aabb +0.430 m", and shadow_words if it casts a
 // shadow. The last two may be empty.
-std::array<std::string, 3> lines_of(const LightVerdict& verdict, const Scene& scene);
-std::array<std::string, 2> lines_of(const DirectionalShadow& verdict, const Scene& scene);
+std::array<std::string, 3> lines_of(const lab::LightVerdict& verdict, const Scene& scene);
+std::array<std::string, 2> lines_of(const lab::DirectionalShadow& verdict, const Scene& scene);
 // Sorts: lost lights, those that the frame leaks or acnes, hidden ones, all others.
-void put_hidden_first(PixelInspection& pixel);
+void put_hidden_first(lab::PixelInspection& pixel);
 // "3 of 5 that cast are hidden"; empty if none casts.
-std::string shadows_at_pixel(const PixelInspection& pixel);
+std::string shadows_at_pixel(const lab::PixelInspection& pixel);
 
 // The colours of a map and their numbers. Black is 0.
 struct MapScale {
-  const Ramp* ramp = nullptr;
+  const lab::Ramp* ramp = nullptr;
   std::string least, middle, most;  // at the ramp's ends and between; empty: not shown
 };
 
@@ -53,7 +53,7 @@ struct MapChoice {
 class MapOfSide {
  public:
   // It outlives this.
-  explicit MapOfSide(SceneOcclusion& occlusion) : occlusion_(occlusion), count_(occlusion) {}
+  explicit MapOfSide(lab::SceneOcclusion& occlusion) : occlusion_(occlusion), count_(occlusion) {}
 
   // The map of the side's last picture, in progress or done. Only for pictures of full size with the camera
   // at rest; `wait`: waits until it is done. `reference`: draws `forward` on the same view; called for
@@ -87,7 +87,7 @@ class MapOfSide {
   void show_difference(const MapChoice& wanted, Side& side, const Image& reference);
   void put(const Image& image, const MapChoice& map, const Side& side);
 
-  SceneOcclusion& occlusion_;
+  lab::SceneOcclusion& occlusion_;
   PairCount count_;
   MapChoice shown_;
   size_t shown_picture_ = 0;
@@ -117,4 +117,4 @@ class ReferencePicture {
   Settings model_;  // that run_ draws
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

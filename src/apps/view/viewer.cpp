@@ -9,7 +9,8 @@
 #include "run/scene_choice.h"
 #include "scene/shadow_casters.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 constexpr double script_step_s = 1.0 / 60;
@@ -261,4 +262,4 @@ void Viewer::draw_sides() {
   for (int i = 0; i < 2; ++i) plans_[i].follow(side(i).run().view().plan, now_s_);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

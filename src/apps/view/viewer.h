@@ -19,7 +19,7 @@
 #include "view/side_map.h"
 #include "view/window.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 struct ViewJob {
   std::string name;  // name of the scene: a built-in one's or a file's
@@ -95,11 +95,11 @@ class Viewer {
   bool same_ = false;              // both sides show the left one's picture
   std::vector<bool> own_casters_;  // lights that the scene says cast
   std::string casters_;            // Controls::casters, as the scene has it
-  SceneOcclusion occlusion_;
+  lab::SceneOcclusion occlusion_;
   MapOfSide maps_[2];
   bool map_announced_[2] = {};  // "computing" was shown for a frame
   std::array<PlanHistory, 2> plans_;
-  std::array<std::optional<PixelInspection>, 2> pixel_;
+  std::array<std::optional<lab::PixelInspection>, 2> pixel_;
   PicturePixel pixel_shown_{-1, -1};  // outside: none
   bool pixel_is_new_ = false;
   size_t pixel_picture_[2] = {};
@@ -120,4 +120,4 @@ class Viewer {
   Input input_;           // input of this frame
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -7,7 +7,8 @@
 #include "run/scene_choice.h"
 #include "view/viewer.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 constexpr PicturePixel no_pixel{-1, -1};
@@ -205,4 +206,4 @@ void Viewer::take_screenshot() {
   tell(path.string());
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

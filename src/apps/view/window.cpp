@@ -17,7 +17,7 @@
 #include "base/error.h"
 #include "gl/gl.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 std::string glfw_error() {
@@ -295,4 +295,4 @@ bool Interface::takes_pointer() const { return ImGui::GetIO().WantCaptureMouse; 
 
 bool Interface::takes_keys() const { return ImGui::GetIO().WantTextInput; }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

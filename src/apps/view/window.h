@@ -11,7 +11,7 @@
 
 struct GLFWwindow;
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 class Window {
  public:
@@ -93,4 +93,4 @@ class Interface {
   Input input_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -16,7 +16,7 @@ namespace lightgrid {
 struct FramePlan;
 class Settings;
 struct View;
-struct Surface;  // oracle/shading.h
+struct Surface;  // scene/surface.h
 struct PassContext;
 struct LightReader;  // scene/light_readers.h
 class EffectState;   // renderer/effect_state.h

@@ -8,7 +8,7 @@
 #include "plan/settings/model.h"
 #include "plan/settings/shadows.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 AreaTruth area_truth(const ViewState& v, SceneOcclusion& occlusion, size_t max_at_edges) {
   constexpr size_t classified = 8192;
@@ -73,4 +73,4 @@ AreaError area_error(const Image& image, const AreaTruth& truth, double brightes
           part_error(image, truth, false, brightest, white)};
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 #include "oracle/pixel_area.h"
 #include "renderer/pass_context.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct AreaTruth {
   std::vector<uint32_t> pixels;  // with an opaque surface or the background alone, and no doubtful shadow
@@ -21,4 +21,4 @@ AreaTruth area_truth(const ViewState& v, SceneOcclusion& occlusion, size_t max_a
 // brightest: the reference's brightest channel. white: radiance that a display shows as white.
 AreaError area_error(const Image& image, const AreaTruth& truth, double brightest, double white);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

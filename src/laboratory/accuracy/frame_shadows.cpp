@@ -5,7 +5,7 @@
 #include "accuracy/surfaces_in_double.h"
 #include "plan/settings/shadows.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 PixelShadows FrameShadows::at(int x, int y, SceneOcclusion& occlusion) const {
   const size_t pixel = view.grid().index(x, y);
@@ -23,4 +23,4 @@ FrameShadows read_frame_shadows(TechniqueRun& run) {
   return frame;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 #include "passes/read_outs.h"
 #include "run/technique_run.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The surfaces that a frame shaded, copied from the devices, and the shadows that it shaded them with.
 struct FrameShadows {
@@ -26,4 +26,4 @@ struct FrameShadows {
 // Reads the shadows of the run's last frame.
 FrameShadows read_frame_shadows(TechniqueRun& run);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

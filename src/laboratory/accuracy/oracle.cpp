@@ -9,7 +9,7 @@
 #include "oracle/seen_pairs.h"
 #include "plan/settings/model.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // A row of pixels as an image, for the metrics.
@@ -131,4 +131,4 @@ ReferenceErrors measure_reference_errors(RenderView& v, const Image& every_light
                                   oracle.decided(sample_pixels(oracle.pixels(), samples)));
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

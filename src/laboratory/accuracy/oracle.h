@@ -7,7 +7,7 @@
 #include "passes/read_outs.h"
 #include "run/technique_run.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 class ShadowTruth;
 
@@ -52,4 +52,4 @@ ReferenceErrors measure_reference_errors(const SurfaceOracle& oracle, const Imag
 ReferenceErrors measure_reference_errors(RenderView& v, const Image& every_light,
                                          const std::vector<float>& depth, size_t samples);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "oracle/position.h"
 #include "plan/settings/model.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 double largest_difference(const glm::vec4& a, const glm::vec4& b) {
@@ -123,4 +123,4 @@ size_t affordable_samples(size_t most, const Scene& scene) {
                    std::max(max_of_casters / std::max<size_t>(casters, 1), least)});
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -4,7 +4,7 @@
 #include "accuracy/oracle.h"
 #include "accuracy/shadow_truth.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Shades pixels of a view with the oracle, from the surfaces and the depth image of the last frame of
 // `forward`.
@@ -52,4 +52,4 @@ OracleError oracle_error(const Image& image, const Image& reference, const std::
 // than 20,000 lights, or 200 that cast.
 size_t affordable_samples(size_t most, const Scene& scene);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

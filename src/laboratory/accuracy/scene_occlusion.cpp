@@ -1,6 +1,6 @@
 #include "accuracy/scene_occlusion.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 const Occlusion& SceneOcclusion::get(BlendedCasters by_blended) {
   std::lock_guard lock(building_);
@@ -9,4 +9,4 @@ const Occlusion& SceneOcclusion::get(BlendedCasters by_blended) {
   return *built;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 
 #include "oracle/occlusion.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 class SceneOcclusion {
  public:
@@ -25,4 +25,4 @@ class SceneOcclusion {
   std::map<BlendedCasters, std::unique_ptr<Occlusion>> built_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -11,7 +11,7 @@
 #include "plan/settings/shadows.h"
 #include "scene/triangle_numbers.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // At most as many of the covered pixels as have `most` pairs of lights that cast, by an estimate.
@@ -112,4 +112,4 @@ void ShadowTruth::moved(bool geometry) {
   if (geometry) occlusion_->scene_moved();
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -11,7 +11,7 @@
 #include "plan/settings/shadows.h"
 #include "renderer/pass_context.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The same triangles by their numbers in their meshes, the first of several that connect the same vertices.
 std::vector<CastingTriangle> casting_triangles(const Scene& scene, const std::vector<SceneTriangle>& shown);
@@ -81,4 +81,4 @@ class ShadowTruth {
   int next_ = 0;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

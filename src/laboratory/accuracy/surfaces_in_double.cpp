@@ -9,7 +9,7 @@
 #include "oracle/scene_surfaces.h"
 #include "plan/settings/model.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 SurfacesInDouble surfaces_in_double(const RenderView& v, const std::vector<SceneTriangle>& shown,
                                     const std::vector<uint32_t>& pixels, ShadowTruth* shadows) {
@@ -146,4 +146,4 @@ SilhouetteError silhouette_error(const Image& image, const std::vector<SceneTria
   return error;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

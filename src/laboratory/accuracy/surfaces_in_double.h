@@ -7,7 +7,7 @@
 #include "passes/read_outs.h"
 #include "run/technique_run.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct SurfacesInDouble {
   std::vector<uint32_t> pixels;
@@ -33,4 +33,4 @@ std::vector<SceneTriangle> shown_triangles(TechniqueRun& run);
 SilhouetteError silhouette_error(const Image& image, const std::vector<SceneTriangle>& own,
                                  const Image& reference, const ShownTriangles& shown);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -11,7 +11,7 @@
 #include "scenes/builtin.h"
 #include "shared/cull_tests.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 nlohmann::ordered_json machine_of(const ClDeviceInfo& info) {
@@ -227,4 +227,4 @@ nlohmann::ordered_json to_json(const BenchReport& report) {
   return json;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -10,7 +10,7 @@
 #include "bench/rows.h"
 #include "bench/standard_frames.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct BenchContestant {
   std::string compared;  // "cull-test=exact", or empty if there is only one contestant
@@ -44,4 +44,4 @@ BenchReport run_bench(ClDevice& device, const BenchOptions& options);
 
 nlohmann::ordered_json to_json(const BenchReport& report);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -5,7 +5,7 @@
 #include "cl/buffers.h"
 #include "cl/transfer.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr size_t depth_bytes = size_t(1920) * 1080 * sizeof(float);
@@ -255,4 +255,4 @@ MeasuredFrame measure_in_turn(ClDevice& device, ProgramCache& programs,
   return measured;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

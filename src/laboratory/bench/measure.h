@@ -11,7 +11,7 @@
 #include "cl/launch.h"
 #include "cl/program_cache.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The spread of the milliseconds that `run` returns, after two runs that are not counted.
 Spread repeat(int runs, const std::function<double()>& run);
@@ -95,4 +95,4 @@ MeasuredFrame measure_in_turn(ClDevice& device, ProgramCache& programs,
                               const std::vector<std::unique_ptr<CullingRun>>& contestants,
                               const Rounds& rounds);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "shared/raster_params.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double interval_bytes = 8, cell_bytes = 8, count_bytes = 4, id_bytes = 4;
@@ -197,4 +197,4 @@ bool RowFilter::keeps(const std::string& case_name, const std::string& row_name)
   return all_ || std::regex_search(case_name + "/" + row_name, expression_);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

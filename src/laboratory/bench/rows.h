@@ -10,7 +10,7 @@
 
 #include "bench/measure.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Lower bounds of a kernel's memory traffic and arithmetic, for its limit.
 struct KernelCost {
@@ -63,4 +63,4 @@ class RowFilter {
   std::regex expression_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

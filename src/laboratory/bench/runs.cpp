@@ -5,7 +5,7 @@
 #include "scene/camera.h"
 #include "shared/raster_params.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 CullingRun::CullingRun(ClDevice& device, ProgramCache& programs, const CapturedFrame& frame,
                        const cl::Buffer& depth, const Settings& settings)
@@ -86,4 +86,4 @@ KernelWork RasterRun::work() const {
   return work;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

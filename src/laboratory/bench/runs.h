@@ -12,7 +12,7 @@
 #include "raster/raster_view.h"
 #include "scene/scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 class CullingRun {
  public:
@@ -79,4 +79,4 @@ class RasterRun {
   KernelWork scene_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -11,7 +11,7 @@
 #include "base/parallel.h"
 #include "scene/random.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Metres. The camera is at the origin and looks along -z, 60 degrees high.
@@ -289,4 +289,4 @@ std::vector<BenchCase> standard_cases() {
   return cases;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 
 #include "frames/frame_file.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The parameters of a standard frame.
 struct FrameRecipe {
@@ -35,4 +35,4 @@ struct BenchCase {
 // The standard frames, then scaling in lights, tile size and resolution; then the rasteriser.
 std::vector<BenchCase> standard_cases();
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "cl/error.h"
 #include "plan/settings/kernels.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 std::vector<std::string> values_of(const std::string& key) {
@@ -94,4 +94,4 @@ TuneResult tune_kernels(ClDevice& device, const TuneOptions& options) {
   return result;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

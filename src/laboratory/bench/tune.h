@@ -8,7 +8,7 @@
 #include "bench/standard_frames.h"
 #include "cl/tuned_sizes.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct TuneOptions {
   int frames = 20, warmup = 2;
@@ -31,4 +31,4 @@ struct TuneResult {
 // same bytes.
 TuneResult tune_kernels(ClDevice& device, const TuneOptions& options);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using Scope = LimitScope;
@@ -154,4 +154,4 @@ std::string id_of(const EngineLimit& limit) {
   return fmt::format("{}/{}", limit.engine, name_of(limit.scope));
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

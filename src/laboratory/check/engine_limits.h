@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The container that holds a limited number of lights. pool: all entries of all cells of a view together.
 // distance: nothing further than so many metres along the view's axis is lit.
@@ -70,4 +70,4 @@ const char* name_of(LimitScope scope);
 const char* name_of(LimitOrder order);
 std::string id_of(const EngineLimit& limit);  // "filament/view"
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec3;
@@ -130,4 +130,4 @@ glm::ivec3 each_cell(LimitCells layout, const View& view, const std::vector<View
   return size;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

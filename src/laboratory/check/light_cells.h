@@ -7,7 +7,7 @@
 #include "check/engine_limits.h"
 #include "scene/view_lights.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct LightBox {
   glm::dvec3 min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
@@ -30,4 +30,4 @@ using CellVisit =
 glm::ivec3 each_cell(LimitCells layout, const View& view, const std::vector<ViewLight>& in_view,
                      const std::vector<int>& lights, const CellVisit& visit);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

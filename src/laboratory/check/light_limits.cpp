@@ -12,7 +12,7 @@
 #include "scene/effect_terms.h"
 #include "scene/hidden.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec3;
@@ -344,4 +344,4 @@ std::optional<LimitPicture> limit_picture(const EngineLimit& limit, const Scene&
   return picture;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

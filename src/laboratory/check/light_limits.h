@@ -11,7 +11,7 @@
 #include "scene/camera.h"
 #include "scene/light_ranges.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The place that has too many lights, or the most: a view, an object of it, or a cell.
 struct LimitPlace {
@@ -76,4 +76,4 @@ struct LimitPicture {
 // None, with the reason, if neither settings nor a scene with fewer lights are like the limit.
 std::optional<LimitPicture> limit_picture(const EngineLimit& limit, const Scene& scene, std::string& why);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

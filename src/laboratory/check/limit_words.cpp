@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 std::string counted_in(const LimitResult& result) {
@@ -72,4 +72,4 @@ std::vector<std::string> sentences_of(const LimitResult& result, const Scene& sc
   return lines;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -3,7 +3,7 @@
 
 #include "check/light_limits.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 std::string name_of_light(int light, const Scene& scene);           // `light 17 "lamp"`
 std::string words_of(const LimitPlace& place, const Scene& scene);  // `frame 3, mesh 4 "floor"`
@@ -14,4 +14,4 @@ std::string words_of(const DroppedLight& dropped, const EngineLimit& limit, cons
 // `max_lights` by name, and what to change.
 std::vector<std::string> sentences_of(const LimitResult& result, const Scene& scene, size_t max_lights);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -17,7 +17,7 @@
 #include "measures/metrics.h"
 #include "oracle/position.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // OpenGL keeps images that it still draws or has bound, and glibc what is freed, in pieces that the next
@@ -189,4 +189,4 @@ CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const V
   return report;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 #include "scene/scene_motion.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct Contestant {
   const Technique* technique;
@@ -46,4 +46,4 @@ struct CompareOptions {
 CompareReport compare_techniques(Renderer& renderer, const Scene& scene, const View& view,
                                  const std::vector<Contestant>& contestants, const CompareOptions& options);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "compare/contestants.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 const std::vector<std::string> techniques_without_opengl = {"visibility:lights=all", "visibility"};
@@ -170,4 +170,4 @@ std::vector<CompareReport> compare_views(
   return reports;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

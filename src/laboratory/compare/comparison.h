@@ -9,7 +9,7 @@
 #include "compare/compare.h"
 #include "run/scene_choice.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Fields as in docs/command_line.md.
 struct CompareChoice {
@@ -61,4 +61,4 @@ std::vector<Contestant> runnable(const CompareChoice& choice, const std::vector<
 std::vector<CompareReport> compare_views(
     const CompareChoice& choice, const std::function<void(double done, const std::string& step)>& progress);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "frames/frame_culler.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // "KEY=A,B": each of the previous contestants with A, then each with B.
@@ -176,4 +176,4 @@ std::vector<Contestant> chosen_contestants(const std::vector<std::string>& techn
   return all;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

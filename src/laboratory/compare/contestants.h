@@ -7,7 +7,7 @@
 #include "bench/bench.h"
 #include "compare/compare.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Every combination of the values in the comparisons ("KEY=A,B"), applied to `base`; `base` alone if there
 // are none. Throws Error(input) past `most` combinations.
@@ -41,4 +41,4 @@ void check_given_settings(const Settings& settings, const std::vector<const Tech
 std::vector<Contestant> chosen_contestants(const std::vector<std::string>& techniques, const Settings& common,
                                            const std::vector<std::string>& comparisons);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

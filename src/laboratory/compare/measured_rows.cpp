@@ -13,7 +13,7 @@
 #include "plan/settings/grid.h"
 #include "plan/settings/samples.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 ReferenceTriangles triangles_of(TechniqueRun& reference) {
@@ -318,4 +318,4 @@ void measure_errors(CompareReport& report, const Compared& compared, Measured& m
   measure_areas(report, compared, m);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

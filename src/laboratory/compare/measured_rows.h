@@ -12,7 +12,7 @@
 #include "measures/flip.h"
 #include "plan/settings/samples.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The triangles that the reference shows, and where some row shows another one.
 struct ReferenceTriangles {
@@ -63,4 +63,4 @@ void measure_errors(CompareReport& report, const Compared& compared, Measured& m
 // The reference's image becomes the report's, or its row's.
 void hand_over_image(CompareReport& report, Measured& m);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

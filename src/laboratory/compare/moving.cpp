@@ -10,7 +10,7 @@
 #include "measures/metrics.h"
 #include "plan/plan_changes.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Everything is built by then.
@@ -152,4 +152,4 @@ PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& 
   return memory;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 #include "compare/compare.h"
 #include "run/technique_run.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // A camera path over a scene, which may move too.
 struct MovingScene {
@@ -24,4 +24,4 @@ PathMemory run_along_path(const std::vector<TechniqueRun*>& runs, TechniqueRun& 
                           const MovingScene& moving, std::vector<RunResult>& rows,
                           const std::function<void(double done)>& progress);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "passes/surfaces.h"
 #include "scene/random.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // While it exists, only surfaces inside the blocks pass shading's depth test: elsewhere depth is 1, nearer
@@ -90,4 +90,4 @@ size_t sample_size(size_t lights) {
   return std::clamp<size_t>(size_t(4e9) / std::max<size_t>(lights, 1), 256, 65536);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 #include "base/image.h"
 #include "renderer/render_view.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // A square of up to 4 x 4 pixels, cut off at the image's right and upper edge: rasterisers shade such blocks
 // at once.
@@ -38,4 +38,4 @@ double estimate_forward_ms(RenderView& v, const std::vector<PixelBlock>& shuffle
 // pixels.
 size_t sample_size(size_t lights);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

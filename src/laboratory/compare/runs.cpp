@@ -8,7 +8,7 @@
 #include "plan/settings/samples.h"
 #include "plan/settings/shadows.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // The settings of exact shadows that decide which share of a light is hidden.
@@ -142,4 +142,4 @@ void draw_reference(Reference& reference, const Compared& c, const std::vector<C
   own.run->run_frame();
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -15,7 +15,7 @@
 #include "plan/settings/shadows.h"
 #include "run/technique_run.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The technique that shades every light at every pixel, and its settings; of one sample a pixel, so that
 // pixels have one surface each.
@@ -110,4 +110,4 @@ std::unique_ptr<TechniqueRun> make_run_of_every_light(const Compared& compared, 
 void draw_reference(Reference& reference, const Compared& compared,
                     const std::vector<ContestantRun>& entries);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

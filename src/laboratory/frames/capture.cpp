@@ -9,7 +9,7 @@
 #include "plan/settings/model.h"
 #include "plan/settings/samples.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 SceneCapture::SceneCapture(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
                            const Technique& technique)
@@ -45,4 +45,4 @@ CapturedFrame capture_frame(Renderer& renderer, const Scene& scene, const View& 
   return SceneCapture(renderer, scene, view, settings, technique).frame(view);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -5,7 +5,7 @@
 #include "plan/settings/grid.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Frames of one scene, which is uploaded once.
 class SceneCapture {
@@ -28,4 +28,4 @@ class SceneCapture {
 CapturedFrame capture_frame(Renderer& renderer, const Scene& scene, const View& view,
                             const Settings& settings, const Technique& technique);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -14,7 +14,7 @@
 #include "renderer/render_view.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 double far_of_surfaces(const CapturedFrame& frame) {
@@ -127,4 +127,4 @@ FrameGrid FrameCuller::grid() {
 
 std::vector<DepthInterval> FrameCuller::intervals() { return culler_.read_bounds(bounds_.opaque); }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

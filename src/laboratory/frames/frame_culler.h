@@ -8,7 +8,7 @@
 #include "plan/frame_plan.h"
 #include "plan/settings/grid.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The default settings with the frame's tile size, then each KEY=VALUE of `set`.
 Settings frame_settings(const CapturedFrame& frame, const std::vector<std::string>& set);
@@ -60,4 +60,4 @@ class FrameCuller {
   LightGrid grid_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -13,7 +13,7 @@
 #include "scene/lights_file.h"
 #include "shared/slices.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 namespace fs = std::filesystem;
@@ -244,4 +244,4 @@ std::vector<float> covered_depth(const CapturedFrame& frame) {
   return depth;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -13,7 +13,7 @@
 #include "scene/camera.h"
 #include "scene/view_lights.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct CapturedFrame {
   std::string name;  // name of its folder, or of its scene
@@ -59,4 +59,4 @@ bool depth_is_reversed(const View& view);
 // depth direction. Otherwise values of clip_from_view.
 std::vector<float> covered_depth(const CapturedFrame& frame);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

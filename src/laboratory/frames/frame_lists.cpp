@@ -3,7 +3,7 @@
 #include "renderer/upload/culler_input.h"
 #include "scene/grid_lists.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 bool is_covered(const CapturedFrame& frame, int x, int y) {
   const float depth = frame.depth[frame.view.grid().index(x, y)];
@@ -35,4 +35,4 @@ ListedLights listed_lights(const CapturedFrame& frame, const FrameGrid& grid) {
   return at_pixels(lists_of_cells(grid.lists), cells_of(frame, grid), grid.lists.z_bins);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

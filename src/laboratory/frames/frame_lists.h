@@ -5,7 +5,7 @@
 #include "oracle/lit_set.h"
 #include "passes/read_outs.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Cells extend to the centres of their outer pixels (CullerOptions::pixel_centres).
 inline constexpr double cell_inset = 0.5;
@@ -21,4 +21,4 @@ ListedLights lists_of_cells(const HostGrid& grid);
 // The same with each pixel's cell, as the oracle reads them.
 ListedLights listed_lights(const CapturedFrame& frame, const FrameGrid& grid);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

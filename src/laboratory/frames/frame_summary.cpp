@@ -8,7 +8,7 @@
 
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 uint32_t longest_list(const HostGrid& lists) {
@@ -51,4 +51,4 @@ std::string summary_json(const CapturedFrame& frame, const FrameGrid& grid, cons
   return json_text(out);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -5,7 +5,7 @@
 
 #include "base/json_file.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -174,4 +174,4 @@ std::string view_file_text(const FrameView& frame) {
   return text_by_fields(out);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -6,7 +6,7 @@
 
 #include "scene/camera.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 inline constexpr int max_frame_side = 16384;  // pixels
 
@@ -20,4 +20,4 @@ struct FrameView {
 FrameView read_view_file(const std::filesystem::path& path);
 std::string view_file_text(const FrameView& frame);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

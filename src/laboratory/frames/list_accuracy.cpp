@@ -6,7 +6,7 @@
 
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 nlohmann::json row_json(const AccuracyRow& row) {
@@ -41,4 +41,4 @@ std::string accuracy_json(const CapturedFrame& frame, const Settings& settings,
   return json_text(out);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "oracle/lit_set.h"
 #include "plan/settings.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 LitBlocks find_lit_blocks(const CapturedFrame& frame);
 
@@ -23,4 +23,4 @@ std::string accuracy_line(const AccuracyRow& row);
 std::string accuracy_json(const CapturedFrame& frame, const Settings& settings,
                           const std::vector<AccuracyRow>& rows);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

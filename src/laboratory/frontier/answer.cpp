@@ -12,7 +12,7 @@
 #include "frontier/record_file.h"
 #include "measures/words.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Records of all parts; of those with one key, the first.
@@ -229,4 +229,4 @@ FrontierAnswer answer_of(const std::vector<FrontierPart>& parts) {
   return answer;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

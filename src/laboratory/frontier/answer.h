@@ -8,7 +8,7 @@
 #include "frontier/paired_times.h"
 #include "frontier/record.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // A median with its 95 % nonparametric confidence interval (order statistics).
 struct MedianInterval {
@@ -237,4 +237,4 @@ nlohmann::json read_frontier_json(const std::filesystem::path& path);
 GateResult held_against(const nlohmann::json& now, const nlohmann::json& earlier,
                         const std::string& earlier_name);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

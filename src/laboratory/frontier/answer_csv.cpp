@@ -7,7 +7,7 @@
 #include "measures/metrics.h"
 #include "measures/words.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -166,4 +166,4 @@ std::string samples_csv_text(const FrontierAnswer& answer) {
   return text;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "measures/words.h"
 #include "report/report.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -101,4 +101,4 @@ void write_answer(const fs::path& folder, const FrontierAnswer& answer, const st
   write_file(folder / "index.html", page_text(answer, folder / "pictures", page_bytes));
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -6,7 +6,7 @@
 #include "measures/metrics.h"
 #include "measures/words.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -260,4 +260,4 @@ json to_json(const FrontierAnswer& answer) {
           {"failures", array_of(answer.failures, failure_json)}};
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -12,7 +12,7 @@
 #include "frontier/answer.h"
 #include "measures/error_measures.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 using Records = std::span<const FrontierRecord>;
 using Group = std::vector<const FrontierRecord*>;
@@ -138,4 +138,4 @@ struct PowerLaw {
 };
 PowerLaw power_law(std::span<const std::pair<double, double>> samples);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -12,7 +12,7 @@
 #include "measures/words.h"
 #include "plan/settings.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // A technique's own error below which its picture is what its settings mean, as in report.h (exact_max_rel).
@@ -461,4 +461,4 @@ std::vector<std::string> sentences_of(const FrontierAnswer& answer) {
   return sentences;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 #include "base/timer.h"
 #include "frontier/points.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 std::string in_one_line(std::string text) {
@@ -80,4 +80,4 @@ double PointRun::ask(bool for_picture) {
   return refused_.empty() ? ms : 0;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

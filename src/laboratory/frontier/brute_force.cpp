@@ -14,7 +14,7 @@
 #include "plan/settings/shadows.h"
 #include "scene/random.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -237,4 +237,4 @@ std::optional<SampledErrors> Precision::in_double(const Image& picture, bool own
                        frontier_error(at_sample, sample.float_truth, brightest_), sample.truth_in_float};
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -11,7 +11,7 @@
 #include "frontier/record.h"
 #include "run/technique_run.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The truth that a sweep's pictures are compared with. Where lights cast, all lights keep their ranges unless
 // `own_ranges` says otherwise, so that the error of ranges does not cover that of shadows. Where the settings
@@ -115,4 +115,4 @@ class Precision {
 // the pixels is of some kind, the sample holds none of it with a probability of at most (1 - f)^count.
 std::vector<uint32_t> random_pixels(const std::vector<uint32_t>& pixels, size_t count, uint64_t seed);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 namespace fs = std::filesystem;
@@ -133,4 +133,4 @@ FrontierConditions ConditionsReader::sample() {
   return conditions;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 
 #include "base/timer.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Over the time since the sample before.
 struct FrontierConditions {
@@ -44,4 +44,4 @@ class ConditionsReader {
   std::optional<Counts> before_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

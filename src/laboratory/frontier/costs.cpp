@@ -9,7 +9,7 @@
 #include "frontier/answer_steps.h"
 #include "frontier/fields.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double ns_per_ms = 1e6;
@@ -244,4 +244,4 @@ std::vector<EqualFlip> equal_flip_of(Records records) {
   return curves;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -12,7 +12,7 @@
 #include "scene/lights_file.h"
 #include "scene/write_gltf.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using Ordered = nlohmann::ordered_json;
@@ -127,4 +127,4 @@ void check_exported_views(const fs::path& path, const Scene& scene, const std::v
   }
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

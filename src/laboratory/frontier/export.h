@@ -10,7 +10,7 @@
 #include "scene/camera.h"
 #include "scene/scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // An exported scene, as far as requests need it.
 struct ExportedScene {
@@ -40,4 +40,4 @@ ExportedScene export_scene(const std::filesystem::path& folder, const std::strin
 void check_exported_views(const std::filesystem::path& path, const Scene& scene,
                           const std::vector<View>& views);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -5,7 +5,7 @@
 #include "frontier/measure.h"
 #include "frontier/view_figures.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 void export_with_truths(Renderer& renderer, const SceneChoice& choice, const FrontierJob& job,
                         const std::filesystem::path& folder) {
@@ -29,4 +29,4 @@ void export_with_truths(Renderer& renderer, const SceneChoice& choice, const Fro
   export_scene(folder, choice.scene, chosen.scene, views, pictures);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -12,7 +12,7 @@
 #include "frontier/record_file.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -180,4 +180,4 @@ Image picture_of(const ExternalFrame& frame, int width, int height) {
   return load_exr_picture(frame.picture, width, height);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

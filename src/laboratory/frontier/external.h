@@ -12,7 +12,7 @@
 #include "scene/camera.h"
 #include "scene/scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // A picture and times that were taken elsewhere, of one view.
 struct ExternalFrame {
@@ -58,4 +58,4 @@ void check_external_frames(const ExternalRenderer& renderer, const std::string& 
 // The picture of a view. Throws Error(input): load_exr_picture.
 Image picture_of(const ExternalFrame& frame, int width, int height);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

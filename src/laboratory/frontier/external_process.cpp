@@ -19,7 +19,7 @@
 
 extern char** environ;
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr size_t max_heard = size_t(1) << 20;
@@ -166,4 +166,4 @@ std::string ExternalProcess::ask(const std::string& line) {
   }
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 class ExternalProcess {
  public:
@@ -40,4 +40,4 @@ class ExternalProcess {
   int status_ = 0;         // status of the last ended process
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -21,7 +21,7 @@
 #include "plan/settings/model.h"
 #include "scene/random.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr int family_rounds = 4;
@@ -292,4 +292,4 @@ void measure_families(Renderer& renderer, Scene& scene, const SceneChoice& choic
   scene.lights = own;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

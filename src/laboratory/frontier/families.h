@@ -8,7 +8,7 @@
 
 #include "frontier/measure.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Lights that reach a covered pixel (depth > 0) in the mean, with their own ranges, by the oracle's test in
 // double. depth: width * height, row 0 at the bottom. 0 where nothing is covered.
@@ -30,4 +30,4 @@ std::optional<double> scale_of_overlap(double overlap, const std::function<doubl
 void measure_families(Renderer& renderer, Scene& scene, const SceneChoice& choice, const FrontierJob& job,
                       RecordFile& file);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

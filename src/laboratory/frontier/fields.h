@@ -11,7 +11,7 @@
 #include "frontier/record.h"
 #include "measures/error_measures.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The demands of a reader: whole numbers are at least `low`, and a field that is not required keeps its
 // value. One that is not required and absent is not written.
@@ -303,4 +303,4 @@ struct ToJson {
   }
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

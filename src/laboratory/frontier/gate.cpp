@@ -13,7 +13,7 @@
 #include "frontier/fields.h"
 #include "measures/error_measures.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // A relative time of too few rounds (min_rounds).
@@ -297,4 +297,4 @@ GateResult held_against(const json& now, const json& earlier, const std::string&
   }
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -16,7 +16,7 @@
 #include "frontier/sequences.h"
 #include "frontier/view_figures.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Points that take more than slow_factor times as long as the baseline, and beaten_factor times as long as a
@@ -413,4 +413,4 @@ double measure_scene(Renderer& renderer, const SceneChoice& choice, const Fronti
   return sweep.seconds_of_sequences();
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

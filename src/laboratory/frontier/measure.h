@@ -10,7 +10,7 @@
 #include "plan/settings/model.h"
 #include "run/scene_choice.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Two families of lights, instead of points and growth (families.h).
 struct FamilyPlan {
@@ -71,4 +71,4 @@ void export_with_truths(Renderer& renderer, const SceneChoice& choice, const Fro
 FrontierMachine machine_of(const Renderer& renderer);
 double load_average();  // mean of the last minute; 0: unknown
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

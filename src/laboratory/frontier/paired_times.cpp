@@ -9,7 +9,7 @@
 #include "frontier/answer_steps.h"
 #include "scene/random.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -284,4 +284,4 @@ LogTimes half_of(const LogTimes& times, int parity) {
   return half;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

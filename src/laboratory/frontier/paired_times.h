@@ -24,7 +24,7 @@
 #include <string>
 #include <vector>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct TimeBlock {
   int shard = 0, process = 0, round = 0;  // round: of the process, from 0
@@ -84,4 +84,4 @@ LogTimes log_times_over(const LogTimes& times, const LogTimes& other);
 // on the other, since the fastest of several is also the luckiest.
 LogTimes half_of(const LogTimes& times, int parity);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -17,7 +17,7 @@
 #include "report/report.h"
 #include "scene/random.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 uint64_t hash_of(const Image& image) {
@@ -154,4 +154,4 @@ PagePictures page_pictures(const std::filesystem::path& folder, const std::vecto
   return pictures;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

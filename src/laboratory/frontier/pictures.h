@@ -12,7 +12,7 @@
 #include "base/image.h"
 #include "measures/flip.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Writes NAME.png, and if the picture is not the truth NAME.difference.png (logarithmic, as in `compare`)
 // and, with `flip`, NAME.flip.png: HDR-FLIP from 0, black, to 1, yellow (viridis).
@@ -51,4 +51,4 @@ struct PagePictures {
 PagePictures page_pictures(const std::filesystem::path& folder, const std::vector<std::string>& names,
                            size_t max_bytes);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "frontier/round_baselines.h"
 #include "scene/random.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 template <typename Figure>
@@ -283,4 +283,4 @@ std::vector<PointFigures> figures_of(Records records) {
   return points;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

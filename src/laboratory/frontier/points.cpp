@@ -18,7 +18,7 @@
 #include "plan/settings/shadows.h"
 #include "scene/random.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 struct Star {
@@ -411,4 +411,4 @@ void PointRun::draw_first_frame() {
   });
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -16,7 +16,7 @@
 #include "renderer/device_clock.h"
 #include "run/technique_run.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct ChosenPoint {
   Contestant contestant;
@@ -123,4 +123,4 @@ class PointRun {
   double asked_ms_ = 0;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

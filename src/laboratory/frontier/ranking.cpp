@@ -12,7 +12,7 @@
 #include "frontier/round_baselines.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double max_deviation = 0.01;  // largest deviation of a control
@@ -286,4 +286,4 @@ std::vector<CheapestWithin> cheapest_within_of(const std::vector<PointFigures>& 
   return all;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "frontier/fields.h"
 #include "frontier/record_file.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Parts of earlier versions have none.
@@ -284,4 +284,4 @@ bool in_shard(size_t index, int shard, int shards) {
   return index % static_cast<size_t>(shards) == static_cast<size_t>(shard);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

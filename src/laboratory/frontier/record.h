@@ -15,7 +15,7 @@
 #include "measures/flip.h"
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // A technique with settings on a scene.
 struct FrontierPoint {
@@ -191,4 +191,4 @@ struct FrontierPart {
   std::vector<FrontierRecord> records;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -13,7 +13,7 @@
 #include "base/json_file.h"
 #include "base/write_file.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -167,4 +167,4 @@ void RecordFile::write_text(const std::string& text) {
   }
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

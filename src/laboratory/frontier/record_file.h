@@ -16,8 +16,10 @@
 #include "renderer/device_clock.h"
 
 namespace lightgrid {
-
 class JsonFields;
+}  // namespace lightgrid
+
+namespace lightgrid::lab {
 
 using Notice = std::function<void(const std::string&)>;  // receives one line; null: nobody reads it
 
@@ -138,4 +140,4 @@ void check_same_sweep(const std::string& place, const FrontierPart& part, const 
 // a shard that is not there.
 bool in_shard(size_t index, int shard, int shards);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

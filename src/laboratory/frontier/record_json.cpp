@@ -3,7 +3,7 @@
 #include "frontier/fields.h"
 #include "frontier/record_file.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -110,4 +110,4 @@ FrontierPart part_of(const json& header) {
   return part;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // The round of each run: its number among those of its process.
@@ -62,4 +62,4 @@ LogTimes RoundBaselines::log_times(const Group& views) const {
   return times;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

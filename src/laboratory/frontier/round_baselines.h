@@ -8,7 +8,7 @@
 
 #include "frontier/answer_steps.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 class RoundBaselines {
  public:
@@ -28,4 +28,4 @@ class RoundBaselines {
   std::map<Place, std::vector<double>> runs_;  // one a record, in their order
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

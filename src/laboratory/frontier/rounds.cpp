@@ -10,7 +10,7 @@
 #include "frontier/answer_steps.h"
 #include "scene/random.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 void add_time(const MeasuredPoint& point, size_t view, const RoundTimes& own, const RoundTimes& beside,
@@ -337,4 +337,4 @@ void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const Scene
   scene.lights = own;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

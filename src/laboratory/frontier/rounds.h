@@ -9,7 +9,7 @@
 #include "base/timer.h"
 #include "frontier/measure.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // A point of which at least one view has been measured.
 struct MeasuredPoint {
@@ -91,4 +91,4 @@ bool is_grown(const ChosenPoint& point);
 void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const SceneChoice& choice,
                     const FrontierJob& job, double seconds, double round_s, RecordFile& file);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -16,7 +16,7 @@
 #include "frontier/view_figures.h"
 #include "scene/camera_path.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Before those that count: a mean over frames is then of as many as it will be of.
@@ -216,4 +216,4 @@ void measure_sequences(Renderer& renderer, GpuScene& gpu, Scene& scene, const Sc
   }
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -6,7 +6,7 @@
 
 #include "frontier/rounds.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // For each pixel of `view`, which pixels of the view before show the same place of the scene, which is at
 // rest, interpolated linearly; none where that is outside of the image, or something nearer or farther by 5 %
@@ -22,4 +22,4 @@ void measure_sequences(Renderer& renderer, GpuScene& gpu, Scene& scene, const Sc
                        const View& first, const FrontierJob& job, std::vector<MeasuredPoint>& points,
                        RecordFile& file);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

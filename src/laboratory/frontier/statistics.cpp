@@ -7,7 +7,7 @@
 
 #include "base/timer.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -129,4 +129,4 @@ PowerLaw power_law(std::span<const std::pair<double, double>> samples) {
   return law;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

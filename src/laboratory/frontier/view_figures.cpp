@@ -17,7 +17,7 @@
 #include "scene/random.h"
 #include "scenes/builtin.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Pictures no farther from brute force, over the brightest channel, are taken for it: they share its file,
@@ -404,4 +404,4 @@ double ViewFigures::flicker_of_brute_force(const ChosenPoint& point, Truths& tru
   return place->second = change.rmse();
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -11,7 +11,7 @@
 #include "frontier/measure.h"
 #include "frontier/pictures.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 class ViewFigures {
  public:
@@ -99,4 +99,4 @@ void take_passes(const FrameFigures& result, FrontierRecord& record);
 // True if a point's surfaces are those of the rasteriser in OpenCL; of another renderer, if it says so.
 bool has_own_surfaces(const ChosenPoint& point);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -10,7 +10,7 @@
 #include "accuracy/surfaces_in_double.h"
 #include "base/error.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // FNV-1a with a word a step. A pixel has the lower half of a hash.
@@ -157,4 +157,4 @@ GoldenView golden_view(const JsonFields& fields) {
   return view;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 #include "base/json_file.h"
 #include "run/technique_run.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // In the order of the frame: a stage reads the ones before it.
 inline constexpr std::array golden_stages = {"triangles", "depth", "lists", "radiance"};
@@ -53,4 +53,4 @@ nlohmann::ordered_json to_json(const GoldenView& view);
 // Throws Error(input) that names the field.
 GoldenView golden_view(const JsonFields& fields);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

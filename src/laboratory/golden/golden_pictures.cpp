@@ -8,7 +8,7 @@
 #include "measures/flip.h"
 #include "measures/metrics.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 std::vector<ExrChannel> channels_of(const GoldenPixels& pixels) {
@@ -100,4 +100,4 @@ void GoldenPictures::save(const std::filesystem::path& folder, const std::string
                  flip_picture(displayed_flip_map(drawn.image, recorded->image, exposure), width, height));
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "golden/golden.h"
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // An EXR file with the channels R, G and B (radiance), depth, lists and triangles: what golden_view(pixels)
 // hashes, so that viewers show the picture.
@@ -38,4 +38,4 @@ struct GoldenPictures {
   void save(const std::filesystem::path& folder, const std::string& name) const;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -14,7 +14,7 @@
 #include "plan/settings/grid.h"
 #include "shared/cull_tests.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Replaces infinity where a product with 0 must be 0, as in the kernels.
@@ -287,4 +287,4 @@ bool add_shadows(PixelInspection& pixel, const Scene& scene, const PixelShadows&
   return wrong;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

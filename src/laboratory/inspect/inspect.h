@@ -10,7 +10,7 @@
 #include "oracle/lit_set.h"
 #include "oracle/seen_pairs.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // How far, in metres, a light's sphere (or cone) reaches into each test's bound of the cell; negative: the
 // distance by which it misses. In double, for the cell that the culler used.
@@ -109,4 +109,4 @@ std::string inspection_json(const CapturedFrame& frame, const InspectionMaps& ma
 void write_inspection_maps(const std::filesystem::path& folder, const CapturedFrame& frame,
                            const InspectionMaps& maps);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -10,7 +10,7 @@
 #include "measures/metrics.h"
 #include "oracle/seen_pairs.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 InspectionMaps inspection_maps(const CapturedFrame& frame, const FrameGrid& grid,
                                const PairShadows* shadows) {
@@ -65,4 +65,4 @@ void write_inspection_maps(const std::filesystem::path& folder, const CapturedFr
   });
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 #include "inspect/inspect.h"
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -173,4 +173,4 @@ std::string inspection_json(const CapturedFrame& frame, const PixelInspection& p
   return json_text(out);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

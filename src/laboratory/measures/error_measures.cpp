@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Any error is infinitely far from black.
@@ -87,4 +87,4 @@ std::span<const ErrorMeasure> frontier_error_measures() {
   return rows;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

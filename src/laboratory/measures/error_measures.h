@@ -10,7 +10,7 @@
 #include "base/image.h"
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The smallest of `values` that at least 99 of 100 of them do not exceed. Not of none.
 template <typename Value>
@@ -68,4 +68,4 @@ inline bool grew(double error, double earlier) { return error > 1.001 * earlier 
 std::span<const ErrorMeasure> error_measures();           // measures of compare
 std::span<const ErrorMeasure> frontier_error_measures();  // over the truth's brightest channel
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

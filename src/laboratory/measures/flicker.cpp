@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "measures/metrics.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr size_t run_of_pixels = 4096;
@@ -115,4 +115,4 @@ SequenceFigures FlickerMeter::figures() const {
   return {mean_flip(sums_.flicker, steps_), sums_.largest_flicker, mean_flip(sums_.displayed, counted_)};
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

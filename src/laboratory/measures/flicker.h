@@ -9,7 +9,7 @@
 #include "measures/flip.h"
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // A picture as a display shows it: linear RGB from 0 to 1, exposed and tone-mapped as its PNG file is, but
 // not rounded to bytes, since rounding flickers by itself. NaN stays.
@@ -72,4 +72,4 @@ class FlickerMeter {
   SequenceFigures sums_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -13,7 +13,7 @@
 #include "base/parallel.h"
 #include "measures/metrics.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using std::numbers::pi;
@@ -432,4 +432,4 @@ double mean_of(const std::vector<float>& map) {
   return map.empty() ? 0 : std::accumulate(map.begin(), map.end(), 0.0) / double(map.size());
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -12,7 +12,7 @@
 #include "base/image.h"
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // A display 0.7 m away, 0.7 m and 3840 pixels wide has this: the authors' default.
 inline constexpr double default_pixels_per_degree = 67;
@@ -81,4 +81,4 @@ class ShownReference {
   std::function<DisplayedFlip(const Image& image)> flip_of_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -11,7 +11,7 @@
 #include "base/parallel.h"
 #include "measures/error_measures.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -340,4 +340,4 @@ BiasOfPictures::Estimate BiasOfPictures::estimate() const {
   return {all / (n * (n - 1)) * of_one, std::sqrt((n - 1) / n * squares)};
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

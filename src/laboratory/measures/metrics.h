@@ -4,7 +4,7 @@
 #include "base/finite_pixels.h"
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Images of equal size; over the three colour channels. Equal infinities differ by 0. NaN in either image
 // counts as an infinite error; so does, for max_rel, any difference from a reference that is entirely black.
@@ -102,4 +102,4 @@ std::vector<uint32_t> largest_of_blocks(const std::vector<uint32_t>& counts, int
 // largest difference.
 Image worst_of_blocks(const Image& picture, const Image& image, const Image& reference, int factor);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

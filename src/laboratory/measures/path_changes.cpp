@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 nlohmann::json change_json(const PlanChange& change) {
@@ -70,4 +70,4 @@ std::string plan_changes_in_words(const CompareReport& report) {
                      frames.size(), row->moving->frames, changes.size());
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 #include "measures/results.h"
 #include "plan/plan_changes.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct SharedPlanChange {
   PlanChange change;
@@ -25,4 +25,4 @@ nlohmann::json plan_changes_json(const CompareReport& report);
 // path.
 std::string plan_changes_in_words(const CompareReport& report);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "measures/error_measures.h"
 #include "measures/metrics.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr int steps = 254;
@@ -170,4 +170,4 @@ Image worst_of_blocks(const Image& picture, const Image& image, const Image& ref
   return result;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

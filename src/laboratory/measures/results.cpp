@@ -11,7 +11,7 @@
 #include "measures/speedup.h"
 #include "plan/settings.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -362,4 +362,4 @@ std::string json_text(const json& value) {
   return value.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

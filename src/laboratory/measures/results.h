@@ -15,7 +15,7 @@
 #include "plan/plan_changes.h"
 #include "run/frame_figures.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The frame's shadows at the same pairs, according to the oracle (docs/oracle.md#seen-and-hidden).
 struct ShadowPairs {
@@ -256,4 +256,4 @@ const Image& image_of(const CompareReport& report, size_t row);
 nlohmann::json to_json(const CompareReport& report);
 std::string json_text(const CompareReport& report);  // the text of results.json for one view
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 
 #include "plan/settings.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Lists count as equally long up to this factor.
@@ -124,4 +124,4 @@ std::string software_opengl(const std::string& gl_device) {
   return "";
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

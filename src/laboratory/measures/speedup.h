@@ -5,7 +5,7 @@
 
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Times of the reference relative to the row's. The product of the factors that are known is the total.
 struct Speedup {
@@ -34,4 +34,4 @@ bool adds_only_lists(const RunResult& row, const RunResult& every_light);
 // The name of a driver that draws without a graphics card ("llvmpipe"); empty for others.
 std::string software_opengl(const std::string& gl_device);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

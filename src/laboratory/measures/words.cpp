@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 std::string csv_field(const nlohmann::json& value) {
@@ -102,4 +102,4 @@ std::string csv_table(const std::vector<CsvColumn>& columns, const std::vector<n
   return text;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 std::string with_commas(uint64_t value);  // 2420 -> "2,420"
 
@@ -41,4 +41,4 @@ void add_columns(std::vector<CsvColumn>& columns, std::initializer_list<const ch
                  const std::string& within = "", const std::string& prefix = "");
 std::string csv_table(const std::vector<CsvColumn>& columns, const std::vector<nlohmann::json>& rows);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 namespace {
 
@@ -40,4 +40,4 @@ double attenuation(const ViewLight& light, const glm::dvec3& position, bool wind
   return result;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 
 #include "scene/view_lights.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 inline double length_of(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
 
@@ -55,4 +55,4 @@ inline double light_reaches(const ViewLight& light, const glm::dvec3& position, 
   return share;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

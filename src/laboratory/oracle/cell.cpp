@@ -6,7 +6,7 @@
 #include "oracle/position.h"
 #include "shared/cull_tests.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 double outside(double value, double low, double high) { return std::max({low - value, value - high, 0.0}); }
@@ -166,4 +166,4 @@ bool possibly_touches(const View& view, int tile, const Cell& cell, const Oracle
          cone_possibly_touches(box, light, light.cone_error + box_margin + 64 * u * (1 + steep) * sum);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 #include "scene/camera.h"
 #include "shared/cull_settings.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // A truncated pyramid with its apex at the eye; a box if the view is orthographic. Closed: its faces belong
 // to it.
@@ -80,4 +80,4 @@ bool clearly_apart(const Cell& cell, const OracleLight& light);
 // covers the cell itself if no slope of the view exceeds 2, else the intersection of planes and box.
 bool possibly_touches(const View& view, int tile, const Cell& cell, const OracleLight& light, CullTest test);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

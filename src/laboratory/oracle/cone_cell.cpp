@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 namespace {
 
@@ -210,4 +210,4 @@ Touch cone_touches_cell(const Cell& cell, const dvec3& apex, const dvec3& axis, 
   return possible ? Touch::unsure : Touch::no;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

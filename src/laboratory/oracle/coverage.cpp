@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double min_depth = 0x1p-126;  // less is not drawn
@@ -160,4 +160,4 @@ std::string wrong_at(const std::vector<CoveredPixel>& covered, uint32_t triangle
   return {};
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -19,7 +19,7 @@
 #include "base/pixel_grid.h"
 #include "oracle/triangle_depth.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct CoverageTriangle {
   std::array<glm::vec4, 3> clip;  // counter-clockwise from the front
@@ -76,4 +76,4 @@ class CoverageOracle {
 // the same corners the last.
 std::string wrong_at(const std::vector<CoveredPixel>& covered, uint32_t triangle, float depth);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

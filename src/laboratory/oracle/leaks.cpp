@@ -13,7 +13,7 @@
 #include "oracle/position.h"
 #include "oracle/primary_rays.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec3;
@@ -95,4 +95,4 @@ std::string describe(const Leaks& leaks, const Scene& scene, size_t most) {
   return text;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

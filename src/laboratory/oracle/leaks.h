@@ -7,7 +7,7 @@
 #include "scene/camera.h"
 #include "scene/light_ranges.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct Leak {
   int light = 0, instance = 0;  // in the scene: the light, and one of the instances that hide it
@@ -34,4 +34,4 @@ Leaks find_leaks(const Scene& scene, const View& view, const LightRanges& ranges
 // As `lightgrid plan` prints them: the worst `most` in a line each.
 std::string describe(const Leaks& leaks, const Scene& scene, size_t most);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

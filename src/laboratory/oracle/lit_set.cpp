@@ -15,7 +15,7 @@
 #include "oracle/position.h"
 #include "oracle/seen_pairs.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Sums over the pixels of one tile.
@@ -285,4 +285,4 @@ ListAccuracy measure_lists(const LitBlocks& blocks, int tile, const ListedLights
   return out;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -10,7 +10,7 @@
 #include "scene/listed_lights.h"
 #include "scene/view_lights.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Nearer than the radius and, for a spot, at less than the outer angle from its axis: exactly where
 // attenuation() with its window is positive. The boundary is not lit. Directional lights have no range.
@@ -88,4 +88,4 @@ struct ListAccuracy {
 // from the bottom. cell_of_pixel is not read.
 ListAccuracy measure_lists(const LitBlocks& blocks, int tile, const ListedLights& lists);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

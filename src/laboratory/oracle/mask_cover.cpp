@@ -5,7 +5,7 @@
 
 #include "oracle/signed_volume.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec2, glm::dvec3;
@@ -100,4 +100,4 @@ MaskCover::Range MaskCover::alpha(int instance, uint32_t triangle, const dvec3& 
   return {alpha * range.least - slack, alpha * range.most + slack};
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

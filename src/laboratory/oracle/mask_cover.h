@@ -5,7 +5,7 @@
 
 #include "oracle/scene_surfaces.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 enum class Cover { opaque, clear, either };
 
@@ -32,4 +32,4 @@ class MaskCover {
   mutable std::map<int, TextureSampler> samplers_;  // by texture; reading the base level changes none
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "oracle/position.h"
 #include "scene/ray_origin.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec3;
@@ -318,4 +318,4 @@ void Occlusion::sights(const Light& light, std::span<const Receiver* const> rece
   }
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -12,7 +12,7 @@
 #include "scene/camera.h"
 #include "scene/scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // either: the answer turns on the rounding of positions to float.
 enum class Sight { seen, hidden, either };
@@ -108,4 +108,4 @@ class Occlusion {
   TriangleTree tree_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

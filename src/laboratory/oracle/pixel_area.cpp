@@ -7,7 +7,7 @@
 #include "oracle/lit_set.h"
 #include "oracle/position.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec2, glm::dvec3, glm::ivec2;
@@ -180,4 +180,4 @@ std::vector<PixelArea> AreaOracle::at(std::span<const uint32_t> pixels) const {
   return areas;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

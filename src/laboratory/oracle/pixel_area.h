@@ -8,7 +8,7 @@
 #include "oracle/primary_rays.h"
 #include "scene/light_ranges.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 inline constexpr int places_of_area = 256;
 
@@ -64,4 +64,4 @@ class AreaOracle {
   PrimaryRays opaque_, blended_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "oracle/attenuation.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 std::vector<std::vector<uint32_t>> group_by_tile(int width, const std::vector<uint32_t>& pixels,
                                                  uint32_t side) {
@@ -92,4 +92,4 @@ void for_each_tile(int width, const std::vector<uint32_t>& pixels,
   });
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -6,7 +6,7 @@
 
 #include "scene/view_lights.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Indices into `pixels` (y * width + x each), grouped by tile of side x side pixels; tiles without pixels are
 // omitted.
@@ -39,4 +39,4 @@ void for_each_tile(int width, const std::vector<uint32_t>& pixels,
                    const std::vector<ViewLight>& lights,
                    const std::function<void(const TileOfPixels&)>& body);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -1,6 +1,6 @@
 #include "oracle/position.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Both kinds of projection have clip.x = P00 x + P20 z + P30; w is -z (perspective) or 1 (orthographic).
 double view_x_of_pixel(const View& view, double px) {
@@ -33,4 +33,4 @@ std::vector<uint32_t> covered_pixels(const std::vector<float>& depth) {
   return pixels;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -5,7 +5,7 @@
 
 #include "scene/camera.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The view-space point at the centre of pixel (px, py), row 0 at the bottom, with depth-buffer value `depth`
 // (reversed, zero to one). For orthographic and perspective projections, off-centre and oblique ones
@@ -20,4 +20,4 @@ double view_y_of_pixel(const View& view, double py);
 // Indices (y * width + x) of the covered pixels: depth > 0, so neither background nor NaN.
 std::vector<uint32_t> covered_pixels(const std::vector<float>& depth);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

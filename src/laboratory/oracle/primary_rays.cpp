@@ -3,7 +3,7 @@
 #include "base/facing.h"
 #include "oracle/position.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 using glm::dvec2, glm::dvec3;
 
@@ -70,4 +70,4 @@ std::optional<PrimaryRays::Hit> PrimaryRays::hit(SceneSurfaces& surfaces, const 
   return Hit{t, triangle, *depth};
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 #include "oracle/occlusion.h"
 #include "oracle/scene_surfaces.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 enum class RayTargets { opaque, blended };  // opaque: with masked ones, where their mask lets them be seen
 
@@ -37,4 +37,4 @@ class PrimaryRays {
   double far_m_ = 1;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

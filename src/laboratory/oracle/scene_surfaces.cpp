@@ -6,7 +6,7 @@
 
 #include "base/facing.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec2, glm::dvec3, glm::dvec4, glm::dmat3, glm::dmat4;
@@ -266,4 +266,4 @@ Surface SceneSurfaces::surface_at(const TriangleInView& triangle, const dvec2& p
   return s;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

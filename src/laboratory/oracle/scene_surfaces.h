@@ -11,7 +11,7 @@
 #include "oracle/shading.h"
 #include "scene/scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // A texture in double, filtered as OpenGL 4.6 says (8.14), which shares no formula with the kernels.
 // Colours are decoded from sRGB first. A mip level is the average of the one before it, by area; neither is
@@ -86,4 +86,4 @@ class SceneSurfaces {
   std::map<int, TextureSampler> samplers_;  // by texture
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

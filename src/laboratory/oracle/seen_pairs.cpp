@@ -10,7 +10,7 @@
 #include "oracle/pixel_tiles.h"
 #include "oracle/position.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // The tile's pixels, as places in it, in blocks of 4 x 4.
 static std::array<std::vector<uint32_t>, 16> blocks_of(int width, const std::vector<uint32_t>& pixels,
@@ -99,4 +99,4 @@ bool SeenPairs::has_either(uint32_t pixel) const {
   return std::ranges::any_of(entries_of(pixel), [](uint32_t e) { return Sight(e & 3) == Sight::either; });
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

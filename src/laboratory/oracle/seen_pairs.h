@@ -10,7 +10,7 @@
 #include "scene/host_shadows.h"
 #include "scene/view_lights.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Surfaces that pixels show. Row 0 at the bottom; depth 0 for background.
 struct ShownSurfaces {
@@ -61,4 +61,4 @@ struct PixelShadows {
   const HostShadows* shaded;         // by the frame; null: it shades every light
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

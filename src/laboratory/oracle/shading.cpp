@@ -10,7 +10,7 @@
 #include "oracle/pixel_tiles.h"
 #include "oracle/position.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 namespace {
 
@@ -219,4 +219,4 @@ std::vector<uint32_t> sample_pixels(const std::vector<uint32_t>& pixels, size_t 
   return samples;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

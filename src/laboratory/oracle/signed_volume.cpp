@@ -1,6 +1,6 @@
 #include "oracle/signed_volume.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec3;
@@ -40,4 +40,4 @@ SignedVolume side_of_edge(const RoundedPoint& light, const RoundedPoint& a, cons
   return v;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -4,7 +4,7 @@
 
 #include <glm/glm.hpp>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct RoundedPoint {
   glm::dvec3 place{0};  // world, metres
@@ -30,4 +30,4 @@ SignedVolume side_of_triangle(const RoundedPoint& a, const RoundedPoint& b, cons
 SignedVolume side_of_edge(const RoundedPoint& light, const RoundedPoint& a, const RoundedPoint& b,
                           const RoundedPoint& point);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

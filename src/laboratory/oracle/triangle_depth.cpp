@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using Real = long double;
@@ -197,4 +197,4 @@ DepthAt TriangleDepth::at(const SnappedPoint& sample) const {
   return {(low + high) / 2, (high - low) / 2};
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 
 #include "base/pixel_grid.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // 1/256 pixel from the image's lower left corner.
 struct SnappedPoint {
@@ -52,4 +52,4 @@ class TriangleDepth {
   Shown shown_ = Shown::snapped;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

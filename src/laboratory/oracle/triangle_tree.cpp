@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 TriangleTree::TriangleTree(const std::vector<Corners>& triangles) : order_(triangles.size()) {
   if (triangles.empty()) return;
@@ -86,4 +86,4 @@ bool TriangleTree::Shaft::meets(const WorldBox& box) const {
   return true;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -6,7 +6,7 @@
 
 #include "base/world_box.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 using Corners = std::array<glm::dvec3, 3>;
 
@@ -94,4 +94,4 @@ class TriangleTree {
   std::vector<WorldBox> boxes_;  // boxes of triangles
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -11,7 +11,7 @@
 #include "base/json_file.h"
 #include "measures/error_measures.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -194,4 +194,4 @@ AgainstResult results_against(const json& now, const json& earlier, const std::s
   }
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

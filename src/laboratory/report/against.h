@@ -7,7 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct AgainstResult {
   std::vector<std::string> worse;  // one sentence each; empty: nothing is
@@ -27,4 +27,4 @@ nlohmann::json read_results_json(const std::filesystem::path& path);
 AgainstResult results_against(const nlohmann::json& now, const nlohmann::json& earlier,
                               const std::string& earlier_name);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -12,7 +12,7 @@
 #include "base/text.h"
 #include "measures/words.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 std::string size_of(const CompareReport& report) {
@@ -298,4 +298,4 @@ std::vector<Chart> charts_over_settings(const std::vector<ReportView>& views, si
   return charts;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

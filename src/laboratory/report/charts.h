@@ -6,7 +6,7 @@
 
 #include "report/report.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct CurvePoint {
   double x = 0;
@@ -61,4 +61,4 @@ std::vector<Chart> charts_over_views(const std::vector<ReportView>& views);
 // are flat if they are exact, and omitted otherwise.
 std::vector<Chart> charts_over_settings(const std::vector<ReportView>& views, size_t view);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "report/report.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 static std::string section_text(const LimitSection& section) {
   std::string text =
@@ -53,4 +53,4 @@ std::string limits_page(const LimitsPage& page) {
                                                            {"pictures", pictures}});
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 
 #include "base/log.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct PagePicture {
   std::string caption;
@@ -34,4 +34,4 @@ struct LimitsPage {
 // Failing limits first.
 std::string limits_page(const LimitsPage& page);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "report/charts.h"
 #include "report/speedup_words.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 struct Place {
@@ -179,4 +179,4 @@ std::vector<std::string> overview_sentences(const std::vector<ReportView>& views
   return sentences;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

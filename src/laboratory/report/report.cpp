@@ -12,7 +12,7 @@
 #include "measures/error_measures.h"
 #include "measures/words.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 namespace fs = std::filesystem;
@@ -205,7 +205,7 @@ const ReportView& ViewsReport::add(CompareReport report) {
 
 std::vector<std::string> ViewsReport::sentences() const { return overview_sentences(views_); }
 
-std::string ViewsReport::json_text() const { return lightgrid::json_text(to_json(views_)); }
+std::string ViewsReport::json_text() const { return lab::json_text(to_json(views_)); }
 
 void ViewsReport::write() const {
   write_file(folder_ / "results.json", json_text());
@@ -213,4 +213,4 @@ void ViewsReport::write() const {
   write_file(folder_ / "index.html", report_page(views_));
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

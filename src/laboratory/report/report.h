@@ -12,7 +12,7 @@
 #include "measures/results.h"
 #include "report/view_pictures.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // An answer to "which one?": a technique, its figure, why it, and how sure that is.
 struct Choice {
@@ -135,4 +135,4 @@ std::string script_json(const std::string& text);
 // Replaces each {{name}} of the template, in order; inserted text is not scanned again.
 std::string filled(std::string_view page, const std::map<std::string_view, std::string>& values);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

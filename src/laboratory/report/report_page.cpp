@@ -10,7 +10,7 @@
 #include "measures/words.h"
 #include "report/charts.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -164,8 +164,7 @@ std::string report_page(const std::vector<ReportView>& views) {
                            "matrix.js", "view.js", "report.js"}) {
     scripts += embedded_file(std::string("report/page/") + name);
   }
-  const json results =
-      views.size() == 1 ? lightgrid::to_json(views.front().report) : lightgrid::to_json(views);
+  const json results = views.size() == 1 ? lab::to_json(views.front().report) : lab::to_json(views);
   return filled(embedded_file("report/page/index.html"),
                 {{"style", embedded_file("report/page/style.css")},
                  {"script", scripts},
@@ -173,4 +172,4 @@ std::string report_page(const std::vector<ReportView>& views) {
                  {"page", script_json(json_text(page_data(views)))}});
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

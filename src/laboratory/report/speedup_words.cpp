@@ -12,7 +12,7 @@
 #include "measures/words.h"
 #include "report/report.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double worth_a_word = 1.05;
@@ -167,4 +167,4 @@ std::vector<std::string> contestants_table(const CompareReport& report) {
   return table;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

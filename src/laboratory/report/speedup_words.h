@@ -6,7 +6,7 @@
 
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // Mean of listed lights over the pixels with a surface; negative if not counted.
 double listed_per_pixel(const CompareReport& report, const RunResult& row);
@@ -24,4 +24,4 @@ std::string software_opengl_in_words(const CompareReport& report);
 // For a terminal, a heading and a line per row: name, time with its spread, speed-up, exact or its error.
 std::vector<std::string> contestants_table(const CompareReport& report);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

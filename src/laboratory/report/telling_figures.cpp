@@ -8,7 +8,7 @@
 #include "report/report.h"
 #include "report/speedup_words.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // "12 leaked and 0 acned pairs".
@@ -328,4 +328,4 @@ std::vector<Choice> choices(const CompareReport& report) {
   return all;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

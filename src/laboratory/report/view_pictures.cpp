@@ -11,7 +11,7 @@
 #include "measures/metrics.h"
 #include "report/report.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 namespace fs = std::filesystem;
@@ -150,4 +150,4 @@ ReportPictures save_pictures(const fs::path& folder, const CompareReport& report
   return pictures;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

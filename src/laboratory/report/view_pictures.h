@@ -9,7 +9,7 @@
 
 #include "measures/results.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct HeatMap {
   std::vector<uint8_t> png;
@@ -44,4 +44,4 @@ size_t bytes_in_page(const ReportPictures& pictures);
 ReportPictures save_pictures(const std::filesystem::path& folder, const CompareReport& report, bool exr,
                              size_t max_bytes);
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

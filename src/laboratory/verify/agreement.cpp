@@ -7,7 +7,7 @@
 #include "shared/slices.h"
 #include "verify/check.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 void pixel_finds_its_tile(Check& c) {
@@ -262,4 +262,4 @@ std::vector<CaseRun> agreement_cases() {
                larger_lights_list_more, whole_pixels_hold_centres, portable_form);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -8,7 +8,7 @@
 #include "shared/light_grid.h"
 #include "verify/check.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 // Tangent and scattered lights and spots over thin, thick, flat, endless and empty cells.
@@ -374,4 +374,4 @@ std::vector<CaseRun> camera_cases() {
                jittered, other_projections, eye_1e26_m_off, nearest_near_plane);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -10,7 +10,7 @@
 #include "verify/check.h"
 #include "verify/shadow_scenes.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 using glm::dvec3;
@@ -41,7 +41,7 @@ Tile tile_at(const View& view, const GroupImage& image, size_t pixel) {
     for (int px = tile.x0; px < tile.x1; ++px) {
       const float depth = image.depths[size_t(py) * size_t(view.width) + size_t(px)];
       if (!(depth > 0)) continue;
-      const double distance = -position_from_depth(view, px, py, depth).z;
+      const double distance = -lab::position_from_depth(view, px, py, depth).z;
       tile.near = std::min(tile.near, distance);
       tile.far = std::max(tile.far, distance);
     }
@@ -243,4 +243,4 @@ std::vector<CaseRun> cap_cases() {
                indices_past_16_bits, cut_and_turned_views);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

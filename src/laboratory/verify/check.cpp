@@ -11,7 +11,7 @@
 #include "shared/light_grid.h"
 #include "shared/slices.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 constexpr double farthest_surface = 1e15;  // metres; docs/hard_cases.md#the-domain
@@ -356,4 +356,4 @@ void Check::same_as_twin(const CullView& view, const std::vector<CullLight>& lig
   }
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -14,7 +14,7 @@
 
 #include "verify/inputs.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 class Check;
 
@@ -198,4 +198,4 @@ std::vector<float> twin_bounds(const CullParams& params, DepthBoundsMode mode, b
 std::string difference(const HostGrid& twin, const HostGrid& grid);
 std::string difference(std::span<const float> twin, std::span<const float> bounds);  // difference of bits
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 // Returns the items of `all` in whose name_of the regular expression is found. Throws Error(input) if it is
 // invalid or found in no name; `what` and `like` are for that message.
@@ -28,4 +28,4 @@ auto chosen_by_name(const All& all, const std::string& filter, const Name& name_
   return chosen;
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -4,7 +4,7 @@
 
 #include "verify/check.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 void all_sky(Check& c) {
@@ -188,4 +188,4 @@ std::vector<CaseRun> depth_cases() {
                reversed_against_standard, endless_far, denormal_depth, finite_far, at_near_plane);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

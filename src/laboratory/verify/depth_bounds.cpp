@@ -7,7 +7,7 @@
 #include "shared/cull_tests.h"
 #include "verify/check.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 // In front of and behind the surface of every seventh pixel, just reaching it.
@@ -306,4 +306,4 @@ std::vector<CaseRun> depth_bounds_cases() {
                depth_of_16_bits, depth_of_24_bits, depth_of_floats, position_from_depth, mask_around_the_eye);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

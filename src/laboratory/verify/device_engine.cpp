@@ -15,7 +15,7 @@
 #include "techniques/technique.h"
 #include "verify/engine.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 // The device's name, with its number if another device has the same name.
@@ -345,4 +345,4 @@ std::unique_ptr<CullEngine> device_engine(const std::string& substring, ProgramC
   return std::make_unique<DeviceEngine>(substring, std::move(alter), both_shapes);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

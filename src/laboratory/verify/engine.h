@@ -17,7 +17,7 @@
 #include "scene/host_shadows.h"
 #include "scene/listed_lights.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 // Depth values as the culler reads them: z/w of clip_from_view, row 0 at the bottom. The viewport's lower
 // left corner is (x, y); its size is the view's.
@@ -166,4 +166,4 @@ class CullEngine {
 std::unique_ptr<CullEngine> device_engine(const std::string& substring, ProgramCache::Alter alter = {},
                                           bool both_shapes = true);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

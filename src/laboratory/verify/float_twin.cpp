@@ -9,7 +9,7 @@
 #include "shared/light_grid.h"
 #include "verify/twin/twin.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 using Lists = std::vector<std::vector<uint32_t>>;
@@ -85,4 +85,4 @@ std::string difference(std::span<const float> twin, std::span<const float> bound
   return "";
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

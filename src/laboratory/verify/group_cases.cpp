@@ -11,7 +11,7 @@
 #include "verify/check.h"
 #include "verify/shadow_scenes.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 using glm::dvec3;
@@ -362,4 +362,4 @@ std::vector<CaseRun> group_cases() {
                at_one_depth, sky_has_none, directional_lights, random_masks);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

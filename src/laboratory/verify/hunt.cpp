@@ -21,7 +21,7 @@
 #include "verify/check.h"
 #include "verify/chosen_by_name.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 constexpr int views_a_setting = 8;       // for each class, because a new setting may require kernel builds
@@ -324,4 +324,4 @@ nlohmann::ordered_json to_json(const HuntReport& report) {
   return json;
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

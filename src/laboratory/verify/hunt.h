@@ -11,7 +11,7 @@
 
 #include "verify/hunt_space.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 struct HuntOptions {
   double minutes = 1;
@@ -54,4 +54,4 @@ HuntReport hunt(CullEngine& engine, const HuntOptions& options);
 
 nlohmann::ordered_json to_json(const HuntReport& report);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -8,7 +8,7 @@
 #include "verify/chosen_by_name.h"
 #include "verify/run.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 std::vector<RandomCase> chosen_random_cases(const std::string& filter) {
@@ -96,4 +96,4 @@ nlohmann::ordered_json to_json(const CaseHuntReport& report) {
   return json;
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

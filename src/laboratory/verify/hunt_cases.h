@@ -6,7 +6,7 @@
 #include "verify/check.h"
 #include "verify/hunt.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 // A class of such cases.
 struct RandomCase {
@@ -41,4 +41,4 @@ CaseHuntReport hunt_cases(CullEngine& engine, const HuntOptions& options);
 
 nlohmann::ordered_json to_json(const CaseHuntReport& report);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -9,7 +9,7 @@
 #include "oracle/position.h"
 #include "renderer/upload/culler_input.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 using std::numbers::pi;
@@ -248,4 +248,4 @@ bool is_lit_there(const HuntView& h, const Light& light, const glm::dvec3& posit
   return is_lit(seen, position);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -9,7 +9,7 @@
 #include "scene/deform.h"
 #include "techniques/technique.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 using glm::dvec3;
@@ -245,4 +245,4 @@ SequenceReport compare_sequence(CullEngine& engine, HuntedScene made, const Sequ
   return report;
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

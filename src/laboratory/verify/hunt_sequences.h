@@ -6,7 +6,7 @@
 #include "verify/hunt_shadow_space.h"
 #include "verify/shadow_pairs.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 // A technique with settings that keep state between frames.
 struct SequenceKind {
@@ -62,4 +62,4 @@ std::string difference(const SequenceFrame& a, const SequenceFrame& b);
 SequenceReport compare_sequence(CullEngine& engine, HuntedScene made, const SequenceKind& kind,
                                 const Settings& settings, int frames, Random& random);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -7,7 +7,7 @@
 #include "verify/chosen_by_name.h"
 #include "verify/shadow_scenes.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 using glm::dmat4;
@@ -238,4 +238,4 @@ std::vector<ShadowHuntClass> chosen_shadow_classes(const std::string& filter) {
       "class of the hunt of shadows", "slivers or rooms");
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

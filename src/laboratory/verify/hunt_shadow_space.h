@@ -7,7 +7,7 @@
 
 #include "verify/shadow_scenes.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 struct HuntedScene {
   Scene scene;
@@ -31,4 +31,4 @@ std::vector<ShadowHuntClass> chosen_shadow_classes(const std::string& filter);
 
 void move_eye(View& view, const glm::dvec3& by);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -9,7 +9,7 @@
 #include "plan/settings/kernels.h"
 #include "verify/hunt_sequences.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 class ShadowHunt {
@@ -171,4 +171,4 @@ nlohmann::ordered_json to_json(const ShadowHuntReport& report) {
   return json;
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

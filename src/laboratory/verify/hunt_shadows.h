@@ -5,7 +5,7 @@
 #include "verify/hunt.h"
 #include "verify/shadow_pairs.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 struct ShadowHuntTally {
   std::string name;   // name of the class
@@ -35,4 +35,4 @@ ShadowHuntReport hunt_shadows(CullEngine& engine, const HuntOptions& options);
 
 nlohmann::ordered_json to_json(const ShadowHuntReport& report);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -10,7 +10,7 @@
 #include "scene/scene.h"
 #include "verify/views.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 // A bounded set, so that kernel builds are rare.
 struct HuntSetting {
@@ -122,4 +122,4 @@ std::optional<glm::dvec3> position_of(const HuntView& view, const HuntContact& c
 // According to the oracle: strictly nearer than the radius, and strictly within the cone.
 bool is_lit_there(const HuntView& view, const Light& light, const glm::dvec3& position);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

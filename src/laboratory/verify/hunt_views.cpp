@@ -7,7 +7,7 @@
 #include "verify/check.h"
 #include "verify/hunt_space.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 // Variants that depth_cases and light_cases build anyway.
@@ -376,4 +376,4 @@ HuntView random_view(HuntClass hunted, const HuntSetting& setting, uint64_t seed
   return h;
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -6,7 +6,7 @@
 
 #include "oracle/position.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 using std::numbers::pi;
@@ -137,7 +137,7 @@ std::optional<glm::dvec3> surface_at(const CullView& view, const DepthImage& dep
   const float value = depth.values[at];
   if (!(value >= 0 && value <= 1) || value == depth_of_nothing(view)) return {};
   const View v = oracle_view(view);
-  return depth.distances.empty() ? position_from_depth(v, x, y, value)
+  return depth.distances.empty() ? lab::position_from_depth(v, x, y, value)
                                  : position_at(v, x, y, depth.distances[at]);
 }
 
@@ -220,4 +220,4 @@ DepthImage scattered_depth(const CullView& view, Random& random) {
   return depth;
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

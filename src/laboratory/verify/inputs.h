@@ -5,7 +5,7 @@
 #include "scene/random.h"
 #include "verify/views.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 constexpr double sky = no_end;
 
@@ -80,4 +80,4 @@ CullLight spot(const glm::dvec3& position, const glm::dvec3& direction, double r
 constexpr DepthInterval every_distance{0.0f, 1e18f};
 constexpr DepthInterval no_surface{1e18f, -1e18f};
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

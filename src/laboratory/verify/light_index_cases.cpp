@@ -17,7 +17,7 @@
 #include "verify/hunt_cases.h"
 #include "verify/shadow_scenes.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 using glm::dvec3;
@@ -67,7 +67,7 @@ void light_indices(Check& c, Scene scene, const std::vector<View>& views,
         if (!(depths[pixel] > 0)) continue;
         past += uint64_t(std::max(0, int(pairs.lit_of_pixel[pixel]) - listing.room));
         const dvec3 p =
-            position_from_depth(view, int(pixel) % view.width, int(pixel) / view.width, depths[pixel]);
+            lab::position_from_depth(view, int(pixel) % view.width, int(pixel) / view.width, depths[pixel]);
         const size_t cell = lists.cell_of_pixel[pixel];
         for (uint32_t k = 0; k < lists.count[cell]; ++k) {
           const uint32_t light = lists.indices[lists.first[cell] + k];
@@ -379,4 +379,4 @@ std::vector<CaseRun> light_index_cases() {
                groups_of_still_lights, cut_images, cones_and_ranges, hard_edges);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

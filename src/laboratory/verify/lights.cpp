@@ -9,7 +9,7 @@
 #include "scene/view_lights.h"
 #include "verify/check.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 constexpr double inf = no_end, nan = std::numeric_limits<double>::quiet_NaN();
@@ -375,4 +375,4 @@ std::vector<CaseRun> light_cases() {
                spread_out, parked, worlds_of_any_scale, outside_of_the_domain);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

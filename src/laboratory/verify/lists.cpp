@@ -6,7 +6,7 @@
 #include "shared/cull_tests.h"
 #include "verify/check.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 CullView small() { return field_of_view(60, 33, 17); }
@@ -238,4 +238,4 @@ std::vector<CaseRun> list_cases() {
                lists_past_16_bits, many_cells, past_32_bits, float_twin);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

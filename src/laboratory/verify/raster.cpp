@@ -4,7 +4,7 @@
 
 #include "verify/raster_check.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 void shared_edges(Check& c) { covers_once(c, raster_scene(150, 140), 23, false, Random(11)); }
@@ -86,4 +86,4 @@ std::vector<CaseRun> raster_cases() {
                not_finite, equal_depths, mirrored_and_two_sided, awkward_sizes, more_than_expected);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -8,7 +8,7 @@
 #include "base/facing.h"
 #include "oracle/coverage.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 // From the centre, 1/16 pixel, y down: as Vulkan 1.3 lists its standard sample locations, (x - 0.5, y - 0.5)
@@ -206,4 +206,4 @@ void triangles_of_a_size(Check& c, RasterInput input, int count, Random random) 
   raster(c, input);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -7,7 +7,7 @@
 #include "scene/random.h"
 #include "verify/check.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 // The places of a pixel's samples, pixels from its centre, y up.
 std::vector<glm::dvec2> sample_places(int samples);
@@ -67,4 +67,4 @@ void equal_depths_of_copies(Check& c, RasterInput input, Random random);
 // Triangles in and around the image.
 void triangles_of_a_size(Check& c, RasterInput input, int count, Random random);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -20,7 +20,7 @@
 #include "shared/cull_tests.h"
 #include "verify/chosen_by_name.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 const char* name_of(Verdict verdict) {
@@ -303,4 +303,4 @@ std::vector<CullView> replayed_views(const CapturedFrame& frame, const std::opti
   return views;
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -9,7 +9,7 @@
 #include "frames/frame_file.h"
 #include "verify/check.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 struct CaseResult {
   const HardCase* hard_case = nullptr;
@@ -72,4 +72,4 @@ VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engine
 std::vector<CullView> replayed_views(const CapturedFrame& frame, const std::optional<FrameGrid>& own,
                                      const std::vector<std::string>& set);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

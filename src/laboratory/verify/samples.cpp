@@ -15,7 +15,7 @@
 #include "verify/raster_check.h"
 #include "verify/shadow_scenes.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 using glm::dvec2;
@@ -177,7 +177,7 @@ void coverage(Check& c, Random& random) {
 
 // The point that the view shows at a place in pixels, of this depth. Not of oblique near planes.
 dvec3 position_at(const View& view, double px, double py, double depth) {
-  const double z = position_from_depth(view, int(px), int(py), depth).z;
+  const double z = lab::position_from_depth(view, int(px), int(py), depth).z;
   const double d = view.orthographic ? 1 : -z;
   return {view_x_of_pixel(view, px) * d, view_y_of_pixel(view, py) * d, z};
 }
@@ -240,4 +240,4 @@ std::vector<CaseRun> sample_cases() {
                around_the_eye_at_samples, w_zero_at_samples, huge_and_tiny_at_samples, sizes_of_samples);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 std::vector<ShadowImage> shadows(Check& c, const Scene& scene, const std::vector<View>& views,
                                  const Shows& shows) {
@@ -80,4 +80,4 @@ void turn(Scene& scene, std::vector<View>& views, const glm::dmat4& turn) {
   }
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -5,7 +5,7 @@
 #include "verify/shadow_pairs.h"
 #include "verify/shadow_scenes.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 // The shares of the pairs that a case must show, so that it proves something.
 struct Shows {
@@ -34,4 +34,4 @@ std::vector<View> of_the_soup();
 // The scene and its view turned about the origin.
 void turn(Scene& scene, std::vector<View>& views, const glm::dmat4& turn);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

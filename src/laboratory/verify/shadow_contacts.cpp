@@ -5,7 +5,7 @@
 
 #include "verify/shadow_check.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 using glm::dmat4;
@@ -169,4 +169,4 @@ std::vector<CaseRun> shadow_cases_of_contacts() {
   return CASES(lights_beside_a_wall, lights_beside_planes, lights_beside_edges, lights_inside_slivers);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -8,7 +8,7 @@
 #include "oracle/position.h"
 #include "scene/view_lights.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 // A tile of the image, and what the oracle needs to know of its pixels.
@@ -30,7 +30,7 @@ TileReceivers receivers_of(const Occlusion& occlusion, const View& view, const S
     const double depth = image.depths[pixel];
     tile.x.push_back(x);
     tile.y.push_back(y);
-    tile.positions.push_back(position_from_depth(view, x, y, depth));
+    tile.positions.push_back(lab::position_from_depth(view, x, y, depth));
     tile.receivers.push_back(occlusion.receiver(view, x, y, depth, image.triangles[pixel]));
   }
   return tile;
@@ -154,4 +154,4 @@ const char* difference(const ShadowImage& a, const ShadowImage& b) {
   return a.shadows.bits != b.shadows.bits ? "bits" : "";
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -3,7 +3,7 @@
 
 #include "verify/engine.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 // Pairs of a pixel and a light that casts, within its range and cone according to the oracle.
 struct ShadowPairs {
@@ -28,4 +28,4 @@ bool same_surfaces_and_lights(const ShadowImage& a, const ShadowImage& b);
 // Empty, or in which of surfaces, lists and bits two images differ.
 const char* difference(const ShadowImage& a, const ShadowImage& b);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

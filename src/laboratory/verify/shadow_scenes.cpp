@@ -5,7 +5,7 @@
 #include "scenes/compose.h"
 #include "scenes/shapes.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 using glm::dvec3;
 using glm::vec3;
@@ -192,4 +192,4 @@ dvec3 on_triangle(Random& random, const ShadowTriangle& t) {
   return dvec3(t[first]) * (1 - u - v) + dvec3(t[(first + 1) % 3]) * u + dvec3(t[(first + 2) % 3]) * v;
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

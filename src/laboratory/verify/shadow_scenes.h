@@ -9,7 +9,7 @@
 #include "scene/random.h"
 #include "scene/scene.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 using ShadowTriangle = std::array<glm::vec3, 3>;
 using ShadowTriangles = std::vector<ShadowTriangle>;
@@ -54,4 +54,4 @@ ShadowTriangles soup_of_all_sizes(Random& random, int count);
 // A place on a triangle, often on an edge or at a corner.
 glm::dvec3 on_triangle(Random& random, const ShadowTriangle& triangle);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -6,7 +6,7 @@
 #include "scenes/compose.h"
 #include "verify/shadow_check.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 using glm::dmat4;
@@ -181,4 +181,4 @@ std::vector<CaseRun> shadow_cases_of_views() {
                sky_between, edges_of_cones, beside_their_plane);
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -6,7 +6,7 @@
 #include "scenes/compose.h"
 #include "verify/shadow_check.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 using glm::dmat4;
@@ -355,4 +355,4 @@ std::vector<CaseRun> shadow_cases() {
   return cases;
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "oracle/position.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 // Depth is (a z + b) / w, where a and b make it 1 at near and 0 at far, or vice versa.
@@ -205,4 +205,4 @@ std::vector<NamedView> hard_views(int width, int height) {
       {"turned, 10^7 m out", placed(sixty, {1e7, -3e6, 2e7}, 0.7, -0.4)}};
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -6,7 +6,7 @@
 #include "oracle/cell.h"
 #include "verify/engine.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
 
@@ -64,4 +64,4 @@ struct NamedView {
 // turned.
 std::vector<NamedView> hard_views(int width, int height);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

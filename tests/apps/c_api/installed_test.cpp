@@ -8,7 +8,7 @@
 #include "support/read_files.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 std::string header() { return file_bytes(std::string(source_folder) + "/src/apps/c_api/lightgrid.h"); }
@@ -89,4 +89,4 @@ TEST(CLibraryInstalled, IsFoundByPkgConfigAndDrawsInTheExample) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

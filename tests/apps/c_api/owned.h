@@ -9,7 +9,7 @@
 
 #include "c_api/lightgrid.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 template <auto free>
 struct Freed {
@@ -109,4 +109,4 @@ inline const OwnedDevice& opencl_device() {
   return *device;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

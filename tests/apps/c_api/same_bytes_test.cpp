@@ -13,7 +13,7 @@
 #include "support/small_scene.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 const Words hall_fields = {"size=133x71", "lights=40", "seed=3"};
@@ -443,4 +443,4 @@ TEST_P(CScenes, FromArraysAreDrawnAsTheirCppTwinsAndFollowWhatMoves) {
 INSTANTIATE_TEST_SUITE_P(Of, CScenes, testing::Values("visibility", "forward_plus", "world_grid"));
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

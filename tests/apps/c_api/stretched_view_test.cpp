@@ -7,7 +7,7 @@
 #include "c_api/lightgrid.h"
 #include "c_api/owned.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 constexpr int size = 64, pixel = 31;
@@ -78,4 +78,4 @@ TEST(StretchedProjections, AreRefusedPastTheirBound) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -7,7 +7,7 @@
 
 #include "c_api/owned.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -330,4 +330,4 @@ TEST(CSilence, IsWhatALibraryKeepsAtFirst) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

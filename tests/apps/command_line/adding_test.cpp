@@ -17,7 +17,8 @@
 #include "support/read_files.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 using testing::IsEmpty;
@@ -444,4 +445,4 @@ TEST(Adding, AReaderOfLightsReadsTheFactorsThatItClaims) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -7,7 +7,7 @@
 #include "support/run_program.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 // A triangle that fills the picture. Light from all sides is reflected by base colour + 0.04.
@@ -69,4 +69,4 @@ TEST_F(AmbientOption, OfTheSceneChangesNothing) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -12,7 +12,7 @@
 #include "support/read_files.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -240,4 +240,4 @@ TEST(BenchCommand, EndsWithThreeWithoutADevice) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

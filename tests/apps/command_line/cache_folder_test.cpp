@@ -3,7 +3,7 @@
 
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -56,4 +56,4 @@ TEST(CacheFolder, WithoutATemporaryFolderEitherTheMessageNamesTheFolder) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -8,7 +8,7 @@
 #include "support/run_program.h"
 #include "support/shared_files.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using nlohmann::json;
@@ -163,4 +163,4 @@ TEST_F(Check, SponzaWith1024LightsIsJudged) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -10,7 +10,7 @@
 #include "support/read_files.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -391,4 +391,4 @@ TEST(Help, GoesToStdoutAndEndsWithZero) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -13,7 +13,7 @@
 
 #include "support/paths.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -257,4 +257,4 @@ TEST(Documents, InTheLabTellDateMachineAndCommit) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

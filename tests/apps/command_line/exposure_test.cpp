@@ -6,7 +6,7 @@
 #include "support/read_files.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -83,4 +83,4 @@ TEST_F(ExposureOption, OfABuiltInSceneIsNone) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -12,7 +12,8 @@
 #include "support/read_files.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 using testing::ElementsAre;
@@ -271,4 +272,4 @@ TEST_F(Frames, InspectDrawsMapsAndNoLightIsLost) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -12,7 +12,7 @@
 #include "support/run_command.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -223,4 +223,4 @@ TEST(FrontierExternal, AnExportedSceneHasTheSamePictures) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

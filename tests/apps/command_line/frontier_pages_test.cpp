@@ -8,7 +8,7 @@
 #include "support/read_files.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,4 +63,4 @@ TEST(FrontierPages, OfOtherFiguresAreFound) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -11,7 +11,7 @@
 #include "support/run_command.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -65,4 +65,4 @@ TEST(FrontierOnSlurm, EndsWithTheSameFiguresAfterAKill) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "support/csv_table.h"
+#include "support/csv_rows.h"
 #include "support/paths.h"
 #include "support/read_files.h"
 #include "support/run_command.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,11 +55,11 @@ json point_of(const json& answer, const std::string& label) {
 // than k of n are with that of the binomial distribution; k is the least for which it is below 1e-6.
 void expect_ratios_about_one(const fs::path& folder) {
   std::set<std::string> rows;
-  for (const auto& row : csv_table(file_bytes(folder / "frontier.csv"))) {
+  for (const auto& row : csv_rows(file_bytes(folder / "frontier.csv"))) {
     if (row.at("label") == "forward_plus") rows.insert(row.at("row"));  // those of growth too
   }
   int n = 0, above = 0, below = 0;
-  for (const auto& run : csv_table(file_bytes(folder / "samples.csv"))) {
+  for (const auto& run : csv_rows(file_bytes(folder / "samples.csv"))) {
     if (!rows.contains(run.at("row"))) continue;
     const double ratio = std::stod(run.at("frame_ms")) / std::stod(run.at("baseline_ms"));
     ++n;
@@ -359,4 +359,4 @@ TEST(FrontierCommand, RefusesWhatItCannotDoInOneLineThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

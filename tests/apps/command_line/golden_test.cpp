@@ -11,7 +11,7 @@
 #include "support/read_files.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using nlohmann::json;
@@ -380,4 +380,4 @@ TEST(GoldenHashes, OfTheBuiltinScenesHold) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

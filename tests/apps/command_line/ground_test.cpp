@@ -13,7 +13,7 @@
 #include "support/read_files.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 constexpr int across_px = 48, up_px = 36;
@@ -85,4 +85,4 @@ TEST(Ground, UnderAnEyeIsSeenInASceneOfTwoKilometres) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -5,7 +5,7 @@
 #include "support/gltf_pointers.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -102,4 +102,4 @@ TEST(InfoCommand, TellsABuiltInScene) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -11,7 +11,7 @@
 #include "support/run_program.h"
 #include "support/shared_files.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,4 +78,4 @@ TEST(InvalidFiles, EachEndsWithAnImageOrOneLineThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

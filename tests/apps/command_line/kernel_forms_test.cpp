@@ -5,7 +5,7 @@
 #include "support/read_files.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -84,4 +84,4 @@ INSTANTIATE_TEST_SUITE_P(Pocl, KernelForm, testing::ValuesIn(forms),
                          [](const auto& info) { return std::string(info.param.first); });
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -5,7 +5,7 @@
 
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -91,4 +91,4 @@ TEST(Manual, HasNoFaultOfSyntaxForItsShell) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

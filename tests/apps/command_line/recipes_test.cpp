@@ -6,7 +6,7 @@
 #include "support/paths.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 TEST(Recipes, AddACullTestAndATechniqueInAsManyPlacesAsTheySay) {
@@ -20,4 +20,4 @@ TEST(Recipes, AddACullTestAndATechniqueInAsManyPlacesAsTheySay) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -13,7 +13,7 @@
 #include "support/read_files.h"
 #include "support/run_command.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,14 +89,32 @@ TEST(Types, DefinedTwiceAreFound) {
   EXPECT_EQ(all["lightgrid::B"].size(), 1u);
 }
 
+Definitions definitions_of(const char* folder) {
+  Definitions all;
+  const std::string path = (fs::path(source_folder) / folder / "").string();
+  for (const fs::path& file : source_files())
+    if (file.string().starts_with(path)) add_definitions(all, file, file_bytes(file));
+  return all;
+}
+
 // One program may not contain two types of one name: -Wodr reports them only with -flto.
 TEST(Types, AreDefinedInOneFileOfANamespace) {
-  Definitions all;
-  for (const fs::path& file : source_files())
-    if (file.string().starts_with((fs::path(source_folder) / "src").string()))
-      add_definitions(all, file, file_bytes(file));
+  const Definitions all = definitions_of("src");
   EXPECT_GT(all.size(), 500u);
   for (const auto& [name, files] : all) EXPECT_EQ(files.size(), 1u) << name << testing::PrintToString(files);
+}
+
+TEST(Types, AreInTheNamespaceOfTheirHouse) {
+  const std::string lab = "lightgrid::lab::", app = "lightgrid::app::";
+  for (const auto& [house, inside] : {std::pair{"src/laboratory", lab}, {"src/apps", app}}) {
+    const Definitions all = definitions_of(house);
+    EXPECT_GT(all.size(), 40u) << house;
+    for (const auto& [name, files] : all)
+      EXPECT_TRUE(name.starts_with(inside) || name.starts_with("lightgrid_"))
+          << name << testing::PrintToString(files);
+  }
+  for (const auto& [name, files] : definitions_of("src/engine"))
+    EXPECT_FALSE(name.starts_with(lab) || name.starts_with(app)) << name << testing::PrintToString(files);
 }
 
 // All formatting depends on clang-format's version: Debian 12 has 14.
@@ -133,4 +151,4 @@ TEST(Format, IsThatOfClangFormat) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -12,7 +12,7 @@
 #include "support/run_program.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -173,4 +173,4 @@ TEST(Settings, StartWithTheDefault) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

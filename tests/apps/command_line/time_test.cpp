@@ -7,7 +7,7 @@
 #include "support/read_files.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 // A triangle in front of the file's camera.
@@ -102,4 +102,4 @@ TEST_F(RenderAtTime, WhatIsNoTimeIsRefused) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -13,7 +13,7 @@
 #include "support/read_files.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -133,4 +133,4 @@ TEST(Options, MeanTheSameInEveryCommand) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

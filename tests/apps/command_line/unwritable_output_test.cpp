@@ -8,7 +8,7 @@
 #include "support/run_command.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::AnyOf;
@@ -224,4 +224,4 @@ TEST(TooLittleMemory, IsToldAsThat) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -10,7 +10,7 @@
 #include "support/read_files.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -103,4 +103,4 @@ TEST(WithoutOpenGl, CaptureAndInspectFindTheSameGrid) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -10,7 +10,7 @@
 
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -259,4 +259,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return name_of(info.param); });
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -8,7 +8,7 @@
 #include "view/clock.h"
 #include "view/controls.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::StartsWith;
@@ -221,4 +221,4 @@ TEST(Resolution, StaysFullWhereNoRateIsHeld) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -14,7 +14,7 @@
 #include "support/run_command.h"
 #include "support/run_program.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 inline constexpr int view_width = 320, view_height = 180;
 inline constexpr int label_rows = 44;  // the sides' names and figures are drawn over the picture
@@ -77,4 +77,4 @@ class ViewInDisplay : public testing::Test {
   TempFolder folder_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

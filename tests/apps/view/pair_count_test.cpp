@@ -11,7 +11,8 @@
 #include "support/devices.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 // Light 0 casts nothing; between lamps there are two suns, of which the second casts.
@@ -145,4 +146,4 @@ TEST(PairCount, StopsWhereTheSceneChangesOrAnotherChoiceIsWanted) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

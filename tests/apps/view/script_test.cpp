@@ -7,7 +7,7 @@
 #include "plan/settings/grid.h"
 #include "plan/settings/model.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::AllOf;
@@ -141,4 +141,4 @@ TEST(Script, MayBeEmpty) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

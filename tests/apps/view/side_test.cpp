@@ -6,7 +6,7 @@
 #include "base/compiling.h"
 #include "scenes/builtin.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 // A frame that compiles is drawn again, and so is the first one of a run; both are no figures.
@@ -40,4 +40,4 @@ TEST(Side, LeavesCompilingOutOfEveryFigure) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -6,7 +6,8 @@
 #include "view/controls.h"
 #include "view/panels.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
+using namespace lab;
 namespace {
 
 TEST(Timings, KeepTheLastFramesAndTheirMean) {
@@ -58,4 +59,4 @@ TEST(CommandText, NamesTheSettingsThatTheTechniqueReads) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

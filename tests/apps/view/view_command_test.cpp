@@ -9,7 +9,7 @@
 #include "support/exported_level.h"
 #include "view/in_display.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -248,4 +248,4 @@ TEST(ViewCommand, ExposesTheFirstPictureOfAFile) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -9,7 +9,7 @@
 
 #include "view/in_display.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::HasSubstr;
@@ -161,4 +161,4 @@ TEST_F(ViewShadowsInDisplay, ShadowsAreChosenWhileItRuns) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

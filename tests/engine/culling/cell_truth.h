@@ -11,6 +11,7 @@
 #include "oracle/position.h"
 
 namespace lightgrid {
+using namespace lab;
 
 constexpr double ulp_of_one = 0x1p-23;
 

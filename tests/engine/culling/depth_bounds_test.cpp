@@ -11,6 +11,7 @@
 #include "scene/random.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr double ulp = 0x1p-23;

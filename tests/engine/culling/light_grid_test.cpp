@@ -14,6 +14,7 @@
 #include "support/long_tests.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;

@@ -10,6 +10,7 @@
 #include "scene/random.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr int size = 48;

@@ -12,6 +12,7 @@
 #include "scene/random.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr int width = 83, height = 51;

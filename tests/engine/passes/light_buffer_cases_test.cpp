@@ -19,6 +19,7 @@
 #include "support/light_sums.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr double light_exponent = 32;  // value of the setting prepass-shininess

@@ -15,6 +15,7 @@
 #include "support/small_scene.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr TechniqueNeeds gbuffer_needs{.surfaces = {.opengl = false},

@@ -21,6 +21,7 @@
 #include "support/small_scene.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr TechniqueNeeds needs{.lists = {.light_grid = true, .z_bins = true, .no_masks = true},

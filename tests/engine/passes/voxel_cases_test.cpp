@@ -16,6 +16,7 @@
 #include "support/light_sums.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 // A volume and its lights, along its axes; lengths in metres from its origin.

@@ -12,6 +12,7 @@
 #include "raster/raster_view.h"
 
 namespace lightgrid {
+using namespace lab;
 
 inline ClDevice& raster_device() {
   static ClDevice* const device = new ClDevice;

@@ -16,6 +16,7 @@
 #include "support/small_scene.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 using glm::dvec3;

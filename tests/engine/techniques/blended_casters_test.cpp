@@ -5,6 +5,7 @@
 #include "techniques/glazed_stage.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 // Glass whose alpha comes from a texture, before a lamp.

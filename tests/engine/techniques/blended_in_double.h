@@ -12,6 +12,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid {
+using namespace lab;
 
 struct BlendedInDouble {
   std::vector<uint32_t> pixels;  // with blended surfaces, which the oracle can decide

@@ -12,6 +12,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid::capped {
+using namespace lab;
 namespace {
 
 using glm::dvec3;

@@ -12,6 +12,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr float right_angle = std::numbers::pi_v<float> / 2;

@@ -7,6 +7,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 using glm::vec3, glm::dvec3;

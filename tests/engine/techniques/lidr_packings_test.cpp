@@ -11,6 +11,7 @@
 #include "techniques/lidr_scenes.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 struct Row {

@@ -13,6 +13,7 @@
 #include "techniques/lidr_scenes.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 // No pixel is in more than 16 of the volumes of 18 lights.

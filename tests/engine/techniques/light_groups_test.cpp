@@ -11,6 +11,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr int rooms_width = 127, rooms_height = 73;

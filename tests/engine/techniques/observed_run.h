@@ -11,6 +11,7 @@
 #include "base/error.h"
 
 namespace lightgrid {
+using namespace lab;
 
 using Observed = std::map<std::string, std::string>;  // of each fact its value
 

@@ -7,6 +7,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 struct Shading : testing::TestWithParam<const char*> {};

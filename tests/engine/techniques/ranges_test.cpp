@@ -8,6 +8,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 const LightRanges random_ranges{.range = LightRange::stochastic, .alpha = 1, .seed = 3};

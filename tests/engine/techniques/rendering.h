@@ -16,6 +16,7 @@
 #include "support/devices.h"
 
 namespace lightgrid {
+using namespace lab;
 
 // KEY=VALUE each, with spaces between.
 inline Settings assigned(const std::string& assignments) {

@@ -15,6 +15,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 using glm::dvec2, glm::dvec3, glm::ivec2;

@@ -8,6 +8,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 Image drawn(const Scene& scene, const char* technique, int samples, const char* masks) {

@@ -11,6 +11,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid::sampled {
+using namespace lab;
 namespace {
 
 const char* const sampled = " list-cap-order=sampled list-cap=";

@@ -13,6 +13,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 using testing::HasSubstr;

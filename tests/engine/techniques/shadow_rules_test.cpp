@@ -12,6 +12,7 @@
 #include "techniques/shadow_stage.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 using testing::Contains;

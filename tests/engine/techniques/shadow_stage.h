@@ -8,6 +8,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid {
+using namespace lab;
 
 // Between the lamps and the wall: a ball, a masked fence, a sliver, a flag that its matrix mirrors, and the
 // surface around a lamp, which hides no light. Glass casts nothing; one lamp and the sun cast

@@ -8,6 +8,7 @@
 #include "techniques/shadow_stage.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 constexpr int shadow_width = 93, shadow_height = 55;  // tiles of all sizes are cut

@@ -9,6 +9,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 struct SampledFrame {

@@ -8,6 +8,7 @@
 #include "techniques/rendering.h"
 
 namespace lightgrid {
+using namespace lab;
 namespace {
 
 TEST(VisibilityBuffer, IsNearForwardOnEveryBuiltinScene) {

@@ -11,7 +11,7 @@
 #include "support/fine_truth.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(AreaError, WorkedByHand) {
@@ -140,4 +140,4 @@ TEST(AreaTruth, IsThePictureAtSixteenTimesTheSize) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

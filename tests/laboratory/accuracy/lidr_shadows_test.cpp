@@ -7,7 +7,7 @@
 #include "plan/settings/shadows.h"
 #include "techniques/shadow_stage.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double other_order = 1e-5;  // sums of a few lights
@@ -315,4 +315,4 @@ TEST(LidrShadows, CostNothingWhereNoLightCasts) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -10,7 +10,7 @@
 #include "support/devices.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Light 0 casts nothing: numbers of maps are not those of lights.
@@ -156,4 +156,4 @@ TEST(MapShadowRows, AreToldAsApproximateAgainstAnExactReference) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -5,7 +5,7 @@
 #include "support/small_scene.h"
 #include "support/virtual_light_error.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 #ifdef LIGHTGRID_EMBREE
@@ -88,4 +88,4 @@ TEST(OneBounce, NeedsEmbree) { GTEST_SKIP() << "Embree is not installed (libembr
 #endif
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

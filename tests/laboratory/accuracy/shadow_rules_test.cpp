@@ -8,7 +8,7 @@
 #include "plan/settings/shadows.h"
 #include "support/random_rooms.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Lights that are left out move within their spheres.
@@ -49,4 +49,4 @@ TEST(ShadowRules, TheOracleFindsNoPairHiddenOfALightThatIsLeftOut) {
 TEST(ShadowRules, NorOfAnyPartOfASphere) { expect_left_out_are_seen("shadow-rays=16", 0.25); }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

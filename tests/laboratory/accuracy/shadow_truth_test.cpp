@@ -13,7 +13,7 @@
 #include "support/devices.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 struct Shown {
@@ -137,4 +137,4 @@ TEST(ShadowTruth, RadianceInDoubleHasShadows) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -13,7 +13,7 @@
 #include "support/double_surfaces.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Three pixels of 2 x 2: another triangle, a neighbour of glass, and 0.5 of 4 apart.
@@ -174,4 +174,4 @@ TEST(SameSurfaces, JudgeTheLightOfATechniqueApartFromItsSurfaces) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

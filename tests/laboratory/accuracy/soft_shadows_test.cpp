@@ -13,7 +13,7 @@
 #include "support/devices.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double source_m = 0.2;
@@ -339,4 +339,4 @@ TEST(PickedShadows, LightsOfOtherGroupsTakeNoPart) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

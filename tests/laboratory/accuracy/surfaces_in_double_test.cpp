@@ -10,7 +10,7 @@
 #include "support/devices.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Differences of 0.5 and -1 in one channel each: 1.5 of 2 remain of 2.5, and 4 is the brightest channel.
@@ -80,4 +80,4 @@ TEST(SurfacesInDouble, AreOfTheScene) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -6,7 +6,7 @@
 
 #include "bench/standard_frames.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 struct Tile {
@@ -89,4 +89,4 @@ TEST(StandardCases, HaveNamesOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

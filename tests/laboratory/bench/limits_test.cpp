@@ -6,7 +6,7 @@
 #include "cl/launch.h"
 #include "cl/program_cache.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 ClDevice& device() {
@@ -76,4 +76,4 @@ TEST(Arithmetic, RunsAllOfItsChains) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 #include "plan/settings/kernels.h"
 #include "scenes/builtin.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(RasterCosts, AreTheBytesThatEachStepCannotAvoid) {
@@ -80,4 +80,4 @@ TEST(RasterBench, RefusesASceneThatDoesNotExist) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

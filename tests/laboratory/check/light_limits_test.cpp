@@ -21,7 +21,7 @@
 #include "support/read_files.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::ElementsAre;
@@ -412,4 +412,4 @@ TEST(LightLimits, TheNearestOfAViewAreThoseOfViewCap) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

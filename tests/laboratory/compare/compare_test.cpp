@@ -16,7 +16,7 @@
 #include "support/render.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::HasSubstr;
@@ -172,4 +172,4 @@ TEST(CompareTechniques, ThrowsTheReasonWhereNoneIsLeft) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

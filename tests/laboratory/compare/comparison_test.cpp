@@ -10,7 +10,7 @@
 #include "compare/contestants.h"
 #include "techniques/technique.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::HasSubstr;
@@ -60,4 +60,4 @@ TEST(Comparison, AllIsEveryTechniqueOnce) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -20,7 +20,7 @@
 #include "support/small_scene.h"
 #include "support/technique_tiers.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // A picture of a view that look() reached from another view equals that of a view created for it.
@@ -256,4 +256,4 @@ TEST(Moving, SeesFlicker) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 #include "support/render.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(ReferenceSample, BlocksCoverEachPixelOnceInAnOrderOfTheSeed) {
@@ -113,4 +113,4 @@ TEST(ReferenceSample, EstimatesTheTimeOfAFrame) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

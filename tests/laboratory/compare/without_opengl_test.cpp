@@ -11,7 +11,7 @@
 #include "support/devices.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Never closed, as those of support/devices.h.
@@ -92,4 +92,4 @@ TEST(RendererWithOpenGl, UploadsNothingOfTheSceneForVisibility) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -6,7 +6,7 @@
 
 #include "frames/frame_file.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 inline CapturedFrame small_frame(int width = 37, int height = 21) {
   CapturedFrame frame;
@@ -51,4 +51,4 @@ inline CapturedFrame with_standard_depth(CapturedFrame frame, double far_m) {
   return frame;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

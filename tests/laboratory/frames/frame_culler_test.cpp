@@ -17,7 +17,7 @@
 #include "support/small_scene.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 FrameGrid cull(const CapturedFrame& frame, const Settings& settings = {}, const TechniqueNeeds& needs = {}) {
@@ -281,4 +281,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::to_string(info.index) + info.param.first; });
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

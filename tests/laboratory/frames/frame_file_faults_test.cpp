@@ -10,7 +10,7 @@
 
 #include "frames/frame_files.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -278,4 +278,4 @@ TEST(FrameFileFuzz, EveryMutationIsReadOrToldInOneLine) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -10,7 +10,7 @@
 #include "frames/frame_files.h"
 #include "support/shared_files.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -199,4 +199,4 @@ TEST(SharedFrames, FramesMadeForBenchmarksAreRead) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

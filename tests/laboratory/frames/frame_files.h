@@ -9,7 +9,7 @@
 #include "frames/captured_frame.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 inline std::string file_bytes(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
@@ -46,4 +46,4 @@ inline std::string fault_of(const std::filesystem::path& folder) {
   }
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,10 +7,10 @@
 
 #include "frontier/answer.h"
 #include "frontier/some_records.h"
-#include "support/csv_table.h"
+#include "support/csv_rows.h"
 #include "support/read_files.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -169,7 +169,7 @@ TEST(FrontierJson, OfNothingHasEmptyLists) {
 
 TEST(FrontierCsv, HasALineAPointAndView) {
   const FrontierAnswer answer = some_answer();
-  const auto table = csv_table(csv_text(answer));
+  const auto table = csv_rows(csv_text(answer));
   ASSERT_EQ(table.size(), 5u);
   const std::map<std::string, std::string> expected = {{"row", "1"},
                                                        {"commit", "9d11b69"},
@@ -241,7 +241,7 @@ TEST(FrontierCsv, HasALineAPointAndView) {
 
 TEST(FrontierCsv, HasEachRunBeside) {
   const FrontierAnswer answer = some_answer();
-  const auto table = csv_table(samples_csv_text(answer));
+  const auto table = csv_rows(samples_csv_text(answer));
   ASSERT_EQ(table.size(), 12u);
   for (size_t i = 0; i < table.size(); ++i) {
     const FrontierRecord& record = answer.part.records[i / 3];
@@ -254,7 +254,7 @@ TEST(FrontierCsv, HasEachRunBeside) {
 }
 
 TEST(FrontierCsv, HasEachRoundOfCulling) {
-  const auto table = csv_table(cull_csv_text(some_answer()));
+  const auto table = csv_rows(cull_csv_text(some_answer()));
   ASSERT_EQ(table.size(), 15u);
   EXPECT_EQ(table[4].at("row"), "1");
   EXPECT_EQ(table[4].at("round"), "1");
@@ -262,4 +262,4 @@ TEST(FrontierCsv, HasEachRoundOfCulling) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -12,7 +12,7 @@
 #include "frontier/synthetic_records.h"
 #include "measures/words.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::DoubleNear;
@@ -597,4 +597,4 @@ TEST(ThreeDigits, AreSignificant) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -11,7 +11,7 @@
 #include "support/devices.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 struct Differences {
@@ -76,4 +76,4 @@ TEST(TruthOfAreas, IsOtherwiseThatOfCentres) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

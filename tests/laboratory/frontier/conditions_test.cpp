@@ -7,7 +7,7 @@
 
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 void put(const std::filesystem::path& path, const std::string& text) {
@@ -73,4 +73,4 @@ TEST(Conditions, DoNotCountOwnTimeAsOthers) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

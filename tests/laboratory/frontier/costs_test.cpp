@@ -7,7 +7,7 @@
 #include "frontier/answer.h"
 #include "frontier/synthetic_records.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::IsEmpty;
@@ -132,4 +132,4 @@ TEST(Growth, FindsTheExponentOfEachSeries) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

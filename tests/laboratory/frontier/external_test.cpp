@@ -16,7 +16,7 @@
 #include "scenes/builtin.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -316,4 +316,4 @@ TEST(ExternalRecords, AreReadBackAndUnpairedTimesAreOfNoRound) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -12,7 +12,7 @@
 #include "support/devices.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::ElementsAre;
@@ -200,4 +200,4 @@ TEST(EqualFlips, AreAlsoOfTheDevicesClocks) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct Told {
   std::vector<std::string> lines;
@@ -32,4 +32,4 @@ std::string fault_of(Call call, ErrorKind kind = ErrorKind::input) {
   return "";
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

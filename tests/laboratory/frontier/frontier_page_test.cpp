@@ -15,7 +15,7 @@
 #include "support/browser.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -502,4 +502,4 @@ TEST(PagePictures, AreEachOnceAndAsSmallAsAsked) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "frontier/some_records.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -252,4 +252,4 @@ TEST(Gate, ReadsAFileOrNamesIt) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -4,7 +4,7 @@
 
 #include "frontier/some_records.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::ElementsAre;
@@ -88,4 +88,4 @@ TEST(OneMachine, IsWhatTheAnswerCompares) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 #include "support/read_files.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 inline void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
@@ -34,4 +34,4 @@ struct PartFile {
   }
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

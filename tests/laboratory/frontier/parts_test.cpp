@@ -6,7 +6,7 @@
 #include "frontier/some_records.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::AllOf;
@@ -128,4 +128,4 @@ TEST(FrontierParts, AreNamedIfTheyCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -5,7 +5,7 @@
 #include "support/read_files.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(PictureFiles, AreExposedAndDifferencesAreNot) {
@@ -26,4 +26,4 @@ TEST(PictureFiles, AreExposedAndDifferencesAreNot) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

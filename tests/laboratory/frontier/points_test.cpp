@@ -8,7 +8,7 @@
 #include "frontier/view_figures.h"
 #include "scenes/builtin.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::ElementsAre;
@@ -143,4 +143,4 @@ TEST(FrontierViews, OfASceneWithAFileAreThoseOfIt) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 
 #include "measures/metrics.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(RandomPixels, AreOneOfEachShare) {
@@ -61,4 +61,4 @@ TEST(ErrorFigures, AgainstDoubleTellRoundingToFloat) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -13,7 +13,7 @@
 #include "support/run_command.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::HasSubstr;
@@ -146,4 +146,4 @@ TEST(Recomputed, FrontsAndTimesAreThoseOfTheTables) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

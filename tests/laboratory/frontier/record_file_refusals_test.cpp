@@ -7,7 +7,7 @@
 
 #include "frontier/part_file.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::AllOf;
@@ -117,4 +117,4 @@ TEST(RecordFile, HoldsNoHalfLineWhenTheDiskIsFull) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -7,7 +7,7 @@
 
 #include "frontier/part_file.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::AllOf;
@@ -311,4 +311,4 @@ TEST(Shards, AreEveryNthPoint) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -11,7 +11,7 @@
 #include "frontier/record_file.h"
 #include "frontier/some_records.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -198,4 +198,4 @@ TEST(FrontierRecords, HaveAKeyOfWhatIsMeasuredAlone) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // A short budget whose points were soon measured: growth once took half of it.
@@ -17,4 +17,4 @@ TEST(GrowthSeconds, AreWhatIsLeftOfTheBudget) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -11,7 +11,7 @@
 #include "support/small_scene.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr int width = 24, height = 16;
@@ -179,4 +179,4 @@ TEST(Sequences, TellRandomPointsFromTheOthers) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,9 +9,9 @@
 #include "frontier/points.h"
 #include "frontier/record_file.h"
 #include "frontier/synthetic_records.h"
-#include "support/csv_table.h"
+#include "support/csv_rows.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -126,7 +126,7 @@ TEST(FrontierShadowFigures, ArePerCentOfAllPairsOverTheViewsAndAbsentWhereNotCou
   EXPECT_THAT(answer.sentences, AllOf(Contains("Errors in hall are against every light with its range."),
                                       Contains(HasSubstr("visibility:shadows=none (40.0 % of the pairs"))));
 
-  const auto table = csv_table(csv_text(answer));
+  const auto table = csv_rows(csv_text(answer));
   EXPECT_EQ(table[1].at("leaked_percent"), "0.5");
   EXPECT_EQ(table[5].at("acned"), "30");
   EXPECT_EQ(table[3].at("leaked"), "");
@@ -190,4 +190,4 @@ TEST(FrontierShadowFigures, CloseTheGateWhereTheyGrowAndAnotherTruthIsNotCompare
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

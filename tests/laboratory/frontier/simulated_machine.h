@@ -10,7 +10,7 @@
 #include "frontier/answer_steps.h"
 #include "frontier/paired_times.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct SimulatedMachine {
   int processes = 1, rounds = 11;  // rounds of each process
@@ -98,4 +98,4 @@ inline std::vector<FrontierRecord> simulated_records(const SimulatedMachine& m, 
   return records;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

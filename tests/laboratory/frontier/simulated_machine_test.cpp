@@ -8,7 +8,7 @@
 #include "frontier/rounds.h"
 #include "support/long_tests.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 int trials() { return long_tests() ? 2000 : 400; }
@@ -308,4 +308,4 @@ TEST(SimulatedMachine, WidenedIntervalsHoldAControlsError) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -3,7 +3,7 @@
 
 #include "frontier/answer.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 inline ImageError some_figures(double scale) {
   return {.max_rel = 0.1 * scale,
@@ -156,4 +156,4 @@ inline FrontierAnswer some_answer() {
   return answer;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

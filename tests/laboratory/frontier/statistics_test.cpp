@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -163,4 +163,4 @@ TEST(PowerLaw, HasNoIntervalWithoutThreePlaces) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

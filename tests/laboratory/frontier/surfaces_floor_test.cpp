@@ -9,11 +9,11 @@
 #include "frontier/view_figures.h"
 #include "measures/metrics.h"
 #include "scenes/builtin.h"
-#include "support/csv_table.h"
+#include "support/csv_rows.h"
 #include "support/devices.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -146,7 +146,7 @@ TEST(SurfacesFloor, IsJoinedOverViewsAndAKeyOfItsOwn) {
   EXPECT_NEAR(surfaces["rmse_rel"].get<double>(), std::sqrt((0.03 * 0.03 + 0.04 * 0.04) / 2), 1e-12);
   EXPECT_NEAR(surfaces["displayed_flip"]["mean"].get<double>(), 0.035, 1e-12);
   EXPECT_FALSE(both["points"][1]["error"].contains("surfaces"));
-  const auto rows = csv_table(csv_text(answer_of({part})));
+  const auto rows = csv_rows(csv_text(answer_of({part})));
   EXPECT_EQ(rows.at(0).at("surfaces_rmse_rel"), "0.03");
   EXPECT_EQ(rows.at(0).at("surfaces_displayed_flip_mean"), "0.03");
   EXPECT_EQ(rows.at(1).at("surfaces_rmse_rel"), "");
@@ -157,7 +157,7 @@ TEST(SurfacesFloor, IsJoinedOverViewsAndAKeyOfItsOwn) {
   EXPECT_FALSE(one["points"][0]["error"].contains("surfaces"));
   EXPECT_EQ(one["points"][0]["error"]["total"], both["points"][0]["error"]["total"]);
   part.records[0].errors.surfaces.reset();
-  EXPECT_EQ(csv_table(csv_text(answer_of({part}))).at(0).count("surfaces_rmse_rel"), 0u);
+  EXPECT_EQ(csv_rows(csv_text(answer_of({part}))).at(0).count("surfaces_rmse_rel"), 0u);
 }
 
 TEST(SurfacesFloor, IsToldWhereAPointOfTheFrontLiesBelow) {
@@ -170,4 +170,4 @@ TEST(SurfacesFloor, IsToldWhereAPointOfTheFrontLiesBelow) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 #include "support/run_command.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::EndsWith;
@@ -84,4 +84,4 @@ TEST(Sweeps, ExplainTheirArguments) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

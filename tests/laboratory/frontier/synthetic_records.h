@@ -7,7 +7,7 @@
 
 #include "frontier/answer.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 using SettingMap = std::map<std::string, std::string>;
 
@@ -124,4 +124,4 @@ inline FrontierPart synthetic_sweep() {
   return synthetic_part(std::move(records));
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -4,7 +4,7 @@
 #include "frontier/answer.h"
 #include "frontier/synthetic_records.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 FrontierRecord of_view(const char* technique, double ratio, double error, int view, bool timed) {
@@ -52,4 +52,4 @@ TEST(TimedViews, MayBeNone) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

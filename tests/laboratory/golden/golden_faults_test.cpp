@@ -5,7 +5,7 @@
 #include "support/devices.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 struct KernelFault {
@@ -55,4 +55,4 @@ TEST(GoldenFaults, InKernelsNameTheirStage) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -13,7 +13,7 @@
 #include "oracle/position.h"
 #include "support/render.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::HasSubstr;
@@ -214,4 +214,4 @@ TEST(InspectMaps, CountListedLightsFalsePositivesAndLostOnes) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 #include "support/devices.h"
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::AllOf;
@@ -163,4 +163,4 @@ TEST(InspectedShadows, AreTold) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 #include "measures/metrics.h"
 #include "report/report.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::HasSubstr;
@@ -165,4 +165,4 @@ TEST(ErrorMeasures, AreInJsonAndInCsv) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

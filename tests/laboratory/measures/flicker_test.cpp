@@ -15,7 +15,7 @@
 #include "support/shared_files.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 Image grey(int width, int height, float value) {
@@ -263,4 +263,4 @@ TEST(Flicker, IsThatOfTheScript) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

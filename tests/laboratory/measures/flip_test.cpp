@@ -13,7 +13,7 @@
 #include "support/png_pixels.h"
 #include "support/shared_files.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 double linear_of_byte(uint8_t byte) {
@@ -185,4 +185,4 @@ TEST(Flip, AsDisplayedComparesTheBytesOfThePictures) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

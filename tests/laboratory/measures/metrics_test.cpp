@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::ElementsAre;
@@ -188,4 +188,4 @@ TEST(Ramps, HaveRoomForBlackAndWhiteInAPalette) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

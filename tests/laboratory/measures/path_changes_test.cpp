@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -80,4 +80,4 @@ TEST(PathChanges, OfOneTechniqueAreAPlainList) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -6,7 +6,7 @@
 #include "measures/metrics.h"
 #include "scene/random.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 Image picture(std::initializer_list<glm::vec3> colors) {
@@ -125,4 +125,4 @@ TEST(FrontierErrors, FlickerWhereTheDifferenceChangesFromFrameToFrame) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

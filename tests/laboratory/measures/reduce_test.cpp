@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::ElementsAre;
@@ -43,4 +43,4 @@ TEST(Reduce, KeepsThePixelThatIsFarthestOff) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -9,7 +9,7 @@
 #include "measures/results.h"
 #include "report/synthetic_report.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -210,4 +210,4 @@ TEST(Results, AreTextEvenWhereANameIsNotUtf8) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

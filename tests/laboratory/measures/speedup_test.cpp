@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 RunResult row(const char* technique, double ms, uint64_t listed, std::vector<PassResult> passes) {
@@ -126,4 +126,4 @@ TEST(SoftwareOpenGl, IsKnownByItsDriver) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "oracle/infinity.h"
 #include "support/one_spot.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec3;
@@ -115,4 +115,4 @@ TEST(Attenuation, OfAlmostEqualAnglesKeepsTheExtensionsFormula) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -10,7 +10,7 @@
 
 #include "oracle/near_vectors.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec3;
@@ -168,4 +168,4 @@ TEST(Brdf, RoughnessIsFloored) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

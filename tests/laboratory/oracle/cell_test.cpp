@@ -10,7 +10,7 @@
 #include "oracle/test_cell.h"
 #include "oracle/test_views.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec3;
@@ -149,4 +149,4 @@ TEST(CellOfTile, HoldsItsPixelsAndNoOthers) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

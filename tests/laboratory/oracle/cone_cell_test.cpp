@@ -9,7 +9,7 @@
 
 #include "oracle/test_cell.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 void PrintTo(Touch touch, std::ostream* out) {
   *out << (touch == Touch::yes ? "yes" : touch == Touch::no ? "no" : "unsure");
@@ -217,4 +217,4 @@ TEST(ConeTouchesCell, NeverDeniesATouchOnTheBoundary) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::ElementsAre;
@@ -139,4 +139,4 @@ TEST(Coverage, WhatIsWrongWithAPixelIsSaid) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

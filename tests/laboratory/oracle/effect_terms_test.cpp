@@ -8,7 +8,7 @@
 #include "oracle/shading.h"
 #include "scene/light_tree.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Lights shine upwards in the world only, and half as brightly on surfaces whose mask has no bit 3.
@@ -123,4 +123,4 @@ TEST_F(EffectTerms, AreInTheOraclesShading) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

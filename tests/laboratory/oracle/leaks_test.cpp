@@ -6,7 +6,7 @@
 #include "scenes/compose.h"
 #include "scenes/shapes.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::HasSubstr;
@@ -110,4 +110,4 @@ TEST(Leaks, SurfacesAreThoseThatTheViewShows) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

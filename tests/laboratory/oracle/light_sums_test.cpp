@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 ViewLight lamp(const glm::dvec3& position, const glm::dvec3& intensity) {
@@ -43,4 +43,4 @@ TEST(LightSums, AreZeroForLightsBehindTheSurfaceOrAtIt) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // A wall 10 m away, 24 x 16 pixels; the pixels of the left 8 columns show nothing.
@@ -81,4 +81,4 @@ TEST(ListAccuracy, CountsThePerfectListOverTheTilesPixels) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -11,7 +11,7 @@
 #include "oracle/position.h"
 #include "oracle/test_views.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec3;
@@ -200,4 +200,4 @@ TEST(CountPairs, EqualsPlainLoopsAtAwkwardSizes) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 
 #include "oracle/near_vectors.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec3;
@@ -143,4 +143,4 @@ TEST(Coat, IsFiniteAtEveryEdge) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

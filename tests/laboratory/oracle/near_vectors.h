@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 inline void expect_near(const glm::dvec3& got, const glm::dvec3& want, double tolerance) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], want[i], tolerance) << "channel " << i;
@@ -19,4 +19,4 @@ inline bool finite_and_not_negative(const glm::dvec3& c) {
   return true;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

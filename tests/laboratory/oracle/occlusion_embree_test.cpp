@@ -12,7 +12,7 @@
 #include "scene/random.h"
 #include "scenes/builtin.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // The ray's id is the number of the receiver's triangle.
@@ -149,7 +149,7 @@ TEST(OcclusionAgainstEmbree, AgreesOnBuiltInScenesWhereItIsCertain) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab
 #else
 TEST(OcclusionAgainstEmbree, AgreesOnBuiltInScenesWhereItIsCertain) {
   GTEST_SKIP() << "built without Embree (libembree-dev, 3 or 4)";

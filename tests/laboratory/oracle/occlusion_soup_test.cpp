@@ -7,7 +7,7 @@
 #include "oracle/shadow_scenes.h"
 #include "scene/random.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using Real = long double;
@@ -199,4 +199,4 @@ TEST(OcclusionSoup, WhatIsCertainStaysSoHoweverPositionsAreRounded) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -4,7 +4,7 @@
 
 #include "oracle/shadow_scenes.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec3;
@@ -171,4 +171,4 @@ TEST(Occlusion, APixelsReceiverLiesInItsTrianglesPlane) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

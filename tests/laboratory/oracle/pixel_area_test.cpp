@@ -9,7 +9,7 @@
 
 #include "support/small_scene.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(PlacesOfArea, HaveOneInEachPartOfEveryShape) {
@@ -151,4 +151,4 @@ TEST(AreaOracle, HasTheShareOfAPixelInShadow) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

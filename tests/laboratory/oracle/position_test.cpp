@@ -5,7 +5,7 @@
 #include "oracle/infinity.h"
 #include "oracle/test_views.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(Position, PerspectiveByHand) {
@@ -83,4 +83,4 @@ TEST(Position, BackgroundAndNanAreNotCovered) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

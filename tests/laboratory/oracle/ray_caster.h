@@ -18,7 +18,7 @@
 
 #include "scene/scene.h"
 
-namespace lightgrid::ray_caster {
+namespace lightgrid::lab::ray_caster {
 
 using glm::dvec3;
 
@@ -196,4 +196,4 @@ inline dvec3 radiance(const Scene& scene, const Ray& ray, const Hit& hit) {
   return sum;
 }
 
-}  // namespace lightgrid::ray_caster
+}  // namespace lightgrid::lab::ray_caster

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lightgrid::ray_caster {
+namespace lightgrid::lab::ray_caster {
 namespace {
 
 using std::numbers::pi;
@@ -80,4 +80,4 @@ TEST(RayCaster, RaysMeetPlanesAndTrianglesWhereTheyShould) {
 }
 
 }  // namespace
-}  // namespace lightgrid::ray_caster
+}  // namespace lightgrid::lab::ray_caster

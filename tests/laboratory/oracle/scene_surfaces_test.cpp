@@ -6,7 +6,7 @@
 
 #include "scene/camera.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec2, glm::dvec3;
@@ -113,4 +113,4 @@ TEST(SceneSurfaces, NormalMapsTiltByTheirScaleAndBackSidesFaceTheEye) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

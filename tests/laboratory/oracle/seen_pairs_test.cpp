@@ -8,7 +8,7 @@
 #include "oracle/position.h"
 #include "oracle/shadow_scenes.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr int side = 20;  // two tiles across and up
@@ -238,4 +238,4 @@ TEST(SeenPairs, DirectionalLightsAreCountedWithoutLists) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -13,7 +13,7 @@
 #include "oracle/position.h"
 #include "oracle/test_views.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec3;
@@ -113,4 +113,4 @@ TEST(SamplePixels, AreDistinctSpreadAndAsManyAsAsked) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -5,7 +5,7 @@
 
 #include "oracle/occlusion.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 inline Mesh mesh_of(const std::vector<glm::vec3>& corners, int material = 0) {
   Mesh mesh;
@@ -44,4 +44,4 @@ inline Receiver receiver_at(const glm::dvec3& place) {
   return {.own = {0, 0}, .place = {place, 1e-6}, .gap_m = 1e-3, .eye = {place + glm::dvec3(0, 5, 0), 1e-6}};
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -13,7 +13,7 @@
 #define SPOTS
 #include "shared/punctual_light.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 inline glm::dvec3 random_direction(std::mt19937& random) {
   std::normal_distribution<double> normal;
@@ -79,4 +79,4 @@ static double largest_error(Brdf lobe, double min_roughness) {
   return largest;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

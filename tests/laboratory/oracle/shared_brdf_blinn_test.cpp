@@ -1,7 +1,7 @@
 #define BLINN
 #include "oracle/shared_brdf.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(SharedBrdf, BlinnIsTheReferencesInFloat) {
@@ -10,4 +10,4 @@ TEST(SharedBrdf, BlinnIsTheReferencesInFloat) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

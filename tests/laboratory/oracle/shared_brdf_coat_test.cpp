@@ -1,7 +1,7 @@
 #define CLEARCOAT
 #include "oracle/shared_brdf.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(SharedBrdf, GgxUnderACoatIsTheReferencesInFloat) {
@@ -46,4 +46,4 @@ TEST(SharedBrdf, ACoatOfFactorZeroIsNone) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

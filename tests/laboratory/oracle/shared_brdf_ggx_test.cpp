@@ -1,6 +1,6 @@
 #include "oracle/shared_brdf.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(SharedBrdf, GgxIsTheReferencesInFloat) {
@@ -9,4 +9,4 @@ TEST(SharedBrdf, GgxIsTheReferencesInFloat) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

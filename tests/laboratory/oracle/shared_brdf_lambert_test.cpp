@@ -2,10 +2,10 @@
 #pragma GCC diagnostic ignored "-Wunused-parameter"  // for shading_point
 #include "oracle/shared_brdf.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(SharedBrdf, LambertIsTheReferencesInFloat) { EXPECT_LT(largest_error(Brdf::lambert, 0), 2e-6); }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -2,7 +2,7 @@
 #define MINNAERT
 #include "oracle/shared_brdf.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // As GgxIsTheReferencesInFloat. Where k < 1 the slope of (n.l)^k grows towards the terminator: a rounding of
@@ -68,4 +68,4 @@ TEST(SharedBrdf, ARollOffOfZeroAndAKOfOneAreLambert) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

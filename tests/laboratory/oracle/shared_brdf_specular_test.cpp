@@ -1,7 +1,7 @@
 #define SPECULAR
 #include "oracle/shared_brdf.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(SharedBrdf, GgxOfAnyReflectanceIsTheReferencesInFloat) {
@@ -46,4 +46,4 @@ TEST(SharedBrdf, TheDefaultReflectanceChangesNoBit) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

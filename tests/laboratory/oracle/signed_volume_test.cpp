@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 constexpr double of_float = 8 * 0x1p-24;
@@ -51,4 +51,4 @@ TEST(SignedVolume, AllowsForFloatTestsOfSlivers) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

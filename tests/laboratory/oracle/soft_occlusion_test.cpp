@@ -6,7 +6,7 @@
 
 #include "oracle/shadow_scenes.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // Under a light 2 m up, a card 1 m up whose edge is at x = edge_m hides what is below it: of the disc the
@@ -44,4 +44,4 @@ TEST(SoftOcclusion, TheReceiversOwnPlaneHidesHalfOfALightInIt) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -3,7 +3,7 @@
 
 #include "scene/camera.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 // half_x and half_y: x / -z and y / -z at the image's edges; the image's centre looks along (shift_x,
 // shift_y, -1).
@@ -35,4 +35,4 @@ inline View orthographic_view(int width, int height, double half_x, double half_
   return view;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -4,7 +4,7 @@
 
 #include "scene/random.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using glm::dvec2, glm::dvec4;
@@ -130,4 +130,4 @@ TEST(TextureSampler, LevelsAreAveragesOfTheLevelBefore) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

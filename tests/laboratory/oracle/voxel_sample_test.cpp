@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 // A light of 10 cd and 8 m, 2 m along x: 10 / 4 (1 - (4 / 65)^2), dimmed by 8 / sqrt 65, where its squared
@@ -34,4 +34,4 @@ TEST(VoxelSample, WidensLightsByTheCell) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -10,7 +10,7 @@
 #include "report/against.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -138,4 +138,4 @@ TEST(Against, AFileThatIsNoneIsNamed) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

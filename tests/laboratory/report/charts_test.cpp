@@ -6,7 +6,7 @@
 
 #include "report/synthetic_report.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::DoubleNear;
@@ -156,4 +156,4 @@ TEST(ChartsOverSettings, HaveALineAPackingAndFlatOnesForTheRest) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

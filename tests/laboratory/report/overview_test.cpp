@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::ElementsAre;
@@ -77,4 +77,4 @@ TEST(Overview, TakesTechniquesThatNeverMeet) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -10,7 +10,7 @@
 #include "support/browser.h"
 #include "support/temp_folder.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using nlohmann::json;
@@ -330,4 +330,4 @@ TEST(ReportPageText, OfSeveralViewsNamesNoOtherPlace) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -3,16 +3,16 @@
 #include <gmock/gmock.h>
 
 #include "report/synthetic_report.h"
-#include "support/csv_table.h"
+#include "support/csv_rows.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 TEST(ResultsCsv, HoldALineARowAndView) {
   std::vector<ReportView> views(2);
   views[0].report = synthetic_view("a \"b\", c.glb", 17, 9, 90);
   views[1].report = synthetic_view("hall", 8, 8, 60);
-  const auto table = csv_table(results_csv(views));
+  const auto table = csv_rows(results_csv(views));
   ASSERT_EQ(table.size(), 14u);
   EXPECT_EQ(table[0].at("scene"), "a \"b\", c.glb");
   EXPECT_EQ(table[0].at("size"), "17x9");
@@ -35,9 +35,9 @@ TEST(ResultsCsv, HoldALineARowAndView) {
 TEST(ResultsCsv, HaveColumnsOfShadowsWhereLightsCast) {
   std::vector<ReportView> views(1);
   views[0].report = synthetic_view("hall", 8, 8, 60);
-  EXPECT_EQ(csv_table(results_csv(views))[1].count("leaked"), 0u);
+  EXPECT_EQ(csv_rows(results_csv(views))[1].count("leaked"), 0u);
   views[0].report.rows[1].pairs->shadows = ShadowPairs{.leaked = 7, .either = 9};
-  const auto table = csv_table(results_csv(views));
+  const auto table = csv_rows(results_csv(views));
   EXPECT_EQ(table[1].at("leaked"), "7");
   EXPECT_EQ(table[1].at("acned"), "0");
   EXPECT_EQ(table[1].at("either"), "9");
@@ -47,9 +47,9 @@ TEST(ResultsCsv, HaveColumnsOfShadowsWhereLightsCast) {
 TEST(ResultsCsv, HaveColumnsOfEffectsWithFigures) {
   std::vector<ReportView> views(1);
   views[0].report = synthetic_view("hall", 8, 8, 60);
-  EXPECT_EQ(csv_table(results_csv(views))[1].count("far_light_samples"), 0u);
+  EXPECT_EQ(csv_rows(results_csv(views))[1].count("far_light_samples"), 0u);
   views[0].report.rows[1].effects = {{"far_light", {{"samples", 480}}}};
-  const auto table = csv_table(results_csv(views));
+  const auto table = csv_rows(results_csv(views));
   EXPECT_EQ(std::stod(table[1].at("far_light_samples")), 480);
   EXPECT_EQ(table[0].at("far_light_samples"), "");
 }
@@ -57,7 +57,7 @@ TEST(ResultsCsv, HaveColumnsOfEffectsWithFigures) {
 TEST(ResultsCsv, LeaveEmptyWhatWasNotMeasured) {
   std::vector<ReportView> views(1);
   views[0].report = synthetic_report(8, 8);
-  const auto row = csv_table(results_csv(views)).back();
+  const auto row = csv_rows(results_csv(views)).back();
   EXPECT_EQ(row.at("technique"), "light_prepass");
   EXPECT_EQ(row.at("refused"), "blending rounds <0.5 of a step> here");
   for (const char* field : {"min_ms", "median_ms", "memory", "listed", "lost", "max_rel", "nan_pixels",
@@ -67,4 +67,4 @@ TEST(ResultsCsv, LeaveEmptyWhatWasNotMeasured) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -2,7 +2,7 @@
 
 #include "report/report.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::ElementsAre;
@@ -46,4 +46,4 @@ TEST(FileStems, StayDistinct) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

@@ -8,7 +8,7 @@
 #include "measures/metrics.h"
 #include "report/report.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct FlatLight {
   glm::vec2 centre;
@@ -156,4 +156,4 @@ inline CompareReport synthetic_view(const std::string& scene, int width, int hei
   return report;
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

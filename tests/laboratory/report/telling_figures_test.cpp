@@ -3,7 +3,7 @@
 #include "report/report.h"
 #include "report/speedup_words.h"
 
-namespace lightgrid {
+namespace lightgrid::lab {
 namespace {
 
 using testing::ElementsAre;
@@ -349,4 +349,4 @@ TEST(Choices, SayHowSureTheyAre) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::lab

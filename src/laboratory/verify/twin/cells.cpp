@@ -4,7 +4,7 @@
 #define SPOTS   // a cosine of 2 means no cone
 #define SLICES  // one slice without ends cuts nothing
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 #include "kernels/culling/bin_cells.h"
 
@@ -71,4 +71,4 @@ std::vector<std::vector<uint32_t>> lights_of_cells<CULL_TEST, DEPTH_MODE>(const 
   return lists;
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

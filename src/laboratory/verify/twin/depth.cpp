@@ -3,7 +3,7 @@
 
 #define DEPTH_MODE 1  // the layout is chosen at run time
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 #include "kernels/culling/depth_interval.h"
 
@@ -110,4 +110,4 @@ std::vector<float> bounds_of_depth<standard>(const CullParams& p, int mode, bool
   return values;
 }
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -19,7 +19,7 @@
 #define constant const
 #define LANES 1
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 namespace {
 
 struct float2 {
@@ -45,4 +45,4 @@ inline float as_float(uint x) { return std::bit_cast<float>(x); }
 inline uint clz(uint x) { return uint(std::countl_zero(x)); }
 
 }  // namespace
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

@@ -7,7 +7,7 @@
 
 #include "shared/cull_params.h"
 
-namespace lightgrid::verify {
+namespace lightgrid::lab::verify {
 
 // As LightCuller::read_inputs returns them; `slices`: near and far of each.
 struct TwinInputs {
@@ -26,4 +26,4 @@ template <bool standard_depth>
 std::vector<float> bounds_of_depth(const CullParams& params, int mode, bool blend, int samples,
                                    const float* depth);
 
-}  // namespace lightgrid::verify
+}  // namespace lightgrid::lab::verify

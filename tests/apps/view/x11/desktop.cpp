@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -240,4 +240,4 @@ void Desktop::close() {
   parts_->send(event, NoEventMask);
 }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -9,7 +9,7 @@
 
 #include "support/png_pixels.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 
 class Desktop {
  public:
@@ -54,4 +54,4 @@ class Desktop {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace lightgrid
+}  // namespace lightgrid::app

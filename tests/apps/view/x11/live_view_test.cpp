@@ -19,7 +19,7 @@
 #include "support/run_program.h"
 #include "view/x11/desktop.h"
 
-namespace lightgrid {
+namespace lightgrid::app {
 namespace {
 
 using testing::StartsWith;
@@ -315,4 +315,4 @@ TEST_F(LiveView, OutlivesProgramsThatWantItsClipboard) {
 }
 
 }  // namespace
-}  // namespace lightgrid
+}  // namespace lightgrid::app

@@ -33,7 +33,7 @@ inline std::vector<std::vector<std::string>> csv_lines(const std::string& text) 
 }
 
 // Rows by the names in the first line.
-inline std::vector<std::map<std::string, std::string>> csv_table(const std::string& text) {
+inline std::vector<std::map<std::string, std::string>> csv_rows(const std::string& text) {
   const auto lines = csv_lines(text);
   std::vector<std::map<std::string, std::string>> table;
   for (size_t i = 1; i < lines.size(); ++i) {
