@@ -12,13 +12,14 @@ not change while another thread uses it.
 from typing import Any
 
 from ._arrays import (Camera, Image, Projection, exposure, flip, light_dtype, lights, measure, save, srgb)
-from ._c import Cancelled, InputError, LightgridError, MachineError, described as _described, lib as _lib, text as _text
+from ._c import (Cancelled, InputError, LightgridError, MachineError, described as _described, lib as _lib, on_compiling,
+                 text as _text)
 from ._device import Device, Lists, Report, View
 from ._scene import Scene
 
 __all__ = ["Camera", "Cancelled", "Device", "Image", "InputError", "LightgridError", "Lists", "MachineError", "Projection",
            "Report", "Scene", "View", "devices", "exposure", "fields", "flip", "light_dtype", "lights", "measure", "measures",
-           "save", "scenes", "settings", "srgb", "techniques", "version"]
+           "on_compiling", "save", "scenes", "settings", "srgb", "techniques", "version"]
 
 
 def version() -> str:

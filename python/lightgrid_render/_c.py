@@ -8,9 +8,10 @@ import logging
 import os
 import pathlib
 import re
+import sys
 import threading
 import weakref
-from typing import Any, Iterable, Mapping
+from typing import Any, Callable, Iterable, Mapping
 
 import cffi
 
@@ -164,9 +165,35 @@ def _log_line(is_warning: int, line: Any, _: Any) -> None:
     log.log(logging.WARNING if is_warning else logging.INFO, "%s", text(line))
 
 
-def _stop_logging() -> None:
+def show_compiling(kernels: int) -> None:
+    """One line in a terminal or a notebook, which is cleared when the kernel is compiled."""
+    if not (sys.stderr.isatty() or "ipykernel" in sys.modules):
+        return
+    line = f"compiling kernels for this machine, first time only: {kernels}" if kernels else ""
+    print(f"\r{line:<60}", end="" if kernels else "\r", file=sys.stderr, flush=True)
+
+
+_compiling: Callable[[int], Any] | None = show_compiling
+
+
+@ffi.callback("void(int, void*)")
+def _first_compilation(kernels: int, _: Any) -> None:
+    if _compiling:
+        _compiling(kernels)
+
+
+def on_compiling(function: Callable[[int], Any] | None = show_compiling) -> None:
+    """Calls function(kernels) before each kernel that is compiled for its first time on this machine, with the number so far,
+    and with 0 after each. None: no calls. Without an argument: a line in terminals and notebooks, as at first."""
+    global _compiling
+    _compiling = function
+
+
+def _stop_calls() -> None:
     lib.lightgrid_set_log(ffi.NULL, ffi.NULL)
+    lib.lightgrid_set_compiling(ffi.NULL, ffi.NULL)
 
 
 lib.lightgrid_set_log(_log_line, ffi.NULL)
-atexit.register(_stop_logging)
+lib.lightgrid_set_compiling(_first_compilation, ffi.NULL)
+atexit.register(_stop_calls)

@@ -32,6 +32,26 @@ def floor(**fields):
     return lg.Scene.from_arrays([mesh], **fields)
 
 
+class FirstStart(unittest.TestCase):
+    def test_reports_each_kernel_that_is_compiled(self):
+        program = """
+import lightgrid_render as lg
+calls = []
+lg.on_compiling(calls.append)
+lg.Device(opengl="none").render(lg.Scene("spheres", size=(32, 18)))
+print(*calls)
+"""
+        with tempfile.TemporaryDirectory() as folder:
+            environment = {**os.environ, "XDG_CACHE_HOME": folder, "LIGHTGRID_CL_CACHE": "", "LIGHTGRID_CL_QUICK_BUILD": "all"}
+            first, second = ([int(word) for word in subprocess.run(
+                [sys.executable, "-c", program], env=environment, check=True, capture_output=True, text=True).stdout.split()]
+                for _ in range(2))
+        kernels = len(first) // 2
+        self.assertGreater(kernels, 3)
+        self.assertEqual(first, [n for number in range(1, kernels + 1) for n in (number, 0)])
+        self.assertEqual(second, [])
+
+
 class PublicNames(unittest.TestCase):
     def test_have_words(self):
         without = []

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/compiling.h"
 #include "base/log.h"
 #include "base/version.h"
 #include "c_api/call.h"
@@ -130,6 +131,11 @@ void lightgrid_set_log(lightgrid_log_function function, void* user) {
   set_log_sink([function, user](bool warning, const std::string& line) {
     if (function) function(warning, line.c_str(), user);
   });
+}
+
+void lightgrid_set_compiling(lightgrid_compiling_function function, void* user) {
+  if (!function) return set_first_compilation_function({});
+  set_first_compilation_function([function, user](int kernels) { function(kernels, user); });
 }
 
 lightgrid_status lightgrid_describe(const char* name, char** json) {

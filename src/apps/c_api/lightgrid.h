@@ -86,6 +86,13 @@ typedef void (*lightgrid_log_function)(int is_warning, const char* line, void* u
 /* From now on; `user` is handed to each call. */
 void lightgrid_set_log(lightgrid_log_function function, void* user);
 
+/* Called before each kernel that this process compiles for its first time on this machine, with the number of
+ * such kernels so far, and with 0 after each. Later processes load these kernels from disk. For the whole
+ * process; null: no calls, as at first. Calls do not overlap, and may come from any thread. */
+typedef void (*lightgrid_compiling_function)(int kernels, void* user);
+/* From now on; `user` is handed to each call. */
+void lightgrid_set_compiling(lightgrid_compiling_function function, void* user);
+
 /* A table as JSON: "techniques" (with all settings, as `lightgrid techniques --json`), "scenes" (names and
  * summaries), "fields" (of scenes), "measures", "devices" (OpenCL's), or "warnings": [{"text", "settings",
  * "command"}] of this thread's last call that returned a status, other than of this function. settings:

@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
   set_command(command_to_copy(argc, argv));
   if (line.quiet()) set_log_level(LogLevel::quiet);
   cache.tell();
-  const ProgressLines lines(argc > 1 ? argv[1] : "");
+  const ProgressLines lines(argc > 1 ? argv[1] : "", line.quiet());
   try {
     return run(command);
   } catch (const Error& error) {

@@ -3,23 +3,27 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
+#include "base/compiling.h"
 #include "base/log.h"
 #include "base/timer.h"
 
 namespace lightgrid::app {
 namespace {
 
-constexpr int width = 20, text = 40, rest = 14;
+constexpr int width = 20, text = 40, rest = 14, columns = width + text + rest + 4;
 
 // The text of the lines. Written by the working thread, read by the printing thread.
 struct State {
   std::mutex mutex;
   std::string step;
   double done = 0;
+  std::string bar;                                // as last drawn on a terminal; empty: none, or cleared
+  int kernels_compiled = 0, kernels_printed = 0;  // without a terminal: for their first time on this machine
 };
 
 State& state() {
@@ -35,6 +39,25 @@ std::string in_words(double seconds) {
 // Estimated from the time so far, if that is long enough: "about 3 min".
 std::string time_left(double done, double seconds) {
   return seconds < 3 || done < 0.02 ? "" : "about " + in_words(seconds * (1 - done) / done);
+}
+
+std::string compiling_words(int kernels) {
+  return fmt::format("compiling kernels for this machine, first time only: {}", kernels);
+}
+
+// Replaces the terminal's last line.
+void print_over(const std::string& line) { fmt::print(stderr, "\r{:<{}}", line, columns); }
+
+void show_on_terminal(int kernels) {
+  if (kernels > 0) return print_over(compiling_words(kernels));
+  const std::lock_guard lock(state().mutex);
+  print_over(state().bar);
+  if (state().bar.empty()) fmt::print(stderr, "\r");
+}
+
+void note_for_lines(int kernels) {
+  const std::lock_guard lock(state().mutex);
+  state().kernels_compiled = std::max(state().kernels_compiled, kernels);
 }
 
 double interval_s() {
@@ -54,21 +77,28 @@ std::function<void(double, const std::string&)> progress_bar() {
     };
   }
   return [timer = Timer()](double done, const std::string& step) {
+    const std::lock_guard lock(state().mutex);
     const int filled = int(done * width);
-    fmt::print(stderr, "\r[{}{}] {:<{}.{}} {:<{}}", std::string(filled, '#'),
-               std::string(width - filled, '.'), step, text, text, time_left(done, timer.elapsed_ms() / 1000),
-               rest);
-    if (done >= 1) fmt::print(stderr, "\r{:{}}\r", "", width + text + rest + 4);
+    state().bar = done >= 1 ? ""
+                            : fmt::format("[{}{}] {:<{}.{}} {}", std::string(filled, '#'),
+                                          std::string(width - filled, '.'), step, text, text,
+                                          time_left(done, timer.elapsed_ms() / 1000));
+    print_over(state().bar);
+    if (state().bar.empty()) fmt::print(stderr, "\r");
   };
 }
 
-ProgressLines::ProgressLines(const std::string& command) {
-  if (isatty(STDERR_FILENO) || command == "view") return;  // a window shows what it does
+ProgressLines::ProgressLines(const std::string& command, bool quiet) {
+  if (quiet || command == "view") return;  // a window shows what it does
+  const bool terminal = isatty(STDERR_FILENO);
+  set_first_compilation_function(terminal ? show_on_terminal : note_for_lines);
+  if (terminal) return;
   state().step = command;
   thread_ = std::thread([this] { run(std::chrono::duration<double>(interval_s())); });
 }
 
 ProgressLines::~ProgressLines() {
+  set_first_compilation_function({});
   if (!thread_.joinable()) return;
   {
     const std::lock_guard lock(ending_);
@@ -86,8 +116,12 @@ void ProgressLines::run(std::chrono::duration<double> interval) {
     const std::lock_guard reading(state().mutex);
     const std::string left =
         state().done > 0 && state().done < 1 ? fmt::format(", {:.0f} % done", 100 * state().done) : "";
-    log_info("after {:.0f} s{}: {}", std::ceil(seconds), left,
-             state().step.empty() ? "finishing" : state().step);
+    std::string step = state().step.empty() ? "finishing" : state().step;
+    if (const int kernels = state().kernels_compiled; kernels > state().kernels_printed) {
+      step = compiling_words(kernels);
+      state().kernels_printed = kernels;
+    }
+    log_info("after {:.0f} s{}: {}", std::ceil(seconds), left, step);
   }
 }
 

@@ -14,12 +14,12 @@ namespace lightgrid::app {
 // If stderr is no terminal, updates the process's ProgressLines instead.
 std::function<void(double done, const std::string& step)> progress_bar();
 
-// While it exists, if stderr is no terminal and the command opens no window, a thread prints on stderr every
-// ten seconds how long the command has run and what its last step is. main creates one; --quiet silences it.
-// LIGHTGRID_PROGRESS_S sets another interval, in seconds.
+// While it exists, stderr shows how many kernels have been compiled for their first time on this machine, and,
+// if it is no terminal, every ten seconds how long the command has run and its last step. A command that opens
+// a window prints neither. main creates one. LIGHTGRID_PROGRESS_S sets another interval, in seconds.
 class ProgressLines {
  public:
-  explicit ProgressLines(const std::string& command);
+  ProgressLines(const std::string& command, bool quiet);
   ~ProgressLines();
   ProgressLines(const ProgressLines&) = delete;
   ProgressLines& operator=(const ProgressLines&) = delete;

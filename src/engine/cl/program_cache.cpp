@@ -1,6 +1,7 @@
 #include "cl/program_cache.h"
 
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 
 #include "base/compiling.h"
@@ -145,6 +146,8 @@ cl::Program ProgramCache::load_or_build(const std::string& kernel_file, const st
     }
   }
   tell_compiling("kernels/" + kernel_file + ".cl");
+  std::optional<FirstCompilation> first;
+  if (!file.empty()) first.emplace();
   cl::Program program = build_source(device_, kernel_file, options, source);
   ++counts_.built;
   if (!file.empty()) {

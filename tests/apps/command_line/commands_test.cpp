@@ -178,6 +178,22 @@ TEST(Progress, IsALineNowAndThenWithoutATerminal) {
   EXPECT_EQ(silent.err, "");
 }
 
+TEST(Progress, CountsKernelsThatAreCompiledForTheirFirstTime) {
+  const TempFolder folder;
+  const std::vector<std::string> environment = {"XDG_CACHE_HOME=" + folder.path.string(),
+                                                "LIGHTGRID_CL_CACHE=", "LIGHTGRID_CL_QUICK_BUILD=all",
+                                                "LIGHTGRID_PROGRESS_S=0.05"};
+  const auto render = [&] {
+    const ProgramRun run =
+        run_program({"render", "spheres", "--size", "64x36", "-o", folder.path / "a.png"}, environment);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.err;
+  };
+  const auto words = HasSubstr("compiling kernels for this machine, first time only: ");
+  EXPECT_THAT(render(), words);
+  EXPECT_THAT(render(), testing::Not(words)) << "they are on disk now";
+}
+
 TEST(CompareCommand, WritesOnePageForSeveralScenesSizesAndLightCounts) {
   const TempFolder folder;
   const auto report = folder.path / "report";

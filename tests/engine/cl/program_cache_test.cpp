@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include "base/compiling.h"
 #include "cl/launch.h"
 
 namespace lightgrid {
@@ -66,6 +67,22 @@ TEST_F(ProgramCacheTest, TakesFromDiskWhatAnotherBuilt) {
   EXPECT_EQ(run(first, 7), 7);
   EXPECT_EQ(run(second, 7), 7);
   expect_counts(second, 0, 1, 0);
+}
+
+TEST_F(ProgramCacheTest, ReportsOnlyKernelsThatLaterStartsLoadFromDisk) {
+  std::vector<int> calls;
+  set_first_compilation_function([&](int kernels) { calls.push_back(kernels); });
+  ProgramCache first(device, folder), second(device, folder);
+  run(first, 1);
+  run(first, 2);
+  run(second, 2);
+  setenv("LIGHTGRID_CL_CACHE", "driver", 1);
+  ProgramCache without(device, folder);
+  run(without, 3);
+  set_first_compilation_function({});
+  ASSERT_THAT(calls, testing::SizeIs(4));
+  EXPECT_THAT(calls, testing::ElementsAre(calls[0], 0, calls[0] + 1, 0));
+  EXPECT_GT(calls[0], 0);
 }
 
 TEST_F(ProgramCacheTest, KeepsProgramsOfOtherDefinesApart) {
