@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "command_line/commands.h"
 #include "command_line/options.h"
 #include "command_line/progress.h"
@@ -44,17 +45,25 @@ std::vector<std::unique_ptr<verify::CullEngine>> engines_of(const std::string& d
   return engines;
 }
 
-void print(const verify::VerifyReport& report) {
-  std::string device;
-  for (const verify::CaseResult& result : report.cases) {
-    if (result.device != device) fmt::print("{}\n", device = result.device);
+// Prints each case when it ends, below the name of its device.
+class CaseLines {
+ public:
+  void print(const verify::CaseResult& result) {
+    if (result.device != device_) fmt::print("{}\n", device_ = result.device);
     const verify::Outcome& o = result.outcome;
     const char* verdicts[] = {"pass", "FAIL", "skip"};
     fmt::print("  {} {:<42} {:>9} contacts  {:>9} trials  {:>6} lost  {:>7}{}{}\n", verdicts[int(o.verdict)],
                fmt::format("{}/{}", result.hard_case->group, result.hard_case->name), o.contacts, o.trials,
                o.lost, o.excess_ratio ? fmt::format("× {:.2f}", *o.excess_ratio) : "",
                o.why.empty() ? "" : "  ", o.why);
+    std::fflush(stdout);
   }
+
+ private:
+  std::string device_;
+};
+
+void print_summary(const verify::VerifyReport& report) {
   fmt::print("{} of {} failed\n", report.failed, report.cases.size());
   if (report.unbuilt) fmt::print("{} not run: the driver cannot build their kernels\n", report.unbuilt);
 }
@@ -69,10 +78,10 @@ int hunt(const VerifyCommand& o) {
 
 verify::VerifyReport replay(const VerifyCommand& o,
                             const std::vector<std::unique_ptr<verify::CullEngine>>& engines,
-                            const CapturedFrame& frame) {
+                            const CapturedFrame& frame, const verify::CaseFunction& found) {
   const std::optional<FrameGrid> own = read_frame_grid(o.replay, frame);
-  return verify::replay_frame(engines, frame,
-                              {verify::replayed_views(frame, own, o.set), own, o.nightly, progress_bar()});
+  return verify::replay_frame(
+      engines, frame, {verify::replayed_views(frame, own, o.set), own, o.nightly, found, progress_bar()});
 }
 
 int run(const VerifyCommand& o) {
@@ -86,14 +95,20 @@ int run(const VerifyCommand& o) {
     return 0;
   }
   if (!o.json.empty()) check_output_file("--json", o.json);
-  verify::VerifyOptions options{.filter = o.filter, .progress = progress_bar()};
+  CaseLines lines;
+  verify::CaseFunction found;
+  if (o.json != "-") found = [&](const verify::CaseResult& result) { lines.print(result); };
+  verify::VerifyOptions options{.filter = o.filter, .found = found, .progress = progress_bar()};
   if (o.nightly) options.adversarial_lights = 10'000'000;
   const CapturedFrame frame = o.replay.empty() ? CapturedFrame() : read_frame(o.replay);
   const auto engines = engines_of(o.device);
+  if (o.replay.empty() && o.filter.empty())
+    log_info("{} cases on {} device(s): about MINUTES each on two cores; --filter chooses some",
+             chosen.size(), engines.size());
   const verify::VerifyReport report =
-      o.replay.empty() ? verify::run_cases(engines, options) : replay(o, engines, frame);
+      o.replay.empty() ? verify::run_cases(engines, options) : replay(o, engines, frame, found);
   if (!o.json.empty()) write_json(o.json, verify::to_json(report).dump(1) + "\n");
-  if (o.json != "-") print(report);
+  if (o.json != "-") print_summary(report);
   return report.failed ? 1 : report.unbuilt ? int(ErrorKind::machine) : 0;
 }
 

@@ -126,6 +126,14 @@ Outcome run_case(const HardCase& hard_case, CullEngine& engine, uint64_t adversa
   return outcome_of(hard_case.run, engine, adversarial_lights);
 }
 
+// Counts a case that has ended.
+static void add_case(VerifyReport& report, CaseResult result, const CaseFunction& found) {
+  report.failed += result.outcome.verdict == Verdict::fail;
+  report.unbuilt += result.outcome.unbuilt;
+  report.cases.push_back(std::move(result));
+  if (found) found(report.cases.back());
+}
+
 VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines,
                        const VerifyOptions& options) {
   const std::vector<const HardCase*> chosen = chosen_cases(options.filter);
@@ -137,9 +145,7 @@ VerifyReport run_cases(const std::vector<std::unique_ptr<CullEngine>>& engines,
       if (options.progress) options.progress(double(report.cases.size()) / all, full_name(*hard_case));
       const Timer timer;
       const Outcome outcome = run_case(*hard_case, *engine, options.adversarial_lights);
-      report.cases.push_back({hard_case, engine->name(), outcome, timer.elapsed_ms()});
-      report.failed += outcome.verdict == Verdict::fail;
-      report.unbuilt += outcome.unbuilt;
+      add_case(report, {hard_case, engine->name(), outcome, timer.elapsed_ms()}, options.found);
     }
   }
   if (options.progress) options.progress(1, "done");
@@ -254,10 +260,7 @@ VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engine
   const double steps = double(engines.size() * views.size() * settings.size());
   double done = 0;
   VerifyReport report;
-  if (options.own) {
-    report.cases.push_back(compare_own_lists(replay, *options.own));
-    report.failed += report.cases.back().outcome.verdict == Verdict::fail;
-  }
+  if (options.own) add_case(report, compare_own_lists(replay, *options.own), options.found);
   for (const auto& engine : engines) {
     report.devices.push_back(engine->name());
     const Timer timer;
@@ -272,9 +275,7 @@ VerifyReport replay_frame(const std::vector<std::unique_ptr<CullEngine>>& engine
           }
         },
         *engine, 0);
-    report.cases.push_back({&replayed, engine->name(), outcome, timer.elapsed_ms()});
-    report.failed += outcome.verdict == Verdict::fail;
-    report.unbuilt += outcome.unbuilt;
+    add_case(report, {&replayed, engine->name(), outcome, timer.elapsed_ms()}, options.found);
   }
   if (options.progress) options.progress(1, "done");
   return report;

@@ -25,9 +25,12 @@ struct VerifyReport {
   int unbuilt = 0;  // skipped since the driver cannot build a kernel
 };
 
+using CaseFunction = std::function<void(const CaseResult&)>;
+
 struct VerifyOptions {
   std::string filter;  // a regular expression searched in "group/name"; empty: all
   uint64_t adversarial_lights = 100'000;
+  CaseFunction found = nullptr;  // receives each case when it has ended
   std::function<void(double done, const std::string& step)> progress;
 };
 
@@ -56,6 +59,7 @@ struct ReplayOptions {
   std::optional<FrameGrid> own;    // the lists that came with the frame, from whatever made them
   bool every_combination = false;  // cull tests x depth bounds; else each test with the default bounds,
                                    // and each kind of bounds with the default test
+  CaseFunction found = nullptr;    // receives each case when it has ended
   std::function<void(double done, const std::string& step)> progress;
 };
 
