@@ -56,6 +56,23 @@ struct CheckedScene {
   }
 };
 
+// "4 of 13 engines keep all lights: bevy, filament, …".
+std::string summary_of(const std::vector<LimitResult>& results, const std::string& engine) {
+  std::map<std::string, bool> keeps;
+  for (const LimitResult& result : results) {
+    const auto [found, is_new] = keeps.emplace(result.limit->engine, true);
+    found->second = found->second && result.holds();
+  }
+  for (const UnlimitedEngine& unlimited : unlimited_engines())
+    if (engine == "all" || engine == unlimited.engine) keeps.emplace(unlimited.engine, true);
+  std::vector<std::string> names;
+  for (const auto& [name, all] : keeps)
+    if (all) names.push_back(name);
+  return fmt::format("{} of {} engine{} keep{} all lights{}{}", names.size(), keeps.size(),
+                     keeps.size() == 1 ? "" : "s", keeps.size() == 1 ? "s" : "", names.empty() ? "" : ": ",
+                     fmt::join(names, ", "));
+}
+
 void print_text(const std::vector<LimitResult>& results, const Scene& scene, const std::string& engine) {
   constexpr size_t max_lights = 3;
   for (const LimitResult& result : results) {
@@ -70,6 +87,7 @@ void print_text(const std::vector<LimitResult>& results, const Scene& scene, con
   for (const UnlimitedEngine& unlimited : unlimited_engines())
     if (engine == "all" || engine == unlimited.engine)
       fmt::print("{}: holds: {}\n", unlimited.engine, unlimited.why);
+  fmt::print("{}\n", summary_of(results, engine));
 }
 
 // Along the path; shorten: with ranges of 90 % to 10 % too.
@@ -256,9 +274,8 @@ std::string page_of(const CheckOptions& o, const std::vector<LimitResult>& resul
   page.scene = scene.name;
   page.view = fmt::format("{} x {}, {} frames, {} lights", checked.chosen.view.width,
                           checked.chosen.view.height, checked.path.size(), shown_counts(scene).lights);
-  const auto held = std::ranges::count_if(results, [](const LimitResult& r) { return r.holds(); });
   page.warnings = warnings;
-  page.verdict = fmt::format("{} of {} limits hold.", held, results.size());
+  page.verdict = summary_of(results, o.engine) + ".";
   LimitPictures pictures(o, checked, page);
   for (const LimitResult& result : results) {
     LimitSection& section = page.sections.emplace_back();
