@@ -167,17 +167,19 @@ nlohmann::ordered_json to_json(const BenchRow& row, const std::string& device) {
 }
 
 std::string table_head() {
-  return fmt::format("{:<18}{:<20}{:>9}{:>9}{:>9}{:>9}{:>7}  {}\n", "case", "", "min ms", "median", "p90",
-                     "limit", "share", "");
+  return fmt::format(
+      "limit: the least time that this machine's memory and arithmetic allow; share: limit / min\n"
+      "{:<24} {:<20} {:>10} {:>10} {:>10} {:>10} {:>6}\n",
+      "case", "kernel", "min ms", "median ms", "p90 ms", "limit ms", "share");
 }
 
 std::string table_line(const BenchRow& row) {
-  std::string line = fmt::format("{:<18}{:<20}{:>9.4f}{:>9.4f}{:>9.4f}", row.case_name, row.name, row.ms.min,
-                                 row.ms.median, row.ms.p90);
+  std::string line = fmt::format("{:<24} {:<20} {:>10.4f} {:>10.4f} {:>10.4f}", row.case_name, row.name,
+                                 row.ms.min, row.ms.median, row.ms.p90);
   if (row.limit_ms && row.ms.min > 0) {
-    line += fmt::format("{:>9.4f}{:>6.0f}%", *row.limit_ms, 100 * *row.limit_ms / row.ms.min);
+    line += fmt::format(" {:>10.4f} {:>5.0f}%", *row.limit_ms, 100 * *row.limit_ms / row.ms.min);
   } else {
-    line += fmt::format("{:>16}", "");
+    line += fmt::format("{:>18}", "");
   }
   if (row.params.contains("compared")) line += fmt::format("  {}", row.params["compared"].get<std::string>());
   if (row.ratio) line += fmt::format("  x {:.2f}", *row.ratio);
