@@ -238,6 +238,9 @@ class SceneSweep {
   }
 
   void measure_view(int view, bool own, bool whole) {
+    constexpr size_t points_of_estimate = 3;
+    const double began_s = seconds();
+    size_t done = 0;
     bool looked = false;
     const auto look = [&] {
       if (!looked) figures_.look(views_[size_t(view)], view, own, whole);
@@ -255,6 +258,8 @@ class SceneSweep {
           m.around_s = std::max(m.run.asked_ms() / 1000 - seconds_of_passes(record), m.around_s);
         file_.begin(record);
         m.records.push_back(std::move(record));
+        if (view == 0 && ++done == std::min(points_of_estimate, measured_.size()))
+          tell_budget(done, seconds() - began_s);
       }
       if (view == 0) m.picture_s = seconds_of_passes(m.records.front());
     }
@@ -276,6 +281,18 @@ class SceneSweep {
     std::erase_if(measured_, [](const MeasuredPoint& m) { return m.records.empty(); });
     if (measured_.size() < all)
       notice(fmt::format("{} of {} points, for the time there is", measured_.size(), all));
+  }
+
+  // After the first points of the first view: an estimate of what the time allows.
+  void tell_budget(size_t points, double points_s) const {
+    const double point_s = points_s / double(points), before_s = seconds() - points_s;
+    const size_t all = measured_.size(), allowed = size_t(std::max(1.0, (until() - before_s) / point_s));
+    if (allowed >= all) return notice(fmt::format("{} points, which the budget allows", all));
+    const double all_s = (before_s + point_s * double(all)) / (job_.growth ? 1 - share_of_growth : 1.0);
+    notice(
+        fmt::format("the budget allows about {} of {} points; all of them take about {:.0f} min "
+                    "(--budget, --technique and --vary choose)",
+                    allowed, all, std::ceil(all_s / 60)));
   }
 
   // In none of the errors that fronts are of. A refused point has none.
