@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -12,40 +13,47 @@
 #include "base/message_line.h"
 #include "base/text.h"
 #include "base/version.h"
+#include "command_line/help.h"
 #include "gl/context.h"
 
 namespace lightgrid::app {
 
 void Subcommand::option(const std::string& names, std::string& value, const std::string& help) {
-  CLI::Option* option = app_.add_option(names, value, help);
+  CLI::Option* option = app_.add_option(names, value, help)->group(heading_);
   if (!value.empty()) option->capture_default_str();
 }
 
 void Subcommand::option(const std::string& names, int& value, const std::string& help, int least, int most) {
-  CLI::Option* option = app_.add_option(names, value, help)->check(CLI::Range(least, most));
+  CLI::Option* option = app_.add_option(names, value, help)->check(CLI::Range(least, most))->group(heading_);
   if (value >= least && value <= most) option->capture_default_str();
 }
 
 void Subcommand::option(const std::string& names, uint64_t& value, const std::string& help) {
-  app_.add_option(names, value, help)->capture_default_str();
+  app_.add_option(names, value, help)->capture_default_str()->group(heading_);
 }
 
 void Subcommand::flag(const std::string& names, bool& value, const std::string& help) {
-  app_.add_flag(names, value, help);
+  app_.add_flag(names, value, help)->group(heading_);
 }
 
 void Subcommand::list(const std::string& names, std::vector<std::string>& values, const std::string& help,
                       char separator) {
-  CLI::Option* option = app_.add_option(names, values, help);
+  CLI::Option* option = app_.add_option(names, values, help)->group(heading_);
   // An option takes one word each time: the next word may be a positional argument.
   if (names[0] == '-') option->allow_extra_args(false);
   if (separator) option->delimiter(separator);
   if (!values.empty()) option->capture_default_str();
 }
 
+Subcommand::Heading::Heading(Subcommand& command, std::string text)
+    : command_(command), outer_(std::exchange(command.heading_, std::move(text))) {}
+
+Subcommand::Heading::~Heading() { command_.heading_ = outer_; }
+
 CommandLine::CommandLine(const std::string& name, const std::string& summary)
     : app_(std::make_unique<CLI::App>(summary, name)) {
   app_->require_subcommand(1);
+  app_->formatter(std::make_shared<HelpFormatter>());
   app_->fallthrough();
   app_->add_flag("--quiet", quiet_, "errors only on stderr");
   app_->set_version_flag("--version", name + " " + version_of_build() + ", commit " + commit_of_build(),
@@ -56,6 +64,7 @@ CommandLine::~CommandLine() = default;
 
 Subcommand CommandLine::add(const std::string& name, const std::string& summary, Command run) {
   CLI::App* command = app_->add_subcommand(name, summary);
+  command->footer(examples_in_help(name));
   command->final_callback([this, run] { chosen_ = run; });
   return Subcommand(*command);
 }
@@ -140,7 +149,8 @@ Command CommandLine::parse(int argc, const char* const* argv) {
   const std::vector<CLI::App*> commands = app_->get_subcommands([](const CLI::App*) { return true; });
   for (CLI::App* command : commands) {
     if (command->get_option_no_throw("--gl")) continue;
-    command->add_option("--gl", unused_gl_, "as in other commands; this one opens no OpenGL of its own");
+    command->add_option("--gl", unused_gl_, "as in other commands; this one opens no OpenGL of its own")
+        ->group("Options");
   }
   if (words.empty()) {
     std::fputs(app_->help().c_str(), stdout);

@@ -30,8 +30,22 @@ class Subcommand {
   void list(const std::string& names, std::vector<std::string>& values, const std::string& help,
             char separator = 0);
 
+  // While it exists, options are added below this heading of --help, instead of "Options".
+  class Heading {
+   public:
+    Heading(Subcommand& command, std::string text);
+    ~Heading();
+    Heading(const Heading&) = delete;
+    Heading& operator=(const Heading&) = delete;
+
+   private:
+    Subcommand& command_;
+    const std::string outer_;
+  };
+
  private:
   CLI::App& app_;
+  std::string heading_ = "Options";
 };
 
 class CommandLine {

@@ -15,6 +15,8 @@ namespace lightgrid::app {
 namespace {
 
 void add_fields(Subcommand& command, SceneChoice& o, ChoiceField::Of of) {
+  const Subcommand::Heading heading(command,
+                                    of == ChoiceField::Of::picture ? "Picture" : "Scene, lights and camera");
   for (const ChoiceField& field : choice_fields()) {
     if (field.of != of) continue;
     const std::string name = std::string("--") + field.name;
@@ -41,6 +43,7 @@ void add_file_options(Subcommand& command, SceneChoice& o) { add_fields(command,
 void add_view_options(Subcommand& command, SceneChoice& o) {
   add_file_options(command, o);
   add_fields(command, o, ChoiceField::Of::view);
+  const Subcommand::Heading heading(command, "Technique");
   command.list("--set", o.set, "a setting, KEY=VALUE; may be repeated");
 }
 
@@ -58,16 +61,19 @@ void add_exposure_option(Subcommand& command, SceneChoice& o) {
 void add_path_option(Subcommand& command, SceneChoice& o) { add_fields(command, o, ChoiceField::Of::path); }
 
 void add_device_options(Subcommand& command, DeviceOptions& o) {
+  const Subcommand::Heading heading(command, "Devices and timing");
   command.option("--device", o.device, "OpenCL device, by a part of its name");
   command.option("--gl", o.gl, "osmesa, egl, auto, or none: OpenCL alone, for the technique visibility");
 }
 
 void add_timing_options(Subcommand& command, TimingOptions& o) {
+  const Subcommand::Heading heading(command, "Devices and timing");
   command.option("--frames", o.frames, "frames to time", 1, 10000);
   command.option("--warmup", o.warmup, "untimed frames before those", 0, 10000);
 }
 
 void add_technique_option(Subcommand& command, std::string& technique, const std::string& what) {
+  const Subcommand::Heading heading(command, "Technique");
   command.option("-t,--technique,--techniques", technique,
                  "NAME[:KEY=VALUE[,KEY=VALUE…]]: " + what +
                      (technique.empty() ? " (default: forward_plus; without OpenGL visibility)" : ""));
