@@ -27,6 +27,7 @@ namespace {
 struct CompareCommand {
   CompareChoice choice;
   std::string output = "out/compare", json, against;
+  bool exr = false;
   int page_mb = 30;
 };
 
@@ -75,13 +76,22 @@ bool is_worse(const CompareCommand& o, const nlohmann::json& earlier, const nloh
   return !result.worse.empty();
 }
 
+// The command of the first warning that has one; else a step that this page does not take.
+std::string next_step(const CompareCommand& o, const std::vector<Warning>& warnings) {
+  for (const Warning& warning : warnings)
+    if (!warning.command.empty()) return warning.command;
+  return "lightgrid frontier " + fmt::format("{}", fmt::join(o.choice.scenes, " ")) +
+         "  (which setting is the fastest for which error)";
+}
+
 void print_report(const CompareCommand& o, const std::string& json, const std::vector<std::string>& figures,
-                  const std::vector<std::string>& tables) {
+                  const std::vector<std::string>& tables, const std::vector<Warning>& warnings) {
   if (!o.json.empty()) write_json(o.json, json);
   if (o.json == "-") return;
   fmt::print("{}\n", (std::filesystem::path(o.output) / "index.html").string());
   for (const std::string& figure : figures) fmt::print("  {}\n", figure);
   for (const std::string& line : tables) fmt::print("{}\n", line.empty() ? "" : "  " + line);
+  fmt::print("\n  Next: {}\n", next_step(o, warnings));
 }
 
 // After an empty line; `view` is its heading.
@@ -97,8 +107,8 @@ int compare_one(const CompareCommand& o, Comparison comparison, const nlohmann::
   run_comparison(comparison, progress_bar(), [&](CompareReport found) { report = std::move(found); });
   warn_of_refusals(report, "");
   comparison = {};  // pictures and pages are made without the scene
-  write_report(o.output, report);
-  print_report(o, json_text(report), telling_figures(report), table_of(report, ""));
+  write_report(o.output, report, o.exr);
+  print_report(o, json_text(report), telling_figures(report), table_of(report, ""), report.warnings);
   const bool failed = tell_failures(report, "");
   return is_worse(o, earlier, to_json(report)) || failed ? 1 : 0;
 }
@@ -107,14 +117,16 @@ int compare_several(const CompareCommand& o, const Comparison& comparison, const
   ViewsReport report(o.output, comparison.views.size(), size_t(o.page_mb) << 20);
   bool failed = false;
   std::vector<std::string> tables;
+  std::vector<Warning> warnings;
   run_comparison(comparison, progress_bar(), [&](CompareReport found) {
     warn_of_refusals(found, view_in_words(found) + ": ");
+    add_distinct(warnings, found.warnings);
     const ReportView& view = report.add(std::move(found));
     std::ranges::copy(table_of(view.report, view_in_words(view.report)), std::back_inserter(tables));
     failed |= tell_failures(view.report, view_in_words(view.report) + ": ");
   });
   report.write();
-  print_report(o, report.json_text(), report.sentences(), tables);
+  print_report(o, report.json_text(), report.sentences(), tables, warnings);
   return is_worse(o, earlier, to_json(report.views())) || failed ? 1 : 0;
 }
 
@@ -155,6 +167,7 @@ void add_compare(CommandLine& line) {
                  "pixels of the brute-force image: full, sampled, or auto (sampled past a minute)");
   command.flag("--flip", c.flip, "measure HDR-FLIP too, which takes seconds a row");
   command.option("-o,--output", o->output, "folder of the report");
+  command.flag("--exr", o->exr, "with one view: each picture as a linear .exr file too");
   command.option("--page-mb", o->page_mb, "with several views: limit of pictures in the page in MiB", 1,
                  1000);
   command.option("--against", o->against,

@@ -185,10 +185,10 @@ std::string results_csv(const std::vector<ReportView>& views) {
   return csv_table(csv_columns(shadows, effects), rows);
 }
 
-void write_report(const fs::path& folder, const CompareReport& report) {
+void write_report(const fs::path& folder, const CompareReport& report, bool exr) {
   const std::string json = json_text(report);
   std::vector<ReportView> views;
-  views.push_back(finished_view(folder, report, true, 0));
+  views.push_back(finished_view(folder, report, exr, 0));
   write_file(folder / "results.json", json);
   write_file(folder / "index.html", report_page(views));
 }

@@ -150,19 +150,25 @@ std::string software_opengl_in_words(const CompareReport& report) {
 }
 
 std::vector<std::string> contestants_table(const CompareReport& report) {
-  std::vector<std::array<std::string, 4>> lines = {{"technique", "ms per frame", "speed-up", "picture"}};
+  constexpr size_t columns = 5;
+  std::vector<std::array<std::string, columns>> lines = {
+      {"technique", "ms per frame", "speed-up", "lights per pixel", "picture"}};
   for (const RunResult& row : report.rows) {
     const std::optional<Speedup> speedup = speedup_of(report, row);
+    const double listed = listed_per_pixel(report, row);
     lines.push_back({row_name(report, row), time_with_spread(row.frame_ms),
-                     speedup ? short_number(speedup->total) + "x" : "-", exactness(row)});
+                     speedup ? short_number(speedup->total) + "x" : "-",
+                     listed >= 0 && row.refused.empty() ? lights_number(listed) : "-", exactness(row)});
   }
-  std::array<size_t, 4> widths{};
+  std::array<size_t, columns> widths{};
   for (const auto& line : lines)
-    for (size_t i = 0; i < 4; ++i) widths[i] = std::max(widths[i], width_of(line[i]));
+    for (size_t i = 0; i < columns; ++i) widths[i] = std::max(widths[i], width_of(line[i]));
   std::vector<std::string> table;
   for (const auto& line : lines) {
     const auto pad = [&](size_t i) { return std::string(widths[i] - width_of(line[i]), ' '); };
-    table.push_back(line[0] + pad(0) + "  " + pad(1) + line[1] + "  " + pad(2) + line[2] + "  " + line[3]);
+    std::string text = line[0] + pad(0);
+    for (size_t i = 1; i + 1 < columns; ++i) text += "  " + pad(i) + line[i];
+    table.push_back(text + "  " + line.back());
   }
   return table;
 }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <regex>
+#include <sstream>
 
 #include "support/gltf_builder.h"
 #include "support/read_files.h"
@@ -123,9 +125,11 @@ TEST(CompareCommand, WritesAPageImagesAndResults) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, StartsWith((report / "index.html").string() + "\n"));
   EXPECT_EQ(run.err, "");
-  for (const char* name : {"index.html", "forward.png", "forward_plus.png", "forward_plus.exr"}) {
+  for (const char* name : {"index.html", "forward.png", "forward_plus.png"}) {
     EXPECT_TRUE(std::filesystem::exists(report / name)) << name;
   }
+  EXPECT_FALSE(std::filesystem::exists(report / "forward_plus.exr")) << "only with --exr";
+  EXPECT_THAT(run.out, HasSubstr("Next: lightgrid frontier spheres"));
   const auto results = nlohmann::json::parse(file_bytes(report / "results.json"));
   EXPECT_THAT(keys(results), IsSupersetOf({"scene", "size", "devices", "commit", "reference", "rows"}));
   EXPECT_THAT(keys(results["devices"]), IsSupersetOf({"cl", "gl"}));
@@ -223,7 +227,7 @@ TEST(CompareCommand, WritesOnePageForSeveralScenesSizesAndLightCounts) {
   EXPECT_EQ(views[1]["lights_kept"], "range");
   EXPECT_EQ(views[1]["ranges_of"], 3);
   EXPECT_THAT(run.out, HasSubstr("Numbers of lights: all with the ranges of 3 lights (--keep overlap"));
-  EXPECT_THAT(run.out, HasSubstr("ms per frame  speed-up  picture"));
+  EXPECT_THAT(run.out, HasSubstr("ms per frame  speed-up  lights per pixel  picture"));
 }
 
 // With ranges that do not shrink, more lights reach a pixel; with an equal overlap about as many do.
@@ -394,6 +398,28 @@ TEST(ScenesCommand, ListsTheBuiltInScenes) {
   EXPECT_EQ(run.status, 0);
   for (const char* name : {"hall", "spheres", "terrain", "street", "particles", "gallery", "square", "rooms"})
     EXPECT_THAT(run.out, HasSubstr(name));
+}
+
+// Every command has three examples, which name options of its own.
+TEST(Help, HasExamplesOfEachCommandAndNoLongLines) {
+  for (const char* command :
+       {"render", "compare", "plan", "capture", "cull", "inspect", "info", "scenes", "techniques", "devices",
+        "bench", "verify", "view", "frontier", "golden", "check", "manual"}) {
+    const std::string help = run_program({command, "--help"}).out;
+    std::istringstream lines(help);
+    size_t examples = 0;
+    const std::regex option("(?: |^)(--?[a-z][a-z-]*)");
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_LE(line.size(), 104u) << line;
+      if (!line.starts_with(std::string("  lightgrid ") + command)) continue;
+      ++examples;
+      for (std::sregex_iterator i(line.begin(), line.end(), option), end; i != end; ++i)
+        EXPECT_TRUE(
+            std::regex_search(help, std::regex("\n +(?:-\\w,)?(?:--[a-z-]+,)*" + (*i)[1].str() + "\\b")))
+            << line;
+    }
+    EXPECT_EQ(examples, 3u) << command;
+  }
 }
 
 TEST(Help, GoesToStdoutAndEndsWithZero) {
