@@ -1,6 +1,8 @@
 // lightgrid techniques: each with its summary, source and settings.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 
 #include "command_line/commands.h"
@@ -22,25 +24,35 @@ std::string with_defaults(const std::vector<const char*>& keys) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-void print_techniques() {
-  constexpr int column = 22;
+constexpr int column = 22;
+
+// Settings that change pictures and times most, for newcomers.
+constexpr std::array first_settings = {"samples", "shadows", "range", "cutoff", "raster"};
+
+void print_setting(const SettingRow& s) {
+  fmt::print("{:<{}}{}{}: {}\n", s.key, column, fmt::join(s.values, " "),
+             s.flags.any_number ? " or any number" : "", s.meaning);
+}
+
+void print_techniques(bool all) {
   for (const Technique* t : techniques()) {
     fmt::print("{:<{}}{}\n", t->name, column, t->summary);
     fmt::print("{:<{}}source: {}\n", "", column, t->source);
-    if (!t->settings.empty()) fmt::print("{:<{}}settings: {}\n", "", column, with_defaults(t->settings));
+    if (all && !t->settings.empty())
+      fmt::print("{:<{}}settings: {}\n", "", column, with_defaults(t->settings));
   }
-  fmt::print("{:<{}}settings: {}\n", "(all of them)", column, with_defaults(common_settings()));
+  if (all) fmt::print("{:<{}}settings: {}\n", "(all of them)", column, with_defaults(common_settings()));
   fmt::print(
       "\nSettings: --set KEY=VALUE, or NAME:KEY=VALUE in compare -t; the first value is the default:\n");
-  for (const SettingRow& s : setting_rows()) {
-    fmt::print("{:<{}}{}{}: {}\n", s.key, column, fmt::join(s.values, " "),
-               s.flags.any_number ? " or any number" : "", s.meaning);
-  }
+  for (const SettingRow& s : setting_rows())
+    if (all || std::ranges::count(first_settings, s.key) > 0) print_setting(s);
+  if (!all)
+    fmt::print("{} more: lightgrid techniques --all\n", setting_rows().size() - first_settings.size());
 }
 
-int list_techniques(const std::string& json) {
+int list_techniques(const std::string& json, bool all) {
   if (json.empty()) {
-    print_techniques();
+    print_techniques(all);
   } else {
     write_json(json, techniques_json().dump(1));
   }
@@ -51,8 +63,10 @@ int list_techniques(const std::string& json) {
 
 void add_techniques(CommandLine& line) {
   auto json = std::make_shared<std::string>();
+  auto all = std::make_shared<bool>(false);
   Subcommand command = line.add("techniques", "the available techniques and settings",
-                                [json] { return list_techniques(*json); });
+                                [json, all] { return list_techniques(*json, *all); });
+  command.flag("--all", *all, "the settings that each technique reads, and all settings");
   command.option("--json", *json, "as JSON into a file, - for stdout");
 }
 

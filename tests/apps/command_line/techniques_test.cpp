@@ -89,7 +89,12 @@ TEST(Techniques, AreListedWithSettingsDefaultsAndSource) {
     EXPECT_EQ(json["techniques"][i]["source"], techniques()[i]->source);
     EXPECT_EQ(json["techniques"][i]["settings"].size(), techniques()[i]->settings.size());
   }
-  const ProgramRun text = run_program({"techniques"});
+  const ProgramRun brief = run_program({"techniques"});
+  EXPECT_EQ(brief.status, 0);
+  EXPECT_THAT(brief.out,
+              testing::AllOf(HasSubstr("\nsamples "), HasSubstr("\nraster "), HasSubstr(" more: ")));
+  EXPECT_THAT(brief.out, testing::Not(HasSubstr("\nslice-spacing ")));
+  const ProgramRun text = run_program({"techniques", "--all"});
   EXPECT_EQ(text.status, 0);
   for (const Technique* t : techniques()) {
     EXPECT_THAT(text.out, HasSubstr(t->name));
