@@ -63,6 +63,19 @@ TEST(Verify, SkipsACaseWhoseKernelTheDriverCannotBuild) {
   EXPECT_THAT(report.cases[0].outcome.why, testing::HasSubstr("choose another device with --device"));
 }
 
+TEST(Verify, ReportsEachCaseBeforeTheNextBegins) {
+  std::vector<std::unique_ptr<CullEngine>> cannot_build;
+  cannot_build.push_back(
+      device_engine("", [](std::string text) { return "#error no such builtin\n" + text; }));
+  std::vector<std::string> events;
+  run_cases(cannot_build,
+            {.filter = "^depth/(all_sky|flat_wall)$",
+             .found = [&](const CaseResult& result) { events.push_back("end of " + result.hard_case->name); },
+             .progress = [&](double, const std::string& step) { events.push_back(step); }});
+  EXPECT_THAT(events, testing::ElementsAre("depth/all_sky", "end of all_sky", "depth/flat_wall",
+                                           "end of flat_wall", "done"));
+}
+
 // Each has a unique name and is in one of the groups that HardCasesOf.Hold runs.
 TEST(HardCases, HaveNamesOfTheirOwnAndAGroupThatIsRun) {
   const std::set<std::string> groups = {"depth",   "camera", "lights", "lists",   "agreement", "raster",
