@@ -24,7 +24,9 @@ size_t width_of_output() {
 // Lines of words, `first` before the text, which starts at `column` in each line.
 std::string wrapped(const std::string& first, const std::string& text, size_t column, size_t width) {
   std::string out = first, margin(column, ' ');
-  if (first.size() + 2 > column)
+  if (first.empty())
+    out = margin;
+  else if (first.size() + 2 > column)
     out += "\n" + margin;
   else
     out.resize(column, ' ');
@@ -53,7 +55,7 @@ const std::map<std::string, std::vector<Example>>& examples() {
         {"level.glb --shadows 8 --set samples=4 -o level.png", "your file, eight lights cast shadows"},
         {"hall -t visibility --frames 30", "the time of a frame"}}},
       {"compare",
-       {{"level.glb", "five techniques: picture, time and error of each"},
+       {{"level.glb", "three techniques: picture, time and error of each"},
         {"hall -t forward,forward_plus,visibility", "these three"},
         {"hall -t forward_plus --compare tile=8,16,32", "a technique with several values of a setting"}}},
       {"plan",
@@ -105,7 +107,7 @@ const std::map<std::string, std::vector<Example>>& examples() {
         {"hall -t forward_plus,visibility --views 2", "two techniques, two views"},
         {"merge part1 part2 -o all", "one answer from several parts"}}},
       {"golden",
-       {{"record hall -o pictures", "stores hashes of a scene's pictures"},
+       {{"record pictures hall", "stores hashes of a scene's pictures"},
         {"check pictures", "draws them again and compares"},
         {"check pictures --json -", "as JSON on stdout"}}},
       {"check",

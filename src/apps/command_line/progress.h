@@ -16,8 +16,8 @@ std::function<void(double done, const std::string& step)> progress_bar();
 
 // While it exists, stderr shows how many kernels have been compiled for their first time on this machine. If
 // stderr is no terminal, it also shows every ten seconds how long the command has run, and its last step. A
-// command that opens a window prints neither. main creates one. LIGHTGRID_PROGRESS_S sets another interval, in
-// seconds.
+// command that opens a window prints neither. main creates one. LIGHTGRID_PROGRESS_S sets another interval,
+// in seconds.
 class ProgressLines {
  public:
   ProgressLines(const std::string& command, bool quiet);

@@ -285,7 +285,7 @@ class SceneSweep {
 
   // After the first points of the first view: an estimate of what the time allows.
   void tell_budget(size_t points, double points_s) const {
-    const double point_s = points_s / double(points), before_s = seconds() - points_s;
+    const double point_s = std::max(1e-3, points_s / double(points)), before_s = seconds() - points_s;
     const size_t all = measured_.size(), allowed = size_t(std::max(1.0, (until() - before_s) / point_s));
     if (allowed >= all) return notice(fmt::format("{} points, which the budget allows", all));
     const double all_s = (before_s + point_s * double(all)) / (job_.growth ? 1 - share_of_growth : 1.0);

@@ -32,8 +32,8 @@ struct ReportView {
 // Writes into `folder`, created if needed: ROW.png, with `exr` also ROW.exr, ROW.difference.png (log scale,
 // against the reference row), ROW.heat.png (lights listed per pixel), lit.heat.png (lights lit, if an oracle
 // counted them), results.json and a self-contained index.html. ROW is the row's name as a file_stem. A
-// reference that is not a row gets its picture too. All heat maps share one scale. Files for missing images or
-// counts are omitted.
+// reference that is not a row gets its picture too. All heat maps share one scale. Files for missing images
+// or counts are omitted.
 void write_report(const std::filesystem::path& folder, const CompareReport& report, bool exr = false);
 
 // A comparison over several views on one page. Each view's pictures are written when it is added, into its
