@@ -134,10 +134,18 @@ std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
   return wrapped("  " + command->get_name(), command->get_description(), name_columns / 2, width_);
 }
 
+// The base class already prints an empty line between two headings.
+std::string HelpFormatter::make_group(std::string heading, bool positional,
+                                      std::vector<const CLI::Option*> options) const {
+  std::string text = (positional || heading == "Options" ? "\n" : "") + heading + ":\n";
+  for (const CLI::Option* option : options) text += make_option(option, positional);
+  return text;
+}
+
 // Ranges of numbers are left out: an error names them.
 std::string HelpFormatter::make_option(const CLI::Option* option, bool positional) const {
   std::string name = "  " + make_option_name(option, positional);
-  if (option->get_type_size() != 0) {
+  if (option->get_items_expected_max() > 0) {
     const std::string type = option->get_type_name();
     name += type.starts_with("TEXT") ? " TEXT" : " N";
     if (!option->get_default_str().empty()) name += "=" + option->get_default_str();
