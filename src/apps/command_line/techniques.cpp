@@ -47,7 +47,7 @@ void print_techniques(bool all) {
   for (const SettingRow& s : setting_rows())
     if (all || std::ranges::count(first_settings, s.key) > 0) print_setting(s);
   if (!all)
-    fmt::print("{} more: lightgrid techniques --all\n", setting_rows().size() - first_settings.size());
+    fmt::print("{} more: lightgrid techniques --settings\n", setting_rows().size() - first_settings.size());
 }
 
 int list_techniques(const std::string& json, bool all) {
@@ -66,7 +66,7 @@ void add_techniques(CommandLine& line) {
   auto all = std::make_shared<bool>(false);
   Subcommand command = line.add("techniques", "the available techniques and settings",
                                 [json, all] { return list_techniques(*json, *all); });
-  command.flag("--all", *all, "the settings that each technique reads, and all settings");
+  command.flag("--settings", *all, "the settings that each technique reads, and all settings");
   command.option("--json", *json, "as JSON into a file, - for stdout");
 }
 

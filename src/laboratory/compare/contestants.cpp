@@ -137,7 +137,8 @@ void check_given_settings(const Settings& settings, const std::vector<const Tech
     names.erase(std::unique(names.begin(), names.end()), names.end());
     const bool one = names.size() == 1;
     throw input_error(
-        "set {}: {} {} not read it, and it would change nothing; lightgrid techniques --all lists what each "
+        "set {}: {} {} not read it, and it would change nothing; lightgrid techniques --settings lists what "
+        "each "
         "reads",
         key, fmt::join(names, ", "), one ? "does" : "do");
   }

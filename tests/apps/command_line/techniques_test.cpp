@@ -94,7 +94,7 @@ TEST(Techniques, AreListedWithSettingsDefaultsAndSource) {
   EXPECT_THAT(brief.out,
               testing::AllOf(HasSubstr("\nsamples "), HasSubstr("\nraster "), HasSubstr(" more: ")));
   EXPECT_THAT(brief.out, testing::Not(HasSubstr("\nslice-spacing ")));
-  const ProgramRun text = run_program({"techniques", "--all"});
+  const ProgramRun text = run_program({"techniques", "--settings"});
   EXPECT_EQ(text.status, 0);
   for (const Technique* t : techniques()) {
     EXPECT_THAT(text.out, HasSubstr(t->name));
