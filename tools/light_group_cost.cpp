@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "run/technique_run.h"
+#include "scene/light_groups.h"
 #include "scene/random.h"
 #include "scenes/builtin.h"
 #include "scenes/compose.h"
@@ -46,7 +47,7 @@ Scene with_more(Scene scene, int lights, uint32_t groups) {
   Random random(7);
   for (int i = 0; i < lights; ++i) {
     const glm::vec3 at(random.uniform(-8, 8), random.uniform(0.5f, 2.8f), random.uniform(-11, -1));
-    add_point(scene, fmt::format("more {}", i), at, {1, 1, 1}, 0.05f, 40).groups = groups;
+    set_groups(add_point(scene, fmt::format("more {}", i), at, {1, 1, 1}, 0.05f, 40), groups);
   }
   return scene;
 }

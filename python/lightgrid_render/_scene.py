@@ -1,6 +1,7 @@
 """Scenes: built-in ones, glTF files, and arrays."""
 from __future__ import annotations
 
+import json
 from typing import Any, Iterable, Mapping, Sequence
 
 import numpy as np
@@ -159,6 +160,19 @@ class Scene:
     def lights(self, value: Any) -> None:
         array = arrays.as_lights(value)
         check(lib.lightgrid_scene_set_lights(self._handle, arrays.c_lights(array), len(array)))
+
+    def light_properties(self, light: int) -> dict[str, Any]:
+        """The properties of a light that differ from the default, by their keys in lights files."""
+        out = ffi.new("char**")
+        check(lib.lightgrid_scene_get_light_properties(self._handle, light, out))
+        try:
+            return json.loads(ffi.string(out[0]))
+        finally:
+            lib.lightgrid_free(out[0])
+
+    def set_light_properties(self, light: int, **values: Any) -> None:
+        """Sets some of them: set_light_properties(3, groups=["kitchen", 7])."""
+        check(lib.lightgrid_scene_set_light_properties(self._handle, light, json.dumps(values).encode()))
 
     def set_ambient(self, ambient: Sequence[float] | None = None, background: Sequence[float] | None = None) -> None:
         """Radiance from all sides, and where nothing is; None: as it is."""

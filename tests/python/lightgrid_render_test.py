@@ -248,6 +248,10 @@ class Scenes(unittest.TestCase):
         after = view.render()
         self.assertGreater(abs(after - before).max(), 0.1)
         np.testing.assert_array_equal(after, device.render(scene, "visibility"))
+        scene.set_light_properties(1, groups=["none"])
+        self.assertEqual(scene.light_properties(1), {"groups": [0]})
+        scene.set_light_properties(1, groups=list(range(32)))
+        self.assertEqual(scene.light_properties(1), {})
         view.look(dict(eye=(0, 12, 1), target=(0, 0, 0)), (40, 30))
         self.assertEqual(view.render().shape, (30, 40, 4))
 

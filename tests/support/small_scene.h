@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/camera.h"
+#include "scene/light_groups.h"
 #include "scenes/compose.h"
 #include "scenes/shapes.h"
 
@@ -86,8 +87,8 @@ inline int add_speckles(Scene& scene, bool srgb) {
 inline void add_groups(Scene& scene) {
   constexpr uint32_t last = 1u << 31, of_lights[] = {1, 2, last, all_groups, 0, 3};
   constexpr uint32_t of_instances[] = {1 | last, 2 | last, 1 << 8 | 2};
-  for (size_t i = 0; i < scene.lights.size(); ++i) scene.lights[i].groups = of_lights[i % 6];
-  for (size_t i = 0; i < scene.instances.size(); ++i) scene.instances[i].groups = of_instances[i % 3];
+  for (size_t i = 0; i < scene.lights.size(); ++i) set_groups(scene.lights[i], of_lights[i % 6]);
+  for (size_t i = 0; i < scene.instances.size(); ++i) set_groups(scene.instances[i], of_instances[i % 3]);
 }
 
 struct SceneEffect {

@@ -247,6 +247,12 @@ lightgrid_status lightgrid_scene_set_lights(lightgrid_scene* scene, const lightg
 /* Writes up to `capacity` lights, and how many there are to `count`. lights may be null if capacity is 0. */
 lightgrid_status lightgrid_scene_get_lights(lightgrid_scene* scene, lightgrid_light* lights, size_t capacity,
                                             size_t* count);
+/* Sets properties of a light, of those that lights files have besides the members of lightgrid_light: an object
+ * as JSON, such as {"groups": ["kitchen", 7]}. Properties stay with the number of a light. Paths are relative to
+ * the working directory. */
+lightgrid_status lightgrid_scene_set_light_properties(lightgrid_scene* scene, size_t light, const char* json);
+/* Writes the properties that differ from the default, as such an object, to be freed with lightgrid_free. */
+lightgrid_status lightgrid_scene_get_light_properties(lightgrid_scene* scene, size_t light, char** json);
 /* Radiance from all sides, and of pixels without a surface; three floats each, or null: as it is. */
 lightgrid_status lightgrid_scene_set_ambient(lightgrid_scene* scene, const float* ambient,
                                              const float* background);

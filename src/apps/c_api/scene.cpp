@@ -3,10 +3,14 @@
 #include <filesystem>
 #include <numbers>
 
+#include "base/json_file.h"
 #include "c_api/call.h"
 #include "c_api/handles.h"
 #include "scene/deform.h"
+#include "scene/gltf/resources.h"
+#include "scene/light_groups.h"
 #include "scene/lights_file.h"
+#include "scene/property_rows.h"
 #include "scene/virtual_lights.h"
 
 namespace lightgrid::app::c {
@@ -79,7 +83,7 @@ Light light_of(const lightgrid_light& in, const std::string& name) {
     out.inner_cone_rad = float(in_range(name + ".inner_cone_rad", in.inner_cone_rad, 0, in.outer_cone_rad));
   }
   out.casts_shadow = in.casts_shadow != 0;
-  out.groups = in.groups;
+  set_groups(out, in.groups);
   return out;
 }
 
@@ -102,14 +106,23 @@ lightgrid_light light_from(const Light& in) {
              : in.type == LightType::spot  ? LIGHTGRID_SPOT
                                            : LIGHTGRID_DIRECTIONAL;
   out.casts_shadow = in.casts_shadow;
-  out.groups = in.groups;
+  out.groups = groups_of(in);
   return out;
 }
 
 // Returns whether lists, plans and programs made for one light fit the other.
 bool alike(const Light& a, const Light& b) {
   return a.type == b.type && a.is_virtual == b.is_virtual && a.casts_shadow == b.casts_shadow &&
-         a.groups == b.groups && std::isinf(a.radius_m) == std::isinf(b.radius_m);
+         a.properties == b.properties && std::isinf(a.radius_m) == std::isinf(b.radius_m);
+}
+
+// Properties stay with the number of a light. The groups are also a member of lightgrid_light.
+void keep_properties(const std::vector<Light>& before, std::vector<Light>& lights) {
+  for (size_t i = 0; i < std::min(before.size(), lights.size()); ++i) {
+    const uint32_t groups = groups_of(lights[i]);
+    lights[i].properties = before[i].properties;
+    set_groups(lights[i], groups);
+  }
 }
 
 glm::dmat4 affine_of(const double* values, const char* name) {
@@ -382,6 +395,7 @@ lightgrid_status lightgrid_scene_set_lights(lightgrid_scene* scene, const lightg
     LoadedScene& to = *needed(scene, "scene").loaded;
     std::vector<Light> all = lights_of(lights, count);
     to.view();  // which adds lights of its own where there are none
+    keep_properties(to.scene.lights, all);
     const bool same = std::ranges::equal(all, to.scene.lights, alike);
     for (size_t i = 0; i < all.size() && same; ++i) {
       all[i].name = to.scene.lights[i].name;
@@ -389,6 +403,38 @@ lightgrid_status lightgrid_scene_set_lights(lightgrid_scene* scene, const lightg
     }
     if (!same) to.rebuilt();
     to.scene.lights = std::move(all);
+  });
+}
+
+lightgrid_status lightgrid_scene_set_light_properties(lightgrid_scene* scene, size_t light,
+                                                      const char* json) {
+  return call([&] {
+    LoadedScene& to = *needed(scene, "scene").loaded;
+    const std::string text = &needed(json, "json");
+    to.view();
+    const int owner =
+        checked_number("light", int(std::min<size_t>(light, INT32_MAX)), 0, to.scene.lights.size(), "lights");
+    const std::string where = fmt::format("light {}", light);
+    const nlohmann::json fields = parsed_json(text, 8, where + ": ");
+    if (!fields.is_object()) throw wrong("json", "is {}, not an object", fields.type_name());
+    JsonFields(fields, where + ": ").check_fields(property_keys(false));
+    GivenByFile given{
+        {{owner, where, given_fields(fields, where, false)}}, {}, gltf::property_files("./properties", true)};
+    apply_properties(to.scene, given);
+    to.rebuilt();
+  });
+}
+
+lightgrid_status lightgrid_scene_get_light_properties(lightgrid_scene* scene, size_t light, char** json) {
+  return call([&] {
+    LoadedScene& from = *needed(scene, "scene").loaded;
+    char*& out = needed(json, "json");
+    from.view();
+    const int owner = checked_number("light", int(std::min<size_t>(light, INT32_MAX)), 0,
+                                     from.scene.lights.size(), "lights");
+    nlohmann::ordered_json fields = nlohmann::ordered_json::object();
+    write_properties(from.scene.lights[size_t(owner)].properties, false, fields);
+    out = text_for_caller(fields.dump());
   });
 }
 

@@ -41,7 +41,7 @@ std::optional<EffectNeed> decide(const Scene& scene, const FramePlan& plan) {
   if (plan.settings[far_samples] == 0) return {};
   const LightRanges ranges = ranges_of(plan.settings);
   if (ranges.range == LightRange::stochastic)
-    return EffectNeed{false, "the mean of random ranges is that of none"};
+    return EffectNeed{false, "the mean of random ranges is that of none", false};
   const auto first = std::ranges::find_if(plan.lights.local, [&](int i) {
     return std::isfinite(range_of(scene.lights[size_t(i)], size_t(i), ranges));
   });

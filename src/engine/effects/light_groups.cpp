@@ -15,23 +15,26 @@
 namespace lightgrid {
 namespace {
 
-bool lacks(uint32_t groups) { return groups != all_groups; }
+template <typename Owner>
+bool lacks(const Owner& owner) {
+  return groups_of(owner) != all_groups;
+}
 
 // Names the first light or instance without some group, and counts both.
 std::string witness(const Scene& scene) {
-  const auto light = std::ranges::find_if(scene.lights, lacks, &Light::groups);
-  const auto instance = std::ranges::find_if(scene.instances, lacks, &Instance::groups);
+  const auto light = std::ranges::find_if(scene.lights, lacks<Light>);
+  const auto instance = std::ranges::find_if(scene.instances, lacks<Instance>);
   const std::string first =
       light != scene.lights.end()
           ? fmt::format("{} has {}", light_witness(scene, int(light - scene.lights.begin())),
-                        words_of_groups(scene, light->groups))
+                        words_of_groups(scene, groups_of(*light)))
           : fmt::format("node {} \"{}\" has {}", instance - scene.instances.begin(), instance->name,
-                        words_of_groups(scene, instance->groups));
+                        words_of_groups(scene, groups_of(*instance)));
   std::set<uint32_t> masks;
-  for (const Instance& i : scene.instances) masks.insert(i.groups);
+  for (const Instance& i : scene.instances) masks.insert(groups_of(i));
   return fmt::format("{}; {} of {} lights and {} of {} instances lack a group, which have {} different masks",
-                     first, std::ranges::count_if(scene.lights, lacks, &Light::groups), scene.lights.size(),
-                     std::ranges::count_if(scene.instances, lacks, &Instance::groups), scene.instances.size(),
+                     first, std::ranges::count_if(scene.lights, lacks<Light>), scene.lights.size(),
+                     std::ranges::count_if(scene.instances, lacks<Instance>), scene.instances.size(),
                      masks.size());
 }
 
@@ -53,11 +56,7 @@ class LightGroups : public EffectState {
 
   void before_lights(PassContext& work) override {
     if (followed_) return;
-    std::vector<uint32_t> groups;
-    for (const std::vector<int>* lights : {&work.plan.lights.local, &work.plan.lights.directional}) {
-      for (const int i : *lights) groups.push_back(work.scene.lights[size_t(i)].groups);
-    }
-    put(work, lights_.light_groups, std::move(groups), of_lights_);
+    put(work, lights_.light_groups, values_of_lights(work, groups_of<Light>), of_lights_);
     put(work, surfaces_.surface_groups, work.plan.masks.values, of_surfaces_);
     followed_ = true;
   }
@@ -93,7 +92,7 @@ extern constexpr Effect light_groups{
     .name = "light_groups",
     .decide = decide,
     .make = make,
-    .reach = ReachOracle{.masks = {.of_light = [](const Light& light) { return light.groups; },
-                                   .of_instance = [](const Instance& i) { return i.groups; }}}};
+    .reach = ReachOracle{.masks = {.of_light = [](const Light& light) { return groups_of(light); },
+                                   .of_instance = [](const Instance& i) { return groups_of(i); }}}};
 
 }  // namespace lightgrid

@@ -23,7 +23,8 @@ class EffectState;   // renderer/effect_state.h
 
 struct EffectNeed {
   bool needed = false;
-  std::string why;  // the witness, or why not
+  std::string why;    // the witness, or why not
+  bool idles = true;  // where it is not needed, it changes no bit of the picture: everything-on turns it on
 };
 
 // The radiance that an effect adds to a surface at this point of view space.

@@ -44,10 +44,13 @@ void turn_everything_on(const Scene& scene, const View& view, const TechniqueNee
   plan_every_feature(plan.settings, plan.surfaces);
   plan_every_light(plan.lights);
   plan_every_list(needs.lists, plan.lists);
+  plan.effects.clear();
   for (const Effect* effect : needs.effects) {
-    if (!has_masks(*effect)) continue;
-    if (std::ranges::count(plan.effects, effect) == 0) plan.effects.push_back(effect);
-    plan_every_mask(scene, needs.masks, plan.settings, plan.opengl, plan.lists, plan.masks);
+    const std::optional<EffectNeed> need = effect->decide(scene, plan);
+    if (!need || !(need->needed || need->idles)) continue;
+    plan.effects.push_back(effect);
+    if (has_masks(*effect))
+      plan_every_mask(scene, needs.masks, plan.settings, plan.opengl, plan.lists, plan.masks);
   }
   plan_every_shadow(scene, view, needs.shadows, plan.settings, plan.lights, plan.shadows);
 }

@@ -85,6 +85,16 @@ struct PassContext : ViewState {
   std::vector<glm::ivec2> sample_places_;  // once they are known
 };
 
+// A value for each light, in the order of a ColumnInput.
+template <typename F>
+auto values_of_lights(const ViewState& seen, const F& of_light) {
+  std::vector<decltype(of_light(seen.scene.lights[0]))> values;
+  for (const std::vector<int>* lights : {&seen.plan.lights.local, &seen.plan.lights.directional}) {
+    for (const int i : *lights) values.push_back(of_light(seen.scene.lights[size_t(i)]));
+  }
+  return values;
+}
+
 // One cache; T(PassContext&) makes it at first use.
 template <typename T>
 class Cached {

@@ -82,7 +82,7 @@ void VirtualLights::look(const Light& light, uint32_t number, int side, double n
     constexpr const char* what = "reading what a light's view reflects";
     read_buffer(*renderer_.cl, what, reflected.flux->cl_buffer(), flux.data(), pixels * sizeof flux[0]);
     read_buffer(*renderer_.cl, what, reflected.places->cl_buffer(), places.data(), pixels * sizeof flux[0]);
-    ReflectedView& of = views_.emplace_back(ReflectedView{view, {}, light.groups});
+    ReflectedView& of = views_.emplace_back(ReflectedView{view, {}, inherited(light.properties)});
     for (size_t i = 0; i < pixels; ++i)
       of.pixels.push_back({glm::vec3(flux[i]), flux[i].w, glm::vec3(places[i]), places[i].w});
   }

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "scene/property_rows.h"
 
 namespace lightgrid {
 namespace {
@@ -91,18 +92,18 @@ void compile_lists(Scene& scene, const std::vector<GroupLists>& of_lights, Numbe
     if (is_new) {
       known->second = uint32_t(1) << numbers.number_of("the list of " + lists.where, lists.where);
       for (size_t i = 0; i < lit.size(); ++i) {
-        uint32_t& mask = scene.instances[i].groups;
-        mask = lit[i] ? mask | known->second : mask & ~known->second;
+        const uint32_t mask = groups_of(scene.instances[i]);
+        set_groups(scene.instances[i], lit[i] ? mask | known->second : mask & ~known->second);
       }
     }
-    scene.lights[size_t(lists.owner)].groups = known->second;
+    set_groups(scene.lights[size_t(lists.owner)], known->second);
   }
 }
 
 // Instances that are in no group although nothing says so.
 void require_groups(const Scene& scene, const std::vector<bool>& dark) {
   for (size_t i = 0; i < scene.instances.size(); ++i) {
-    if (scene.instances[i].groups != 0 || dark[i]) continue;
+    if (groups_of(scene.instances[i]) != 0 || dark[i]) continue;
     throw input_error(
         "node \"{}\": the lists of {} lights leave it in none of the {} groups, so that no light would light "
         "it: use fewer lists, or groups",
@@ -110,10 +111,57 @@ void require_groups(const Scene& scene, const std::vector<bool>& dark) {
   }
 }
 
+bool accepts_names(const nlohmann::json& value, const PropertyOptions&) {
+  return names_of_groups(value).has_value();
+}
+
+bool accepts_groups(const nlohmann::json& value, const PropertyOptions& options) {
+  const auto is_group = [](const nlohmann::json& element) {
+    return !element.is_number() || (element.get<double>() >= 0 && element.get<double>() < max_groups);
+  };
+  return accepts_names(value, options) &&
+         (value.is_array() ? std::ranges::all_of(value, is_group) : is_group(value));
+}
+
+std::vector<GroupLists> lists_of(const std::vector<GivenProperties>& given) {
+  std::vector<GroupLists> all;
+  for (const GivenProperties& owner : given) {
+    const auto names = [&](const char* key) {
+      const auto field = owner.fields.find(key);
+      return field == owner.fields.end() ? GroupLists::Names() : names_of_groups(field->second);
+    };
+    all.push_back({owner.owner, owner.where, names("groups"), names("include"), names("exclude")});
+  }
+  return all;
+}
+
+nlohmann::ordered_json numbers_of(const PropertyValue& mask) {
+  nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+  for (int i = 0; i < max_groups; ++i)
+    if (std::get<uint32_t>(mask) >> i & 1) numbers.push_back(i);
+  return numbers;
+}
+
+PropertyRow row() {
+  constexpr const char* names = "a list of names and whole numbers";
+  return {
+      .keys = {{"groups", "light_groups", std::string(names) + " from 0 to 31", accepts_groups, true, true},
+               {"include", "light_include", names, accepts_names, false, true},
+               {"exclude", "light_exclude", names, accepts_names, false, true}},
+      .options = {.inherited = true},
+      .apply =
+          [](Scene& scene, const GivenByFile& given) {
+            compile_groups(scene, lists_of(given.lights), lists_of(given.instances));
+          },
+      .write = numbers_of};
+}
+
 }  // namespace
 
+const Property<uint32_t> group_masks{add_property(row()), all_groups};
+
 bool calls_for_groups(const Scene& scene) {
-  const auto lacks = [](const auto& owner) { return owner.groups != all_groups; };
+  const auto lacks = [](const auto& owner) { return groups_of(owner) != all_groups; };
   return std::ranges::any_of(scene.lights, lacks) || std::ranges::any_of(scene.instances, lacks);
 }
 
@@ -151,11 +199,11 @@ void compile_groups(Scene& scene, const std::vector<GroupLists>& of_lights,
   for (const auto* lists : {&of_instances, &of_lights})
     for (const GroupLists& owner : *lists) numbers.reserve(owner);
   for (const GroupLists& owner : of_instances)
-    if (owner.groups) scene.instances[size_t(owner.owner)].groups = numbers.mask_of(owner);
+    if (owner.groups) set_groups(scene.instances[size_t(owner.owner)], numbers.mask_of(owner));
   for (const GroupLists& owner : of_lights)
-    if (owner.groups) scene.lights[size_t(owner.owner)].groups = numbers.mask_of(owner);
+    if (owner.groups) set_groups(scene.lights[size_t(owner.owner)], numbers.mask_of(owner));
   std::vector<bool> dark;
-  for (const Instance& instance : scene.instances) dark.push_back(instance.groups == 0);
+  for (const Instance& instance : scene.instances) dark.push_back(groups_of(instance) == 0);
   compile_lists(scene, of_lights, numbers);
   require_groups(scene, dark);
 }

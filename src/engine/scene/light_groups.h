@@ -14,6 +14,15 @@
 namespace lightgrid {
 
 inline constexpr int max_groups = 32;
+inline constexpr uint32_t all_groups = 0xffffffffu;
+
+// Masks of a Light or an Instance: fields "groups", "include" and "exclude" of files.
+extern const Property<uint32_t> group_masks;
+template <typename Owner>
+uint32_t groups_of(const Owner& owner) {
+  return group_masks.of(owner);
+}
+inline void set_groups(auto& owner, uint32_t mask) { group_masks.set(owner, mask); }
 
 inline bool groups_meet(uint32_t light, uint32_t instance) { return (light & instance) != 0; }
 

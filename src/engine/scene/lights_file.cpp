@@ -10,7 +10,8 @@
 #include "base/json_file.h"
 #include "base/log.h"
 #include "base/text.h"
-#include "scene/light_groups.h"
+#include "scene/gltf/resources.h"
+#include "scene/property_rows.h"
 #include "scene/virtual_lights.h"
 
 namespace lightgrid {
@@ -103,7 +104,9 @@ class Fields {
   const std::string& where() const { return where_; }
   bool has(const char* field) const { return json_.contains(field); }
 
-  void check_fields(const std::vector<std::string>& known) const {
+  // Besides properties.
+  void check_fields(std::vector<std::string> known, bool of_instance = false) const {
+    for (std::string& key : property_keys(of_instance)) known.push_back(std::move(key));
     JsonFields(json_, where_ + ": ").check_fields(known);
   }
 
@@ -128,11 +131,8 @@ class Fields {
     return json_[field].get<bool>();
   }
 
-  GroupLists::Names names(const char* field) const {
-    if (!has(field)) return {};
-    const GroupLists::Names names = names_of_groups(json_[field]);
-    if (!names) throw error(field, "is not a list of names and whole numbers", json_[field].dump());
-    return names;
+  GivenProperties properties(int owner, bool of_instance) const {
+    return {owner, where_, given_fields(json_, where_, of_instance)};
   }
 
   glm::dvec3 vector(const char* field, double low, double high) const {
@@ -178,9 +178,7 @@ glm::vec3 direction(const Fields& fields) {
 }
 
 Light redeclipse_light(const Fields& fields) {
-  static const std::vector<std::string> known = {"name",         "position", "radius",  "rgb255", "attrs",
-                                                 "casts_shadow", "groups",   "include", "exclude"};
-  fields.check_fields(known);
+  fields.check_fields({"name", "position", "radius", "rgb255", "attrs", "casts_shadow"});
   const glm::dvec3 map = fields.vector("position", -max_float, max_float) * metres_per_redeclipse_unit;
   const double radius_m = fields.number("radius", 0, 0, max_float) * metres_per_redeclipse_unit;
   const double lit_m = radius_m > 0 ? radius_m : 16;
@@ -202,10 +200,8 @@ double radius_of(const Fields& fields, double absent) {
 }
 
 Light plain_light(const Fields& fields) {
-  static const std::vector<std::string> known = {
-      "name",  "type",      "position",     "direction",     "radius",  "range",  "inner_cone", "outer_cone",
-      "color", "intensity", "casts_shadow", "source_radius", "nearest", "groups", "include",    "exclude"};
-  fields.check_fields(known);
+  fields.check_fields({"name", "type", "position", "direction", "radius", "range", "inner_cone", "outer_cone",
+                       "color", "intensity", "casts_shadow", "source_radius", "nearest"});
   Light light;
   light.name = fields.name();
   light.type = light_type(fields);
@@ -237,12 +233,6 @@ Light plain_light(const Fields& fields) {
   return light;
 }
 
-GroupLists groups_of(const Fields& fields, int owner) {
-  return {owner, fields.where(), fields.names("groups"), fields.names("include"), fields.names("exclude")};
-}
-
-bool says_something(const GroupLists& lists) { return lists.groups || lists.include || lists.exclude; }
-
 // An array of the file; empty if it is optional and not there.
 Json list_of(const std::filesystem::path& path, const Json& json, const char* field, bool optional) {
   if (optional && !json.contains(field)) return Json::array();
@@ -263,19 +253,20 @@ void warn_of_mistyped_lists(const std::filesystem::path& path, const Json& json)
   }
 }
 
-// The groups of all instances by name.
-std::vector<GroupLists> instance_groups(const std::filesystem::path& path, const Json& list,
-                                        const Scene& scene) {
-  std::vector<GroupLists> all;
+// The properties of all instances by name.
+std::vector<GivenProperties> instance_properties(const std::filesystem::path& path, const Json& list,
+                                                 const Scene& scene) {
+  std::vector<GivenProperties> all;
   for (size_t i = 0; i < list.size(); ++i) {
     const Fields fields(path, "instance", i, list[i]);
-    fields.check_fields({"name", "groups"});
-    const GroupLists lists = groups_of(fields, 0);
-    if (!lists.groups) throw input_error("{}: groups is missing", fields.where());
+    fields.check_fields({"name"}, true);
+    const GivenProperties given = fields.properties(0, true);
+    if (given.fields.empty())
+      throw input_error("{}: {} is missing", fields.where(), fmt::join(property_keys(true), " or "));
     const size_t before = all.size();
     for (size_t k = 0; k < scene.instances.size(); ++k) {
       if (scene.instances[k].name != fields.name()) continue;
-      all.push_back(lists);
+      all.push_back(given);
       all.back().owner = int(k);
     }
     if (all.size() == before) throw input_error("{}: no node of this name shows a mesh", fields.where());
@@ -287,13 +278,6 @@ std::vector<GroupLists> instance_groups(const std::filesystem::path& path, const
 double shortest(float value) { return std::strtod(fmt::format("{}", value).c_str(), nullptr); }
 
 Json to_json(const glm::vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
-
-nlohmann::ordered_json to_json(uint32_t groups) {
-  nlohmann::ordered_json numbers = Json::array();
-  for (int i = 0; i < max_groups; ++i)
-    if (groups >> i & 1) numbers.push_back(i);
-  return numbers;
-}
 
 nlohmann::ordered_json to_json(const Light& light) {
   nlohmann::ordered_json json;
@@ -314,7 +298,7 @@ nlohmann::ordered_json to_json(const Light& light) {
   json["intensity"] = shortest(light.intensity);
   if (light.casts_shadow) json["casts_shadow"] = true;
   if (light.source_m >= 0) json["source_radius"] = shortest(light.source_m);
-  if (light.groups != all_groups) json["groups"] = to_json(light.groups);
+  write_properties(light.properties, false, json);
   return json;
 }
 
@@ -334,16 +318,18 @@ void load_lights(Scene& scene, const std::filesystem::path& path) {
   const Json json = read_object(path), list = list_of(path, json, "lights", false);
   warn_of_mistyped_lists(path, json);
   std::vector<Light> lights;
-  std::vector<GroupLists> groups;
+  GivenByFile given{{}, {}, gltf::property_files(path, true)};
   lights.reserve(list.size());
   for (size_t i = 0; i < list.size(); ++i) {
     const Fields fields(path, "light", i, list[i]);
     lights.push_back(fields.has("rgb255") ? redeclipse_light(fields) : plain_light(fields));
     lights.back().casts_shadow = fields.flag("casts_shadow");
-    if (GroupLists own = groups_of(fields, int(i)); says_something(own)) groups.push_back(std::move(own));
+    if (GivenProperties own = fields.properties(int(i), false); !own.fields.empty())
+      given.lights.push_back(std::move(own));
   }
   scene.lights = std::move(lights);
-  compile_groups(scene, groups, instance_groups(path, list_of(path, json, "instances", true), scene));
+  given.instances = instance_properties(path, list_of(path, json, "instances", true), scene);
+  apply_properties(scene, given);
 }
 
 std::vector<Light> load_lights_file(const std::filesystem::path& path) {

@@ -15,12 +15,11 @@ namespace lightgrid {
 inline constexpr double metres_per_redeclipse_unit = 0.125;
 
 // {"lights": [{"name", "type": "point|spot|directional|virtual", "position", "direction", "radius",
-// "inner_cone", "outer_cone", "color", "intensity", "casts_shadow", "source_radius", "nearest", "groups",
-// "include", "exclude"}], "instances": [{"name", "groups"}]}, world space, metres, radians (half-angles).
-// Defaults: type point, radius infinite, colour white, intensity 1, cones 0 and pi/4, casts_shadow false;
-// without a source_radius soft shadows are those of the setting's sphere; every group. Groups, include and
-// exclude are as in scene/light_groups.h, and "instances" are the scene's. Point and spot lights require a
-// position, spot and directional lights a direction. "range" is another name of "radius". An unknown field of
+// "inner_cone", "outer_cone", "color", "intensity", "casts_shadow", "source_radius", "nearest"}],
+// "instances": [{"name"}]}, world space, metres, radians (half-angles), and the properties of effects
+// (scene/property_rows.h). Defaults: type point, radius infinite, colour white, intensity 1, cones 0 and pi/4,
+// casts_shadow false; without a source_radius soft shadows are those of the setting's sphere. "instances" are
+// the scene's, by name. Point and spot lights require a position, spot and directional lights a direction. "range" is another name of "radius". An unknown field of
 // a light or an instance is an error that names the nearest one. A light with "rgb255" is from a Red Eclipse
 // map: a point light with colour rgb255 / 255 and radiant intensity (radius / 2)^2 candela, 1 lux at half the
 // radius; radius 0 gives the intensity of 16 m. Throws Error(input) that names the file, the light and the

@@ -42,12 +42,13 @@ Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits&
   scene.materials = gltf::read_materials(doc, nodes);
   if (has_channels(rig)) rig.nodes = gltf::rig_nodes(doc, nodes);
   const std::vector<int> node_of_instance = gltf::add_meshes(doc, nodes, scene, rig);
-  std::vector<GroupLists> groups;
-  scene.lights = gltf::read_lights(doc, nodes, groups, rig);
+  GivenByFile given{{}, {}, gltf::property_files(path, limits.files_anywhere)};
+  scene.lights = gltf::read_lights(doc, nodes, given, rig);
   scene.has_own_lights = std::ranges::any_of(nodes, [&](const gltf::PlacedNode& placed) {
     return gltf::find_extension(doc.model.nodes[size_t(placed.node)].extensions, "KHR_lights_punctual");
   });
-  compile_groups(scene, groups, gltf::groups_of_instances(doc, node_of_instance));
+  given.instances = gltf::properties_of_instances(doc, node_of_instance);
+  apply_properties(scene, given);
   scene.cameras = gltf::read_cameras(doc, nodes);
   gltf::keep_used_materials(scene);
   gltf::add_textures(doc, scene);

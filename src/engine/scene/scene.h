@@ -14,6 +14,7 @@
 
 #include "base/world_box.h"
 #include "scene/material_model.h"
+#include "scene/properties.h"
 
 namespace lightgrid {
 
@@ -106,16 +107,13 @@ glm::vec3 dielectric_f0(const Material& material);
 // incidence. Unlit materials have none, nor have materials that are all metal.
 bool has_specular(const Material& material);
 
-// Light groups (scene/light_groups.h): a light lights an instance where their masks share a bit.
-inline constexpr uint32_t all_groups = 0xffffffffu;
-
 struct Instance {
   std::string name;  // the node's
   int mesh = 0;
   glm::dmat4 world_from_object{1};
   int node = -1;             // node of the rig that moves it; -1: static
   bool casts_shadow = true;  // false: hides no light, such as the surface of a lamp around its light
-  uint32_t groups = all_groups;
+  Properties properties{};   // those of effects
 };
 
 enum class LightType { point, spot, directional };
@@ -138,8 +136,8 @@ struct Light {
   // that counts as if it were no nearer than nearest_m.
   bool is_virtual = false;
   float nearest_m = 0;
-  float source_m = -1;  // soft shadows are those of a sphere of this radius; below 0: of the setting's
-  uint32_t groups = all_groups;
+  float source_m = -1;      // soft shadows are those of a sphere of this radius; below 0: of the setting's
+  Properties properties{};  // those of effects
   bool operator==(const Light&) const = default;
 };
 

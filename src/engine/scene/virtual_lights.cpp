@@ -137,7 +137,7 @@ std::vector<Light> virtual_lights_of(const std::vector<ReflectedView>& views,
     const Rows::Pick at = rows.pick(fraction((double(i) + 0.5) / count + shift),
                                     fraction(radical_inverse(uint32_t(i)) + column_shift));
     const ReflectedPixel& p = *at.pixel;
-    light.groups = at.of->groups;
+    light.properties = at.of->properties;
     const View& view = at.of->view;
     const double of_pixel = rows.sum() / (weight_of(p) * count);  // the light's flux over the pixel's
     const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));

@@ -40,7 +40,7 @@ struct ReflectedPixel {
 struct ReflectedView {
   View view;
   std::vector<ReflectedPixel> pixels;  // row 0 at the bottom
-  uint32_t groups = all_groups;        // the light's: its reflections light the same instances
+  Properties properties{};             // of the light, as far as its reflections have them
 };
 
 // `count` lights, each with an equal part of the flux that all pixels reflect together (sum of its channels):

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/image.h"
 #include "base/version.h"
+#include "scene/property_rows.h"
 
 namespace lightgrid {
 namespace {
@@ -199,19 +200,15 @@ class Writer {
     add("KHR_materials_clearcoat", coat);
   }
 
-  static void add_groups(uint32_t groups, json& node) {
-    if (groups == all_groups) return;
-    json& list = node["extras"]["lightgrid"]["light_groups"] = json::array();
-    for (int group = 0; group < 32; ++group) {
-      if (groups >> group & 1) list.push_back(group);
-    }
+  static void add_properties(const Properties& properties, json& node) {
+    if (!properties.values().empty()) write_properties(properties, true, node["extras"]["lightgrid"]);
   }
 
   void add_instance(const Instance& instance) {
     json node = {{"name", instance.name}, {"mesh", instance.mesh}};
     node["matrix"] = matrix_json(instance.world_from_object);
     if (!instance.casts_shadow) node["extras"]["lightgrid"]["casts_shadow"] = false;
-    add_groups(instance.groups, node);
+    add_properties(instance.properties, node);
     root_["nodes"].push_back(node);
   }
 
@@ -238,7 +235,7 @@ class Writer {
     json node = {{"name", light.name}};
     node["extensions"]["KHR_lights_punctual"]["light"] = lights.size() - 1;
     node["matrix"] = matrix_json(placed(light));
-    add_groups(light.groups, node);
+    add_properties(light.properties, node);
     root_["nodes"].push_back(node);
   }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "scene/light_groups.h"
 #include "scene/random.h"
 #include "scenes/builtin.h"
 #include "scenes/compose.h"
@@ -53,7 +54,7 @@ class Rooms {
   void place(int room, const std::string& name, Mesh mesh, int material) {
     add_instance(scene_, std::string(room_names[room]) + " " + name,
                  add_mesh(scene_, shapes::finished(std::move(mesh), name, material)));
-    scene_.instances.back().groups = group(room);
+    set_groups(scene_.instances.back(), group(room));
   }
 
   // A slab along x (or z) from `low`, with a doorway in its middle.
@@ -140,9 +141,9 @@ class Rooms {
       const glm::vec3 color = glm::mix(lamp_colors[size_t(room)], glm::vec3(1), random.uniform(0.0f, 0.3f));
       Light& light = add_point(scene_, name + " lamp " + std::to_string(i), position, color,
                                random.uniform(0.9f, 1.8f), random.uniform(3.5f, 5.5f));
-      light.groups = group(room);
+      set_groups(light, group(room));
       add_lamp(scene_, name + " bulb " + std::to_string(i), mesh, placed(position));
-      scene_.instances.back().groups = group(room);
+      set_groups(scene_.instances.back(), group(room));
     }
   }
 
@@ -156,12 +157,12 @@ class Rooms {
                                                {0.16f, 1.74f},           {0.10f, 1.86f}, {0.01f, 1.90f}};
     shapes::add_lathe(figure, foot, profile, 20);
     place(figure_room, "figure", std::move(figure), marble);
-    scene_.instances.back().groups = group(figure_room) | figure_group;
+    set_groups(scene_.instances.back(), group(figure_room) | figure_group);
     const glm::vec3 from[3] = {{-1.6f, 2.7f, 1.5f}, {1.7f, 2.5f, 1.3f}, {0.2f, 2.8f, -2.0f}};
     for (int i = 0; i < 3; ++i) {
       Light& key = add_spot(scene_, "figure key " + std::to_string(i), foot + from[i],
                             foot + glm::vec3(0, 1.2f, 0), {1, 0.86f, 0.7f}, i == 2 ? 9.0f : 6.0f, 5, 12, 26);
-      key.groups = figure_group;
+      set_groups(key, figure_group);
     }
   }
 
@@ -172,7 +173,7 @@ class Rooms {
     moon.direction = glm::normalize(glm::vec3(-0.4f, -1, 0.35f));
     moon.color = {0.6f, 0.75f, 1};
     moon.intensity = 0.5f;
-    moon.groups = group(court);
+    set_groups(moon, group(court));
     scene_.lights.push_back(moon);
   }
 

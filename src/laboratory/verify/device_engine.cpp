@@ -12,6 +12,7 @@
 #include "passes/read_outs.h"
 #include "passes/surfaces.h"
 #include "plan/settings/grid.h"
+#include "scene/light_groups.h"
 #include "techniques/technique.h"
 #include "verify/engine.h"
 
@@ -270,7 +271,7 @@ class DeviceEngine : public CullEngine {
   static std::vector<uint32_t> groups_shown(RenderView& v, const Frame& frame) {
     std::vector<uint32_t> groups;
     const auto add = [&](int instance) {
-      groups.push_back(instance < 0 ? 0 : v.scene.instances[size_t(instance)].groups);
+      groups.push_back(instance < 0 ? 0 : groups_of(v.scene.instances[size_t(instance)]));
     };
     if (!frame.triangles) {
       for (const SceneTriangle& triangle : read_triangles(v).opaque) add(triangle.instance);

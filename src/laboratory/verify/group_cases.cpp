@@ -72,10 +72,10 @@ Settings settings_of(const Way& way) {
 // Nobody has groups, and the lights are dark that share none with `groups`.
 Scene alone(Scene scene, uint32_t groups) {
   for (Light& light : scene.lights) {
-    if (!groups_meet(light.groups, groups)) light.intensity = 0;
-    light.groups = all_groups;
+    if (!groups_meet(groups_of(light), groups)) light.intensity = 0;
+    set_groups(light, all_groups);
   }
-  for (Instance& instance : scene.instances) instance.groups = all_groups;
+  for (Instance& instance : scene.instances) set_groups(instance, all_groups);
   return scene;
 }
 
@@ -94,7 +94,7 @@ uint64_t entries_outside(const Scene& scene, const View& view, const GroupImage&
     const size_t cell = image.lists.cell_of_pixel[i];
     for (uint32_t k = 0; k < image.lists.count[cell]; ++k) {
       const int light = image.lights[image.lists.indices[image.lists.first[cell] + k]];
-      outside += !groups_meet(scene.lights[size_t(light)].groups, of_tiles[tile_of(i)]);
+      outside += !groups_meet(groups_of(scene.lights[size_t(light)]), of_tiles[tile_of(i)]);
     }
   }
   return outside;
@@ -121,7 +121,7 @@ void groups_shown(Check& c, Scene scene, const std::vector<View>& views,
                   const std::vector<Way>& ways = every_way(), size_t max_masks = 4) {
   for (Light& light : scene.lights) light.casts_shadow = false;
   std::set<uint32_t> masks;
-  for (const Instance& instance : scene.instances) masks.insert(instance.groups);
+  for (const Instance& instance : scene.instances) masks.insert(groups_of(instance));
   while (masks.size() > max_masks) masks.erase(std::next(masks.begin(), long(masks.size() / 2)));
   bool drawn = false;
   for (const Way& way : ways) {
@@ -169,16 +169,16 @@ Scene strips(const std::vector<uint32_t>& masks, float across = 4) {
   const float each = across / float(masks.size());
   for (size_t i = 0; i < masks.size(); ++i) {
     const float x = -0.5f * across + each * float(i);
-    add_triangles(scene, quad_of({x, -1.2f, 0.2f * float(i % 3)}, {each, 0, 0}, {0, 2.4f, 0})).groups =
-        masks[i];
+    set_groups(add_triangles(scene, quad_of({x, -1.2f, 0.2f * float(i % 3)}, {each, 0, 0}, {0, 2.4f, 0})),
+               masks[i]);
   }
-  add_triangles(scene, quad_of({-3, -2, -1}, {6, 0, 0}, {0, 4, 0})).groups = masks.front();
+  set_groups(add_triangles(scene, quad_of({-3, -2, -1}, {6, 0, 0}, {0, 4, 0})), masks.front());
   return scene;
 }
 
 Light& add_grouped(Scene& scene, const dvec3& position, uint32_t groups, float radius_m = 2.5f) {
   Light& light = add_lamp(scene, position, radius_m);
-  light.groups = groups;
+  set_groups(light, groups);
   return light;
 }
 
@@ -186,7 +186,7 @@ void add_sun(Scene& scene, const glm::vec3& direction, uint32_t groups) {
   Light sun;
   sun.name = "sun";
   sun.type = LightType::directional;
-  sun.groups = groups;
+  set_groups(sun, groups);
   sun.direction = glm::normalize(direction);
   sun.intensity = 0.4f;
   scene.lights.push_back(sun);
@@ -244,7 +244,7 @@ void single_pixels(Check& c) {
   for (const glm::ivec2 size : {glm::ivec2(61, 43), {16, 16}, {33, 17}, {1, 1}}) {
     const View view = of_strips(size.x, size.y);
     Scene scene = empty_shadow_scene();
-    add_triangles(scene, quad_of({-6, -4, 0}, {12, 0, 0}, {0, 8, 0})).groups = 1;
+    set_groups(add_triangles(scene, quad_of({-6, -4, 0}, {12, 0, 0}, {0, 8, 0})), 1);
     const dvec3 right = glm::transpose(glm::dmat3(view.view_from_world))[0],
                 up = glm::transpose(glm::dmat3(view.view_from_world))[1],
                 ahead = -glm::transpose(glm::dmat3(view.view_from_world))[2];
@@ -260,7 +260,7 @@ void single_pixels(Check& c) {
         const dvec3 at = view.eye + 2.5 * (ahead + slope_x * right + slope_y * up);
         ShadowTriangles quad = quad_of(glm::vec3(at - 2.5 * half * (right + up)), glm::vec3(5 * half * right),
                                        glm::vec3(5 * half * up));
-        add_triangles(scene, quad).groups = 1u << (1 + count++ % 31);
+        set_groups(add_triangles(scene, quad), 1u << (1 + count++ % 31));
       }
     }
     for (int i = 0; i < 32; ++i) add_grouped(scene, {-1.5 + 0.1 * i, 0.4 * (i % 3) - 0.4, 1.2}, 1u << i, 6);
@@ -274,7 +274,7 @@ void around_256_masks(Check& c) {
     std::vector<uint32_t> masks;
     for (uint32_t i = 0; i < count; ++i) masks.push_back(1 + i * 3);
     Scene scene = strips(masks);
-    scene.instances.back().groups = masks.front();
+    set_groups(scene.instances.back(), masks.front());
     for (int i = 0; i < 10; ++i) add_grouped(scene, {-1.8 + 0.4 * i, 0, 0.9}, 1u << i);
     groups_shown(c, scene, {of_strips(241, 43)}, numbered_ways(), 6);
     if (count > 256) continue;
@@ -288,8 +288,8 @@ void around_256_masks(Check& c) {
 void at_one_depth(Check& c) {
   Scene scene = empty_shadow_scene();
   for (const uint32_t mask : {1u, 2u, 4u}) {
-    add_triangles(scene, quad_of({-2, -1, 0}, {4, 0, 0}, {0, 2, 0})).groups = mask;
-    add_triangles(scene, quad_of({-1, -0.5f, 0}, {1, 0, 0}, {0, 1, 0})).groups = mask << 3;
+    set_groups(add_triangles(scene, quad_of({-2, -1, 0}, {4, 0, 0}, {0, 2, 0})), mask);
+    set_groups(add_triangles(scene, quad_of({-1, -0.5f, 0}, {1, 0, 0}, {0, 1, 0})), mask << 3);
   }
   for (int i = 0; i < 6; ++i) add_grouped(scene, {-1.5 + 0.6 * i, 0, 0.7}, 1u << i, 3);
   groups_shown(c, scene, {of_strips(), shadow_view({0.5, 0.4, -3}, {0, 0, 0}, 61, 43)});
@@ -298,10 +298,11 @@ void at_one_depth(Check& c) {
 // Sky has no groups, also beside surfaces and after a view that is full of them.
 void sky_has_none(Check& c) {
   Scene scene = empty_shadow_scene();
-  add_triangles(scene, quad_of({40, -1, 0}, {1, 0, 0}, {0, 2, 0})).groups = 1;  // number 0, out of view
+  set_groups(add_triangles(scene, quad_of({40, -1, 0}, {1, 0, 0}, {0, 2, 0})), 1);  // number 0, out of view
   for (int i = 0; i < 5; ++i)
-    add_triangles(scene, box_of({-1.8f + 0.8f * float(i), -0.2f, 0}, {-1.7f + 0.8f * float(i), 0.1f, 0.1f}))
-        .groups = 2u << i;
+    set_groups(add_triangles(
+                   scene, box_of({-1.8f + 0.8f * float(i), -0.2f, 0}, {-1.7f + 0.8f * float(i), 0.1f, 0.1f})),
+               2u << i);
   for (int i = 0; i < 12; ++i) add_grouped(scene, {-1.8 + 0.33 * i, 0, 0.5}, 1u << i % 6, 1.5f);
   groups_shown(c, scene,
                {of_strips(), shadow_view({0, 0.2, 0.6}, {0, 0, 0}, 61, 43),
@@ -338,14 +339,17 @@ void random_masks(Check& c) {
     Scene scene = strips(masks);
     for (uint64_t i = random.next() % 6; i > 0; --i) {
       const dvec3 at = in_cube(random, 1.2);
-      add_triangles(scene, box_of(glm::vec3(at), glm::vec3(at) + random.uniform(0.05f, 0.6f))).groups =
-          mask();
+      const uint32_t own = mask();
+      set_groups(add_triangles(scene, box_of(glm::vec3(at), glm::vec3(at) + random.uniform(0.05f, 0.6f))),
+                 own);
     }
     for (uint64_t i = 1 + random.next() % 12; i > 0; --i)
       add_grouped(scene, in_cube(random, 1.5), mask(), random.uniform(0.3f, 4));
-    for (uint64_t i = random.next() % 3; i > 0; --i)
-      add_spot_lamp(scene, in_cube(random, 2), in_cube(random, 0.5), random.uniform(0.1f, 1.4f)).groups =
-          mask();
+    for (uint64_t i = random.next() % 3; i > 0; --i) {
+      const uint32_t own = mask();
+      set_groups(add_spot_lamp(scene, in_cube(random, 2), in_cube(random, 0.5), random.uniform(0.1f, 1.4f)),
+                 own);
+    }
     for (uint64_t i = random.next() % 3; i > 0; --i)
       add_sun(scene, {random.uniform(-1, 1), -0.7f, random.uniform(-1, 0)}, mask());
     std::vector<Way> ways = {every_way()[seed % every_way().size()], {"visibility", "", true}};

@@ -442,5 +442,32 @@ TEST_P(CScenes, FromArraysAreDrawnAsTheirCppTwinsAndFollowWhatMoves) {
 
 INSTANTIATE_TEST_SUITE_P(Of, CScenes, testing::Values("visibility", "forward_plus", "world_grid"));
 
+TEST(CScenes, HaveThePropertiesOfLightsFiles) {
+  const SmallScene small = small_scene();
+  const OwnedScene scene = in_c(small.scene, {});
+  std::vector<lightgrid_light> lights = lamps_of(small.scene);
+  const auto properties = [&] {
+    char* json = nullptr;
+    must(lightgrid_scene_get_light_properties(scene.get(), 1, &json));
+    const std::string text = json;
+    lightgrid_free(json);
+    return text;
+  };
+  must(lightgrid_scene_set_lights(scene.get(), lights.data(), lights.size()));
+  EXPECT_EQ(properties(), "{}");
+  must(lightgrid_scene_set_light_properties(scene.get(), 1, R"({"groups": ["kitchen", 3]})"));
+  EXPECT_EQ(properties(), R"({"groups":[0,3]})");
+  size_t count = 0;
+  must(lightgrid_scene_get_lights(scene.get(), lights.data(), lights.size(), &count));
+  EXPECT_EQ(lights[1].groups, 9u);
+  lights[1].groups = 4;
+  must(lightgrid_scene_set_lights(scene.get(), lights.data(), lights.size()));
+  EXPECT_EQ(properties(), R"({"groups":[2]})");
+  EXPECT_EQ(lightgrid_scene_set_light_properties(scene.get(), 1, R"({"groups": [32]})"), LIGHTGRID_INPUT);
+  EXPECT_STREQ(lightgrid_error_message(),
+               "light 1: groups [32] is not a list of names and whole numbers from 0 to 31");
+  EXPECT_STREQ(lightgrid_error_field(), "groups");
+}
+
 }  // namespace
 }  // namespace lightgrid::app

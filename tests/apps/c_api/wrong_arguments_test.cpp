@@ -221,6 +221,11 @@ TEST(CErrors, AreWhatNullGives) {
   expect_wrong(lightgrid_scene_set_lights(scene.get(), nullptr, 1), "lights");
   expect_wrong(lightgrid_scene_get_lights(scene.get(), nullptr, 1, &count), "lights");
   expect_wrong(lightgrid_scene_get_lights(scene.get(), nullptr, 0, nullptr), "count");
+  expect_wrong(lightgrid_scene_set_light_properties(scene.get(), 0, nullptr), "json");
+  expect_wrong(lightgrid_scene_set_light_properties(nullptr, 0, "{}"), "scene");
+  expect_wrong(lightgrid_scene_set_light_properties(scene.get(), 9, "{}"), "light");
+  expect_wrong(lightgrid_scene_set_light_properties(scene.get(), 0, "[]"), "json");
+  expect_wrong(lightgrid_scene_get_light_properties(scene.get(), 0, nullptr), "json");
   expect_wrong(lightgrid_scene_camera(scene.get(), nullptr, NAN, &camera), "aspect");
   expect_wrong(lightgrid_scene_camera(scene.get(), nullptr, 1, nullptr), "camera");
   expect_wrong(lightgrid_view_open(nullptr, scene.get(), nullptr, nullptr, &opened), "device");

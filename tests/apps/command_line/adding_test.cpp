@@ -13,6 +13,7 @@
 #include "effects/effects.h"
 #include "measures/error_measures.h"
 #include "scene/light_readers.h"
+#include "scene/property_rows.h"
 #include "support/paths.h"
 #include "support/read_files.h"
 #include "techniques/technique.h"
@@ -93,21 +94,11 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
       // Points and sequences that have it by choice.
       {"src/laboratory/frontier/points.cpp", {"far_light"}},
       {"src/laboratory/verify/hunt_sequences.cpp", {"far_light"}},
-      // Groups are properties of lights and instances in files, and in the scene.
+      // The scene has the names of groups, and lightgrid_light the mask.
       {"src/engine/scene/scene.h", {"light_groups"}},
-      {"src/engine/scene/lights_file.cpp", {"light_groups"}},
-      {"src/engine/scene/load_gltf.cpp", {"light_groups"}},
-      {"src/engine/scene/write_gltf.cpp", {"light_groups"}},
-      {"src/engine/scene/gltf/extras.cpp", {"light_groups"}},
-      {"src/engine/scene/gltf/extras.h", {"light_groups"}},
-      {"src/engine/scene/gltf/lights.cpp", {"light_groups"}},
-      {"src/engine/scene/gltf/nodes.h", {"light_groups"}},
-      {"src/engine/scene/virtual_lights.cpp", {"light_groups"}},
-      {"src/engine/scene/virtual_lights.h", {"light_groups"}},
       {"src/apps/c_api/scene.cpp", {"light_groups"}},
       // A scene that has them, and hard cases.
       {"src/engine/scenes/rooms.cpp", {"light_groups"}},
-      {"src/engine/run/virtual_lights.cpp", {"light_groups"}},
       {"src/laboratory/verify/device_engine.cpp", {"light_groups"}},
       {"src/laboratory/verify/group_cases.cpp", {"light_groups"}},
       // lidr's groups of lights that do not touch.
@@ -117,8 +108,8 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
   // Names of its data.
   const std::map<std::string, std::vector<std::string>> data = {
       {"light_groups",
-       {"all_groups", "group_names", "GroupLists", "compile_groups", "light.groups", "instance.groups",
-        "].groups", "back().groups", "of->groups", "max_groups"}}};
+       {"all_groups", "group_names", "GroupLists", "compile_groups", "groups_of(", "set_groups(",
+        "group_masks", "max_groups"}}};
   const std::string table = code_of(text_at("src/engine/effects/effects.cpp"));
   for (const Effect* effect : all_effects) {
     const std::string name = effect->name, key = without_underscores(name, "-");
@@ -147,6 +138,22 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
   }
   EXPECT_THAT(differences(others, expected), IsEmpty());
   for (const auto& [name, files] : own) EXPECT_LE(files, 5u) << name;
+}
+
+// Its row, from which all readers and writers of files follow.
+TEST(Adding, APropertyOfLightsTakesOneRow) {
+  std::map<std::string, std::vector<std::string>> texts;
+  std::map<std::string, size_t> files_of;
+  for (const PropertyRow& row : property_rows()) {
+    const PropertyKey& key = row.keys.front();
+    texts[key.key] = {'"' + key.key + '"'};
+  }
+  ASSERT_TRUE(texts.contains("groups"));
+  for (const auto& [file, keys] : files_that_name({"src"}, texts)) {
+    if (file == "src/apps/c_api/lightgrid.h") continue;  // an example
+    for (const std::string& key : keys) ++files_of[key];
+  }
+  for (const auto& [key, own] : texts) EXPECT_EQ(files_of[key], 1u) << key;
 }
 
 // Without an oracle an effect that is wrong would pass: techniques would only be compared with each other.

@@ -1,4 +1,5 @@
 // extras.lightgrid of scenes, nodes and lights, the old places of its fields, and other programs' extras.
+#include "scene/light_groups.h"
 #include "support/gltf_builder.h"
 
 namespace lightgrid {
@@ -92,7 +93,7 @@ TEST(GltfExtras, the_old_places_are_read_with_a_warning) {
   EXPECT_THAT(warnings_of([&] { scene = lit_triangle(of_light, {}).load(); }), HasSubstr("light 0: extras."));
   EXPECT_TRUE(scene.lights.at(0).casts_shadow);
   EXPECT_EQ(scene.lights.at(0).source_m, 0.5f);
-  EXPECT_EQ(scene.lights.at(0).groups, 1u << 2);
+  EXPECT_EQ(groups_of(scene.lights.at(0)), 1u << 2);
   json both = own({{"casts_shadow", false}});
   both["casts_shadow"] = true;
   EXPECT_FALSE(lit_triangle(both, {}).load().lights.at(0).casts_shadow) << "the new place wins";
@@ -113,7 +114,7 @@ TEST(GltfExtras, other_programs_extras_are_ignored_silently) {
   EXPECT_THAT(warnings_of([&] { scene = lit_triangle(of_light, of_light).load(); }), IsEmpty());
   EXPECT_FALSE(scene.lights.at(0).casts_shadow);
   EXPECT_LT(scene.lights.at(0).source_m, 0);
-  EXPECT_EQ(scene.lights.at(0).groups, all_groups);
+  EXPECT_EQ(groups_of(scene.lights.at(0)), all_groups);
   EXPECT_TRUE(scene.instances.at(0).casts_shadow);
   for (const json& extras : {json("text"), json(3), json({1, 2}), json()}) {
     EXPECT_THAT(warnings_of([&] { with_scene_extras(extras).load(); }), IsEmpty());

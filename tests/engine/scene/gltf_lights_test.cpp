@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "scene/light_groups.h"
 #include "support/gltf_builder.h"
 #include "support/near.h"
 
@@ -194,7 +195,7 @@ TEST(GltfLights, a_light_of_an_unknown_type_is_left_out_with_a_warning) {
   Scene scene;
   EXPECT_THAT(warnings_of([&] { scene = made.load(); }), HasSubstr("light 0: type is \"area\""));
   ASSERT_EQ(scene.lights.size(), 1u);
-  EXPECT_EQ(scene.lights[0].groups, 1u << 2) << "the groups stay with their light";
+  EXPECT_EQ(groups_of(scene.lights[0]), 1u << 2) << "the groups stay with their light";
 }
 
 TEST(GltfLights, what_is_wrong_with_a_light_matters_only_if_a_node_has_it) {

@@ -42,7 +42,7 @@ std::vector<std::string> lit(const Scene& scene) {
   for (const Light& light : scene.lights) {
     std::string& row = rows.emplace_back();
     for (const Instance& instance : scene.instances)
-      row += groups_meet(light.groups, instance.groups) ? '1' : '0';
+      row += groups_meet(groups_of(light), groups_of(instance)) ? '1' : '0';
   }
   return rows;
 }
@@ -72,7 +72,7 @@ TEST(LightGroups, AreNotCalledForByASceneThatSaysNothing) {
   compile_groups(scene, {}, {});
   EXPECT_FALSE(calls_for_groups(scene));
   EXPECT_TRUE(scene.group_names.empty());
-  scene.instances[3].groups = all_groups >> 1;
+  set_groups(scene.instances[3], all_groups >> 1);
   EXPECT_TRUE(calls_for_groups(scene));
 }
 
@@ -80,12 +80,12 @@ TEST(LightGroups, NumbersKeepTheirBitsAndNamesTakeFreeOnes) {
   Scene scene = four_instances();
   compile_groups(scene, {of(0, R"(["den", 31])"), of(1, "0"), of(2, R"("yard, den")")},
                  {of(3, R"(["yard"])")});
-  EXPECT_EQ(scene.lights[1].groups, 1u);
-  EXPECT_EQ(scene.instances[3].groups, 2u) << "yard: 0 is taken by its number";
-  EXPECT_EQ(scene.lights[0].groups, 1u << 31 | 1u << 2);
-  EXPECT_EQ(scene.lights[2].groups, 2u | 4u);
+  EXPECT_EQ(groups_of(scene.lights[1]), 1u);
+  EXPECT_EQ(groups_of(scene.instances[3]), 2u) << "yard: 0 is taken by its number";
+  EXPECT_EQ(groups_of(scene.lights[0]), 1u << 31 | 1u << 2);
+  EXPECT_EQ(groups_of(scene.lights[2]), 2u | 4u);
   EXPECT_THAT(lit(scene), ElementsAre("1110", "1110", "1111"));
-  EXPECT_EQ(words_of_groups(scene, scene.lights[0].groups), "den and 31");
+  EXPECT_EQ(words_of_groups(scene, groups_of(scene.lights[0])), "den and 31");
 }
 
 TEST(LightGroups, AnEmptyListIsNoGroup) {
@@ -102,7 +102,8 @@ TEST(LightGroups, ListsOfInstancesCompileToMasks) {
   lists[1] = {.owner = 1, .where = "fill", .groups = {}, .include = {}, .exclude = {{"wall"}}};
   compile_groups(scene, lists, {});
   EXPECT_THAT(lit(scene), ElementsAre("1001", "1001", "1111")) << "a light without a list lights all";
-  EXPECT_EQ(scene.lights[0].groups, scene.lights[1].groups) << "lists of the same instances share a group";
+  EXPECT_EQ(groups_of(scene.lights[0]), groups_of(scene.lights[1]))
+      << "lists of the same instances share a group";
 }
 
 TEST(LightGroups, ListsAndGroupsOfInstancesGoTogether) {
@@ -110,7 +111,7 @@ TEST(LightGroups, ListsAndGroupsOfInstancesGoTogether) {
   const GroupLists key{.owner = 0, .where = "key", .groups = {}, .include = {{"vase"}}, .exclude = {}};
   compile_groups(scene, {key, of(1, R"(["stage"])")}, {of(1, R"(["stage"])"), of(3, R"(["stage"])")});
   EXPECT_THAT(lit(scene), ElementsAre("0001", "1111", "1111")) << "others than node 1 have every other group";
-  EXPECT_EQ(scene.instances[1].groups, 1u) << "stage alone";
+  EXPECT_EQ(groups_of(scene.instances[1]), 1u) << "stage alone";
 }
 
 TEST(LightGroups, RefusalsNameWhoIsMeant) {
@@ -169,8 +170,8 @@ TEST_F(LightGroupFiles, ALightsFileGivesGroupsToLightsAndInstances) {
 
 TEST_F(LightGroupFiles, MasksAreWrittenAsNumbersAndReadBack) {
   Scene scene = four_instances();
-  scene.lights[0].groups = 1u << 31 | 5u;
-  scene.lights[1].groups = 0;
+  set_groups(scene.lights[0], 1u << 31 | 5u);
+  set_groups(scene.lights[1], 0);
   for (Light& light : scene.lights) light.position = {1, 2, 3};
   const std::vector<Light> before = scene.lights;
   load(scene, lights_file_text(before));
@@ -190,7 +191,7 @@ TEST_F(LightGroupFiles, FaultsNameFileAndOwner) {
   EXPECT_THAT(fault(R"({"lights": [{"position": [0, 0, 0], "groups": 1.5}]})"),
               HasSubstr("light_groups.json: light 0: groups 1.5 is not a list of names and whole numbers"));
   EXPECT_THAT(fault(R"({"lights": [{"position": [0, 0, 0], "groups": [40]}]})"),
-              HasSubstr("light_groups.json: light 0: group 40"));
+              HasSubstr("light 0: groups [40] is not a list of names and whole numbers from 0 to 31"));
   EXPECT_THAT(fault(R"({"lights": [], "instances": [{"name": "door", "groups": [1]}]})"),
               HasSubstr("instance 0 \"door\": no node of this name shows a mesh"));
   EXPECT_THAT(fault(R"({"lights": [], "instances": 3})"), HasSubstr("instances is number, not an array"));
@@ -204,11 +205,11 @@ TEST(GltfLightGroups, ExtrasOfNodesAndLightsAreRead) {
   made.node()["extras"]["lightgrid"]["light_groups"] = "a";
   made.node()["extensions"]["KHR_lights_punctual"]["light"] = 0;
   const Scene own = made.load();
-  EXPECT_EQ(own.lights.at(0).groups, 1u) << "a node's win over its light's";
-  EXPECT_EQ(own.instances.at(0).groups, 1u);
+  EXPECT_EQ(groups_of(own.lights.at(0)), 1u) << "a node's win over its light's";
+  EXPECT_EQ(groups_of(own.instances.at(0)), 1u);
   made.node()["extras"] = json::object();
-  EXPECT_EQ(made.load().lights.at(0).groups, 1u | 1u << 4);
-  EXPECT_EQ(made.load().instances.at(0).groups, all_groups);
+  EXPECT_EQ(groups_of(made.load().lights.at(0)), 1u | 1u << 4);
+  EXPECT_EQ(groups_of(made.load().instances.at(0)), all_groups);
   made.node()["extras"]["lightgrid"]["light_groups"] = {{"not", "a list"}};
   EXPECT_THROW(made.load(), Error);
 }

@@ -5,6 +5,7 @@
 #include "plan/frame_plan.h"
 #include "plan/settings/kernels.h"
 #include "plan/settings/model.h"
+#include "scene/light_groups.h"
 #include "scene/random.h"
 #include "support/small_scene.h"
 #include "techniques/lidr_scenes.h"
@@ -258,6 +259,12 @@ TEST(FarLight, IsNothingWhereNoLightEnds) {
     TechniqueRun run(test_devices(), scene, view, with, find_technique("visibility"));
     EXPECT_EQ(fills(run), 0);
     EXPECT_TRUE(identical(run.image(), render(scene, view, "visibility", without)));
+    with.set(setting::everything_on, true);
+    EXPECT_EQ(plan_frame(scene, view, with, find_technique("visibility").needs).effects.size(),
+              range == LightRange::infinite ? 2u : 1u)
+        << "far light and light groups";
+    for (const char* technique : {"visibility", "forward"})
+      EXPECT_TRUE(identical(render(scene, view, technique, with), render(scene, view, technique, without)));
   }
   const Scene dark = small_scene(false).scene;
   EXPECT_TRUE(
@@ -267,9 +274,9 @@ TEST(FarLight, IsNothingWhereNoLightEnds) {
 // The volume's light belongs to no surface, so that a light of some surfaces alone keeps its end.
 TEST(FarLight, LeavesOutLightsOfAGroup) {
   SmallScene s = small_scene();
-  for (Light& light : s.scene.lights) light.groups = 1;
-  s.scene.instances[0].groups = 2;
-  s.scene.instances[1].groups = 1;
+  for (Light& light : s.scene.lights) set_groups(light, 1);
+  set_groups(s.scene.instances[0], 2);
+  set_groups(s.scene.instances[1], 1);
   const View view = small_view(47, 31);
   EXPECT_TRUE(identical(render(s.scene, view, "visibility", with_far_light(512, 2)),
                         render(s.scene, view, "visibility", with_far_light(0, 2))));

@@ -7,6 +7,7 @@
 #include "plan/settings/grid.h"
 #include "plan/settings/masks.h"
 #include "plan/settings/shadows.h"
+#include "scene/light_groups.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
 
@@ -106,8 +107,8 @@ TEST_P(GroupWays, DifferFromForwardAsLittleAsWithoutGroups) {
   const auto& [technique, settings] = GetParam().all.front();
   const Scene scene = rooms();
   Scene without = scene;
-  for (Light& light : without.lights) light.groups = all_groups;
-  for (Instance& instance : without.instances) instance.groups = all_groups;
+  for (Light& light : without.lights) set_groups(light, all_groups);
+  for (Instance& instance : without.instances) set_groups(instance, all_groups);
   const View view = view_of(scene, "doors");
   const auto error = [&](const Scene& of) {
     return compare_images(render(of, view, technique, assigned(settings)), render(of, view, "forward"));
@@ -135,7 +136,7 @@ TEST(LightGroups, ArePlannedWithTheirWitness) {
 TEST(SurfaceNumbers, DifferentMasksAreNumberedOnce) {
   Scene scene;
   scene.instances.resize(4);
-  scene.instances[1].groups = scene.instances[3].groups = 5;
+  for (const size_t i : {1, 3}) set_groups(scene.instances[i], 5);
   const MaskPlan masks = plan_masks(scene, all_effects, {}, {}, true, {});
   EXPECT_THAT(masks.values, testing::ElementsAre(all_groups, 5u));
   EXPECT_THAT(masks.of_instance, testing::ElementsAre(0u, 1u, 0u, 1u));
@@ -169,7 +170,7 @@ size_t entries_outside(const Scene& scene, const char* technique, const std::str
       const size_t cell = lists.cell_of_pixel[pixel];
       for (uint32_t k = 0; k < lists.count[cell]; ++k) {
         const int light = run.view().plan.lights.local[lists.indices[lists.first[cell] + k]];
-        outside += !(scene.lights[size_t(light)].groups & groups[size_t(y / tile * across + x / tile)]);
+        outside += !(groups_of(scene.lights[size_t(light)]) & groups[size_t(y / tile * across + x / tile)]);
       }
     }
   }
@@ -202,10 +203,10 @@ TEST(TileMasks, MoreMasksThanNumbersAreRefusedByName) {
   for (int i = 0; i < 300; ++i) {
     add_instance(scene, "copy", scene.instances[1].mesh,
                  placed({0.1 * (i % 20) - 1, 0.1 * (i / 20) - 1, -3}));
-    scene.instances.back().groups = uint32_t(1 + i);
+    set_groups(scene.instances.back(), uint32_t(1 + i));
   }
-  scene.lights[0].groups = 1;
-  scene.lights[1].groups = 1 << 8;
+  set_groups(scene.lights[0], 1);
+  set_groups(scene.lights[1], 1 << 8);
   const View view = small_view(64, 48);
   for (const char* technique : {"deferred", "deferred_tiled", "light_prepass"}) {
     try {
@@ -229,9 +230,9 @@ TEST(TileMasks, MoreMasksThanNumbersAreRefusedByName) {
 TEST(TileMasks, OfSurfacesAtOneDepthAreTheShownOnes) {
   SmallScene s = small_scene();
   add_instance(s.scene, "wall again", s.wall);
-  s.scene.instances.back().groups = 2;
-  s.scene.instances[0].groups = 1;
-  for (size_t i = 0; i < s.scene.lights.size(); ++i) s.scene.lights[i].groups = i % 2 ? 1 : 2;
+  set_groups(s.scene.instances.back(), 2);
+  set_groups(s.scene.instances[0], 1);
+  for (size_t i = 0; i < s.scene.lights.size(); ++i) set_groups(s.scene.lights[i], i % 2 ? 1 : 2);
   const View view = small_view(rooms_width, rooms_height);
   const Image forward = render(s.scene, view, "forward");
   std::ranges::reverse(s.scene.instances);

@@ -1,4 +1,5 @@
 // Soft shadows of the pass against 1,024 rays a pair in double.
+#include "scene/light_groups.h"
 #include "support/soft_occlusion.h"
 
 #include <gtest/gtest.h>
@@ -320,12 +321,12 @@ TEST(PickedShadows, LightsOfOtherGroupsTakeNoPart) {
   Scene scene = soft_scene();
   Shaded alone(scene, "visibility", {"shadow-rays=1", "shadow-pick=16"});
   const std::vector<PickedPixel> pixels = picked_pixels(alone.run, scene, 4000, false);
-  for (Instance& instance : scene.instances) instance.groups = 1;
+  for (Instance& instance : scene.instances) set_groups(instance, 1);
   const size_t count = scene.lights.size();
   for (size_t i = 0; i < count; ++i) {
-    scene.lights[i].groups = 1;
+    set_groups(scene.lights[i], 1);
     Light other = scene.lights[i];
-    other.groups = 2;
+    set_groups(other, 2);
     other.intensity *= 10;
     other.position = scene.lights[(i + 1) % count].position + glm::dvec3(0.3, 0.5, 0);
     scene.lights.push_back(other);

@@ -14,6 +14,7 @@
 #include "plan/frame_plan.h"
 #include "plan/settings/grid.h"
 #include "plan/visibility.h"
+#include "scene/light_groups.h"
 #include "scene/random.h"
 #include "scenes/compose.h"
 #include "scenes/shapes.h"
@@ -179,8 +180,8 @@ TEST(LightLimits, ALightReachesAMeshAsTheEngineSays) {
   for (int i = 0; i < 9; ++i) level.spot({0, 0, -5}, {0, 1, -5}, 10);  // along the wall, 7 m before it
   EXPECT_EQ(result_of(level, "urp-forward/mesh").worst.counted, 9u);   // its range would reach it
   EXPECT_EQ(result_of(level, "godot-mobile/mesh").worst.counted, 0u);
-  for (Light& light : level.scene.lights) light.groups = 2;
-  level.scene.instances[0].groups = 1;
+  for (Light& light : level.scene.lights) set_groups(light, 2);
+  set_groups(level.scene.instances[0], 1);
   EXPECT_EQ(result_of(level, "urp-forward/mesh").worst.counted, 0u);
 }
 

@@ -6,6 +6,7 @@
 #include "oracle/attenuation.h"
 #include "oracle/lit_set.h"
 #include "oracle/shading.h"
+#include "scene/light_groups.h"
 #include "scene/light_tree.h"
 
 namespace lightgrid::lab {
@@ -74,9 +75,9 @@ TEST_F(EffectTerms, ADirectionalLightsPointIsItsDirection) {
 TEST_F(EffectTerms, MasksKeepLightsFromSurfaces) {
   look();
   EXPECT_EQ(mask_of(scene.lights[0]), full_mask);
-  set_reach_oracles({{.masks = {.of_light = [](const Light& light) { return light.groups; },
-                                .of_instance = [](const Instance& i) { return i.groups; }}}});
-  scene.lights[0].groups = 1u << 31 | 2;
+  set_reach_oracles({{.masks = {.of_light = [](const Light& light) { return groups_of(light); },
+                                .of_instance = [](const Instance& i) { return groups_of(i); }}}});
+  set_groups(scene.lights[0], 1u << 31 | 2);
   const std::vector<ViewLight> lights = lights_in_view(scene, view);
   EXPECT_EQ(light_reaches(lights[0], {0, 0, -1}, 1u << 31), 1);
   EXPECT_EQ(light_reaches(lights[0], {0, 0, -1}, 6), 1);

@@ -30,7 +30,11 @@ class ReportPage : public testing::Test {
     write_report(folder.path, report);
   }
   const TempFolder folder;
-  const CompareReport report = synthetic_report(34, 18);
+  const CompareReport report = [] {
+    CompareReport made = synthetic_report(34, 18);
+    made.rows[1].effects = {{"far_light", {{"samples", 480}}}};
+    return made;
+  }();
 };
 
 using testing::Each;
@@ -142,7 +146,9 @@ TEST_F(ReportPage, CopiesItsTables) {
   EXPECT_THAT(markdown[0], testing::StartsWith("| Technique | Frame, ms | Speed-up |"));
   EXPECT_THAT(markdown[1], testing::StartsWith("| --- | ---: | ---: |"));
   EXPECT_THAT(csv[0], testing::StartsWith("Technique,\"Frame, ms\",Speed-up,"));
+  EXPECT_THAT(csv[0], testing::EndsWith(",far light: samples")) << "figures of effects";
   EXPECT_THAT(csv, testing::Contains(testing::StartsWith("forward,2420,1,")));
+  EXPECT_THAT(csv, testing::Contains(testing::EndsWith(",480")).Times(1));
   EXPECT_THAT(markdown, testing::Contains(testing::StartsWith("| forward reference | 2,420 | 1.00")));
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <functional>
 
 #include <nlohmann/json.hpp>
 
@@ -68,21 +68,6 @@ bool read_source_radius(const json& value, PlacedExtras& out) {
   return true;
 }
 
-bool read_names(const json& value, GroupLists::Names& out) {
-  const GroupLists::Names names = names_of_groups(value);
-  if (names) out = names;
-  return names.has_value();
-}
-
-// compile_groups refuses these numbers too, but the old place must ignore them.
-bool read_groups(const json& value, GroupLists::Names& out) {
-  const auto is_number = [](const json& element) {
-    return !element.is_number() || (element.get<double>() >= 0 && element.get<double>() < max_groups);
-  };
-  if (!(value.is_array() ? std::ranges::all_of(value, is_number) : is_number(value))) return false;
-  return read_names(value, out);
-}
-
 bool read_text(const json& value, std::string& out) {
   if (value.is_string()) out = value.get<std::string>();
   return value.is_string();
@@ -91,27 +76,38 @@ bool read_text(const json& value, std::string& out) {
 // `read` leaves `Owner` unchanged and returns false if the value is not as required.
 template <typename Owner>
 struct Field {
-  const char* key;
-  const char* requirement;
-  bool (*read)(const json&, Owner&);
+  std::string key;
+  std::string requirement;
+  std::function<bool(const json&, Owner&)> read;
+  bool had_old_place = true;
 };
+template <typename Owner>
+using Fields = std::vector<Field<Owner>>;
 
 constexpr const char* radiance = "three finite numbers of 0 or more";
-constexpr Field<SceneExtras> scene_fields[] = {
+const Fields<SceneExtras> scene_fields = {
     {"samples", "1, 2, 4 or 8", read_samples},
     {"ambient", radiance, [](const json& v, SceneExtras& o) { return read_radiance(v, o.ambient); }},
     {"background", radiance, [](const json& v, SceneExtras& o) { return read_radiance(v, o.background); }}};
 
-constexpr const char* names = "a list of names and whole numbers";
-constexpr Field<PlacedExtras> placed_fields[] = {
-    {"casts_shadow", "true, false or a number", read_casts_shadow},
-    {"source_radius", "a number of 0 or more, in metres", read_source_radius},
-    {"light_groups", "a list of names and whole numbers from 0 to 31",
-     [](const json& v, PlacedExtras& o) { return read_groups(v, o.lists.groups); }},
-    {"light_include", names, [](const json& v, PlacedExtras& o) { return read_names(v, o.lists.include); }},
-    {"light_exclude", names, [](const json& v, PlacedExtras& o) { return read_names(v, o.lists.exclude); }}};
+Fields<PlacedExtras> placed_fields() {
+  Fields<PlacedExtras> fields = {{"casts_shadow", "true, false or a number", read_casts_shadow},
+                                 {"source_radius", "a number of 0 or more, in metres", read_source_radius}};
+  for (const PropertyRow& row : property_rows()) {
+    for (const PropertyKey& key : row.keys) {
+      fields.push_back({key.in_gltf, key.requirement,
+                        [&](const json& value, PlacedExtras& out) {
+                          if (!key.accepts(value, row.options)) return false;
+                          out.properties[key.key] = value;
+                          return true;
+                        },
+                        key.had_old_place});
+    }
+  }
+  return fields;
+}
 
-constexpr Field<MaterialExtras> material_fields[] = {
+const Fields<MaterialExtras> material_fields = {
     {"model", "a string", [](const json& v, MaterialExtras& o) { return read_text(v, o.model); }},
     {"subsurfaceColor", "three numbers",
      [](const json& v, MaterialExtras& o) { return read_three(v, o.subsurface_color); }},
@@ -120,15 +116,15 @@ constexpr Field<MaterialExtras> material_fields[] = {
     {"k", "a number", [](const json& v, MaterialExtras& o) { return read_optional_number(v, o.k); }}};
 
 template <typename Owner>
-std::vector<std::string> keys_of(std::span<const Field<Owner>> fields) {
+std::vector<std::string> keys_of(const Fields<Owner>& fields) {
   std::vector<std::string> keys;
   for (const Field<Owner>& field : fields) keys.push_back(field.key);
   return keys;
 }
 
 template <typename Owner>
-void read_own(const Reporter& report, const json& in, const std::string& place,
-              std::span<const Field<Owner>> fields, Owner& out) {
+void read_own(const Reporter& report, const json& in, const std::string& place, const Fields<Owner>& fields,
+              Owner& out) {
   if (!in.is_object()) throw report.error("{} is not an object", place);
   for (const auto& [key, value] : in.items()) {
     const auto field = std::ranges::find(fields, key, &Field<Owner>::key);
@@ -143,11 +139,11 @@ void read_own(const Reporter& report, const json& in, const std::string& place,
 // Returns whether any field was read.
 template <typename Owner>
 bool read_old_place(Reporter& report, const json& extras, const std::string& place,
-                    std::span<const Field<Owner>> fields, Owner& out) {
+                    const Fields<Owner>& fields, Owner& out) {
   bool any = false;
   for (const Field<Owner>& field : fields) {
     const auto value = extras.find(field.key);
-    if (value == extras.end() || !field.read(*value, out)) continue;
+    if (!field.had_old_place || value == extras.end() || !field.read(*value, out)) continue;
     report.warn("old extras",
                 "{}: extras.{} is read, but its place is now extras.lightgrid.{}: move it there, as other "
                 "programs use the same names",
@@ -160,7 +156,7 @@ bool read_old_place(Reporter& report, const json& extras, const std::string& pla
 // `kind`: of the owners, for messages.
 template <typename Owner>
 std::map<int, Owner> read_owners(Reporter& report, const json& owners, const char* kind,
-                                 std::span<const Field<Owner>> fields, bool had_old_place) {
+                                 const Fields<Owner>& fields, bool had_old_place) {
   std::map<int, Owner> out;
   for (size_t i = 0; i < owners.size(); ++i) {
     const auto extras = owners[i].find("extras");
@@ -205,8 +201,8 @@ Extras read_extras(Reporter& report, const json& root) {
   warn_of_unread(report, root);
   Extras out;
   out.scenes = read_owners<SceneExtras>(report, array_at(root, "scenes"), "scene", scene_fields, true);
-  out.nodes = read_owners<PlacedExtras>(report, array_at(root, "nodes"), "node", placed_fields, true);
-  out.lights = read_owners<PlacedExtras>(report, lights_of(root), "light", placed_fields, true);
+  out.nodes = read_owners<PlacedExtras>(report, array_at(root, "nodes"), "node", placed_fields(), true);
+  out.lights = read_owners<PlacedExtras>(report, lights_of(root), "light", placed_fields(), true);
   out.materials =
       read_owners<MaterialExtras>(report, array_at(root, "materials"), "material", material_fields, false);
   return out;

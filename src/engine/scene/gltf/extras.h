@@ -6,10 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "scene/gltf/reporter.h"
-#include "scene/light_groups.h"
+#include "scene/property_rows.h"
 
 namespace lightgrid::gltf {
 
@@ -22,8 +20,7 @@ struct SceneExtras {
 struct PlacedExtras {
   std::optional<bool> casts_shadow;
   std::optional<float> source_radius_m;
-  GroupLists lists;  // without owner and place
-  bool has_lists() const { return lists.groups || lists.include || lists.exclude; }
+  GivenFields properties;
 };
 
 struct MaterialExtras {

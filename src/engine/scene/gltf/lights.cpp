@@ -96,8 +96,8 @@ std::set<int> animated_lights(const Rig& rig) {
 
 }  // namespace
 
-std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes,
-                               std::vector<GroupLists>& groups, Rig& rig) {
+std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes, GivenByFile& given,
+                               Rig& rig) {
   const std::set<int> animated = animated_lights(rig);
   std::vector<Light> out;
   for (size_t i = 0; i < nodes.size(); ++i) {
@@ -125,27 +125,22 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
     else if (light.type != LightType::point)
       throw doc.error("{}: light {} has no direction: its node is scaled to {}", place, index,
                       glm::length(glm::dvec3(placed.world_from_node[2])));
-    if (const PlacedExtras& extras = own.has_lists() ? own : common; extras.has_lists()) {
-      groups.push_back(extras.lists);
-      groups.back().owner = static_cast<int>(out.size());
-      groups.back().where = doc.place(place);
-    }
+    if (GivenFields fields = own_or_common(own.properties, common.properties); !fields.empty())
+      given.lights.push_back({static_cast<int>(out.size()), doc.place(place), std::move(fields)});
     if (switched) rig.lights[light.node] = {index, light};
     out.push_back(std::move(light));
   }
   return out;
 }
 
-std::vector<GroupLists> groups_of_instances(const Document& doc, const std::vector<int>& node_of_instance) {
-  std::vector<GroupLists> out;
+std::vector<GivenProperties> properties_of_instances(const Document& doc,
+                                                     const std::vector<int>& node_of_instance) {
+  std::vector<GivenProperties> out;
   for (size_t i = 0; i < node_of_instance.size(); ++i) {
-    const GroupLists& lists = extras_of(doc.extras.nodes, node_of_instance[i]).lists;
-    if (!lists.groups) continue;
-    out.push_back({.owner = static_cast<int>(i),
-                   .where = doc.place(node_label(doc, node_of_instance[i])),
-                   .groups = lists.groups,
-                   .include = {},
-                   .exclude = {}});
+    const int node = node_of_instance[i];
+    GivenFields fields = fields_of_instances(extras_of(doc.extras.nodes, node).properties);
+    if (!fields.empty())
+      out.push_back({static_cast<int>(i), doc.place(node_label(doc, node)), std::move(fields)});
   }
   return out;
 }

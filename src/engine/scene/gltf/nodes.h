@@ -67,14 +67,15 @@ std::vector<int> add_meshes(Document& doc, const std::vector<PlacedNode>& nodes,
 // One light for each node with one. A light points along its node's -z; the node's scale changes neither
 // range nor cone. Lights without a node are not read, lights of an unknown type are left out; a negative
 // colour or intensity counts as 0 and a range of 0 or less as none, each with a warning. Errors name light
-// and field: values that are not finite, their product past the largest float. Adds to `groups` the groups in
-// the lights' extras, a node's before its light's, and to `rig` the lights that its animations switch or
+// and field: values that are not finite, their product past the largest float. Adds to `given` the properties
+// in the lights' extras, a node's before its light's, and to `rig` the lights that its animations switch or
 // change.
-std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes,
-                               std::vector<GroupLists>& groups, Rig& rig);
+std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes, GivenByFile& given,
+                               Rig& rig);
 
-// The groups in the extras of instances' nodes.
-std::vector<GroupLists> groups_of_instances(const Document& doc, const std::vector<int>& node_of_instance);
+// The properties in the extras of instances' nodes.
+std::vector<GivenProperties> properties_of_instances(const Document& doc,
+                                                     const std::vector<int>& node_of_instance);
 
 // One camera for each node with one; the node's scale is dropped. A camera with a fault is left out: one
 // warning names the first, its fault and the number of others.

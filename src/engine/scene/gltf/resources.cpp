@@ -177,6 +177,18 @@ std::vector<uint8_t> read_uri(Reporter& report, const std::string& place, const 
   }
 }
 
+std::function<std::pair<std::vector<uint8_t>, std::string>(const std::string& where, const std::string& uri)>
+property_files(const fs::path& file, bool anywhere) {
+  constexpr size_t max_bytes = size_t(64) << 20;
+  return [=](const std::string& where, const std::string& uri) {
+    Reporter report(where);
+    std::vector<uint8_t> bytes = read_uri(report, "", reach_of(file, anywhere), uri, max_bytes);
+    const fs::path folder = fs::absolute(file).parent_path();
+    return std::pair(std::move(bytes),
+                     uri.starts_with("data:") ? uri : (folder / uri).lexically_normal().string());
+  };
+}
+
 namespace {
 
 constexpr uint32_t magic_gltf = 0x46546c67, type_json = 0x4e4f534a, type_bin = 0x004e4942;

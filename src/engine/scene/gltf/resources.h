@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,6 +31,10 @@ FileReach reach_of(const std::filesystem::path& gltf, bool anywhere);
 // from the root or by a link. Backslashes, which some exporters write, are tried as slashes with a warning.
 std::vector<uint8_t> read_uri(Reporter& report, const std::string& place, const FileReach& reach,
                               const std::string& uri, size_t max_bytes);
+
+// For GivenByFile::open (scene/property_rows.h): reads the URIs that the properties in `file` give.
+std::function<std::pair<std::vector<uint8_t>, std::string>(const std::string& where, const std::string& uri)>
+property_files(const std::filesystem::path& file, bool anywhere);
 
 struct Container {
   std::string_view json;

@@ -55,6 +55,20 @@ function showPictures(view) {
 // Its lists hold every light, but its image lacks more than 1 % of their light.
 const shadesLess = (row) => row.unshaded > 0.01;
 
+// A column for each figure of an effect that a row has, by the keys of results.json: "far light: samples".
+function figuresOfEffects(view) {
+  const words = (key) => key.replaceAll('_', ' '), columns = new Map();
+  for (const row of view.results.rows) {
+    for (const [effect, figures] of Object.entries(row.effects ?? {})) {
+      for (const key of Object.keys(figures)) {
+        const title = `${words(effect)}: ${words(key)}`;
+        columns.set(title, {title, value: (row) => row.effects?.[effect]?.[key] ?? null, text: shortCount});
+      }
+    }
+  }
+  return [...columns.values()];
+}
+
 const columnsOf = (view) =>
     [{title: 'Technique', value: (row) => nameOf(view, row), text: nameElement},
      {title: 'Frame, ms', value: (row) => row.frame_ms.median, text: shortNumber},
@@ -110,6 +124,7 @@ const columnsOf = (view) =>
      {title: 'Light grid', value: (row) => row.memory_bytes.light_grid, text: byteNumber},
      {title: 'G-buffer', value: (row) => row.memory_bytes.gbuffer, text: byteNumber},
      {title: 'Memory, all', value: (row) => row.memory_bytes.total, text: byteNumber},
+     ...figuresOfEffects(view),
 ];
 
 function showErrors(view) {
