@@ -5,7 +5,7 @@
 // lights    as kernels/culling/light_arrays.h says
 // records   as kernels/culling/light_records.h says
 // lists     a region's lights: their tiles there, their spans of distances
-//           (kernels/culling/light_records.h), their indices: light_stride + 16 words each. A work-item's
+//           (kernels/culling/packed_range.h), their indices: light_stride + 16 words each. A work-item's
 //           part begins where its run does, so that parts never overlap
 // counts    of a region: one a work-item
 // counters  [0], [1], [3], [4], [5] set to 0, for the kernels that follow

@@ -1,4 +1,4 @@
-// The packed range test of bins (kernels/culling/light_records.h), run as it is on the device.
+// The packed range test of bins (kernels/culling/packed_range.h), run as it is on the device.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -27,7 +27,7 @@ kernel void lights_that_meet(float near, float far, global uint* out) {
 // Returns which of 16 lights between 4 and 6 m a bin between two distances keeps.
 uint32_t kept(float near, float far, const std::string& before) {
   const std::string source =
-      before + "#define LANES 16\n" + with_includes("kernels/culling/light_records.h") + kernel_text;
+      before + "#define LANES 16\n" + with_includes("kernels/culling/packed_range.h") + kernel_text;
   cl::Kernel kernel = test_programs().kernel_of_source("lights_that_meet", source, "-DCULL_TEST=3");
   const cl::Buffer out = buffer_of(std::vector<cl_uint>{99});
   launch(test_device(), "lights_that_meet", kernel, cl::NDRange(1), cl::NDRange(1), near, far, out);

@@ -163,7 +163,7 @@ TEST(LightCuller, FitsItsGroupsToTheDevice) {
 }
 
 // So many tiles that 64 regions would be wider than the 128 tiles that a byte can distinguish
-// (light_records.h).
+// (packed_range.h).
 TEST(LightCuller, FindsSmallLightsAmongTwoMillionTiles) {
   const View view = view_of(16400, 8300, 60);
   const int tile = 8, tiles_x = 2050, tiles_y = 1038;
