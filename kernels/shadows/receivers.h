@@ -9,6 +9,7 @@
 
 #include "kernels/common/index_type.h"
 #include "kernels/rays/rays.h"
+#include "kernels/shadows/kept_pairs.h"
 #ifdef SHADOW_MAP
 #include "kernels/shadow_maps/shadow_maps.h"
 #endif
@@ -41,7 +42,7 @@
       global const int *number_offsets, global const float *depths, global const uint2 *cells,           \
       global const index_t *indices, global const ShadowLight *lights, constant ShadowView *shadow_view, \
       constant ViewParams *view, uint image, uint first_entry, uint own_hides, global uint2 *tiles,      \
-      global uint *bits, global uint *rays BAND_ARGUMENTS
+      global uint *bits, global uint *rays BAND_ARGUMENTS KEPT_ARGUMENTS
 
 #define NO_TRIANGLE 0xffffffffu
 

@@ -2,6 +2,8 @@
 // faulty one keeps does.
 #include <gmock/gmock.h>
 
+#include <cstring>
+
 #include <nlohmann/json.hpp>
 
 #include "hard_cases/library_engine.h"
@@ -163,6 +165,35 @@ TEST(HuntOfStaleSequences, FaultsAreFound) {
     }
   }
 }
+
+// A part of the kernels, and what stands there instead.
+struct KeptFault {
+  const char *name, *right, *wrong;
+};
+
+struct FaultyKeptPairs : testing::TestWithParam<KeptFault> {};
+
+TEST_P(FaultyKeptPairs, AreFound) {
+  const KeptFault& fault = GetParam();
+  int planted = 0;
+  const auto engine = device_engine("", [&](std::string text) {
+    const size_t at = text.find(fault.right);
+    if (at == text.npos) return text;
+    ++planted;
+    return text.replace(at, std::strlen(fault.right), fault.wrong);
+  });
+  EXPECT_GT(sequences_of(*engine, sequence_kinds().front(), 20, 20).stale, 0u);
+  EXPECT_GT(planted, 0) << "no kernel has this text";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, FaultyKeptPairs,
+    testing::Values(KeptFault{"LightsAndCastersThatMoved", "row->lights ? row->lights[light]",
+                              "row->lights ? light"},
+                    KeptFault{"OtherSurfaces", "same_receivers && !same_receivers[tile]", "false"},
+                    KeptFault{"SurfacesThatMovedInPlace", "if (!same || !rests)", "if (!same)"},
+                    KeptFault{"FirstLightOf32", "(listed.y + popcount(listed.x & (own - 1u)))", "listed.y"}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 TEST(HuntOfStaleSequences, AStaleFrameFailsTheHuntAndItsSeedShowsItAgain) {
   Faulty engine(&SceneChanges::instances);

@@ -93,10 +93,15 @@ kernel void find_shadows(SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
     for (uint i = 0; i < words_a_tile; ++i) tiles[1 + i] = (uint2)(0);
   }
   ShadowTest test = SHADOW_TEST;
+  const KeptRow kept_row = KEPT_ROW(tile, 1 + image * rows + row, words_a_tile);
+  const bool finds = finds_any(&kept_row, indices, range);
+  STORE_KEPT(own_tile, range.y == 0 ? TILE_HAS_NO_PAIR : finds ? TILE_IS_FOUND : TILE_IS_KEPT);
   if (range.y != 0) {
     Receivers receivers[16];
-    const uint used = receivers_of_tile(receivers, &scene, tile_x, tile_y, triangles, depths,
-                                        triangle_instance, number_offsets, own_hides, shadow_view, view);
+    const uint used = finds
+                          ? receivers_of_tile(receivers, &scene, tile_x, tile_y, triangles, depths,
+                                              triangle_instance, number_offsets, own_hides, shadow_view, view)
+                          : 0;
 #ifdef SHADOW_PICK
     for (uint left = used; left != 0; left &= left - 1) {
       const uint block = lowest_bit(left);
@@ -108,8 +113,10 @@ kernel void find_shadows(SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
     for (uint i = range.x; i < range.x + range.y; ++i) {
       const uint index = indices[i], number = i - range.x + own_entry;
       global uint* entry = bits + (size_t)number * SHADOW_WORDS;
-      for (uint word = 0; word < SHADOW_WORDS; word += 8) vstore8((uint8)(0), 0, entry + word);
-      for (uint left = used; left != 0; left &= left - 1) {
+      global const uint* kept_bits_here = kept_entry(&kept_row, index);
+      for (uint word = 0; word < SHADOW_WORDS; word += 8)
+        vstore8(kept_bits_here ? vload8(0, kept_bits_here + word) : (uint8)(0), 0, entry + word);
+      for (uint left = kept_bits_here ? 0 : used; left != 0; left &= left - 1) {
         const uint block = lowest_bit(left);
         store_shadows(
             entry, block,

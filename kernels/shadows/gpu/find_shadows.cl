@@ -39,7 +39,12 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(
   const bool inside = x < width && y < height;
   const size_t at = inside ? (size_t)y * width + x : 0;
   const uint triangle = inside ? triangles[at] : NO_TRIANGLE;
-  const bool covered = triangle != NO_TRIANGLE && part < range.y;
+  const KeptRow kept_row = KEPT_ROW(tile, 1 + image * rows + row, shadow_view->words);
+  const bool finds = finds_any(&kept_row, indices, range);
+  if (item == 0 && part == 0) {
+    STORE_KEPT(own_tile, range.y == 0 ? TILE_HAS_NO_PAIR : finds ? TILE_IS_FOUND : TILE_IS_KEPT);
+  }
+  const bool covered = triangle != NO_TRIANGLE && part < range.y && finds;
   Receivers r =
       receivers_at(covered, (float)x + 0.5f, (float)y + 0.5f, depths[at], own_hides, shadow_view, view);
   if (covered) {
@@ -57,7 +62,10 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(
 #ifdef SHADOW_BYTES
   for (uint i = part; i < range.y; i += parts) {
     global uchar* entry = (global uchar*)(bits + (size_t)(i + own_entry) * SHADOW_WORDS);
-    entry[item] = (uchar)hidden_share(&test, &scene, &r, 0, indices[range.x + i], lights, shadow_view, x, y);
+    const uint light = indices[range.x + i];
+    global const uchar* from = (global const uchar*)kept_entry(&kept_row, light);
+    entry[item] =
+        from ? from[item] : (uchar)hidden_share(&test, &scene, &r, 0, light, lights, shadow_view, x, y);
   }
 #else
   // 32 lights at a time, so that items wait for each other once for all of them. Each item has a word, a bit
@@ -67,7 +75,10 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void find_shadows(
     uint hidden = 0;
     for (uint k = 0; k < count; ++k) {
       const uint light = indices[range.x + first + k * parts];
-      if (hidden_share(&test, &scene, &r, 0, light, lights, shadow_view, x, y) != 0) hidden |= 1u << k;
+      global const uint* from = kept_entry(&kept_row, light);
+      const bool is_hidden = from ? (from[item / 32] >> item % 32 & 1u) != 0
+                                  : hidden_share(&test, &scene, &r, 0, light, lights, shadow_view, x, y) != 0;
+      if (is_hidden) hidden |= 1u << k;
     }
     words[item / 32 * 33 + item % 32] = hidden;
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -13,6 +13,7 @@
 #include "passes/blended_layers.h"
 #include "passes/frame_stages.h"
 #include "passes/shadows/bands.h"
+#include "passes/shadows/kept_pairs.h"
 #include "passes/shadows/shadow_lights.h"
 #include "passes/shadows/shadow_lists.h"
 #include "passes/shadows/triangle_numbers.h"
@@ -73,7 +74,7 @@ class ShadowBits : public PassCache {
     if (scene_) bytes += scene_->memory_bytes();
     if (maps_) bytes += maps_->memory_bytes();
     if (cells_) bytes += cells_->memory_bytes();
-    return bytes + first_entries_.bytes() + banded_.memory_bytes();
+    return bytes + first_entries_.bytes() + banded_.memory_bytes() + kept_.memory_bytes();
   }
 
   // No light is hidden anywhere: the table holds no tile, and all have its empty row.
@@ -89,6 +90,7 @@ class ShadowBits : public PassCache {
     cleared_ = bytes;
     bands_ = {};
     found_for_.reset();
+    kept_.forget();
     hand_over(work, bytes, min_bytes);
   }
 
@@ -123,8 +125,12 @@ class ShadowBits : public PassCache {
     }
     const size_t bit_bytes =
         std::max<size_t>(min_bytes, bands_.bands[band_].entries * shadow_entry_bytes(work.plan));
+    const bool keeps = keeps_pairs(work);
+    if (keeps) kept_.begin(work, images.size(), room_.table_bytes + bit_bytes);
     make_room(work, bit_bytes);
+    if (keeps) kept_.compare(work, *scene_, arguments_of(images[0]), !visible);
     launch(work, images, bands_.bands[band_]);
+    if (keeps) kept_.end();
     if (bands_.bands.size() > 1)
       again_ = [this, images](PassContext& of, const ShadowBand& band) { launch(of, images, band); };
     hand_over(work, room_.table_bytes, bit_bytes);
@@ -184,7 +190,7 @@ class ShadowBits : public PassCache {
 
   ShadowFigures figures(PassContext& work) {
     ShadowFigures f;
-    f.bytes = lists_.bytes() + work.shadows.bytes();
+    f.bytes = lists_.bytes() + work.shadows.bytes() + kept_.kept_bytes();
     if (lists_.pairs() == 0) return f;
     f.unchanged = unchanged_;
     f.lights = size_t(std::ranges::count(work.plan.shadows.shadowed, 1));
@@ -198,6 +204,7 @@ class ShadowBits : public PassCache {
       f.halvings = maps_->atlas().halvings;
       f.bytes += maps_->atlas().bytes;
     }
+    if (keeps_pairs(work)) f.tiles_kept = kept_.kept_tiles(*work.renderer.cl, lists_.tiles(), unchanged_);
     if (!unchanged_) f.rays = std::accumulate(rays.begin(), rays.end(), size_t(0));
     return f;
   }
@@ -206,13 +213,28 @@ class ShadowBits : public PassCache {
   // Buffers only grow: where both would then be too large together, other views' needs have made them so.
   void make_room(PassContext& work, size_t bit_bytes) {
     ShadowMemory& shadows = work.shadows;
-    if (std::max(shadows.tiles.bytes(), room_.table_bytes) + std::max(shadows.bits.bytes(), bit_bytes) >
+    if (std::max(shadows.tiles.bytes(), room_.table_bytes) + std::max(shadows.bits.bytes(), bit_bytes) +
+            kept_.kept_bytes() >
         work.plan.settings[setting::shadow_memory]) {
       shadows.tiles = {};
       shadows.bits = {};
     }
     at_least(work, shadows.tiles, room_.table_bytes, GL_RG32UI);
     at_least(work, shadows.bits, bit_bytes, GL_R32UI);
+  }
+
+  // After the bands are known.
+  bool keeps_pairs(const PassContext& work) const {
+    const Settings& settings = work.plan.settings;
+    return settings[shadow_reuse] && !settings[setting::everything_on] && KeptPairs::serve(settings) &&
+           bands_.bands.size() == 1;
+  }
+
+  static ClArguments arguments_of(const ReceiverImage& image) {
+    return {{"triangles", image.numbers},
+            {"triangle_instance", image.triangle_instance},
+            {"number_offsets", image.number_offsets},
+            {"depths", image.depths}};
   }
 
   // The table and the bits of these tiles.
@@ -228,16 +250,15 @@ class ShadowBits : public PassCache {
     ClArguments after;
     if (bands_.bands.size() > 1)
       after = {{"first_tile", cl_uint(band.first)}, {"first_entries", first_entries_.buffer()}};
+    const bool keeps = keeps_pairs(work);
     for (size_t i = 0; i < images.size(); ++i) {
+      const bool may_keep = i == 0 || (images[i].triangle_instance() && kept_.has_same_receivers());
+      if (keeps) after = kept_.arguments(device, lists_.tiles() * images.size(), may_keep);
       kernels_.of("find_shadows")
           .launch(device, "find_shadows", kernels_.lanes ? lanes : groups,
                   kernels_.lanes ? cl::NDRange(1) : cl::NDRange(SHADOW_TILE * SHADOW_TILE, 1),
-                  before +
-                      ClArguments{{"triangles", images[i].numbers},
-                                  {"triangle_instance", images[i].triangle_instance},
-                                  {"number_offsets", images[i].number_offsets},
-                                  {"depths", images[i].depths},
-                                  {"cells", lists_.cells(i)},
+                  before + arguments_of(images[i]) +
+                      ClArguments{{"cells", lists_.cells(i)},
                                   {"indices", lists_.indices(i)},
                                   {"lights", lights_.buffer()},
                                   {"shadow_view", view_.buffer()},
@@ -318,6 +339,7 @@ class ShadowBits : public PassCache {
       cells_.emplace();
     const std::vector<ShadowLight> records = shadow_light_records(work, lights, rays.origin());
     if (cells_) cells_->look(work, records, lights);
+    if (settings[shadow_reuse]) kept_.look(work, rays, records);
     lists_.look(work, lights);
     if (visible) put_offsets(work, visible->instances, offsets_);
     if (blended) put_offsets(work, blended->instances, blended_offsets_);
@@ -373,7 +395,9 @@ class ShadowBits : public PassCache {
 
   // After the bands are known.
   void use_kernels(PassContext& work, const VisibilityBuffer* visible) {
-    kernels_.use(defines_of(work, visible) + (bands_.bands.size() > 1 ? " -DBANDS" : ""));
+    const bool is_new = kernels_.use(defines_of(work, visible) + (bands_.bands.size() > 1 ? " -DBANDS" : "") +
+                                     (keeps_pairs(work) ? " -DKEPT" : ""));
+    if (is_new || !keeps_pairs(work)) kept_.forget();
   }
 
   PassKernels kernels_;
@@ -390,6 +414,7 @@ class ShadowBits : public PassCache {
   std::function<void(PassContext&, const ShadowBand&)>
       again_;  // finds one of several bands of the last frame
   BandedImage banded_;
+  KeptPairs kept_;          // with shadow-reuse
   int masked_builds_ = -1;  // RayScene::builds of masks_
   size_t parts_ = 0;        // counts of rays
   size_t cleared_ = 0;      // bytes of tiles in which nothing was found since they were cleared

@@ -36,9 +36,10 @@ struct ShadowResult {
   size_t lights = 0;                                                         // whose shadows were found
   size_t maps = 0, drawn = 0, kept = 0, bytes = 0, rays = 0, undecided = 0;  // as in ShadowFigures
   std::vector<Skipped> skipped;
-  size_t bands = 0;      // as in ShadowFigures
-  double dim_steps = 0;  // as in FramePlan
-  int halvings = 0;      // halvings of all maps' sizes
+  size_t bands = 0;       // as in ShadowFigures
+  double dim_steps = 0;   // as in FramePlan
+  int halvings = 0;       // halvings of all maps' sizes
+  size_t tiles_kept = 0;  // as in ShadowFigures
 };
 
 // The last frame with several samples per pixel: as SampleFigures.

@@ -19,6 +19,7 @@ static std::optional<ShadowResult> shadow_result(const FramePlan& plan, const Fr
     result.undecided = figures.undecided;
     result.halvings = figures.halvings;
     result.bands = figures.bands;
+    result.tiles_kept = figures.tiles_kept;
     unchanged = figures.unchanged;
   }
   result.dim_steps = plan.shadows.dim_steps;

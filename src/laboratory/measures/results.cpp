@@ -166,6 +166,7 @@ json to_json(const ShadowResult& s) {
   if (s.dim_steps > 0) out["dim_steps"] = s.dim_steps;
   if (s.bands > 1) out["bands"] = s.bands;
   if (s.maps > 0) out["halvings"] = s.halvings;
+  if (s.tiles_kept > 0) out["tiles_kept"] = s.tiles_kept;
   return out;
 }
 

@@ -118,10 +118,12 @@ TEST(Results, ShadowsAreThereIfALightCastsOne) {
     "lights": 1, "maps": 2, "drawn": 3, "kept": 4, "bytes": 5, "rays": 6, "undecided": 7,
     "halvings": 9, "skipped": [{"light": 8, "why": "no caster in its range"}]})"));
   result.shadows->bands = 11;
+  result.shadows->tiles_kept = 12;
   result.shadows->dim_steps = 0.5;
   const json all = to_json(result)["shadows"];
   EXPECT_EQ(all["kept"], 4) << "maps, as ever";
   EXPECT_EQ(all["bands"], 11);
+  EXPECT_EQ(all["tiles_kept"], 12);
   EXPECT_EQ(all["dim_steps"], 0.5);
 }
 

@@ -69,6 +69,7 @@ struct ShadowFigures {
   size_t undecided = 0;    // pairs that maps left to rays
   size_t bands = 0;        // bands of tiles, each shaded separately: their bits fit into memory
   int halvings = 0;        // halvings of all maps' sizes, to fit into their bound of memory
+  size_t tiles_kept = 0;   // with shadow-reuse: tiles whose bits are all those of the frame before
 
   // Adds the figures of other lights of the same frame.
   ShadowFigures& operator+=(const ShadowFigures& more) {
@@ -80,6 +81,7 @@ struct ShadowFigures {
     bytes += more.bytes;
     undecided += more.undecided;
     halvings += more.halvings;
+    tiles_kept += more.tiles_kept;
     return *this;
   }
 };

@@ -1,6 +1,8 @@
 #include "passes/shadows/shadow_lights.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 
 #include "plan/settings/model.h"
@@ -86,6 +88,10 @@ std::vector<ShadowLight> shadow_light_records(const ViewState& seen, const std::
   for (size_t i = 0; i < records.size(); ++i)
     if (shadowed[i].radius_m < 0) records[i].reach_squared = -1;
   return records;
+}
+
+bool have_same_shadows(const ShadowLight& a, const ShadowLight& b) {
+  return std::memcmp(&a, &b, offsetof(ShadowLight, luminance)) == 0;
 }
 
 ShadowView shadow_view(const ViewState& seen, const glm::dvec3& origin) {
