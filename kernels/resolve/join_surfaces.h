@@ -24,13 +24,13 @@ typedef struct SeenTriangles {
 } SeenTriangles;
 
 typedef struct SeenTriangle {
-  uint number, samples, count;  // samples: a bit each
+  uint number, samples;  // samples: that see it, a bit each
   uint instance, a, b, c;
   bool turns_left;  // counter-clockwise on the screen; told of two-sided ones
 } SeenTriangle;
 
 static inline SeenTriangle seen_triangle(const SeenTriangles* s, uint number) {
-  SeenTriangle t = {number, 0, 0, SURFACE_NONE, 0, 0, 0, false};
+  SeenTriangle t = {number, 0, SURFACE_NONE, 0, 0, 0, false};
   if (number == SURFACE_NONE) return t;
   t.instance = s->triangle_instance[number];
   global const RasterInstanceRecord* r = s->instances + t.instance;
@@ -49,14 +49,15 @@ static inline SeenTriangle seen_triangle(const SeenTriangles* s, uint number) {
   return t;
 }
 
-// Each goes along an edge that they share in its own direction, as neighbours of a mesh do.
+// Neighbours of a mesh go along the edge that they share in opposite directions. There are no branches, since
+// they would be taken at random.
 static inline bool is_edge(uint from, uint to, const SeenTriangle* t) {
-  return (from == t->a && to == t->b) || (from == t->b && to == t->c) || (from == t->c && to == t->a);
+  return ((from == t->a) & (to == t->b)) | ((from == t->b) & (to == t->c)) | ((from == t->c) & (to == t->a));
 }
 
 static inline bool are_neighbours(const SeenTriangle* s, const SeenTriangle* t) {
-  return s->instance == t->instance && s->instance != SURFACE_NONE && s->turns_left == t->turns_left &&
-         (is_edge(s->b, s->a, t) || is_edge(s->c, s->b, t) || is_edge(s->a, s->c, t));
+  return (s->instance == t->instance) & (s->instance != SURFACE_NONE) & (s->turns_left == t->turns_left) &
+         (is_edge(s->b, s->a, t) | is_edge(s->c, s->b, t) | is_edge(s->a, s->c, t));
 }
 
 static inline void see_everywhere(global uint* triangles, uint number) {
@@ -94,54 +95,45 @@ static inline bool join_surfaces(global uint* triangles, const SeenTriangles* sc
                                  float2 half_size, global const float* depths, float* depth) {
   SeenTriangle seen[SAMPLES];
   uint count = 0;
-  for (uint left = ALL_SAMPLES; left != 0;) {
-    uint first = 0;
-    while (!(left >> first & 1u)) ++first;
-    SeenTriangle t = seen_triangle(scene, triangles[first]);
-    for (uint s = first; s < SAMPLES; ++s)
-      if (left >> s & 1u && triangles[s] == t.number) {
-        t.samples |= 1u << s;
-        ++t.count;
-      }
-    left &= ~t.samples;
-    seen[count++] = t;
+  for (uint left = ALL_SAMPLES; left != 0; left &= ~seen[count++].samples) {
+    SeenTriangle* const t = seen + count;
+    *t = seen_triangle(scene, triangles[lowest_bit(left)]);
+#pragma unroll
+    for (uint s = 0; s < SAMPLES; ++s) t->samples |= triangles[s] == t->number ? 1u << s : 0u;
   }
-  // The surface of triangle i, by the first of its triangles.
-  uint of[SAMPLES];
-  bool joined = false;
+  // Bit k of surface[i]: triangle k belongs to the surface of triangle i. Neighbours come first; Warshall's
+  // algorithm ("A Theorem on Boolean Matrices", 1962) adds their neighbours.
+  uint surface[SAMPLES], some = 0;
   for (uint i = 0; i < count; ++i) {
-    of[i] = i;
+    surface[i] = 1u << i;
     for (uint k = 0; k < i; ++k) {
-      if (of[k] == of[i] || !are_neighbours(seen + k, seen + i)) continue;
-      const uint low = min(of[k], of[i]), high = max(of[k], of[i]);
-      for (uint m = 0; m <= i; ++m)
-        if (of[m] == high) of[m] = low;
-      joined = true;
+      const uint joined = are_neighbours(seen + k, seen + i) ? 1u : 0u;
+      surface[i] |= joined << k;
+      surface[k] |= joined << i;
+      some |= joined;
     }
   }
-  if (!joined) return false;
+  if (!some) return false;
+  for (uint k = 0; k < count; ++k)
+    for (uint i = 0; i < count; ++i) surface[i] |= surface[i] >> k & 1u ? surface[k] : 0u;
+  const bool one = surface[0] == (1u << count) - 1u;
 #ifdef SHADOWED
-  for (uint i = 0; i < count; ++i)
-    if (of[i] != 0) return false;
-  for (uint i = 0; i < count; ++i) {
+  for (uint i = 0; one && i < count; ++i) {
     if (!holds_centre(seen + i, scene, x, y, half_size, depths, depth)) continue;
     see_everywhere(triangles, seen[i].number);
     return true;
   }
   return false;
 #else
-  bool one = true;
   for (uint i = 0; i < count; ++i) {
-    one = one && of[i] == 0;
-    if (of[i] != i) continue;
-    uint most = i, samples = 0;
-    for (uint k = i; k < count; ++k) {
-      if (of[k] != i) continue;
-      samples |= seen[k].samples;
-      if (seen[k].count > seen[most].count) most = k;
+    uint most = lowest_bit(surface[i]);
+    for (uint k = most + 1; k < count; ++k) {
+      const bool more = popcount(seen[k].samples) > popcount(seen[most].samples);
+      most = more & (surface[i] >> k & 1u) ? k : most;
     }
+#pragma unroll
     for (uint s = 0; s < SAMPLES; ++s)
-      if (samples >> s & 1u) triangles[s] = seen[most].number;
+      triangles[s] = seen[i].samples >> s & 1u ? seen[most].number : triangles[s];
   }
   return one;
 #endif
