@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""size.py [COMMIT]: lines per house and folder, words of the documentation, as a table in Markdown.
+"""size.py [COMMIT]: lines per house and folder, words of the documentation, as a table in Markdown; and how many
+headers of the engine the laboratory includes.
 
 Counts files that git tracks, those of COMMIT where one is given. Lines are all lines of C++, kernels, shaders,
 scripts and build files; words are those of Markdown pages, separated by white space.
 """
 import collections
+import re
 import subprocess
 import sys
 
@@ -26,26 +28,44 @@ def git(*words):
     return subprocess.run(("git", *words), capture_output=True, check=True).stdout
 
 
+def names_of(commit):
+    names = git("ls-tree", "-r", "--name-only", commit) if commit else git("ls-files")
+    return names.decode().splitlines()
+
+
+def text_of(commit, path):
+    if commit:
+        return git("show", f"{commit}:{path}")
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def headers_read(commit):
+    """The headers of the engine that files of the laboratory include."""
+    names = names_of(commit)
+    included = set()
+    for path in names:
+        if path.startswith("src/laboratory/") and path.endswith((".h", ".cpp")):
+            included.update(re.findall(r'^#include "(.+?)"', text_of(commit, path).decode(), re.M))
+    return included & {name.removeprefix("src/engine/") for name in names}
+
+
 def counts(commit):
     """{(house, folder): lines, or words of docs}"""
     found = collections.Counter()
-    names = git("ls-tree", "-r", "--name-only", commit) if commit else git("ls-files")
-    for path in names.decode().splitlines():
+    for path in names_of(commit):
         for house, (folders, parts) in HOUSES.items():
             if not path.startswith(folders) or not path.endswith(".md" if house == "docs" else CODE):
                 continue
-            if commit:
-                text = git("show", f"{commit}:{path}")
-            else:
-                with open(path, "rb") as file:
-                    text = file.read()
+            text = text_of(commit, path)
             folder = "/".join(path.split("/")[:-1][:parts]) or path
             found[house, folder] += len(text.split()) if house == "docs" else text.count(b"\n")
     return found
 
 
 def main():
-    found = counts(sys.argv[1] if len(sys.argv) > 1 else "")
+    commit = sys.argv[1] if len(sys.argv) > 1 else ""
+    found = counts(commit)
     print("| house | folder | lines |\n| --- | --- | ---: |")
     for house in HOUSES:
         folders = {folder: n for (of, folder), n in found.items() if of == house}
@@ -54,6 +74,7 @@ def main():
         if len(folders) > 1:
             for folder, n in sorted(folders.items()):
                 print(f"| | `{folder}` | {n:,}{unit} |")
+    print(f"\nThe laboratory includes {len(headers_read(commit))} headers of the engine.")
 
 
 main()

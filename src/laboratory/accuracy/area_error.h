@@ -5,7 +5,7 @@
 #include "base/image.h"
 #include "measures/results.h"
 #include "oracle/pixel_area.h"
-#include "renderer/pass_context.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 

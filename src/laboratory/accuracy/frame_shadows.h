@@ -6,8 +6,7 @@
 #include "accuracy/scene_occlusion.h"
 #include "oracle/lit_set.h"
 #include "oracle/seen_pairs.h"
-#include "passes/read_outs.h"
-#include "run/technique_run.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 

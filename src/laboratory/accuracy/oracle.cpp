@@ -3,7 +3,6 @@
 #include "accuracy/oracle_sample.h"
 #include "accuracy/shadow_truth.h"
 #include "accuracy/surfaces_in_double.h"
-#include "cl/transfer.h"
 #include "measures/metrics.h"
 #include "oracle/position.h"
 #include "oracle/seen_pairs.h"
@@ -45,15 +44,6 @@ Surface surface_of(const SurfaceImages& s, uint32_t pixel) {
   surface.coat_roughness = s.coat_normal_roughness.pixels[pixel].w;
   surface.coat_normal = glm::normalize(glm::dvec3(s.coat_normal_roughness.pixels[pixel]));
   return surface;
-}
-
-std::vector<float> read_depth(TechniqueRun& run) {
-  RenderView& v = run.view();
-  if (!run.frame().depth) return read_depth(v);
-  std::vector<float> depth(v.grid().pixels());
-  read_buffer(*v.renderer.cl, "reading depth", run.frame().depth->values, depth.data(),
-              depth.size() * sizeof(float));
-  return depth;
 }
 
 std::vector<ViewLight> local_lights(const ViewState& v) {

@@ -4,8 +4,7 @@
 #include "measures/results.h"
 #include "oracle/lit_set.h"
 #include "oracle/shading.h"
-#include "passes/read_outs.h"
-#include "run/technique_run.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 
@@ -13,10 +12,6 @@ class ShadowTruth;
 
 // The surface at a pixel, for the oracle to shade.
 Surface surface_of(const SurfaceImages& surfaces, uint32_t pixel);
-
-// The depth of the surfaces that the last frame of a run shaded: the technique's own where it rasterised in
-// OpenCL, else the depth image.
-std::vector<float> read_depth(TechniqueRun& run);
 
 // The point and spot lights in view space, in the order of lists.
 std::vector<ViewLight> local_lights(const ViewState& v);

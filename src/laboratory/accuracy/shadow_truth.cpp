@@ -9,7 +9,6 @@
 #include "oracle/shading.h"
 #include "plan/settings/model.h"
 #include "plan/settings/shadows.h"
-#include "scene/triangle_numbers.h"
 
 namespace lightgrid::lab {
 namespace {

@@ -6,10 +6,9 @@
 
 #include "accuracy/scene_occlusion.h"
 #include "oracle/seen_pairs.h"
-#include "passes/read_outs.h"
 #include "plan/settings/model.h"
 #include "plan/settings/shadows.h"
-#include "renderer/pass_context.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "accuracy/oracle_sample.h"
-#include "cl/transfer.h"
 #include "measures/metrics.h"
 #include "oracle/scene_surfaces.h"
 #include "plan/settings/model.h"
@@ -91,35 +90,6 @@ std::vector<bool> near_blended(const std::vector<bool>& blended, const PixelGrid
 }
 
 }  // namespace
-
-std::vector<SceneTriangle> own_triangles(TechniqueRun& run) {
-  const RenderView& v = run.view();
-  std::vector<uint32_t> numbers(v.grid().pixels());
-  read_buffer(*v.renderer.cl, "reading triangles", run.frame().triangles->numbers, numbers.data(),
-              numbers.size() * 4);
-  const std::span<const int> instances = run.frame().triangles->instances;
-  std::vector<uint32_t> first;  // by place in `instances`
-  uint32_t count = 0;
-  for (const int i : instances) {
-    first.push_back(count);
-    count += uint32_t(v.scene.meshes[v.scene.instances[i].mesh].indices.size() / 3);
-  }
-  std::vector<SceneTriangle> triangles;
-  for (const uint32_t number : numbers) {
-    if (number >= count) {
-      triangles.emplace_back();
-      continue;
-    }
-    const size_t place = size_t(std::ranges::upper_bound(first, number) - first.begin()) - 1;
-    const std::vector<uint32_t>& indices = v.scene.meshes[v.scene.instances[instances[place]].mesh].indices;
-    triangles.push_back(scene_triangle(instances[place], &indices[3 * size_t(number - first[place])]));
-  }
-  return triangles;
-}
-
-std::vector<SceneTriangle> shown_triangles(TechniqueRun& run) {
-  return run.frame().triangles ? own_triangles(run) : read_triangles(run.view()).opaque;
-}
 
 SilhouetteError silhouette_error(const Image& image, const std::vector<SceneTriangle>& own,
                                  const Image& reference, const ShownTriangles& shown) {

@@ -4,8 +4,7 @@
 
 #include "accuracy/shadow_truth.h"
 #include "measures/results.h"
-#include "passes/read_outs.h"
-#include "run/technique_run.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 
@@ -21,12 +20,6 @@ SurfacesInDouble surfaces_in_double(const RenderView& v, const std::vector<Scene
 
 // brightest: the reference's brightest channel.
 SurfacesError surfaces_error(const Image& image, const SurfacesInDouble& in_double, double brightest);
-
-// The triangle of each pixel in the last frame of a run that has Frame::triangles.
-std::vector<SceneTriangle> own_triangles(TechniqueRun& run);
-
-// The nearest opaque triangle of each pixel in the last frame, whoever drew it.
-std::vector<SceneTriangle> shown_triangles(TechniqueRun& run);
 
 // `own` and `shown`: of each pixel of the image and of the reference. Relative to the reference's brightest
 // channel.

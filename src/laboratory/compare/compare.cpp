@@ -13,7 +13,6 @@
 #include "compare/measured_rows.h"
 #include "compare/moving.h"
 #include "compare/runs.h"
-#include "gl/bindings.h"
 #include "measures/metrics.h"
 #include "oracle/position.h"
 

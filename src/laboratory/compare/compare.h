@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "measures/results.h"
+#include "run/frames.h"
 #include "scene/scene_motion.h"
-#include "techniques/technique.h"
 
 namespace lightgrid::lab {
 

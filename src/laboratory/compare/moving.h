@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "compare/compare.h"
-#include "run/technique_run.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 

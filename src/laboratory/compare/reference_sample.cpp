@@ -2,40 +2,10 @@
 
 #include <algorithm>
 
-#include "accuracy/oracle.h"
 #include "base/timer.h"
-#include "passes/read_back.h"
-#include "passes/surfaces.h"
 #include "scene/random.h"
 
 namespace lightgrid::lab {
-namespace {
-
-// While it exists, only surfaces inside the blocks pass shading's depth test: elsewhere depth is 1, nearer
-// than everything.
-class DepthOfBlocks {
- public:
-  DepthOfBlocks(RenderView& v, const std::vector<PixelBlock>& blocks) : v_(v), whole_(read_depth(v)) {
-    std::vector<float> masked(whole_.size(), 1.0f);
-    for (const uint32_t pixel : pixels_of(blocks, v.grid())) masked[pixel] = whole_[pixel];
-    write(masked);
-  }
-  ~DepthOfBlocks() { write(whole_); }
-  DepthOfBlocks(const DepthOfBlocks&) = delete;
-  DepthOfBlocks& operator=(const DepthOfBlocks&) = delete;
-
- private:
-  void write(const std::vector<float>& depth) {
-    glTextureSubImage2D(v_.targets.depth(), 0, 0, 0, v_.view.width, v_.view.height, GL_DEPTH_COMPONENT,
-                        GL_FLOAT, depth.data());
-  }
-
-  RenderView& v_;
-  const std::vector<float> whole_;
-};
-
-}  // namespace
-
 std::vector<PixelBlock> shuffled_blocks(const PixelGrid& grid, uint64_t seed) {
   std::vector<PixelBlock> blocks;
   for (int y = 0; y < grid.height; y += PixelBlock::side) {
@@ -59,12 +29,7 @@ std::vector<uint32_t> pixels_of(const std::vector<PixelBlock>& blocks, const Pix
 }
 
 void render_forward_at(RenderView& v, const std::vector<PixelBlock>& blocks, Image& image) {
-  const Surfaces surfaces = find_surfaces(v);
-  const DepthOfBlocks masked(v, blocks);
-  const LightSource lights = every_light(v);
-  const ShadedImage shaded = shade(v, surfaces, lights);
-  blend(v, surfaces, lights, shaded);
-  read_back(v, shaded, image);
+  draw_forward_at(v, pixels_of(blocks, v.grid()), image);
 }
 
 bool is_quick_for_forward(const View& view, size_t lights, double max_ms) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/image.h"
-#include "renderer/render_view.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 

@@ -13,7 +13,7 @@
 #include "plan/settings/grid.h"
 #include "plan/settings/samples.h"
 #include "plan/settings/shadows.h"
-#include "run/technique_run.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 

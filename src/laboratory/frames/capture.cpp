@@ -1,10 +1,5 @@
 #include "frames/capture.h"
 
-#include "cl/transfer.h"
-#include "gl/bindings.h"
-#include "passes/depth_prepass.h"
-#include "passes/rasterize.h"
-#include "passes/read_outs.h"
 #include "plan/settings/grid.h"
 #include "plan/settings/model.h"
 #include "plan/settings/samples.h"
@@ -14,22 +9,13 @@ namespace lightgrid::lab {
 SceneCapture::SceneCapture(Renderer& renderer, const Scene& scene, const View& view, const Settings& settings,
                            const Technique& technique)
     : gpu_(renderer, scene),
-      opengl_(draws_with_opengl(technique.needs, settings)),
       view_(renderer, gpu_, view, with_samples(settings, 1),
-            find_technique(opengl_ ? "forward_plus" : "visibility").needs) {}
+            find_technique(own_surfaces(technique, settings) ? "visibility" : "forward_plus").needs) {}
 
 CapturedFrame SceneCapture::frame(const View& view, const SceneChanges& changes) {
   gpu_.update(changes);
   view_.look(view);
-  std::vector<float> depth(view_.grid().values());
-  if (opengl_) {
-    reset_gl_state();
-    depth_prepass(view_);
-    depth = read_depth(view_);
-  } else {
-    read_buffer(*view_.renderer.cl, "reading depth", rasterize(view_, view_.caches).depth().values,
-                depth.data(), depth.size() * sizeof(float));
-  }
+  std::vector<float> depth = draw_depth(view_);
   const Scene& scene = gpu_.scene();
   const Settings& settings = view_.plan.settings;
   return {scene.name,

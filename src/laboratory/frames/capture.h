@@ -3,7 +3,7 @@
 
 #include "frames/frame_file.h"
 #include "plan/settings/grid.h"
-#include "techniques/technique.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 
@@ -20,7 +20,6 @@ class SceneCapture {
 
  private:
   GpuScene gpu_;
-  bool opengl_;
   RenderView view_;
 };
 

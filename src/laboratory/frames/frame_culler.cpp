@@ -11,8 +11,6 @@
 #include "plan/settings/cull_test.h"
 #include "plan/settings/grid.h"
 #include "plan/settings/kernels.h"
-#include "renderer/render_view.h"
-#include "techniques/technique.h"
 
 namespace lightgrid::lab {
 namespace {

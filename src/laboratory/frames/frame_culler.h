@@ -5,8 +5,8 @@
 #include "cl/program_cache.h"
 #include "culling/light_culler.h"
 #include "frames/frame_file.h"
-#include "plan/frame_plan.h"
 #include "plan/settings/grid.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 

@@ -1,6 +1,5 @@
 #include "frames/frame_lists.h"
 
-#include "renderer/upload/culler_input.h"
 #include "scene/grid_lists.h"
 
 namespace lightgrid::lab {

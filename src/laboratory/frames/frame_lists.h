@@ -3,7 +3,7 @@
 
 #include "frames/frame_file.h"
 #include "oracle/lit_set.h"
-#include "passes/read_outs.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 

@@ -9,7 +9,7 @@
 
 #include "accuracy/shadow_truth.h"
 #include "frontier/record.h"
-#include "run/technique_run.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 

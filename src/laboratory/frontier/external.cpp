@@ -10,7 +10,7 @@
 #include "base/json_file.h"
 #include "frontier/export.h"
 #include "frontier/record_file.h"
-#include "techniques/technique.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 namespace {

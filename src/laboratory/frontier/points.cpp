@@ -14,7 +14,6 @@
 #include "measures/metrics.h"
 #include "plan/settings/grid.h"
 #include "plan/settings/model.h"
-#include "plan/settings/picture.h"
 #include "plan/settings/shadows.h"
 #include "scene/random.h"
 

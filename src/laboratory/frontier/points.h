@@ -13,8 +13,7 @@
 #include "frontier/external_process.h"
 #include "frontier/record.h"
 #include "plan/settings/model.h"
-#include "renderer/device_clock.h"
-#include "run/technique_run.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 

@@ -10,7 +10,7 @@
 #include "frontier/fields.h"
 #include "frontier/points.h"
 #include "frontier/round_baselines.h"
-#include "techniques/technique.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "frontier/record.h"
-#include "renderer/device_clock.h"
+#include "run/frames.h"
 
 namespace lightgrid {
 class JsonFields;

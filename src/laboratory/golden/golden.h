@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/json_file.h"
-#include "run/technique_run.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 

@@ -5,15 +5,9 @@
 #include "cl/transfer.h"
 #include "culling/cull_pipeline.h"
 #include "culling/light_culler.h"
-#include "gl/bindings.h"
-#include "gl/gl.h"
-#include "passes/frame_stages.h"
-#include "passes/rasterize.h"
-#include "passes/read_outs.h"
-#include "passes/surfaces.h"
 #include "plan/settings/grid.h"
+#include "run/frames.h"
 #include "scene/light_groups.h"
-#include "techniques/technique.h"
 #include "verify/engine.h"
 
 namespace lightgrid::lab::verify {
@@ -30,46 +24,21 @@ std::string name_of_device(const std::string& substring) {
   return name(chosen);
 }
 
-// The triangle of each pixel, from their numbers: those of the instances one after the other.
-std::vector<CastingTriangle> triangles_of(const Scene& scene, const TriangleBuffer& buffer,
-                                          const std::vector<uint32_t>& numbers) {
-  std::vector<uint32_t> first;  // by place in buffer.instances
-  uint32_t count = 0;
-  for (const int i : buffer.instances) {
-    first.push_back(count);
-    count += uint32_t(scene.meshes[size_t(scene.instances[size_t(i)].mesh)].indices.size() / 3);
-  }
-  std::vector<CastingTriangle> triangles(numbers.size());
-  for (size_t i = 0; i < numbers.size(); ++i) {
-    if (numbers[i] >= count) continue;
-    const size_t place = size_t(std::ranges::upper_bound(first, numbers[i]) - first.begin()) - 1;
-    triangles[i] = {buffer.instances[place], numbers[i] - first[place]};
-  }
-  return triangles;
-}
-
-std::vector<glm::vec4> read_pixels(RenderView& v, const ShadedImage& image) {
-  std::vector<glm::vec4> pixels(v.grid().pixels());
-  if (image.in_cl) {
-    read_buffer(*v.renderer.cl, "image", image.in_cl->cl_buffer(), pixels.data(), pixels.size() * 16);
-  } else {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, image.framebuffer);
-    glReadPixels(0, 0, v.view.width, v.view.height, GL_RGBA, GL_FLOAT, pixels.data());
-  }
-  return pixels;
-}
-
 // A frame's shadows, and its surfaces if OpenCL's rasteriser drew them.
 ShadowImage shadow_image(RenderView& v, const Frame& frame) {
   ShadowImage image{.lights = v.plan.lights.local};
   if (frame.shadows) image.shadows = frame.shadows();
   if (!frame.triangles) return image;
-  std::vector<uint32_t> numbers(v.view.grid().pixels());
-  image.depths.resize(numbers.size());
-  read_buffer(*v.renderer.cl, "triangles", frame.triangles->numbers, numbers.data(), numbers.size() * 4);
-  read_buffer(*v.renderer.cl, "depths", frame.depth->values, image.depths.data(), numbers.size() * 4);
-  image.triangles = triangles_of(v.scene, *frame.triangles, numbers);
+  image.depths = read_depth(v, frame);
+  for (const MeshTriangle& triangle : read_mesh_triangles(v, frame))
+    image.triangles.push_back({triangle.instance, triangle.number});
   return image;
+}
+
+std::vector<glm::vec4> read_pixels(RenderView& v, const ShadedImage& shaded) {
+  Image image;
+  read_back(v, shaded, image);
+  return std::move(image.pixels);
 }
 
 class DeviceSequence : public FrameSequence {
@@ -181,9 +150,7 @@ class DeviceEngine : public CullEngine {
     std::vector<ShadowImage> images;
     for (const View& view : views) {
       if (!images.empty()) v.look(view);
-      Frame frame = frame_of(v, find_surfaces(v));
-      end_stages(v, v.caches, frame);
-      images.push_back(shadow_image(v, frame));
+      images.push_back(shadow_image(v, draw_shadows(v)));
     }
     return images;
   }
@@ -209,13 +176,9 @@ class DeviceEngine : public CullEngine {
       if (renderer->gl) reset_gl_state();
       const Frame frame = technique.render(v);
       ListImage& image = images.emplace_back();
-      image.depths = depths_of(v, frame);
+      image.depths = read_depth(v, frame);
       image.lists = frame.listed(image.depths);
-      if (frame.depth && v.grid().samples > 1) {
-        image.of_samples.resize(v.grid().values());
-        read_buffer(*renderer->cl, "depths", lightgrid::rasterize(v, v.caches).depth().values,
-                    image.of_samples.data(), image.of_samples.size() * 4);
-      }
+      if (frame.depth && v.grid().samples > 1) image.of_samples = draw_depth(v);
       if (renderer->gl) check_gl(technique.name);
     }
     return images;
@@ -238,7 +201,7 @@ class DeviceEngine : public CullEngine {
       image.lights = v.plan.lights.local;
       image.tile = v.plan.settings[setting::tile];
       image.pixels = read_pixels(v, frame.image);
-      image.depths = depths_of(v, frame);
+      image.depths = read_depth(v, frame);
       image.lists =
           frame.listed ? frame.listed(image.depths) : list_every_light(uint32_t(image.lights.size()));
       if (image.lists.cell_of_pixel.empty()) image.lists.cell_of_pixel.resize(image.depths.size());
@@ -260,27 +223,11 @@ class DeviceEngine : public CullEngine {
     return with_opengl_.get();
   }
 
-  static std::vector<float> depths_of(RenderView& v, const Frame& frame) {
-    if (!frame.depth) return read_depth(v);
-    std::vector<float> depths(v.grid().pixels());
-    read_buffer(*v.renderer.cl, "depths", frame.depth->values, depths.data(), depths.size() * 4);
-    return depths;
-  }
-
   // The light groups of the surface at each pixel.
   static std::vector<uint32_t> groups_shown(RenderView& v, const Frame& frame) {
     std::vector<uint32_t> groups;
-    const auto add = [&](int instance) {
-      groups.push_back(instance < 0 ? 0 : groups_of(v.scene.instances[size_t(instance)]));
-    };
-    if (!frame.triangles) {
-      for (const SceneTriangle& triangle : read_triangles(v).opaque) add(triangle.instance);
-      return groups;
-    }
-    std::vector<uint32_t> numbers(v.grid().pixels());
-    read_buffer(*v.renderer.cl, "triangles", frame.triangles->numbers, numbers.data(), numbers.size() * 4);
-    for (const CastingTriangle& triangle : triangles_of(v.scene, *frame.triangles, numbers))
-      add(triangle.instance);
+    for (const SceneTriangle& triangle : shown_triangles(v, frame))
+      groups.push_back(triangle.instance < 0 ? 0 : groups_of(v.scene.instances[size_t(triangle.instance)]));
     return groups;
   }
 

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "oracle/lit_set.h"
 #include "oracle/position.h"
-#include "renderer/upload/culler_input.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab::verify {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "run/frames.h"
 #include "scene/deform.h"
-#include "techniques/technique.h"
 
 namespace lightgrid::lab::verify {
 namespace {

@@ -16,7 +16,6 @@
 #include "frames/frame_lists.h"
 #include "oracle/lit_set.h"
 #include "plan/settings/grid.h"
-#include "renderer/render_view.h"
 #include "shared/cull_tests.h"
 #include "verify/chosen_by_name.h"
 

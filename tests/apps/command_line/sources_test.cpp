@@ -117,6 +117,28 @@ TEST(Types, AreInTheNamespaceOfTheirHouse) {
     EXPECT_FALSE(name.starts_with(lab) || name.starts_with(app)) << name << testing::PrintToString(files);
 }
 
+// The laboratory draws and reads frames through run/frames.h. tools/size.py prints the number of headers.
+TEST(Headers, OfTheEngineThatTheLaboratoryIncludesAreFew) {
+  static const std::set<std::string> inside = {"bridge",   "effects",     "gl",         "passes",
+                                               "renderer", "shadow_maps", "techniques", "world_grid"};
+  static const std::regex include(R"raw((?:^|\n)#include "((\w+)/[^"]+)")raw");
+  const fs::path root(source_folder);
+  std::set<std::string> headers, of_inside;
+  for (const fs::path& file : source_files()) {
+    if (!file.string().starts_with((root / "src/laboratory/").string())) continue;
+    const std::string text = file_bytes(file);
+    for (std::sregex_iterator i(text.begin(), text.end(), include), end; i != end; ++i) {
+      const std::string header = (*i)[1];
+      if (!fs::exists(root / "src/engine" / header)) continue;
+      headers.insert(header);
+      if (inside.contains((*i)[2])) of_inside.insert(header);
+    }
+  }
+  EXPECT_GT(headers.size(), 30u);
+  EXPECT_LE(headers.size(), 74u) << testing::PrintToString(headers);
+  EXPECT_THAT(of_inside, testing::IsSubsetOf({"passes/light_index/lidr_settings.h"}));  // names settings
+}
+
 // All formatting depends on clang-format's version: Debian 12 has 14.
 bool has_clang_format() {
   return run_command("clang-format --version 2>&1").output.find(" 14.") != std::string::npos;
