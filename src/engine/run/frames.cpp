@@ -38,19 +38,6 @@ class DepthOfPixels {
   const std::vector<float> all_;
 };
 
-std::vector<SceneTriangle> own_triangles(const RenderView& v, const Frame& frame) {
-  std::vector<SceneTriangle> triangles;
-  for (const MeshTriangle& shown : read_mesh_triangles(v, frame)) {
-    if (shown.instance < 0) {
-      triangles.emplace_back();
-      continue;
-    }
-    const Mesh& mesh = v.scene.meshes[size_t(v.scene.instances[size_t(shown.instance)].mesh)];
-    triangles.push_back(scene_triangle(shown.instance, &mesh.indices[3 * size_t(shown.number)]));
-  }
-  return triangles;
-}
-
 }  // namespace
 
 std::vector<float> draw_depth(RenderView& v) {
@@ -104,14 +91,22 @@ std::vector<MeshTriangle> read_mesh_triangles(const RenderView& v, const Frame& 
   return triangles;
 }
 
-std::vector<SceneTriangle> own_triangles(TechniqueRun& run) { return own_triangles(run.view(), run.frame()); }
-
-std::vector<SceneTriangle> shown_triangles(RenderView& v, const Frame& frame) {
-  return frame.triangles ? own_triangles(v, frame) : read_triangles(v).opaque;
+std::vector<SceneTriangle> own_triangles(TechniqueRun& run) {
+  const Scene& scene = run.view().scene;
+  std::vector<SceneTriangle> triangles;
+  for (const MeshTriangle& shown : read_mesh_triangles(run.view(), run.frame())) {
+    if (shown.instance < 0) {
+      triangles.emplace_back();
+      continue;
+    }
+    const Mesh& mesh = scene.meshes[size_t(scene.instances[size_t(shown.instance)].mesh)];
+    triangles.push_back(scene_triangle(shown.instance, &mesh.indices[3 * size_t(shown.number)]));
+  }
+  return triangles;
 }
 
 std::vector<SceneTriangle> shown_triangles(TechniqueRun& run) {
-  return shown_triangles(run.view(), run.frame());
+  return run.frame().triangles ? own_triangles(run) : read_triangles(run.view()).opaque;
 }
 
 }  // namespace lightgrid

@@ -35,8 +35,6 @@ struct MeshTriangle {
 std::vector<MeshTriangle> read_mesh_triangles(const RenderView& v, const Frame& frame);
 std::vector<SceneTriangle> own_triangles(TechniqueRun& run);
 
-// The same for frames of every technique.
-std::vector<SceneTriangle> shown_triangles(RenderView& v, const Frame& frame);
-std::vector<SceneTriangle> shown_triangles(TechniqueRun& run);
+std::vector<SceneTriangle> shown_triangles(TechniqueRun& run);  // of every technique
 
 }  // namespace lightgrid

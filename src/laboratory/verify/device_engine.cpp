@@ -35,36 +35,22 @@ ShadowImage shadow_image(RenderView& v, const Frame& frame) {
   return image;
 }
 
-std::vector<glm::vec4> read_pixels(RenderView& v, const ShadedImage& shaded) {
-  Image image;
-  read_back(v, shaded, image);
-  return std::move(image.pixels);
-}
-
 class DeviceSequence : public FrameSequence {
  public:
   DeviceSequence(Renderer& renderer, const Scene& scene, const Technique& technique, const View& view,
                  const Settings& settings)
-      : technique_(technique),
-        gpu_(renderer, scene),
-        view_(renderer, gpu_, view, settings, technique.needs) {}
+      : gpu_(renderer, scene), run_(renderer, gpu_, view, settings, technique) {}
 
   SequenceFrame draw(const View& view, const SceneChanges& changes) override {
     if (!changes.empty()) gpu_.update(changes);
-    view_.look(view);
-    if (!changes.lights.empty()) view_.lights_changed();
-    if (view_.renderer.gl) reset_gl_state();
-    const Frame frame = draw_frame(technique_, view_);
-    SequenceFrame drawn{.pixels = read_pixels(view_, frame.image)};
-    drawn.shadows = shadow_image(view_, frame);
-    if (view_.renderer.gl) check_gl(technique_.name);
-    return drawn;
+    run_.look(view, changes);
+    run_.run_frame();
+    return {.shadows = shadow_image(run_.view(), run_.frame()), .pixels = run_.image().pixels};
   }
 
  private:
-  const Technique& technique_;
   GpuScene gpu_;
-  RenderView view_;
+  TechniqueRun run_;
 };
 
 class DeviceEngine : public CullEngine {
@@ -168,18 +154,15 @@ class DeviceEngine : public CullEngine {
     const Technique& technique = find_technique(name);
     Renderer* renderer = renderer_for(technique, settings);
     if (!renderer) return {};
-    GpuScene gpu(*renderer, scene);
-    RenderView v(*renderer, gpu, views.front(), settings, technique.needs);
+    TechniqueRun run(*renderer, scene, views.front(), settings, technique);
     std::vector<ListImage> images;
     for (const View& view : views) {
-      if (!images.empty()) v.look(view);
-      if (renderer->gl) reset_gl_state();
-      const Frame frame = technique.render(v);
+      if (!images.empty()) run.look(view);
+      run.draw_frame();
       ListImage& image = images.emplace_back();
-      image.depths = read_depth(v, frame);
-      image.lists = frame.listed(image.depths);
-      if (frame.depth && v.grid().samples > 1) image.of_samples = draw_depth(v);
-      if (renderer->gl) check_gl(technique.name);
+      image.depths = read_depth(run);
+      image.lists = run.frame().listed(image.depths);
+      if (run.frame().depth && run.view().grid().samples > 1) image.of_samples = draw_depth(run.view());
     }
     return images;
   }
@@ -187,26 +170,24 @@ class DeviceEngine : public CullEngine {
   std::vector<GroupImage> group_images(const Scene& scene, const std::string& name,
                                        std::span<const View> views, const Settings& settings) override {
     const Technique& technique = find_technique(name);
-    Renderer* found = renderer_for(technique, settings);
-    if (!found) return {};
-    Renderer& renderer = *found;
-    GpuScene gpu(renderer, scene);
-    RenderView v(renderer, gpu, views.front(), settings, technique.needs);
+    Renderer* renderer = renderer_for(technique, settings);
+    if (!renderer) return {};
+    TechniqueRun run(*renderer, scene, views.front(), settings, technique);
+    const FramePlan& plan = run.view().plan;
     std::vector<GroupImage> images;
     for (const View& view : views) {
-      if (!images.empty()) v.look(view);
-      if (renderer.gl) reset_gl_state();
-      const Frame frame = draw_frame(technique, v);
+      if (!images.empty()) run.look(view);
+      run.run_frame();
       GroupImage& image = images.emplace_back();
-      image.lights = v.plan.lights.local;
-      image.tile = v.plan.settings[setting::tile];
-      image.pixels = read_pixels(v, frame.image);
-      image.depths = read_depth(v, frame);
-      image.lists =
-          frame.listed ? frame.listed(image.depths) : list_every_light(uint32_t(image.lights.size()));
+      image.lights = plan.lights.local;
+      image.tile = plan.settings[setting::tile];
+      image.pixels = run.image().pixels;
+      image.depths = read_depth(run);
+      image.lists = run.frame().listed ? run.frame().listed(image.depths)
+                                       : list_every_light(uint32_t(image.lights.size()));
       if (image.lists.cell_of_pixel.empty()) image.lists.cell_of_pixel.resize(image.depths.size());
-      image.groups = groups_shown(v, frame);
-      if (renderer.gl) check_gl(technique.name);
+      for (const SceneTriangle& triangle : shown_triangles(run))
+        image.groups.push_back(triangle.instance < 0 ? 0 : scene.instances[size_t(triangle.instance)].groups);
     }
     return images;
   }
@@ -221,14 +202,6 @@ class DeviceEngine : public CullEngine {
     if (!with_opengl_->gl && draws_with_opengl(technique.needs, settings)) return nullptr;
     if (with_opengl_->gl) with_opengl_->gl->make_current();
     return with_opengl_.get();
-  }
-
-  // The light groups of the surface at each pixel.
-  static std::vector<uint32_t> groups_shown(RenderView& v, const Frame& frame) {
-    std::vector<uint32_t> groups;
-    for (const SceneTriangle& triangle : shown_triangles(v, frame))
-      groups.push_back(triangle.instance < 0 ? 0 : groups_of(v.scene.instances[size_t(triangle.instance)]));
-    return groups;
   }
 
   HostGrid grid_of(LightCuller& culler, const TileBounds& bounds) {
