@@ -38,14 +38,18 @@ bool makes_cells(const Found& f) {
   return std::ranges::any_of(f.kernels, is_builder);
 }
 
-class LightCellPictures : public testing::TestWithParam<size_t> {};
+// A scene, and whether all forms draw it: else the first, and one of the others in turn.
+class LightCellPictures : public testing::TestWithParam<std::tuple<size_t, bool>> {};
 
 using Forms = std::vector<std::vector<std::string>>;
 
 // `common`: settings of the tree's pictures and of those by cells.
-void expect_the_trees_bytes(const BuiltinScene& builtin, const std::vector<std::string>& common,
-                            const Forms& forms) {
+void expect_the_trees_bytes(std::tuple<size_t, bool> scene_and_forms, const std::vector<std::string>& common,
+                            Forms forms) {
+  const auto [number, all_forms] = scene_and_forms;
+  const BuiltinScene& builtin = builtin_scenes()[number];
   if (builtin.large && !long_tests()) GTEST_SKIP() << "a scene of millions of triangles";
+  if (!all_forms) forms = {forms[0], forms[1 + number % (forms.size() - 1)]};
   Scene scene = builtin.make();
   for (Light& light : scene.lights) light.casts_shadow = true;
   const View view = default_view(scene, 97, 61);
@@ -67,7 +71,7 @@ void expect_the_trees_bytes(const BuiltinScene& builtin, const std::vector<std::
 }
 
 TEST_P(LightCellPictures, HaveTheTreesBytes) {
-  expect_the_trees_bytes(builtin_scenes()[GetParam()], {},
+  expect_the_trees_bytes(GetParam(), {},
                          {{"portable=off"},
                           {"portable=on"},
                           {"kernel-shape=group"},
@@ -76,17 +80,22 @@ TEST_P(LightCellPictures, HaveTheTreesBytes) {
 }
 
 TEST_P(LightCellPictures, HaveTheTreesBytesAtEdgesAndBehindBlendedCasters) {
-  expect_the_trees_bytes(builtin_scenes()[GetParam()], {"samples=4", "shadow-blended=alpha"},
+  expect_the_trees_bytes(GetParam(), {"samples=4", "shadow-blended=alpha"},
                          {{"portable=off"}, {"kernel-shape=group"}, {"shadow-memory=4M"}});
 }
 
 TEST_P(LightCellPictures, HaveTheTreesBytesWhereRaysArePicked) {
-  expect_the_trees_bytes(builtin_scenes()[GetParam()], {"shadow-pick=4"},
-                         {{"portable=off"}, {"kernel-shape=group"}});
+  expect_the_trees_bytes(GetParam(), {"shadow-pick=4"}, {{"portable=off"}, {"kernel-shape=group"}});
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, LightCellPictures, testing::Range(size_t(0), builtin_scenes().size()),
-                         [](const auto& info) { return std::string(builtin_scenes()[info.param].name); });
+std::string scene_name(const testing::TestParamInfo<std::tuple<size_t, bool>>& info) {
+  return builtin_scenes()[std::get<0>(info.param)].name;
+}
+const auto scene_numbers = testing::Range(size_t(0), builtin_scenes().size());
+INSTANTIATE_TEST_SUITE_P(Scenes, LightCellPictures, testing::Combine(scene_numbers, testing::Values(false)),
+                         scene_name);
+INSTANTIATE_TEST_SUITE_P(AllForms, LightCellPictures, testing::Combine(scene_numbers, testing::Values(true)),
+                         scene_name);
 
 // Rays that do not begin at the light's centre keep the tree.
 TEST(LightCellSettings, SamplesOfLightsHaveNoCells) {
