@@ -187,7 +187,8 @@ class DeviceEngine : public CullEngine {
                                        : list_every_light(uint32_t(image.lights.size()));
       if (image.lists.cell_of_pixel.empty()) image.lists.cell_of_pixel.resize(image.depths.size());
       for (const SceneTriangle& triangle : shown_triangles(run))
-        image.groups.push_back(triangle.instance < 0 ? 0 : scene.instances[size_t(triangle.instance)].groups);
+        image.groups.push_back(triangle.instance < 0 ? 0
+                                                     : groups_of(scene.instances[size_t(triangle.instance)]));
     }
     return images;
   }
