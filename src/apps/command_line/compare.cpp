@@ -165,7 +165,7 @@ void add_compare(CommandLine& line) {
                "KEY=VALUE,VALUE,…: each technique that reads KEY, with each value; may be repeated");
   command.option("--reference", c.reference,
                  "pixels of the brute-force image: full, sampled, or auto (sampled past a minute)");
-  command.flag("--flip", c.flip, "measure HDR-FLIP too, which takes seconds a row");
+  command.flag("--flip", c.flip, "also measures HDR-FLIP, which takes seconds per row");
   command.option("-o,--output", o->output, "folder of the report");
   command.flag("--exr", o->exr, "with one view: each picture as a linear .exr file too");
   command.option("--page-mb", o->page_mb, "with several views: limit of pictures in the page in MiB", 1,

@@ -273,10 +273,9 @@ void add_frontier(CommandLine& line) {
   o->scene.size = "640x360";
   Subcommand command = line.add("frontier", "what accuracy costs in time, over settings and scenes",
                                 [o] { return frontier(*o); });
-  command.list(
-      "scene", o->scenes,
-      "scenes as for compare; or: merge DIR…, the parts of one sweep; or: export SCENE…, what another "
-      "renderer needs to draw them (default: hall, terrain, spheres, street)");
+  command.list("scene", o->scenes,
+               "scenes as for compare (default: hall, terrain, spheres, street); or merge DIR…: joins the "
+               "parts of a sweep; or export SCENE…: writes scenes for another renderer");
   command.option("--size", o->scene.size, "image size, WxH");
   command.option("--lights", o->scene.lights, "scatter N lights; with --lights-file, its first N", 0,
                  max_lights);
@@ -284,7 +283,7 @@ void add_frontier(CommandLine& line) {
   add_exposure_option(command, o->scene);
   command.option("--camera-path", o->scene.camera_path,
                  "views from turn:N, dolly:N or a JSON file of keys (default: a turn)");
-  command.option("--views", o->views, "views of each scene, at most", 1, 1000);
+  command.option("--views", o->views, "maximum number of views per scene", 1, 1000);
   add_device_options(command, o->devices);
   command.list("-t,--technique,--techniques", o->techniques,
                "NAME[:KEY=VALUE[,KEY=VALUE…]], separated by commas (default: a star of settings around each)",
@@ -296,33 +295,33 @@ void add_frontier(CommandLine& line) {
       "--external", o->external,
       "FILE: another renderer that takes part, as a command or as pictures and times; may be repeated");
   command.option("--baseline", o->baseline,
-                 "NAME[:KEY=VALUE…]: what times are over (default: forward_plus, without OpenGL visibility)");
-  command.option(
-      "--truth", o->truth,
-      "the picture that errors are against: lights of infinite range, of their own, or these averaged over "
-      "each pixel's area (default: infinite; where lights cast shadows, own; with several samples, area)");
+                 "NAME[:KEY=VALUE…]: the point to which times are relative (default: forward_plus; without "
+                 "OpenGL visibility)");
+  command.option("--truth", o->truth,
+                 "the picture with which others are compared: lights without ranges (infinite), with their "
+                 "own, or with their own and averaged over each pixel's area (default: infinite; if lights "
+                 "cast shadows, own; with several samples, area)");
   command.option("--rounds", o->rounds,
-                 "times of each point and view, at most: fewer if the intervals are narrow before", 1, 1000);
+                 "maximum number of times per point and view; fewer if the intervals are narrow earlier", 1,
+                 1000);
   add_keep_option(command, o->keep);
-  command.flag("--no-growth", o->no_growth, "leaves out how times grow with lights, pixels and ranges");
-  command.flag("--sequences", o->sequences,
-               "flicker over 64 frames too: still camera, dolly, moving lights; comes on top of the budget");
+  command.flag("--no-growth", o->no_growth, "does not measure how times grow with lights, pixels and ranges");
   command.flag(
-      "--families", o->families,
-      "instead: scattered lights of 10^2 to 10^6 at an equal overlap, and overlaps of 1 to 1,000 lights a "
-      "pixel at an equal number (--lights, default 10,000)");
+      "--sequences", o->sequences,
+      "also measures flicker over 64 frames: still camera, dolly, moving lights; in addition to the budget");
+  command.flag("--families", o->families,
+               "measures families of lights instead: 10^2 to 10^6 scattered lights at an equal overlap, and "
+               "overlaps of 1 to 1,000 lights per pixel with an equal number (--lights, default 10,000)");
   command.option("--budget", o->budget, "minutes that measuring may take", 1, 100000);
-  command.option(
-      "--gate", o->gate,
-      "an earlier frontier.json: exit 1 if an error grew, a light is lost, a time is worse or the baseline "
-      "differs from itself");
-  command.option(
-      "--processes", o->processes,
-      "runs of the program, one after the other, that share the rounds: with 5 or more, intervals hold "
-      "what differs from run to run",
-      1, 100);
+  command.option("--gate", o->gate,
+                 "an earlier frontier.json: status 1 if an error grew, a light is lost, a time is worse or a "
+                 "control fails");
+  command.option("--processes", o->processes,
+                 "number of processes, one after the other, that share the rounds: with 5 or more, intervals "
+                 "include differences between processes",
+                 1, 100);
   command.option("--process", o->process,
-                 "I/N: only the I-th of N such runs; the last one completes the part");
+                 "I/N: only the I-th of N such processes; the last one completes the part");
   command.option("--shard", o->shard,
                  "I/N: every N-th point from the I-th on, for a sweep of several processes");
   command.option("-o,--output", o->output, "folder of the parts and the answer");

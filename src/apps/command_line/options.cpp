@@ -48,10 +48,9 @@ void add_view_options(Subcommand& command, SceneChoice& o) {
 }
 
 void add_keep_option(Subcommand& command, std::string& keep) {
-  command.option(
-      "--keep", keep,
-      "over several numbers of scattered lights: range (all have the ranges of one number), or overlap "
-      "(as many lights reach a point: ranges shrink as the number grows)");
+  command.option("--keep", keep,
+                 "with several numbers of scattered lights: range (all have the ranges of the first number), "
+                 "or overlap (ranges shrink, so that equally many lights reach a point)");
 }
 
 void add_exposure_option(Subcommand& command, SceneChoice& o) {
@@ -63,7 +62,7 @@ void add_path_option(Subcommand& command, SceneChoice& o) { add_fields(command, 
 void add_device_options(Subcommand& command, DeviceOptions& o) {
   const Subcommand::Heading heading(command, "Devices and timing");
   command.option("--device", o.device, "OpenCL device, by a part of its name");
-  command.option("--gl", o.gl, "osmesa, egl, auto, or none: OpenCL alone, for the technique visibility");
+  command.option("--gl", o.gl, "osmesa, egl, auto, or none: only OpenCL, for the technique visibility");
 }
 
 void add_timing_options(Subcommand& command, TimingOptions& o) {

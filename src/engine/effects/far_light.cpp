@@ -30,7 +30,7 @@ void mean_ranges_without_end(Settings& s) {
 const Setting<int> far_samples{
     70,
     "far-light",
-    "samples of a coarse volume that adds what lights send beyond their ranges",
+    "number of samples in a coarse volume that adds the light beyond the lights' ranges",
     {{"off", 0}, {"512", 512}, {"4096", 4096}, {"32768", 32768}, {"262144", 262144}},
     {.model = true,
      .common = true,

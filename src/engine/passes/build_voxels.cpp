@@ -43,12 +43,12 @@ bool same(const FilledWith& a, const FilledWith& b) {
 
 static const Setting<int> voxel_bits{500,
                                      "voxel-bits",
-                                     "bits of a value in the voxel light buffer, float in both cases",
+                                     "bits per value in voxel_lights' volume, float in both cases",
                                      {{"32", 32}, {"16", 16}}};
 static const Setting<bool> voxel_reuse{
     520,
     "voxel-reuse",
-    "the voxel light buffer is filled in each frame, or only where its place or a light changed",
+    "voxel_lights' volume is filled in each frame, or only if its place or a light changed",
     {{"off", false}, {"on", true}}};
 
 class VoxelBuffers : public PassCache {

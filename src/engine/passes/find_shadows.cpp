@@ -37,7 +37,7 @@ constexpr size_t min_bytes = 64;  // of a buffer
 const Setting<bool> shadow_reuse{
     670,
     "shadow-reuse",
-    "shadows are found in each frame, or only where the camera, a light or a surface changed",
+    "shadows are computed in each frame, or only if the camera, a light or a surface changed",
     {{"off", false}, {"on", true}},
     {.common = true, .shown_if_given = true}};
 

@@ -70,7 +70,7 @@ static Frame render(RenderView& v) {
 static const Setting<int> lights_with_maps{
     390,
     "lidr-maps",
-    "lights with shadow maps, with lidr-shadows=final: those of most influence",
+    "lights with shadow maps, with lidr-shadows=final: the most important",
     {{"4", 4}, {"1", 1}, {"16", 16}, {"64", 64}, {"256", 256}},
     {.shown = [](const Settings& s) { return s[setting::lidr_shadows] == LidrShadows::final_pass; }}};
 

@@ -20,7 +20,8 @@ enum class PrepassLights { tiles, volumes };
 static const Setting<PrepassLights> prepass_lights{
     240,
     "prepass-lights",
-    "who adds up the light buffer: OpenCL from lists of tiles, or OpenGL, a light's volume after the other",
+    "how the light buffer is summed: by OpenCL from lists of tiles, or by OpenGL, one light volume after the "
+    "other",
     {{"tiles", PrepassLights::tiles}, {"volumes", PrepassLights::volumes}}};
 
 static Frame from_volumes(RenderView& v) {

@@ -16,8 +16,9 @@ namespace lightgrid::setting {
 inline const Setting<PrepassSpecular> prepass_specular{
     250,
     "prepass-specular",
-    "the specular term of the light buffer: of the lights' shininess; or raised to the material's, after "
-    "division by a fifth term, by the luminance of the diffuse ones, or as it is",
+    "how light_prepass finds a material's highlight from the sum of one fixed exponent: as it is; or raised "
+    "to the material's exponent after division by a fifth term, by the luminance of the diffuse sum, or by a "
+    "constant",
     {{"plain", PrepassSpecular::plain},
      {"fifth-term", PrepassSpecular::fifth_term},
      {"luminance", PrepassSpecular::luminance},
@@ -25,16 +26,17 @@ inline const Setting<PrepassSpecular> prepass_specular{
 
 inline const Setting<int> prepass_shininess{260,
                                             "prepass-shininess",
-                                            "the lights' specular exponent in the light buffer",
+                                            "specular exponent of the sums in the light buffer",
                                             {"32", "2", "8", "128", "512"}};
 
-inline const Setting<NormalFormat> normals{270,
-                                           "normals",
-                                           "the image of normals: floats, or 32 bits per pixel: two of 16 "
-                                           "(octahedral, or a sphere map), or three of 8",
-                                           {{"float", NormalFormat::floats},
-                                            {"octahedral", NormalFormat::octahedral},
-                                            {"spheremap", NormalFormat::spheremap},
-                                            {"xyz8", NormalFormat::xyz8}}};
+inline const Setting<NormalFormat> normals{
+    270,
+    "normals",
+    "format of light_prepass's normals: floats; or 32 bits per pixel, as two numbers of 16 bits (octahedral, "
+    "or a sphere map) or three of 8",
+    {{"float", NormalFormat::floats},
+     {"octahedral", NormalFormat::octahedral},
+     {"spheremap", NormalFormat::spheremap},
+     {"xyz8", NormalFormat::xyz8}}};
 
 }  // namespace lightgrid::setting

@@ -18,7 +18,7 @@ namespace {
 const Setting<bool> by_priority{
     370,
     "lidr-order",
-    "the lights kept if a pixel has too many: those of most influence, or the scene's first",
+    "the lights kept if a pixel has too many: the most important, or the scene's first",
     {{"priority", true}, {"scene", false}}};
 
 LightExtent extent_in_space(const LightVolume& v) {

@@ -19,7 +19,7 @@ namespace lightgrid::setting {
 inline const Setting<LidrPacking> lidr_packing{290,
                                                "lidr-packing",
                                                "how the light indices of a pixel share an image: shifted by "
-                                               "blending, maximum and minimum, or a channel each",
+                                               "blending, as maximum and minimum, or in a channel each",
                                                {{"bitshift", LidrPacking::bitshift},
                                                 {"maxblend", LidrPacking::maxblend},
                                                 {"sort", LidrPacking::sort},
@@ -29,42 +29,42 @@ inline const Setting<LidrPacking> lidr_packing{290,
 inline const Setting<int> lidr_overlap{
     300,
     "lidr-overlap",
-    "capacity of a pixel in light indices; auto: the most that the packing can hold for these lights",
+    "maximum number of light indices per pixel; auto: as many as the packing can hold for these lights",
     {{"auto", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}}};
 
 // 0: auto.
 inline const Setting<int> lidr_lights{
     310,
     "lidr-lights",
-    "lights that an index can distinguish; auto: the least that suffices for the scene",
+    "number of lights that an index can distinguish; auto: the smallest that is enough for the scene",
     {{"auto", 0}, {"15", 15}, {"255", 255}, {"65535", 65535}}};
 
 inline const Setting<LidrVolumes> lidr_volumes{
     320,
     "lidr-volumes",
-    "marks surfaces inside light volumes, by a stencil; or all behind their front faces, which serves "
-    "blended surfaces too, also without a depth prepass: whatever is behind",
+    "surfaces that get a light's index: those inside its volume, by a stencil; those behind its front faces, "
+    "also for blended surfaces; or everything behind it, without a depth prepass",
     {{"stencil", LidrVolumes::stencil},
      {"front-faces", LidrVolumes::front_faces},
      {"no-prepass", LidrVolumes::no_prepass}}};
 
-inline const Setting<LidrTypes> lidr_types{
-    340,
-    "lidr-types",
-    "point and spot lights: in the same images, told apart by the light's data; or a pass over the surfaces "
-    "for each, with images and a light loop of its own",
-    {{"flag", LidrTypes::flag}, {"passes", LidrTypes::passes}}};
+inline const Setting<LidrTypes> lidr_types{340,
+                                           "lidr-types",
+                                           "point and spot lights share images and are distinguished by the "
+                                           "light's data, or each have their own images, pass and light loop",
+                                           {{"flag", LidrTypes::flag}, {"passes", LidrTypes::passes}}};
 
 inline const Setting<LidrSort> lidr_sort{350,
                                          "lidr-sort",
                                          "sorted packings: lights in view are put into groups for each view, "
-                                         "or all lights once, while they are at rest",
+                                         "or all lights once while they do not move",
                                          {{"view", LidrSort::view}, {"still", LidrSort::still}}};
 
-inline const Setting<int> lidr_passes{360,
-                                      "lidr-passes",
-                                      "sorted packings: the most passes over the surfaces; lights that find "
-                                      "no group are drawn in the next, after the last they are left out",
-                                      {"1", "2", "4", "8", "16"}};
+inline const Setting<int> lidr_passes{
+    360,
+    "lidr-passes",
+    "sorted packings: maximum number of passes over the surfaces; lights that fit into no group are drawn in "
+    "the next pass, and left out after the last",
+    {"1", "2", "4", "8", "16"}};
 
 }  // namespace lightgrid::setting

@@ -5,13 +5,12 @@
 namespace lightgrid {
 namespace {
 
-const Setting<bool> shadow_cells{
-    660,
-    "shadow-cells",
-    "exact hard shadows of lights at rest come from lists of the triangles around "
-    "each light, or all from the tree",
-    {{"on", true}, {"off", false}},
-    {.common = true, .shown_if_given = true}};
+const Setting<bool> shadow_cells{660,
+                                 "shadow-cells",
+                                 "exact hard shadows of lights at rest come from lists of the triangles "
+                                 "around each light (on), or from the tree like all others (off)",
+                                 {{"on", true}, {"off", false}},
+                                 {.common = true, .shown_if_given = true}};
 
 }  // namespace
 

@@ -16,7 +16,7 @@ namespace lightgrid::setting {
 inline const Setting<VoxelSize> voxel_size{
     480,
     "voxel-size",
-    "samples of the voxel light buffer: along x, z and y of the world, or across, up and away in the view",
+    "samples of voxel_lights' volume: along x, z and y of the world; or across, up and in depth of the view",
     {{"128x128x16", VoxelSize::s128x128x16},
      {"16x16x4", VoxelSize::s16x16x4},
      {"32x32x8", VoxelSize::s32x32x8},
@@ -28,13 +28,13 @@ inline const Setting<VoxelSize> voxel_size{
 inline const Setting<VoxelSpace> voxel_space{
     490,
     "voxel-space",
-    "what the voxel light buffer divides: a box of the world around what is visible, or the view by distance",
+    "the volume divides a box of the world around what is visible, or the view by distance",
     {{"world", VoxelSpace::world}, {"view", VoxelSpace::view}}};
 
 inline const Setting<int> voxel_lights_exact{510,
                                              "voxel-lights-exact",
-                                             "lights per pixel that are shaded exactly, from a light grid: "
-                                             "the most important ones. The volume has the others",
+                                             "number of lights per pixel that are shaded exactly, from a "
+                                             "light grid: the most important ones; the volume has the rest",
                                              {"0", "1", "2", "4", "8"}};
 
 }  // namespace lightgrid::setting
