@@ -23,8 +23,8 @@ inline const Setting<Brdf> brdf{
 inline const Setting<LightRange> range{
     20,
     "range",
-    "where a light ends: at the range that the scene gives, where its irradiance falls to cutoff, at a "
-    "random distance whose mean picture is that of no range (with alpha), or nowhere",
+    "where a light ends: at the scene's range; where its irradiance falls to cutoff; at a random distance, "
+    "so that the mean picture has no ranges (see alpha); or nowhere",
     {{"scene", LightRange::scene},
      {"cutoff", LightRange::cutoff},
      {"stochastic", LightRange::stochastic},
@@ -34,7 +34,7 @@ inline const Setting<LightRange> range{
 inline const Setting<double> cutoff{
     30,
     "cutoff",
-    "irradiance at which lights end with range=cutoff: intensity over squared distance",
+    "with range=cutoff: the irradiance (intensity over squared distance) at which lights end",
     {"0.01", "1", "0.5", "0.2", "0.1", "0.05", "0.02", "0.005", "0.002", "0.001", "0.0005", "0.0002",
      "0.0001"},
     {.model = true,
@@ -54,7 +54,7 @@ inline const Setting<RangeWindow> window{
 inline const Setting<double> alpha{
     50,
     "alpha",
-    "irradiance below which a light reaches a point by chance, with range=stochastic",
+    "with range=stochastic: irradiance below which a light reaches a point only with some probability",
     {"0.01", "1", "0.5", "0.2", "0.1", "0.05", "0.02", "0.005", "0.002", "0.001", "0.0005", "0.0002",
      "0.0001"},
     {.model = true, .common = true, .shown = ranges_are_random, .any_number = true}};
@@ -62,7 +62,7 @@ inline const Setting<double> alpha{
 inline const Setting<uint32_t> light_seed{
     60,
     "light-seed",
-    "of the random ranges, with range=stochastic",
+    "with range=stochastic: seed of the random ranges",
     {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15", "16"},
     {.model = true, .common = true, .shown = ranges_are_random}};
 

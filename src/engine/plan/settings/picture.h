@@ -16,8 +16,8 @@ namespace lightgrid::setting {
 inline const Setting<PictureFormat> picture{
     650,
     "picture",
-    "what goes to the host, where a frame's time ends: the image as floats, or the bytes of a display, "
-    "tone-mapped at its exposure",
+    "what is copied to the host at the end of a frame: the image in floats, or the tone-mapped bytes of a "
+    "display",
     {{"float", PictureFormat::floats}, {"bytes", PictureFormat::bytes}},
     {.common = true, .shown = [](const Settings& s) { return s[picture] == PictureFormat::bytes; }}};
 

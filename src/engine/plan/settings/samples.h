@@ -18,29 +18,29 @@ namespace lightgrid::setting {
 
 inline const Setting<int> samples{420,
                                   "samples",
-                                  "a pixel, at which triangles are drawn: 1 is its centre; of more, each "
-                                  "surface that they see is shaded once and counts by its share of them",
+                                  "samples per pixel; 1 is the pixel's centre. Each surface that the samples "
+                                  "see is shaded once and weighted by its share of them",
                                   {"1", "2", "4", "8"}};
 
 inline const Setting<SamplesShading> samples_shading{
     430,
     "samples-shading",
-    "where surfaces are stored for each sample: samples are shaded separately only at edges, or everywhere",
+    "if surfaces are stored for each sample: samples are shaded separately only at edges, or everywhere",
     {{"edges", SamplesShading::edges}, {"all", SamplesShading::all}},
     {.shown = several_samples}};
 
 inline const Setting<SampleMasks> samples_masks{
     440,
     "samples-masks",
-    "alpha masks of several samples: tested at the pixel's centre, at each sample, or by coverage, from "
-    "alpha at the centre and its slope",
+    "where alpha masks are tested with several samples: at the pixel's centre, at each sample, or by "
+    "coverage, from alpha at the centre and its slope",
     {{"centre", SampleMasks::centre}, {"samples", SampleMasks::samples}, {"coverage", SampleMasks::coverage}},
     {.shown = several_samples}};
 
 inline const Setting<SamplesResolve> samples_resolve{
     450,
     "samples-resolve",
-    "average of a pixel's samples: of their light, of their light after the tone map, or of their light "
+    "how a pixel's samples are averaged: their light, their light after the tone map, or their light "
     "weighted by the tone map's derivative",
     {{"linear", SamplesResolve::linear},
      {"tonemapped", SamplesResolve::tonemapped},

@@ -29,9 +29,9 @@ namespace lightgrid::setting {
 inline const Setting<LidrShadows> lidr_shadows{
     380,
     "lidr-shadows",
-    "shadows of point and spot lights: exact, by the pass of all techniques; none; or where light volumes "
-    "are drawn by shadow volumes or shadow maps, hard or as a share next to each index, or by shadow maps of "
-    "a few lights where surfaces are shaded",
+    "how lidr finds shadows of point and spot lights: exactly, by the shared pass; not at all; by shadow "
+    "volumes or shadow maps as light volumes are drawn, hard or with four bits of shadow next to each index; "
+    "or by shadow maps of a few lights as surfaces are shaded",
     {{"pass", LidrShadows::pass},
      {"none", LidrShadows::none},
      {"volumes", LidrShadows::volumes},
@@ -43,7 +43,7 @@ inline const Setting<LidrShadows> lidr_shadows{
 inline const Setting<ShadowMethod> shadows{
     550,
     "shadows",
-    "shadows by exact rays, from shadow maps, which are an approximation, or none",
+    "exact shadows by rays, approximate ones from shadow maps, or none",
     {{"exact", ShadowMethod::exact}, {"map", ShadowMethod::map}, {"none", ShadowMethod::none}},
     {.common = true,
      .approximate = [](const Settings& s) { return s[shadows] != ShadowMethod::exact; },
@@ -52,34 +52,35 @@ inline const Setting<ShadowMethod> shadows{
 inline const Setting<int> shadow_size{
     560,
     "shadow-size",
-    "texels a side of a shadow map's faces, of the light with the largest share of the screen",
+    "texels per side of a shadow map's face, for the light with the largest share of the screen",
     {"256", "16", "32", "64", "128", "512", "1024", "2048"},
     {.common = true, .shown = has_maps}};
 
 inline const Setting<int> shadow_bits{570,
                                       "shadow-bits",
-                                      "of a shadow map's texel: 32 is float",
+                                      "bits per texel of a shadow map; 32 is float",
                                       {"32", "16", "24"},
                                       {.common = true, .shown = has_maps}};
 
 // Texels a side.
-inline const Setting<int> shadow_taps{580,
-                                      "shadow-filter",
-                                      "texels that a pixel looks up: its own, or the mean of 3 x 3 or 5 x 5",
-                                      {{"none", 1}, {"pcf3", 3}, {"pcf5", 5}},
-                                      {.common = true, .shown = filters_maps}};
+inline const Setting<int> shadow_taps{
+    580,
+    "shadow-filter",
+    "texels of a shadow map that a pixel reads: one, or the mean of 3 x 3 or 5 x 5",
+    {{"none", 1}, {"pcf3", 3}, {"pcf5", 5}},
+    {.common = true, .shown = filters_maps}};
 
 inline const Setting<int> shadow_rays{590,
                                       "shadow-rays",
-                                      "rays for each pixel and light that casts a shadow: one to its centre, "
-                                      "or so many to a sphere around it, for soft shadows",
+                                      "rays for each pixel and casting light: one to its centre, or several "
+                                      "to a sphere around it, for soft shadows",
                                       {"1", "4", "16", "64", "256"},
                                       {.common = true, .approximate = soft_shadows}};
 
 inline const Setting<double> shadow_source_m{
     600,
     "shadow-source",
-    "radius of these spheres in metres",
+    "with shadow-rays: radius of the sphere in metres",
     {"0.05", "0", "0.01", "0.02", "0.1", "0.2", "0.5"},
     {.common = true,
      .shown = [](const Settings& s) { return s[shadows] == ShadowMethod::exact && s[shadow_rays] > 1; }}};
@@ -87,23 +88,23 @@ inline const Setting<double> shadow_source_m{
 inline const Setting<int> shadow_pick{
     610,
     "shadow-pick",
-    "rays for each pixel to lights drawn from its list, in place of those to each light: one estimate of the "
-    "hidden share of all its light",
+    "rays per pixel in all, to lights drawn from its list, instead of rays to each light: one estimate of "
+    "the hidden share of all its light",
     {{"off", 0}, {"1", 1}, {"4", 4}, {"16", 16}},
     {.common = true, .approximate = picks_shadows, .mean = [](Settings& s) { s.reset(shadow_pick); }}};
 
 inline const Setting<BlendedCasters> shadow_blended{
     620,
     "shadow-blended",
-    "what blended surfaces hide of a light: nothing, all of it, or what their alpha says",
+    "how much light blended surfaces hide: none, all, or according to alpha",
     {{"none", BlendedCasters::none}, {"opaque", BlendedCasters::opaque}, {"alpha", BlendedCasters::alpha}},
     {.model = true, .common = true}};
 
 inline const Setting<int> shadow_threshold{
     630,
     "shadow-threshold",
-    "lights that together add less than so many steps of the 8-bit display to any surface have no shadow "
-    "there",
+    "lights that together add less than this many steps of the 8-bit display to any surface cast no shadow "
+    "on it",
     {{"off", 0}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}},
     {.common = true, .shown_if_given = true, .approximate = [](const Settings& s) {
        return s[shadow_threshold] > 0;
@@ -113,8 +114,8 @@ inline const Setting<int> shadow_threshold{
 inline const Setting<size_t> shadow_memory{
     640,
     "shadow-memory",
-    "most memory of a frame's shadows, and as much again of shadow maps or light cells: where bits take "
-    "more, the frame is shaded in bands; maps get smaller",
+    "limit for the memory of a frame's shadows, and again for shadow maps or light cells; beyond it the "
+    "frame is shaded in bands, and maps get smaller",
     {{"256M", size_t(256) << 20},
      {"1M", size_t(1) << 20},
      {"4M", size_t(4) << 20},

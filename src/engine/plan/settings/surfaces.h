@@ -25,17 +25,18 @@ namespace lightgrid::setting {
 inline const Setting<int> buffer_bits{
     190,
     "buffer-bits",
-    "bits of a channel of the geometry buffer: 32 is float, fewer are fixed point; of light_prepass its "
-    "light buffer, with half floats in 16 bits",
+    "bits per channel of the geometry buffer, or of light_prepass's light buffer: 32 is float; fewer are "
+    "fixed point, in the light buffer half floats with 16 bits",
     {"32", "16", "8"}};
 
-inline const Setting<VolumeCulling> volume_culling{200,
-                                                   "volume-culling",
-                                                   "how deferred lights skip pixels that they do not reach",
-                                                   {{"back-faces", VolumeCulling::back_faces},
-                                                    {"stencil", VolumeCulling::stencil},
-                                                    {"scissor", VolumeCulling::scissor},
-                                                    {"depth-bounds", VolumeCulling::depth_bounds}}};
+inline const Setting<VolumeCulling> volume_culling{
+    200,
+    "volume-culling",
+    "how light volumes skip pixels that the light does not reach",
+    {{"back-faces", VolumeCulling::back_faces},
+     {"stencil", VolumeCulling::stencil},
+     {"scissor", VolumeCulling::scissor},
+     {"depth-bounds", VolumeCulling::depth_bounds}}};
 
 inline const Setting<VolumeMeshes> volume_mesh{
     400,
@@ -48,14 +49,14 @@ inline const Setting<VolumeMeshes> volume_mesh{
 inline const Setting<RasterApi> raster{
     410,
     "raster",
-    "the API that draws triangles: OpenGL, or only OpenCL, as in visibility",
+    "the API that draws triangles: OpenGL, or OpenCL as in visibility, which needs no OpenGL",
     {{"opengl", RasterApi::opengl}, {"opencl", RasterApi::opencl}}};
 
 inline const Setting<TexelLayout> texels{
     460,
     "texels",
-    "textures in OpenCL: the maps of a material in one texel of 16 or 8 bytes where their sizes agree, or "
-    "each its own",
+    "textures in OpenCL: the maps of a material in one texel of 16 or 8 bytes if their sizes agree, or each "
+    "by itself",
     {{"16", TexelLayout::packed}, {"8", TexelLayout::packed_8}, {"separate", TexelLayout::separate}}};
 
 }  // namespace lightgrid::setting
