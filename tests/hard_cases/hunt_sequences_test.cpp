@@ -166,6 +166,36 @@ TEST(HuntOfStaleSequences, FaultsAreFound) {
   }
 }
 
+// A wall with a lamp, a caster and its shadow, and a card before the camera, out of the lamp's range, that
+// moves. Returns the frames that differ from fresh ones.
+int stale_behind_a_card(CullEngine& engine) {
+  Scene scene = empty_shadow_scene();
+  add_triangles(scene, quad_of({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}));
+  add_triangles(scene, quad_of({-1, -1, 0.4f}, {2, 0, 0}, {0, 2, 0}));
+  add_triangles(scene, quad_of({-0.4f, -0.2f, 6}, {0.3f, 0, 0}, {0, 0.4f, 0}));
+  Light& lamp = scene.lights.emplace_back();
+  lamp.position = {0.3, 0.2, 1.2};
+  lamp.radius_m = 3;
+  lamp.casts_shadow = true;
+  const View view = shadow_view({1, -1, 8}, {0, 0, 0});
+  const SequenceKind& kind = sequence_kinds().front();
+  const auto keeping = engine.sequence(scene, kind.technique, view, settings_of(kind));
+  SceneChanges changes;
+  int stale = 0;
+  for (int i = 0; i < 6; ++i) {
+    const SequenceFrame kept = keeping->draw(view, changes);
+    const auto fresh = engine.sequence(scene, kind.technique, view, settings_of(kind));
+    stale += !difference(kept, fresh->draw(view, {})).empty();
+    scene.instances.back().world_from_object[3].x += 0.05;
+    changes.instances = {int(scene.instances.size()) - 1};
+  }
+  return stale;
+}
+
+TEST(HuntOfSequences, SurfacesAppearBehindAMovedCard) {
+  EXPECT_EQ(stale_behind_a_card(*device_engine("")), 0);
+}
+
 // A part of the kernels, and what stands there instead.
 struct KeptFault {
   const char *name, *right, *wrong;
@@ -182,7 +212,7 @@ TEST_P(FaultyKeptPairs, AreFound) {
     ++planted;
     return text.replace(at, std::strlen(fault.right), fault.wrong);
   });
-  EXPECT_GT(sequences_of(*engine, sequence_kinds().front(), 20, 20).stale, 0u);
+  EXPECT_TRUE(stale_behind_a_card(*engine) > 0 || sequences_of(*engine, sequence_kinds().front()).stale > 0);
   EXPECT_GT(planted, 0) << "no kernel has this text";
 }
 
@@ -191,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(KeptFault{"LightsAndCastersThatMoved", "row->lights ? row->lights[light]",
                               "row->lights ? light"},
                     KeptFault{"OtherSurfaces", "same_receivers && !same_receivers[tile]", "false"},
-                    KeptFault{"SurfacesThatMovedInPlace", "if (!same || !rests)", "if (!same)"},
+                    KeptFault{"OtherDepths", "numbers[at] == number && depth_bits[at] == depth", "true"},
                     KeptFault{"FirstLightOf32", "(listed.y + popcount(listed.x & (own - 1u)))", "listed.y"}),
     [](const auto& info) { return std::string(info.param.name); });
 

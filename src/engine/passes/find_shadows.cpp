@@ -128,7 +128,7 @@ class ShadowBits : public PassCache {
     const bool keeps = keeps_pairs(work);
     if (keeps) kept_.begin(work, images.size(), room_.table_bytes + bit_bytes);
     make_room(work, bit_bytes);
-    if (keeps) kept_.compare(work, *scene_, arguments_of(images[0]), !visible);
+    if (keeps) kept_.compare(work, arguments_of(images[0]), !visible);
     launch(work, images, bands_.bands[band_]);
     if (keeps) kept_.end();
     if (bands_.bands.size() > 1)

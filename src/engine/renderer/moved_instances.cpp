@@ -10,7 +10,6 @@ std::optional<std::vector<WorldBox>> MovedInstances::since_last(const GpuScene& 
   const bool all = rays.builds() != builds_ || instances_.size() != scene.instances.size();
   builds_ = rays.builds();
   instances_.resize(scene.instances.size());
-  numbers_.clear();
   std::vector<WorldBox> moved;
   for (size_t i = 0; i < instances_.size(); ++i) {
     const Instance& instance = scene.instances[i];
@@ -19,7 +18,6 @@ std::optional<std::vector<WorldBox>> MovedInstances::since_last(const GpuScene& 
     if (before.world_from_object == instance.world_from_object && before.mesh_version == version) continue;
     const Placed after{instance.world_from_object, version,
                        world_box(scene.meshes[size_t(instance.mesh)], instance.world_from_object)};
-    numbers_.push_back(i);
     moved.push_back(before.box);
     moved.push_back(after.box);
     before = after;

@@ -16,8 +16,6 @@ class MovedInstances {
   // The boxes of instances that moved, or whose meshes deformed, since the last call: before and after. None:
   // all may have changed.
   std::optional<std::vector<WorldBox>> since_last(const GpuScene& gpu, const RayScene& rays);
-  // The instances that the last call found, by their numbers in the scene.
-  const std::vector<size_t>& numbers() const { return numbers_; }
 
  private:
   struct Placed {
@@ -26,7 +24,6 @@ class MovedInstances {
     WorldBox box{};
   };
   std::vector<Placed> instances_;
-  std::vector<size_t> numbers_;
   int builds_ = 0;  // builds of the rays' tree
 };
 

@@ -19,7 +19,7 @@ std::vector<int> numbers_of(const FramePlan& plan) {
   return numbers;
 }
 
-// Whether a ray of the light may meet the box. Rays end at pixels in the light's reach, which the rasteriser
+// Whether the light may shade a surface in the box, or one of its rays meet it. Rays end at pixels in the light's reach, which the rasteriser
 // moves by less than a pixel and the rounding of depths by less than 2^-20 of their distance.
 bool may_meet(const ShadowLight& light, const WorldBox& box, const View& view, const glm::dvec3& origin) {
   if (box.empty()) return false;
@@ -92,17 +92,9 @@ void KeptPairs::begin(PassContext& work, size_t images, size_t bytes) {
   has_numbers_shown_ = false;
 }
 
-void KeptPairs::compare(PassContext& work, const RayScene& rays, const ClArguments& receivers,
-                        bool is_numbered) {
+void KeptPairs::compare(PassContext& work, const ClArguments& receivers, bool is_numbered) {
   if (!keeps_ || has_same_receivers_) return;
   ClDevice& device = *work.renderer.cl;
-  std::vector<uint32_t> moved(rays.triangles() / 32 + 1);
-  for (const size_t i : moved_.numbers()) {
-    const bool is_last = i + 1 == work.scene.instances.size();
-    const uint32_t end = is_last ? rays.triangles() : rays.first_triangle(i + 1);
-    for (uint32_t k = rays.first_triangle(i); k < end; ++k) moved[k / 32] |= 1u << k % 32;
-  }
-  moved_triangles_.put(device, "uploading triangles that moved", moved);
   const size_t width = size_t(work.grid().width), height = size_t(work.grid().height),
                across = (width + SHADOW_TILE - 1) / SHADOW_TILE,
                up = (height + SHADOW_TILE - 1) / SHADOW_TILE, tile_bytes = across * up * sizeof(uint32_t),
@@ -113,8 +105,7 @@ void KeptPairs::compare(PassContext& work, const RayScene& rays, const ClArgumen
         NamedKernel(*work.renderer.kernels, "shadows/same_receivers", is_numbered ? " -DNUMBERED" : "");
   compare_.launch(device, "same_receivers", cl::NDRange(across * SHADOW_TILE, up * SHADOW_TILE),
                   cl::NDRange(SHADOW_TILE, SHADOW_TILE),
-                  receivers + ClArguments{{"moved", moved_triangles_.buffer()},
-                                          {"view", work.cl_lights().view.buffer()},
+                  receivers + ClArguments{{"view", work.cl_lights().view.buffer()},
                                           {"is_known", cl_uint(has_numbers_shown_)},
                                           {"numbers", numbers_shown_.at_least(device, pixel_bytes)},
                                           {"depth_bits", depths_shown_.at_least(device, pixel_bytes)},
@@ -141,8 +132,8 @@ size_t KeptPairs::kept_tiles(ClDevice& device, size_t tiles, bool is_unchanged) 
 }
 
 size_t KeptPairs::memory_bytes() const {
-  return kept_bytes() + lights_.bytes() + moved_triangles_.bytes() + numbers_shown_.bytes() +
-         depths_shown_.bytes() + same_tiles_.bytes() + outcome_.bytes();
+  return kept_bytes() + lights_.bytes() + numbers_shown_.bytes() + depths_shown_.bytes() +
+         same_tiles_.bytes() + outcome_.bytes();
 }
 
 }  // namespace lightgrid

@@ -30,7 +30,7 @@ class KeptPairs {
   void begin(PassContext& work, size_t images, size_t bytes);
   // Finds the tiles whose pixels changed. receivers: the first arguments of
   // kernels/shadows/same_receivers.cl, for the opaque image. is_numbered: the kernel takes -DNUMBERED.
-  void compare(PassContext& work, const RayScene& rays, const ClArguments& receivers, bool is_numbered);
+  void compare(PassContext& work, const ClArguments& receivers, bool is_numbered);
   // KEPT_ARGUMENTS of an image. tiles: of all images. may_keep: its pixels change only if instances do, or it
   // was compared.
   ClArguments arguments(ClDevice& device, size_t tiles, bool may_keep);
@@ -63,7 +63,7 @@ class KeptPairs {
 
   bool keeps_ = false, has_same_receivers_ = true;  // of this frame
   SharedTexture tiles_, bits_;
-  UploadedBuffer lights_, moved_triangles_;
+  UploadedBuffer lights_;
   GrowingBuffer numbers_shown_, depths_shown_, same_tiles_, outcome_;
   NamedKernel compare_;
 };
