@@ -228,6 +228,7 @@ int frontier(FrontierCommand o) {
   part.shards = shard.count;
   part.baseline = job.baseline.label;
   part.keep = o.keep;
+  part.half_width = job.half_width;
   for (size_t i = 0; i < o.scenes.size() && !o.families; ++i)
     part.points_asked[o.scenes[i]] = points_of_shard(of_scenes[i].points.size(), shard);
   part.machine = machine_of(renderer);
@@ -301,9 +302,13 @@ void add_frontier(CommandLine& line) {
                  "the picture with which others are compared: lights without ranges (infinite), with their "
                  "own, or with their own and averaged over each pixel's area (default: infinite; if lights "
                  "cast shadows, own; with several samples, area)");
-  command.option("--rounds", o->rounds,
-                 "maximum number of times per point and view; fewer if the intervals are narrow earlier", 1,
-                 1000);
+  command.option(
+      "--rounds", o->rounds,
+      "maximum number of rounds, of two times per point and view; fewer if the intervals are narrow "
+      "earlier",
+      1, 1000);
+  command.option("--half-width", o->half_width,
+                 "percentage of a relative time: rounds end when half of each 95 % interval is at most this");
   add_keep_option(command, o->keep);
   command.flag("--no-growth", o->no_growth, "does not measure how times grow with lights, pixels and ranges");
   command.flag(

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "frontier/answer.h"
 #include "frontier/brute_force.h"
 #include "frontier/view_figures.h"
@@ -143,7 +144,15 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
   return content_hash(request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
+static double parse_half_width(const std::string& text) {
+  const std::optional<double> percent = parse_number<double>(text);
+  if (!percent || !(*percent > 0 && *percent <= 100))
+    throw input_error("half-width {}: not a number of per cent above 0, at most 100", text);
+  return *percent / 100;
+}
+
 std::vector<bool> check_request(const FrontierCommand& o, const Externals& externals) {
+  parse_half_width(o.half_width);
   parse_truth(o.truth);
   check_families(o);
   parse_kept(o.keep, o.scene);
@@ -174,6 +183,7 @@ FrontierJob job_of(const FrontierCommand& o, const Renderer& renderer, const Sha
   if (o.families) job.families.emplace();
   if (o.families && o.scene.lights >= 0) job.families->number = o.scene.lights;
   job.max_rounds_per_point = o.rounds;
+  job.half_width = parse_half_width(o.half_width);
   job.min_rounds_per_point = std::min(job.min_rounds_per_point, o.rounds);
   job.pictures = fs::path(o.output) / "pictures";
   job.notice = [](const std::string& what) { log_info("{}", what); };

@@ -17,7 +17,8 @@ struct FrontierCommand {
   std::vector<std::string> scenes;  // or "merge" and folders, or "export" and scenes
   DeviceOptions devices;
   std::string output = "out/frontier", json, gate, shard = "0/1", process, truth, baseline;
-  std::string keep = "range";  // over the numbers of lights of the growth (Kept)
+  std::string half_width = "1";  // per cent
+  std::string keep = "range";    // over the numbers of lights of the growth (Kept)
   std::vector<std::string> techniques, vary, external;
   int views = 16, rounds = 120, budget = 14, page_mb = 12, processes = 1;
   bool no_growth = false, sequences = false, families = false;

@@ -219,6 +219,7 @@ FrontierAnswer answer_of(const std::vector<FrontierPart>& parts) {
   answer.cheapest_within = cheapest_within_of(answer.points, answer.controls);
   answer.front_bands = front_bands_of(answer.points, answer.controls);
   set_device_figures(answer);
+  set_cpu_figures(answer);
   answer.among_opencl = among_opencl_of(answer);
   answer.break_even = break_evens_of(records);
   answer.shading_costs = shading_costs_of(records);

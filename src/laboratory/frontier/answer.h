@@ -22,16 +22,30 @@ struct MedianInterval {
 struct OnFront {
   bool on = false;
   double probability = 0;
+  // The same over draws of times and errors from what views leave open; NaN too if fewer than two were timed.
+  double over_views = 0;
 };
 
 // A point's times by the devices' own clocks (DeviceTimes); otherwise as in PointFigures. No runs:
 // unknown.
 struct DeviceFigures {
   MedianInterval device_ms, hand_over_ms, copy_ms, read_back_ms;
-  LogTimes log_times;  // logarithms of device_ms
+  PointTimes times;  // of device_ms
   RelativeTime relative_time;
   std::map<std::string, OnFront> fronts;
 };
+
+// Processor time of the process, with the drivers' threads; otherwise as in PointFigures. No runs: unknown.
+struct CpuFigures {
+  MedianInterval cpu_ms;
+  PointTimes times;
+  RelativeTime relative_time;
+  std::map<std::string, OnFront> fronts;
+};
+
+// The clock that decides in a scene: whether controls passed, points are on the front, and a time is worse.
+enum class Clock { wall, cpu, device };
+inline constexpr const char* clock_names[] = {"wall", "cpu", "device"};
 
 // A point over all its views. Errors: the largest max_rel, otherwise root mean squares or means over views.
 struct PointFigures {
@@ -40,9 +54,7 @@ struct PointFigures {
   int width = 0, height = 0;       // pixels
   MedianInterval frame_ms;         // sum over timed views, divided by their number
   double p95_ms = 0, p99_ms = 0;   // percentiles of all timed frames
-  // By round: the sum of its times over the timed views over the same sum of the baseline's, of three of its
-  // runs in that round and view.
-  LogTimes log_times;
+  PointTimes times;                // relative to the baseline's frames in the same round and view
   RelativeTime relative_time;
   PointErrors errors;
   int flip_views = 0, temporal_views = 0;  // that have FLIP, and flicker
@@ -60,6 +72,19 @@ struct PointFigures {
   uint64_t nan_pixels = 0;
   std::map<std::string, OnFront> fronts;  // by the error that it is of (front_errors)
   DeviceFigures device;
+  CpuFigures cpu;
+  Clock decides = Clock::wall;
+  // By view, the errors of which there are fronts.
+  std::map<std::string, std::map<int, double>> front_errors_by_view;
+
+  const RelativeTime& deciding_time() const {
+    return decides == Clock::device ? device.relative_time
+           : decides == Clock::cpu  ? cpu.relative_time
+                                    : relative_time;
+  }
+  const std::map<std::string, OnFront>& deciding_fronts() const {
+    return decides == Clock::device ? device.fronts : decides == Clock::cpu ? cpu.fronts : fronts;
+  }
 };
 
 // The percentage of pairs of a pixel and a casting light in range that are shaded though hidden, and dark
@@ -75,6 +100,7 @@ struct CheapestWithin {
   int point = 0;               // index
   RelativeTime relative_time;  // in the rounds that it was not picked on; with a single round, in that one
   double probability = 0;  // the share of draws of the scene's times in which it is the cheapest, as OnFront
+  double over_views = 0;   // likewise
 };
 
 // Points of a scene that the sweep was asked for, and those of them that ran.
@@ -91,9 +117,6 @@ struct Control {
   std::vector<double> places;  // the estimate of each
   // 1 is in the interval, if there is one, and within 1 % of the estimate.
   bool passed() const;
-  // The interval reaches at most 1 % to either side: where nothing but noise differs, 95 in 100 estimates are
-  // then within 1 % of 1. Of `processes` like this one, their mean is to be.
-  bool is_precise(int processes = 1) const;
   // The logarithm by which the intervals of the scene's points are wider: 0 if it passed, otherwise what the
   // control is off by.
   double widening() const;
@@ -180,7 +203,7 @@ struct FrontierAnswer {
   std::vector<ProcessConditions> processes;
   std::vector<CheapestWithin> cheapest_within;
   std::vector<FrontBand> front_bands;
-  std::vector<Control> device_controls;  // by the devices' clocks
+  std::vector<Control> device_controls, cpu_controls;  // by these clocks
   std::vector<CheapestWithin> device_cheapest_within;
   std::vector<FrontBand> device_front_bands;
   // GPUs' frames end with a copy of the picture that can take longer than all else: where OpenCL runs on one

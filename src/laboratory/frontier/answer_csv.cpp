@@ -4,6 +4,7 @@
 
 #include "frontier/answer_steps.h"
 #include "frontier/fields.h"
+#include "frontier/record_file.h"
 #include "measures/metrics.h"
 #include "measures/words.h"
 
@@ -32,6 +33,7 @@ std::vector<CsvColumn> csv_columns(const std::vector<json>& records) {
                     "runs",      "frame_ms",  "frame_ms_low", "frame_ms_high", "baseline_ms",  "ratio",
                     "ratio_low", "ratio_high"});
   add_columns(all, {"device_ms", "hand_over_ms", "copy_ms", "read_back_ms", "baseline_device_ms"});
+  add_columns(all, {"cpu_ms", "baseline_cpu_ms", "frames_per_round"});
   add_columns(all, {"bytes_moved", "memory_bytes", "covered_pixels"});
   add_columns(all, {"listed", "lit", "lost", "wrong"}, "/pairs");
   add_columns(all, {"nan_pixels", "overflow"});
@@ -115,8 +117,12 @@ json csv_row(const FrontierAnswer& answer, size_t row, json fields) {
   for (size_t run = 0; run < r.frame_ms.size(); ++run) ratios.push_back(r.frame_ms[run] / r.baseline_ms[run]);
   const MedianInterval frame = median_interval(r.frame_ms);
   fields["runs"] = frame.runs;
-  for (const auto& [key, times] : times_by_device)
-    fields[key] = (r.*times).empty() ? json() : finite_number(median_interval(r.*times).median);
+  const auto add_median = [&](const ClockTimes& clock) {
+    const std::vector<double>& times = r.*clock.second;
+    fields[clock.first] = times.empty() ? json() : finite_number(median_interval(times).median);
+  };
+  std::ranges::for_each(times_by_device, add_median);
+  std::ranges::for_each(times_by_cpu, add_median);
   fields["frame_ms"] = fields["baseline_ms"] = nullptr;
   if (frame.runs == 0) return fields;
   fields["baseline_ms"] = finite_number(median_interval(r.baseline_ms).median);
@@ -152,16 +158,18 @@ std::string cull_csv_text(const FrontierAnswer& answer) {
 }
 
 std::string samples_csv_text(const FrontierAnswer& answer) {
-  std::string text = "row,run,process,frame_ms,baseline_ms,device_ms,baseline_device_ms\n";
+  std::string text =
+      "row,run,process,frame_ms,baseline_ms,device_ms,baseline_device_ms,cpu_ms,baseline_cpu_ms\n";
   const auto of = [](const std::vector<double>& times, size_t run) {
     return run < times.size() ? figure(times[run]) : "";
   };
   for (size_t row = 0; row < answer.part.records.size(); ++row) {
     const FrontierRecord& r = answer.part.records[row];
     for (size_t run = 0; run < r.frame_ms.size(); ++run)
-      text += fmt::format("{},{},{},{},{},{},{}\n", row, run, run < r.processes.size() ? r.processes[run] : 0,
-                          figure(r.frame_ms[run]), figure(r.baseline_ms[run]), of(r.device_ms, run),
-                          of(r.baseline_device_ms, run));
+      text += fmt::format("{},{},{},{},{},{},{},{},{}\n", row, run,
+                          run < r.processes.size() ? r.processes[run] : 0, figure(r.frame_ms[run]),
+                          figure(r.baseline_ms[run]), of(r.device_ms, run), of(r.baseline_device_ms, run),
+                          of(r.cpu_ms, run), of(r.baseline_cpu_ms, run));
   }
   return text;
 }

@@ -42,15 +42,26 @@ json relative_time_json(const RelativeTime& t) {
               {"modes", json::array()}};
   if (t.modes.size() == 2) out["modes"] = pair_json(t.modes[0], t.modes[1]);
   out["slow_share"] = t.modes.empty() ? json() : finite_number(t.slow_share);
+  out["views_ci95"] = t.has_interval() && t.over_views ? pair_json(t.over_views->low, t.over_views->high)
+                                                       : json{nullptr, nullptr};
   return out;
 }
 
-json control_json(const Control& c) {
+// Wall-clock or processor time decides in a scene. Device time is always checked.
+json control_json(const Control& c, bool decides = true) {
   return {{"scene", c.scene},
           {"relative_time", relative_time_json(c.relative_time)},
           {"places", finite_json(c.places)},
+          {"half_width", finite_number(c.relative_time.half_width())},
           {"passed", c.passed()},
-          {"widened_by", finite_number(std::exp(c.widening()))}};
+          {"widened_by", finite_number(std::exp(c.widening()))},
+          {"decides", decides}};
+}
+
+json controls_json(const FrontierAnswer& answer, bool of_cpu) {
+  return array_of(of_cpu ? answer.cpu_controls : answer.controls, [&](const Control& c) {
+    return control_json(c, (clock_of_scene(answer, c.scene) == Clock::cpu) == of_cpu);
+  });
 }
 
 json process_json(const ProcessConditions& p) {
@@ -73,7 +84,8 @@ json cheapest_json(const CheapestWithin& b) {
           {"flip", b.error},
           {"point", b.point},
           {"relative_time", relative_time_json(b.relative_time)},
-          {"probability", finite_number(b.probability)}};
+          {"probability", finite_number(b.probability)},
+          {"p_cheapest_views", finite_number(b.over_views)}};
 }
 
 json band_json(const FrontBand& b) {
@@ -124,7 +136,8 @@ void add_device_json(const DeviceFigures& d, json& out) {
   for (const auto& [of, front] : d.fronts) out["device_fronts"][of] = on_front_json(front);
 }
 
-json point_json(const PointFigures& p) {
+// `half_width`: that the sweep was to reach.
+json point_json(const PointFigures& p, double half_width) {
   json out = finite_json(p.point);
   out["views"] = p.views;
   out["timed_views"] = p.timed_views;
@@ -163,6 +176,13 @@ json point_json(const PointFigures& p) {
   out["nan_pixels"] = p.nan_pixels;
   for (const auto& [of, front] : p.fronts) out["fronts"][of] = on_front_json(front);
   add_device_json(p.device, out);
+  out["cpu_ms"] = interval_json(p.cpu.cpu_ms);
+  out["relative_cpu_time"] = relative_time_json(p.cpu.relative_time);
+  out["clock"] = clock_names[size_t(p.decides)];
+  out["half_width"] = finite_number(p.deciding_time().half_width());
+  out["reached"] = p.deciding_time().half_width() <= half_width;
+  for (const auto& [of, front] : p.deciding_fronts())
+    out["p_front_views"][of] = finite_number(front.over_views);
   return out;
 }
 
@@ -231,33 +251,37 @@ json failure_json(const Failure& f) {
 
 json to_json(const FrontierAnswer& answer) {
   const FrontierPart& part = answer.part;
-  return {{"schema_version", frontier_schema_version},
-          {"commit", part.commit},
-          {"seed", part.seed},
-          {"request", part.request},
-          {"baseline", part.baseline},
-          {"pixels_per_degree", default_pixels_per_degree},
-          {"scenes", scenes_of(answer)},
-          {"coverage", array_of(answer.coverage, coverage_json)},
-          {"warnings", warnings_json(answer.part.warnings)},
-          {"sentences", answer.sentences},
-          {"machines", finite_json(answer.machines)},
-          {"machine", finite_json(answer.machines.empty() ? part.machine : answer.machines.front())},
-          {"points", array_of(answer.points, point_json)},
-          {"processes", array_of(answer.processes, process_json)},
-          {"controls", array_of(answer.controls, control_json)},
-          {"cheapest_within_flip", array_of(answer.cheapest_within, cheapest_json)},
-          {"flip_front_bands", array_of(answer.front_bands, band_json)},
-          {"device_controls", array_of(answer.device_controls, control_json)},
-          {"device_cheapest_within_flip", array_of(answer.device_cheapest_within, cheapest_json)},
-          {"device_flip_front_bands", array_of(answer.device_front_bands, band_json)},
-          {"among_opencl", array_of(answer.among_opencl, among_json)},
-          {"break_even", array_of(answer.break_even, break_even_json)},
-          {"shading_costs", array_of(answer.shading_costs, cost_json)},
-          {"growth", array_of(answer.growth, growth_json)},
-          {"equal_flip", array_of(answer.equal_flip, equal_flip_json)},
-          {"device_equal_flip", array_of(answer.device_equal_flip, equal_flip_json)},
-          {"failures", array_of(answer.failures, failure_json)}};
+  return {
+      {"schema_version", frontier_schema_version},
+      {"commit", part.commit},
+      {"seed", part.seed},
+      {"request", part.request},
+      {"baseline", part.baseline},
+      {"half_width", part.half_width},
+      {"pixels_per_degree", default_pixels_per_degree},
+      {"scenes", scenes_of(answer)},
+      {"coverage", array_of(answer.coverage, coverage_json)},
+      {"warnings", warnings_json(answer.part.warnings)},
+      {"sentences", answer.sentences},
+      {"machines", finite_json(answer.machines)},
+      {"machine", finite_json(answer.machines.empty() ? part.machine : answer.machines.front())},
+      {"points",
+       array_of(answer.points, [&](const PointFigures& p) { return point_json(p, part.half_width); })},
+      {"processes", array_of(answer.processes, process_json)},
+      {"controls", controls_json(answer, false)},
+      {"cpu_controls", controls_json(answer, true)},
+      {"cheapest_within_flip", array_of(answer.cheapest_within, cheapest_json)},
+      {"flip_front_bands", array_of(answer.front_bands, band_json)},
+      {"device_controls", array_of(answer.device_controls, [](const Control& c) { return control_json(c); })},
+      {"device_cheapest_within_flip", array_of(answer.device_cheapest_within, cheapest_json)},
+      {"device_flip_front_bands", array_of(answer.device_front_bands, band_json)},
+      {"among_opencl", array_of(answer.among_opencl, among_json)},
+      {"break_even", array_of(answer.break_even, break_even_json)},
+      {"shading_costs", array_of(answer.shading_costs, cost_json)},
+      {"growth", array_of(answer.growth, growth_json)},
+      {"equal_flip", array_of(answer.equal_flip, equal_flip_json)},
+      {"device_equal_flip", array_of(answer.device_equal_flip, equal_flip_json)},
+      {"failures", array_of(answer.failures, failure_json)}};
 }
 
 }  // namespace lightgrid::lab

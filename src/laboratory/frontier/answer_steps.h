@@ -11,6 +11,7 @@
 
 #include "frontier/answer.h"
 #include "measures/error_measures.h"
+#include "measures/ratio_of_times.h"
 
 namespace lightgrid::lab {
 
@@ -45,8 +46,14 @@ std::vector<FrontierRecord> on_one_machine(std::vector<FrontierRecord> records,
 // baseline_device_ms. Without times where a run of one of the point's views lacks them.
 std::vector<FrontierRecord> by_device_clock(std::vector<FrontierRecord> records);
 
-// Sets what is known by the devices' clocks, of points of the same records; their wall's figures are set.
+// The same, with the processor's time.
+std::vector<FrontierRecord> by_cpu_clock(std::vector<FrontierRecord> records);
+
+// Sets what is known by the devices' clocks and by the processor's time, of points of the same records, and
+// which clock decides in each scene; their wall-clock figures are set.
 void set_device_figures(FrontierAnswer& answer);
+void set_cpu_figures(FrontierAnswer& answer);
+Clock clock_of_scene(const FrontierAnswer& answer, const std::string& scene);
 
 // Returns whether a point with this label draws without OpenGL; false for an unknown technique.
 bool draws_in_opencl(const std::string& label);
@@ -54,7 +61,7 @@ std::vector<AmongOpenCl> among_opencl_of(const FrontierAnswer& answer);
 
 // Points that ran in each of their views, in the order of their first records; without points of a series.
 std::vector<PointFigures> figures_of(Records records);
-// Sets `frame_ms` and `log_times` anew, of records of the same points with other times.
+// Sets `frame_ms` and `times`, of records of the same points with other times.
 void set_times(std::vector<PointFigures>& points, Records records);
 
 // One a process of a part that took times.
@@ -125,10 +132,6 @@ std::pair<double, double> bootstrap_interval(const std::vector<double>& figures,
 // For points (x, y), smaller is better in both: true where no other point is at most as large in both and
 // smaller in one. Points that are equal in both are all on the front. NaN and infinite points never are.
 std::vector<bool> pareto_front(std::span<const std::pair<double, double>> points);
-
-// The value that Student's t with `dof` degrees of freedom stays below with probability p. Infinite for dof
-// < 1.
-double student_t_quantile(double p, int dof);
 
 // The exponent b of y = c x^b through samples by least squares in logarithms, and its 95 % interval
 // (Student's t). Samples that are not positive and finite are left out. Fewer than three distinct x: low and

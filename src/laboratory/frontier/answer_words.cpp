@@ -314,7 +314,10 @@ void add_baseline(const FrontierAnswer& answer, std::vector<std::string>& senten
 // A control that failed.
 void add_failed_control(const FrontierAnswer& answer, const std::string& scene,
                         std::vector<std::string>& sentences) {
-  for (const Control& control : answer.by_device ? answer.device_controls : answer.controls) {
+  const Clock clock = clock_of_scene(answer, scene);
+  for (const Control& control : clock == Clock::device ? answer.device_controls
+                                : clock == Clock::cpu  ? answer.cpu_controls
+                                                       : answer.controls) {
     if (control.scene != scene || control.passed()) continue;
     sentences.push_back(fmt::format(
         "Control failed in {}: the baseline measured against itself gave {} instead of 1. Times of this run "
@@ -341,6 +344,26 @@ void add_coverage(const FrontierAnswer& answer, const std::string& scene,
                   of_scene->measured < of_scene->asked ? ": a longer --budget measures more" : ""));
 }
 
+// How many points reached the half-width, and whether processor time decides.
+void add_half_widths(const FrontierAnswer& answer, const std::string& scene,
+                     std::vector<std::string>& sentences) {
+  int reached = 0, timed = 0;
+  for (const PointFigures& p : answer.points) {
+    if (p.point.scene != scene || p.deciding_time().runs == 0) continue;
+    ++timed;
+    reached += p.deciding_time().half_width() <= answer.part.half_width;
+  }
+  const std::string wanted = fmt::format("{:g} %", 100 * answer.part.half_width);
+  const bool by_cpu = clock_of_scene(answer, scene) == Clock::cpu;
+  if (timed == 0 || (reached == timed && !by_cpu)) return;
+  sentences.push_back(fmt::format(
+      "In {} {} of {} points reached a half-width of {} of their relative time{}.", scene_in_words(scene),
+      reached, timed, wanted,
+      by_cpu ? ", in processor time: wall-clock time did not reach it for the baseline against itself, so "
+               "that processor time decides about controls, the gate and the probabilities of the front"
+             : ""));
+}
+
 // Points of two modes.
 void add_modes(const FrontierAnswer& answer, const std::string& scene, std::vector<std::string>& sentences) {
   std::vector<std::string> bimodal;
@@ -359,7 +382,7 @@ void add_shadows(const FrontierAnswer& answer, const std::string& scene,
   const PointFigures *cheapest = nullptr, *best = nullptr;
   const auto wrong = [](const PointFigures& p) { return *leaked_percent(p.pairs) + *acned_percent(p.pairs); };
   for (const PointFigures& p : answer.points) {
-    if (p.point.scene != scene || p.log_times.empty() || !leaked_percent(p.pairs)) continue;
+    if (p.point.scene != scene || p.times.rounds.empty() || !leaked_percent(p.pairs)) continue;
     if (p.pairs.shadows->says_exact || wrong(p) == 0) continue;
     if (!cheapest || p.relative_time.estimate < cheapest->relative_time.estimate) cheapest = &p;
     if (!best || wrong(p) < wrong(*best)) best = &p;
@@ -417,6 +440,7 @@ SceneWords words_of_scene(const FrontierAnswer& answer, const std::string& scene
   SceneWords words;
   add_failed_control(answer, scene, words.opening);
   add_coverage(answer, scene, words.opening);
+  add_half_widths(answer, scene, words.opening);
   std::vector<std::string> fastest;
   add_fastest(answer, scene, fastest);
   if (!fastest.empty()) words.opening.push_back(fastest.front());
@@ -451,7 +475,10 @@ static std::string conditions_in_words(const FrontierAnswer& answer) {
 std::vector<std::string> sentences_of(const FrontierAnswer& answer) {
   std::vector<std::string> sentences;
   for (const std::string& scene : scenes_of(answer)) add_failed_control(answer, scene, sentences);
-  for (const std::string& scene : scenes_of(answer)) add_coverage(answer, scene, sentences);
+  for (const std::string& scene : scenes_of(answer)) {
+    add_coverage(answer, scene, sentences);
+    add_half_widths(answer, scene, sentences);
+  }
   if (const std::string conditions = conditions_in_words(answer); !conditions.empty())
     sentences.push_back(conditions);
   add_baseline(answer, sentences);

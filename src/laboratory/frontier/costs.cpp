@@ -189,10 +189,12 @@ namespace {
 // The smallest difference of an even color that an eye notices is about 0.06.
 constexpr double equal_flips[] = {0.001, 0.01, 0.06, 0.2};
 
-// The median of every second round from `first` on; of a single round, of that.
+// The median of every second round from `first` on; of a single round, of its first frame.
 double half_ms(const FrontierRecord& r, size_t first) {
   std::vector<double> half;
-  for (size_t round = first; round < r.frame_ms.size(); round += 2) half.push_back(r.frame_ms[round]);
+  for (size_t run = 0; run < r.frame_ms.size(); ++run) {
+    if (run / size_t(r.frames_per_round) % 2 == first) half.push_back(r.frame_ms[run]);
+  }
   return half.empty() ? r.frame_ms.front() : median_interval(half).median;
 }
 

@@ -24,7 +24,7 @@
 namespace lightgrid::lab {
 namespace {
 
-constexpr int family_rounds = 4;
+constexpr int family_rounds = 2;           // four frames
 constexpr double max_counted_pairs = 1e8;  // on a view, by the oracle
 // Beyond so many, OpenGL's surfaces have no truth without ranges where OpenCL runs on a CPU: its minutes.
 constexpr double max_pairs_of_slow_truth = 1e10;
@@ -177,6 +177,7 @@ class FamilySweep {
       MeasuredPoint& m =
           measured.emplace_back(MeasuredPoint{PointRun(renderer_, gpu_, view, point, pool), {base}});
       FrontierRecord& record = m.records.front();
+      record.frames_per_round = frames_per_round;
       measure_point(m.run, record);
       record.refused = m.run.refused();
       file_.begin(record);

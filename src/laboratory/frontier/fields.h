@@ -166,6 +166,9 @@ inline constexpr std::pair<const char*, std::vector<double> FrontierRecord::*> t
     {"read_back_ms", &FrontierRecord::read_back_ms},
     {"baseline_device_ms", &FrontierRecord::baseline_device_ms}};
 
+inline constexpr std::pair<const char*, std::vector<double> FrontierRecord::*> times_by_cpu[] = {
+    {"cpu_ms", &FrontierRecord::cpu_ms}, {"baseline_cpu_ms", &FrontierRecord::baseline_cpu_ms}};
+
 // The measured thing, without its figures.
 template <Is<FrontierRecord> T, typename Visit>
 void visit_identity(T& r, Visit&& visit) {
@@ -189,7 +192,9 @@ void visit_fields(T& r, Visit&& visit) {
   visit("frame_ms", r.frame_ms);
   visit("baseline_ms", r.baseline_ms);
   for (const auto& [key, times] : times_by_device) visit(key, r.*times, FieldRule{.required = false});
+  for (const auto& [key, times] : times_by_cpu) visit(key, r.*times, FieldRule{.required = false});
   visit("processes", r.processes, FieldRule{.required = false});
+  visit("frames_per_round", r.frames_per_round, FieldRule{.low = 1, .required = false});
   visit("pass_ms", r.pass_ms);
   visit("pass_bytes", r.pass_bytes, FieldRule{.required = false});
   visit("cull_ms", r.cull_ms);
@@ -245,6 +250,7 @@ void visit_fields(T& p, Visit&& visit) {
   visit("shard", p.shard);
   visit("baseline", p.baseline);
   visit("keep", p.keep, FieldRule{.required = false});
+  visit("half_width", p.half_width, FieldRule{.required = false});
   visit("points_asked", p.points_asked, FieldRule{.required = false});
   visit("machine", p.machine);
 }

@@ -110,7 +110,12 @@ class PointComparison {
                                          timed_views(now_), timed_views(earlier_)));
       return;
     }
-    compare_ratios("relative_time", "");
+    // Processor time, where wall-clock time was too noisy in one of the sweeps and both have it.
+    const auto decides = [](const JsonFields& p) { return p.has("clock") && p.text("clock") == "cpu"; };
+    const bool by_cpu = (decides(now_) || decides(earlier_)) &&
+                        ratio_of(now_, "relative_cpu_time").estimate &&
+                        ratio_of(earlier_, "relative_cpu_time").estimate;
+    by_cpu ? compare_ratios("relative_cpu_time", " in processor time") : compare_ratios("relative_time", "");
     compare_ratios("relative_device_time", " by the devices' clocks");
   }
 
@@ -224,9 +229,10 @@ void tell_of_other_machine(const JsonFields& now, const JsonFields& earlier, Gat
 // The baseline against itself: where it differs, other times are in doubt too.
 void add_failed_controls(const json& now, GateResult& result) {
   for (const auto& [controls, clock] :
-       {std::pair("controls", ""), std::pair("device_controls", " by the devices' clocks")}) {
+       {std::pair("controls", ""), std::pair("cpu_controls", " in processor time"),
+        std::pair("device_controls", " by the devices' clocks")}) {
     for_each_entry(now, controls, [&](const json& control, const JsonFields& fields) {
-      if (control.value("passed", false)) return;
+      if (control.value("passed", false) || !control.value("decides", true)) return;
       const JsonFields time = fields.object("relative_time");
       std::string range = "interval not measured";
       if (!has_no_interval(time)) {

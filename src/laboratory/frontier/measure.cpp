@@ -23,9 +23,9 @@ namespace {
 // point with no larger error, are far from the front: few rounds tell how far.
 constexpr double slow_factor = 1.25, beaten_factor = 3;
 
-// Errors of further views are worth more than their times. With less time than these take in the fewest
-// rounds, errors are measured on fewer views.
-constexpr int min_timed_views = 2;
+// With less time than these take in the fewest rounds, errors are measured on fewer views: intervals over views
+// need the times of several.
+constexpr int min_timed_views = 4;
 
 // With less time a point, as many points as possible are worth more than FLIP and flicker.
 constexpr double seconds_a_point_with_flip = 2;
@@ -115,6 +115,7 @@ class SceneSweep {
     record.width = start_.width;
     record.height = start_.height;
     record.lights = int(scene_.lights.size());
+    record.frames_per_round = frames_per_round;
     if (job_.truth != FrontierTruth()) record.truth = job_.truth;
     if (point.external) record.external = {point.external->note, point.runs()};
     return record;
@@ -155,7 +156,7 @@ class SceneSweep {
     double round_s = 0;
     for (const MeasuredPoint& m : measured_) {
       if (m.records.empty()) continue;
-      const int runs = 1 + (m.slow ? std::min(rounds, slow_rounds) : rounds);
+      const int runs = 1 + frames_per_round * (m.slow ? std::min(rounds, slow_rounds) : rounds);
       // Each timed picture follows one frame that is not.
       const double frame_s = m.picture_s / m.run.point().frames;
       round_s += (baseline_s_ + m.picture_s + frame_s + m.around_s) * runs;
@@ -189,7 +190,7 @@ class SceneSweep {
         break;  // views whose times no earlier process has
       } else if (view > 0) {
         whole = whole && fits(view_s.whole + view_s.plain * double(int(views_.size()) - view - 1),
-                              job_.min_rounds_per_point, std::min(int(views_.size()), 2 * min_timed_views));
+                              job_.min_rounds_per_point, std::min(int(views_.size()), min_timed_views));
         if (!whole && !fits(view_s.plain, job_.min_rounds_per_point, std::min(view + 1, min_timed_views)))
           break;
       }
@@ -272,6 +273,7 @@ class SceneSweep {
       record.frame_ms = frame.frame_ms;
       record.baseline_ms = frame.baseline_ms;
       record.processes.resize(record.frame_ms.size(), 0);
+      record.frames_per_round = 1;
       apart_records_.push_back(std::move(record));
     }
   }
@@ -364,8 +366,15 @@ class SceneSweep {
     const size_t points = measured_.size();
     const int timed = timed_views();
     add_controls(timed);
-    TimeRounds rounds{job_,      timer_,     until(), std::span(views_).first(size_t(timed)),
-                      measured_, *baseline_, file_,   DeviceClock(renderer_)};
+    TimeRounds rounds{job_,
+                      timer_,
+                      until(),
+                      std::span(views_).first(size_t(timed)),
+                      measured_,
+                      *baseline_,
+                      file_,
+                      DeviceClock(renderer_),
+                      !renderer_.cl->info().cpu};
     const int done = rounds.run();
     notice(fmt::format("{} points, {} views{}, {} rounds", points, used_views_,
                        timed < used_views_ ? fmt::format(", {} of them timed", timed) : "", done));

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "frontier/paired_times.h"
 #include "frontier/points.h"
 #include "frontier/record_file.h"
 #include "plan/settings/model.h"
@@ -28,13 +29,13 @@ struct FrontierJob {
   FrontierTruth truth;
   int views = 16;        // at most: fewer if the time allows no more
   double seconds = 180;  // for the scene, from loading to its last record
-  int min_rounds_per_point = 6, max_rounds_per_point = 120;
+  int min_rounds_per_point = min_rounds, max_rounds_per_point = 120;
   int controls = 3;  // the baseline as this many points of its own, in each round
   // For several processes that share the rounds: the first measures the figures, the last completes the
   // records.
   int process = 0, processes = 1;
-  // Rounds end when each ratio's interval is at most this share of its median, and the controls are precise.
-  double interval_width = 0.05;
+  // Rounds end when half of each interval is at most this share of the relative time.
+  double half_width = default_half_width;
   uint64_t seed = 1;
   // Pairs of pixel and light per view: those that the oracle shades, and those whose shadows it decides,
   // which takes longer (of more, an even sample of the pixels is taken).

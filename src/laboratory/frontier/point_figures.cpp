@@ -175,6 +175,10 @@ PointFigures over_views(const Group& views) {
   all.errors.surfaces = surfaces_over(views);
   all.errors.sequences = views.front()->errors.sequences;
   add_intervals_over_views(views, all);
+  for (const char* kind : front_errors) {
+    for (const FrontierRecord* view : views)
+      all.front_errors_by_view[kind][view->view] = flip_of(view->errors, kind);
+  }
   for (const auto spread :
        {&PointErrors::bias_rmse_rel, &PointErrors::deviation_rmse_rel, &PointErrors::temporal_rmse_rel}) {
     const auto figures = present_figures(views, [&](const FrontierRecord& v) { return v.errors.*spread; });
@@ -272,7 +276,7 @@ void set_times(std::vector<PointFigures>& points, Records records) {
   for (size_t i = 0; i < points.size(); ++i) {
     const Group with_times = timed(views[i]);
     points[i].frame_ms = median_interval(means_of_runs(with_times, &FrontierRecord::frame_ms));
-    points[i].log_times = baselines.log_times(with_times);
+    points[i].times = baselines.times_of(with_times);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "base/cpu_clock.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "base/timer.h"
@@ -373,10 +374,12 @@ double PointRun::draw(DeviceClock* clock) {
   };
   double ms = 0;
   device_times_.reset();
+  cpu_ms_.reset();
   if (external_) return ask(false);
   attempt([&] {
     const Watched watched(run_->view().timer, clock);
     if (clock) clock->start();
+    const double cpu_before_ms = process_cpu_ms();
     const Timer timer;
     bool first = true;
     draw_frames(clock != nullptr, [&](const Image& image) {
@@ -385,6 +388,7 @@ double PointRun::draw(DeviceClock* clock) {
       for (size_t i = 0; i < mean_.pixels.size(); ++i) mean_.pixels[i] += image.pixels[i] * weight;
     });
     ms = timer.elapsed_ms();
+    cpu_ms_ = process_cpu_ms() - cpu_before_ms;
     if (clock) device_times_ = clock->stop();
   });
   return ms;

@@ -81,6 +81,8 @@ class PointRun {
   double draw(DeviceClock* clock = nullptr);
   // The times of the last draw() with a clock; empty too if that clock has none, or the point is refused.
   const std::optional<DeviceTimes>& device_times() const { return device_times_; }
+  // The processor time of this process in the last draw(); empty for another renderer.
+  std::optional<double> cpu_ms() const { return cpu_ms_; }
   // The picture drawn last; and of an averaged one how far its frames scatter.
   const Image& image() const { return point_.frames > 1 || point_.external ? mean_ : run_->image(); }
   double deviation() const { return deviation_; }
@@ -113,6 +115,7 @@ class PointRun {
   Image mean_;
   double deviation_ = 0;
   std::optional<DeviceTimes> device_times_;
+  std::optional<double> cpu_ms_;
   int frame_ = 0;
   NumbersOfFrames numbers_ = NumbersOfFrames::independent;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 
 #include "frontier/answer_steps.h"
@@ -24,7 +25,7 @@ constexpr double bearable_flips[] = {0.001, 0.01, 0.02, 0.05, 0.1, 0.2};
 // The error that fronts compare with the time; NaN: not on a front.
 double error_on_front(const PointFigures& p, const std::string& kind) {
   const double flip = flip_of(p.errors, kind);
-  return p.nan_pixels == 0 && !p.log_times.empty() && std::isfinite(flip) ? flip : unranked;
+  return p.nan_pixels == 0 && !p.times.rounds.empty() && std::isfinite(flip) ? flip : unranked;
 }
 
 // Points of a scene, with draws of their times.
@@ -32,6 +33,7 @@ struct SceneTimes {
   std::vector<int> indices;
   std::vector<double> errors;
   std::vector<std::vector<double>> draws;
+  std::vector<DrawOverViews> draws_over_views;  // empty if one of the points has fewer than two timed views
   bool control_passed = true;
 };
 
@@ -40,7 +42,7 @@ std::map<std::string, SceneTimes> drawn_scenes(const std::vector<PointFigures>& 
                                                const std::vector<Control>& controls,
                                                const std::string& kind) {
   std::map<std::string, SceneTimes> scenes;
-  std::map<std::string, std::vector<LogTimes>> times;
+  std::map<std::string, std::vector<DrawnPoint>> drawn;
   const auto has_authored = [&](const std::string& scene) {
     return std::ranges::any_of(
         points, [&](const PointFigures& p) { return p.point.scene == scene && p.errors.authored; });
@@ -50,18 +52,26 @@ std::map<std::string, SceneTimes> drawn_scenes(const std::vector<PointFigures>& 
     SceneTimes& scene = scenes[points[i].point.scene];
     scene.indices.push_back(int(i));
     scene.errors.push_back(error_on_front(points[i], kind));
-    times[points[i].point.scene].push_back(points[i].log_times);
+    DrawnPoint& point = drawn[points[i].point.scene].emplace_back(DrawnPoint{points[i].times, {}});
+    point.errors = std::isnan(scene.errors.back()) ? std::map<int, double>{{0, unranked}}
+                                                   : points[i].front_errors_by_view.at(kind);
   }
   for (auto& [name, scene] : scenes) {
     const auto control = std::ranges::find(controls, name, &Control::scene);
     const double widening = control == controls.end() ? 0 : control->widening();
     scene.control_passed = control == controls.end() || control->passed();
-    scene.draws = drawn_log_times(times[name], widening, draws_of_a_scene, 1);
+    std::vector<LogTimes> times;
+    for (const DrawnPoint& point : drawn[name]) times.push_back(point.times.rounds);
+    scene.draws = drawn_log_times(times, widening, draws_of_a_scene, 1);
+    const bool has_views = std::ranges::all_of(drawn[name], [](const DrawnPoint& point) {
+      return point.times.rounds.empty() || point.times.views.size() > 1;
+    });
+    if (has_views) scene.draws_over_views = drawn_over_views(drawn[name], widening, draws_of_a_scene, 1);
   }
   return scenes;
 }
 
-bool has_rounds(const PointFigures& p) { return p.log_times.size() >= size_t(min_rounds); }
+bool has_rounds(const PointFigures& p) { return p.times.rounds.size() >= size_t(min_rounds); }
 
 // The probability from draws, where there are enough rounds for them and the control passed.
 double probability_of(const SceneTimes& scene, const PointFigures& p, double share) {
@@ -70,11 +80,11 @@ double probability_of(const SceneTimes& scene, const PointFigures& p, double sha
 
 // Returns the point within `error` that has the least `time_of`; -1 without one.
 template <typename TimeOf>
-int cheapest(const SceneTimes& scene, double error, const TimeOf& time_of) {
+int cheapest(const std::vector<double>& errors, double error, const TimeOf& time_of) {
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < scene.indices.size(); ++i) {
-    if (!(scene.errors[i] <= error)) continue;
+  for (size_t i = 0; i < errors.size(); ++i) {
+    if (!(errors[i] <= error)) continue;
     const double time = time_of(i);
     if (time < least) {
       best = int(i);
@@ -91,11 +101,6 @@ bool Control::passed() const {
   return (inside || !relative_time.has_interval()) && std::abs(relative_time.estimate - 1) <= max_deviation;
 }
 
-bool Control::is_precise(int processes) const {
-  const double half_width = 0.5 * std::log(relative_time.high / relative_time.low);
-  return relative_time.runs > 1 && half_width <= max_deviation * std::sqrt(double(processes));
-}
-
 double Control::widening() const { return passed() ? 0 : std::abs(std::log(relative_time.estimate)); }
 
 std::vector<Control> controls_of(Records records) {
@@ -109,18 +114,19 @@ std::vector<Control> controls_of(Records records) {
     std::map<std::pair<int, std::string>, Group> places;  // each shard has its own
     for (const FrontierRecord* r : of_scene) places[{r->shard, r->series}].push_back(r);
     std::map<int, size_t> timed_places;  // by shard
-    LogTimes all;  // series of each place: a mean over places would be less skewed than a run of the baseline
+    std::map<TimeBlock, std::vector<double>> ratios;
     for (const auto& [place, views] : places) {
-      const LogTimes times = baselines.log_times(views);
-      if (times.empty()) continue;
-      control.places.push_back(relative_time(times).estimate);
+      const PointTimes times = baselines.times_of(views, control.places.size());
+      if (times.rounds.empty()) continue;
+      control.places.push_back(relative_time(times.rounds).estimate);
       ++timed_places[place.first];
-      for (const auto& [block, ratios] : times)
-        all[block].insert(all[block].end(), ratios.begin(), ratios.end());
+      for (const auto& [block, ratio] : times.rounds) ratios[block].push_back(ratio);
     }
-    std::erase_if(all, [&](const auto& entry) {
-      return entry.second.size() != timed_places[entry.first.shard] * baseline_runs;  // not in each place
-    });
+    LogTimes all;
+    for (const auto& [block, of_places] : ratios) {
+      if (of_places.size() != timed_places[block.shard]) continue;  // not in each place
+      all[block] = std::accumulate(of_places.begin(), of_places.end(), 0.0) / double(of_places.size());
+    }
     control.relative_time = relative_time(all);
     if (!all.empty()) controls.push_back(control);
   }
@@ -130,7 +136,7 @@ std::vector<Control> controls_of(Records records) {
 void set_relative_times(std::vector<PointFigures>& points, const std::vector<Control>& controls) {
   for (PointFigures& p : points) {
     const auto control = std::ranges::find(controls, p.point.scene, &Control::scene);
-    p.relative_time = relative_time(p.log_times, control == controls.end() ? 0 : control->widening());
+    p.relative_time = relative_time(p.times, control == controls.end() ? 0 : control->widening());
   }
 }
 
@@ -141,10 +147,12 @@ void rank_points(std::vector<PointFigures>& points, const std::vector<Control>& 
       for (size_t i = 0; i < scene.indices.size(); ++i)
         places.emplace_back(points[size_t(scene.indices[i])].relative_time.estimate, scene.errors[i]);
       const std::vector<bool> front = pareto_front(places);
-      const std::vector<double> probabilities = front_probabilities(scene.draws, scene.errors);
+      const std::vector<double> probabilities = front_probabilities(scene.draws, scene.errors),
+                                over_views = front_probabilities(scene.draws_over_views);
       for (size_t i = 0; i < scene.indices.size(); ++i) {
         PointFigures& p = points[size_t(scene.indices[i])];
-        p.fronts[kind] = {front[i], probability_of(scene, p, probabilities[i])};
+        p.fronts[kind] = {front[i], probability_of(scene, p, probabilities[i]),
+                          probability_of(scene, p, over_views.empty() ? unranked : over_views[i])};
       }
     }
   }
@@ -160,7 +168,7 @@ std::vector<FrontBand> front_bands_of(const std::vector<PointFigures>& points,
       const SceneTimes& scene = scenes.at(name);
       const bool enough = std::ranges::all_of(scene.indices, [&](int i) {
         const PointFigures& p = points[size_t(i)];
-        return p.log_times.empty() || has_rounds(p);
+        return p.times.rounds.empty() || has_rounds(p);
       });
       if (!enough) continue;
       bands.push_back({name, kind, front_band(scenes.at(name).draws, scenes.at(name).errors)});
@@ -169,20 +177,36 @@ std::vector<FrontBand> front_bands_of(const std::vector<PointFigures>& points,
   return bands;
 }
 
-std::vector<FrontierRecord> by_device_clock(std::vector<FrontierRecord> records) {
+namespace {
+
+// frame_ms and baseline_ms are replaced by these members of the records; without times where a run of one of
+// the point's views lacks them.
+std::vector<FrontierRecord> by_clock(std::vector<FrontierRecord> records,
+                                     std::vector<double> FrontierRecord::*times,
+                                     std::vector<double> FrontierRecord::*baseline_times) {
   const auto key_of = [](const FrontierRecord& r) {  // one key for all views
     return fmt::format("{}\n{}\n{}", r.shard, r.series, point_key(r.point));
   };
   std::set<std::string> unknown;
   for (const FrontierRecord& r : records) {
-    if (r.device_ms.size() != r.frame_ms.size()) unknown.insert(key_of(r));
+    if ((r.*times).size() != r.frame_ms.size()) unknown.insert(key_of(r));
   }
   for (FrontierRecord& r : records) {
     const bool known = !unknown.contains(key_of(r));
-    r.frame_ms = known ? r.device_ms : std::vector<double>();
-    r.baseline_ms = known ? r.baseline_device_ms : std::vector<double>();
+    r.frame_ms = known ? r.*times : std::vector<double>();
+    r.baseline_ms = known ? r.*baseline_times : std::vector<double>();
   }
   return records;
+}
+
+}  // namespace
+
+std::vector<FrontierRecord> by_device_clock(std::vector<FrontierRecord> records) {
+  return by_clock(std::move(records), &FrontierRecord::device_ms, &FrontierRecord::baseline_device_ms);
+}
+
+std::vector<FrontierRecord> by_cpu_clock(std::vector<FrontierRecord> records) {
+  return by_clock(std::move(records), &FrontierRecord::cpu_ms, &FrontierRecord::baseline_cpu_ms);
 }
 
 void set_device_figures(FrontierAnswer& answer) {
@@ -195,7 +219,7 @@ void set_device_figures(FrontierAnswer& answer) {
   rank_points(points, answer.device_controls);
   for (size_t i = 0; i < points.size(); ++i) {
     DeviceFigures& d = answer.points[i].device;
-    d.log_times = points[i].log_times;
+    d.times = points[i].times;
     d.device_ms = points[i].frame_ms;
     d.relative_time = points[i].relative_time;
     d.fronts = points[i].fronts;
@@ -208,6 +232,41 @@ void set_device_figures(FrontierAnswer& answer) {
   answer.device_equal_flip = equal_flip_of(records);
   answer.by_device = !answer.machines.empty() && answer.machines.front().cl_kind == "GPU" &&
                      (!answer.device_front_bands.empty() || !answer.device_equal_flip.empty());
+}
+
+// Processor time decides where wall-clock time did not reach the half-width and it did better. On a GPU it is
+// not the device's work.
+void set_cpu_figures(FrontierAnswer& answer) {
+  const std::vector<FrontierRecord> records =
+      on_one_machine(by_cpu_clock(answer.part.records), answer.machines);
+  std::vector<PointFigures> points = answer.points;
+  set_times(points, records);
+  answer.cpu_controls = controls_of(records);
+  set_relative_times(points, answer.cpu_controls);
+  rank_points(points, answer.cpu_controls);
+  const bool on_cpu = !answer.machines.empty() && answer.machines.front().cl_kind == "CPU";
+  const auto half_width_in = [](const std::vector<Control>& controls, const std::string& scene) {
+    const auto control = std::ranges::find(controls, scene, &Control::scene);
+    return control == controls.end() ? INFINITY : control->relative_time.half_width();
+  };
+  for (size_t i = 0; i < points.size(); ++i) {
+    PointFigures& p = answer.points[i];
+    p.cpu = {points[i].frame_ms, points[i].times, points[i].relative_time, points[i].fronts};
+    const double wall = half_width_in(answer.controls, p.point.scene),
+                 cpu = half_width_in(answer.cpu_controls, p.point.scene);
+    if (answer.by_device) {
+      p.decides = Clock::device;
+    } else if (on_cpu && wall > answer.part.half_width && cpu < wall) {
+      p.decides = Clock::cpu;
+    }
+  }
+}
+
+Clock clock_of_scene(const FrontierAnswer& answer, const std::string& scene) {
+  for (const PointFigures& p : answer.points) {
+    if (p.point.scene == scene) return p.decides;
+  }
+  return Clock::wall;
 }
 
 bool draws_in_opencl(const std::string& label) {
@@ -224,10 +283,10 @@ bool draws_in_opencl(const std::string& label) {
 std::vector<AmongOpenCl> among_opencl_of(const FrontierAnswer& answer) {
   std::vector<AmongOpenCl> all;
   if (draws_in_opencl(answer.part.baseline)) return all;
-  const auto over_point = [](const LogTimes& times, const LogTimes& other,
+  const auto over_point = [](const PointTimes& times, const PointTimes& other,
                              const std::vector<Control>& controls, const std::string& scene) {
     const auto control = std::ranges::find(controls, scene, &Control::scene);
-    return relative_time(log_times_over(times, other),
+    return relative_time(times_over(times, other),
                          control == controls.end() || &times == &other ? 0 : control->widening());
   };
   const std::string reference = baseline_point({}, false).label;  // that of a sweep without OpenGL
@@ -238,9 +297,9 @@ std::vector<AmongOpenCl> among_opencl_of(const FrontierAnswer& answer) {
         points, [&](const PointFigures& p) { return p.point.scene == scene && p.point.label == reference; });
     if (over == points.end() || !draws_in_opencl(points[i].point.label)) continue;
     AmongOpenCl& among = all.emplace_back(AmongOpenCl{scene, int(i), int(over - points.begin())});
-    among.relative_time = over_point(points[i].log_times, over->log_times, answer.controls, scene);
+    among.relative_time = over_point(points[i].times, over->times, answer.controls, scene);
     among.relative_device_time =
-        over_point(points[i].device.log_times, over->device.log_times, answer.device_controls, scene);
+        over_point(points[i].device.times, over->device.times, answer.device_controls, scene);
   }
   return all;
 }
@@ -249,22 +308,30 @@ static std::vector<CheapestWithin> cheapest_in_scene(const std::vector<PointFigu
                                                      const SceneTimes& scene, CheapestWithin within,
                                                      double widening) {
   const auto times_of = [&](size_t i, int parity) {
-    const LogTimes& times = points[size_t(scene.indices[i])].log_times;
-    const LogTimes half = half_of(times, parity);
-    return half.empty() ? times : half;
+    const PointTimes& times = points[size_t(scene.indices[i])].times;
+    const PointTimes half = half_of(times, parity);
+    return half.rounds.empty() ? times : half;
   };
   std::vector<CheapestWithin> all;
   for (const double error : bearable_flips) {
-    const int best = cheapest(scene, error, [&](size_t i) { return relative_time(times_of(i, 0)).estimate; });
+    const int best = cheapest(scene.errors, error,
+                              [&](size_t i) { return relative_time(times_of(i, 0).rounds).estimate; });
     if (best < 0) continue;
     within.error = error;
     within.point = scene.indices[size_t(best)];
     within.relative_time = relative_time(times_of(size_t(best), 1), widening);
     const auto hits = std::ranges::count_if(scene.draws, [&](const std::vector<double>& draw) {
-      return cheapest(scene, error, [&](size_t i) { return draw[i]; }) == best;
+      return cheapest(scene.errors, error, [&](size_t i) { return draw[i]; }) == best;
     });
     within.probability =
         probability_of(scene, points[size_t(within.point)], double(hits) / double(scene.draws.size()));
+    const auto hits_over_views =
+        std::ranges::count_if(scene.draws_over_views, [&](const DrawOverViews& draw) {
+          return cheapest(draw.errors, error, [&](size_t i) { return draw.log_times[i]; }) == best;
+        });
+    const double draws = double(scene.draws_over_views.size());
+    within.over_views = probability_of(scene, points[size_t(within.point)],
+                                       draws > 0 ? double(hits_over_views) / draws : unranked);
     all.push_back(within);
   }
   return all;

@@ -95,6 +95,14 @@ void tell_different_views(const std::vector<FrontierPart>& parts, const Notice& 
   }
 }
 
+// A round's times, by each clock that there is.
+bool is_of_times(const json& line) {
+  if (!line.is_object() || !line.contains("times")) return false;
+  for (const auto& [key, value] : line.items())
+    if (key != "times" && key != "device_times" && key != "cpu_times") return false;
+  return true;
+}
+
 // One for all views of a point, so that its runs are rounds of their own.
 int unpaired_shard_of(const FrontierPoint& point) {
   const std::string hash = content_hash(point.scene + "\n" + point.label);
@@ -114,17 +122,17 @@ void PartLines::add_record(FrontierRecord record, const std::string& place, cons
   }
 }
 
-// Before the round's times, so that a record's device times are of its first runs: where one lacks them,
+// Before the round's times, so that a clock's times are of the record's first runs: where a run lacks them,
 // those that follow do not count.
-void PartLines::add_device_times(const JsonFields& times) {
+void PartLines::add_times_of_clock(const JsonFields& times, const char* name,
+                                   std::span<const ClockTimes> members) {
   for (const std::string& key : times.names()) {
     FrontierRecord& record = open_record(key);
     const std::vector<double> ms = times.numbers(key);
-    if (ms.size() != std::size(times_by_device))
-      throw input_error("device_times.{}: {} times instead of {}", key, ms.size(),
-                        std::size(times_by_device));
-    if (record.device_ms.size() != record.frame_ms.size()) continue;
-    for (size_t i = 0; i < ms.size(); ++i) (record.*times_by_device[i].second).push_back(ms[i]);
+    if (ms.size() != members.size())
+      throw input_error("{}.{}: {} times instead of {}", name, key, ms.size(), members.size());
+    if ((record.*members.front().second).size() != record.frame_ms.size()) continue;
+    for (size_t i = 0; i < ms.size(); ++i) (record.*members[i].second).push_back(ms[i]);
   }
 }
 
@@ -155,10 +163,11 @@ void PartLines::take(const json& line, const std::string& place, const Notice& n
     ++part.processes;
   } else if (is_of("conditions")) {
     part.conditions.push_back(conditions_of(line["conditions"]));
-  } else if (is_of("times") || (line.is_object() && line.size() == 2 && line.contains("times") &&
-                                line.contains("device_times"))) {
-    const JsonFields times = JsonFields(line).object("times");
-    if (line.size() == 2) add_device_times(JsonFields(line).object("device_times"));
+  } else if (is_of_times(line)) {
+    const JsonFields all(line), times = all.object("times");
+    if (all.has("device_times"))
+      add_times_of_clock(all.object("device_times"), "device_times", times_by_device);
+    if (all.has("cpu_times")) add_times_of_clock(all.object("cpu_times"), "cpu_times", times_by_cpu);
     for (const std::string& key : times.names()) {
       FrontierRecord& record = open_record(key);
       if (times.at(key).is_string()) {

@@ -131,7 +131,9 @@ struct FrontierRecord {
   std::vector<double> frame_ms, baseline_ms;  // equal length; entry i of both ran one after the other
   // By the devices' own clocks (DeviceTimes), of the same runs; empty, or fewer, where a device has none.
   std::vector<double> device_ms, hand_over_ms, copy_ms, read_back_ms, baseline_device_ms;
+  std::vector<double> cpu_ms, baseline_cpu_ms;  // processor time of the process in the same runs; or empty
   std::vector<int> processes;                  // for each run: the number of the process that took it, from 0
+  int frames_per_round = 1;                    // successive runs that are one round
   std::map<std::string, double> pass_ms;       // medians of profiled frames
   std::map<std::string, uint64_t> pass_bytes;  // read and written, where counted; of the same passes
   // Times of culling, one a round: entry i of points that differ in the cull test alone was taken in one
@@ -165,6 +167,9 @@ struct FrontierMachine {
 
 inline constexpr int unpaired_shard = 1'000'000;
 
+// Half of the 95 % interval of a relative time at which rounds end.
+inline constexpr double default_half_width = 0.01;
+
 // A part: one process's records. Deterministic: shard i of n of the same request holds the same points.
 inline bool is_control(const FrontierRecord& r) { return r.series.starts_with("control"); }
 
@@ -182,6 +187,7 @@ struct FrontierPart {
   int shard = 0, shards = 1;
   std::string baseline;          // label of the baseline point
   std::string keep = "overlap";  // what growth over lights keeps (Kept); in parts of earlier versions that
+  double half_width = default_half_width;   // that rounds end at, as a share of a relative time
   std::map<std::string, int> points_asked;  // by scene, of this shard; empty in parts of earlier versions
   FrontierMachine machine;
   int processes = 0;                           // that took times

@@ -117,6 +117,8 @@ void RecordFile::add_times(const std::vector<TimeOfRecord>& times) {
     entry = time.refused;
     if (!time.refused.empty()) continue;
     entry = {exact_number(time.frame_ms), exact_number(time.baseline_ms)};
+    if (time.cpu_ms && time.baseline_cpu_ms)
+      line["cpu_times"][time.key] = {exact_number(*time.cpu_ms), exact_number(*time.baseline_cpu_ms)};
     if (!time.device) continue;
     json& by_device = line["device_times"][time.key];
     for (const double ms : {time.device->device_ms, time.device->hand_over_ms, time.device->copy_ms,

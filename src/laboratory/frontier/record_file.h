@@ -21,6 +21,8 @@ class JsonFields;
 
 namespace lightgrid::lab {
 
+using ClockTimes = std::pair<const char*, std::vector<double> FrontierRecord::*>;  // a key and its member
+
 using Notice = std::function<void(const std::string&)>;  // receives one line; null: nobody reads it
 
 // 16 hexadecimal digits: FNV-1a (Fowler, Noll, Vo 1991), 64 bits. Records and requests are found again by it.
@@ -56,7 +58,8 @@ struct PartLines {
 
  private:
   void add_record(FrontierRecord record, const std::string& place, const Notice& notice);
-  void add_device_times(const JsonFields& times);
+  // Adds the times of one clock to these members.
+  void add_times_of_clock(const JsonFields& times, const char* name, std::span<const ClockTimes> members);
   FrontierRecord& open_record(const std::string& key);
 };
 
@@ -72,6 +75,7 @@ struct TimeOfRecord {
   std::string refused;                     // why the point did not run; the times then do not count
   std::optional<DeviceTimes> device = {};  // times of the same frame
   double baseline_device_ms = 0;
+  std::optional<double> cpu_ms = {}, baseline_cpu_ms = {};
 };
 
 class RecordFile {

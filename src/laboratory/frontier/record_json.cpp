@@ -94,6 +94,10 @@ FrontierRecord record_of(const json& line) {
     if ((r.*times).size() != r.device_ms.size() || (r.*times).size() > r.frame_ms.size())
       throw input_error("{}: {} times beside {} of frame_ms", key, (r.*times).size(), r.frame_ms.size());
   }
+  for (const auto& [key, times] : times_by_cpu) {
+    if (!(r.*times).empty() && (r.*times).size() != r.frame_ms.size())
+      throw input_error("{}: {} times beside {} of frame_ms", key, (r.*times).size(), r.frame_ms.size());
+  }
   r.processes.resize(r.frame_ms.size(), 0);  // parts of earlier versions name none
   return r;
 }

@@ -15,17 +15,17 @@ class RoundBaselines {
   // Takes the records of the front and of controls.
   explicit RoundBaselines(Records records);
 
-  // For the point with these views: for each round that all of them have, the logarithms of the sum of the
-  // views' times over sums of the baseline's, of one run per view each. A round has a baseline run for each
-  // two points; those that count are the same for all points, so that they cancel between two of them, are
-  // chosen by their places among the records, whatever their times are, and are others in the next round. One
-  // that two points share may count twice, as do some where a round has fewer than three.
-  LogTimes log_times(const Group& views) const;
+  // For the point with these views: for each round that all of them have, the logarithm of the sum of its
+  // frames over the sum of as many frames of the baseline, over all views and for each view. A round has the
+  // baseline's frames for each two points; those that count are the same for all points, so that they cancel
+  // between two of them. They are chosen by their places among the records, whatever their times are, and are
+  // others in the next round. `place`: other frames of the baseline, as far as there are.
+  PointTimes times_of(const Group& views, size_t place = 0) const;
 
  private:
   using Place = std::tuple<std::string, int, TimeBlock>;  // scene, view
-  double ms_of(const Place& place, size_t series) const;
-  std::map<Place, std::vector<double>> runs_;  // one a record, in their order
+  double ms_of(const Place& place, size_t number) const;
+  std::map<Place, std::vector<double>> rounds_;  // one a record, in their order
 };
 
 }  // namespace lightgrid::lab

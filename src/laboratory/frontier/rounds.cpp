@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
 
 #include "frontier/answer_steps.h"
+#include "frontier/fields.h"
 #include "scene/random.h"
 
 namespace lightgrid::lab {
@@ -17,28 +19,52 @@ void add_time(const MeasuredPoint& point, size_t view, const RoundTimes& own, co
               std::vector<TimeOfRecord>& times) {
   const FrontierRecord& record = point.records[view];
   if (!record.refused.empty()) return;
-  times.push_back({record_key(record), own.ms, beside.ms, point.run.refused()});
+  TimeOfRecord& time =
+      times.emplace_back(TimeOfRecord{record_key(record), own.ms, beside.ms, point.run.refused()});
+  time.cpu_ms = own.cpu_ms;
+  time.baseline_cpu_ms = beside.cpu_ms;
   if (!own.device || !beside.device) return;
-  times.back().device = own.device;
-  times.back().baseline_device_ms = beside.device->device_ms;
+  time.device = own.device;
+  time.baseline_device_ms = beside.device->device_ms;
 }
 
-bool is_refused(const FrontierRecord& record) { return !record.refused.empty(); }
-
-// The ratio of each round, over all timed views.
-std::vector<double> ratios_of(const MeasuredPoint& point) {
-  std::vector<double> ratios;
-  for (size_t round = 0; round < size_t(point.rounds()); ++round) {
-    double ms = 0, beside = 0;
+// The same points and views, with the times of the runs from `first` on.
+std::vector<FrontierRecord> times_from(const std::vector<MeasuredPoint>& points, size_t first) {
+  std::vector<FrontierRecord> all;
+  for (const MeasuredPoint& point : points) {
     for (const FrontierRecord& record : point.records) {
-      if (!record.frame_ms.empty()) {
-        ms += record.frame_ms[round];
-        beside += record.baseline_ms[round];
-      }
+      FrontierRecord& times = all.emplace_back();
+      times.point = record.point;
+      times.view = record.view;
+      times.series = record.series;
+      times.frames_per_round = record.frames_per_round;
+      const auto keep = [&](std::vector<double> FrontierRecord::*runs) {
+        const auto begin = std::min(first, (record.*runs).size());
+        (times.*runs).assign((record.*runs).begin() + std::ptrdiff_t(begin), (record.*runs).end());
+      };
+      keep(&FrontierRecord::frame_ms);
+      keep(&FrontierRecord::baseline_ms);
+      for (const auto& [key, runs] : times_by_cpu) keep(runs);
+      for (const auto& [key, runs] : times_by_device) keep(runs);
     }
-    ratios.push_back(ms / beside);
   }
-  return ratios;
+  return all;
+}
+
+// Half of the widest interval of the scene's controls and points; infinite without times.
+double widest_half_width(const std::vector<FrontierRecord>& records) {
+  double widest = 0;
+  bool any = false;
+  const auto add = [&](const RelativeTime& time) {
+    if (time.runs == 0) return;
+    widest = std::max(widest, time.half_width());
+    any = true;
+  };
+  for (const Control& control : controls_of(records)) add(control.relative_time);
+  for (const PointFigures& p : figures_of(records)) {
+    if (p.times.rounds.size() > size_t(slow_rounds)) add(relative_time(p.times.rounds));
+  }
+  return any ? widest : std::numeric_limits<double>::infinity();
 }
 
 constexpr size_t min_cull_rounds = 6, max_cull_rounds = 12;
@@ -71,7 +97,7 @@ double culling_ms(PointRun& point) {
   return ms;
 }
 
-constexpr int growth_rounds = 4;
+constexpr int growth_rounds = 2;    // four frames
 constexpr int middle_lights = 512;  // in the series of lights, which has their ranges if it keeps ranges
 
 // A variant of the scene, by one of its three sizes.
@@ -114,6 +140,7 @@ void time_variant(const std::vector<ChosenPoint>& points, Renderer& renderer, Gp
     base.point = described(base.point.scene, point);
     if (file.has(record_key(base))) continue;
     measured.push_back({PointRun(renderer, gpu, view, point, pool), {base}});
+    measured.back().records.front().frames_per_round = frames_per_round;
     measured.back().records.front().refused = measured.back().run.refused();
     file.begin(measured.back().records.front());
   }
@@ -154,29 +181,35 @@ int TimeRounds::run() {
     point.slow_until =
         (job.processes > 1 ? point.rounds() : 0) + (slow_rounds + job.processes - 1) / job.processes;
   ConditionsReader conditions;
+  StopRule stop(job.half_width * std::sqrt(double(job.processes)));
   double longest_s = 0;
-  int precise = 0;  // number of latest rounds after which the controls were precise
   for (bool warm_up = true; done < most; warm_up = false) {
     const double before = timer.elapsed_ms() / 1000;
     if (done > before_this && before + longest_s > until_s) break;
-    precise = are_controls_precise(before_this) ? precise + 1 : 0;
-    if (done >= least && precise >= precise_rounds && are_certain()) break;
-    std::vector<TimeOfRecord> times;
-    for (size_t view = 0; view < views.size(); ++view) time_view(warm_up ? 0 : done + 1, view, times);
+    std::vector<FrameTimes> frames;
+    for (size_t view = 0; view < views.size(); ++view) time_view(warm_up ? 0 : done + 1, view, frames);
     const FrontierConditions of_round = conditions.sample();
     if (warm_up) continue;
-    file.add_times(times);
+    for (size_t pass = 0; pass < size_t(frames_per_round); ++pass) {
+      std::vector<TimeOfRecord> times;
+      for (const FrameTimes& of_view : frames)
+        times.insert(times.end(), of_view[pass].begin(), of_view[pass].end());
+      file.add_times(times);
+    }
     file.add_conditions(of_round);
     for (MeasuredPoint& point : points) {
       for (FrontierRecord& record : point.records) record = file.open_records().at(record_key(record));
     }
     ++done;
     longest_s = std::max(longest_s, timer.elapsed_ms() / 1000 - before);
+    const int of_this = done - before_this;
+    if (done >= least && stop.is_check(of_this) && stop.ends(of_this, half_width(before_this))) break;
   }
   return done;
 }
 
-void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& times) {
+// In random order and back: what drifts during the round cancels in the sums of both.
+void TimeRounds::time_view(int round, size_t view, std::vector<FrameTimes>& frames) {
   std::vector<size_t> order;
   for (size_t i = 0; i < points.size(); ++i) {
     const bool out = points[i].slow && points[i].rounds() >= points[i].slow_until;
@@ -184,18 +217,24 @@ void TimeRounds::time_view(int round, size_t view, std::vector<TimeOfRecord>& ti
   }
   Random random(Random::mix(job.seed) + uint64_t(round) * 1000 + uint64_t(view));
   for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[size_t(random.next() % i)]);
-  RoundTimes beside = timed(baseline, view);
-  for (size_t i = 0; i < order.size(); i += 2) {
-    if (job.progress)
-      job.progress(std::min(timer.elapsed_ms() / 1000 / job.seconds, 1.0),
-                   fmt::format("times, round {}", round));
-    MeasuredPoint& first = points[order[i]];
-    add_time(first, view, timed(first.run, view), beside, times);
-    if (i + 1 == order.size()) break;
-    MeasuredPoint& second = points[order[i + 1]];
-    const RoundTimes of_second = timed(second.run, view);
-    beside = timed(baseline, view);
-    add_time(second, view, of_second, beside, times);
+  FrameTimes& of_view = frames.emplace_back();
+  const size_t baselines = order.size() / 2 + 1;  // place i is between the points 2 i - 1 and 2 i
+  for (size_t pass = 0; pass < (round == 0 ? 1 : of_view.size()); ++pass) {
+    std::vector<RoundTimes> own(order.size()), beside(baselines);
+    for (size_t step = 0; step < order.size() + baselines; ++step) {
+      const size_t place = pass == 0 ? step : order.size() + baselines - 1 - step;
+      if (place % 3 == 0) {
+        beside[place / 3] = timed(baseline, view);
+      } else {
+        const size_t i = place - place / 3 - 1;
+        own[i] = timed(points[order[i]].run, view);
+      }
+      if (job.progress)
+        job.progress(std::min(timer.elapsed_ms() / 1000 / job.seconds, 1.0),
+                     fmt::format("times, round {}", round));
+    }
+    for (size_t i = 0; i < order.size(); ++i)
+      add_time(points[order[i]], view, own[i], beside[(i + 1) / 2], of_view[pass]);
   }
 }
 
@@ -206,36 +245,17 @@ RoundTimes TimeRounds::timed(PointRun& run, size_t view) {
   run.look(views[view]);
   run.draw_first_frame();
   const double ms = run.draw(&clock);
-  return {ms, run.device_times()};
+  return {ms, run.cpu_ms(), run.device_times()};
 }
 
-// True if each ratio's interval is narrow enough.
-bool TimeRounds::are_certain() const {
-  return std::ranges::all_of(points, [&](const MeasuredPoint& point) {
-    if (std::ranges::any_of(point.records, is_refused)) return true;
-    if (point.slow && point.rounds() >= point.slow_until) return true;
-    const MedianInterval ratio = median_interval(ratios_of(point));
-    return ratio.high - ratio.low <= job.interval_width * ratio.median;
-  });
-}
-
-// By the rounds of this process (`before_this` are of others), since each of several gives its share of the
-// precision; of a part that goes on, all rounds count as one process's.
-bool TimeRounds::are_controls_precise(int before_this) const {
-  std::vector<FrontierRecord> of_this;
-  for (const MeasuredPoint& point : points) {
-    for (const FrontierRecord& record : point.records) {
-      FrontierRecord& times = of_this.emplace_back();
-      times.point = record.point;
-      times.view = record.view;
-      times.series = record.series;
-      const auto begin = std::min(size_t(before_this), record.frame_ms.size());
-      times.frame_ms.assign(record.frame_ms.begin() + begin, record.frame_ms.end());
-      times.baseline_ms.assign(record.baseline_ms.begin() + begin, record.baseline_ms.end());
-    }
-  }
-  return std::ranges::all_of(controls_of(of_this),
-                             [&](const Control& c) { return c.is_precise(job.processes); });
+// By the clock that is narrowest, of those that decide on this machine. By the rounds of this process
+// (`before_this` are of others), since each of several gives its share of the precision; of a part that goes
+// on, all rounds count as one process's.
+double TimeRounds::half_width(int before_this) const {
+  const std::vector<FrontierRecord> of_this =
+      times_from(points, size_t(before_this) * size_t(frames_per_round));
+  return std::min(widest_half_width(of_this),
+                  widest_half_width(gpu ? by_device_clock(of_this) : by_cpu_clock(of_this)));
 }
 
 void complete(const std::vector<MeasuredPoint>& points, RecordFile& file) {
@@ -256,7 +276,15 @@ void time_series(std::vector<MeasuredPoint>& measured, Renderer& renderer, GpuSc
   of_series.process = 0;
   of_series.processes = 1;
   const Timer timer;
-  TimeRounds{of_series, timer, max_s, std::span(&view, 1), measured, baseline, file, DeviceClock(renderer)}
+  TimeRounds{of_series,
+             timer,
+             max_s,
+             std::span(&view, 1),
+             measured,
+             baseline,
+             file,
+             DeviceClock(renderer),
+             !renderer.cl->info().cpu}
       .run();
   complete(measured, file);
 }

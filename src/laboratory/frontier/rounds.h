@@ -2,6 +2,7 @@
 // scene.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -11,6 +12,8 @@
 
 namespace lightgrid::lab {
 
+constexpr int frames_per_round = 2;  // of each point: in random order, and back
+
 // A point of which at least one view has been measured.
 struct MeasuredPoint {
   PointRun run;
@@ -19,24 +22,22 @@ struct MeasuredPoint {
   double around_s = 0;  // that another renderer's answer takes beyond its frame
   bool slow = false;    // far from the front: few rounds tell how far
   int slow_until = 0;   // rounds that it then has, when this process ends
-  int rounds() const { return int(records.front().frame_ms.size()); }
+  int rounds() const { return int(records.front().frame_ms.size()) / frames_per_round; }
 };
 
 constexpr int slow_rounds = min_rounds;  // for slow points
-// Rounds end when the controls were precise after this many in a row. With one, rounds would end where times
-// happen to look quiet, and fewer intervals would hold the truth.
-constexpr int precise_rounds = 3;
 
 struct RoundTimes {
   double ms = 0;
+  std::optional<double> cpu_ms;       // processor time of this process in the same frame
   std::optional<DeviceTimes> device;  // times of the same frame
 };
 
-// Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new order each round.
-// A point counts with the baseline run beside it. Before each timed run, of the baseline too, the same point
-// looks at the view and draws a frame that does not count. The timed frame's times by the wall's clock and by
-// the devices' are both recorded. Slow points are left out of late rounds. The first
-// round does not count: drivers compile in it what they dropped.
+// Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new random order each
+// round, then all of them in the reverse order. A point counts with the baseline runs next to it. Before each
+// timed run, of the baseline too, the same point looks at the view and draws a frame that does not count. The
+// timed frame's wall-clock, processor and device times are recorded. Slow points are left out of late rounds.
+// A first pass does not count: drivers compile in it what they dropped.
 struct TimeRounds {
   const FrontierJob& job;
   const Timer& timer;  // started with the scene
@@ -46,17 +47,18 @@ struct TimeRounds {
   PointRun& baseline;
   RecordFile& file;
   DeviceClock clock;
+  bool gpu;  // device time decides; otherwise processor time
 
-  // Until the ratios are certain and the controls precise (Control::is_precise) or the time is over, or this
-  // process has its share of the rounds. Returns the number of rounds that count: those that the points have
+  // Until all intervals have the job's half-width (StopRule) or the time is over, or this process has its
+  // share of the rounds. Returns the number of rounds that count: those that the points have
   // from earlier processes too.
   int run();
 
  private:
-  void time_view(int round, size_t view, std::vector<TimeOfRecord>& times);
+  using FrameTimes = std::array<std::vector<TimeOfRecord>, frames_per_round>;
+  void time_view(int round, size_t view, std::vector<FrameTimes>& frames);
   RoundTimes timed(PointRun& run, size_t view);
-  bool are_certain() const;
-  bool are_controls_precise(int before_this) const;  // rounds of earlier processes
+  double half_width(int before_this) const;  // rounds of earlier processes
 };
 
 // Completes all records of the points in the file.

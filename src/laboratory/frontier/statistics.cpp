@@ -38,19 +38,6 @@ int lower_index(int n) {
   return index;
 }
 
-// P(|T| <= t) of Student's t with `dof` degrees of freedom, for t = sqrt(dof) tan(angle): Abramowitz and
-// Stegun 26.7.3 and 26.7.4.
-double central_probability(double angle, int dof) {
-  const double sine = std::sin(angle), cosine = std::cos(angle);
-  const bool odd = dof % 2 == 1;
-  double term = odd ? cosine : 1, sum = 0;
-  for (int k = odd ? 1 : 0; k <= dof - 2; k += 2) {
-    sum += term;
-    term *= cosine * cosine * (k + 1) / (k + 2);
-  }
-  return odd ? 2 / std::numbers::pi * (angle + sine * sum) : sine * sum;
-}
-
 }  // namespace
 
 MedianInterval median_interval(std::span<const double> samples) {
@@ -78,17 +65,6 @@ std::vector<bool> pareto_front(std::span<const std::pair<double, double>> points
     min_y = std::min(min_y, y);
   }
   return front;
-}
-
-double student_t_quantile(double p, int dof) {
-  if (dof < 1 || !(p > 0 && p < 1)) return p == 0.5 ? 0 : p < 0.5 ? -infinity : infinity;
-  if (p < 0.5) return -student_t_quantile(1 - p, dof);
-  double low = 0, high = std::numbers::pi / 2;  // bounds of the angle
-  for (int step = 0; step < 100; ++step) {
-    const double middle = 0.5 * (low + high);
-    (central_probability(middle, dof) < 2 * p - 1 ? low : high) = middle;
-  }
-  return std::sqrt(static_cast<double>(dof)) * std::tan(low);
 }
 
 PowerLaw power_law(std::span<const std::pair<double, double>> samples) {

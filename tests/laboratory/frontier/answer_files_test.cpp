@@ -62,7 +62,7 @@ TEST(FrontierJson, HoldsTheAnswer) {
     "frame_ms": {"median": 2.5, "ci95": [2.25, 3.0], "runs": 8},
     "frame_ms_within": {"p95": 4.0, "p99": 5.0},
     "relative_time": {"estimate": 0.5, "ci95": [0.25, 0.75], "runs": 8, "processes": 2, "between_processes": 0.125,
-                      "modes": [], "slow_share": null},
+                      "modes": [], "slow_share": null, "views_ci95": [null, null]},
     "pairs": {"listed": 2000, "lit": 800, "lost": 4, "wrong": 2}, "listed_per_lit": 2.5,
     "memory_bytes": 5000, "bytes_moved": 7000, "nan_pixels": 6, "fronts": {"total": {"on": true, "probability": 0.875}}})");
   for (const auto& [key, value] : expected.items()) EXPECT_EQ(frontier["points"][0][key], value) << key;
@@ -109,6 +109,7 @@ TEST(FrontierJson, HoldsTheAnswer) {
                                                      {"flip", 1e-3},
                                                      {"point", 0},
                                                      {"probability", 0.5},
+                                                     {"p_cheapest_views", 0.0},
                                                      {"relative_time", expected["relative_time"]}}}));
   EXPECT_EQ(
       frontier["flip_front_bands"],

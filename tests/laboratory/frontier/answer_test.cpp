@@ -174,13 +174,10 @@ TEST(Answer, SumsTimesOverViewsRunByRunAndJoinsErrors) {
   const PointFigures& p = answer.points[0];
   EXPECT_EQ(p.views, 2);
   std::vector<double> ratios;
-  for (const auto& [block, log_ratios] : p.log_times) {
-    for (const double log_ratio : log_ratios)
-      EXPECT_EQ(log_ratio, log_ratios[0]) << "one run of the baseline";
-    ratios.push_back(std::exp(log_ratios[0]));
-  }
+  for (const auto& [block, log_ratio] : p.times.rounds) ratios.push_back(std::exp(log_ratio));
   EXPECT_THAT(ratios, ElementsAre(DoubleNear(0.1, 1e-15), DoubleNear(0.2, 1e-15), DoubleNear(0.3, 1e-15)));
-  EXPECT_NEAR(p.relative_time.estimate, std::cbrt(0.006), 1e-15);
+  // Two means of two logarithms are in the middle: that of 0.1 and 0.3, and 0.2 itself.
+  EXPECT_NEAR(p.relative_time.estimate, std::sqrt(std::sqrt(0.1 * 0.3) * 0.2), 1e-15);
   EXPECT_EQ(p.relative_time.runs, 3);
   EXPECT_EQ(p.p95_ms, 30);                    // the times are 10, 20, 30, 2, 4, 6, 8
   EXPECT_NEAR(p.frame_ms.median, 12, 1e-12);  // (20 + 4) / 2 views
@@ -315,7 +312,7 @@ TEST(Answer, PointsOfOneRoundArePairedInTheirProcess) {
   const FrontierAnswer answer = answer_from({a, b});
   const auto blocks = [&](size_t i) {
     std::vector<std::pair<int, int>> found;
-    for (const auto& [block, ratios] : answer.points[i].log_times)
+    for (const auto& [block, ratios] : answer.points[i].times.rounds)
       found.emplace_back(block.process, block.round);
     return found;
   };
@@ -325,15 +322,89 @@ TEST(Answer, PointsOfOneRoundArePairedInTheirProcess) {
   EXPECT_THAT(blocks(1), ElementsAre(Block(0, 0), Block(1, 0), Block(1, 1), Block(1, 2)));
   EXPECT_EQ(answer.points[0].relative_time.processes, 2);
   EXPECT_TRUE(answer.points[0].relative_time.between_processes.has_value());
-  // Each run of the last round counts by itself, 160 and 100 ms, the same ones for both points.
-  const auto last_round = [&](size_t i) {
-    std::vector<double> baseline;
-    for (const double log_ratio : answer.points[i].log_times.at({0, 1, 2}))
-      baseline.push_back(std::round((i == 0 ? a : b).frame_ms.back() / std::exp(log_ratio) * 1e9) / 1e9);
-    return baseline;
+  // One of the baseline's runs of the last round counts, 160 or 100 ms, the same one for both points.
+  const auto last_baseline = [&](size_t i) {
+    return (i == 0 ? a : b).frame_ms.back() / std::exp(answer.points[i].times.rounds.at({0, 1, 2}));
   };
-  EXPECT_THAT(last_round(0), ElementsAre(100, 160, 100));
-  EXPECT_THAT(last_round(1), ElementsAre(100, 160, 100));
+  EXPECT_NEAR(last_baseline(0), 100, 1e-9);
+  EXPECT_NEAR(last_baseline(1), 100, 1e-9);
+}
+
+// Two frames are a round; half of one, after a process ended, does not count. A view's interval is of its
+// rounds, and that over views of the views: here their ratios are 0.4, 0.5 and 0.6 of equal weight.
+TEST(Answer, TimesVaryOverRoundsAndViews) {
+  std::vector<FrontierRecord> views;
+  for (int view = 0; view < 3; ++view) {
+    FrontierRecord& r = views.emplace_back(
+        synthetic_record(synthetic_point("hall", "visibility"), 0.4 + 0.1 * view, 0.1 + 0.1 * view, view));
+    r.frames_per_round = 2;
+    r.frame_ms.assign(9, 100 * (0.4 + 0.1 * view));
+    r.baseline_ms.assign(9, 100);
+  }
+  const FrontierAnswer answer = answer_from(views);
+  const RelativeTime& time = answer.points[0].relative_time;
+  EXPECT_EQ(time.runs, 4);
+  EXPECT_NEAR(time.estimate, 0.5, 1e-12);
+  EXPECT_NEAR(time.high, 0.5, 1e-12) << "rounds do not differ";
+  ASSERT_TRUE(time.over_views);
+  // Deviations of -0.2, 0 and 0.2: a standard error of 0.2 / sqrt(3), and t of two degrees of freedom.
+  EXPECT_NEAR(std::log(time.over_views->high / 0.5), 4.30265 * 0.2 / std::sqrt(3.0), 1e-4);
+  EXPECT_NEAR(time.over_views->low * time.over_views->high, 0.25, 1e-12);
+  views.resize(1);
+  EXPECT_FALSE(answer_from(views).points[0].relative_time.over_views);
+  EXPECT_TRUE(std::isnan(answer_from(views).points[0].fronts.at("total").over_views));
+}
+
+// Which of two points is the faster one differs from view to view, and in no round of a view.
+TEST(Answer, TheFrontOverViewsIsNotThatOfRounds) {
+  std::vector<FrontierRecord> records;
+  for (int view = 0; view < 4; ++view) {
+    for (const bool first : {true, false}) {
+      const double slower = first == (view == 0) ? 1.3 : 1;
+      records.push_back(synthetic_record(synthetic_point("hall", first ? "first" : "second"),
+                                         0.5 * slower * (first ? 1.001 : 1.15), 0.1, view));
+    }
+  }
+  const FrontierAnswer answer = answer_from(records);
+  const OnFront &first = point_named(answer, "first").fronts.at("total"),
+                &second = point_named(answer, "second").fronts.at("total");
+  EXPECT_GT(first.probability, 0.99);
+  EXPECT_LT(first.over_views, 0.98);
+  EXPECT_GT(first.over_views, 0.5);
+  EXPECT_NEAR(first.over_views + second.over_views, 1, 1e-9);
+}
+
+// Wall-clock times of this machine scatter by 20 %, processor times by less than 1 %.
+TEST(Answer, ProcessorTimeDecidesWhereWallClockTimeIsTooNoisy) {
+  const auto of = [](const char* name, double ratio, bool noisy) {
+    FrontierRecord r = synthetic_record(synthetic_point("hall", name), ratio, 0.1, 0, 20);
+    for (size_t run = 0; run < r.frame_ms.size(); ++run) {
+      r.cpu_ms.push_back(2 * r.frame_ms[run]);
+      r.baseline_cpu_ms.push_back(200);
+      if (noisy) r.frame_ms[run] *= run % 2 ? 1.1 : 0.9;
+    }
+    return r;
+  };
+  for (const bool noisy : {false, true}) {
+    FrontierRecord control = of("forward_plus", 1, noisy);
+    control.series = "control 0";
+    FrontierPart part = synthetic_part({of("fast", 0.5, noisy), of("slow", 0.52, noisy), control});
+    part.machine.cl_kind = "CPU";
+    const FrontierAnswer answer = answer_of({part});
+    const PointFigures& p = answer.points[0];
+    EXPECT_NEAR(p.cpu.relative_time.estimate, 0.5, 0.002);
+    EXPECT_EQ(p.cpu.cpu_ms.runs, 20);
+    EXPECT_EQ(p.decides, noisy ? Clock::cpu : Clock::wall);
+    EXPECT_LT(p.deciding_time().half_width(), 0.01);
+    const auto json = to_json(answer);
+    EXPECT_EQ(json["points"][0]["clock"], noisy ? "cpu" : "wall");
+    EXPECT_EQ(json["points"][0]["reached"], true);
+    EXPECT_EQ(json["controls"][0]["decides"], !noisy);
+    EXPECT_EQ(json["cpu_controls"][0]["decides"], noisy);
+    EXPECT_THAT(answer.sentences, testing::Contains(HasSubstr("processor time")).Times(noisy ? 1 : 0));
+    part.machine.cl_kind = "GPU";
+    EXPECT_EQ(answer_of({part}).points[0].decides, Clock::wall) << "it is not the device's work";
+  }
 }
 
 TEST(Answer, FrontHasAProbabilityAndABand) {
@@ -534,14 +605,14 @@ TEST(Answer, SaysWhatTheFiguresSay) {
   const auto short_run = [](const char* technique, double ratio) {
     return synthetic_record(synthetic_point("hall", technique), ratio, 0, 0, 4);
   };
-  EXPECT_THAT(answer_from({short_run("forward_plus", 1), short_run("visibility", 0.5)}).sentences[0],
+  EXPECT_THAT(answer_from({short_run("forward_plus", 1), short_run("visibility", 0.5)}).sentences[1],
               HasSubstr("is visibility: it takes 0.501 times as long (95 % interval 0.49"));
   FrontierRecord once = short_run("visibility", 0.5), base = short_run("forward_plus", 1);
   for (FrontierRecord* record : {&once, &base}) {
     record->frame_ms.resize(1);
     record->baseline_ms.resize(1);
   }
-  EXPECT_THAT(answer_from({base, once}).sentences[0],
+  EXPECT_THAT(answer_from({base, once}).sentences[1],
               HasSubstr("times as long (interval not measured: 1 round; at least 3 are needed)."));
   const SceneWords words = words_of_scene(answer, scenes_of(answer)[0]);
   ASSERT_THAT(words.opening, SizeIs(2));

@@ -124,6 +124,10 @@ TEST(FrontierRecords, NameAWrongField) {
       EXPECT_THAT(record_of(line).processes, testing::Each(0));
     } else if (name == "exposure_ev") {  // they have none either
       EXPECT_EQ(record_of(line).exposure_ev, std::nullopt);
+    } else if (name == "frames_per_round") {
+      EXPECT_EQ(record_of(line).frames_per_round, 1);
+    } else if (name == "cpu_ms" || name == "baseline_cpu_ms") {
+      EXPECT_TRUE(record_of(line).cpu_ms.empty());
     } else if (name == "pass_bytes") {
       EXPECT_TRUE(record_of(line).pass_bytes.empty());
     } else if (std::ranges::find(times_by_device, name, [](const auto& t) { return std::string(t.first); }) !=

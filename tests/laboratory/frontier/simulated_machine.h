@@ -9,8 +9,14 @@
 
 #include "frontier/answer_steps.h"
 #include "frontier/paired_times.h"
+#include "support/long_tests.h"
 
 namespace lightgrid::lab {
+
+inline int trials() { return long_tests() ? 2000 : 400; }
+
+// The deviation of shares of n trials is at most this.
+inline double three_deviations(double share, int n) { return 3 * std::sqrt(share * (1 - share) / n); }
 
 struct SimulatedMachine {
   int processes = 1, rounds = 11;  // rounds of each process
@@ -48,12 +54,14 @@ inline std::vector<LogTimes> simulated_times(const SimulatedMachine& m, const st
     for (size_t i = 0; i <= truths.size(); ++i) of_process.push_back(m.process_noise * normal(random));
     for (int round = 0; round < m.rounds; ++round) {
       const double shared = m.round_noise * normal(random) + m.drift * round / m.rounds;
-      LogRatios baseline(baseline_runs);
-      for (double& run : baseline) run = shared + of_process.back() + own_noise(m, random);
+      const auto two_frames = [&] {
+        return std::log(0.5 * (std::exp(own_noise(m, random)) + std::exp(own_noise(m, random))));
+      };
+      const double baseline = shared + of_process.back() + two_frames();
       for (size_t i = 0; i < truths.size(); ++i) {
         const double slow = i < bimodal && uniform(random) < m.slow_share ? m.slow_mode : 0;
-        const double time = std::log(truths[i]) + shared + of_process[i] + slow + own_noise(m, random);
-        for (const double run : baseline) all[i][{0, process, round}].push_back(time - run);
+        const double time = std::log(truths[i]) + shared + of_process[i] + slow + two_frames();
+        all[i][{0, process, round}] = time - baseline;
       }
     }
   }
@@ -61,7 +69,8 @@ inline std::vector<LogTimes> simulated_times(const SimulatedMachine& m, const st
 }
 
 // Records of a scene's points and controls in two views, of which each takes 10 and 30 ms as the baseline
-// does. In each round they are timed in a new order, a baseline run, two of them, a baseline run, two, ...
+// does. In each round they are timed in a new order, a baseline run, two of them, a baseline run, two, ..., and
+// then once more.
 inline std::vector<FrontierRecord> simulated_records(const SimulatedMachine& m, int points, int controls,
                                                      std::mt19937_64& random) {
   constexpr double true_ms[] = {10, 30};
@@ -73,6 +82,7 @@ inline std::vector<FrontierRecord> simulated_records(const SimulatedMachine& m, 
       FrontierRecord& record = records.emplace_back();
       record.point = {.scene = "hall", .technique = "forward_plus", .label = "point " + std::to_string(i)};
       record.view = view;
+      record.frames_per_round = 2;
       if (i < points) {
         record.point.settings["tile"] = std::to_string(i);
       } else {
@@ -86,12 +96,14 @@ inline std::vector<FrontierRecord> simulated_records(const SimulatedMachine& m, 
       const double shared = m.round_noise * normal(random);
       const auto time = [&] { return true_ms[view] * std::exp(shared + own_noise(m, random)); };
       std::shuffle(order.begin(), order.end(), random);
-      double beside = time();
-      for (size_t i = 0; i < order.size(); ++i) {
-        if (i % 2 == 1) beside = time();
-        FrontierRecord& record = records[2 * order[i] + view];
-        record.frame_ms.push_back(time());
-        record.baseline_ms.push_back(beside);
+      for (int pass = 0; pass < 2; ++pass) {
+        double beside = time();
+        for (size_t i = 0; i < order.size(); ++i) {
+          if (i % 2 == 1) beside = time();
+          FrontierRecord& record = records[2 * order[i] + view];
+          record.frame_ms.push_back(time());
+          record.baseline_ms.push_back(beside);
+        }
       }
     }
   }

@@ -74,6 +74,13 @@ const probabilityText = (p) => (p === null ? "not measured" : p > 0.995 ? "more 
 const onFrontInWords = (clock, p, on = "on") => (p === null ? `probability of being on the front${clock}: not measured`
   : `${on} the front${clock} with a probability of ${probabilityText(p)}`);
 
+// For other views of the scene, by the clock that decides there; null: not measured.
+const CLOCK_WORDS = { wall: "wall-clock time", cpu: "processor time", device: "device time" };
+const frontOverViews = (point, reference) => point.p_front_views?.[reference] ?? null;
+const overViewsInWords = (point, reference) => { const p = frontOverViews(point, reference);
+  return p === null ? "probability of being on the front of other views: not measured" : `on the front of other views with a probability of ${probabilityText(p)} (${CLOCK_WORDS[point.clock]})`; };
+const halfWidthInWords = (point) => (point.half_width === null || point.reached ? "" : `half-width ${percentText(100 * point.half_width)} (${CLOCK_WORDS[point.clock]}), more than the ${percentText(100 * page.half_width)} to reach`);
+
 // Runs that fall into two groups: "two modes: 0.9 and 1.8 (30 % of runs)".
 const modesInWords = ({ modes, slow_share: share }) => (modes.length ? `two modes: ${threeDigits(modes[0])} and ${threeDigits(modes[1])} (${Math.round(100 * share)} % of runs)` : "");
 

@@ -15,6 +15,7 @@ function tipOf(point, { x, y, reference }) {
   if (point.relative_time.modes.length) add(modesInWords(point.relative_time));
   if (point.relative_device_time.runs > 0) add(`By the devices' clocks ${intervalInWords(point.relative_device_time, "")} times, ${intervalInWords(point.device_ms, " ms")}`);
   if (x.clock && y === frontQuantity(reference)) add(onFrontInWords("", frontOfPoint(point, reference, x.clock).probability, "On"));
+  if (x.clock && y === frontQuantity(reference)) add(overViewsInWords(point, reference));
   return lines;
 }
 
@@ -29,6 +30,16 @@ function bandElement({ scene, reference, x }, xAxis, yAxis, area) {
   });
   const outline = [...edge(0), ...edge(1).reverse()];
   return polyline(outline, { class: "band" });
+}
+
+// A point of the front over other views: 95 % intervals in both directions, and the share of draws in which it is on the front.
+function overViewsElements({ point, at: [x, y] }, { reference, x: { clock } }, xAxis, yAxis, area) {
+  const within = (place, a, b) => Math.min(Math.max(place, Math.min(a, b)), Math.max(a, b));
+  const [low, high] = clock.relative(point).views_ci95 ?? [null, null], [least, most] = point.error.over_views_ci95?.[reference]?.displayed_flip ?? [null, null];
+  const share = frontOverViews(point, reference);
+  return [...(low === null ? [] : [make("line", { class: "over-views", x1: within(xAxis.at(low), area.left, area.right), x2: within(xAxis.at(high), area.left, area.right), y1: y, y2: y })]),
+    ...(least === null ? [] : [make("line", { class: "over-views", x1: x, x2: x, y1: within(yAxis.at(least), area.top, area.bottom), y2: within(yAxis.at(most), area.top, area.bottom) })]),
+    ...(share === null ? [] : [make("text", { class: "share", x: x + 8, y: y - 8 }, `${Math.round(100 * share)} %`)])];
 }
 
 const floorElements = (at, text, { left, right }) => [make("line", { class: "floor", x1: left, x2: right, y1: at, y2: at }),
@@ -107,6 +118,7 @@ function startFront(container, state, choose) {
     const names = page.techniques.filter((technique) => placed.some((point) => point.technique === technique));
     const svg = drawing(width, height, `${y.title} against ${x.title}`, ...acrossAxis(xAxis, x.title, area), ...alongAxis(yAxis, y.title, area),
       ...(banded ? [bandElement(state, xAxis, yAxis, area)] : []), polyline(steps, { class: "step" }),
+      ...(banded && x.key.startsWith("relative") ? front.flatMap((entry) => overViewsElements(entry, state, xAxis, yAxis, area)) : []),
       ...(parted ? floorElements(yAxis.at(floor), y.text(floor), area) : []), ...inFront.map(({ element }) => element),
       ...shown.filter(({ point }) => x.time && (x.clock ?? WALL).relative(point).modes.length).map(({ at }) => make("text", { class: "modes", x: at[0] + 7, y: at[1] - 5 }, "2")),
       make("g", { class: "only-file" }, ...markedNames(names.map((technique) => ({ technique, text: technique })), left, height + 12, 3, width - left)));

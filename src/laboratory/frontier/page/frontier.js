@@ -30,7 +30,8 @@ function withinCell(best) {
   const point = page.points[best.point];
   return make("td", {}, make("div", {}, pointButton(point, nameElement(point.label))),
     make("div", { class: "note" }, `${intervalInWords(best.relative_time, "\u00d7")}, ${milliseconds(state.clock.ms(point).median)}`),
-    make("div", { class: "note" }, best.probability === null ? "how surely it is the cheapest: not measured" : `the cheapest with a probability of ${probabilityText(best.probability)}`));
+    make("div", { class: "note" }, best.probability === null ? "how surely it is the cheapest: not measured" : `the cheapest with a probability of ${probabilityText(best.probability)}`),
+    ...(best.p_cheapest_views === null ? [] : [make("div", { class: "note" }, `over other views ${probabilityText(best.p_cheapest_views)}`)]));
 }
 
 function showBestWithin() {
@@ -148,7 +149,8 @@ function choosePoint(point) {
     `${point.views} view${point.views === 1 ? "" : "s"}`, timed && point.timed_views < point.views && `timed on ${point.timed_views} of them`, flipOverViews(point), point.pairs?.lost > 0 && `${wholeNumber(point.pairs.lost)} pairs lost`,
     quantity("leaked").value(point) !== null && `${percentText(point.leaked_percent)} of ${wholeNumber(point.pairs.shadow_pairs)} pairs leaked, ${percentText(point.acned_percent)} acned`,
     point.nan_pixels > 0 && `${wholeNumber(point.nan_pixels)} NaN pixels`,
-    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, state.clock.relative(point).runs > 0 && onFrontInWords(state.clock.words, frontOfChoice(point).probability)];
+    point.listed_per_lit !== null && `${shortNumber(point.listed_per_lit)} listed pairs for each lit one`, state.clock.relative(point).runs > 0 && onFrontInWords(state.clock.words, frontOfChoice(point).probability),
+    timed && overViewsInWords(point, state.reference), timed && halfWidthInWords(point)];
   byId("chosen").replaceChildren(...(point ? [make("article", { class: "technique" }, make("h3", {}, nameElement(point.label)),
     make("p", { class: "summary quiet" }, summary.filter(Boolean).join(" \u00b7 ")),
     ...(images.length ? [make("div", { class: "pictures" }, ...images.map(([number, caption]) => pictureFigure(number, caption)))] : [make("p", { class: "quiet" }, "No pictures of this point were kept.")]),
