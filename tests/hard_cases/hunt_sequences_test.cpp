@@ -166,13 +166,13 @@ TEST(HuntOfStaleSequences, FaultsAreFound) {
   }
 }
 
-// A wall with a lamp, a caster and its shadow, and a card before the camera, out of the lamp's range, that
-// moves. Returns the frames that differ from fresh ones.
+// A wall with a lamp, a caster and its shadow, and a card between the camera and the shadow, out of the lamp's
+// range, that moves. Returns the number of frames that differ from fresh ones.
 int stale_behind_a_card(CullEngine& engine) {
   Scene scene = empty_shadow_scene();
   add_triangles(scene, quad_of({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}));
   add_triangles(scene, quad_of({-1, -1, 0.4f}, {2, 0, 0}, {0, 2, 0}));
-  add_triangles(scene, quad_of({-0.4f, -0.2f, 6}, {0.3f, 0, 0}, {0, 0.4f, 0}));
+  add_triangles(scene, quad_of({0.4f, -1.2f, 6}, {0.25f, 0, 0}, {0, 0.25f, 0}));
   Light& lamp = scene.lights.emplace_back();
   lamp.position = {0.3, 0.2, 1.2};
   lamp.radius_m = 3;
@@ -186,7 +186,7 @@ int stale_behind_a_card(CullEngine& engine) {
     const SequenceFrame kept = keeping->draw(view, changes);
     const auto fresh = engine.sequence(scene, kind.technique, view, settings_of(kind));
     stale += !difference(kept, fresh->draw(view, {})).empty();
-    scene.instances.back().world_from_object[3].x += 0.05;
+    scene.instances.back().world_from_object[3].x += 0.1;
     changes.instances = {int(scene.instances.size()) - 1};
   }
   return stale;
