@@ -14,7 +14,7 @@
 
 // x, y: the region's first tile. The light meets it.
 static inline uint16 tiles_in_region(TileRect rect, int x, int y) {
-  // Vectors: with a number beside one, Oclgrind 21.10 reads past it
+  // Vectors instead of numbers: Oclgrind 21.10 reads past a vector that is combined with a number.
   const int16 zero = 0, most = (int)REGION_TILES - 1;
   const int16 x0 = max((rect.first & 0xffff) - x, zero), x1 = min((rect.last & 0xffff) - x, most);
   const int16 y0 = max((rect.first >> 16) - y, zero), y1 = min((rect.last >> 16) - y, most);

@@ -12,12 +12,12 @@
 namespace lightgrid::app {
 namespace {
 
-constexpr size_t name_columns = 28, least_width = 60, default_width = 100;
+constexpr size_t name_columns = 28, min_width = 60, default_width = 100;
 
 size_t width_of_output() {
   winsize size{};
   if (isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-    return std::max<size_t>(size.ws_col, least_width);
+    return std::max<size_t>(size.ws_col, min_width);
   return default_width;
 }
 

@@ -31,7 +31,7 @@ struct MeshTriangle {
   int instance = -1;    // number in the scene; -1: none
   uint32_t number = 0;  // number in its mesh
 };
-// Of each pixel of a frame that has Frame::triangles.
+// One value per pixel, for a frame that has Frame::triangles.
 std::vector<MeshTriangle> read_mesh_triangles(const RenderView& v, const Frame& frame);
 std::vector<SceneTriangle> own_triangles(TechniqueRun& run);
 

@@ -19,8 +19,9 @@ std::vector<int> numbers_of(const FramePlan& plan) {
   return numbers;
 }
 
-// Whether the light may shade a surface in the box, or one of its rays meet it. Rays end at pixels in the light's reach, which the rasteriser
-// moves by less than a pixel and the rounding of depths by less than 2^-20 of their distance.
+// Returns false only if the light shades no surface in the box and none of its rays meets the box. Rays end at
+// pixels in the light's reach. The rasteriser moves these by less than a pixel, and the rounding of depths by
+// less than 2^-20 of their distance.
 bool may_meet(const ShadowLight& light, const WorldBox& box, const View& view, const glm::dvec3& origin) {
   if (box.empty()) return false;
   if (light.w == 0) return true;

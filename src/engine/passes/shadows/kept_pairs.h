@@ -52,7 +52,7 @@ class KeptPairs {
                                     const std::vector<WorldBox>& moved) const;
 
   MovedInstances moved_;
-  // Of the previous frame.
+  // These belong to the previous frame.
   View view_;
   glm::dvec3 origin_{0};
   std::vector<ShadowLight> records_;

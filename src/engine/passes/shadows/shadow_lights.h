@@ -23,7 +23,7 @@ std::vector<CullLight> shadowed_lights(const ViewState& seen, std::vector<CullLi
 // origin: of the rays. Without stamps. Lights without shadows reach nothing.
 std::vector<ShadowLight> shadow_light_records(const ViewState& seen, const std::vector<CullLight>& shadowed,
                                               const glm::dvec3& origin);
-// Whether the same geometry hides both from the same points. Only shadow-pick reads more of a record.
+// Returns whether the same geometry hides both from the same points. Only shadow-pick reads more of a record.
 bool have_same_shadows(const ShadowLight& a, const ShadowLight& b);
 ShadowView shadow_view(const ViewState& seen, const glm::dvec3& origin);
 
