@@ -8,7 +8,6 @@
 // -DSURFACE_NUMBERS  surfaces' numbers are required, for a geometry buffer
 #pragma once
 
-#include "kernels/common/in_memory.h"
 #include "kernels/resolve/surface_attributes.h"
 #include "kernels/resolve/surface_texture.h"
 #include "shared/raster_instance.h"
@@ -111,18 +110,16 @@ static inline void add_triangle(Attributes* a, const ResolveScene* s, uint trian
   global const uint* index = s->indices + r->first_index + 3 * (size_t)(triangle - r->first_triangle);
   const uint i = index[0], j = index[1], k = index[2];
   global const float4* clip = s->clip + r->first_clip_vertex;
-  const ScreenTriangle screen = screen_triangle(clip[i], clip[j], clip[k], x, y, s->half_size);
-  const CornerAttributes corners = corner_attributes(s->vertices + r->first_vertex, i, j, k);
-  const ScreenTriangle* t = in_memory(&screen);
-  const CornerAttributes* c = in_memory(&corners);
-  const Weights w = weights_at(t, dx, dy);
+  const ScreenTriangle t = screen_triangle(clip[i], clip[j], clip[k], x, y, s->half_size);
+  const Weights w = weights_at(&t, dx, dy);
+  const CornerAttributes c = corner_attributes(s->vertices + r->first_vertex, i, j, k);
   KEEP(a->material, (whole)((int)surface->material));
   const uint number = surface->flags >> INSTANCE_NUMBER_SHIFT;
   SURFACE_EFFECTS(KEEP_VALUES)
 #ifdef SURFACE_NUMBERS
   KEEP(a->surface_number, (whole)((int)number));
 #endif
-  KEEP3(a->normal, turned(surface->normal, ATTRIBUTE(*c, w, s0), ATTRIBUTE(*c, w, s1), ATTRIBUTE(*c, w, s2)));
+  KEEP3(a->normal, turned(surface->normal, ATTRIBUTE(c, w, s0), ATTRIBUTE(c, w, s1), ATTRIBUTE(c, w, s2)));
   if (material->flags & SURFACE_DOUBLE_SIDED) {
     const float front = surface->flags & INSTANCE_MIRRORED ? -1.0f : 1.0f;
     KEEP(a->side, w.sum < REAL(0.0f) ? REAL(-front) : REAL(front));
@@ -130,24 +127,24 @@ static inline void add_triangle(Attributes* a, const ResolveScene* s, uint trian
     KEEP(a->side, REAL(1.0f));
   }
 #ifdef TEXTURED
-  keep_place(&a->uv0, TEXTURE_PLACE(*c, w, t, s8, s9), here);
+  keep_place(&a->uv0, TEXTURE_PLACE(c, w, &t, s8, s9), here);
 #endif
 #ifdef UV1
-  keep_place(&a->uv1, TEXTURE_PLACE(*c, w, t, sa, sb), here);
+  keep_place(&a->uv1, TEXTURE_PLACE(c, w, &t, sa, sb), here);
 #endif
 #ifdef NORMAL_MAP
   // A tangent transforms as a direction does. A mirroring matrix turns the cross product that makes the
   // bitangent.
   const float mirror = surface->flags & INSTANCE_MIRRORED ? -1.0f : 1.0f;
   KEEP3(a->tangent,
-        turned(surface->direction, ATTRIBUTE(*c, w, s4), ATTRIBUTE(*c, w, s5), ATTRIBUTE(*c, w, s6)));
-  KEEP(a->handedness, ATTRIBUTE(*c, w, s3) * mirror);
+        turned(surface->direction, ATTRIBUTE(c, w, s4), ATTRIBUTE(c, w, s5), ATTRIBUTE(c, w, s6)));
+  KEEP(a->handedness, ATTRIBUTE(c, w, s3) * mirror);
 #endif
 #ifdef VERTEX_COLOR
-  KEEP(a->red, from_0_to_1(ATTRIBUTE(*c, w, sc)));
-  KEEP(a->green, from_0_to_1(ATTRIBUTE(*c, w, sd)));
-  KEEP(a->blue, from_0_to_1(ATTRIBUTE(*c, w, se)));
-  KEEP(a->alpha, from_0_to_1(ATTRIBUTE(*c, w, sf)));
+  KEEP(a->red, from_0_to_1(ATTRIBUTE(c, w, sc)));
+  KEEP(a->green, from_0_to_1(ATTRIBUTE(c, w, sd)));
+  KEEP(a->blue, from_0_to_1(ATTRIBUTE(c, w, se)));
+  KEEP(a->alpha, from_0_to_1(ATTRIBUTE(c, w, sf)));
 #endif
 }
 

@@ -4,7 +4,6 @@
 // -DSMALL_TEXELS  packed texels have 8 bits a channel, not 16, and of base colours their square roots
 #pragma once
 
-#include "kernels/common/in_memory.h"
 #include "kernels/resolve/texture_footprint.h"
 
 #define TEXEL_STEP (1.0f / 65535.0f)
@@ -52,6 +51,19 @@ typedef struct LevelTaps {
   whole low, high;
   real low_weight, high_weight, left_weight, right_weight;
 } LevelTaps;
+
+// The same taps, which the compiler then has to read from memory, since it cannot know where a volatile
+// pointer leads. There, one number for all lanes of an operand, or for an address, costs nothing; out of a
+// vector that it holds in a register, each of them costs a shuffle. (Inline assembly would say the same, but
+// PoCL 6 ends the process when it compiles any.)
+static inline const LevelTaps* in_memory(const LevelTaps* taps) {
+#if defined(AVX512) || defined(AVX2)
+  const LevelTaps* volatile at = taps;
+  return at;
+#else
+  return taps;
+#endif
+}
 
 static inline LevelTaps level_taps(LevelFootprint f, real weight) {
   LevelTaps t;
