@@ -25,7 +25,7 @@ static inline real seen_samples(const Where* w, uint* most) {
   float counts[16];
   *most = 0;
   for (uint i = 0; i < 16; ++i) {
-    const uint count = (uint)popcount((uint)ELEMENT(uint, w->e->samples, w->b->slot[i]));
+    const uint count = (uint)popcount((uint)w->e->samples[w->b->surface[i]]);
     counts[i] = (float)count;
     *most = max(*most, count);
   }
@@ -34,9 +34,9 @@ static inline real seen_samples(const Where* w, uint* most) {
 
 static inline void places_of_samples(size_t* at, const Where* w, uint k) {
   for (uint i = 0; i < 16; ++i) {
-    uint left = ELEMENT(uint, w->e->samples, w->b->slot[i]);
+    uint left = w->e->samples[w->b->surface[i]];
     for (uint skipped = 0; skipped < k && (left & (left - 1)) != 0; ++skipped) left &= left - 1;
-    at[i] = (size_t)pixel_of_slot(w->e, w->b->slot[i]) * SAMPLES + lowest_bit(left);
+    at[i] = (size_t)w->e->pixel[w->b->surface[i]] * SAMPLES + lowest_bit(left);
   }
 }
 
