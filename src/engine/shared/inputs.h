@@ -49,7 +49,7 @@
 #define LightIndex uint
 #define ArrayInput(type) global const type*
 #define ColumnInput(type) global const type*
-#define COLUMN(type, name, i) ((type)(name)[i])
+#define COLUMN(type, name, i) ((type)((name)[i]))
 #if LANES == 16
 #define LOOKUP(name, i)                                                                                   \
   ((real)((name)[(i).s0], (name)[(i).s1], (name)[(i).s2], (name)[(i).s3], (name)[(i).s4], (name)[(i).s5], \
