@@ -34,8 +34,8 @@ std::vector<ShadowFault> shadow_faults() {
        {"seen_from_behind", "at_the_own_plane", "far_by_1e5_m"},
        "terraces"},
       {"edges_of_none",
-       "return lane_min(lane_min(u, v), lane_min(w, live)) >= 0.0f;",
-       "return lane_min(lane_min(u, v), lane_min(w, live)) > 0.0f;",
+       ")) >= 0.0f;",  // in the tree's rays and in the cells'
+       ")) > 0.0f;",
        {"through_shared_edges"}},
       {"near_a_plane_is_in_it",
        "if (!(facing > 0 || facing < 0)) return (mask_t)(0);",
