@@ -128,7 +128,7 @@ int record(const GoldenOptions& o) {
 struct CheckedView {
   std::string name, stage, message;  // the latter two are empty where nothing differs
   std::optional<GoldenDifference> difference;
-  std::optional<glm::ivec2> pixel;  // where pixels are stored
+  std::optional<PicturePixel> pixel;  // where pixels are stored
   std::optional<DisplayedFlip> flip;
 };
 
@@ -211,8 +211,9 @@ ordered_json sarif(const std::vector<CheckedView>& checked, const std::string& f
 std::string in_words(const GoldenDifference& d, const GoldenView& view) {
   return fmt::format("differs first in {}: {} of {} tiles, the first at pixels {},{} to {},{}",
                      golden_stages[d.stage], d.tiles, view.stages[d.stage].size(), d.tile_x * view.tile,
-                     d.tile_y * view.tile, std::min(view.width, (d.tile_x + 1) * view.tile) - 1,
-                     std::min(view.height, (d.tile_y + 1) * view.tile) - 1);
+                     std::max(0, view.height - (d.tile_y + 1) * view.tile),
+                     std::min(view.width, (d.tile_x + 1) * view.tile) - 1,
+                     flipped_row(d.tile_y * view.tile, view.height));
 }
 
 // Compares a view with the recorded one, and writes its pictures if it differs and a folder is given.
@@ -242,7 +243,7 @@ CheckedView checked_view(const GoldenOptions& o, const RecordedScene& scene, con
 ordered_json to_json(const CheckedView& c) {
   ordered_json view = {{"view", c.name}, {"same", !c.difference}, {"stage", c.stage}, {"message", c.message}};
   view["tile"] = c.difference ? json{c.difference->tile_x, c.difference->tile_y} : json();
-  view["pixel"] = c.pixel ? json{c.pixel->x, c.pixel->y} : json();
+  view["pixel_from_top"] = c.pixel ? json{c.pixel->x, c.pixel->y} : json();
   view["displayed_flip"] = c.flip ? json{{"mean", c.flip->mean}, {"visible_share", c.flip->visible}} : json();
   return view;
 }

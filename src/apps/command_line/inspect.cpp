@@ -10,6 +10,7 @@
 #include "accuracy/frame_shadows.h"
 #include "accuracy/shadow_truth.h"
 #include "base/error.h"
+#include "base/picture_pixel.h"
 #include "base/text.h"
 #include "base/write_file.h"
 #include "command_line/commands.h"
@@ -37,18 +38,14 @@ struct InspectOptions {
 
 constexpr size_t max_compared = 1000;
 
-struct Place {
-  int x = 0, y = 0;
-};
-
-std::optional<Place> parse_place(const std::string& text) {
+std::optional<PicturePixel> parse_place(const std::string& text) {
   if (text.empty()) return {};
   const auto place = parse_pair<int>(text, ',');
   if (!place) throw input_error("--pixel {}: not X,Y", text);
-  return Place{place->first, place->second};
+  return PicturePixel{place->first, place->second};
 }
 
-void check_place(const Place& place, const View& view) {
+void check_place(const PicturePixel& place, const View& view) {
   if (place.x >= 0 && place.y >= 0 && place.x < view.width && place.y < view.height) return;
   throw input_error("--pixel {},{}: the image has pixels 0,0 to {},{}", place.x, place.y, view.width - 1,
                     view.height - 1);
@@ -143,13 +140,12 @@ bool says_exact(const Subject& subject) {
 
 // Returns 1 if a light was lost, or its shadow is wrong.
 int inspect_place(const InspectOptions& o, const Subject& subject, FrameCuller& culler, const FrameGrid& grid,
-                  const Place& place) {
-  PixelInspection pixel =
-      inspect_pixel(subject.frame, grid, culler.intervals(), subject.settings, place.x, place.y);
+                  const PicturePixel& place) {
+  PixelInspection pixel = inspect_pixel(subject.frame, grid, culler.intervals(), subject.settings, place);
   bool wrong = false;
   if (subject.shadows) {
     const Scene& scene = subject.scene->scene;
-    const PixelShadows here = subject.shadows->frame.at(place.x, place.y, subject.shadows->truth.occlusion());
+    const PixelShadows here = subject.shadows->frame.at(pixel.x, pixel.y, subject.shadows->truth.occlusion());
     wrong = add_shadows(pixel, scene, here) && says_exact(subject);
   }
   const int most = o.all ? std::numeric_limits<int>::max() : o.dropped;
@@ -208,7 +204,7 @@ int compare_settings(const InspectOptions& o, const Subject& subject, OpenCl& de
 
 int inspect(InspectOptions o) {
   take_own_settings(o.technique, o.scene.set);
-  const std::optional<Place> place = parse_place(o.pixel);
+  const std::optional<PicturePixel> place = parse_place(o.pixel);
   const bool one_grid = place || !o.output.empty();
   if (!one_grid && o.compare.empty()) {
     throw input_error("inspect: --pixel X,Y, -o DIR or --compare KEY=A,B is required");
@@ -246,7 +242,7 @@ void add_inspect(CommandLine& line) {
   add_scene_options(command, o->scene);
   add_device_options(command, o->devices);
   add_technique_option(command, o->technique, "whose light grid is inspected; clustered's has slices");
-  command.option("--pixel", o->pixel, "X,Y from the lower left");
+  command.option("--pixel", o->pixel, "X,Y from the upper left");
   command.option("--dropped", o->dropped, "how many dropped lights to show, the nearest first", 0,
                  100'000'000);
   command.flag("--all", o->all, "show every dropped light");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/picture_pixel.h"
 #include "plan/settings.h"
 #include "scene/light_motion.h"
 
@@ -25,12 +26,6 @@ struct SideControls {
   SideMap map = SideMap::picture;
 };
 
-// A pixel of the full picture, from the lower left, as in `lightgrid inspect --pixel`.
-struct PicturePixel {
-  int x = 0, y = 0;
-  bool operator==(const PicturePixel&) const = default;
-};
-
 struct Controls {
   std::array<SideControls, 2> sides;  // left, right
   double line = 0.5;                  // position of the dividing line, as a fraction of the picture's width
@@ -47,7 +42,7 @@ struct Controls {
   std::optional<double> seconds;  // jump to this time
   bool draw_always = false;       // even if nothing changed
   bool measure_passes = true;
-  std::optional<PicturePixel> pixel;  // the inspected pixel
+  std::optional<PicturePixel> pixel;  // the inspected pixel of the full picture
   std::string pixel_file;             // its lights are written there in this frame; empty: not
   std::string times_file;             // likewise the figures of both sides
   std::string casting_file;           // likewise the lights that cast, with what the plan says of each

@@ -182,8 +182,7 @@ void show_pixel(Controls& controls, const Shown& shown) {
     ImGui::TextDisabled("click a pixel of the picture");
     return;
   }
-  ImGui::TextUnformatted(
-      fmt::format("pixel {},{} from the lower left", controls.pixel->x, controls.pixel->y).c_str());
+  ImGui::TextUnformatted(fmt::format("pixel {},{}", controls.pixel->x, controls.pixel->y).c_str());
   ImGui::SameLine();
   const bool clear = ImGui::SmallButton("clear");
   const float height = lines_high * ImGui::GetTextLineHeightWithSpacing();

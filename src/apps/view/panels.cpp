@@ -309,7 +309,7 @@ void show_overlay(const Controls& controls, const Shown& shown) {
   }
   if (shown.note_is_new && !shown.note.empty()) label(shown.note, width / 2, height / 2, 0.5f, width);
   if (controls.pixel) {
-    const ImVec2 at(float(controls.pixel->x) + 0.5f, height - float(controls.pixel->y) - 0.5f);
+    const ImVec2 at(float(controls.pixel->x) + 0.5f, float(controls.pixel->y) + 0.5f);
     draw.AddCircle(at, 7, backdrop, 0, 3);
     draw.AddCircle(at, 7, ink);
   }

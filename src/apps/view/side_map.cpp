@@ -18,11 +18,12 @@ using namespace lab;
 PixelInspection lights_at(const ListedFrame& listed, PicturePixel pixel) {
   const CapturedFrame& frame = listed.frame;
   const ListedLights& lists = listed.lists;
-  PixelInspection result{.x = pixel.x, .y = pixel.y};
-  const size_t place = size_t(pixel.y) * frame.view.width + pixel.x;
+  const int row = flipped_row(pixel.y, frame.view.height);
+  PixelInspection result{.x = pixel.x, .y = row};
+  const size_t place = size_t(row) * frame.view.width + pixel.x;
   result.covered = frame.depth[place] > 0;
   if (!result.covered) return result;
-  const glm::dvec3 position = position_from_depth(frame.view, pixel.x, pixel.y, frame.depth[place]);
+  const glm::dvec3 position = position_from_depth(frame.view, pixel.x, row, frame.depth[place]);
   result.distance_m = -position.z;
   const uint32_t cell = lists.cell_of_pixel.empty() ? 0 : lists.cell_of_pixel[place];
   const auto first = lists.indices.begin() + ptrdiff_t(lists.first[cell]);
@@ -48,7 +49,7 @@ std::optional<PixelInspection> inspect_pixel(TechniqueRun& run, const CapturedFr
   const Settings& settings = v.plan.settings;
   FrameCuller culler(*v.renderer.cl, *v.renderer.kernels, frame, settings, run.technique().needs);
   culler.run();
-  return inspect_pixel(frame, culler.grid(), culler.intervals(), settings, pixel.x, pixel.y);
+  return inspect_pixel(frame, culler.grid(), culler.intervals(), settings, pixel);
 }
 
 void add_margins(PixelInspection& lights, const PixelInspection& inspection, int max_dropped) {

@@ -55,7 +55,7 @@ void Viewer::follow_pixel() {
     if (std::ranges::any_of(job_.scene.lights, &Light::casts_shadow)) {
       const FrameShadows shadows = read_frame_shadows(side(i).run());
       const PicturePixel& pixel = *controls_.pixel;
-      add_shadows(*pixel_[i], job_.scene, shadows.at(pixel.x, pixel.y, occlusion_));
+      add_shadows(*pixel_[i], job_.scene, shadows.at(pixel.x, flipped_row(pixel.y, height_), occlusion_));
       put_hidden_first(*pixel_[i]);
     }
     pixel_picture_[i] = side(i).pictures();

@@ -63,15 +63,17 @@ std::optional<GoldenPixels> load_golden_pixels(const std::filesystem::path& path
   return {};
 }
 
-glm::ivec2 first_pixel(const GoldenPixels& recorded, const GoldenPixels& drawn, const GoldenView& view,
-                       const GoldenDifference& difference) {
+PicturePixel first_pixel(const GoldenPixels& recorded, const GoldenPixels& drawn, const GoldenView& view,
+                         const GoldenDifference& difference) {
   const int left = difference.tile_x * view.tile, low = difference.tile_y * view.tile;
-  for (int y = low; y < std::min(view.height, low + view.tile); ++y) {
+  const int high = std::min(view.height, low + view.tile) - 1;
+  for (int y = high; y >= low; --y) {
     for (int x = left; x < std::min(view.width, left + view.tile); ++x) {
-      if (!recorded.same(difference.stage, drawn, size_t(y) * size_t(view.width) + size_t(x))) return {x, y};
+      if (!recorded.same(difference.stage, drawn, size_t(y) * size_t(view.width) + size_t(x)))
+        return {x, flipped_row(y, view.height)};
     }
   }
-  return {left, low};  // no recorded pixels of these hashes
+  return {left, flipped_row(high, view.height)};  // no recorded pixels of these hashes
 }
 
 std::optional<DisplayedFlip> GoldenPictures::flip() const {

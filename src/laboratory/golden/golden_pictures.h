@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/picture_pixel.h"
 #include "golden/golden.h"
 #include "measures/results.h"
 
@@ -18,8 +19,8 @@ void save_golden_pixels(const std::filesystem::path& path, const GoldenPixels& p
 // the recorded hashes.
 std::optional<GoldenPixels> load_golden_pixels(const std::filesystem::path& path, const GoldenView& recorded);
 
-// The first pixel, row by row from the bottom left, of the first tile that differs.
-glm::ivec2 first_pixel(const GoldenPixels& recorded, const GoldenPixels& drawn, const GoldenView& view,
+// The first pixel, row by row from the upper left, of the first tile that differs.
+PicturePixel first_pixel(const GoldenPixels& recorded, const GoldenPixels& drawn, const GoldenView& view,
                        const GoldenDifference& difference);
 
 // The pictures of a view that differs. Without recorded pixels only its tiles.

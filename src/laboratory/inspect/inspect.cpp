@@ -211,8 +211,9 @@ int PixelInspection::lost() const {
 }
 
 PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
-                              const std::vector<DepthInterval>& intervals, const Settings& settings, int x,
-                              int y) {
+                              const std::vector<DepthInterval>& intervals, const Settings& settings,
+                              PicturePixel place) {
+  const int x = place.x, y = flipped_row(place.y, frame.view.height);
   PixelInspection pixel = place_of(frame, grid, intervals, x, y);
   const std::vector<glm::dvec3> surfaces = surfaces_of(frame, grid, pixel);
   pixel.covered_pixels = int(surfaces.size());

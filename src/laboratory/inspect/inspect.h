@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/picture_pixel.h"
 #include "frames/frame_culler.h"
 #include "measures/results.h"
 #include "oracle/lit_set.h"
@@ -55,7 +56,7 @@ struct LightVerdict {
 };
 
 struct PixelInspection {
-  int x = 0, y = 0;
+  int x = 0, y = 0;  // row 0 at the bottom, as in memory
   float depth = 0;
   double distance_m = 0;  // along the view axis; infinite for background
   bool covered = false;   // shows a surface
@@ -71,10 +72,10 @@ struct PixelInspection {
   int lost() const;  // lit but not listed
 };
 
-// `intervals`: FrameCuller's. (x, y) lies within the image.
+// `intervals`: FrameCuller's. `place` lies within the image.
 PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
-                              const std::vector<DepthInterval>& intervals, const Settings& settings, int x,
-                              int y);
+                              const std::vector<DepthInterval>& intervals, const Settings& settings,
+                              PicturePixel place);
 
 // Sets the verdicts on the shadows of the lights that cast and are lit at the pixel; none if it shows no
 // triangle. Returns whether the frame leaks or acnes a light.
@@ -83,7 +84,7 @@ bool add_shadows(PixelInspection& pixel, const Scene& scene, const PixelShadows&
 // `hidden by node 3 "column" triangle 12, 1.250 m from the light; the frame shades it: LEAKED`.
 std::string shadow_words(const ShadowVerdict& shadow, const Light& light);
 
-// Both omit dropped lights after the first `max_dropped`, but never lost ones.
+// Pixels are counted from the upper left. Both omit dropped lights after the first `max_dropped`, but never lost ones.
 std::string inspection_table(const CapturedFrame& frame, const PixelInspection& pixel, int max_dropped);
 std::string inspection_json(const CapturedFrame& frame, const PixelInspection& pixel, const FrameGrid& grid,
                             int max_dropped);

@@ -97,11 +97,12 @@ std::string shadow_words(const ShadowVerdict& shadow, const Light& light) {
 
 std::string inspection_table(const CapturedFrame& frame, const PixelInspection& p, int max_dropped) {
   const auto rows = shown(p, max_dropped);
-  std::string text = p.covered ? fmt::format("pixel {},{}: depth {}, {:.4f} m away along the view axis\n",
-                                             p.x, p.y, p.depth, p.distance_m)
-                               : fmt::format("pixel {},{}: depth {}, background\n", p.x, p.y, p.depth);
+  const int height = frame.view.height;
+  std::string text = fmt::format("pixel {},{}: depth {}, ", p.x, flipped_row(p.y, height), p.depth);
+  text += p.covered ? fmt::format("{:.4f} m away along the view axis\n", p.distance_m) : "background\n";
   text += fmt::format("cell {},{} slice {}: pixels {},{} to {},{}, {} of them with a surface, ", p.cell_x,
-                      p.cell_y, p.slice, p.x0, p.y0, p.x1 - 1, p.y1 - 1, p.covered_pixels);
+                      p.cell_y, p.slice, p.x0, height - p.y1, p.x1 - 1, flipped_row(p.y0, height),
+                      p.covered_pixels);
   text += p.near_m <= p.far_m ? fmt::format("{:.3f} m to {}\n", p.near_m, far_text(p.far_m))
                               : "no interval: it lists nothing\n";
   text += fmt::format("{} lights listed, {} lit at the pixel, {} lost; {} of {} dropped ones shown",
@@ -151,14 +152,14 @@ std::string inspection_json(const CapturedFrame& frame, const PixelInspection& p
   const json out = {{"scene", frame.name},
                     {"size", {frame.view.width, frame.view.height}},
                     {"settings", settings_json(grid.settings)},
-                    {"pixel", {p.x, p.y}},
+                    {"pixel_from_top", {p.x, flipped_row(p.y, frame.view.height)}},
                     {"depth", number(p.depth)},
                     {"distance", number(p.distance_m)},
                     {"cell",
                      {{"x", p.cell_x},
                       {"y", p.cell_y},
                       {"slice", p.slice},
-                      {"pixels", {p.x0, p.y0, p.x1, p.y1}},
+                      {"pixels_from_top", {p.x0, frame.view.height - p.y1, p.x1, frame.view.height - p.y0}},
                       {"covered_pixels", p.covered_pixels},
                       {"near", empty ? json() : number(p.near_m)},
                       {"far", empty ? json() : number(p.far_m)},

@@ -213,18 +213,18 @@ TEST_F(Frames, CullEndsWithThreeWhereNoDeviceHasTheName) {
 
 TEST_F(Frames, InspectTellsOfEachLightAtAPixel) {
   const auto frame = capture();
-  const ProgramRun table = run_program({"inspect", frame, "--pixel", "40,10"});
+  const ProgramRun table = run_program({"inspect", frame, "--pixel", "40,50"});
   ASSERT_EQ(table.status, 0) << table.err;
-  EXPECT_THAT(table.out, StartsWith("pixel 40,10: depth "));
+  EXPECT_THAT(table.out, StartsWith("pixel 40,50: depth "));
   EXPECT_THAT(table.out, HasSubstr("kept"));
   EXPECT_THAT(table.out, HasSubstr("10 of "));
 
   const auto json_file = folder_.path / "i.json";
   const ProgramRun all =
-      run_program({"inspect", frame, "--pixel", "40,10", "--all", "--json", json_file, "--quiet"});
+      run_program({"inspect", frame, "--pixel", "40,50", "--all", "--json", json_file, "--quiet"});
   ASSERT_EQ(all.status, 0) << all.err;
   const auto json = nlohmann::json::parse(file_bytes(json_file));
-  EXPECT_EQ(json["pixel"], nlohmann::json({40, 10}));
+  EXPECT_EQ(json["pixel_from_top"], nlohmann::json({40, 50}));
   EXPECT_EQ(json["lights"].size(), 790u);
   EXPECT_EQ(json["dropped_not_shown"], 0);
   EXPECT_EQ(json["directional"], 1);
@@ -251,8 +251,8 @@ TEST_F(Frames, InspectTellsOfEachLightAtAPixel) {
 
 TEST_F(Frames, InspectOfASceneTellsWhatInspectOfItsFrameTells) {
   const auto frame = capture();
-  const ProgramRun of_frame = run_program({"inspect", frame, "--pixel", "40,10"});
-  const ProgramRun of_scene = run_program({"inspect", "street", "--size", "93x61", "--pixel", "40,10"});
+  const ProgramRun of_frame = run_program({"inspect", frame, "--pixel", "40,50"});
+  const ProgramRun of_scene = run_program({"inspect", "street", "--size", "93x61", "--pixel", "40,50"});
   ASSERT_EQ(of_scene.status, 0) << of_scene.err;
   EXPECT_EQ(of_scene.out, of_frame.out);
 }

@@ -97,7 +97,7 @@ std::string lines_of_verdict(const nlohmann::json& light) {
 TEST_F(ViewInDisplay, AClickShowsWhichTestKeptOrDroppedEachLightAndItsMargin) {
   const std::string file = folder_.path / "pixel.txt";
   const std::string script =
-      "0 technique forward_plus\n0 technique right clustered\n0 set left cull-test=exact\n1 click 60 40\n2 "
+      "0 technique forward_plus\n0 technique right clustered\n0 set left cull-test=exact\n1 click 60 139\n2 "
       "pixel " +
       file + "\n";
   const CommandOutcome run = run_in_display(view_words(folder_, script, 3));
@@ -111,7 +111,7 @@ TEST_F(ViewInDisplay, AClickShowsWhichTestKeptOrDroppedEachLightAndItsMargin) {
                                              {"-t", "clustered"}};
   for (int i = 0; i < 2; ++i) {
     std::vector<std::string> inspect = {"inspect", "spheres", "--size", "320x180",
-                                        "--pixel", "60,40",   "--json", "-"};
+                                        "--pixel", "60,139",  "--json", "-"};
     inspect.insert(inspect.end(), words[i].begin(), words[i].end());
     const ProgramRun inspected = run_program(inspect);
     ASSERT_EQ(inspected.status, 0) << inspected.err;

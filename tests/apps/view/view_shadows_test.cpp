@@ -35,8 +35,9 @@ const std::string coarse_maps =
 class ViewShadowsInDisplay : public ViewInDisplay {};
 
 TEST_F(ViewShadowsInDisplay, AClickTellsWhatHidesEachLightAsInspectDoes) {
-  const std::string script = coarse_maps + "1 click 60 40\n2 pixel " + (folder_.path / "pixel.txt").string() +
-                             "\n2 casting " + (folder_.path / "casting.txt").string() + "\n";
+  const std::string script = coarse_maps + "1 click 60 139\n2 pixel " +
+                             (folder_.path / "pixel.txt").string() + "\n2 casting " +
+                             (folder_.path / "casting.txt").string() + "\n";
   const CommandOutcome run = run_in_display(view_words(folder_, script, 3, ""));
   ASSERT_EQ(run.status, 0) << run.output;
   const std::string text = text_of("pixel.txt");
@@ -47,7 +48,7 @@ TEST_F(ViewShadowsInDisplay, AClickTellsWhatHidesEachLightAsInspectDoes) {
   for (int i = 0; i < 2; ++i) {
     const ProgramRun inspected =
         run_program({"inspect", "spheres", "--size", "320x180", "--gl", "none", "--shadows", "all", "--pixel",
-                     "60,40", "-t", i ? "visibility:shadows=map,shadow-size=16" : "visibility"});
+                     "60,139", "-t", i ? "visibility:shadows=map,shadow-size=16" : "visibility"});
     ASSERT_EQ(inspected.status, 0) << inspected.err;
     // light 777 "light 777": hidden by node 96 "sphere 96" triangle 173, 0.106 m from the light
     std::istringstream lines(inspected.out);

@@ -28,7 +28,8 @@ Inspected inspect(const CapturedFrame& frame, int x, int y, const Settings& sett
   FrameCuller culler(*software_devices().cl, *software_devices().kernels, frame, settings);
   culler.run();
   Inspected inspected{culler.grid(), {}};
-  inspected.pixel = inspect_pixel(frame, inspected.grid, culler.intervals(), settings, x, y);
+  inspected.pixel = inspect_pixel(frame, inspected.grid, culler.intervals(), settings,
+                                  {x, flipped_row(y, frame.view.height)});
   return inspected;
 }
 
@@ -137,7 +138,8 @@ TEST(Inspect, AgreesWithTheListsTheOracleAndItself) {
       const std::vector<DepthInterval> intervals = culler.intervals();
       for (int y = 1; y < 37; y += 7) {
         for (int x = 2; x < 61; x += 9) {
-          const PixelInspection pixel = inspect_pixel(frame, grid, intervals, settings, x, y);
+          const PixelInspection pixel =
+              inspect_pixel(frame, grid, intervals, settings, {x, flipped_row(y, frame.view.height)});
           ASSERT_EQ(pixel.lights.size(), lights.size());
           EXPECT_EQ(pixel.lost(), 0);
           EXPECT_EQ(pixel.directional, 3);

@@ -53,7 +53,7 @@ function pixelsOf(side) {
   return sliderPixels[side];
 }
 
-// atX, atY: shares of the part shown. Pixels are counted from the lower left, as `lightgrid inspect --pixel` does.
+// atX, atY: shares of the part shown. Pixels are counted from the upper left, as `lightgrid inspect --pixel` does.
 function readPixel(atX, atY) {
   const words = ["left", "right"].map((side) => {
     const pixels = pixelsOf(side);
@@ -62,7 +62,7 @@ function readPixel(atX, atY) {
     const y = within(0, Math.floor((zoomed.y + atY / zoomed.scale) * pixels.height), pixels.height - 1);
     const colour = [...pixels.data.slice(4 * (y * pixels.width + x), 4 * (y * pixels.width + x) + 3)];
     const { label, value, reduced } = chosenOf(side);
-    return { at: `${x * reduced},${pixels.height * reduced - reduced - y * reduced}`, text: `${label}: ${value ? value(colour) : colour.join(" ")}` };
+    return { at: `${x * reduced},${y * reduced}`, text: `${label}: ${value ? value(colour) : colour.join(" ")}` };
   });
   byId("pixel").textContent = words.includes(null) ? "" : `Pixel ${words[0].at} \u00b7 ${words.map((word) => word.text).join(" \u00b7 ")}`;
 }
