@@ -92,7 +92,7 @@ lightgrid_status lightgrid_cull(lightgrid_device* device, const lightgrid_projec
     const CapturedFrame frame = frame_of(needed(projection, "projection"), depth, lights, count);
     const Settings chosen = frame_settings(frame, set);
     const TechniqueNeeds needs = grid_needs(name, chosen);
-    check_given_settings(chosen, {&find_technique(name)}, true);
+    check_given_settings(chosen, {{&find_technique(name), chosen}}, {.grid = true});
     if (!depth && chosen[setting::depth_bounds] != DepthBoundsMode::none)
       throw wrong("depth", "is null, which needs the setting depth-bounds=none");
     const Turn turn(on);

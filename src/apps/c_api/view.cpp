@@ -73,7 +73,7 @@ lightgrid_status lightgrid_view_open(lightgrid_device* device, lightgrid_scene* 
     take_own_settings(name, choice.set);
     const Settings chosen = chosen_settings(choice);
     const Technique& found = technique_or_default(name, on->renderer());
-    check_given_settings(chosen, {&found});
+    check_given_settings(chosen, {{&found, chosen}});
     const View& first = of->view();
     const Turn turn(*on);
     std::unique_ptr<lightgrid_view> made(new lightgrid_view{on, on->follow(of), &found, chosen, first});

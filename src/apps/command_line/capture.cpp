@@ -54,7 +54,7 @@ int capture_all(const CaptureOptions& o, const Settings& settings, ChosenScene& 
                 const std::vector<View>& path) {
   Renderer devices = open_devices(o.devices, o.technique, settings);
   const Technique& technique = technique_or_default(o.technique, devices);
-  check_given_settings(settings, {&technique}, true);
+  check_given_settings(settings, {{&technique, settings}}, {.grid = true});
   const std::string summary =
       path.empty() ? capture_into(o.output, devices,
                                   capture_frame(devices, chosen.scene, chosen.view, settings, technique),

@@ -296,7 +296,11 @@ std::string text_of(const ordered_json& json) {
 
 // Counting reads where lights end; pictures read what their techniques do.
 void check_settings(const Settings& settings, bool pictures) {
-  if (pictures) return check_given_settings(settings, techniques());
+  if (pictures) {
+    std::vector<Contestant> all;
+    for (const Technique* technique : techniques()) all.push_back({technique, settings});
+    return check_given_settings(settings, all);
+  }
   const std::array read = {"range", "cutoff", "window", "alpha", "light-seed"};
   for (const std::string& key : given_keys(settings))
     if (std::ranges::count(read, key) == 0)

@@ -51,7 +51,7 @@ int cull(CullOptions o) {
   if (!o.json.empty()) check_output_file("--json", o.json);
   const CapturedFrame frame = read_frame(o.frame);
   const Settings settings = frame_settings(frame, o.set);
-  check_given_settings(settings, {&find_technique(o.technique)}, true);
+  check_given_settings(settings, {{&find_technique(o.technique), settings}}, {.grid = true});
   return with_output_folder(o.output, [&] { return cull_into_folder(o, frame, settings, needs); });
 }
 

@@ -67,7 +67,7 @@ void draw_views(const GoldenScene& golden, DeviceOptions devices,
   take_own_settings(name, choice.set);
   const Settings settings = chosen_settings(choice);
   const Technique& technique = find_technique(name);
-  check_given_settings(settings, {&technique});
+  check_given_settings(settings, {{&technique, settings}});
   choice.device = devices.device;
   ChosenScene chosen = load_chosen_scene(choice);
   std::vector<View> path = chosen_path(chosen.scene, chosen.view, choice);

@@ -213,7 +213,8 @@ int inspect(InspectOptions o) {
     throw input_error("inspect: --compare goes with neither --pixel nor -o");
   const Settings given = chosen_settings(o.scene);  // reports a wrong setting before the scene is loaded
   if (!o.technique.empty()) grid_needs(o.technique, given);
-  check_given_settings(given, {&find_technique(o.technique.empty() ? "forward_plus" : o.technique)}, true);
+  check_given_settings(given, {{&find_technique(o.technique.empty() ? "forward_plus" : o.technique), given}},
+                       {.grid = true});
   culling_contestants(given, o.compare, max_compared);
   parse_gl_backend(o.devices.gl);
   if (!o.json.empty()) check_output_file("--json", o.json);

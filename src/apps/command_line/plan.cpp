@@ -1,5 +1,6 @@
 // lightgrid plan SCENE: the effects that this view needs, and why.
 #include <cstdio>
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -52,10 +53,12 @@ int plan(PlanOptions o) {
   take_own_settings(o.technique, o.scene.set);
   const Technique& technique = find_technique(o.technique);
   const Settings settings = chosen_settings(o.scene);
-  check_given_settings(settings, {&technique});
+  check_given_settings(settings, {{&technique, settings}});
   check_samples(technique, settings);
   if (!o.json.empty()) check_output_file("--json", o.json);
   const ChosenScene chosen = load_chosen_scene(o.scene);
+  check_given_settings(settings, {{&technique, settings}},
+                       {.casts = std::ranges::any_of(chosen.scene.lights, &Light::casts_shadow)});
   const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
   std::optional<Leaks> leaks;
   if (o.leaks) leaks = find_leaks(chosen.scene, chosen.view, ranges_of(settings));

@@ -65,7 +65,7 @@ int render_path(const RenderOptions& o, TechniqueRun& run, GpuScene& gpu, const 
 int render(RenderOptions o) {
   take_own_settings(o.technique, o.scene.set);  // reports an unknown name before the scene is loaded
   const Settings settings = chosen_settings(o.scene);
-  if (!o.technique.empty()) check_given_settings(settings, {&find_technique(o.technique)});
+  if (!o.technique.empty()) check_given_settings(settings, {{&find_technique(o.technique), settings}});
   check_image_path(o.output);
   check_output_file("-o", o.output);
   if (!o.json.empty()) check_output_file("--json", o.json);
@@ -75,7 +75,8 @@ int render(RenderOptions o) {
   const std::vector<View> path = chosen_path(chosen.scene, chosen.view, o.scene);
   Renderer renderer = open_devices(o.devices, o.technique, settings);
   const Technique& technique = technique_or_default(o.technique, renderer);
-  check_given_settings(settings, {&technique});
+  check_given_settings(settings, {{&technique, settings}},
+                       {.casts = std::ranges::any_of(chosen.scene.lights, &Light::casts_shadow)});
   const SceneMotion advance = chosen_motion(chosen.scene, o.scene);
   if (path.empty() && o.scene.light_motion != "none") advance(0);
   GpuScene gpu(renderer, chosen.scene);

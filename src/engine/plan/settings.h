@@ -31,6 +31,7 @@ struct SettingFlags {
   // An effect's, which changes how much of a light reaches surfaces. LightRanges::effects has its value,
   // since all code that reads lights is given ranges.
   bool of_lights = false;
+  bool of_tiles = false;              // read for light grids and exact shadows only
   bool shown_if_given = false;        // shown only where apply_setting has set it
   Condition shown = nullptr;          // without effect, and not shown, where this is false
   Condition approximate = nullptr;    // images are not meant to be exact

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "frames/frame_culler.h"
+#include "plan/settings/shadows.h"
 
 namespace lightgrid::lab {
 namespace {
@@ -68,6 +69,34 @@ void check_comparisons(const std::vector<Contestant>& contestants,
   }
 }
 
+// Returns false if the technique does not read the setting, or no value of it changes anything while the
+// others are as they are. `casts`: a light of the scene may cast shadows.
+bool takes_effect(const Contestant& c, const std::string& key, bool casts) {
+  const auto reads = [&](const std::string& other) { return reads_setting(*c.technique, other); };
+  if (!reads(key)) return false;
+  const SettingRow& row = *std::ranges::find(setting_rows(), key, &SettingRow::key);
+  Settings read = only_with(c.settings, reads);
+  if (row.flags.shown && !row.flags.shown(read)) return false;
+  if (!row.flags.of_tiles || (casts && read[setting::shadows] != ShadowMethod::none)) return true;
+  TechniqueNeeds needs = c.technique->needs;
+  if (needs.adapt) needs.adapt(needs, read);
+  return needs.lists.light_grid;
+}
+
+// Names a value of another setting with which this one takes effect.
+std::string remedy(const Contestant& contestant, const std::string& key) {
+  const std::string name = contestant.technique->name;
+  for (const SettingRow& row : setting_rows()) {
+    if (!reads_setting(*contestant.technique, row.key)) continue;
+    for (const std::string& value : row.values) {
+      Contestant other = contestant;
+      apply_setting(other.settings, row.key + "=" + value);
+      if (takes_effect(other, key, false)) return fmt::format("{} reads it with {}={}", name, row.key, value);
+    }
+  }
+  return fmt::format("{} reads it only for shadows, and no light casts one", name);
+}
+
 // All are compared with one image of every light; with another BRDF or other ranges, the difference would
 // count as a technique's error.
 void check_same_picture(const std::vector<Contestant>& contestants) {
@@ -125,14 +154,18 @@ void take_own_settings(std::string& technique, std::vector<std::string>& set) {
   set.insert(set.end(), items.begin(), items.end());
 }
 
-void check_given_settings(const Settings& settings, const std::vector<const Technique*>& techniques,
-                          bool grid) {
-  for (const std::string& key : given_keys(settings)) {
-    const auto reads = [&](const Technique* technique) { return reads_setting(*technique, key); };
-    if (std::ranges::any_of(techniques, reads)) continue;
-    if (grid && std::ranges::count(culling_settings(), key) > 0) continue;
+void check_given_settings(const Settings& common, const std::vector<Contestant>& contestants,
+                          const GivenFor& where) {
+  for (const std::string& key : given_keys(common)) {
+    const auto changes = [&](const Contestant& c) { return takes_effect(c, key, where.casts); };
+    if (std::ranges::any_of(contestants, changes)) continue;
+    if (where.grid && std::ranges::count(culling_settings(), key) > 0) continue;
+    const auto reads = [&](const Contestant& c) { return reads_setting(*c.technique, key); };
+    const auto reader = std::ranges::find_if(contestants, reads);
+    if (reader != contestants.end())
+      throw input_error("set {}: it would change nothing; {}", key, remedy(*reader, key)).about(key);
     std::vector<std::string> names;
-    for (const Technique* technique : techniques) names.emplace_back(technique->name);
+    for (const Contestant& c : contestants) names.emplace_back(c.technique->name);
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
     const bool one = names.size() == 1;
@@ -170,10 +203,8 @@ std::vector<Contestant> chosen_contestants(const std::vector<std::string>& techn
   contestants_of(common, comparisons, 64);  // reports an invalid comparison, even if no technique reads it
   const std::vector<Contestant> named = named_contestants(techniques, common);
   check_comparisons(named, comparisons);
-  std::vector<const Technique*> chosen;
-  for (const Contestant& contestant : named) chosen.push_back(contestant.technique);
-  check_given_settings(common, chosen);
   const std::vector<Contestant> all = swept(named, comparisons);
+  check_given_settings(common, all);
   check_same_picture(all);
   return all;
 }

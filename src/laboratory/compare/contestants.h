@@ -28,10 +28,13 @@ std::vector<Contestant> named_contestants(const std::vector<std::string>& items,
 // given if it is empty. Throws Error(input) for several techniques.
 void take_own_settings(std::string& technique, std::vector<std::string>& set);
 
-// Throws Error(input) for a given setting that none of the techniques reads, nor culling where `grid` says
-// so.
-void check_given_settings(const Settings& settings, const std::vector<const Technique*>& techniques,
-                          bool grid = false);
+struct GivenFor {
+  bool grid = false;  // a light grid is built whatever the technique: it reads the settings of culling
+  bool casts = true;  // a light of the scene may cast shadows
+};
+// Throws Error(input) for a setting given in `common` that changes nothing in any of the contestants.
+void check_given_settings(const Settings& common, const std::vector<Contestant>& contestants,
+                          const GivenFor& where = {});
 
 // techniques: a list split at its commas, such as "forward", "forward_plus:tile=32", "cull-test=aabb"; an
 // item with "=" and without a name before a colon is another setting of the name before it. comparisons:

@@ -21,11 +21,14 @@ inline bool samples_lists(const Settings& s);
 namespace lightgrid::setting {
 
 inline const Setting<DepthBoundsMode> depth_bounds{
-    90, "depth-bounds",
+    90,
+    "depth-bounds",
     "the distances that a tile spans: one interval, everything, two halves, two fitted halves, or 32 slots",
-    choices_of(depth_bounds_modes, &DepthBoundsRow::mode, DepthBoundsMode::minmax)};
+    choices_of(depth_bounds_modes, &DepthBoundsRow::mode, DepthBoundsMode::minmax),
+    {.of_tiles = true}};
 
-inline const Setting<int> tile{100, "tile", "tile size in pixels", {"16", "8", "32", "64"}};
+inline const Setting<int> tile{
+    100, "tile", "tile size in pixels", {"16", "8", "32", "64"}, {.of_tiles = true}};
 
 inline const Setting<int> slices{110,
                                  "slices",
