@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/image.h"
 #include "base/write_file.h"
+#include "support/error_of.h"
 #include "support/temp_folder.h"
 
 namespace lightgrid {
@@ -160,13 +161,7 @@ TEST(SaveImage, ChoosesByExtensionWhateverItsCase) {
 }
 
 TEST(SaveImage, RefusesOtherExtensionsNamingThem) {
-  try {
-    save_image("picture.jpg", gradient(1, 1));
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    EXPECT_THAT(error.what(), HasSubstr("picture.jpg"));
-  }
+  EXPECT_THAT(error_of([&] { save_image("picture.jpg", gradient(1, 1)); }), HasSubstr("picture.jpg"));
   EXPECT_THROW(save_image("picture", gradient(1, 1)), Error);
 }
 
@@ -181,13 +176,8 @@ TEST(SavePng, ReplacesWhatWasThereAndLeavesNothingElse) {
 
 TEST(SavePng, SaysWhichFolderIsMissing) {
   const TempFolder folder;
-  try {
-    save_png(folder.path / "none" / "a.png", gradient(1, 1));
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    EXPECT_THAT(error.what(), HasSubstr((folder.path / "none" / "a.png").string()));
-  }
+  EXPECT_THAT(error_of([&] { save_png(folder.path / "none" / "a.png", gradient(1, 1)); }),
+              HasSubstr((folder.path / "none" / "a.png").string()));
 }
 
 TEST(SavePng, RefusesAFolder) {
@@ -198,13 +188,8 @@ TEST(SavePng, RefusesAFolder) {
 
 TEST(SavePng, SaysThatTheDiskIsFullAndLeavesTheDeviceThere) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  try {
-    save_png("/dev/full", gradient(1, 1));
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_THAT(error.what(), HasSubstr("/dev/full"));
-  }
+  EXPECT_THAT(error_of([&] { save_png("/dev/full", gradient(1, 1)); }, ErrorKind::machine),
+              HasSubstr("/dev/full"));
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 

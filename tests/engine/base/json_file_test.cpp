@@ -6,6 +6,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "support/error_of.h"
 #include "support/temp_folder.h"
 
 namespace lightgrid {
@@ -16,20 +17,14 @@ using testing::HasSubstr;
 
 template <typename Work>
 std::string fault_of(const Work& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    return error.what();
-  }
-  return "nothing was thrown";
+  return error_of([&] { work(); });
 }
 
 TEST(JsonFields, AnUnknownFieldIsRefusedWithTheNearestKnownOne) {
   const auto fault = [](const json& object) {
     return fault_of([&] { JsonFields(object, "file.json: ").check_fields({"size", "tile"}); });
   };
-  EXPECT_EQ(fault({{"size", 1}, {"tile", nullptr}}), "nothing was thrown");
+  EXPECT_EQ(fault({{"size", 1}, {"tile", nullptr}}), "no error");
   EXPECT_EQ(fault({{"tile", 1}, {"sise", 1}}),
             "file.json: sise: unknown field; did you mean size?; fields are size, tile");
   EXPECT_EQ(fault({{"colour", 1}}), "file.json: colour: unknown field; fields are size, tile");
@@ -50,7 +45,7 @@ TEST(JsonFile, AFileThatIsNoObjectIsRefused) {
     std::ofstream(path) << text;
     return fault_of([&] { const JsonFile file(path); });
   };
-  EXPECT_EQ(fault("{}"), "nothing was thrown");
+  EXPECT_EQ(fault("{}"), "no error");
   EXPECT_EQ(fault("[]"), path + ": is array, not an object");
   EXPECT_THAT(fault("{"), HasSubstr(path + ": is not JSON: parse error at line 1"));
   EXPECT_EQ(fault("{\"a\": " + std::string(16, '[') + std::string(16, ']') + "}"),

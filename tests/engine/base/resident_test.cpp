@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "support/error_of.h"
 #include "support/temp_folder.h"
 
 namespace lightgrid {
@@ -73,14 +74,11 @@ TEST(UsableMemory, PromisedMemoryIsNotUsable) {
 
 TEST(UsableMemory, TooMuchIsAnErrorOfTheMachine) {
   EXPECT_NO_THROW(require_memory(1, "x", "y"));
-  try {
-    require_memory(uint64_t(1) << 60, "size 9x9", "a smaller --size needs less");
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_THAT(error.what(), testing::HasSubstr("size 9x9: needs at least 1073741824.0 GiB of memory"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("a smaller --size needs less"));
-  }
+  const std::string message =
+      error_of([&] { require_memory(uint64_t(1) << 60, "size 9x9", "a smaller --size needs less"); },
+               ErrorKind::machine);
+  EXPECT_THAT(message, testing::HasSubstr("size 9x9: needs at least 1073741824.0 GiB of memory"));
+  EXPECT_THAT(message, testing::HasSubstr("a smaller --size needs less"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "bridge/shared_buffer.h"
+#include "support/error_of.h"
 
 namespace lightgrid {
 namespace {
@@ -45,13 +46,8 @@ TEST_F(BridgeChoice, CanBeForcedToStaged) {
 TEST_F(BridgeChoice, NamesTheMissingStepWhereImportedMemoryIsForced) {
   if (why_not_imported(cl, *gl).empty()) GTEST_SKIP() << "memory can be imported here";
   setenv("LIGHTGRID_BRIDGE", "imported", 1);
-  try {
-    choose_bridge(cl, *gl);
-    FAIL() << "chosen";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_EQ(error.what(), "LIGHTGRID_BRIDGE=imported: " + why_not_imported(cl, *gl));
-  }
+  EXPECT_EQ(error_of([&] { choose_bridge(cl, *gl); }, ErrorKind::machine),
+            "LIGHTGRID_BRIDGE=imported: " + why_not_imported(cl, *gl));
 }
 
 // The trial's steps below the checks of devices, whose first is OpenGL's extensions.

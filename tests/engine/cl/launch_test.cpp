@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "cl/program_cache.h"
+#include "support/error_of.h"
 
 namespace lightgrid {
 namespace {
@@ -56,14 +57,13 @@ TEST_F(Launch, IsCountedByLabelAndTimedOnlyWhenAsked) {
 
 TEST_F(Launch, ThatFailsSaysWhichLabelAndCode) {
   device.profiler().time_launches(true);
-  try {
-    launch(device, "scale wrongly", scale, cl::NDRange(16), cl::NDRange(5), buffer, cl_int(1), cl::Local(64));
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_STREQ(error.what(),
-                 "scale wrongly: clEnqueueNDRangeKernel failed with CL_INVALID_WORK_GROUP_SIZE");
-  }
+  EXPECT_EQ(error_of(
+                [&] {
+                  launch(device, "scale wrongly", scale, cl::NDRange(16), cl::NDRange(5), buffer, cl_int(1),
+                         cl::Local(64));
+                },
+                ErrorKind::machine),
+            "scale wrongly: clEnqueueNDRangeKernel failed with CL_INVALID_WORK_GROUP_SIZE");
   EXPECT_TRUE(device.profiler().collect().empty());
 }
 

@@ -5,6 +5,7 @@
 #include "culling/culled_grid.h"
 #include "scene/random.h"
 #include "shared/cull_tests.h"
+#include "support/error_of.h"
 
 namespace lightgrid {
 namespace {
@@ -153,13 +154,8 @@ TEST(LightCuller, FitsItsGroupsToTheDevice) {
   const HostGrid usual = grid_with(1024);
   EXPECT_FALSE(usual.indices.empty());
   EXPECT_TRUE(grid_with(128) == usual);
-  try {
-    grid_with(64);
-    FAIL() << "work-groups of 64";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_THAT(error.what(), testing::HasSubstr("work-groups of 128 items"));
-  }
+  EXPECT_THAT(error_of([&] { grid_with(64); }, ErrorKind::machine),
+              testing::HasSubstr("work-groups of 128 items"));
 }
 
 // So many tiles that 64 regions would be wider than the 128 tiles that a byte can distinguish

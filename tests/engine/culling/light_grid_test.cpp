@@ -11,6 +11,7 @@
 #include "oracle/test_views.h"
 #include "scene/random.h"
 #include "shared/cull_tests.h"
+#include "support/error_of.h"
 #include "support/long_tests.h"
 
 namespace lightgrid {
@@ -286,13 +287,12 @@ TEST(LightGrid, MoreThanTheDeviceHoldsIsAMachineError) {
     culler.set_lights(cull_lights_of(lights));
     culler.set_view(cull_view_of(view));
     ClGridStorage storage(device);
-    try {
-      culler.cull(culler.bounds_of(std::vector<DepthInterval>(tiles, {1.0f, 9.0f})), storage);
-      ADD_FAILURE() << "no error at " << bytes;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::machine);
-      EXPECT_THAT(error.what(), testing::HasSubstr("memory"));
-    }
+    EXPECT_THAT(error_of(
+                    [&] {
+                      culler.cull(culler.bounds_of(std::vector<DepthInterval>(tiles, {1.0f, 9.0f})), storage);
+                    },
+                    ErrorKind::machine),
+                testing::HasSubstr("memory"));
   }
 }
 

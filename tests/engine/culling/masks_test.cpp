@@ -5,6 +5,7 @@
 #include "culling/cell_truth.h"
 #include "culling/constants.h"
 #include "scene/random.h"
+#include "support/error_of.h"
 
 namespace lightgrid {
 namespace {
@@ -61,13 +62,12 @@ TEST(Masks, TooLargeForTheDeviceAreAMachineError) {
   culler.set_lights(cull_lights_of(std::vector<ViewLight>(lights, point_light({0, 0, 5}, 1))));
   culler.set_view(cull_view_of(view));
   ClGridStorage storage(device);
-  try {
-    culler.cull(culler.bounds_of(std::vector<DepthInterval>(tiles, {1.0f, 9.0f})), storage);
-    ADD_FAILURE() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_THAT(error.what(), testing::HasSubstr("masks"));
-  }
+  EXPECT_THAT(error_of(
+                  [&] {
+                    culler.cull(culler.bounds_of(std::vector<DepthInterval>(tiles, {1.0f, 9.0f})), storage);
+                  },
+                  ErrorKind::machine),
+              testing::HasSubstr("masks"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "passes/world_lists.h"
+#include "support/error_of.h"
 #include "world_grid/world_cell.h"
 
 namespace lightgrid {
@@ -120,16 +121,14 @@ TEST(WorldGridPastMemory, IsRefusedBeforeAllIsCounted) {
   std::vector<CullLight> lights;
   for (int i = 0; i < 60000; ++i) lights.push_back(ball({10 * u(), 10 * u(), 10 * u()}, i % 3 ? 0.01 : 15));
   SharedWorldGrid grid(test_devices(), WorldGridShape::hashed, 1, 32, false);
-  try {
-    grid.build(lights, {glm::dvec3(0), glm::dvec3(10)}, view_from({5, 5, 5}, {0, 0, 0}), 0);
-    FAIL() << "lists of " << grid.entries() << " entries";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::machine);
-    const std::string text = error.what();
-    EXPECT_NE(text.find("or more"), std::string::npos) << text;
-    const size_t counted = std::stoull(text.substr(text.find(": ") + 2));
-    EXPECT_LT(counted, most / 4 + most / 16) << text;  // entries of 4 bytes
-  }
+  const std::string text = error_of(
+      [&] {
+        grid.build(lights, {glm::dvec3(0), glm::dvec3(10)}, view_from({5, 5, 5}, {0, 0, 0}), 0);
+      },
+      ErrorKind::machine);
+  EXPECT_NE(text.find("or more"), std::string::npos) << text;
+  const size_t counted = std::stoull(text.substr(text.find(": ") + 2));
+  EXPECT_LT(counted, most / 4 + most / 16) << text;  // entries of 4 bytes
   EXPECT_FALSE(grid.serves(view_from({5, 5, 5}, {0, 0, 0}), 0));
 }
 

@@ -13,6 +13,7 @@
 #include "plan/settings/picture.h"
 #include "plan/settings/shadows.h"
 #include "shared/cull_tests.h"
+#include "support/error_of.h"
 
 namespace lightgrid {
 namespace {
@@ -22,13 +23,7 @@ using testing::HasSubstr;
 
 std::string message_of(const std::string& assignment) {
   Settings settings;
-  try {
-    apply_setting(settings, assignment);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    return error.what();
-  }
-  return "no error";
+  return error_of([&] { apply_setting(settings, assignment); });
 }
 
 TEST(Settings, EveryValueOfEveryKeyIsTakenAndToldBack) {

@@ -6,21 +6,12 @@
 
 #include "base/error.h"
 #include "raster/many_triangles.h"
+#include "support/error_of.h"
 
 namespace lightgrid {
 namespace {
 
 using testing::HasSubstr;
-
-std::string refusal(auto&& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    return error.what();
-  }
-  return "no error";
-}
 
 class RasterScenes : public testing::TestWithParam<KernelShape> {
  protected:
@@ -80,7 +71,7 @@ TEST_P(RasterScenes, ViewsNeedTheirInstancesAgainAfterOtherMeshes) {
   RasterView view = view_of(left);
   const Drawn before = drawn_by(view, left);
   geometry.set_meshes(meshes_of(left));
-  EXPECT_THAT(refusal([&] { view.draw(); }), HasSubstr("set_instances has to come again"));
+  EXPECT_THAT(error_of([&] { view.draw(); }), HasSubstr("set_instances has to come again"));
   view.set_instances(left.instances);
   EXPECT_TRUE(drawn_by(view, left).same_image(before));
 }
@@ -88,7 +79,7 @@ TEST_P(RasterScenes, ViewsNeedTheirInstancesAgainAfterOtherMeshes) {
 TEST_P(RasterScenes, DrawingOrderIsTheMeshsAndChangesNoImage) {
   const RasterOptions ordered{.shape = GetParam(), .drawing_order = true};
   RasterView lists(geometry, raster_programs(), ordered);
-  EXPECT_THAT(refusal([&] { lists.set_instances(left.instances); }),
+  EXPECT_THAT(error_of([&] { lists.set_instances(left.instances); }),
               HasSubstr("mesh 0 has no drawing_order"));
   std::vector<RasterMesh> meshes = meshes_of(left);
   for (RasterMesh& mesh : meshes) mesh.drawing_order = true;

@@ -7,21 +7,12 @@
 #include "cl/buffers.h"
 #include "cl/transfer.h"
 #include "rays/ray_scenes.h"
+#include "support/error_of.h"
 
 namespace lightgrid {
 namespace {
 
 using testing::HasSubstr;
-
-std::string refusal(auto&& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    return error.what();
-  }
-  return "no error";
-}
 
 glm::dmat4 somewhere(RandomNumbers& random) {
   glm::dmat4 m(1);
@@ -83,7 +74,7 @@ TEST_P(RaysRefit, MeshesMayDeform) {
   const std::vector<uint32_t> before = kept();
   for (glm::vec3& p : meshes[1].positions) p = p * 0.7f + glm::vec3(random.in_cube(0.1));
   scene.set_meshes(spans());
-  EXPECT_THAT(refusal([&] { kept(); }), HasSubstr("set_instances"));
+  EXPECT_THAT(error_of([&] { kept(); }), HasSubstr("set_instances"));
   instances[0].world_from_object = somewhere(random);
   scene.set_instances(instances);
   EXPECT_EQ(kept(), fresh());
@@ -196,32 +187,35 @@ TEST(RaysScene, NothingHidesNothing) {
 
 TEST(RaysScene, WrongArgumentsAreRefused) {
   RayScene scene(rays_device(), rays_programs());
-  EXPECT_THAT(refusal([&] { scene.occlusion({}, {}, {}); }), HasSubstr("set_instances"));
-  EXPECT_THAT(refusal([&] { scene.arguments(); }), HasSubstr("set_instances"));
+  EXPECT_THAT(error_of([&] { scene.occlusion({}, {}, {}); }), HasSubstr("set_instances"));
+  EXPECT_THAT(error_of([&] { scene.arguments(); }), HasSubstr("set_instances"));
   const glm::vec3 positions[3] = {};
   const uint32_t indices[] = {0, 1, 2, 3};
   const RayMesh past{positions, {indices + 1, 3}}, part{positions, indices}, good{positions, {indices, 3}};
-  EXPECT_THAT(refusal([&] { scene.set_meshes({&past, 1}); }), HasSubstr("mesh 0: index 3 is past its 3"));
-  EXPECT_THAT(refusal([&] {
+  EXPECT_THAT(error_of([&] { scene.set_meshes({&past, 1}); }), HasSubstr("mesh 0: index 3 is past its 3"));
+  EXPECT_THAT(error_of([&] {
                 scene.set_meshes({&part, 1});
               }),
               HasSubstr("mesh 0: 4 indices are no triangles"));
   scene.set_meshes({&good, 1});
   RayInstance instance{.mesh = 1};
-  EXPECT_THAT(refusal([&] { scene.set_instances({&instance, 1}); }), HasSubstr("instance 0 has mesh 1 of 1"));
+  EXPECT_THAT(error_of([&] {
+                scene.set_instances({&instance, 1});
+              }),
+              HasSubstr("instance 0 has mesh 1 of 1"));
   instance.mesh = 0;
   instance.world_from_object[2][3] = 0.5;
-  EXPECT_THAT(refusal([&] { scene.set_instances({&instance, 1}); }), HasSubstr("finite and affine"));
+  EXPECT_THAT(error_of([&] { scene.set_instances({&instance, 1}); }), HasSubstr("finite and affine"));
   instance.world_from_object[2][3] = 0;
   scene.set_instances({&instance, 1});
   const RayPoint point;
   const RayLight light(1, 2, 3, 1);
   for (const RayPacket packet : {RayPacket{1, 0}, RayPacket{0, 1}})
-    EXPECT_THAT(refusal([&] {
+    EXPECT_THAT(error_of([&] {
                   scene.occlusion({&point, 1}, {&light, 1}, {&packet, 1});
                 }),
                 HasSubstr("packet 0"));
-  EXPECT_THAT(refusal([&] { RayScene(rays_device(), rays_programs(), {.origin = glm::dvec3(0, NAN, 0)}); }),
+  EXPECT_THAT(error_of([&] { RayScene(rays_device(), rays_programs(), {.origin = glm::dvec3(0, NAN, 0)}); }),
               HasSubstr("origin"));
 }
 

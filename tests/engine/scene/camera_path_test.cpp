@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "scenes/builtin.h"
+#include "support/error_of.h"
 #include "support/temp_folder.h"
 
 namespace lightgrid {
@@ -64,13 +65,7 @@ TEST(CameraPath, RefusesWhatIsNone) {
   const TempFolder folder;
   const std::string path = (folder.path / "path.json").string();
   const auto message = [&](const std::string& text) -> std::string {
-    try {
-      camera_path({}, start(), text);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      return error.what();
-    }
-    return "nothing was thrown";
+    return error_of([&] { camera_path({}, start(), text); });
   };
   for (const char* text : {"turn:0", "turn:x", "turn:100001", "dolly:-1", "turn:2.5"}) {
     EXPECT_THAT(message(text), testing::HasSubstr("N from 1 to 100000")) << text;

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "scene/lights_file.h"
+#include "support/error_of.h"
 #include "support/gltf_builder.h"
 
 namespace lightgrid {
@@ -49,13 +50,7 @@ std::vector<std::string> lit(const Scene& scene) {
 
 std::string refused(Scene scene, const std::vector<GroupLists>& lights,
                     const std::vector<GroupLists>& instances) {
-  try {
-    compile_groups(scene, lights, instances);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    return error.what();
-  }
-  return "no error";
+  return error_of([&] { compile_groups(scene, lights, instances); });
 }
 
 TEST(LightGroups, MeetWhereMasksShareABit) {

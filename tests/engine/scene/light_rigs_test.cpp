@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "scene/random.h"
+#include "support/error_of.h"
 
 namespace lightgrid {
 namespace {
@@ -109,13 +110,7 @@ TEST(ScatterLights, ChosenRadiiReachAPointFromAboutEightLights) {
 
 TEST(ScatterLights, RefusesWhatCannotBeScattered) {
   const auto refused = [](const Scene& scene, const ScatterSettings& settings) -> std::string {
-    try {
-      scatter_lights(scene, settings);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      return error.what();
-    }
-    return "no error";
+    return error_of([&] { scatter_lights(scene, settings); });
   };
   const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
   EXPECT_EQ(refused(floor_scene(), {-1}), "lights -1: not in 0..10000000");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "base/error.h"
+#include "support/error_of.h"
 
 namespace lightgrid {
 namespace {
@@ -18,13 +19,8 @@ TEST(ListedLights, LieOneAfterTheOther) {
 TEST(ListedLights, PastTwoToThe32AreCountedAndRefusedWhereMemoryDoesNotHoldThem) {
   ListedLights lists{.count = std::vector<uint32_t>(1 << 16, 0xffffffff)};
   lists.count.push_back(7);
-  try {
-    place_lists(lists);
-    FAIL() << "a petabyte of lists";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_THAT(error.what(), testing::HasSubstr("281474976645127 pairs"));
-  }
+  EXPECT_THAT(error_of([&] { place_lists(lists); }, ErrorKind::machine),
+              testing::HasSubstr("281474976645127 pairs"));
   EXPECT_EQ(lists.first[1], 0xffffffffu);
   EXPECT_EQ(lists.first[2], 0x1fffffffeu);
   EXPECT_TRUE(lists.indices.empty());

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "passes/light_index/layout.h"
 #include "passes/light_index/lidr_settings.h"
+#include "support/error_of.h"
 #include "techniques/lidr_scenes.h"
 
 namespace lightgrid {
@@ -54,14 +55,9 @@ TEST(Lidr, SixtyFiveThousandLights) {
 }
 
 TEST(Lidr, MoreLightsThanAskedForAreRefused) {
-  try {
-    light_index_layout(lidr_settings(LidrPacking::bitshift, 4, 15), 16);
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    EXPECT_EQ(std::string(error.what()),
-              "lidr: 16 point and spot lights are more than the 15 that have an index; use lidr-lights=auto");
-  }
+  EXPECT_EQ(
+      std::string(error_of([&] { light_index_layout(lidr_settings(LidrPacking::bitshift, 4, 15), 16); })),
+      "lidr: 16 point and spot lights are more than the 15 that have an index; use lidr-lights=auto");
 }
 
 TEST(Lidr, EveryFrameIsTheSameAndMakesNothingNew) {

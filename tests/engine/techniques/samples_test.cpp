@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "plan/settings/samples.h"
+#include "support/error_of.h"
 #include "support/fine_truth.h"
 #include "support/small_scene.h"
 #include "techniques/rendering.h"
@@ -27,14 +28,10 @@ TEST(Samples, AreTakenByTechniquesThatDeclareThemAndRefusedByOthersByName) {
     apply_setting(settings, "samples=8");
     EXPECT_LE(max_samples(*technique, settings), declared ? 8 : 1) << technique->name;
     if (declared) continue;
-    try {
-      TechniqueRun run(test_devices(), gpu, small_view(17, 9), settings, *technique);
-      ADD_FAILURE() << technique->name;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      EXPECT_THAT(error.what(), HasSubstr("samples=8")) << technique->name;
-      EXPECT_THAT(error.what(), HasSubstr(technique->name));
-    }
+    const std::string message =
+        error_of([&] { TechniqueRun run(test_devices(), gpu, small_view(17, 9), settings, *technique); });
+    EXPECT_THAT(message, HasSubstr("samples=8")) << technique->name;
+    EXPECT_THAT(message, HasSubstr(technique->name));
   }
 }
 

@@ -13,6 +13,7 @@
 #include "passes/light_index/lidr_settings.h"
 #include "passes/surfaces.h"
 #include "run/technique_run.h"
+#include "support/error_of.h"
 #include "support/render.h"
 #include "support/small_scene.h"
 
@@ -162,13 +163,12 @@ TEST(CompareTechniques, KeepTheReferencesPictureWhereItIsNoRow) {
 }
 
 TEST(CompareTechniques, ThrowsTheReasonWhereNoneIsLeft) {
-  try {
-    compared({{&refuses, {}}, {&refuses, {}}});
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::machine);
-    EXPECT_THAT(error.what(), HasSubstr("not exact here"));
-  }
+  EXPECT_THAT(error_of(
+                  [&] {
+                    compared({{&refuses, {}}, {&refuses, {}}});
+                  },
+                  ErrorKind::machine),
+              HasSubstr("not exact here"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frames/frame_files.h"
+#include "support/error_of.h"
 
 namespace lightgrid::lab {
 namespace {
@@ -69,12 +70,7 @@ std::map<std::string, std::string> files_of(const std::filesystem::path& folder)
 
 template <typename Call>
 void expect_disk_full(const Call& call) {
-  try {
-    call();
-    ADD_FAILURE() << "nothing was thrown";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::machine) << error.what();
-  }
+  const std::string message = error_of([&] { call(); }, ErrorKind::machine);
 }
 
 // The disk is full before the depth image: the view and the lights are the older frame's too.

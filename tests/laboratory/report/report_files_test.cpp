@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "report/report.h"
 #include "report/synthetic_report.h"
+#include "support/error_of.h"
 #include "support/read_files.h"
 #include "support/temp_folder.h"
 
@@ -112,13 +113,8 @@ TEST(ViewsReport, ShowsPicturesSmallerSoThatThePageStaysWithinItsBound) {
 TEST(WriteReport, RefusesAFileWhereTheFolderShouldBe) {
   const TempFolder folder;
   std::ofstream(folder.path / "taken") << "x";
-  try {
-    write_report(folder.path / "taken", synthetic_report(1, 1));
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    EXPECT_THAT(error.what(), testing::HasSubstr("taken"));
-  }
+  EXPECT_THAT(error_of([&] { write_report(folder.path / "taken", synthetic_report(1, 1)); }),
+              testing::HasSubstr("taken"));
 }
 
 TEST(WriteReport, LetsNoNameEndTheScript) {
