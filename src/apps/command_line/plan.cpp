@@ -1,6 +1,6 @@
 // lightgrid plan SCENE: the effects that this view needs, and why.
-#include <cstdio>
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <optional>
 

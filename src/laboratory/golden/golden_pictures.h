@@ -21,7 +21,7 @@ std::optional<GoldenPixels> load_golden_pixels(const std::filesystem::path& path
 
 // The first pixel, row by row from the upper left, of the first tile that differs.
 PicturePixel first_pixel(const GoldenPixels& recorded, const GoldenPixels& drawn, const GoldenView& view,
-                       const GoldenDifference& difference);
+                         const GoldenDifference& difference);
 
 // The pictures of a view that differs. Without recorded pixels only its tiles.
 struct GoldenPictures {
