@@ -3,7 +3,9 @@
 
 usage: check_texts.py FOLDER    (of write_texts)
 
-Prints the first errors of each text that does not compile. A compiler that is missing is skipped, by name.
+Prints the first errors of each text that does not compile, and each text that an effect changes without being used: one
+that differs, after the preprocessor, from the text of a program without the effect. A compiler that is missing is
+skipped, by name.
 """
 
 import concurrent.futures
@@ -52,11 +54,28 @@ def errors_of_shader(path, defines):
     return run.stdout if run.returncode else ""
 
 
+def preprocessed(path, defines):
+    """Returns what the compiler reads, without white space. The clang preprocessor serves for shaders too."""
+    flags = [*CLANG_FLAGS[:3], "-D__OPENCL_VERSION__=120"] if path.suffix == ".cl" else ["-x", "c", "-DLIGHTGRID_GLSL"]
+    run = subprocess.run([CLANG_PROGRAM, *flags, "-E", "-P", "-w", *("-D" + d for d in defines), path], capture_output=True, text=True)
+    return "".join(run.stdout.split())
+
+
+def changed_by(effect, folder, jobs, pool):
+    """Lists the texts that do not use the effect and differ without its files; returns the number compared."""
+    pairs = [(name, defines, path, folder / "without" / effect / name) for name, defines, _, path in jobs
+             if "EFFECT_" + effect.upper() not in defines]
+    pairs = [p for p in pairs if p[3].exists() and p[2].read_bytes() != p[3].read_bytes()]
+    same = pool.map(lambda p: preprocessed(p[2], p[1]) == preprocessed(p[3], p[1]), pairs)
+    return [pair[:2] for pair, equal in zip(pairs, same) if not equal], len(pairs)
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     rows = list(variants())
     jobs = []
-    for path in sorted(p for p in folder.rglob("*") if p.is_file()):
+    without = folder / "without"
+    for path in sorted(p for p in folder.rglob("*") if p.is_file() and without not in p.parents):
         kernel = path.suffix == ".cl"
         if not (CLANG_PROGRAM if kernel else GLSLANG):
             continue
@@ -74,7 +93,13 @@ def main():
                 failed += 1
                 print(name, *defines)
                 print(*[line for line in errors.splitlines() if "error" in line.lower()][:3], sep="\n")
-    print(f"{len(jobs) - failed} of {len(jobs)} texts compile")
+        for effect in sorted(p.name for p in without.iterdir()) if CLANG_PROGRAM else []:
+            changed, compared = changed_by(effect, folder, jobs, pool)
+            failed += len(changed)
+            for name, defines in changed:
+                print(name, *defines, f"is changed by {effect}, which it does not use")
+            print(f"{effect}: {compared - len(changed)} of {compared} texts that include effects and not this one are the same without it")
+    print(f"{len(jobs)} texts, {failed} faults")
     sys.exit(failed > 0)
 
 
