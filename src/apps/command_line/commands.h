@@ -16,6 +16,7 @@ void add_techniques(CommandLine& line);
 void add_capture(CommandLine& line);
 void add_cull(CommandLine& line);
 void add_inspect(CommandLine& line);
+void add_reference(CommandLine& line);
 void add_devices(CommandLine& line);
 void add_verify(CommandLine& line);
 void add_bench(CommandLine& line);

@@ -53,10 +53,25 @@ int count_surfaces(std::vector<TriangleInView> left) {
 
 dvec2 place_of_area(int number) { return (dvec2(cell_of(number, places_of_area)) + 0.5) / double(grid); }
 
+struct AreaOracle::Hit {
+  PrimaryRays::Hit of;
+  ivec2 place{0};     // pixel of of_places_
+  dvec3 position{0};  // view space
+};
+
 struct AreaOracle::Seen {
-  ivec2 place{0};  // pixel of of_places_
-  std::optional<PrimaryRays::Hit> hit;
-  dvec3 position{0};  // view space, of a hit
+  ivec2 place{0};
+  std::optional<Hit> hit;  // none: the background
+  std::vector<Hit> over;   // blended, the farthest first
+};
+
+struct AreaOracle::NearLights {
+  std::vector<uint32_t> numbers;
+  std::vector<int> last;  // of each, the triangle that hid it last
+};
+
+struct AreaOracle::Shaded {
+  dvec3 radiance{0}, doubt{0};
 };
 
 AreaOracle::AreaOracle(const Scene& scene, const View& view, const LightRanges& ranges,
@@ -71,14 +86,17 @@ AreaOracle::AreaOracle(const Scene& scene, const View& view, const LightRanges& 
       opaque_(scene, of_places_),
       blended_(scene, of_places_, RayTargets::blended) {}
 
+AreaOracle::Hit AreaOracle::hit_of(const PrimaryRays::Hit& hit, const ivec2& place) const {
+  return {hit, place, position_from_depth(of_places_, place.x, place.y, hit.depth)};
+}
+
 std::vector<AreaOracle::Seen> AreaOracle::seen_at(SceneSurfaces& surfaces, uint32_t pixel, int places) const {
   const ivec2 corner = ivec2(int(pixel) % view_.width, int(pixel) / view_.width) * grid;
   std::vector<Seen> seen;
   for (int k = 0; k < places; ++k) {
     Seen& s = seen.emplace_back();
     s.place = corner + cell_of(k, places);
-    s.hit = opaque_.at(surfaces, dvec2(s.place) + 0.5);
-    if (s.hit) s.position = position_from_depth(of_places_, s.place.x, s.place.y, s.hit->depth);
+    if (const auto hit = opaque_.at(surfaces, dvec2(s.place) + 0.5)) s.hit = hit_of(*hit, s.place);
   }
   return seen;
 }
@@ -89,9 +107,9 @@ static SeenSurfaces surfaces_of(const auto& seen) {
   std::vector<CastingTriangle> known;
   for (const auto& s : seen) {
     of.covered += s.hit.has_value();
-    if (!s.hit || std::ranges::count(known, s.hit->triangle) > 0) continue;
-    known.push_back(s.hit->triangle);
-    triangles.push_back(s.hit->in_view);
+    if (!s.hit || std::ranges::count(known, s.hit->of.triangle) > 0) continue;
+    known.push_back(s.hit->of.triangle);
+    triangles.push_back(s.hit->of.in_view);
   }
   of.surfaces = count_surfaces(std::move(triangles));
   return of;
@@ -109,72 +127,94 @@ std::vector<SeenSurfaces> AreaOracle::surfaces_at(std::span<const uint32_t> pixe
 }
 
 // Lights whose range meets the box around what the pixel sees.
-std::vector<uint32_t> AreaOracle::lights_near(const std::vector<Seen>& seen) const {
+AreaOracle::NearLights AreaOracle::lights_near(const std::vector<Seen>& seen) const {
   dvec3 least(INFINITY), most(-INFINITY);
-  for (const Seen& s : seen)
-    if (s.hit) {
-      least = glm::min(least, s.position);
-      most = glm::max(most, s.position);
-    }
-  std::vector<uint32_t> near;
+  const auto add = [&](const Hit& hit) {
+    least = glm::min(least, hit.position);
+    most = glm::max(most, hit.position);
+  };
+  for (const Seen& s : seen) {
+    if (s.hit) add(*s.hit);
+    std::ranges::for_each(s.over, add);
+  }
+  NearLights near;
   for (uint32_t i = 0; i < lights_.size(); ++i) {
     const ViewLight& light = lights_[i];
     const dvec3 off = light.position - glm::clamp(light.position, least, most);
-    if (light.type == LightType::directional || glm::length(off) <= light.radius_m) near.push_back(i);
+    if (light.type == LightType::directional || glm::length(off) <= light.radius_m) near.numbers.push_back(i);
   }
+  near.last.assign(near.numbers.size(), -1);
   return near;
 }
 
-void AreaOracle::shade_area(PixelArea& area, SceneSurfaces& surfaces, const std::vector<Seen>& seen) const {
-  const std::vector<uint32_t> near = lights_near(seen);
-  std::vector<int> last(near.size(), -1);
-  std::vector<ViewLight> lights;
-  int undecided = 0;
-  for (const Seen& s : seen) {
-    if (!s.hit) {
-      area.radiance += dvec3(scene_.background);
-      continue;
+AreaOracle::Shaded AreaOracle::shade_hit(const Hit& hit, SceneSurfaces& surfaces, NearLights& near) const {
+  const dvec2 place = (dvec2(hit.place) + 0.5) * double(surface_grid) / double(grid);
+  const Surface surface = surfaces.surface_at(hit.of.in_view, place);
+  std::optional<Receiver> receiver;
+  std::vector<ViewLight> lights, doubtful;
+  for (size_t k = 0; k < near.numbers.size(); ++k) {
+    const ViewLight& light = lights_[near.numbers[k]];
+    const Light& in_world = scene_.lights[near.numbers[k]];
+    const bool directional = light.type == LightType::directional;
+    if (!directional && !is_lit(light, hit.position, surface.mask)) continue;
+    Sight sight = Sight::seen;
+    if (occlusion_ && in_world.casts_shadow) {
+      if (!receiver)
+        receiver = occlusion_->receiver(of_places_, hit.place.x, hit.place.y, hit.of.depth, hit.of.triangle);
+      sight = occlusion_->sight(in_world, *receiver, &near.last[k]).sight;
     }
-    const dvec2 place = (dvec2(s.place) + 0.5) * double(surface_grid) / double(grid);
-    const Surface surface = surfaces.surface_at(s.hit->in_view, place);
-    std::optional<Receiver> receiver;
-    bool either = false;
-    lights.clear();
-    for (size_t k = 0; k < near.size(); ++k) {
-      const ViewLight& light = lights_[near[k]];
-      const Light& in_world = scene_.lights[near[k]];
-      const bool directional = light.type == LightType::directional;
-      if (!directional && !is_lit(light, s.position, surface.mask)) continue;
-      if (occlusion_ && in_world.casts_shadow) {
-        if (!receiver)
-          receiver = occlusion_->receiver(of_places_, s.place.x, s.place.y, s.hit->depth, s.hit->triangle);
-        const Sight sight = occlusion_->sight(in_world, *receiver, &last[k]).sight;
-        either |= sight == Sight::either;
-        if (sight == Sight::hidden) continue;
-      }
-      lights.push_back(light);
-    }
-    undecided += either;
-    area.radiance += shade(surface, s.position, view_.orthographic, lights, settings_);
+    if (sight == Sight::hidden) continue;
+    if (sight == Sight::either) doubtful.push_back(light);
+    lights.push_back(light);
   }
-  area.radiance /= double(seen.size());
-  area.undecided = undecided * 100 > int(seen.size());
+  Shaded shaded{shade(surface, hit.position, view_.orthographic, lights, settings_)};
+  if (!doubtful.empty())
+    shaded.doubt = shade(surface, hit.position, view_.orthographic, doubtful, settings_) -
+                   shade(surface, hit.position, view_.orthographic, {}, settings_);
+  return shaded;
 }
 
-std::vector<PixelArea> AreaOracle::at(std::span<const uint32_t> pixels) const {
+void AreaOracle::shade_area(PixelArea& area, SceneSurfaces& surfaces, const std::vector<Seen>& seen) const {
+  NearLights near = lights_near(seen);
+  const double count = double(seen.size());
+  int undecided = 0;
+  dvec3 squares(0);
+  for (const Seen& s : seen) {
+    Shaded shown{dvec3(scene_.background)};
+    if (s.hit) shown = shade_hit(*s.hit, surfaces, near);
+    for (const Hit& hit : s.over) {
+      const Shaded own = shade_hit(hit, surfaces, near);
+      const dvec2 place = (dvec2(hit.place) + 0.5) * double(surface_grid) / double(grid);
+      const double alpha = surfaces.base_color_at(hit.of.in_view, place).a;
+      shown.radiance = glm::mix(shown.radiance, own.radiance, alpha);
+      shown.doubt = glm::mix(shown.doubt, own.doubt, alpha);
+    }
+    undecided += shown.doubt != dvec3(0);
+    area.radiance += shown.radiance / count;
+    area.doubt += shown.doubt / count;
+    squares += shown.radiance * shown.radiance / count;
+  }
+  area.undecided = undecided * 100 > int(seen.size());
+  const dvec3 variance = glm::max(squares - area.radiance * area.radiance, dvec3(0));
+  area.spread = glm::sqrt(variance / count);
+}
+
+std::vector<PixelArea> AreaOracle::at(std::span<const uint32_t> pixels, int places) const {
   std::vector<PixelArea> areas(pixels.size());
   constexpr int run = 8;
   parallel_for(int((pixels.size() + run - 1) / run), [&](int r) {
     SceneSurfaces surfaces(scene_, of_surfaces_);
     for (size_t i = size_t(r) * run; i < std::min(pixels.size(), size_t(r + 1) * run); ++i) {
-      const std::vector<Seen> seen = seen_at(surfaces, pixels[i], places_of_area);
+      std::vector<Seen> seen = seen_at(surfaces, pixels[i], places);
       PixelArea& area = areas[i];
       area.at_edge = surfaces_of(seen).at_edge();
-      area.blended = std::ranges::any_of(seen, [&](const Seen& s) {
-        const auto over = blended_.at(surfaces, dvec2(s.place) + 0.5);
-        return over && (!s.hit || over->depth >= s.hit->depth);
-      });
-      if (!area.blended) shade_area(area, surfaces, seen);
+      for (Seen& s : seen) {
+        const double nearest = s.hit ? s.hit->of.depth : 0;
+        for (const auto& over : blended_.all_at(surfaces, dvec2(s.place) + 0.5, nearest))
+          s.over.push_back(hit_of(over, s.place));
+        area.blended |= !s.over.empty();
+      }
+      shade_area(area, surfaces, seen);
     }
   });
   return areas;

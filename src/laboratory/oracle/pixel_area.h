@@ -18,7 +18,11 @@ inline constexpr int places_of_area = 256;
 glm::dvec2 place_of_area(int number);
 
 struct PixelArea {
-  glm::dvec3 radiance{0};  // radiance of opaque surfaces and the background
+  glm::dvec3 radiance{0};
+  // Radiance that lights add whose shadow turns on rounding: they count as seen. It bounds the error that
+  // these decisions may have.
+  glm::dvec3 doubt{0};
+  glm::dvec3 spread{0};  // standard deviation of the places' radiance, over the root of their number
   // Its places see several surfaces, of which the background is one. Triangles of one instance that share an
   // edge by its vertices' numbers, and turn the same way on the screen, are one surface.
   bool at_edge = false;
@@ -42,17 +46,23 @@ class AreaOracle {
   AreaOracle(const AreaOracle&) = delete;  // its rays keep its views
   AreaOracle& operator=(const AreaOracle&) = delete;
 
-  // Pixels are y * width + x, row 0 at the bottom. A place's textures are filtered with the footprint of a
-  // 256th of the pixel's area. Each pixel takes 256 rays, on all cores.
-  std::vector<PixelArea> at(std::span<const uint32_t> pixels) const;
+  // Pixels are y * width + x, row 0 at the bottom. places: 1, 4, 16, 64 or 256; one lies 1/512 pixel from the centre in x and y. A
+  // place's textures are filtered with the footprint of a 256th of the pixel's area. Blended surfaces are laid
+  // over others in the order of their depths. Runs on all cores.
+  std::vector<PixelArea> at(std::span<const uint32_t> pixels, int places = places_of_area) const;
 
   // From 2, 4, 8 or 16 places, as many of Hammersley's points.
   std::vector<SeenSurfaces> surfaces_at(std::span<const uint32_t> pixels, int places) const;
 
  private:
+  struct Hit;
   struct Seen;
+  struct NearLights;
+  struct Shaded;
+  Hit hit_of(const PrimaryRays::Hit& hit, const glm::ivec2& place) const;
   std::vector<Seen> seen_at(SceneSurfaces& surfaces, uint32_t pixel, int places) const;
-  std::vector<uint32_t> lights_near(const std::vector<Seen>& seen) const;
+  NearLights lights_near(const std::vector<Seen>& seen) const;
+  Shaded shade_hit(const Hit& hit, SceneSurfaces& surfaces, NearLights& near) const;
   void shade_area(PixelArea& area, SceneSurfaces& surfaces, const std::vector<Seen>& seen) const;
 
   const Scene& scene_;

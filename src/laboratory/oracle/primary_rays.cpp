@@ -1,5 +1,7 @@
 #include "oracle/primary_rays.h"
 
+#include <algorithm>
+
 #include "base/facing.h"
 #include "oracle/position.h"
 
@@ -36,21 +38,37 @@ std::array<uint32_t, 3> PrimaryRays::vertices_of(const CastingTriangle& t) const
   return {indices[first], indices[first + 1], indices[first + 2]};
 }
 
-std::optional<PrimaryRays::Hit> PrimaryRays::at(SceneSurfaces& surfaces, const dvec2& place) const {
+template <typename Visit>
+void PrimaryRays::each_hit(SceneSurfaces& surfaces, const dvec2& place, const Visit& visit) const {
   const dvec3 across(view_x_of_pixel(view_, place.x), view_y_of_pixel(view_, place.y), 0);
   const dvec3 ahead = view_.orthographic ? dvec3(0, 0, -1) : glm::normalize(across + dvec3(0, 0, -1));
   const dvec3 from = view_.orthographic ? across : dvec3(0), to = from + ahead * far_m_;
   const auto in_world = [&](const dvec3& p) {
     return view_.eye + glm::transpose(glm::dmat3(view_.view_from_world)) * p;
   };
-  std::optional<Hit> nearest;
   // The boxes' reach covers the rounding of the ray; the triangle decides.
   tree_.walk(in_world(from), in_world(to), 1e-9 * far_m_, [&](int number) {
-    const std::optional<Hit> found = hit(surfaces, numbers_[size_t(number)], place);
-    if (found && (!nearest || found->depth > nearest->depth)) nearest = found;
+    if (const std::optional<Hit> found = hit(surfaces, numbers_[size_t(number)], place)) visit(*found);
     return false;
   });
+}
+
+std::optional<PrimaryRays::Hit> PrimaryRays::at(SceneSurfaces& surfaces, const dvec2& place) const {
+  std::optional<Hit> nearest;
+  each_hit(surfaces, place, [&](const Hit& found) {
+    if (!nearest || found.depth > nearest->depth) nearest = found;
+  });
   return nearest;
+}
+
+std::vector<PrimaryRays::Hit> PrimaryRays::all_at(SceneSurfaces& surfaces, const dvec2& place,
+                                                  double depth) const {
+  std::vector<Hit> all;
+  each_hit(surfaces, place, [&](const Hit& found) {
+    if (found.depth >= depth) all.push_back(found);
+  });
+  std::ranges::stable_sort(all, {}, &Hit::depth);
+  return all;
 }
 
 // None where the triangle is not drawn.

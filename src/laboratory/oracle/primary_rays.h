@@ -25,10 +25,14 @@ class PrimaryRays {
   // pixel's centre at .5. surfaces: a thread's own, of this scene and view, but of any size: masks are looked
   // up with the footprint of its pixels.
   std::optional<Hit> at(SceneSurfaces& surfaces, const glm::dvec2& place) const;
+  // All triangles that are drawn there at this depth or nearer, the farthest first.
+  std::vector<Hit> all_at(SceneSurfaces& surfaces, const glm::dvec2& place, double depth) const;
 
  private:
   std::array<uint32_t, 3> vertices_of(const CastingTriangle& t) const;
   std::optional<Hit> hit(SceneSurfaces& surfaces, const CastingTriangle& t, const glm::dvec2& place) const;
+  template <typename Visit>
+  void each_hit(SceneSurfaces& surfaces, const glm::dvec2& place, const Visit& visit) const;
 
   const Scene& scene_;
   const View& view_;

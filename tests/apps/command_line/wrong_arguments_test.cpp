@@ -263,6 +263,9 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"scenes --gl glx", {"\"glx\" is not one of auto, osmesa"}},
         Wrong{"inspect spheres --set raster=opencl --pixel 1,1",
               {"--set raster: forward_plus does not read it"}},
+        Wrong{"reference hall --places 5", {"--places 5: choose 1, 4, 16, 64 or 256"}},
+        Wrong{"reference hall --set tile=8", {"--set tile: reference does not read it"}},
+        Wrong{"reference spheres --size 8x4 -o FOLDER/r.exr --against FOLDER/none.exr", {"FOLDER/none.exr"}},
         Wrong{"info spheers", {"did you mean spheres?"}},
         Wrong{"render spheres --size 64", {"--size 64: not WxH"}}),
     [](const auto& info) { return name_of(info.param); });

@@ -101,6 +101,40 @@ TEST(AreaOracle, TellsEdgesAndBlendedSurfaces) {
   EXPECT_FALSE(areas[3 * 16 + 7].blended);
 }
 
+// Unlit panes of one colour before the picture of with_quad.
+void add_pane(Placed& p, float z, const glm::vec3& color, float alpha) {
+  const Placed pane = with_quad({-4, -4}, {24, 16}, z);
+  Material material = pane.scene.materials[0];
+  material.base_color = glm::vec4(color, alpha);
+  material.alpha_mode = AlphaMode::blend;
+  Mesh mesh = pane.scene.meshes[0];
+  mesh.material = int(p.scene.materials.size());
+  p.scene.materials.push_back(material);
+  add_instance(p.scene, "pane", add_mesh(p.scene, std::move(mesh)));
+}
+
+// The nearer pane is the first instance; one behind the quad shows only beside it.
+TEST(AreaOracle, LaysBlendedSurfacesOverOthersByDepth) {
+  Placed p = with_quad({4, 0}, {8, 8});
+  add_pane(p, -3, {0, 1, 0}, 0.25f);
+  add_pane(p, -3.5f, {1, 1, 1}, 0.5f);
+  add_pane(p, -5, {0, 0, 0}, 0.75f);
+  const std::vector<PixelArea> areas = areas_of(p);
+  const auto expect = [&](int x, const glm::dvec3& under) {
+    const glm::dvec3 far = 0.5 * under + 0.5, all = 0.75 * far + 0.25 * glm::dvec3(0, 1, 0);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(areas[size_t(3 * 16 + x)].radiance[c], all[c], 1e-7) << x;
+  };
+  expect(7, {1, 0.5, 0.25});
+  expect(1, {0, 0, 0.25});
+}
+
+TEST(AreaOracle, HasTheSpreadOfItsPlaces) {
+  const Placed p = with_quad({0, 0}, {5.25f, 8});
+  const PixelArea edge = areas_of(p)[3 * 16 + 5], inside = areas_of(p)[3 * 16 + 2];
+  EXPECT_NEAR(edge.spread.r, std::sqrt(0.25 * 0.75 / 256), 1e-6);
+  EXPECT_EQ(inside.spread, glm::dvec3(0));
+}
+
 TEST(AreaOracle, CountsSurfacesAtSomePlaces) {
   Placed p = with_quad({2.5f, 0}, {6, 8});
   const Placed other = with_quad({5, 0.5f}, {3, 8}, -3.99f);
@@ -123,14 +157,14 @@ TEST(AreaOracle, CountsSurfacesAtSomePlaces) {
   }
 }
 
-// A sun from the eye's direction above; the caster's shadow ends within a pixel of the wall.
-TEST(AreaOracle, HasTheShareOfAPixelInShadow) {
+// A sun from the eye's direction, and a caster whose shadow on the wall ends within a pixel, at x.
+Placed shadowed_wall(float x) {
   Placed p = with_quad({0, 0}, {16, 8});
   p.scene.materials[0].unlit = false;
   p.scene.materials[0].base_color = {1, 1, 1, 1};
   p.scene.ambient = {0, 0, 0};
   // Behind the eye, in the sun's way: parallel light, so its shadow has its size.
-  Placed caster = with_quad({-8, -8}, {8 + 5.375f, 40}, 1);
+  Placed caster = with_quad({-8, -8}, {8 + x, 40}, 1);
   add_instance(p.scene, "caster", add_mesh(p.scene, Mesh(caster.scene.meshes[0])));
   p.scene.materials[0].double_sided = true;
   Light& sun = p.scene.lights.emplace_back();
@@ -138,6 +172,11 @@ TEST(AreaOracle, HasTheShareOfAPixelInShadow) {
   sun.direction = {0, 0, -1};
   sun.intensity = 3;
   sun.casts_shadow = true;
+  return p;
+}
+
+TEST(AreaOracle, HasTheShareOfAPixelInShadow) {
+  const Placed p = shadowed_wall(5.375f);
   const Occlusion occlusion(p.scene);
   const std::vector<PixelArea> areas = areas_of(p, &occlusion), lit = areas_of(p);
   for (int y = 0; y < 8; ++y) {
@@ -148,6 +187,18 @@ TEST(AreaOracle, HasTheShareOfAPixelInShadow) {
     EXPECT_EQ(at(6), unshadowed(6));
     EXPECT_GT(at(6), 0.1);
   }
+}
+
+// The only place of a pixel lies where the shadow ends.
+TEST(AreaOracle, DoubtsALightAtTheEdgeOfAShadow) {
+  const Placed p = shadowed_wall(5 + 128.5f / 256);
+  const Occlusion occlusion(p.scene);
+  const AreaOracle oracle(p.scene, p.view, {}, {}, &occlusion);
+  const uint32_t pixels[] = {3 * 16 + 5, 3 * 16 + 6};
+  const std::vector<PixelArea> areas = oracle.at(pixels, 1);
+  EXPECT_GT(areas[0].doubt.g, 0.1);
+  EXPECT_EQ(areas[0].doubt, areas[0].radiance);
+  EXPECT_EQ(areas[1].doubt, glm::dvec3(0));
 }
 
 }  // namespace
