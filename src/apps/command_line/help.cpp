@@ -69,7 +69,7 @@ const std::map<std::string, std::vector<Example>>& examples() {
       {"cull",
        {{"frame -o lists", "makes the lists of a captured frame"},
         {"frame -o lists --set cull-test=exact", "with another test"},
-        {"frame -o lists --json -", "with figures as JSON"}}},
+        {"frame --judge -o judged", "compares the lists of a frame, from any engine, with the oracle"}}},
       {"inspect",
        {{"hall --pixel 640,360", "the lights at one pixel, and why each is listed"},
         {"hall --pixel 640,360 -t clustered", "in another technique"},

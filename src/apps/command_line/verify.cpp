@@ -88,7 +88,8 @@ int hunt(const VerifyCommand& o) {
 verify::VerifyReport replay(const VerifyCommand& o,
                             const std::vector<std::unique_ptr<verify::CullEngine>>& engines,
                             const CapturedFrame& frame, const verify::CaseFunction& found) {
-  const std::optional<FrameGrid> own = read_frame_grid(o.replay, frame);
+  std::optional<FrameGrid> own = read_frame_grid(o.replay, frame);
+  if (own && !own->cell_of_pixel.empty()) own.reset();  // not made of tiles: `cull --judge` compares it
   return verify::replay_frame(
       engines, frame, {verify::replayed_views(frame, own, o.set), own, o.nightly, found, progress_bar()});
 }

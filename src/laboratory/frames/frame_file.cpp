@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little, "frames are little-endian");
 
-constexpr const char* grid_files[] = {"grid.json", "grid.u32", "indices.u32", "masks.u32", "z_bins.u32"};
+constexpr const char* grid_files[] = {"grid.json", "grid.u32",   "indices.u32",
+                                      "masks.u32", "z_bins.u32", "cell_of_pixel.u32"};
 
 // The file's size, checked before anything is allocated.
 uintmax_t size_of(const fs::path& path) {
@@ -78,10 +79,26 @@ std::vector<float> read_edges(const JsonFile& file, const char* field, size_t mo
   return edges;
 }
 
+// A grid whose cells are no tiles: each pixel has the number of its own.
+FrameGrid read_pixel_grid(const JsonFile& file, const CapturedFrame& frame) {
+  constexpr int max_cells = 1 << 26;
+  if (file.at("cell_of_pixel") != true)
+    throw file.error("cell_of_pixel", file.at("cell_of_pixel"),
+                     "is not true; leave it out if cells are tiles");
+  file.check_fields({"cells", "cell_of_pixel", "settings"});
+  const std::vector<int> cells = file.wholes("cells", 1, 1, max_cells);
+  FrameGrid grid;
+  grid.lists.cells_x = cells[0];
+  grid.lists.cells_y = 1;
+  grid.cell_of_pixel.assign(frame.view.grid().values(), no_cell);
+  return grid;
+}
+
 // The fields of grid.json, each checked against the frame.
 FrameGrid read_grid_header(const JsonFile& file, const CapturedFrame& frame) {
-  file.check_fields({"cells", "tile", "slice_edges", "z_bin_edges", "settings"});
+  file.check_fields({"cells", "cell_of_pixel", "tile", "slice_edges", "z_bin_edges", "settings"});
   FrameGrid grid;
+  if (file.has("cell_of_pixel")) return read_pixel_grid(file, frame);
   grid.tile = file.whole("tile", 1, max_frame_side);
   const std::vector<int> cells = file.wholes("cells", 3, 1, max_frame_side);
   const auto across = [&](int pixels) { return (pixels + grid.tile - 1) / grid.tile; };
@@ -181,6 +198,9 @@ std::optional<FrameGrid> read_frame_grid(const fs::path& folder, const CapturedF
   const auto kind = grid.settings.find("grid_lists");
   if (kind != grid.settings.end() && kind->second == "masks")
     read_masks(folder / "masks.u32", grid.lists, lights);
+  if (!grid.cell_of_pixel.empty())
+    grid.cell_of_pixel =
+        read_words(folder / "cell_of_pixel.u32", grid.cell_of_pixel.size(), "a cell for each pixel");
   if (!grid.z_bin_edges.empty())
     grid.lists.z_bins = read_words(folder / "z_bins.u32", lights, "a word a light");
   return grid;

@@ -32,7 +32,11 @@ struct FrameGrid {
   std::vector<float> slice_edges;               // inner edges, metres; empty for one slice
   std::vector<float> z_bin_edges;               // likewise; empty for no z-bins
   std::map<std::string, std::string> settings;  // as to_strings returns them
+  // Each pixel's cell, row 0 at the bottom, in grids whose cells are no tiles and slices; no_cell: the pixel
+  // reads no list. Empty: by tile and slice.
+  std::vector<uint32_t> cell_of_pixel;
 };
+inline constexpr uint32_t no_cell = 0xffffffffu;
 
 CapturedFrame read_frame(const std::filesystem::path& folder);
 

@@ -1,5 +1,7 @@
 #include "frames/frame_lists.h"
 
+#include <algorithm>
+
 #include "scene/grid_lists.h"
 
 namespace lightgrid::lab {
@@ -31,6 +33,14 @@ ListedLights lists_of_cells(const HostGrid& grid) {
 }
 
 ListedLights listed_lights(const CapturedFrame& frame, const FrameGrid& grid) {
+  if (!grid.cell_of_pixel.empty()) {
+    ListedLights lists = lists_of_cells(grid.lists);
+    lists.first.push_back(lists.indices.size());  // of pixels without a cell: empty
+    lists.count.push_back(0);
+    lists.cell_of_pixel = grid.cell_of_pixel;
+    std::ranges::replace(lists.cell_of_pixel, no_cell, uint32_t(lists.first.size() - 1));
+    return lists;
+  }
   return at_pixels(lists_of_cells(grid.lists), cells_of(frame, grid), grid.lists.z_bins);
 }
 

@@ -204,6 +204,37 @@ TEST_F(Frames, CullEndsWithTwoAndWritesNothingWhereTheFrameIsWrong) {
   EXPECT_FALSE(std::filesystem::exists(culled));
 }
 
+// The lists of one cell are emptied.
+TEST_F(Frames, JudgeTellsWhatTheListsOfAFrameLack) {
+  const auto frame = capture(), judged = folder_.path / "judged";
+  const std::vector<std::string> words = {"cull", frame, "--judge", "-o", judged};
+  const ProgramRun right = run_program(words, {"OCL_ICD_VENDORS=/nonexistent"});
+  EXPECT_EQ(right.status, 0) << right.err;
+  EXPECT_THAT(right.out, HasSubstr(" 0 (pixel, light) pairs lost, 0 wrong; 0 of "));
+  EXPECT_THAT(names_in(judged), ElementsAre("false_positives.png", "listed.png", "lost.png"));
+
+  std::string cells = file_bytes(frame / "grid.u32");
+  cells.replace(8 * 2 + 4, 4, 4, '\0');  // cell 2,0
+  std::ofstream(frame / "grid.u32", std::ios::binary) << cells;
+  std::vector<std::string> more = words;
+  more.insert(more.end(), {"--json", "-", "--junit", folder_.path / "j.xml"});
+  const ProgramRun wrong = run_program(more);
+  EXPECT_EQ(wrong.status, 1) << wrong.err;
+  const auto json = nlohmann::json::parse(wrong.out);
+  EXPECT_GT(json["pairs"]["lost"], 0);
+  ASSERT_GT(json["lost_lights"].size(), 0u);
+  for (const auto& light : json["lost_lights"]) {
+    const auto at = light["first_pixel_from_top"];
+    EXPECT_EQ(at[0].get<int>() / 16, 2);
+    EXPECT_EQ((60 - at[1].get<int>()) / 16, 0);
+    EXPECT_THAT(file_bytes(folder_.path / "j.xml"), HasSubstr(" pixels, the first "));
+  }
+  std::filesystem::remove(frame / "grid.json");
+  const ProgramRun none = run_program(words);
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.err, HasSubstr("grid.json: there is none"));
+}
+
 TEST_F(Frames, CullEndsWithThreeWhereNoDeviceHasTheName) {
   const ProgramRun run =
       run_program({"cull", capture(), "-o", folder_.path / "culled", "--device", "nosuchdevice"});

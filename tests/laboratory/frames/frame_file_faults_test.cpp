@@ -131,9 +131,24 @@ TEST_F(BrokenFrame, AMissingFileIsNamed) {
   }
 }
 
+TEST_F(BrokenFrame, AGridWithACellForEachPixelHasThem) {
+  const auto header = [&](const json& grid) { write_bytes(folder_.path / "grid.json", grid.dump()); };
+  const size_t cells = file_bytes(folder_.path / "grid.u32").size() / 8;
+  header({{"cells", {cells}}, {"cell_of_pixel", true}});
+  expect_told("cell_of_pixel.u32", {"no such file"});
+  write_bytes(folder_.path / "cell_of_pixel.u32", std::string(4 * 37 * 21, '\0'));
+  EXPECT_EQ(fault_of(folder_.path), "");
+  write_bytes(folder_.path / "cell_of_pixel.u32", "1234");
+  expect_told("cell_of_pixel.u32", {"4 bytes"});
+  header({{"cells", {cells}}, {"cell_of_pixel", false}});
+  expect_told("grid.json", {"cell_of_pixel"});
+  header({{"cells", {cells}}, {"cell_of_pixel", true}, {"tile", 16}});
+  expect_told("grid.json", {"tile"});
+}
+
 TEST_F(BrokenFrame, AnUnknownFieldOfTheGridIsRefused) {
   set_in_grid("slice_edge", {1, 2});
-  expect_told("grid.json", {"slice_edge: unknown field; did you mean slice_edges?; fields are cells, tile"});
+  expect_told("grid.json", {"slice_edge: unknown field; did you mean slice_edges?; fields are cells, cell_of_pixel, tile"});
 }
 
 TEST_F(BrokenFrame, AFolderThatIsNoneIsNamed) {
