@@ -148,7 +148,9 @@ TEST_F(BrokenFrame, AGridWithACellForEachPixelHasThem) {
 
 TEST_F(BrokenFrame, AnUnknownFieldOfTheGridIsRefused) {
   set_in_grid("slice_edge", {1, 2});
-  expect_told("grid.json", {"slice_edge: unknown field; did you mean slice_edges?; fields are cells, cell_of_pixel, tile"});
+  expect_told(
+      "grid.json",
+      {"slice_edge: unknown field; did you mean slice_edges?; fields are cells, cell_of_pixel, tile"});
 }
 
 TEST_F(BrokenFrame, AFolderThatIsNoneIsNamed) {
