@@ -102,6 +102,8 @@ int view(const ViewOptions& o) {
   const char* beside = context->software ? "visibility" : "forward_plus";
   job.controls.sides = {{{o.left.empty() ? "visibility" : find_technique(o.left).name, settings},
                          {o.right.empty() ? beside : find_technique(o.right).name, settings}}};
+  const auto& [left, right] = job.controls.sides;
+  if (left.technique == right.technique && !job.scripted) job.controls.sides[1].map = SideMap::listed;
   SceneChoice choice = o.scene;
   choice.device = o.device;
   load(job, choice);

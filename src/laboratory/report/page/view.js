@@ -44,7 +44,10 @@ function showPictures(view) {
     { label: "Lights per pixel", choices: [...choicesOf((row) => row.listed?.picture ?? null, ", listed", heatNote(view), lights), ...litChoices] },
   ].filter((group) => group.choices.length > 0);
   const fastest = rows.find((row) => row.winner && row.name !== name) ?? rows.find((row) => row.name !== name && row.image !== null);
-  showSlider(groups, name, fastest?.name ?? "");
+  // Two pictures that differ: one that is not exact, or else the lights per pixel.
+  const inexact = rows.find((row) => row.name !== name && row.image !== null && ["failed", "lossy"].includes(row.standing));
+  const listed = fastest?.listed?.picture != null ? `${fastest.name}, listed` : fastest?.name;
+  showSlider(groups, name, inexact?.name ?? listed ?? "");
   const { ev, auto } = view.results.exposure ?? {};
   const exposed = ev ? `Pictures are exposed by ${ev > 0 ? "+" : ""}${ev} EV${auto ? ", chosen from the picture" : ""}; figures are not. ` : "";
   byId("reduced").textContent = exposed + (reduced <= 1 ? "" :
