@@ -223,7 +223,7 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
 #define INPUT_OF_LIGHTS(kind, type, name, resource) , l->name
 #define VALUE_OF_POINT(kind, type, name, resource) , p->surface.name
 #define ADD_BASE(inputs, base, own) \
-  sum = add3(sum, base(*p, r->covered inputs(INPUT_OF_LIGHTS) own(VALUE_OF_POINT)));
+  sum = add3(sum, base(*p, s->occlusion, r->covered inputs(INPUT_OF_LIGHTS) own(VALUE_OF_POINT)));
 
 // p: resolved_point(r).
 static inline Real3 own_light(const ShadingPoint* p, const Resolved* r, const ResolveLights* l,

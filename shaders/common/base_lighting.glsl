@@ -5,7 +5,7 @@
 #endif
 #include "shared/effects.h"
 #define VALUE_OF_POINT(kind, type, name, resource) , p.surface.name
-#define ADD_BASE(inputs, base, own) color += base(p, true own(VALUE_OF_POINT));
+#define ADD_BASE(inputs, base, own) color += base(p, s.occlusion, true own(VALUE_OF_POINT));
 
 vec3 base_lighting(Surface s, ShadingPoint p) {
   vec3 ambient = vec3(view.ambient_r, view.ambient_g, view.ambient_b);

@@ -18,6 +18,6 @@ kernel void fill_far_light(LIGHT_ARGUMENTS constant FarGrid* grid, global float4
   const Real3 position = real3(fma(TO_REAL(at % size_x), REAL(grid->spacing_x), REAL(grid->first_x)),
                                fma(TO_REAL(row % size_y), REAL(grid->spacing_y), REAL(grid->first_y)),
                                fma(TO_REAL(row / size_y), REAL(grid->spacing_z), REAL(grid->first_z)));
-  const FarLight sum = far_light_of(&lights, grid->lights, position);
+  const LightSums sum = far_light_of(&lights, grid->lights, position);
   for (uint i = 0; i < 16 && first + i < samples; ++i) store_far_light(&sum, i, moments, first + i, samples);
 }

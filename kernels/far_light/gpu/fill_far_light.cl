@@ -13,6 +13,6 @@ kernel void fill_far_light(LIGHT_ARGUMENTS constant FarGrid* grid, global float4
   const Real3 position = real3(fma((float)(at % grid->size_x), grid->spacing_x, grid->first_x),
                                fma((float)(row % grid->size_y), grid->spacing_y, grid->first_y),
                                fma((float)(row / grid->size_y), grid->spacing_z, grid->first_z));
-  const FarLight sum = far_light_of(&lights, grid->lights, position);
+  const LightSums sum = far_light_of(&lights, grid->lights, position);
   store_far_light(&sum, 0, moments, at, samples);
 }

@@ -15,9 +15,9 @@
 // Functions that read inputs end their parameters with NAME_HOOK_INPUTS(TAKEN_INPUT) and are called with
 // NAME_HOOK_INPUTS(PASSED_INPUT); INPUT(name) is a block's struct. The list's name says which hook the text
 // answers. A text may answer several.
-//   NAME_BASE_INPUTS   Real3 NAME_base(ShadingPoint p, Lit lit, inputs): the light that a surface shows
-//   besides
-//                      that of the scene's lights
+//   NAME_BASE_INPUTS   Real3 NAME_base(ShadingPoint p, real occlusion, Lit lit, inputs): the light that a
+//                      surface shows besides that of the scene's lights. occlusion: the part of light from
+//                      all sides that its occlusion map leaves
 //   NAME_REACH_INPUTS  real NAME_reach(LightIndex light, Real3 point, Real3 to_light, inputs): the part of a
 //                      light, 0 to 1, that passes to a point of a surface (light_reaches in
 //                      shared/light_table.h). light: its place among point and spot lights; directional ones

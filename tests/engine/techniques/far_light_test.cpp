@@ -282,7 +282,7 @@ TEST(FarLight, LeavesOutLightsOfAGroup) {
                         render(s.scene, view, "visibility", with_far_light(0, 2))));
 }
 
-// far_albedo against the integral of the BRDF's own formula in double, over half vectors drawn by its
+// lobe_albedo against the integral of the BRDF's own formula in double, over half vectors drawn by its
 // distribution.
 TEST(FarLight, AlbedoIsThatOfTheLobe) {
   double squares = 0;
@@ -311,7 +311,7 @@ TEST(FarLight, AlbedoIsThatOfTheLobe) {
         }
       }
       const Lobe lobe{float(alpha), float(a2), float(n_dot_v), 0};
-      const Real3 albedo = far_albedo(lobe);
+      const Real3 albedo = lobe_albedo(lobe);
       const double apart = albedo.x + albedo.y - (base + rim);
       EXPECT_LT(std::abs(apart), 0.1) << roughness << " " << n_dot_v;
       EXPECT_LT(std::abs(albedo.y - rim), 0.1) << roughness << " " << n_dot_v;

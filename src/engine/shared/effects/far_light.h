@@ -2,19 +2,12 @@
 // added to every surface by one lookup (docs/far_light.md).
 //
 // A range's window w(d) takes a part of each light's 1 / d^2 away. The rest, (1 - w(d)) / d^2, is smooth: it
-// grows with d^2 towards the range and is nowhere above 1 / range^2. A sample stores, of all lights i, E_i =
-// intensity_i (1 - w_i(d_i)) / d_i^2 and the moments of their directions l_i
-//
-//     V = sum E_i l_i     T = sum E_i l_i l_i^T        for red, green and blue
-//
-// which are spherical harmonics of order 2 in another basis; sum E_i is T's trace. From them follow the
-// irradiance on a diffuse surface, sum E_i max(n.l_i, 0) ~ sum E_i (3/32 + n.l_i / 2 + 15/32 (n.l_i)^2), to
-// 3/32 E_i at most (Ramamoorthi and Hanrahan, An Efficient Representation for Irradiance Environment Maps,
-// 2001), and what a specular lobe takes in.
+// grows with d^2 towards the range and is nowhere above 1 / range^2. A sample stores the moments
+// (shared/light_moments.h) of E_i = intensity_i (1 - w_i(d_i)) / d_i^2 of all lights i.
 #pragma once
 
-#include "shared/brdf.h"
 #include "shared/inputs.h"
+#include "shared/light_moments.h"
 #include "shared/volume_place.h"
 
 // Vectors of four floats a sample, each a plane of the volume: of red x, y, z, xx; yy, zz, xy, xz; then of
@@ -56,68 +49,6 @@ typedef struct FarGrid {
 } FarGrid;
 #endif
 
-// Moments of one colour's light along the world's axes; or the factors of each in a sum.
-SHARED_STRUCT(FarMoments) { real x, y, z, xx, yy, zz, xy, xz, yz; };
-SHARED_STRUCT(FarLight) { FarMoments red, green, blue; };
-
-SHARED_FUNCTION FarMoments add_moments(FarMoments m, real weight, FarMoments more) {
-  FarMoments sum;
-  sum.x = mad_real(weight, more.x, m.x);
-  sum.y = mad_real(weight, more.y, m.y);
-  sum.z = mad_real(weight, more.z, m.z);
-  sum.xx = mad_real(weight, more.xx, m.xx);
-  sum.yy = mad_real(weight, more.yy, m.yy);
-  sum.zz = mad_real(weight, more.zz, m.zz);
-  sum.xy = mad_real(weight, more.xy, m.xy);
-  sum.xz = mad_real(weight, more.xz, m.xz);
-  sum.yz = mad_real(weight, more.yz, m.yz);
-  return sum;
-}
-
-// For each light E, with t = direction.l: E (mean + first t + second t^2).
-SHARED_FUNCTION FarMoments far_factors(Real3 direction, real mean, real first, real second) {
-  Real3 scaled = scale3(direction, second), twice = scale3(scaled, REAL(2.0f));
-  FarMoments f;
-  f.x = first * direction.x;
-  f.y = first * direction.y;
-  f.z = first * direction.z;
-  f.xx = mad_real(scaled.x, direction.x, mean);
-  f.yy = mad_real(scaled.y, direction.y, mean);
-  f.zz = mad_real(scaled.z, direction.z, mean);
-  f.xy = twice.x * direction.y;
-  f.xz = twice.x * direction.z;
-  f.yz = twice.y * direction.z;
-  return f;
-}
-
-// At least 0, which a few lights' second order may fall short of.
-SHARED_FUNCTION real far_sum(FarMoments m, FarMoments f) {
-  real of_axes = mad_real(m.xx, f.xx, mad_real(m.yy, f.yy, m.zz * f.zz));
-  real across = mad_real(m.xy, f.xy, mad_real(m.xz, f.xz, m.yz * f.yz));
-  return max_real(mad_real(m.x, f.x, mad_real(m.y, f.y, m.z * f.z)) + (of_axes + across), REAL(0.0f));
-}
-
-SHARED_FUNCTION Real3 far_sums(FarLight light, FarMoments f) {
-  return real3(far_sum(light.red, f), far_sum(light.green, f), far_sum(light.blue, f));
-}
-
-#ifndef LAMBERT
-// A lobe with Schlick's Fresnel sends f0 times x and f90 times y of the light from all sides to the viewer; z
-// is the mean cosine of that light around the lobe's middle. Fitted to GGX with height-correlated masking.
-SHARED_FUNCTION Real3 far_albedo(Lobe l) {
-  real a = l.alpha, v = min_real(l.n_dot_v, REAL(1.0f)), grazing = 1.0f - v;
-  real once = mad_real(mad_real(REAL(-0.135f), v, REAL(1.2844f)), v, REAL(-1.0567f));
-  real twice = mad_real(mad_real(REAL(3.0227f), v, REAL(-7.5007f)), v, REAL(2.515f));
-  real thrice = mad_real(mad_real(REAL(-2.3452f), v, REAL(5.1581f)), v, REAL(-1.6123f));
-  real both = mad_real(mad_real(mad_real(thrice, a, twice), a, once), a, REAL(1.0f));
-  real grazing2 = grazing * grazing;
-  real rim = grazing2 * grazing2 * grazing / mad_real(mad_real(REAL(20.0f), a, REAL(8.0f)), a, REAL(1.0f));
-  return real3(
-      both - rim, rim,
-      mad_real(mad_real(mad_real(REAL(0.1745f), a, REAL(0.1341f)), a, REAL(-0.7023f)), a, REAL(1.0f)));
-}
-#endif
-
 #ifdef EFFECT_FAR_LIGHT  // in light loops
 // Clamped to the volume.
 SHARED_FUNCTION Real3 far_place(Real3 p FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
@@ -133,16 +64,16 @@ SHARED_FUNCTION Real3 far_direction(Real3 d FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) 
 }
 
 #ifdef __OPENCL_VERSION__
-static inline FarMoments stored_moments(float4 a, float4 b, float yz) {
-  const FarMoments m = {REAL(a.x), REAL(a.y), REAL(a.z), REAL(a.w), REAL(b.x),
-                        REAL(b.y), REAL(b.z), REAL(b.w), REAL(yz)};
+static inline LightMoments stored_moments(float4 a, float4 b, float yz) {
+  const LightMoments m = {REAL(a.x), REAL(a.y), REAL(a.z), REAL(a.w), REAL(b.x),
+                          REAL(b.y), REAL(b.z), REAL(b.w), REAL(yz)};
   return m;
 }
 
 // Adds the eight samples of the cell that begins at `at`, interpolated at x, y and z from 0 to 1. weight: 1
 // in the lanes of that cell, 0 in others.
-static inline FarLight add_far_cell(FarLight sum, real weight, real x, real y, real z,
-                                    global const float4* at, size_t row, size_t slice, size_t samples) {
+static inline LightSums add_far_cell(LightSums sum, real weight, real x, real y, real z,
+                                     global const float4* at, size_t row, size_t slice, size_t samples) {
   for (uint corner = 0; corner < 8; ++corner) {
     const bool right = (corner & 1) != 0, up = (corner & 2) != 0, behind = (corner & 4) != 0;
     const real share = weight * (right ? x : 1.0f - x) * ((up ? y : 1.0f - y) * (behind ? z : 1.0f - z));
@@ -156,7 +87,7 @@ static inline FarLight add_far_cell(FarLight sum, real weight, real x, real y, r
 }
 
 // Zeros in lanes that are not `lit`.
-static inline FarLight far_light_at(Real3 position, mask_t lit FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
+static inline LightSums far_light_at(Real3 position, mask_t lit FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
   const Real3 place = far_place(position FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
   const size_t row = (size_t)FAR(last_x) + 1, slice = row * ((size_t)FAR(last_y) + 1),
                samples = slice * ((size_t)FAR(last_z) + 1);
@@ -165,7 +96,7 @@ static inline FarLight far_light_at(Real3 position, mask_t lit FAR_LIGHT_BASE_IN
              y0 = lane_min(floor(place.y), REAL(FAR(last_y) - 1.0f)),
              z0 = lane_min(floor(place.z), REAL(FAR(last_z) - 1.0f));
   const real x = place.x - x0, y = place.y - y0, z = place.z - z0;
-  FarLight sum = {{0}};
+  LightSums sum = {{0}};
 #if LANES == 16
   // The pixels' cells one after the other: neighbours are mostly in one.
   const whole cell = TO_WHOLE(x0) + TO_WHOLE(y0) * (whole)((int)row) + TO_WHOLE(z0) * (whole)((int)slice);
@@ -185,81 +116,48 @@ static inline FarLight far_light_at(Real3 position, mask_t lit FAR_LIGHT_BASE_IN
 }
 #else
 // Interpolated by the sampler.
-FarLight far_light_at(vec3 position, bool lit) {
+LightSums far_light_at(vec3 position, bool lit) {
   vec3 place = far_place(position) + 0.5;
   vec3 size = vec3(textureSize(far_moments, 0));
   vec4 m[FAR_PLANES];
   for (int plane = 0; plane < FAR_PLANES; ++plane)
     m[plane] =
         textureLod(far_moments, vec3(place.xy, place.z + float(plane) * (FAR(last_z) + 1.0)) / size, 0.0);
-  FarLight light;
-  light.red = FarMoments(m[0].x, m[0].y, m[0].z, m[0].w, m[1].x, m[1].y, m[1].z, m[1].w, m[6].x);
-  light.green = FarMoments(m[2].x, m[2].y, m[2].z, m[2].w, m[3].x, m[3].y, m[3].z, m[3].w, m[6].y);
-  light.blue = FarMoments(m[4].x, m[4].y, m[4].z, m[4].w, m[5].x, m[5].y, m[5].z, m[5].w, m[6].z);
+  LightSums light;
+  light.red = LightMoments(m[0].x, m[0].y, m[0].z, m[0].w, m[1].x, m[1].y, m[1].z, m[1].w, m[6].x);
+  light.green = LightMoments(m[2].x, m[2].y, m[2].z, m[2].w, m[3].x, m[3].y, m[3].z, m[3].w, m[6].y);
+  light.blue = LightMoments(m[4].x, m[4].y, m[4].z, m[4].w, m[5].x, m[5].y, m[5].z, m[5].w, m[6].z);
   return light;
 }
 #endif
 
 #ifndef LAMBERT
 // The radiance that a lobe takes in, averaged over its directions.
-SHARED_FUNCTION Real3 far_radiance(FarLight light, Lobe l, Real3 normal, Real3 to_viewer,
+SHARED_FUNCTION Real3 far_radiance(LightSums light, Lobe l, Real3 normal, Real3 to_viewer,
                                    real mean_cosine FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
-  // From the mirrored direction of a smooth surface to the normal of a rough one.
-  real smoothness = max_real(1.0f - l.alpha, REAL(0.0f)), twice = 2.0f * dot3(normal, to_viewer);
-  real along = mad_real(smoothness, twice, 1.0f - smoothness);
-  Real3 middle = real3(mad_real(along, normal.x, -(smoothness * to_viewer.x)),
-                       mad_real(along, normal.y, -(smoothness * to_viewer.y)),
-                       mad_real(along, normal.z, -(smoothness * to_viewer.z)));
-  middle = scale3(middle, inverse_sqrt_real(max_real(dot3(middle, middle), REAL(1e-12f))));
   real a = l.alpha;
   real order2 =
       mad_real(mad_real(mad_real(REAL(0.2217f), a, REAL(0.5692f)), a, REAL(-1.6407f)), a, REAL(1.0f));
   real sphere = REAL(0.25f / SHADING_PI);
-  Real3 direction = far_direction(middle FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
-  return far_sums(light, far_factors(direction, sphere * mad_real(REAL(-2.5f), order2, REAL(1.0f)),
-                                     sphere * 3.0f * mean_cosine, sphere * 7.5f * order2));
+  Real3 direction = far_direction(lobe_middle(l, normal, to_viewer) FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
+  return moment_sums(light, moment_factors(direction, sphere * mad_real(REAL(-2.5f), order2, REAL(1.0f)),
+                                           sphere * 3.0f * mean_cosine, sphere * 7.5f * order2));
 }
 #endif
 
 // The radiance that a surface reflects of the light at its place.
 SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p,
-                                            FarLight light FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
+                                            LightSums light FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
   Real3 normal = far_direction(p.normal FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
-  Real3 irradiance =
-      far_sums(light, far_factors(normal, REAL(3.0f / 32.0f), REAL(0.5f), REAL(15.0f / 32.0f)));
-#ifdef LAMBERT
-  Real3 diffuse = DIFFUSE_INTEGRAL(p, 1.0f);
-#else
-  // Fresnel's term of the diffuse part, averaged over light from all sides.
-  real grazing = max_real(1.0f - p.lobe.n_dot_v, REAL(0.0f));
-  real facing = mad_real(REAL(-0.014f) * (grazing * grazing), 1.0f + grazing, REAL(1.0f));
-#ifdef SPECULAR
-  Real3 diffuse = DIFFUSE_INTEGRAL(p, mad_real(facing, p.diffuse_facing, p.diffuse_always));
-#else
-  Real3 diffuse = DIFFUSE_INTEGRAL(p, facing);
-#endif
-#endif
-  Real3 back = real3(diffuse.x * irradiance.x, diffuse.y * irradiance.y, diffuse.z * irradiance.z);
-#ifdef SKIN
-  Real3 all_sides = far_sums(light, far_factors(normal, REAL(0.25f / SHADING_PI), REAL(0.0f), REAL(0.0f)));
-  Real3 subsurface = SUBSURFACE_REFLECTANCE(p);
-  back =
-      add3(back, real3(subsurface.x * all_sides.x, subsurface.y * all_sides.y, subsurface.z * all_sides.z));
-#endif
+  Real3 back = diffuse_of_moments(p, light, normal);
 #ifndef LAMBERT
-  Real3 albedo = far_albedo(p.lobe);
+  Real3 albedo = lobe_albedo(p.lobe);
   Real3 radiance =
       far_radiance(light, p.lobe, p.normal, p.to_viewer, albedo.z FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
-#ifdef SPECULAR
-  real rim = p.f90 * albedo.y;
-#else
-  real rim = albedo.y;
-#endif
-  back = add3(
-      back, real3(mad_real(p.f0.x, albedo.x, rim) * radiance.x, mad_real(p.f0.y, albedo.x, rim) * radiance.y,
-                  mad_real(p.f0.z, albedo.x, rim) * radiance.z));
+  Real3 share = specular_albedo(p, albedo);
+  back = add3(back, real3(share.x * radiance.x, share.y * radiance.y, share.z * radiance.z));
 #ifdef CLEARCOAT
-  Real3 of_coat = far_albedo(p.coat_lobe);
+  Real3 of_coat = lobe_albedo(p.coat_lobe);
   Real3 coat = far_radiance(light, p.coat_lobe, p.coat_normal, p.to_viewer,
                             of_coat.z FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
   back = add3(UNDER_COAT(p, back), scale3(coat, p.coat * (of_coat.x + of_coat.y)));
@@ -269,21 +167,22 @@ SHARED_FUNCTION Real3 radiance_of_far_light(ShadingPoint p,
 }
 
 // The light that a surface shows besides point and spot lights.
-SHARED_FUNCTION Real3 far_light_base(ShadingPoint p, Lit lit FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
-  FarLight light = far_light_at(p.position, lit FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
+SHARED_FUNCTION Real3 far_light_base(ShadingPoint p, real occlusion,
+                                     Lit lit FAR_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
+  LightSums light = far_light_at(p.position, lit FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
   return radiance_of_far_light(p, light FAR_LIGHT_BASE_INPUTS(PASSED_INPUT));
 }
 
 #elif defined( \
     __OPENCL_VERSION__)  // in the kernels that fill the volume, after kernels/common/light_columns.h
 // The sum over all lights in their order, whatever the device.
-static inline FarLight far_light_of(const LightColumns* lights, uint count, Real3 position) {
-  FarLight sum = {{0}};
+static inline LightSums far_light_of(const LightColumns* lights, uint count, Real3 position) {
+  LightSums sum = {{0}};
   for (uint i = 0; i < count; ++i) {
     const PunctualLight light = light_at(lights, i);
     const Arrival arrival = arrival_beyond(position, light);
     const Real3 l = arrival.to_light;
-    const FarMoments v = {l.x, l.y, l.z, l.x * l.x, l.y * l.y, l.z * l.z, l.x * l.y, l.x * l.z, l.y * l.z};
+    const LightMoments v = {l.x, l.y, l.z, l.x * l.x, l.y * l.y, l.z * l.z, l.x * l.y, l.x * l.z, l.y * l.z};
     sum.red = add_moments(sum.red, arrival.attenuation * light.color.x, v);
     sum.green = add_moments(sum.green, arrival.attenuation * light.color.y, v);
     sum.blue = add_moments(sum.blue, arrival.attenuation * light.color.z, v);
@@ -298,11 +197,11 @@ static inline FarLight far_light_of(const LightColumns* lights, uint count, Real
 #endif
 
 // Stores the moments of lane i in the planes, at sample `at` of `samples`.
-static inline void store_far_light(const FarLight* f, uint i, global float4* moments, size_t at,
+static inline void store_far_light(const LightSums* f, uint i, global float4* moments, size_t at,
                                    size_t samples) {
-  const FarMoments* const colors[3] = {&f->red, &f->green, &f->blue};
+  const LightMoments* const colors[3] = {&f->red, &f->green, &f->blue};
   for (uint c = 0; c < 3; ++c) {
-    const FarMoments* m = colors[c];
+    const LightMoments* m = colors[c];
     moments[2 * c * samples + at] =
         (float4)(FAR_LANE(m->x, i), FAR_LANE(m->y, i), FAR_LANE(m->z, i), FAR_LANE(m->xx, i));
     moments[(2 * c + 1) * samples + at] =
