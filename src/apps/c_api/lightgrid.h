@@ -152,9 +152,9 @@ const char* lightgrid_device_opengl(const lightgrid_device* device);
 /* ---- Scenes ---- */
 
 /* A null-terminated array of "NAME=VALUE" is named `fields` here, or null for none. Those of a scene are the
- * command line's options of that name: size, lights, camera, lights-file, light-radius, ambient, shadows,
- * virtual-lights, virtual-from, virtual-nearest, seed, brdf, time, exposure, files, image-memory,
- * texture-size, light-motion, camera-path (docs/command_line.md). */
+ * command line's options of that name: size, lights, camera, lights-file, light-radius, ambient,
+ * environment, shadows, virtual-lights, virtual-from, virtual-nearest, seed, brdf, time, exposure, files,
+ * image-memory, texture-size, light-motion, camera-path (docs/command_line.md). */
 
 /* `name`: a built-in scene, or the path of a .gltf or .glb file. */
 lightgrid_status lightgrid_scene_load(const char* name, const char* const* fields, lightgrid_scene** scene);

@@ -101,9 +101,9 @@ class SceneFrames {
 bool chooses_scene(const SceneChoice& o) {
   const SceneChoice plain;
   return !o.scene.empty() || !o.camera_path.empty() || !o.camera.empty() || !o.lights_file.empty() ||
-         !o.light_radius.empty() || o.virtual_lights > 0 || !o.ambient.empty() || !o.shadows.empty() ||
-         !o.time.empty() || o.lights >= 0 || o.size != plain.size || o.seed != plain.seed ||
-         o.light_motion != plain.light_motion;
+         !o.light_radius.empty() || o.virtual_lights > 0 || !o.ambient.empty() || !o.environment.empty() ||
+         !o.shadows.empty() || !o.time.empty() || o.lights >= 0 || o.size != plain.size ||
+         o.seed != plain.seed || o.light_motion != plain.light_motion;
 }
 
 // Null: none was chosen.

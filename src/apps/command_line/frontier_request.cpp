@@ -120,6 +120,7 @@ std::string request_of(const FrontierCommand& o, const std::vector<ChosenPoint>&
                             {"seed", s.seed},
                             {"views", o.views}};
   if (!s.ambient.empty()) request["ambient"] = s.ambient;
+  if (!s.environment.empty()) request["environment"] = s.environment;
   if (s.virtual_lights > 0) request["virtual"] = {s.virtual_lights, s.virtual_from, s.virtual_nearest};
   if (!s.shadows.empty()) request["shadows"] = s.shadows;
   if (!s.exposure.empty()) request["exposure"] = s.exposure;

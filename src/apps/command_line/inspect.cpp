@@ -94,6 +94,7 @@ Subject load_frame(const SceneChoice& o) {
                                                 {"--light-radius", !o.light_radius.empty()},
                                                 {"--virtual-lights", o.virtual_lights > 0},
                                                 {"--ambient", !o.ambient.empty()},
+                                                {"--environment", !o.environment.empty()},
                                                 {"--shadows", !o.shadows.empty()}};
   for (const auto& [option, is_given] : given) {
     if (is_given) throw input_error("{}: {} is a captured frame, which has its own", option, o.scene);

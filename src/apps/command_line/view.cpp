@@ -34,6 +34,7 @@ std::string scene_words(const ViewOptions& o) {
   if (!s.virtual_from.empty()) words += " --virtual-from " + s.virtual_from;
   if (!s.virtual_nearest.empty()) words += " --virtual-nearest " + s.virtual_nearest;
   if (!s.ambient.empty()) words += " --ambient " + shell_word(s.ambient);
+  if (!s.environment.empty()) words += " --environment " + shell_word(s.environment);
   if (((s.lights >= 0 && s.lights_file.empty()) || s.virtual_lights > 0) && s.seed != SceneChoice().seed)
     words += fmt::format(" --seed {}", s.seed);
   if (!s.exposure.empty()) words += " --exposure " + s.exposure;

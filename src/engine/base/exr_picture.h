@@ -1,4 +1,4 @@
-// Pictures of other programs as EXR files.
+// Pictures of other programs as EXR or HDR files.
 #pragma once
 
 #include <filesystem>
@@ -11,5 +11,9 @@ namespace lightgrid {
 // stay. Throws Error(input) that names the file unless it is an EXR of rows with one part, of this size, that
 // has these channels, and at most 16.
 Image load_exr_picture(const std::filesystem::path& path, int width, int height);
+
+// A picture of linear radiance by the extension, .hdr or .exr, with at most 8192 pixels along each side, as
+// above. Throws Error(input) that names the file.
+Image load_radiance_picture(const std::filesystem::path& path);
 
 }  // namespace lightgrid

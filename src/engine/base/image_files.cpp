@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <png.h>
+#include <stb_image.h>
 #include <tinyexr.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cassert>
 #include <cctype>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -19,6 +21,10 @@
 
 namespace lightgrid {
 namespace {
+
+// Of pictures of any size that are read.
+constexpr int max_picture_side = 8192;
+constexpr size_t max_picture_bytes = size_t(1) << 30;
 
 struct Palette {
   std::vector<png_color> colours;
@@ -152,12 +158,13 @@ void save_exr(const std::filesystem::path& path, int width, int height,
   write_file(path, bytes);
 }
 
-// As load_exr; `halves`: channels of 16 bits become floats.
-static std::vector<ExrChannel> read_exr(const std::filesystem::path& path, int width, int height,
+// As load_exr; `halves`: channels of 16 bits become floats. A width of 0: both become those of the file.
+static std::vector<ExrChannel> read_exr(const std::filesystem::path& path, int& width, int& height,
                                         bool halves) {
   constexpr int max_channels = 16;
-  const size_t pixels = size_t(width) * size_t(height);
-  const std::string text = read_small_file(path, (pixels * max_channels + (1 << 20)) * 4, "an EXR file");
+  const size_t most =
+      width > 0 ? (size_t(width) * size_t(height) * max_channels + (1 << 20)) * 4 : max_picture_bytes;
+  const std::string text = read_small_file(path, most, "an EXR file");
   const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
   const auto require = [&](bool good, const std::string& what) {
     if (!good) throw input_error("{}: {}", path.string(), what);
@@ -182,6 +189,14 @@ static std::vector<ExrChannel> read_exr(const std::filesystem::path& path, int w
   require(ParseEXRHeaderFromMemory(&read.header, &version, bytes, text.size(), &why) == TINYEXR_SUCCESS,
           "its header is broken");
   const EXRBox2i box = read.header.data_window;
+  if (width == 0) {
+    require(box.min_x == 0 && box.min_y == 0 && box.max_x < max_picture_side && box.max_y < max_picture_side,
+            fmt::format("its pixels are {},{} to {},{}: they begin at 0,0 and end before {}", box.min_x,
+                        box.min_y, box.max_x, box.max_y, max_picture_side));
+    width = box.max_x + 1;
+    height = box.max_y + 1;
+  }
+  const size_t pixels = size_t(width) * size_t(height);
   require(box.min_x == 0 && box.min_y == 0 && box.max_x == width - 1 && box.max_y == height - 1,
           fmt::format("has another size: pixels {},{} to {},{}, not 0,0 to {},{}", box.min_x, box.min_y,
                       box.max_x, box.max_y, width - 1, height - 1));
@@ -208,7 +223,8 @@ std::vector<ExrChannel> load_exr(const std::filesystem::path& path, int width, i
   return read_exr(path, width, height, false);
 }
 
-Image load_exr_picture(const std::filesystem::path& path, int width, int height) {
+// A width of 0: of any size.
+static Image read_exr_picture(const std::filesystem::path& path, int width, int height) {
   const std::vector<ExrChannel> channels = read_exr(path, width, height, true);
   Image image(width, height);
   std::string names;
@@ -224,6 +240,38 @@ Image load_exr_picture(const std::filesystem::path& path, int width, int height)
   }
   for (glm::vec4& pixel : image.pixels) pixel.a = 1;
   return image;
+}
+
+Image load_exr_picture(const std::filesystem::path& path, int width, int height) {
+  return read_exr_picture(path, width, height);
+}
+
+static Image read_hdr_picture(const std::filesystem::path& path) {
+  const std::string text = read_small_file(path, max_picture_bytes, "an HDR file");
+  const auto* bytes = reinterpret_cast<const stbi_uc*>(text.data());
+  int width = 0, height = 0, channels = 0;
+  const auto fail = [&](const std::string& what) { throw input_error("{}: {}", path.string(), what); };
+  if (!stbi_is_hdr_from_memory(bytes, int(text.size()))) fail("is not an HDR file");
+  if (!stbi_info_from_memory(bytes, int(text.size()), &width, &height, &channels) ||
+      width > max_picture_side || height > max_picture_side)
+    fail(fmt::format("its header is broken, or a side has more than {} pixels", max_picture_side));
+  const std::unique_ptr<float, void (*)(void*)> pixels(
+      stbi_loadf_from_memory(bytes, int(text.size()), &width, &height, &channels, 3), stbi_image_free);
+  if (!pixels) fail(fmt::format("its pixels are broken: {}", stbi_failure_reason()));
+  Image image(width, height);
+  for (int row = 0; row < height; ++row) {
+    const float* from = pixels.get() + size_t(height - 1 - row) * size_t(width) * 3;
+    for (int column = 0; column < width; ++column)
+      image.at(column, row) = {from[3 * column], from[3 * column + 1], from[3 * column + 2], 1};
+  }
+  return image;
+}
+
+Image load_radiance_picture(const std::filesystem::path& path) {
+  const auto extension = extension_of(path);
+  if (extension == ".hdr") return read_hdr_picture(path);
+  if (extension == ".exr") return read_exr_picture(path, 0, 0);
+  throw input_error("{}: radiance is read from .hdr or .exr, not \"{}\"", path.string(), extension);
 }
 
 void check_image_path(const std::filesystem::path& path) {

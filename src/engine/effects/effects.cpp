@@ -2,9 +2,9 @@
 
 namespace lightgrid {
 
-extern const Effect far_light, light_groups;
+extern const Effect environment_light, far_light, light_groups;
 
-static constexpr const Effect* effects[] = {&far_light, &light_groups};
+static constexpr const Effect* effects[] = {&environment_light, &far_light, &light_groups};
 constinit const Effects all_effects = effects;
 
 // Lights are read with the effects' part in them (scene/effect_terms.h).

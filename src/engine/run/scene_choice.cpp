@@ -12,6 +12,7 @@
 #include "plan/settings/model.h"
 #include "plan/settings/picture.h"
 #include "scene/camera_path.h"
+#include "scene/environment_light.h"
 #include "scene/light_motion.h"
 #include "scene/light_rigs.h"
 #include "scene/lights_file.h"
@@ -159,6 +160,9 @@ const std::vector<ChoiceField>& choice_fields() {
       {"lights-file", "lights as JSON, instead of the scene's own", view, &SceneChoice::lights_file},
       {"light-radius", "range of scattered lights in metres, MIN,MAX", view, &SceneChoice::light_radius},
       {"ambient", "radiance from all sides instead of the scene's own; 0: none", view, &SceneChoice::ambient},
+      {"environment",
+       "light from surroundings in place of ambient light: an .hdr or .exr picture, sky, sky:COLOURS or none",
+       view, &SceneChoice::environment},
       {"shadows", "lights that cast shadows: the N most important, all or none (default: as the scene says)",
        view, &SceneChoice::shadows},
       {"virtual-lights", "adds N virtual point lights where surfaces reflect the others", view,
@@ -329,6 +333,10 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
     scene.lights = std::move(added.lights);
     scene.ambient = added.ambient;
   }
+  if (!choice.environment.empty()) {
+    scene.environment = parse_environment(choice.environment);
+    if (scene.environment) scene.ambient = glm::vec3(0);
+  }
   if (!choice.ambient.empty()) scene.ambient = glm::vec3(parse_ambient(choice.ambient));
   place_virtual_lights(scene, choice);
   if (const auto casters = chosen_casters(choice.shadows)) choose_shadow_casters(scene, *casters);
@@ -426,13 +434,15 @@ std::vector<LoadedView> load_views(const std::vector<SceneChoice>& choices) {
       loaded = &choice;
       own.lights = scene->lights;
       own.ambient = scene->ambient;
+      own.environment = scene->environment;
       of_file = collector.warnings();
     }
     const WarningCollector collector;
     scene->lights = own.lights;
     scene->ambient = own.ambient;
+    scene->environment = own.environment;
     const View view = choose_view(*scene, choice);
-    views.push_back({scene, view, scene->lights, scene->ambient, of_file});
+    views.push_back({scene, view, scene->lights, scene->ambient, scene->environment, of_file});
     add_distinct(views.back().warnings, collector.warnings());
   }
   return views;

@@ -36,6 +36,7 @@ struct SceneChoice {
   std::string lights_file;
   std::string light_radius;
   std::string ambient;          // radiance from all sides; empty: the scene's own
+  std::string environment;      // light from surroundings (scene/environment_light.h); empty: the scene's own
   std::string shadows;          // lights that cast: a number, all or none; empty: those that the scene says
   int virtual_lights = 0;       // run/virtual_lights.h
   std::string virtual_from;     // lights that are reflected: a number, or all; empty: all
@@ -131,12 +132,14 @@ struct LoadedView {
   View view;
   std::vector<Light> lights;
   glm::vec3 ambient;
+  std::shared_ptr<const Environment> environment;
   std::vector<Warning> warnings;  // warnings of the file, the lights and the camera
 
   // The scene with this view's lights.
   Scene& with_lights() const {
     scene->lights = lights;
     scene->ambient = ambient;
+    scene->environment = environment;
     return *scene;
   }
 };

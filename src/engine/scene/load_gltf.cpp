@@ -4,6 +4,7 @@
 #include <new>
 
 #include "scene/animation.h"
+#include "scene/gltf/image_based_light.h"
 #include "scene/gltf/json.h"
 #include "scene/gltf/materials.h"
 #include "scene/gltf/nodes.h"
@@ -38,6 +39,8 @@ Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits&
           .lights = {}};
   Scene scene;
   scene.name = path.stem().string();
+  scene.environment = gltf::read_image_based_light(doc, gltf::chosen_scene(doc, scene_index));
+  if (scene.environment) scene.ambient = glm::vec3(0);
   gltf::apply_extras(doc, scene_index, scene);
   scene.materials = gltf::read_materials(doc, nodes);
   if (has_channels(rig)) rig.nodes = gltf::rig_nodes(doc, nodes);

@@ -165,7 +165,8 @@ struct Camera {
   int node = -1;  // node of the rig that moves it; -1: static
 };
 
-struct Rig;  // scene/rig.h
+struct Rig;          // scene/rig.h
+struct Environment;  // scene/environment_light.h
 
 struct Scene {
   std::string name;
@@ -178,8 +179,9 @@ struct Scene {
   std::vector<Camera> cameras;
   bool has_own_lights = false;  // its file has some, if only hidden ones: it is given no default lights
   glm::vec3 ambient{0.02f};     // constant radiance from all sides; occlusion maps darken it
-  glm::vec3 background{0};      // radiance without any surface
-  int samples = 1;              // samples per pixel that it requests: 1, 2, 4 or 8 (docs/samples.md)
+  std::shared_ptr<const Environment> environment;  // light from surroundings; null: none
+  glm::vec3 background{0};                         // radiance without any surface
+  int samples = 1;                       // samples per pixel that it requests: 1, 2, 4 or 8 (docs/samples.md)
   std::vector<std::string> group_names;  // names of light groups, by number; empty: it has none
   std::shared_ptr<const Rig> rig;        // moving parts; null: none. Copies of a scene share it
   std::optional<double> time_s;          // time of the pose, as last given to set_time; empty: at rest

@@ -53,6 +53,9 @@ class Writer {
 
  private:
   json scene_json() const {
+    if (scene_.environment)
+      throw input_error("{}: has light from surroundings, which is not written: export it without",
+                        scene_.name);
     json extras = {{"ambient", numbers(scene_.ambient)}, {"background", numbers(scene_.background)}};
     if (scene_.samples > 1) extras["samples"] = scene_.samples;
     return {{"name", scene_.name}, {"nodes", json::array()}, {"extras", {{"lightgrid", extras}}}};

@@ -94,6 +94,9 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
       // Points and sequences that have it by choice.
       {"src/laboratory/frontier/points.cpp", {"far_light"}},
       {"src/laboratory/verify/hunt_sequences.cpp", {"far_light"}},
+      // The option that names the picture, and files that have it.
+      {"src/engine/scene/gltf/image_based_light.cpp", {"environment_light"}},
+      {"src/engine/run/scene_choice.cpp", {"environment_light"}},
       // The scene has the names of groups, and lightgrid_light the mask.
       {"src/engine/scene/scene.h", {"light_groups"}},
       {"src/apps/c_api/scene.cpp", {"light_groups"}},

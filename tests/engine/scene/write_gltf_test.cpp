@@ -1,4 +1,5 @@
 #include "scene/write_gltf.h"
+#include "scene/environment_light.h"
 #include "scene/light_groups.h"
 
 #include <gmock/gmock.h>
@@ -170,6 +171,12 @@ TEST(WriteGltf, VirtualLightsAreRefused) {
   Light light;
   light.is_virtual = true;
   EXPECT_THAT(error_of([&] { glb_of(triangle_with(light)); }), HasSubstr("virtual lights"));
+}
+
+TEST(WriteGltf, LightFromSurroundingsIsRefused) {
+  Scene scene;
+  scene.environment = make_environment({"white", 1, 1, {glm::vec3(1)}});
+  EXPECT_THAT(error_of([&] { glb_of(scene); }), HasSubstr("light from surroundings"));
 }
 
 }  // namespace

@@ -90,7 +90,8 @@ std::vector<AnimationEntry> take_animations(const Reporter& report, json& root) 
 
 constexpr int max_nesting = 64;  // the format itself needs about 10
 
-constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing",
+constexpr const char* supported_extensions[] = {"EXT_lights_image_based",
+                                                "EXT_mesh_gpu_instancing",
                                                 "EXT_meshopt_compression",
                                                 "EXT_texture_webp",
                                                 "KHR_animation_pointer",

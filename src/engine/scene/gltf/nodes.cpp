@@ -7,6 +7,16 @@
 #include "scene/pose.h"
 
 namespace lightgrid::gltf {
+
+int chosen_scene(const Document& doc, int scene) {
+  const tinygltf::Model& model = doc.model;
+  if (scene < 0) scene = model.defaultScene;
+  if (scene < 0 && !model.scenes.empty()) scene = 0;
+  if (scene >= 0 && static_cast<size_t>(scene) >= model.scenes.size())
+    throw doc.error("scene {} was requested, but there are {}", scene, model.scenes.size());
+  return scene;
+}
+
 namespace {
 
 void check_length(const Document& doc, const std::vector<double>& values, size_t length,
@@ -53,16 +63,6 @@ bool is_visible(const Document& doc, const tinygltf::Node& node, const std::stri
   const tinygltf::Value& visible = extension->Get("visible");
   if (!visible.IsBool()) throw doc.error("{}: KHR_node_visibility.visible is neither true nor false", place);
   return visible.Get<bool>();
-}
-
-// -1: the file has no scenes.
-int chosen_scene(const Document& doc, int scene) {
-  const tinygltf::Model& model = doc.model;
-  if (scene < 0) scene = model.defaultScene;
-  if (scene < 0 && !model.scenes.empty()) scene = 0;
-  if (scene >= 0 && static_cast<size_t>(scene) >= model.scenes.size())
-    throw doc.error("scene {} was requested, but there are {}", scene, model.scenes.size());
-  return scene;
 }
 
 std::vector<int> roots_of(Document& doc, int scene) {

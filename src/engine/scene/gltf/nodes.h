@@ -29,6 +29,9 @@ struct PlacedNode {
 // a matrix that is not finite or not affine.
 std::vector<PlacedNode> place_nodes(Document& doc, int scene);
 
+// The number of that scene; -1: the file has no scenes. Errors: an index out of range.
+int chosen_scene(const Document& doc, int scene);
+
 // Sets the scene's samples, ambient and background, as far as that scene of the file has them.
 void apply_extras(const Document& doc, int scene_index, Scene& scene);
 

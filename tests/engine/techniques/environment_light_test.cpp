@@ -1,0 +1,200 @@
+// Light from surroundings: every technique against forward, pictures against the oracle and against values by
+// hand, and what it costs where there is none.
+#include "scene/environment_light.h"
+
+#include "accuracy/oracle_sample.h"
+#include "effects/effects.h"
+#include "plan/frame_plan.h"
+#include "plan/settings/kernels.h"
+#include "plan/settings/model.h"
+#include "support/small_scene.h"
+#include "techniques/rendering.h"
+
+namespace lightgrid {
+using namespace lab;
+namespace {
+
+std::shared_ptr<const Environment> constant(const glm::vec3& radiance) {
+  return make_environment({"constant", 1, 1, {radiance}});
+}
+
+// A sky with a bright patch towards +x, +z, which the ball mirrors.
+std::shared_ptr<const Environment> patched_sky() {
+  static const std::shared_ptr<const Environment> made = [] {
+    RadianceMap map{"patched", 64, 32, {}};
+    for (int row = 0; row < 32; ++row) {
+      for (int column = 0; column < 64; ++column) {
+        const bool patch = row >= 9 && row < 13 && column >= 38 && column < 44;
+        map.texels.push_back(patch      ? glm::vec3(20, 18, 15)
+                             : row < 16 ? glm::vec3(0.3f, 0.5f, 1)
+                                        : glm::vec3(0.2f, 0.15f, 0.1f));
+      }
+    }
+    return make_environment(map);
+  }();
+  return made;
+}
+
+void surround(Scene& scene, std::shared_ptr<const Environment> environment) {
+  scene.environment = std::move(environment);
+  scene.ambient = glm::vec3(0);
+}
+
+struct EnvironmentLightOf : testing::TestWithParam<const Technique*> {};
+
+TEST_P(EnvironmentLightOf, IsThatOfForward) {
+  if (GetParam()->approximate) GTEST_SKIP() << "draws another picture";
+  SmallScene s = small_scene();
+  for (const char* name : {"blend", "spot", "directional", "clearcoat", "occlusion_map"}) effect(name).add(s);
+  const View view = small_view(47, 31);
+  const Image without = render(s.scene, view, "forward");
+  surround(s.scene, patched_sky());
+  const Image forward = render(s.scene, view, "forward");
+  ASSERT_GT(compare_images(without, forward).max_rel, 0.05);
+  expect_close(s.scene, view, {}, forward, GetParam()->name, 1e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, EnvironmentLightOf, testing::ValuesIn(techniques()),
+                         [](const auto& info) { return std::string(info.param->name); });
+
+// Each material feature, and places that are hard: grazing views, smooth and rough surfaces, mirrored
+// instances. The bounds are those of Shading in oracle_test.cpp.
+struct EnvironmentInDouble : testing::TestWithParam<const char*> {};
+
+TEST_P(EnvironmentInDouble, IsThePicture) {
+  SmallScene s = small_scene();
+  const std::string name = GetParam();
+  Material& ball = s.scene.materials[size_t(s.ball_material)];
+  if (name == "smooth") ball.roughness = 0;
+  if (name == "rough") ball.roughness = 1;
+  if (name == "mirrored")
+    for (Instance& i : s.scene.instances)
+      i.world_from_object = i.world_from_object * glm::scale(glm::dmat4(1), glm::dvec3(-1, 1.3, 0.8));
+  const bool grazing = name == "grazing";
+  if (!std::ranges::count(std::vector<std::string>{"smooth", "rough", "mirrored", "grazing", "lambert"},
+                          name))
+    effect(name).add(s);
+  surround(s.scene, patched_sky());
+  const View view = grazing ? make_view(look_at({2.1, 0.1, -3.97}, {-2, -0.1, -4.02}), 160, 90)
+                            : make_view(look_at({0.5, 0.4, 0.3}, {0.1, -0.1, -4}), 160, 90);
+  Settings settings;
+  if (name == "lambert") settings.set(setting::brdf, Brdf::lambert);
+  for (const char* technique : {"forward", "visibility"}) {
+    SCOPED_TRACE(technique);
+    TechniqueRun run(test_devices(), s.scene, view, settings, find_technique(technique));
+    run.run_frame();
+    const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run), 4000);
+    RecordProperty(fmt::format("{}_{}", technique, name), fmt::format("{}", errors.precision.max_rel));
+    EXPECT_LT(errors.precision.max_rel, 2e-4);
+    EXPECT_LT(errors.precision.rmse, 1e-5 * brightest_channel(run.image()));
+    EXPECT_GT(errors.precision.max_abs, 0) << "float and double agree by no accident";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, EnvironmentInDouble,
+                         testing::Values("smooth", "rough", "mirrored", "grazing", "lambert", "clearcoat",
+                                         "clearcoat_maps", "skin", "minnaert", "specular", "normal_map",
+                                         "occlusion_map", "emissive_map"),
+                         [](const auto& info) { return std::string(info.param); });
+
+// A white diffuse surface reflects pi L / pi of constant radiance L, as it does of ambient light.
+TEST(EnvironmentLight, ConstantRadianceIsAmbientLightOnDiffuseSurfaces) {
+  SmallScene s = small_scene();
+  effect("occlusion_map").add(s);
+  s.scene.materials[size_t(s.wall_material)].base_color = glm::vec4(1);
+  const View view = small_view(47, 31);
+  const Settings lambert{{setting::brdf, Brdf::lambert}};
+  for (const char* technique : {"forward", "visibility", "deferred_tiled"}) {
+    s.scene.environment = nullptr;
+    s.scene.ambient = {0.6f, 0.5f, 0.4f};
+    const Image ambient = render(s.scene, view, technique, lambert);
+    surround(s.scene, constant({0.6f, 0.5f, 0.4f}));
+    EXPECT_LT(compare_images(render(s.scene, view, technique, lambert), ambient).max_rel, 2e-6);
+  }
+}
+
+// The wall faces +z, so its middle mirrors the viewer's surroundings behind him.
+TEST(EnvironmentLight, AMirrorShowsWhatIsBehindTheViewer) {
+  SmallScene s = small_scene(false);
+  s.scene.instances.resize(1);
+  Material& wall = s.scene.materials[size_t(s.wall_material)];
+  wall.metallic = 1;
+  wall.roughness = 0;
+  wall.base_color = glm::vec4(1);
+  // Columns look along -x-z, +x-z, +x+z and -x+z.
+  surround(s.scene, make_environment({"columns", 4, 1, {{0, 9, 0}, {0, 0, 9}, {9, 0, 0}, {9, 0, 0}}}));
+  for (const char* technique : {"forward", "visibility"}) {
+    const glm::vec4 seen = render(s.scene, small_view(31, 31), technique).at(15, 15);
+    EXPECT_NEAR(seen.r, 9, 0.05);
+    EXPECT_LT(seen.g, 1e-3);
+    EXPECT_LT(seen.b, 1e-3);
+  }
+}
+
+TEST(EnvironmentLight, BothShapesDrawTheSameBytes) {
+  SmallScene s = small_scene();
+  for (const char* name : {"blend", "clearcoat", "skin"}) effect(name).add(s);
+  surround(s.scene, patched_sky());
+  const auto picture = [&](KernelShape shape) {
+    return render(s.scene, small_view(47, 31), "visibility", {{setting::kernel_shape, shape}});
+  };
+  EXPECT_TRUE(identical(picture(KernelShape::lanes), picture(KernelShape::group)));
+}
+
+TEST(EnvironmentLight, HugeRadianceLeavesFinitePictures) {
+  SmallScene s = small_scene();
+  for (const char* name : {"blend", "clearcoat"}) effect(name).add(s);
+  surround(s.scene, constant(glm::vec3(1e30f)));
+  for (const char* technique : {"forward", "visibility"})
+    EXPECT_EQ(count_nan_pixels(render(s.scene, small_view(47, 31), technique)), 0u);
+}
+
+std::optional<Decision> decision_on(const Scene& scene) {
+  const FramePlan plan = plan_frame(scene, small_view(17, 9), {}, find_technique("visibility").needs);
+  const auto found = std::ranges::find(plan.decisions, std::string("environment light"), &Decision::effect);
+  return found == plan.decisions.end() ? std::nullopt : std::optional(*found);
+}
+
+TEST(EnvironmentLight, IsPlannedWhereItLightsASurface) {
+  SmallScene s = small_scene();
+  EXPECT_FALSE(decision_on(s.scene));
+  s.scene.environment = constant(glm::vec3(0.5f));
+  EXPECT_TRUE(decision_on(s.scene)->needed);
+  EXPECT_EQ(decision_on(s.scene)->why, "constant on material 0 \"plaster\" on node 0 \"wall\"");
+  s.scene.environment = constant(glm::vec3(0));
+  EXPECT_FALSE(decision_on(s.scene)->needed);
+  s.scene.environment = constant(glm::vec3(0.5f));
+  for (Material& material : s.scene.materials) material.unlit = true;
+  EXPECT_FALSE(decision_on(s.scene)->needed);
+}
+
+// A black sky is no light, also where the effect is turned on.
+TEST(EnvironmentLight, OfABlackSkyIsNothing) {
+  SmallScene s = small_scene();
+  s.scene.ambient = glm::vec3(0);
+  const View view = small_view(31, 23);
+  for (const char* technique : {"forward", "visibility"}) {
+    s.scene.environment = nullptr;
+    const Image without = render(s.scene, view, technique);
+    s.scene.environment = constant(glm::vec3(0));
+    EXPECT_TRUE(identical(render(s.scene, view, technique), without));
+    EXPECT_TRUE(identical(render(s.scene, view, technique, {{setting::everything_on, true}}), without));
+  }
+}
+
+// Another sky replaces the first one's tables; a camera that turns keeps them.
+TEST(EnvironmentLight, FollowsTheCameraAndTheScene) {
+  SmallScene s = small_scene();
+  surround(s.scene, patched_sky());
+  const View turned = make_view(look_at({0.4, 0.2, 0.5}, {0, 0, -4}), 31, 23);
+  for (const char* technique : {"forward_plus", "visibility"}) {
+    TechniqueRun run(test_devices(), s.scene, small_view(31, 23), {}, find_technique(technique));
+    run.run_frame();
+    run.view().look(turned);
+    run.run_frame();
+    EXPECT_TRUE(identical(run.image(), render(s.scene, turned, technique)));
+  }
+}
+
+}  // namespace
+}  // namespace lightgrid
