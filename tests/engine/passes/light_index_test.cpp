@@ -305,6 +305,12 @@ TEST(LightGroups, OfTwoSlotsHaveNoThreeThatTouchEachOther) {
   }
 }
 
+TEST(LightGroups, MayBeMoreThan64) {
+  const std::vector<LightExtent> extents(120, {glm::dvec3(-1), glm::dvec3(1), glm::dvec3(0), 1});
+  const auto groups = group_lights(extents, 100);
+  for (uint32_t i = 0; i < extents.size(); ++i) EXPECT_EQ(groups[i], i < 100 ? i : no_group);
+}
+
 TEST(LightGroups, OfStillLightsAreFoundOnce) {
   auto extents = random_extents(300, 6, true);
   std::vector<uint32_t> order(extents.size());
