@@ -4,6 +4,7 @@
 //   NORMALS_…: the format of normals; LIGHT_EXPONENT: the lights' shininess (shared/light_buffer.h)
 //   LIGHT_SCALE: a sum of this size is stored as 1
 //   PREPASS_FIFTH_TERM: there is a second image
+//   PREPASS_STORED: the exponent is that of the roughness next to the normal
 #include "shaders/common/per_sample.glsl"
 #include "shaders/common/position.glsl"
 #include "shared/light_buffer.h"
@@ -31,12 +32,19 @@ layout(location = 1) out vec2 weight_rim;
 layout(early_fragment_tests) in;
 #endif
 
-vec3 normal_of_pixel(ivec2 pixel) {
-  vec3 stored = texelFetch(normals, pixel, SAMPLE_HERE).xyz;
+vec3 normal_of_texel(vec4 stored) {
 #ifdef NORMAL_CHANNEL_STEPS
-  return normal_of_steps(floor(stored * NORMAL_CHANNEL_STEPS + 0.5));
+  return normal_of_steps(floor(stored.xyz * NORMAL_CHANNEL_STEPS + 0.5));
 #else
-  return stored;
+  return stored.xyz;
+#endif
+}
+
+float exponent_of_texel(vec4 stored) {
+#ifdef PREPASS_STORED
+  return shininess_of_roughness(stored.w);
+#else
+  return LIGHT_EXPONENT;
 #endif
 }
 
@@ -56,8 +64,9 @@ void main() {
   Arrival arrival = arrival_at(position, from);
   if (!(arrival.attenuation > 0.0)) discard;  // would add exact zeros
   arrival.attenuation *= light_reaches(from, position, arrival.to_light, surface);
-  LightTerms terms =
-      light_terms(normal_of_pixel(pixel), direction_to_viewer(position), arrival, from, LIGHT_EXPONENT);
+  vec4 stored = texelFetch(normals, pixel, SAMPLE_HERE);
+  LightTerms terms = light_terms(normal_of_texel(stored), direction_to_viewer(position), arrival, from,
+                                 exponent_of_texel(stored));
   diffuse_specular = vec4(terms.diffuse, terms.specular) * (1.0 / LIGHT_SCALE);
 #ifdef PREPASS_FIFTH_TERM
   weight_rim = vec2(terms.weight, terms.rim) * (1.0 / LIGHT_SCALE);

@@ -1,5 +1,6 @@
 // The prepass of light_prepass: depth, and the normal that lights meet.
 //   NORMALS_OCTAHEDRAL, NORMALS_SPHEREMAP, NORMALS_XYZ8: the format (shared/stored_normal.h); without, floats
+//   PREPASS_STORED: the fourth channel is the perceptual roughness
 #include "shaders/common/surface.glsl"
 #include "shared/stored_normal.h"
 
@@ -18,7 +19,11 @@ void main() {
 #ifdef NORMAL_CHANNEL_STEPS
   normal = steps_of_normal(normal) / NORMAL_CHANNEL_STEPS;
 #endif
+#ifdef PREPASS_STORED
+  stored = vec4(normal, roughness_metallic_here().x);
+#else
   stored = vec4(normal, 0.0);
+#endif
 #ifdef NUMBER_LOCATION
   surface_number = surface_number_of_draw;
 #endif

@@ -2,9 +2,11 @@
 //
 // -DBUFFER_BITS  8: fixed point, 16: half floats, 32: floats (default)
 // -DPREPASS_FIFTH_TERM  there is a second image
+// -DLIGHT_LUV  colours are stored as hue and luminance (shared/light_luv.h)
 #pragma once
 
 #include "shared/light_buffer.h"
+#include "shared/light_luv.h"
 
 #if BUFFER_BITS == 32
 typedef float light_channel_t;
@@ -29,6 +31,25 @@ static inline real stored_light(real sum, float inverse_scale, mask_t lit) {
 #endif
 }
 #define STORED(term) stored_light(term, inverse_scale, lit)
+
+// A colour's three channels.
+static inline Real3 stored_color(Real3 sum, float inverse_scale, mask_t lit) {
+#ifdef LIGHT_LUV
+  const Real3 luv = luv_of_light(real3(finite_light(sum.x), finite_light(sum.y), finite_light(sum.z)));
+  return real3(stored_light(luv.x, 1.0f, lit), stored_light(luv.y, 1.0f, lit), STORED(luv.z));
+#else
+  return real3(STORED(sum.x), STORED(sum.y), STORED(sum.z));
+#endif
+}
+
+// The same read again, with the buffer's scale.
+static inline Real3 read_color(Real3 stored, float scale) {
+#ifdef LIGHT_LUV
+  return light_of_luv(real3(stored.x, stored.y, stored.z * scale));
+#else
+  return scale3(stored, REAL(scale));
+#endif
+}
 
 // n values, as STORED() has them.
 #if BUFFER_BITS == 32

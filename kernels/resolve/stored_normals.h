@@ -1,4 +1,5 @@
 // The image of normals of light_prepass in OpenCL: four floats a pixel, or 32 bits (shared/stored_normal.h).
+// -DPREPASS_STORED: the fourth channel is the perceptual roughness, with NORMALS_XYZ8 in steps of 1/255.
 #pragma once
 
 #include "shared/stored_normal.h"
@@ -36,6 +37,16 @@ static inline Real3 unpacked_normal(packed_normal_t n) {
 #endif
 #else
 typedef float4 normal_t;
+#endif
+
+// The fourth channel of a texel.
+#ifdef NORMALS_XYZ8
+static inline packed_normal_t with_roughness(packed_normal_t normal, real roughness) {
+  return normal | WHOLE_STEPS(floor(lane_min(roughness, REAL(1.0f)) * 255.0f + 0.5f)) << 24;
+}
+#define ROUGHNESS_OF(texel) ((float)((texel) >> 24) * (1.0f / 255.0f))
+#else
+#define ROUGHNESS_OF(texel) ((texel).w)
 #endif
 
 #if LANES == 1

@@ -106,20 +106,23 @@ void add_specular(inout Surface s) {
 }
 #endif
 
+// Perceptual roughness and metalness.
+vec2 roughness_metallic_here() {
+  vec2 here = vec2(material.roughness, material.metallic);
+#ifdef METALLIC_ROUGHNESS_MAP
+  if (has(MATERIAL_METALLIC_ROUGHNESS_MAP)) here *= texture(metallic_roughness_map, uv_of(1u)).gb;
+#endif
+  return here;
+}
+
 Surface surface_here() {
   Surface s;
   vec4 color = material_base_color();
   s.base_color = color.rgb;
   s.alpha = color.a;
-  s.metallic = material.metallic;
-  s.roughness = material.roughness;
-#ifdef METALLIC_ROUGHNESS_MAP
-  if (has(MATERIAL_METALLIC_ROUGHNESS_MAP)) {
-    vec2 gb = texture(metallic_roughness_map, uv_of(1u)).gb;
-    s.roughness *= gb.x;
-    s.metallic *= gb.y;
-  }
-#endif
+  vec2 roughness_metallic = roughness_metallic_here();
+  s.roughness = roughness_metallic.x;
+  s.metallic = roughness_metallic.y;
   s.normal = shading_normal();
   s.occlusion = 1.0;
 #ifdef OCCLUSION_MAP

@@ -2,9 +2,11 @@
 //   LIGHT_EXPONENT, LIGHT_REFERENCE: LightBufferParams (shared/light_buffer.h)
 //   LIGHT_SCALE: a sum of this size is stored as 1
 //   PREPASS_FIFTH_TERM: there is a second image
+//   LIGHT_LUV: colours are stored as hue and luminance (shared/light_luv.h)
 //   SAMPLES: the image has so many a pixel; SAMPLES_IN_A_ROW: it has one, and a pixel's samples are texels
 //   beside one another
 #include "shared/light_buffer.h"
+#include "shared/light_luv.h"
 
 uniform frame_sampler2D light_buffer;
 #ifdef PREPASS_FIFTH_TERM
@@ -16,7 +18,11 @@ vec3 light_sum(ShadingPoint p) {
 #ifdef SAMPLES_IN_A_ROW
   pixel.x = pixel.x * SAMPLES + gl_SampleID;
 #endif
-  vec4 first = texelFetch(light_buffer, pixel, SAMPLE_HERE) * LIGHT_SCALE;
+  vec4 first = texelFetch(light_buffer, pixel, SAMPLE_HERE);
+#ifdef LIGHT_LUV
+  first.rgb = light_of_luv(first.rgb);
+#endif
+  first *= LIGHT_SCALE;
   LightTerms sums = no_terms();
   sums.diffuse = first.rgb;
   sums.specular = first.a;

@@ -8,7 +8,7 @@
 // scale          factor of its values
 // exponent, reference  LightBufferParams (shared/light_buffer.h)
 // image          out: RGBA per pixel
-// -DPREPASS_…, -DBUFFER_BITS, -DSAMPLES_APART (kernels/resolve/texel_places.h)
+// -DPREPASS_…, -DLIGHT_LUV, -DBUFFER_BITS, -DSAMPLES_APART (kernels/resolve/texel_places.h)
 #pragma once
 
 #include "kernels/resolve/light_sums.h"
@@ -37,7 +37,7 @@ STORE_RESOLVED {}
 static inline LightTerms stored_sums(const Output* output, const size_t* at) {
   float terms[6][16];
   for (uint i = 0; i < 16; ++i) {
-    const float4 t = LOAD_CHANNELS(4, at[i], output->first) * output->scale;
+    const float4 t = LOAD_CHANNELS(4, at[i], output->first);
     terms[0][i] = t.x;
     terms[1][i] = t.y;
     terms[2][i] = t.z;
@@ -49,8 +49,9 @@ static inline LightTerms stored_sums(const Output* output, const size_t* at) {
 #endif
   }
   LightTerms sums = no_terms();
-  sums.diffuse = real3(vload16(0, terms[0]), vload16(0, terms[1]), vload16(0, terms[2]));
-  sums.specular = vload16(0, terms[3]);
+  sums.diffuse =
+      read_color(real3(vload16(0, terms[0]), vload16(0, terms[1]), vload16(0, terms[2])), output->scale);
+  sums.specular = vload16(0, terms[3]) * output->scale;
 #ifdef PREPASS_FIFTH_TERM
   sums.weight = vload16(0, terms[4]);
   sums.rim = vload16(0, terms[5]);
@@ -60,9 +61,9 @@ static inline LightTerms stored_sums(const Output* output, const size_t* at) {
 #else
 static inline LightTerms stored_sums(const Output* output, const size_t* at) {
   LightTerms sums = no_terms();
-  const float4 t = LOAD_CHANNELS(4, *at, output->first) * output->scale;
-  sums.diffuse = real3(t.x, t.y, t.z);
-  sums.specular = t.w;
+  const float4 t = LOAD_CHANNELS(4, *at, output->first);
+  sums.diffuse = read_color(real3(t.x, t.y, t.z), output->scale);
+  sums.specular = t.w * output->scale;
 #ifdef PREPASS_FIFTH_TERM
   const float2 u = LOAD_CHANNELS(2, *at, output->second) * output->scale;
   sums.weight = u.x;

@@ -4,11 +4,14 @@
 // normals        row 0 at the bottom (shared/stored_normal.h)
 // sums           out: four channels for each sample, diffuse red, green, blue and the specular term
 // other_sums     out, only with -DPREPASS_FIFTH_TERM: two channels, the fifth term and the specular term's
-// rim exponent       the lights' specular exponent inverse_scale  factor of stored sums
+//                rim
+// exponent       the lights' specular exponent; not read with -DPREPASS_STORED
+// inverse_scale  factor of stored sums
 //
 // -DNORMALS_OCTAHEDRAL, -DNORMALS_SPHEREMAP, -DNORMALS_XYZ8  the format of normals; without, floats
 //
-// -DBUFFER_BITS, -DPREPASS_FIFTH_TERM  kernels/resolve/light_sums.h
+// -DPREPASS_STORED  the exponent is that of the roughness next to the normal
+// -DBUFFER_BITS, -DPREPASS_FIFTH_TERM, -DLIGHT_LUV  kernels/resolve/light_sums.h
 #pragma once
 
 #include "kernels/resolve/light_sums.h"
@@ -89,10 +92,22 @@ static inline void store_terms(const Stored* s, const StoredBatch* b, LightTerms
 }
 #endif
 
+#ifndef PREPASS_STORED
+#define exponents_at(s, b) REAL((s)->exponent)
+#elif LANES == 16
+static inline real exponents_at(const Stored* s, const StoredBatch* b) {
+  float roughness[16];
+  for (uint i = 0; i < 16; ++i) roughness[i] = ROUGHNESS_OF(s->normals[IMAGE_OF(b, i)]);
+  return shininess_of_roughness(vload16(0, roughness));
+}
+#else
+#define exponents_at(s, b) shininess_of_roughness(ROUGHNESS_OF((s)->normals[(b)->image]))
+#endif
+
 // A light that reaches none of the pixels, or that none of them faces, would add exact zeros.
 static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal, Real3 to_viewer,
                                     SurfaceValues surface, mask_t lit, uint index, const Lights* lights,
-                                    float exponent) {
+                                    real exponent) {
   const PunctualLight light = light_at(lights, index);
 #ifdef MET_BY_EFFECTS
   if (!any_lane(lit & effects_meet(&lights->reach, index, surface))) return sum;
@@ -105,13 +120,13 @@ static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal
 #if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
   if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
 #endif
-  return add_terms(sum, light_terms(normal, to_viewer, arrival, light, REAL(exponent)));
+  return add_terms(sum, light_terms(normal, to_viewer, arrival, light, exponent));
 }
 
 // In the order of the list.
 static inline LightTerms terms_of_list(Real3 position, Real3 normal, SurfaceValues surface, mask_t lit,
                                        global const index_t* list, uint count, PixelBins bins,
-                                       const Lights* lights, float exponent) {
+                                       const Lights* lights, real exponent) {
   const Real3 to_viewer = direction_to_viewer(position);
   LightTerms sum = no_terms();
   for (uint i = 0; i < count; ++i) {
@@ -132,10 +147,10 @@ static inline void shade(const Stored* s, const StoredBatch* b, SurfaceValues su
   if (count > 0 && any_lane(lit)) {
     const Real3 position = position_of_pixel(b->x, b->y, lit ? b->depth : REAL(1.0f), view);
     t = terms_of_list(position, normals_at(s->normals, b), surface, lit, list, count,
-                      bins_of_pixels(b->depth, lit, bin_edges), lights, s->exponent);
+                      bins_of_pixels(b->depth, lit, bin_edges), lights, exponents_at(s, b));
   }
   const float inverse_scale = s->inverse_scale;
-  const LightTerms stored = {real3(STORED(t.diffuse.x), STORED(t.diffuse.y), STORED(t.diffuse.z)),
-                             STORED(t.specular), STORED(t.weight), STORED(t.rim)};
+  const LightTerms stored = {stored_color(t.diffuse, inverse_scale, lit), STORED(t.specular),
+                             STORED(t.weight), STORED(t.rim)};
   store_terms(s, b, stored);
 }

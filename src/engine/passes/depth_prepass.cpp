@@ -67,6 +67,13 @@ static uint32_t features_of_normals(uint32_t features) {
   return features & read;
 }
 
+static uint32_t features_of_normals_and_roughness(uint32_t features) {
+  uint32_t read = 0;
+  if (features & feature_metallic_roughness_map)
+    read = feature_textured | feature_uv1 | feature_uv_transform | feature_metallic_roughness_map;
+  return features_of_normals(features) | (features & read);
+}
+
 NormalImage fill_normals(PassContext& work) {
   auto pass = work.timer.pass("fill_normals", "gl");
   const NormalImage normals = normal_image_of(work);
@@ -75,6 +82,8 @@ NormalImage fill_normals(PassContext& work) {
   glClearNamedFramebufferfv(normals.framebuffer, GL_COLOR, 0, nothing);
   std::vector<std::string> defines;
   if (normals.layout->define) defines.emplace_back(normals.layout->define);
+  const bool roughness = stores_roughness(work.plan.settings);
+  if (roughness) defines.emplace_back("PREPASS_STORED");
   if (normals.surface_numbers) {
     const GLuint number[4] = {0, 0, 0, 0};
     glClearNamedFramebufferuiv(normals.framebuffer, GL_COLOR, 1, number);
@@ -82,7 +91,7 @@ NormalImage fill_normals(PassContext& work) {
   }
   draw_masked(work, work.opaque, normals.framebuffer,
               work.programs({"shaders/scene.vert", "shaders/normals.frag", std::move(defines), false,
-                             features_of_normals}));
+                             roughness ? features_of_normals_and_roughness : features_of_normals}));
   pass.moves(work.gpu.in_gl().geometry_bytes(),
              work.grid().values() * (4 + normals.layout->image.bytes + surface_number_bytes(work.plan)));
   return normals;

@@ -21,6 +21,8 @@ std::string defines_of_light_buffer(const ViewState& seen, bool lanes) {
   defines += fmt::format(" -DBUFFER_BITS={}", s[setting::buffer_bits]);
   if (normal_layout(s).define) defines += fmt::format(" -D{}", normal_layout(s).define);
   if (has_fifth_term(s)) defines += " -DPREPASS_FIFTH_TERM";
+  if (stores_roughness(s)) defines += " -DPREPASS_STORED";
+  if (stores_luv(s)) defines += " -DLIGHT_LUV";
   defines += surface_number_define(seen.plan);
   return defines;
 }

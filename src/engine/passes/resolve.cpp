@@ -260,7 +260,8 @@ NormalsInCl resolve_normals(PassContext& work, Cached<Resolver>& cache, const Vi
   const char* define = normals.layout->define;
   const ResolveOutput output{
       "resolve_normals",
-      " -DOUTPUT_NORMALS" + (define ? fmt::format(" -D{}", define) : "") + surface_numbers_out(work.plan) +
+      " -DOUTPUT_NORMALS" + (define ? fmt::format(" -D{}", define) : "") +
+          (stores_roughness(work.plan.settings) ? " -DPREPASS_STORED" : "") + surface_numbers_out(work.plan) +
           sample_defines(work.grid().samples),
       ClArguments{{"normals", normals.image->cl_buffer()}} + surface_numbers_out(normals.surface_numbers),
       work.grid().pixels() * 4, work.grid().values() * normals.layout->image.bytes};
@@ -277,8 +278,9 @@ ShadedImage resolve_materials(PassContext& work, Cached<Resolver>& cache, const 
   const bool apart = visible.pixels && s[setting::samples_shading] == SamplesShading::all;
   const ResolveOutput output{
       "resolve_materials",
-      fmt::format(" -DOUTPUT_SUMS -DBUFFER_BITS={}{}{}{}", s[setting::buffer_bits], specular_define(s),
-                  sample_defines(work.grid().samples), apart ? " -DSAMPLES_APART" : ""),
+      fmt::format(" -DOUTPUT_SUMS -DBUFFER_BITS={}{}{}{}{}", s[setting::buffer_bits], specular_define(s),
+                  stores_luv(s) ? " -DLIGHT_LUV" : "", sample_defines(work.grid().samples),
+                  apart ? " -DSAMPLES_APART" : ""),
       {{"background", background(work)},
        {"first", sums.first->cl_buffer()},
        {"second", sums.second ? sums.second->cl_buffer() : cl::Buffer()},

@@ -2,7 +2,7 @@
 // Pre-Pass Renderer", ShaderX7, 2009): sums over point and spot lights of what depends on light, normal and
 // viewer alone, and the radiance of a material under them (docs/details/light_prepass.md#equations).
 //   LAMBERT: no specular term.
-//   PREPASS_FIFTH_TERM, PREPASS_LUMINANCE, PREPASS_BENT: how the material's shininess takes part
+//   PREPASS_FIFTH_TERM, PREPASS_LUMINANCE, PREPASS_BENT, PREPASS_STORED: how the material's shininess takes part
 //   (prepass-specular); without any of them it does not.
 //   SKIN, MINNAERT: materials of these models take the luminance of the sums for the cosine, as the article's
 //   appendix has it (docs/details/light_prepass.md#skin-and-minnaert).
@@ -17,7 +17,7 @@ namespace lightgrid {
 // Largest sum that a material takes: its products with lobes stay finite.
 #define LARGEST_LIGHT 1e30f
 
-// A light's part in the sums. n: the lights' exponent; I: the largest channel of the radiant intensity, which
+// A light's part in the sums. n: the lights' exponent, with PREPASS_STORED the material's; I: the largest channel of the radiant intensity, which
 // stands for a colourless light; g: (1 - v.h)^5, Schlick's term.
 SHARED_STRUCT(LightTerms) {
   Real3 diffuse;  // channels 1 to 3: n.l attenuation (1 - g) radiant intensity
@@ -28,7 +28,7 @@ SHARED_STRUCT(LightTerms) {
 
 // The material pass reads these beside the light buffer.
 SHARED_STRUCT(LightBufferParams) {
-  real exponent;   // n
+  real exponent;   // n; not read with PREPASS_STORED
   real reference;  // a light of this size is 1 to equation 8.5.7: the scale of buffers in fixed point
 };
 
@@ -93,7 +93,7 @@ SHARED_FUNCTION LightTerms finite_terms(LightTerms t) {
   return f;
 }
 
-#ifdef PREPASS_LUMINANCE
+#if defined(PREPASS_LUMINANCE) || defined(PREPASS_STORED)
 #define READS_LUMINANCE
 #elif defined(SKIN) || defined(MINNAERT)
 #define READS_LUMINANCE
@@ -130,18 +130,30 @@ SHARED_FUNCTION Real3 diffuse_of_terms(ShadingPoint p, LightTerms t, LightBuffer
 #ifndef LAMBERT
 SHARED_FUNCTION real shininess_of(real alpha_squared) { return 2.0f / alpha_squared - 2.0f; }
 
+// The exponent of a material of this perceptual roughness, as its lobe has it.
+SHARED_FUNCTION real shininess_of_roughness(real roughness) {
+  real perceptual = max_real(roughness, REAL(ROUGHNESS_FLOOR));
+  real alpha = perceptual * perceptual;
+  return shininess_of(alpha * alpha);
+}
+
 // base^exponent for a base in [0, 1].
 SHARED_FUNCTION real power_of_unit(real base, real exponent) {
   return exp_real(exponent * log_real(min_real(max_real(base, REAL(1e-30f)), REAL(1.0f))));
 }
 
-// Channel 4 with the exponent of a material of this alpha^2, times the lobe's normalisation.
+// A sum of highlights of this exponent, times the lobe's normalisation.
+SHARED_FUNCTION real normalised_highlight(real highlight, real shininess) {
+  return highlight * (shininess + 2.0f) * (0.125f / SHADING_PI);
+}
+
+// Channel 4 with the exponent of a material of this alpha^2, normalised.
 SHARED_FUNCTION real highlight_of(LightTerms t, real alpha_squared, LightBufferParams of) {
   real shininess = shininess_of(alpha_squared);
 #if defined(PREPASS_FIFTH_TERM)
   real highlight =
       t.weight * power_of_unit(t.specular / max_real(t.weight, REAL(1e-30f)), shininess / of.exponent);
-#elif defined(PREPASS_LUMINANCE)
+#elif defined(PREPASS_LUMINANCE) || defined(PREPASS_STORED)
   real luminance = luminance_of_terms(t);
   real highlight =
       luminance * power_of_unit(t.specular / max_real(luminance, REAL(1e-30f)), shininess / of.exponent);
@@ -152,7 +164,7 @@ SHARED_FUNCTION real highlight_of(LightTerms t, real alpha_squared, LightBufferP
   shininess = of.exponent;
   real highlight = t.specular;
 #endif
-  return highlight * (shininess + 2.0f) * (0.125f / SHADING_PI);
+  return normalised_highlight(highlight, shininess);
 }
 #endif
 
@@ -167,7 +179,14 @@ SHARED_FUNCTION Real3 light_of_terms(ShadingPoint p, LightTerms sums, LightBuffe
 #ifdef LAMBERT
   return diffuse;
 #else
+#ifdef PREPASS_STORED
+  // The sum has the exponent of the base. Only a coat needs another one.
+  real shininess = shininess_of(p.lobe.alpha_squared);
+  of.exponent = max_real(shininess, REAL(1.0f));
+  real highlight = normalised_highlight(t.specular, shininess);
+#else
   real highlight = highlight_of(t, p.lobe.alpha_squared, of);
+#endif
   // Schlick's term: the mean over the highlight, or that of a half vector along the normal.
 #ifdef PREPASS_FIFTH_TERM
   real share = min_real(t.rim / max_real(t.specular, REAL(1e-30f)), REAL(1.0f));

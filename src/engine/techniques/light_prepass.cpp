@@ -74,6 +74,9 @@ static Frame render(RenderView& v) {
     throw input_error(
         "light_prepass: OpenGL draws light volumes, so prepass-lights=volumes needs raster=opengl");
   if (!v.plan.lights.any_local) return shade_every_light(v, find_surfaces(v));
+  if (volumes && stores_luv(v.plan.settings))
+    throw input_error(
+        "light_prepass: hues cannot be added by blending, so light-buffer=luv needs prepass-lights=tiles");
   return volumes ? from_volumes(v) : from_tiles(v);
 }
 
@@ -99,6 +102,7 @@ extern const Technique light_prepass{
                  "prepass-lights",
                  "prepass-specular",
                  "prepass-shininess",
+                 "light-buffer",
                  "buffer-bits",
                  "normals",
                  "volume-culling",

@@ -13,8 +13,9 @@ namespace lightgrid::light_prepass_by_hand {
 
 inline constexpr double pi = 3.14159265358979323846;
 inline constexpr PrepassSpecular variants[] = {PrepassSpecular::plain, PrepassSpecular::fifth_term,
-                                               PrepassSpecular::luminance, PrepassSpecular::bent};
-inline constexpr const char* variant_names[] = {"plain", "fifth-term", "luminance", "bent"};
+                                               PrepassSpecular::luminance, PrepassSpecular::bent,
+                                               PrepassSpecular::stored};
+inline constexpr const char* variant_names[] = {"plain", "fifth-term", "luminance", "bent", "stored"};
 
 inline Settings volumes(PrepassSpecular specular, Brdf brdf = Brdf::blinn) {
   Settings s;
@@ -72,7 +73,8 @@ inline glm::dvec3 radiance_by_hand(const Scene& scene, const View& view, int x, 
   const glm::dvec3 p =
       4.0 * glm::dvec3(ndc.x / view.clip_from_view[0][0], ndc.y / view.clip_from_view[1][1], -1);
   const glm::dvec3 normal(0, 0, 1), viewer = -glm::normalize(p), color(m.base_color);
-  constexpr double n = 32;
+  const double alpha = double(m.roughness) * double(m.roughness), shininess = 2 / (alpha * alpha) - 2;
+  const double n = variant == PrepassSpecular::stored ? shininess : 32;
   glm::dvec3 diffuse(0);
   double specular = 0, fifth = 0, rim = 0;
   for (const Light& light : scene.lights) {
@@ -89,12 +91,12 @@ inline glm::dvec3 radiance_by_hand(const Scene& scene, const View& view, int x, 
     fifth += arriving * brightest;
     rim += arriving * lobe * schlick * brightest;
   }
-  const double alpha = double(m.roughness) * double(m.roughness), shininess = 2 / (alpha * alpha) - 2,
-               power = shininess / n;
+  const double power = shininess / n;
   const double luminance = 0.2126 * diffuse.r + 0.7152 * diffuse.g + 0.0722 * diffuse.b;
   double highlight = 0, share = std::pow(1 - glm::dot(normal, viewer), 5), exponent = shininess;
   switch (variant) {
     case PrepassSpecular::plain:
+    case PrepassSpecular::stored:
       highlight = specular;
       exponent = n;
       break;

@@ -18,8 +18,8 @@ TEST(LightPrepass, IsForwardsImageOfOneLightAndItsShininess) {
   for (const bool white : {true, false}) {
     for (size_t i = 0; i < std::size(variants); ++i) {
       const bool fifth = variants[i] == PrepassSpecular::fifth_term;
-      const auto error_on = [&](glm::vec3 color, float metallic, int lamps = 1) {
-        const Scene scene = lit_wall(lamps, white, color, metallic, 32);
+      const auto error_on = [&](glm::vec3 color, float metallic, int lamps = 1, double shininess = 32) {
+        const Scene scene = lit_wall(lamps, white, color, metallic, shininess);
         const Image forward = render(scene, view, "forward", {{setting::brdf, Brdf::blinn}});
         return compare_images(render(scene, view, "light_prepass", volumes(variants[i])), forward).max_rel;
       };
@@ -28,6 +28,9 @@ TEST(LightPrepass, IsForwardsImageOfOneLightAndItsShininess) {
         continue;
       }
       EXPECT_LT(error_on({1, 1, 1}, 1), 1e-5) << variant_names[i];
+      if (variants[i] == PrepassSpecular::stored) {
+        EXPECT_LT(error_on({1, 1, 1}, 1, 3, 200), 1e-5) << "any number of white lights, any shininess";
+      }
       if (fifth) {
         EXPECT_LT(error_on({0.9f, 0.6f, 0.3f}, 0.3f), 1e-5);
         EXPECT_LT(error_on({0.9f, 0.6f, 0.3f}, 0.3f, 3), 1e-5) << "any number of white lights";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "passes/common/prepass_settings.h"
 #include "plan/settings/model.h"
 #include "plan/settings/surfaces.h"
@@ -31,6 +32,8 @@ const char* prepass_define(const Settings& settings) {
       return "PREPASS_LUMINANCE";
     case PrepassSpecular::bent:
       return "PREPASS_BENT";
+    case PrepassSpecular::stored:
+      return "PREPASS_STORED";
   }
   return nullptr;
 }
@@ -38,6 +41,21 @@ const char* prepass_define(const Settings& settings) {
 bool has_fifth_term(const Settings& settings) {
   return settings[setting::prepass_specular] == PrepassSpecular::fifth_term &&
          settings[setting::brdf] != Brdf::lambert;
+}
+
+bool stores_roughness(const Settings& settings) {
+  const bool stored = settings[setting::prepass_specular] == PrepassSpecular::stored &&
+                      settings[setting::brdf] != Brdf::lambert;
+  const NormalFormat format = settings[setting::normals];
+  if (stored && format != NormalFormat::floats && format != NormalFormat::xyz8)
+    throw input_error(
+        "light_prepass: prepass-specular=stored needs a channel next to the normal; choose normals=float or "
+        "xyz8");
+  return stored;
+}
+
+bool stores_luv(const Settings& settings) {
+  return settings[setting::light_buffer_color] == LightBufferColor::luv;
 }
 
 size_t bytes_of_light_buffer(const Settings& settings) {
@@ -68,6 +86,7 @@ std::vector<std::string> light_buffer_defines(const ViewState& seen) {
       fmt::format("LIGHT_EXPONENT {:.1f}", double(s[setting::prepass_shininess])),
       fmt::format("LIGHT_SCALE {:.17e}", stored_scale(seen))};
   if (const char* define = prepass_define(s)) defines.emplace_back(define);
+  if (stores_luv(s)) defines.emplace_back("LIGHT_LUV");
   return defines;
 }
 

@@ -59,6 +59,12 @@ const char* prepass_define(const Settings& settings);
 bool has_fifth_term(const Settings& settings);
 size_t bytes_of_light_buffer(const Settings& settings);  // a sample
 
+// True if the fourth channel of normals is the perceptual roughness. Throws if their format has three channels.
+bool stores_roughness(const Settings& settings);
+
+// True if the first image has hue, luminance and the specular term (shared/light_luv.h).
+bool stores_luv(const Settings& settings);
+
 // The light that fixed point stores as 1 and that is 1 to equation 8.5.7: the irradiance of the brightest
 // light at an eighth of its range (without a range, at 1 m), rounded up to a power of two. A light is
 // brighter than that in 1/512 of its ball. Of the scene, not the view: a camera that moves keeps it.

@@ -5,8 +5,9 @@
 
 namespace lightgrid {
 
-// The specular term that the light buffer keeps, and the format of the image of normals.
-enum class PrepassSpecular { plain, fifth_term, luminance, bent };
+// The specular term that the light buffer keeps, its colour space, and the format of the image of normals.
+enum class PrepassSpecular { plain, fifth_term, luminance, bent, stored };
+enum class LightBufferColor { rgb, luv };
 enum class NormalFormat { floats, octahedral, spheremap, xyz8 };
 
 }  // namespace lightgrid
@@ -18,11 +19,19 @@ inline const Setting<PrepassSpecular> prepass_specular{
     "prepass-specular",
     "how light_prepass finds a material's highlight from the sum of one fixed exponent: as it is; or raised "
     "to the material's exponent after division by a fifth term, by the luminance of the diffuse sum, or by a "
-    "constant",
+    "constant; stored: the sum has the material's exponent, from a roughness next to each normal",
     {{"plain", PrepassSpecular::plain},
      {"fifth-term", PrepassSpecular::fifth_term},
      {"luminance", PrepassSpecular::luminance},
-     {"bent", PrepassSpecular::bent}}};
+     {"bent", PrepassSpecular::bent},
+     {"stored", PrepassSpecular::stored}}};
+
+inline const Setting<LightBufferColor> light_buffer_color{
+    255,
+    "light-buffer",
+    "colours of light_prepass's light buffer: red, green and blue, or hue and luminance (CIE 1976 u', v' and "
+    "Y)",
+    {{"rgb", LightBufferColor::rgb}, {"luv", LightBufferColor::luv}}};
 
 inline const Setting<int> prepass_shininess{260,
                                             "prepass-shininess",
