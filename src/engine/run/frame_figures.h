@@ -53,6 +53,8 @@ struct FrameFigures {
   int lights_total = 0, lights_in_view = 0;
   int lights_virtual = 0;  // included in lights_total
   Spread frame_ms;
+  // The same frames in their order: wall-clock time, and processor time of this process.
+  std::vector<double> wall_ms, cpu_ms;
   std::vector<PassResult> passes;
   size_t memory_total = 0, memory_light_grid = 0, memory_gbuffer = 0;
   std::string built_by;                      // as in Frame

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cpu_clock.h"
 #include "base/finite_pixels.h"
 #include "base/resident.h"
 #include "gl/bindings.h"
@@ -116,20 +117,27 @@ void TechniqueRun::draw_frame() {
   frame_ = draw(technique_, view_);
 }
 
-double TechniqueRun::time_frame(const std::function<void()>& read) {
+TechniqueRun::FrameTime TechniqueRun::time_frame(const std::function<void()>& read) {
+  const double cpu_before_ms = process_cpu_ms();
   const Timer timer;
   draw_frame();
   read();
-  const double ms = timer.elapsed_ms();
+  const FrameTime time{timer.elapsed_ms(), process_cpu_ms() - cpu_before_ms};
   if (view_.renderer.gl) check_gl(technique_.name);
-  return ms;
+  return time;
 }
 
-double TechniqueRun::time_image() {
+double TechniqueRun::recorded(const FrameTime& time) {
+  frame_ms_.push_back(time.ms);
+  frame_cpu_ms_.push_back(time.cpu_ms);
+  return time.ms;
+}
+
+TechniqueRun::FrameTime TechniqueRun::time_image() {
   return time_frame([&] { shown_.emplace(view_, frame_.image, image_); });
 }
 
-double TechniqueRun::time_picture() {
+TechniqueRun::FrameTime TechniqueRun::time_picture() {
   return time_frame([&] { shown_picture_.emplace(view_, *frame_.displayed, picture_); });
 }
 
@@ -139,26 +147,24 @@ double TechniqueRun::run_frame(bool warmup) {
     read_back(view_, frame_.image, image_);
     return ms;
   }
-  const double ms = time_image();
+  const FrameTime time = time_image();
   shown_->keep();
-  if (!warmup) frame_ms_.push_back(ms);
-  return ms;
+  return warmup ? time.ms : recorded(time);
 }
 
 double TechniqueRun::run_picture(bool warmup) {
-  const double ms = time_picture();
+  const FrameTime time = time_picture();
   shown_picture_->keep();
-  if (!warmup) frame_ms_.push_back(ms);
-  return ms;
+  return warmup ? time.ms : recorded(time);
 }
 
 glm::vec4* TechniqueRun::show_frame() {
-  frame_ms_.push_back(time_image());
+  recorded(time_image());
   return shown_->pixels();
 }
 
 glm::u8vec4* TechniqueRun::show_picture() {
-  frame_ms_.push_back(time_picture());
+  recorded(time_picture());
   return shown_picture_->pixels();
 }
 
@@ -198,6 +204,8 @@ FrameFigures TechniqueRun::result() const {
   result.lights_in_view = view_.plan.lights.in_view;
   result.lights_virtual = view_.plan.lights.virtual_count;
   result.frame_ms = spread_of(frame_ms_);
+  result.wall_ms = frame_ms_;
+  result.cpu_ms = frame_cpu_ms_;
   for (const PassRecord& record : view_.timer.records()) {
     result.passes.push_back({record.name, record.on, spread_of(record.ms).median, record.bytes_read,
                              record.bytes_written, kernel_results(record)});

@@ -84,10 +84,14 @@ class TechniqueRun {
     shown_.reset();
     shown_picture_.reset();
   }
-  // ms, until it has been read: into shown_, into shown_picture_.
-  double time_frame(const std::function<void()>& read);
-  double time_image();
-  double time_picture();
+  struct FrameTime {
+    double ms = 0, cpu_ms = 0;
+  };
+  // Until it has been read: into shown_, into shown_picture_.
+  FrameTime time_frame(const std::function<void()>& read);
+  FrameTime time_image();
+  FrameTime time_picture();
+  double recorded(const FrameTime& time);  // its ms
 
   const Technique& technique_;
   std::unique_ptr<GpuScene> own_scene_;
@@ -97,7 +101,7 @@ class TechniqueRun {
   std::vector<glm::u8vec4> picture_;
   std::optional<HostImage> shown_;
   std::optional<HostPicture> shown_picture_;
-  std::vector<double> frame_ms_;
+  std::vector<double> frame_ms_, frame_cpu_ms_;
 };
 
 }  // namespace lightgrid

@@ -83,6 +83,11 @@ std::vector<BenchRow> rows_in_turn(const std::vector<ContestantParams>& about, c
       const auto first = std::ranges::find(of_first, row.name, &BenchRow::name);
       if (first != of_first.end() && first->ms.median > 0) row.ratio = row.ms.median / first->ms.median;
     }
+    const auto times_of_run = [](const MeasuredRun& run) { return FrameTimes{run.wall_ms, run.cpu_ms}; };
+    if (i > 0) {
+      std::ranges::find(found, "pipeline", &BenchRow::name)->relative =
+          relative_frames(times_of_run(measured.runs[i]), times_of_run(measured.runs[0]));
+    }
     if (i == 0) of_first = found;
     rows.insert(rows.end(), found.begin(), found.end());
   }

@@ -1,7 +1,10 @@
 #include "bench/measure.h"
 
 #include <algorithm>
+#include <numeric>
+#include <random>
 
+#include "base/cpu_clock.h"
 #include "cl/buffers.h"
 #include "cl/transfer.h"
 
@@ -83,16 +86,21 @@ constexpr int transfer_runs = 5;
 
 // The samples of one contestant over all rounds.
 struct Samples {
-  std::vector<double> wall, device, overhead;
+  std::vector<double> wall, cpu, device, overhead;
   std::vector<ClProfiler::Row> first;        // labels and launches
   std::vector<std::vector<double>> kernels;  // by label, in the order of `first`
 };
 
-double wall_ms(ClDevice& device, const std::function<void()>& work) {
+struct HostTime {
+  double wall_ms = 0, cpu_ms = 0;
+};
+
+HostTime host_time(ClDevice& device, const std::function<void()>& work) {
   device.profiler().time_launches(false);
+  const double cpu_before_ms = process_cpu_ms();
   const Timer timer;
   work();
-  return timer.elapsed_ms();
+  return {timer.elapsed_ms(), process_cpu_ms() - cpu_before_ms};
 }
 
 // A run whose launches are timed by events, which have a cost: separate from the wall-clock run.
@@ -110,7 +118,7 @@ DeviceRun device_run(ClDevice& device, const std::function<void()>& work) {
   return {device.profiler().collect(), wall};
 }
 
-void take(Samples& samples, double wall, const DeviceRun& run) {
+void take(Samples& samples, const HostTime& host, const DeviceRun& run) {
   if (samples.first.empty()) {
     samples.first = run.rows;
     samples.kernels.resize(run.rows.size());
@@ -120,7 +128,8 @@ void take(Samples& samples, double wall, const DeviceRun& run) {
     samples.kernels[i].push_back(run.rows[i].ms);
     device += run.rows[i].ms;
   }
-  samples.wall.push_back(wall);
+  samples.wall.push_back(host.wall_ms);
+  samples.cpu.push_back(host.cpu_ms);
   samples.device.push_back(device);
   samples.overhead.push_back(std::max(0.0, run.wall_ms - device));
 }
@@ -128,6 +137,8 @@ void take(Samples& samples, double wall, const DeviceRun& run) {
 MeasuredRun result_of(const Samples& samples) {
   MeasuredRun run;
   run.wall = spread_of(samples.wall);
+  run.wall_ms = samples.wall;
+  run.cpu_ms = samples.cpu;
   run.device = spread_of(samples.device);
   run.overhead = spread_of(samples.overhead);
   for (size_t i = 0; i < samples.first.size(); ++i) {
@@ -217,12 +228,21 @@ std::vector<MeasuredRun> time_in_turn(ClDevice& device, const std::vector<std::f
                                       const Rounds& rounds,
                                       const std::function<void(bool counts)>& end_of_round) {
   std::vector<Samples> samples(work.size());
+  std::vector<size_t> order(work.size());
+  std::iota(order.begin(), order.end(), size_t(0));
+  std::mt19937_64 random(1);
   for (int round = -rounds.warmup; round < rounds.timed; ++round) {
-    for (size_t i = 0; i < work.size(); ++i) {
+    // Rounds are in random order and back, in turn: drifts cancel in ratios.
+    if (round % 2 == 0) {
+      std::ranges::shuffle(order, random);
+    } else {
+      std::ranges::reverse(order);
+    }
+    for (const size_t i : order) {
       // The wall-clock run comes second: its caches are as after a frame of its own.
       const DeviceRun timed = device_run(device, work[i]);
-      const double wall = wall_ms(device, work[i]);
-      if (round >= 0) take(samples[i], wall, timed);
+      const HostTime host = host_time(device, work[i]);
+      if (round >= 0) take(samples[i], host, timed);
     }
     end_of_round(round >= 0);
     if (rounds.progress) rounds.progress(double(round + rounds.warmup + 1) / (rounds.timed + rounds.warmup));

@@ -64,7 +64,8 @@ struct MeasuredRun {
     int launches = 0;  // in one run
     Spread ms;         // on the device, all of its launches in one run
   };
-  Spread wall;                  // one wait at the end
+  Spread wall;                          // one wait at the end
+  std::vector<double> wall_ms, cpu_ms;  // of the same runs, round by round; processor time of this process
   Spread device;                // the sum over all kernels of one run, which is timed by events; not the run
                                 // of `wall`
   std::vector<Kernel> kernels;  // in order of first launch

@@ -163,6 +163,10 @@ nlohmann::ordered_json to_json(const BenchRow& row, const std::string& device) {
                                  {"share_of_limit", nullptr}};
   if (row.limit_ms && row.ms.min > 0) json["share_of_limit"] = *row.limit_ms / row.ms.min;
   if (row.ratio) json["ratio_to_first"] = *row.ratio;
+  if (row.relative) {
+    json["relative_time"] = to_json(*row.relative);
+    json["clock"] = row.relative->by_cpu ? "cpu" : "wall";
+  }
   return json;
 }
 
@@ -182,7 +186,12 @@ std::string table_line(const BenchRow& row) {
     line += fmt::format("{:>18}", "");
   }
   if (row.params.contains("compared")) line += fmt::format("  {}", row.params["compared"].get<std::string>());
-  if (row.ratio) line += fmt::format("  x {:.2f}", *row.ratio);
+  if (row.relative) {
+    line += fmt::format("  x {:.3f} ({:.3f} to {:.3f})", row.relative->estimate, row.relative->low,
+                        row.relative->high);
+  } else if (row.ratio) {
+    line += fmt::format("  x {:.2f}", *row.ratio);
+  }
   return line + "\n";
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/measure.h"
+#include "measures/relative_frames.h"
 
 namespace lightgrid::lab {
 
@@ -27,8 +28,9 @@ struct BenchRow {
   nlohmann::ordered_json params;
   Spread ms;
   std::optional<KernelCost> cost;
-  std::optional<double> limit_ms;  // the cost's time at the machine's limits
-  std::optional<double> ratio;     // median relative to that of the first contestant
+  std::optional<double> limit_ms;               // the cost's time at the machine's limits
+  std::optional<double> ratio;                  // median relative to that of the first contestant
+  std::optional<RelativeFrames> relative = {};  // of the pipeline: its time relative to the first's
 };
 
 // The limits of the whole run, one row each.

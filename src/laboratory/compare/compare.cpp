@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <random>
 
 #include <fmt/format.h>
 
@@ -37,14 +38,25 @@ void time_interleaved(std::vector<ContestantRun>& entries, const Compared& compa
   Image memory;
   const auto hands_on = [&](const ContestantRun& e) { return e.run && !compared.every_light.is(*e.run); };
   const int rounds = options.warmup + options.frames;
+  std::vector<size_t> order(entries.size());
+  std::iota(order.begin(), order.end(), size_t(0));
+  std::mt19937_64 random(options.seed);
   const auto tell = [&](int round, size_t i) {
     const double done = round + double(i) / double(entries.size());
-    compared.tell(0.8 * done / (rounds + 1), entries[i].contestant->technique->name);
+    compared.tell(0.8 * done / (rounds + 1), entries[order[i]].contestant->technique->name);
   };
   for (int round = 0; round <= rounds; ++round) {
+    // Timed passes are in random order and back, in turn: drifts cancel in ratios of frames.
+    if (round >= options.warmup && round < rounds) {
+      if ((round - options.warmup) % 2 == 0) {
+        std::ranges::shuffle(order, random);
+      } else {
+        std::ranges::reverse(order);
+      }
+    }
     for (size_t i = 0; i < entries.size(); ++i) {
       tell(round, i);
-      ContestantRun& entry = entries[i];
+      ContestantRun& entry = entries[order[i]];
       if (hands_on(entry)) entry.run->reuse(std::move(memory));
       entry.attempt([&] {
         if (round < rounds) {

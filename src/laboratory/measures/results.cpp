@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "measures/error_measures.h"
 #include "measures/path_changes.h"
+#include "measures/relative_frames.h"
 #include "measures/speedup.h"
 #include "plan/settings.h"
 
@@ -249,6 +250,7 @@ json to_json(const RunResult& result) {
               {"settings", settings_json(result.settings)},
               {"lights", {{"total", result.lights_total}, {"in_view", result.lights_in_view}}},
               {"frame_ms", to_json(result.frame_ms)},
+              {"frame_cpu_ms", to_json(spread_of(result.cpu_ms))},
               {"passes", passes},
               {"memory_bytes", memory_json(result)},
               {"pairs", result.pairs ? pairs_json(*result.pairs) : json()},
@@ -315,11 +317,22 @@ const Image& image_of(const CompareReport& report, size_t row) {
   return error && error->bit_identical ? reference_image(report) : own;
 }
 
+// Relative to the reference, where that is another row: by both clocks, and the one that decides.
+static void add_relative_times(const CompareReport& report, const RunResult& row, json& out) {
+  const RunResult* reference = reference_row(report);
+  if (!reference || reference == &row) return;
+  const FrameTimes own = times_of(row), others = times_of(*reference);
+  out["relative_time"] = to_json(relative_wall_time(own, others));
+  out["relative_cpu_time"] = to_json(relative_cpu_time(own, others));
+  out["clock"] = relative_frames(own, others).by_cpu ? "cpu" : "wall";
+}
+
 json to_json(const CompareReport& report) {
   json rows = json::array(), reference_errors;
   for (const auto& row : report.rows) {
     rows.push_back(to_json(row));
     rows.back()["speedup"] = speedup_json(report, row);
+    add_relative_times(report, row, rows.back());
   }
   if (const auto& errors = report.reference_errors) {
     reference_errors = {{"model", to_json(errors->model)},

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -77,7 +79,36 @@ Interval over(const Interval& a, const Interval& b) {
   return {a.median / b.median, a.low / b.high, a.high / b.low};
 }
 
+// Relative to the reference, by wall-clock or processor time; empty without an interval.
+std::optional<Interval> relative_of(const json& row, const char* key) {
+  if (!row.contains(key) || row.at(key).is_null() || row.at(key).at("ci95").at(0).is_null()) return {};
+  const json& time = row.at(key);
+  return Interval{time.at("estimate"), time.at("ci95").at(0), time.at("ci95").at(1)};
+}
+
+// Processor time decides where wall-clock time was too noisy in one of the two and both have it. Returns
+// whether both have such times.
+bool compare_relative_times(const Row& now, const Row& earlier, AgainstResult& result) {
+  const auto decides = [](const Row& row) { return row.row->value("clock", "wall") == "cpu"; };
+  const auto pair_of = [&](const char* key) {
+    return std::pair(relative_of(*now.row, key), relative_of(*earlier.row, key));
+  };
+  auto [a, b] = pair_of("relative_time");
+  const auto [cpu, cpu_before] = pair_of("relative_cpu_time");
+  const bool by_cpu = (decides(now) || decides(earlier)) && cpu && cpu_before;
+  if (by_cpu) std::tie(a, b) = std::tie(cpu, cpu_before);
+  if (!a || !b) return false;
+  if (a->low > b->high)
+    result.worse.push_back(
+        fmt::format("{}: {:.3g} times the reference's time{} ({:.3g} to {:.3g}), earlier {:.3g} ({:.3g} to "
+                    "{:.3g}): slower",
+                    now.name, a->median, by_cpu ? " in processor time" : "", a->low, a->high, b->median,
+                    b->low, b->high));
+  return true;
+}
+
 void compare_times(const Row& now, const Row& earlier, AgainstResult& result) {
+  if (compare_relative_times(now, earlier, result)) return;
   const int runs = now.row->at("frame_ms").at("runs"), before = earlier.row->at("frame_ms").at("runs");
   if (std::min(runs, before) < min_runs) {
     result.told.push_back(

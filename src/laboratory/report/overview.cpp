@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "measures/relative_frames.h"
 #include "measures/words.h"
 #include "report/charts.h"
 #include "report/speedup_words.h"
@@ -138,7 +139,7 @@ std::string faster_where(const std::vector<ReportView>& views, const std::string
     if (!x || !y) continue;
     ++both;
     const RunResult &fast = x->frame_ms.median <= y->frame_ms.median ? *x : *y, &slow = &fast == x ? *y : *x;
-    if (!(fast.frame_ms.median < slow.frame_ms.min)) {
+    if (!relative_frames(times_of(fast), times_of(slow)).is_faster()) {
       of_none.places.push_back({names[i], ""});
     } else {
       const double ratio = slow.frame_ms.median / fast.frame_ms.median;

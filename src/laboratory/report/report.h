@@ -125,7 +125,7 @@ std::string results_csv(const std::vector<ReportView>& views);
 std::vector<std::string> overview_sentences(const std::vector<ReportView>& views);
 
 // Which of the two is faster in which views; a technique counts by its fastest exact row. Empty if no view
-// has both. No clear difference: the median of the faster is not below every run of the other.
+// has both. No clear difference: the interval of the faster one's time relative to the other's contains 1.
 std::string faster_where(const std::vector<ReportView>& views, const std::string& a, const std::string& b);
 
 // For pages of one file, this one and the frontier's.

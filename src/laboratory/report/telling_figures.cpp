@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "measures/path_changes.h"
+#include "measures/relative_frames.h"
 #include "measures/words.h"
 #include "report/report.h"
 #include "report/speedup_words.h"
@@ -33,9 +34,11 @@ std::string time_figure(const CompareReport& report, const RunResult& row, const
   const Spread& time = row.frame_ms;
   const auto runs = time.runs > 1 ? fmt::format("median of {}", time.runs) : "one run";
   if (reference && reference != &row && time.median > 0 && reference->frame_ms.runs > 0) {
-    return fmt::format("{} is {} times faster than {}: {} against {} per frame ({})", row_name(report, row),
+    const RelativeFrames relative = relative_frames(times_of(row), times_of(*reference));
+    return fmt::format("{} is {} times faster than {}: {} against {} per frame ({}{})", row_name(report, row),
                        short_number(reference->frame_ms.median / time.median), report.reference,
-                       ms_in_words(row), ms_in_words(*reference), runs);
+                       ms_in_words(row), ms_in_words(*reference), runs,
+                       relative.has_interval() ? "; " + relative.in_words() : "");
   }
   return fmt::format("{} takes {} per frame ({})", row_name(report, row), ms_in_words(row), runs);
 }
@@ -121,22 +124,21 @@ bool looks_exact(const RunResult& row) {
          (is_exact(row) || (error && error->displayed && error->displayed->visible <= max_visible));
 }
 
-// How sure it is that `row` is the fastest of those that `counts` accepts. Five frames or more hold the
-// median between their extremes with a probability of 15 in 16.
+// How sure it is that `row` is the fastest of those that `counts` accepts: its time relative to the next.
 std::string how_sure(const CompareReport& report, const RunResult& row, const RowTest& counts) {
   const Spread& time = row.frame_ms;
   if (time.runs < 2) return "one frame makes no interval: --frames 5 gives one";
-  std::string words =
-      fmt::format("{} to {} ms in {} frames{}", short_number(time.min), short_number(time.max), time.runs,
-                  time.runs < 5 ? ", too few to be sure" : "");
+  const std::string words =
+      fmt::format("{} to {} ms in {} frames", short_number(time.min), short_number(time.max), time.runs);
   const RunResult* next =
       fastest(report, [&](const RunResult& other) { return &other != &row && counts(other); });
   if (!next) return words;
   const std::string name = fmt::format("{} ({})", row_name(report, *next), ms_in_words(*next));
-  if (time.max < next->frame_ms.min) return words + ": every frame is faster than any of the next, " + name;
-  if (time.median < next->frame_ms.min)
-    return words + ": the median is below every frame of the next, " + name;
-  return words + ": not surely faster than " + name;
+  const RelativeFrames relative = relative_frames(times_of(row), times_of(*next));
+  if (relative.frames == 0) return words;
+  return fmt::format("{}: {} the next, {}: {}", words,
+                     relative.is_faster() ? "surely faster than" : "not surely faster than", name,
+                     relative.in_words());
 }
 
 Choice fastest_choice(const CompareReport& report, const char* what, const RunResult& row,

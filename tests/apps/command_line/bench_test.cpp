@@ -119,6 +119,9 @@ TEST(BenchCommand, ComparesSettingsInTurnAndPrintsRatios) {
   EXPECT_FALSE(rows[0].contains("ratio_to_first"));
   const double ratio = rows[1]["median_ms"].get<double>() / rows[0]["median_ms"].get<double>();
   EXPECT_NEAR(rows[1]["ratio_to_first"], ratio, 1e-6 * ratio);
+  EXPECT_FALSE(rows[0].contains("relative_time"));
+  EXPECT_EQ(rows[1]["relative_time"]["frames"], 3);
+  EXPECT_LE(rows[1]["relative_time"]["ci95"][0], rows[1]["relative_time"]["estimate"]);
   EXPECT_EQ(rows[2]["params"]["settings"]["tile"], "32");
   EXPECT_LT(rows[0]["params"]["indices"], rows[1]["params"]["indices"]) << "the tile's sphere lists more";
 }

@@ -61,6 +61,27 @@ TEST(Against, ASlowerRowIsNamedWithItsIntervals) {
       << "the machine was slower: the ratio to the reference is the same";
 }
 
+// Relative to the reference: the machine's speed does not matter, and few frames have no such time.
+TEST(Against, ARowIsComparedRelativeToTheReference) {
+  const auto with = [](double low, double high, const char* clock, double cpu_low, double cpu_high) {
+    json timed = row("visibility", 2);
+    timed["relative_time"] = {{"estimate", 0.5 * (low + high)}, {"ci95", {low, high}}};
+    timed["relative_cpu_time"] = {{"estimate", 0.5 * (cpu_low + cpu_high)}, {"ci95", {cpu_low, cpu_high}}};
+    timed["clock"] = clock;
+    return results({row("forward", 10), timed});
+  };
+  const json before = with(0.18, 0.2, "wall", 0.31, 0.32);
+  EXPECT_THAT(against(with(0.19, 0.21, "wall", 0.4, 0.5), before).worse, IsEmpty()) << "they overlap";
+  EXPECT_THAT(against(with(0.22, 0.24, "wall", 0.31, 0.32), before).worse,
+              ElementsAre("hall 64x36, 7 lights, visibility: 0.23 times the reference's time (0.22 to 0.24), "
+                          "earlier 0.19 (0.18 to 0.2): slower"));
+  EXPECT_THAT(
+      against(with(0.1, 0.5, "cpu", 0.34, 0.36), before).worse,
+      ElementsAre(HasSubstr("visibility: 0.35 times the reference's time in processor time (0.34 to 0.36), "
+                            "earlier 0.315 (0.31 to 0.32): slower")));
+  EXPECT_THAT(against(with(0.22, 0.24, "cpu", 0.3, 0.31), before).worse, IsEmpty());
+}
+
 TEST(Against, FewFramesOrOtherDevicesSayNothingOfTimes) {
   const json before = results({row("forward", 10)});
   json now = results({row("forward", 20)});
