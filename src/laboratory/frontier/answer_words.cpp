@@ -153,11 +153,11 @@ bool is_of_technique(const std::string& label, const std::string& technique) {
   return label == technique || label.starts_with(technique + ":");
 }
 
-// Tells the cost of a scene that the most pairs of cull tests are held to.
+// Adds the shading cost of the scene that is compared with the most pairs of cull tests.
 void add_break_even(const FrontierAnswer& answer, const std::string& scene,
                     std::vector<std::string>& sentences) {
   const ShadingCost* best = nullptr;
-  int most = 0, most_won = 0, most_undecided = 0;
+  int max_pairs = 0, max_won = 0, max_undecided = 0;
   for (const ShadingCost& cost : answer.shading_costs) {
     if (cost.scene != scene) continue;
     int all = 0, won = 0, undecided = 0;
@@ -169,11 +169,11 @@ void add_break_even(const FrontierAnswer& answer, const std::string& scene,
       undecided += open;
       won += !open && pair.ns_per_pixel_light < ns;
     }
-    if (all > most) {
+    if (all > max_pairs) {
       best = &cost;
-      most = all;
-      most_won = won;
-      most_undecided = undecided;
+      max_pairs = all;
+      max_won = won;
+      max_undecided = undecided;
     }
   }
   if (!best) return;
@@ -181,8 +181,8 @@ void add_break_even(const FrontierAnswer& answer, const std::string& scene,
       fmt::format("In {} a light at a pixel costs {} {} ns to shade{}: at that price the tighter cull test "
                   "wins in {} of {} pairs{}.",
                   scene_in_words(scene), best->technique, three_digits(best->ns_per_pixel_light),
-                  best->brdf.empty() ? "" : " with " + best->brdf, most_won, most,
-                  most_undecided > 0 ? fmt::format(" ({} undecided)", most_undecided) : ""));
+                  best->brdf.empty() ? "" : " with " + best->brdf, max_won, max_pairs,
+                  max_undecided > 0 ? fmt::format(" ({} undecided)", max_undecided) : ""));
 }
 
 // The property that all numbers of lights of the series share.
@@ -282,8 +282,8 @@ void add_external(const FrontierAnswer& answer, const std::string& scene,
     sentences.push_back(fmt::format(
         "In {} {} is another renderer{}: {}.", scene_in_words(scene), p.point.label,
         p.external->note.empty() ? "" : fmt::format(" ({})", p.external->note),
-        p.external->paired ? "it states its own times, taken in the rounds beside the baseline's"
-                           : "its times and the baseline's beside them were taken elsewhere and not in these "
+        p.external->paired ? "it states its own times, taken in the rounds next to the baseline's"
+                           : "its times and the baseline's were taken elsewhere and not in these "
                              "rounds, so that its interval holds no difference between sessions"));
   }
 }

@@ -1,5 +1,5 @@
-// Measures a scene's points: errors on each view of a path, then times in rounds, each point beside the
-// baseline.
+// Measures a scene's points: errors on each view of a path, then times in rounds, each point next to
+// the baseline.
 #pragma once
 
 #include <filesystem>

@@ -15,17 +15,17 @@
 namespace lightgrid::lab {
 namespace {
 
-void add_time(const MeasuredPoint& point, size_t view, const RoundTimes& own, const RoundTimes& beside,
+void add_time(const MeasuredPoint& point, size_t view, const RoundTimes& own, const RoundTimes& baseline,
               std::vector<TimeOfRecord>& times) {
   const FrontierRecord& record = point.records[view];
   if (!record.refused.empty()) return;
   TimeOfRecord& time =
-      times.emplace_back(TimeOfRecord{record_key(record), own.ms, beside.ms, point.run.refused()});
+      times.emplace_back(TimeOfRecord{record_key(record), own.ms, baseline.ms, point.run.refused()});
   time.cpu_ms = own.cpu_ms;
-  time.baseline_cpu_ms = beside.cpu_ms;
-  if (!own.device || !beside.device) return;
+  time.baseline_cpu_ms = baseline.cpu_ms;
+  if (!own.device || !baseline.device) return;
   time.device = own.device;
-  time.baseline_device_ms = beside.device->device_ms;
+  time.baseline_device_ms = baseline.device->device_ms;
 }
 
 // The same points and views, with the times of the runs from `first` on.
@@ -208,44 +208,32 @@ int TimeRounds::run() {
   return done;
 }
 
-// In random order and back: what drifts during the round cancels in the sums of both.
+// A baseline, two points, a baseline, two points…: point i is in place i + i / 2 + 1.
 void TimeRounds::time_view(int round, size_t view, std::vector<FrameTimes>& frames) {
   std::vector<size_t> order;
   for (size_t i = 0; i < points.size(); ++i) {
     const bool out = points[i].slow && points[i].rounds() >= points[i].slow_until;
     if (!out && points[i].run.refused().empty()) order.push_back(i);
   }
-  Random random(Random::mix(job.seed) + uint64_t(round) * 1000 + uint64_t(view));
-  for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[size_t(random.next() % i)]);
-  FrameTimes& of_view = frames.emplace_back();
-  const size_t baselines = order.size() / 2 + 1;  // place i is between the points 2 i - 1 and 2 i
-  for (size_t pass = 0; pass < (round == 0 ? 1 : of_view.size()); ++pass) {
-    std::vector<RoundTimes> own(order.size()), beside(baselines);
-    for (size_t step = 0; step < order.size() + baselines; ++step) {
-      const size_t place = pass == 0 ? step : order.size() + baselines - 1 - step;
-      if (place % 3 == 0) {
-        beside[place / 3] = timed(baseline, view);
-      } else {
-        const size_t i = place - place / 3 - 1;
-        own[i] = timed(points[order[i]].run, view);
-      }
-      if (job.progress)
-        job.progress(std::min(timer.elapsed_ms() / 1000 / job.seconds, 1.0),
-                     fmt::format("times, round {}", round));
-    }
-    for (size_t i = 0; i < order.size(); ++i)
-      add_time(points[order[i]], view, own[i], beside[(i + 1) / 2], of_view[pass]);
+  shuffle(order, Random::mix(job.seed) + uint64_t(round) * 1000 + uint64_t(view));
+  std::vector<PointRun*> runs;
+  for (const size_t i : order) {
+    if (runs.size() % 3 == 0) runs.push_back(&baseline);
+    runs.push_back(&points[i].run);
   }
-}
-
-// The baseline's frame and the point's have the same history, or their ratio would hold the difference: a
-// look leaves uploads to the next frame, and other techniques' frames between push programs out of drivers'
-// caches.
-RoundTimes TimeRounds::timed(PointRun& run, size_t view) {
-  run.look(views[view]);
-  run.draw_first_frame();
-  const double ms = run.draw(&clock);
-  return {ms, run.cpu_ms(), run.device_times()};
+  if (runs.size() % 3 == 0) runs.push_back(&baseline);
+  const auto tell = [&] {
+    if (job.progress)
+      job.progress(std::min(timer.elapsed_ms() / 1000 / job.seconds, 1.0),
+                   fmt::format("times, round {}", round));
+  };
+  FrameTimes& of_view = frames.emplace_back();
+  const auto times = timed_frames(runs, views[view], round == 0 ? 1 : frames_per_round, clock, tell);
+  for (size_t pass = 0; pass < times.size(); ++pass) {
+    for (size_t i = 0; i < order.size(); ++i)
+      add_time(points[order[i]], view, times[pass][i + i / 2 + 1], times[pass][(i + 1) / 2 * 3],
+               of_view[pass]);
+  }
 }
 
 // By the clock that is narrowest, of those that decide on this machine. By the rounds of this process

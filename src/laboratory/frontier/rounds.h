@@ -1,4 +1,4 @@
-// Times of points, taken in rounds: frames beside the baseline's, culling, and frames of variants of the
+// Times of points, taken in rounds: frames next to the baseline's, culling, and frames of variants of the
 // scene.
 #pragma once
 
@@ -9,10 +9,9 @@
 
 #include "base/timer.h"
 #include "frontier/measure.h"
+#include "frontier/timed_frames.h"
 
 namespace lightgrid::lab {
-
-constexpr int frames_per_round = 2;  // of each point: in random order, and back
 
 // A point of which at least one view has been measured.
 struct MeasuredPoint {
@@ -26,12 +25,6 @@ struct MeasuredPoint {
 };
 
 constexpr int slow_rounds = min_rounds;  // for slow points
-
-struct RoundTimes {
-  double ms = 0;
-  std::optional<double> cpu_ms;       // processor time of this process in the same frame
-  std::optional<DeviceTimes> device;  // times of the same frame
-};
 
 // Rounds over all views: a baseline run, two points, a baseline run, two points…, in a new random order each
 // round, then all of them in the reverse order. A point counts with the baseline runs next to it. Before each
@@ -57,7 +50,6 @@ struct TimeRounds {
  private:
   using FrameTimes = std::array<std::vector<TimeOfRecord>, frames_per_round>;
   void time_view(int round, size_t view, std::vector<FrameTimes>& frames);
-  RoundTimes timed(PointRun& run, size_t view);
   double half_width(int before_this) const;  // rounds of earlier processes
 };
 
@@ -70,7 +62,7 @@ void complete(const std::vector<MeasuredPoint>& points, RecordFile& file);
 void measure_cull_times(std::vector<MeasuredPoint>& points, const View& view, double seconds,
                         RecordFile& file);
 
-// Times points on one view, beside the job's baseline, in `rounds` rounds, fewer if they would take more than
+// Times points on one view, relative to the job's baseline, in `rounds` rounds, fewer if they would take more than
 // `max_s`, and completes their records, which are open.
 void time_series(std::vector<MeasuredPoint>& measured, Renderer& renderer, GpuScene& gpu, const View& view,
                  const FrontierJob& job, int rounds, RecordFile& file,
@@ -87,7 +79,7 @@ double growth_seconds(double budget, double used);
 bool is_grown(const ChosenPoint& point);
 
 // How times grow with lights, pixels and the lights' ranges: the techniques among the job's points, each as
-// it is, beside the baseline, on scattered lights (128 to 2048), on sizes (half to twice a side) and on
+// it is, relative to the baseline, on scattered lights (128 to 2048), on sizes (half to twice a side) and on
 // ranges (half to twice). No variant is begun that would end after `seconds`, as far as those before it tell;
 // `round_s` is the estimate for the first: a round on the scene as it is. The scene is left as it was.
 void measure_growth(Renderer& renderer, GpuScene& gpu, Scene& scene, const SceneChoice& choice,

@@ -18,13 +18,14 @@ struct AgainstResult {
 nlohmann::json read_results_json(const std::filesystem::path& path);
 
 // Both as results.json. Rows are the same if scene, size, number of lights, technique and settings agree.
-// Worse is: an error that grew (grew, measures/error_measures.h) or is finite no more; more pairs lost or
-// wrong, or more pixels with NaN; a refusal of what ran; and a time, on the same devices. Times are relative
-// to the reference, if that is another row: worse is one whose 95 % interval lies above the earlier one. Otherwise
-// worse is a time if the intervals of the median do not overlap. With n runs, the fastest and the slowest bound the median with the probability 1
-// - 2^(1-n): of fewer than five nothing is said. Where the reference is a row of both, its ratio must say the
-// same, so that a slower moment of the machine is no finding. Throws Error(input) that names `earlier_name`
-// if nothing can be compared.
+// Worse is: an error that grew (grew, measures/error_measures.h) or is no longer finite; more pairs lost or
+// wrong, or more pixels with NaN; a refusal of a row that ran; and a time, on the same devices. Times are
+// relative to the reference if that is another row: worse if the 95 % interval lies above the earlier one.
+// Otherwise (the reference itself, and files of earlier versions), a time is worse if the intervals of the
+// median do not overlap. With n runs, the fastest and the slowest contain the median with the probability 1 -
+// 2^(1-n); with fewer than five no time is compared. Where the reference is a row of both, its ratio must agree,
+// so that a slower moment of the machine is no finding. Throws Error(input) that names `earlier_name` if nothing
+// can be compared.
 AgainstResult results_against(const nlohmann::json& now, const nlohmann::json& earlier,
                               const std::string& earlier_name);
 

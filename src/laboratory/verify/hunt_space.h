@@ -45,7 +45,7 @@ T one_of(Random& random, const T (&values)[count]) {
 }
 
 // The domain (docs/hard_cases.md#the-domain): distances of surfaces, and edges of slices and z-bins, metres.
-constexpr double hunt_most_m = 1e15, hunt_most_edge_m = 1e13;
+constexpr double max_hunt_m = 1e15, max_hunt_edge_m = 1e13;
 
 enum class HuntClass {
   ordinary,      // 5 to 150 degrees, reversed depth with infinite far

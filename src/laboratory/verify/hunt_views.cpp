@@ -159,7 +159,7 @@ Plan plan_of(HuntClass hunted, Random& random) {
   if (hunted == finite_far) p.finite = true;
   if (hunted == scaled) {
     p.unit_m = log_between(random, 1e-12, 1e15);
-    p.eye_m = std::min(p.eye_m * p.unit_m, hunt_most_m);
+    p.eye_m = std::min(p.eye_m * p.unit_m, max_hunt_m);
   }
   if (hunted == oblique) {
     p.oblique = true;
@@ -195,7 +195,7 @@ void choose_range(HuntView& h, const Plan& p, Random& random) {
     h.far = h.near + across * log_between(random, 0.01, 100);
     return;
   }
-  const double steepest = p.half + std::abs(p.off) + 1, most = hunt_most_m / (4 * steepest);
+  const double steepest = p.half + std::abs(p.off) + 1, most = max_hunt_m / (4 * steepest);
   h.near = std::min(p.unit_m * log_between(random, 1e-3, 1), most / 2);
   h.far = std::min(h.near * log_between(random, 1.2, farthest_ratio(h.format, p)), most);
 }
@@ -365,8 +365,8 @@ HuntView random_view(HuntClass hunted, const HuntSetting& setting, uint64_t seed
     const glm::dvec3 eye(std::cos(turn) * std::cos(tilt), std::sin(tilt), std::sin(turn) * std::cos(tilt));
     h.view = placed(h.view, eye * plan.eye_m, between(random, -pi, pi), between(random, -1.5, 1.5));
   }
-  const bool edges = h.near < hunt_most_edge_m / 2 && !plan.oblique;
-  const double last_edge = edges ? std::min(h.far, hunt_most_edge_m) : 0;
+  const bool edges = h.near < max_hunt_edge_m / 2 && !plan.oblique;
+  const double last_edge = edges ? std::min(h.far, max_hunt_edge_m) : 0;
   if (last_edge > h.near && setting.slices > 1)
     h.view.slice_edges = slice_edges(setting.spacing, setting.slices, h.near, last_edge);
   if (last_edge > h.near && setting.z_bins > 1)
