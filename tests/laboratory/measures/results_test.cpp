@@ -56,6 +56,7 @@ RunResult small_result() {
   result.inf_pixels = 13;
   result.overflow = 12;
   result.unshaded = 0.25;
+  result.cpu_ms = {3, 5, 2};
   result.skipped = {{"shadows", "no light casts one"}};
   return result;
 }
@@ -66,6 +67,7 @@ TEST(Results, HoldTheDocumentedKeysAndNoOthers) {
     "settings": {"tile": 16, "cull_test": "planes+aabb", "radius_cutoff": 0.01, "mask": true, "odd": "nan"},
     "lights": {"total": 1024, "in_view": 871},
     "frame_ms": {"min": 1.0, "median": 2.0, "max": 4.0, "runs": 5},
+    "frame_cpu_ms": {"min": 2.0, "median": 3.0, "max": 5.0, "runs": 3},
     "passes": [{"name": "depth_prepass", "on": "gl", "median_ms": 0.5, "bytes_read": 10, "bytes_written": 20, "kernels": []},
                {"name": "resolve", "on": "cl", "median_ms": 0.75, "bytes_read": 30, "bytes_written": 40,
                 "kernels": [{"name": "resolve", "median_ms": 0.25}]}],

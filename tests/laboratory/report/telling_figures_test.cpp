@@ -334,7 +334,7 @@ TEST(Choices, AreTheFastestExactTheFastestThatLooksItAndTheSmallest) {
   EXPECT_EQ(all[0].figure, "214 ms");
   EXPECT_THAT(all[0].sure,
               testing::StartsWith("200 to 230 ms in 5 frames: surely faster than the next, forward "
-                                  "(2,420 ms): 0.0887 of its time (95 % interval 0.08"));
+                                  "(2,420 ms): 0.0886 of its time (95 % interval 0.08"));
   EXPECT_EQ(all[1].why, "FLIP of the pictures as displayed is above 0.05 at 0.001 % of the pixels");
   EXPECT_THAT(
       all[1].sure,
