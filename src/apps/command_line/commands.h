@@ -21,6 +21,7 @@ void add_devices(CommandLine& line);
 void add_verify(CommandLine& line);
 void add_bench(CommandLine& line);
 void add_frontier(CommandLine& line);
+void add_which(CommandLine& line);
 void add_golden(CommandLine& line);
 void add_check(CommandLine& line);
 void add_view(CommandLine& line);

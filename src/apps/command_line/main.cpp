@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
                    "lightgrid: scenes with very many lights: accuracy and time of each technique");
   for (const auto add : {add_render, add_compare, add_plan, add_capture, add_cull, add_inspect, add_info,
                          add_scenes, add_techniques, add_devices, add_bench, add_verify, add_view,
-                         add_frontier, add_golden, add_check, add_reference, add_manual})
+                         add_frontier, add_which, add_golden, add_check, add_reference, add_manual})
     add(line);
   const Command command = line.parse(argc, argv);
   set_command(command_to_copy(argc, argv));

@@ -404,7 +404,7 @@ TEST(ScenesCommand, ListsTheBuiltInScenes) {
 TEST(Help, HasExamplesOfEachCommandAndNoLongLines) {
   for (const char* command :
        {"render", "compare", "plan", "capture", "cull", "inspect", "info", "scenes", "techniques", "devices",
-        "bench", "verify", "view", "frontier", "golden", "check", "manual"}) {
+        "bench", "verify", "view", "frontier", "which", "golden", "check", "manual"}) {
     const std::string help = run_program({command, "--help"}).out;
     std::istringstream lines(help);
     size_t examples = 0;

@@ -34,7 +34,7 @@ TEST(Manual, HasEachOptionOfEachCommandInEachForm) {
   };
   for (const std::string command :
        {"render", "compare", "plan", "capture", "cull", "inspect", "info", "scenes", "techniques", "devices",
-        "bench", "verify", "frontier", "golden", "check", "manual"}) {
+        "bench", "verify", "frontier", "which", "golden", "check", "manual"}) {
     const std::vector<std::string> options = long_options(run_program({command, "--help"}).out);
     ASSERT_GT(options.size(), 0u) << command;
     for (const std::string& option : options) {

@@ -113,7 +113,7 @@ TEST(Options, MeanTheSameInEveryCommand) {
   size_t compared = 0;
   for (const char* command :
        {"render", "compare", "plan", "capture", "cull", "inspect", "info", "scenes", "techniques", "devices",
-        "bench", "verify", "view", "frontier", "golden", "check"}) {
+        "bench", "verify", "view", "frontier", "which", "golden", "check"}) {
     const std::map<std::string, Option> options = options_of(command);
     EXPECT_TRUE(options.contains("--gl")) << command;
     EXPECT_TRUE(options.contains("--json") || std::string(command) == "view") << command;
