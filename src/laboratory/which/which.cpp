@@ -10,6 +10,7 @@
 #include "frontier/paired_times.h"
 #include "frontier/timed_frames.h"
 #include "frontier/view_figures.h"
+#include "measures/words.h"
 #include "scene/random.h"
 #include "which/race.h"
 #include "which/scene_errors.h"
@@ -85,10 +86,15 @@ class Contest {
   }
 
   // Points that draw with the rasteriser in OpenCL first: they need no reference but their own, and the fastest
-  // point, with which others are compared, is usually among them.
+  // point, with which others are compared, is usually among them. Within both groups, exact points first.
   std::vector<ChosenPoint> in_order() const {
     std::vector<ChosenPoint> points = job_.points;
-    std::ranges::stable_partition(points, has_own_surfaces);
+    std::ranges::stable_sort(points, {}, [&](const ChosenPoint& p) {
+      const Contestant& c = p.contestant;
+      const bool exact = !is_approximate(*c.technique, c.settings) &&
+                         c.settings[setting::range] == job_.common[setting::range];
+      return 2 * !has_own_surfaces(p) + !exact;
+    });
     return points;
   }
 
@@ -328,11 +334,20 @@ class Contest {
 
 }  // namespace
 
+// Light beyond the lights' ranges: another picture, if the reference has ranges.
+static bool adds_light(const ChosenPoint& point) {
+  const LightRange range = point.contestant.settings[setting::range];
+  return range == LightRange::infinite || range == LightRange::stochastic ||
+         !setting_in_force(described("", point).settings, "far_light").empty();
+}
+
 std::vector<ChosenPoint> which_points(const std::vector<std::string>& techniques, const Settings& common,
                                       bool opengl, const std::optional<FrontierTruth>& shadows) {
   std::vector<ChosenPoint> points = chosen_points(techniques, {}, common, opengl, shadows);
+  if (!techniques.empty()) return points;
+  const bool has_ranges = common[setting::range] != LightRange::infinite;
   std::erase_if(points, [&](const ChosenPoint& p) {
-    return techniques.empty() && p.contestant.settings[setting::brdf] != common[setting::brdf];
+    return p.contestant.settings[setting::brdf] != common[setting::brdf] || (has_ranges && adds_light(p));
   });
   return points;
 }

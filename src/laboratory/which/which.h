@@ -57,7 +57,8 @@ struct WhichAnswer {
   std::string clock = "wall";  // the clock that decided at the end: "wall", "cpu" or "device"
 };
 
-// The default points of a sweep, without other reflection models: these make another picture.
+// The default points of a sweep, without those that make another picture: other reflection models and, if lights have
+// ranges, points that add light beyond them.
 std::vector<ChosenPoint> which_points(const std::vector<std::string>& techniques, const Settings& common,
                                       bool opengl, const std::optional<FrontierTruth>& shadows);
 
