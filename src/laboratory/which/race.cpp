@@ -15,7 +15,7 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Of one round.
+// The variance of one difference.
 double variance_of(const Location& l) {
   return std::pow(l.standard_error(), 2) * double(l.influences.size());
 }

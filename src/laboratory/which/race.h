@@ -1,5 +1,5 @@
 // A race for the fastest of several runners. In each round, every runner that still competes is timed once in
-// order and once back. After each round, runners that are surely slower than the leader are dropped.
+// order and once back. After each round, runners that are significantly slower than the leader are dropped.
 //
 // The test: the logarithms of a runner's times relative to the leader's, round by round, have Hodges and Lehmann's
 // estimate and its standard error (measures/ratio_of_times.h). The variance of a few rounds is uncertain, so it

@@ -26,7 +26,7 @@ struct Estimate {
   double value = 0, low = 0, high = 0;
 };
 
-// What became of a point.
+// The outcome of the race for a point.
 enum class Fate { not_started, refused, inaccurate, slow, competes };
 const char* name_of(Fate fate);  // "not started", ...
 
