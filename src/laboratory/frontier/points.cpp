@@ -13,6 +13,7 @@
 #include "cl/error.h"
 #include "compare/contestants.h"
 #include "measures/metrics.h"
+#include "measures/words.h"
 #include "plan/settings/grid.h"
 #include "plan/settings/model.h"
 #include "plan/settings/shadows.h"
@@ -283,6 +284,12 @@ FrontierPoint described(const std::string& scene, const ChosenPoint& point) {
   if (point.external) return {scene, point.external->name, point.external->settings, point.label, 1};
   const Contestant& c = point.contestant;
   return {scene, c.technique->name, settings_of(*c.technique, c.settings), point.label, point.frames};
+}
+
+bool adds_light(const ChosenPoint& point) {
+  const LightRange range = point.contestant.settings[setting::range];
+  return range == LightRange::infinite || range == LightRange::stochastic ||
+         !setting_in_force(described("", point).settings, "far_light").empty();
 }
 
 void PointRun::attempt(const std::function<void()>& work) {

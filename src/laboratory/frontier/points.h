@@ -49,6 +49,9 @@ ChosenPoint baseline_point(const Settings& common, bool opengl, const std::strin
 // "visibility:range=cutoff,cutoff=0.05": what differs from the defaults and has an effect.
 std::string label_of(const Contestant& contestant, int frames);
 
+// Infinite or random ranges, or far light: the picture has light beyond the lights' ranges.
+bool adds_light(const ChosenPoint& point);
+
 FrontierPoint described(const std::string& scene, const ChosenPoint& point);
 
 // Returns whether timed frames end with the bytes of a display (picture=bytes): on GPUs, where reading back

@@ -10,7 +10,6 @@
 #include "frontier/paired_times.h"
 #include "frontier/timed_frames.h"
 #include "frontier/view_figures.h"
-#include "measures/words.h"
 #include "scene/random.h"
 #include "which/race.h"
 #include "which/scene_errors.h"
@@ -333,13 +332,6 @@ class Contest {
 };
 
 }  // namespace
-
-// Light beyond the lights' ranges: another picture, if the reference has ranges.
-static bool adds_light(const ChosenPoint& point) {
-  const LightRange range = point.contestant.settings[setting::range];
-  return range == LightRange::infinite || range == LightRange::stochastic ||
-         !setting_in_force(described("", point).settings, "far_light").empty();
-}
 
 std::vector<ChosenPoint> which_points(const std::vector<std::string>& techniques, const Settings& common,
                                       bool opengl, const std::optional<FrontierTruth>& shadows) {
