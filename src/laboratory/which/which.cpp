@@ -213,7 +213,9 @@ class Contest {
 
   void run_rounds(Race& race) {
     if (race.competing().empty()) return;
-    double longest_s = 0;
+    double longest_s = 0;  // each timed frame follows one that does not count
+    for (const size_t i : race.competing())
+      longest_s += 2 * frames_per_round * entries_[i].start.wall_ms / 1000;
     while ((!race.is_decided() || race.rounds() < min_race_rounds) && seconds() + longest_s < job_.seconds) {
       const double before = seconds();
       run_round(race);
