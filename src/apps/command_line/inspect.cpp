@@ -10,7 +10,6 @@
 #include "accuracy/frame_shadows.h"
 #include "accuracy/shadow_truth.h"
 #include "base/error.h"
-#include "base/picture_pixel.h"
 #include "base/text.h"
 #include "base/write_file.h"
 #include "command_line/commands.h"
@@ -20,6 +19,7 @@
 #include "frames/frame_lists.h"
 #include "frames/list_accuracy.h"
 #include "inspect/inspect.h"
+#include "measures/picture_pixel.h"
 #include "plan/settings/grid.h"
 #include "plan/settings/samples.h"
 

@@ -58,7 +58,7 @@ PointerResult Pointer::follow(const Input& input, int width, int height, double 
   if (!input.button) {
     const bool on_picture = gesture_ == Gesture::look || gesture_ == Gesture::line;
     if (on_picture && !drags) {
-      result.click = PicturePixel{std::clamp(int(x_), 0, width - 1), std::clamp(int(y_), 0, height - 1)};
+      result.click = lab::PicturePixel{std::clamp(int(x_), 0, width - 1), std::clamp(int(y_), 0, height - 1)};
     }
     gesture_ = Gesture::none;
   }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/picture_pixel.h"
+#include "measures/picture_pixel.h"
 #include "plan/settings.h"
 #include "scene/light_motion.h"
 
@@ -42,11 +42,11 @@ struct Controls {
   std::optional<double> seconds;  // jump to this time
   bool draw_always = false;       // even if nothing changed
   bool measure_passes = true;
-  std::optional<PicturePixel> pixel;  // the inspected pixel of the full picture
-  std::string pixel_file;             // its lights are written there in this frame; empty: not
-  std::string times_file;             // likewise the figures of both sides
-  std::string casting_file;           // likewise the lights that cast, with what the plan says of each
-  bool show_lights = false;           // signs at their places
+  std::optional<lab::PicturePixel> pixel;  // the inspected pixel of the full picture
+  std::string pixel_file;                  // its lights are written there in this frame; empty: not
+  std::string times_file;                  // likewise the figures of both sides
+  std::string casting_file;                // likewise the lights that cast, with what the plan says of each
+  bool show_lights = false;                // signs at their places
   bool show_keys = false;
   bool close_lists = false;  // in this frame
   bool screenshot = false;
@@ -79,9 +79,9 @@ const std::vector<KeyHelp>& key_help();
 enum class FlightKey { forward, left, back, right, down, up, fast };  // W A S D Q E shift
 
 struct PointerResult {
-  double turn_x = 0, turn_y = 0;      // pixels since the last frame
-  std::optional<double> line;         // new position of the line
-  std::optional<PicturePixel> click;  // pressed and released at one position
+  double turn_x = 0, turn_y = 0;           // pixels since the last frame
+  std::optional<double> line;              // new position of the line
+  std::optional<lab::PicturePixel> click;  // pressed and released at one position
 };
 
 // Interprets the pointer over the picture: dragging the line, turning the camera, or clicking a pixel.

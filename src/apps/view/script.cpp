@@ -127,7 +127,7 @@ Run map(Words words) {
 
 Run click(Words words) {
   expect_words(words, 2, "click X Y");
-  const PicturePixel pixel{number(words[0], 0, 1 << 20), number(words[1], 0, 1 << 20)};
+  const lab::PicturePixel pixel{number(words[0], 0, 1 << 20), number(words[1], 0, 1 << 20)};
   return [pixel](Controls& controls, Input&) { controls.pixel = pixel; };
 }
 

@@ -17,12 +17,12 @@ namespace lightgrid::app {
 
 // The lights at a pixel that the frame listed or the oracle finds lit: lost first, then lit, then the rest;
 // each group by distance. Tests are empty. Of the place only what a pixel has without a light grid is set.
-lab::PixelInspection lights_at(const ListedFrame& listed, PicturePixel pixel);
+lab::PixelInspection lights_at(const ListedFrame& listed, lab::PicturePixel pixel);
 
 // The decision of culling about each light at the pixel: the frame's depth is culled once more, with the
 // run's settings. Empty if the technique's plan has no light grid.
 std::optional<lab::PixelInspection> inspect_pixel(TechniqueRun& run, const lab::CapturedFrame& frame,
-                                                  PicturePixel pixel);
+                                                  lab::PicturePixel pixel);
 
 // Adds the deciding tests and their margins, and up to `max_dropped` dropped lights, those nearest to the
 // cell first.

@@ -100,7 +100,7 @@ class Viewer {
   bool map_announced_[2] = {};  // "computing" was shown for a frame
   std::array<PlanHistory, 2> plans_;
   std::array<std::optional<lab::PixelInspection>, 2> pixel_;
-  PicturePixel pixel_shown_{-1, -1};  // outside: none
+  lab::PicturePixel pixel_shown_{-1, -1};  // outside: none
   bool pixel_is_new_ = false;
   size_t pixel_picture_[2] = {};
   Input script_input_;

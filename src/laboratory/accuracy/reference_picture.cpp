@@ -5,10 +5,10 @@
 #include <numeric>
 
 #include "accuracy/scene_occlusion.h"
-#include "effects/effects.h"
 #include "plan/frame_plan.h"
 #include "plan/settings/model.h"
 #include "plan/settings/shadows.h"
+#include "run/frames.h"
 
 namespace lightgrid::lab {
 
@@ -31,7 +31,8 @@ size_t ReferencePicture::doubtful() const {
 
 ReferencePicture reference_picture(const Scene& scene, const View& view, const Settings& settings, int places,
                                    const std::function<void(double)>& progress) {
-  const FramePlan plan = plan_frame(scene, view, settings, {.effects = all_effects});
+  const FramePlan plan =
+      plan_frame(scene, view, settings, {.effects = find_technique("forward").needs.effects});
   const bool casts = std::ranges::any_of(scene.lights, &Light::casts_shadow) &&
                      settings[setting::shadows] != ShadowMethod::none;
   SceneOcclusion occlusion(scene);

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "base/picture_pixel.h"
 #include "golden/golden.h"
+#include "measures/picture_pixel.h"
 #include "measures/results.h"
 
 namespace lightgrid::lab {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "base/picture_pixel.h"
 #include "frames/frame_culler.h"
+#include "measures/picture_pixel.h"
 #include "measures/results.h"
 #include "oracle/lit_set.h"
 #include "oracle/seen_pairs.h"

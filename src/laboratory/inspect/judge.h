@@ -1,8 +1,8 @@
 // Judges the light lists that a frame came with, from any engine: which lights each pixel lacks.
 #pragma once
 
-#include "base/picture_pixel.h"
 #include "inspect/inspect.h"
+#include "measures/picture_pixel.h"
 
 namespace lightgrid::lab {
 

@@ -158,7 +158,7 @@ TEST(Pointer, TurnsDragsTheLineAndClicks) {
 
   pointer.follow(at(10, 0, false), 320, 180, 0.25, true);
   pointer.follow(at(10, 0, true), 320, 180, 0.25, true);
-  EXPECT_EQ(pointer.follow(at(10, 0, false), 320, 180, 0.25, true).click, (PicturePixel{10, 0}));
+  EXPECT_EQ(pointer.follow(at(10, 0, false), 320, 180, 0.25, true).click, (lab::PicturePixel{10, 0}));
 }
 
 // A slow frame: since the last one the pointer came from elsewhere and was pressed.
@@ -168,7 +168,7 @@ TEST(Pointer, APressCountsWhereItHappened) {
   Input press = at(90, 40, true);
   press.pressed = {{90, 40}};
   EXPECT_EQ(pointer.follow(press, 320, 180, 0.5, true).turn_x, 0);
-  EXPECT_EQ(pointer.follow(at(90, 40, false), 320, 180, 0.5, true).click, (PicturePixel{90, 40}));
+  EXPECT_EQ(pointer.follow(at(90, 40, false), 320, 180, 0.5, true).click, (lab::PicturePixel{90, 40}));
 }
 
 TEST(Pointer, ADragBetweenTwoFramesIsNoClick) {

@@ -67,7 +67,7 @@ TEST(Script, ChoosesForOneSideOrBoth) {
   EXPECT_EQ(controls.sides[1].map, SideMap::lost);
   EXPECT_EQ(controls.line, 0.25);
   EXPECT_TRUE(controls.picture_under);
-  EXPECT_EQ(controls.pixel, (PicturePixel{3, 4}));
+  EXPECT_EQ(controls.pixel, (lab::PicturePixel{3, 4}));
 }
 
 TEST(Script, ChoosesTheLightsThatCastAndOneOfThem) {

@@ -2,7 +2,7 @@
 // bottom.
 #pragma once
 
-namespace lightgrid {
+namespace lightgrid::lab {
 
 struct PicturePixel {
   int x = 0, y = 0;
@@ -12,4 +12,4 @@ struct PicturePixel {
 // Row counted from the other side.
 constexpr int flipped_row(int row, int height) { return height - 1 - row; }
 
-}  // namespace lightgrid
+}  // namespace lightgrid::lab
