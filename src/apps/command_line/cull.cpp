@@ -94,7 +94,7 @@ void add_cull(CommandLine& line) {
   add_timing_options(command, o->timing);
   command.option("--json", o->json, "summary as JSON into a file, - for stdout");
   command.flag("--judge", o->judge, "makes no lists: compares those of the frame with the oracle");
-  command.option("--junit", o->junit, "of --judge: a test case for each light, as JUnit XML; - for stdout");
+  command.option("--junit", o->junit, "results as JUnit XML into a file, - for stdout");
 }
 
 }  // namespace lightgrid::app

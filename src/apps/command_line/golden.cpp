@@ -339,7 +339,7 @@ void add_golden(CommandLine& line) {
   command.flag("--pictures", o->pictures, "of record: stores each view's pixels too, as DIR/SCENE_VIEW.exr");
   command.option("-o,--output", o->output, "of check: folder for the pictures of views that differ");
   command.option("--json", o->json, "of check: results as JSON into a file, - for stdout");
-  command.option("--junit", o->junit, "of check: results as JUnit XML into a file, - for stdout");
+  command.option("--junit", o->junit, "results as JUnit XML into a file, - for stdout");
   command.option("--sarif", o->sarif, "of check: differences as SARIF 2.1.0 into a file, - for stdout");
 }
 
