@@ -22,7 +22,7 @@
 namespace lightgrid {
 namespace {
 
-// Of pictures of any size that are read.
+// The largest side of a picture that is read, in pixels.
 constexpr int max_picture_side = 8192;
 constexpr size_t max_picture_bytes = size_t(1) << 30;
 

@@ -28,7 +28,7 @@ RadianceMap read_radiance_map(const std::filesystem::path& path);
 RadianceMap sky_gradient(const glm::dvec3& zenith, const glm::dvec3& horizon, const glm::dvec3& ground);
 
 glm::dvec3 direction_of_texel(const RadianceMap& map, int column, int row);  // of its middle, unit
-// Of a unit direction in the world.
+// Radiance from a unit direction of the world.
 glm::dvec3 radiance_at(const RadianceMap& map, const glm::dvec3& direction);
 
 // As shared/effects/environment_light.h lays it out.
@@ -37,7 +37,7 @@ struct EnvironmentTable {
   std::vector<glm::dvec3> texels;
 };
 
-// Of red, green and blue: x, y, z, xx, yy, zz, xy, xz, yz.
+// For red, green and blue each: x, y, z, xx, yy, zz, xy, xz, yz.
 using RadianceMoments = std::array<std::array<double, 9>, 3>;
 
 struct Environment {

@@ -58,7 +58,7 @@ TEST(GltfImageBasedLight, FacesAreWhereTheyLook) {
   const dvec3 towards[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   for (int i = 0; i < 6; ++i)
     EXPECT_NEAR(red_towards(scene, towards[i]), 2 * linear_of(100 + 20 * i), 1e-6) << i;
-  // Of the coefficients, whatever the faces are: the integrals of 2 (1 + y), of it times y, and times y^2.
+  // The coefficients decide, whatever the faces are: the integrals of 2 (1 + y), of it times y, and times y^2.
   const auto& m = scene.environment->moments[1];
   EXPECT_NEAR(m[3] + m[4] + m[5], 8 * sphere_pi, 1e-4);
   EXPECT_NEAR(m[1], 8 * sphere_pi / 3, 1e-4);

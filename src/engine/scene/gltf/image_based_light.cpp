@@ -85,7 +85,7 @@ dvec3 radiance_of(const std::array<const Bitmap*, 6>& faces, const dvec3& d) {
   return radiance;
 }
 
-// Of the first level of specularImages. Images without a fault are returned in `decoded`.
+// The six faces of the first level of specularImages. Images without a fault are returned in `decoded`.
 std::optional<std::array<const Bitmap*, 6>> read_faces(Document& doc, const tinygltf::Value& light,
                                                        const std::string& place, ImageSet& decoded) {
   const tinygltf::Value& levels = light.Get("specularImages");
