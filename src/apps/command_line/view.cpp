@@ -104,7 +104,9 @@ int view(const ViewOptions& o) {
   job.controls.sides = {{{o.left.empty() ? "visibility" : find_technique(o.left).name, settings},
                          {o.right.empty() ? beside : find_technique(o.right).name, settings}}};
   const auto& [left, right] = job.controls.sides;
-  if (left.technique == right.technique && !job.scripted) job.controls.sides[1].map = SideMap::listed;
+  const bool chosen = !o.left.empty() && !o.right.empty();
+  if (left.technique == right.technique && !chosen && !job.scripted)
+    job.controls.sides[1].map = SideMap::listed;
   SceneChoice choice = o.scene;
   choice.device = o.device;
   load(job, choice);

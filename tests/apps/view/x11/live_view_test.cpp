@@ -204,7 +204,7 @@ TEST_F(LiveView, TakesKeysAndClicksThatAreShorterThanAFrame) {
   EXPECT_TRUE(waits([&] {
     command = copied_command();
     return command && shows_now(drawn_by(*command));
-  })) << *command;
+  })) << command.value_or("no command");
 
   stop_program(true);
   desktop_.click(100, 200);
