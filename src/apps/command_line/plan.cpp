@@ -9,6 +9,7 @@
 #include "command_line/commands.h"
 #include "command_line/options.h"
 #include "compare/contestants.h"
+#include "oracle/blend_order.h"
 #include "oracle/leaks.h"
 #include "plan/coarse_shadows.h"
 #include "plan/settings/model.h"
@@ -22,7 +23,7 @@ namespace {
 struct PlanOptions {
   SceneChoice scene;
   std::string technique = "forward_plus", json;
-  bool leaks = false;
+  bool leaks = false, blend_order = false;
 };
 
 nlohmann::ordered_json leaks_json(const Leaks& leaks, const Scene& scene) {
@@ -62,10 +63,13 @@ int plan(PlanOptions o) {
   const FramePlan plan = plan_frame(chosen.scene, chosen.view, settings, technique.needs);
   std::optional<Leaks> leaks;
   if (o.leaks) leaks = find_leaks(chosen.scene, chosen.view, ranges_of(settings));
+  std::optional<BlendOrder> order;
+  if (o.blend_order) order = find_blend_order(chosen.scene, chosen.view, plan.surfaces.blended);
   if (o.json.empty()) {
     std::fputs(describe(plan, chosen.scene).c_str(), stdout);
     constexpr size_t max_leaks = 20;
     if (leaks) std::fputs(describe(*leaks, chosen.scene, max_leaks).c_str(), stdout);
+    if (order) std::fputs(describe(*order).c_str(), stdout);
     return 0;
   }
   nlohmann::ordered_json json = {{"scene", chosen.scene.name},
@@ -94,6 +98,8 @@ int plan(PlanOptions o) {
                               {"first_instance", coarse.first_instance},
                               {"gap_m", coarse.gap_m}};
   if (leaks) json["leaks"] = leaks_json(*leaks, chosen.scene);
+  if (order)
+    json["blend_order"] = {{"blended", order->blended}, {"several", order->several}, {"wrong", order->wrong}};
   write_json(o.json, json.dump(1));
   return 0;
 }
@@ -108,6 +114,8 @@ void add_plan(CommandLine& line) {
   add_technique_option(command, o->technique, technique_names());
   add_exposure_option(command, o->scene);
   command.flag("--leaks", o->leaks, "lists the light that goes through walls, by light and wall");
+  command.flag("--blend-order", o->blend_order,
+               "counts the pixels whose blended surfaces are blended in a wrong order");
   command.option("--json", o->json, "as JSON into a file, - for stdout");
 }
 

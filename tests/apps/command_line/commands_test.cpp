@@ -343,6 +343,18 @@ TEST(PlanCommand, TellsOfEachLightThatCastsWhetherItsShadowsAreFound) {
   EXPECT_EQ(count.size(), 2u);
 }
 
+TEST(PlanCommand, CountsPixelsThatAreBlendedInAWrongOrder) {
+  const std::vector<std::string> no_device = {"OCL_ICD_VENDORS=/nonexistent"};
+  const ProgramRun text = run_program({"plan", "particles", "--size", "64x36", "--blend-order"}, no_device);
+  EXPECT_NE(text.out.find("pixels with blended surfaces have several"), std::string::npos) << text.out;
+  const ProgramRun json =
+      run_program({"plan", "particles", "--size", "64x36", "--blend-order", "--json", "-"}, no_device);
+  const auto order = nlohmann::json::parse(json.out)["blend_order"];
+  EXPECT_GT(order["several"], 0);
+  EXPECT_GE(order["blended"], order["several"]);
+  EXPECT_GE(order["several"], order["wrong"]);
+}
+
 TEST(PlanCommand, ListsLightThatGoesThroughWalls) {
   const std::vector<std::string> no_device = {"OCL_ICD_VENDORS=/nonexistent"};
   const ProgramRun text = run_program({"plan", "terrain", "--size", "64x36", "--leaks"}, no_device);
