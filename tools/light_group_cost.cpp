@@ -2,6 +2,8 @@
 // `rooms`, of rooms with lights that reach every pixel and are of a group that no surface has, and of rooms
 // in which the same lights light all, in turn. CSV; docs/light_groups.md has the table.
 //   light_group_cost [WxH [LIGHTS [FRAMES]]]
+// Or the shadow rays of `rooms` with its groups and without, per camera, where all lights cast shadows:
+//   light_group_cost rays [WxH]
 #include <fmt/format.h>
 
 #include <sstream>
@@ -52,7 +54,36 @@ Scene with_more(Scene scene, int lights, uint32_t groups) {
   return scene;
 }
 
+Scene without_groups(Scene scene) {
+  for (Light& light : scene.lights) set_groups(light, all_groups);
+  for (Instance& instance : scene.instances) set_groups(instance, all_groups);
+  return scene;
+}
+
+int print_rays(const std::string& size) {
+  const int width = std::atoi(size.c_str()), height = std::atoi(size.c_str() + size.find('x') + 1);
+  Renderer renderer("", GlBackend::none);
+  const auto all_casting = [](Scene scene) {
+    for (Light& light : scene.lights) light.casts_shadow = true;
+    return scene;
+  };
+  const Scene grouped = all_casting(find_builtin_scene("rooms")->make()), plain = without_groups(grouped);
+  fmt::print("camera,rays with groups,rays without,share\n");
+  for (const Camera& camera : grouped.cameras) {
+    const View view = make_view(camera, width, height);
+    size_t rays[2], i = 0;
+    for (const Scene* scene : {&grouped, &plain}) {
+      TechniqueRun run(renderer, *scene, view, {}, find_technique("visibility"));
+      run.run_frame();
+      rays[i++] = run.result().shadows->rays;
+    }
+    fmt::print("{},{},{},{:.3f}\n", camera.name, rays[0], rays[1], double(rays[0]) / double(rays[1]));
+  }
+  return 0;
+}
+
 int run(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "rays") return print_rays(argc > 2 ? argv[2] : "640x360");
   const std::string size = argc > 1 ? argv[1] : "640x360";
   const int lights = argc > 2 ? std::atoi(argv[2]) : 8, frames = argc > 3 ? std::atoi(argv[3]) : 15;
   const int width = std::atoi(size.c_str()), height = std::atoi(size.c_str() + size.find('x') + 1);
