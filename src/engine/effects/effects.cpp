@@ -2,9 +2,9 @@
 
 namespace lightgrid {
 
-extern const Effect environment_light, far_light, light_groups;
+extern const Effect environment_light, far_light, light_groups, light_hulls;
 
-static constexpr const Effect* effects[] = {&environment_light, &far_light, &light_groups};
+static constexpr const Effect* effects[] = {&environment_light, &far_light, &light_groups, &light_hulls};
 constinit const Effects all_effects = effects;
 
 // Lights are read with the effects' part in them (scene/effect_terms.h).
