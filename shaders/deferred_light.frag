@@ -66,6 +66,7 @@ ShadingPoint point_of_pixel(ivec2 pixel, vec3 position, LitSurface s) {
 
 vec3 radiance_from(PunctualLight from, Arrival arrival, vec3 position, SurfaceValues surface, ShadingPoint p) {
   arrival.attenuation *= light_reaches(from, position, arrival.to_light, surface);
+  TINT(arrival, from, position, surface)
   return radiance_of(p, arrival, from);
 }
 

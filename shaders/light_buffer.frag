@@ -64,6 +64,7 @@ void main() {
   Arrival arrival = arrival_at(position, from);
   if (!(arrival.attenuation > 0.0)) discard;  // would add exact zeros
   arrival.attenuation *= light_reaches(from, position, arrival.to_light, surface);
+  TINT(arrival, from, position, surface)
   vec4 stored = texelFetch(normals, pixel, SAMPLE_HERE);
   LightTerms terms = light_terms(normal_of_texel(stored), direction_to_viewer(position), arrival, from,
                                  exponent_of_texel(stored));

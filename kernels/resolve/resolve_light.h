@@ -248,6 +248,12 @@ static inline Real3 own_light(const ShadingPoint* p, const Resolved* r, const Re
                   effects_reach(&l->lights.reach, view->light_count + i, p->position,
                                 real3(REAL(to_light.x), REAL(to_light.y), REAL(to_light.z)), VALUES_AT(*p)));
 #endif
+#ifdef TINTED_BY_EFFECTS
+    const Real3 tint =
+        effects_tint(&l->lights.reach, view->light_count + i, p->position,
+                     real3(REAL(to_light.x), REAL(to_light.y), REAL(to_light.z)), VALUES_AT(*p));
+    back = real3(back.x * tint.x, back.y * tint.y, back.z * tint.z);
+#endif
     sum = add3(sum, real3(back.x * light.x, back.y * light.y, back.z * light.z));
   }
 #endif

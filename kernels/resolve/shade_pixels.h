@@ -138,6 +138,7 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
 #if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
   if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
 #endif
+  TINT(arrival, light, p->position, VALUES_AT(*p))
   arrival.attenuation = arrival.attenuation * factor;
   return add3(sum, radiance_of(*p, arrival, light));
 }

@@ -21,6 +21,10 @@ vec3 directional_light_sum(ShadingPoint p) {
     back *= effects_reach(int(view.light_count) + i, p.position, texelFetch(directional_lights, 2 * i).xyz,
                           VALUES_AT(p));
 #endif
+#ifdef TINTED_BY_EFFECTS
+    back *= effects_tint(int(view.light_count) + i, p.position, texelFetch(directional_lights, 2 * i).xyz,
+                         VALUES_AT(p));
+#endif
     sum += back * texelFetch(directional_lights, 2 * i + 1).rgb;
   }
   return sum;

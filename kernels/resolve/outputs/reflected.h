@@ -48,7 +48,7 @@ static inline void add_plane(Real3* normal, const ResolveScene* s, uint triangle
 // plane: of add_plane. The view's eye is at the light.
 static inline ReflectedLight reflected_light(ShadingPoint p, mask_t unlit, Real3 plane, mask_t covered,
                                              PunctualLight light, constant ViewParams* view) {
-  const Arrival arrival = arrival_at(p.position, light);
+  Arrival arrival = arrival_at(p.position, light);
   const real squared = dot3(p.position, p.position);
   const real plane_squared = dot3(plane, plane);
   const real scale = inverse_sqrt_real(max_real(plane_squared, REAL(FLT_MIN)));
@@ -66,14 +66,15 @@ static inline ReflectedLight reflected_light(ShadingPoint p, mask_t unlit, Real3
   const real n_dot_l = min_real(max_real(dot3(p.normal, arrival.to_light), REAL(0.0f)), REAL(1.0f));
   const real arriving =
       arrival.attenuation * light_reaches(light, p.position, arrival.to_light, VALUES_AT(p));
+  TINT(arrival, light, p.position, VALUES_AT(p))
   const real received = arriving * n_dot_l * r.area;
   const Real3 diffuse = DIFFUSE_INTEGRAL(p, SHADING_PI);
   const Real3 albedo = UNDER_COAT(p, diffuse);
   const mask_t lit = covered & (unlit == 0) & (plane_squared > REAL(FLT_MIN)) & (received > REAL(0.0f));
   const real none = 0.0f;
-  r.flux = real3(lit ? albedo.x * light.color.x * received : none,
-                 lit ? albedo.y * light.color.y * received : none,
-                 lit ? albedo.z * light.color.z * received : none);
+  r.flux = real3(lit ? albedo.x * light.color.x TINTED(arrival, x) * received : none,
+                 lit ? albedo.y * light.color.y TINTED(arrival, y) * received : none,
+                 lit ? albedo.z * light.color.z TINTED(arrival, z) * received : none);
   r.area = lit ? r.area : none;
   r.ahead = lit ? r.ahead : none;
   r.normal = real3(lit ? r.normal.x : none, lit ? r.normal.y : none, lit ? r.normal.z : none);

@@ -120,6 +120,7 @@ static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal
 #if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
   if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
 #endif
+  TINT(arrival, light, position, surface)
   return add_terms(sum, light_terms(normal, to_viewer, arrival, light, exponent));
 }
 

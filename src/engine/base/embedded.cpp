@@ -47,6 +47,17 @@ std::string hooks_text(const std::vector<EffectText>& effects, const std::string
   return text + '\n';
 }
 
+// Defines LIGHT_EFFECTS(X), the lists of all hooks for lights: effect by effect, as EffectState::reach_arguments
+// has them.
+std::string inputs_text(const std::vector<EffectText>& effects) {
+  std::string text = "#define LIGHT_EFFECTS(X)";
+  for (const EffectText& effect : effects) {
+    for (const char* hook : {"_REACH", "_TINT", "_MEETS", "_SURFACE"})
+      text += " IF_" + effect.upper + hook + "(X)";
+  }
+  return text + '\n';
+}
+
 // The definition of NAME_SURFACE_INPUTS in an effect's text, or nothing.
 std::string surface_list(const std::string& text, const EffectText& effect) {
   const size_t begin = text.find("#define " + effect.upper + "_SURFACE_INPUTS(");
@@ -74,16 +85,18 @@ std::string surfaces_text(const EmbeddedFiles& files) {
 
 // The text of "shared/effects.h". It includes the effects whose EFFECT_NAME is defined. For each hook,
 // BASE_EFFECTS(X) expands to X(NAME_BASE_INPUTS, NAME_base, list of surface inputs) for each that defines
-// NAME_BASE_INPUTS. If any of them answers for lights, REACHED_BY_EFFECTS or MET_BY_EFFECTS is defined.
+// NAME_BASE_INPUTS. If any of them answers for lights, REACHED_BY_EFFECTS, TINTED_BY_EFFECTS or
+// MET_BY_EFFECTS is defined.
 std::string effects_text(const EmbeddedFiles& files) {
   const std::vector<EffectText> effects = effects_in(files);
   std::string text = "#include \"shared/inputs.h\"\n#include \"shared/effect_surfaces.h\"\n";
   for (const EffectText& effect : effects) {
     text += "#ifdef EFFECT_" + effect.upper + "\n#include \"" + effect.path + "\"\n#endif\n";
     text += hook_text(effect, "_BASE", nullptr) + hook_text(effect, "_REACH", "REACHED_BY_EFFECTS") +
-            hook_text(effect, "_MEETS", "MET_BY_EFFECTS");
+            hook_text(effect, "_TINT", "TINTED_BY_EFFECTS") + hook_text(effect, "_MEETS", "MET_BY_EFFECTS");
   }
-  return text + hooks_text(effects, "_BASE") + hooks_text(effects, "_REACH") + hooks_text(effects, "_MEETS");
+  for (const char* hook : {"_BASE", "_REACH", "_TINT", "_MEETS"}) text += hooks_text(effects, hook);
+  return text + inputs_text(effects);
 }
 
 std::string text_of(std::string_view path, const EmbeddedFiles& files) {

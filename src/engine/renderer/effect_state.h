@@ -34,7 +34,8 @@ class EffectState : public PassCache {
   virtual void before_lights(PassContext& work) = 0;   // at the beginning of each frame
   virtual void bind() const = 0;                       // the inputs of shaders
   virtual ClArguments base_arguments() { return {}; }  // of kernels: EFFECT_PARAMETERS of the hook NAME_base,
-  virtual ClArguments reach_arguments() { return {}; }  // and of NAME_reach
+  // And of the hooks for lights: NAME_reach, NAME_tint, NAME_meets, and their values of surfaces.
+  virtual ClArguments reach_arguments() { return {}; }
   virtual EffectFigures figures() const { return {}; }  // of the last frame, for results.json and results.csv
 };
 

@@ -23,12 +23,11 @@ void set_reach_oracles(std::vector<ReachOracle> oracles) {
   reach_oracles() = std::move(oracles);
 }
 
-ReachTerms reach_terms(const Scene& scene, const Light& light, const LightRanges& ranges,
-                       const glm::dmat3& from_world) {
+ReachTerms reach_terms(const Scene& scene, const Light& light, const LightRanges& ranges, const View& view) {
   std::vector<ReachTerm> terms;
   for (const ReachOracle& oracle : reach_oracles()) {
     if (!oracle.term) continue;
-    if (ReachTerm term = oracle.term(scene, light, ranges, from_world)) terms.push_back(std::move(term));
+    if (ReachTerm term = oracle.term(scene, light, ranges, view)) terms.push_back(std::move(term));
   }
   return terms.empty() ? nullptr : std::make_shared<const std::vector<ReachTerm>>(std::move(terms));
 }

@@ -11,13 +11,15 @@
 
 namespace lightgrid {
 
+struct View;
+
 // The mask of a light or a surface for which no effect has one.
 inline constexpr uint32_t full_mask = 0xffffffffu;
 
-// The part of a light, 0 to 1, that passes to the point at `from_light`, metres from the light, of a surface
+// The part of a light, 0 to 1 for red, green and blue, that passes to the point at `from_light`, metres from the light, of a surface
 // with this mask, besides what masks decide. Directional lights have no place: `from_light` is then where
 // their light travels to, of length 1.
-using ReachTerm = std::function<double(const glm::dvec3& from_light, uint32_t mask)>;
+using ReachTerm = std::function<glm::dvec3(const glm::dvec3& from_light, uint32_t mask)>;
 using ReachTerms = std::shared_ptr<const std::vector<ReachTerm>>;  // null: none
 
 // Bounds of a ReachTerm, for all points.
@@ -35,12 +37,12 @@ struct SurfaceMasks {
   uint32_t (*of_instance)(const Instance&) = nullptr;
 };
 
-// The hooks NAME_reach, by term and share, and NAME_meets, by masks. It may read the scene and the settings
+// The hooks NAME_reach and NAME_tint, by term and share, and NAME_meets, by masks. It may read the scene and the settings
 // that are stored with ranges (SettingFlags::of_lights).
 struct ReachOracle {
-  // An empty function: all of the light passes. Directions are along the axes of `from_world`. The function
-  // is called while the scene is unchanged.
-  ReachTerm (*term)(const Scene&, const Light&, const LightRanges&, const glm::dmat3& from_world) = nullptr;
+  // An empty function: all of the light passes. Directions are in view space. The function is called while
+  // the scene is unchanged.
+  ReachTerm (*term)(const Scene&, const Light&, const LightRanges&, const View&) = nullptr;
   LightShare (*share)(const Scene&, const Light&, const LightRanges&) = nullptr;
   SurfaceMasks masks{};
 };
@@ -48,8 +50,7 @@ struct ReachOracle {
 // Registers the oracles of a program's effects: once, before any light is read.
 void set_reach_oracles(std::vector<ReachOracle> oracles);
 
-ReachTerms reach_terms(const Scene& scene, const Light& light, const LightRanges& ranges,
-                       const glm::dmat3& from_world);
+ReachTerms reach_terms(const Scene& scene, const Light& light, const LightRanges& ranges, const View& view);
 // The share that all effects together let through.
 LightShare share_of(const Scene& scene, const Light& light, const LightRanges& ranges);
 uint32_t mask_of(const Light& light);

@@ -29,7 +29,7 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
     out.window = window_of(ranges);
     out.min_falloff = min_falloff(light, ranges);
     out.mask = mask_of(light);
-    out.reach = reach_terms(scene, light, ranges, rotation);
+    out.reach = reach_terms(scene, light, ranges, view);
     out.share = share_of(scene, light, ranges);
     if (light.is_virtual) out.max_falloff = max_falloff(light);
     if (light.outer_cone_rad != outer_rad) {

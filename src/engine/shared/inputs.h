@@ -8,7 +8,7 @@
 //   ColumnInput  a number of values for each light, such as a column of LIGHT_TABLE: in kernels a pointer to
 //                `type`, in shaders a buffer texture; COLUMN(type, name, i) is value i. A table, such as the
 //                texels of cookies, is one too: LOOKUP(name, i) is the float at i, which each pixel has its
-//                own
+//                own; LOOKUP_WORD(name, i) the Whole with the bits of the uint at i
 //   BlockInput   one struct: in kernels a pointer to it, in shaders the member `name` of the uniform block
 //                `resource`
 //
@@ -22,6 +22,8 @@
 //                      light, 0 to 1, that passes to a point of a surface (light_reaches in
 //                      shared/light_table.h). light: its place among point and spot lights; directional ones
 //                      follow. point and the unit vector to_light: in view space.
+//   NAME_TINT_INPUTS   Real3 NAME_tint(LightIndex light, Real3 point, Real3 to_light, inputs): the same for
+//                      red, green and blue. A light's color is multiplied by it (Arrival::tint).
 //   NAME_MEETS_INPUTS  Lit NAME_meets(LightIndex light, inputs): the same where the part is 0 or 1 at all
 //   points
 //                      of a surface. Light loops leave a light out before they compute its distance.
@@ -45,6 +47,7 @@
 #define Lit mask_t  // of each lane, whether a surface is lit there
 #define EVERY_LIT WHOLE(-1)
 #define BOTH(a, b) ((a) & (b))
+#define ANY(lit) any_lane(lit)
 #define INPUT(name) (*name)
 #define LightIndex uint
 #define ArrayInput(type) global const type*
@@ -58,6 +61,7 @@
 #else
 #define LOOKUP(name, i) (name)[i]
 #endif
+#define LOOKUP_WORD(name, i) bits_of_real(LOOKUP((global const float*)(name), i))
 #define BlockInput(type) constant type*
 #define TAKEN_INPUT(kind, type, name, resource) , kind(type) name
 #define TAKEN_VALUE(kind, type, name, resource) , Whole name
@@ -75,12 +79,14 @@
 #define Lit bool
 #define EVERY_LIT true
 #define BOTH(a, b) ((a) && (b))
+#define ANY(lit) (lit)
 #define INPUT(name) name
 #define LightIndex int
 #define ArrayInput(type, name, resource) uniform resource name;
 #define ColumnInput(type, name, resource) uniform resource name;
 #define COLUMN(type, name, i) type(texelFetch(name, i))
 #define LOOKUP(name, i) texelFetch(name, i).r
+#define LOOKUP_WORD(name, i) int(texelFetch(name, i).r)
 #define BlockInput(type, name, resource) \
   layout(std140) uniform resource { type name; };
 #define TAKEN_INPUT(kind, type, name, resource)

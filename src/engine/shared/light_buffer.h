@@ -54,13 +54,16 @@ SHARED_FUNCTION LightTerms light_terms(Real3 normal, Real3 to_viewer, Arrival ar
   real grazing = max_real(mad_real(-0.5f, sqrt_real(h_squared), 1.0f), REAL(0.0f));
   real grazing2 = grazing * grazing;
   real grazing5 = grazing2 * grazing2 * grazing;
-  real intensity = max_real(REAL(light.color.x), max_real(REAL(light.color.y), REAL(light.color.z)));
+  real intensity =
+      max_real(REAL(light.color.x TINTED(arrival, x)),
+               max_real(REAL(light.color.y TINTED(arrival, y)), REAL(light.color.z TINTED(arrival, z))));
   real diffuse = arriving * (1.0f - grazing5);
   t.specular = lobe * intensity;
   t.weight = arriving * intensity;
   t.rim = lobe * grazing5 * intensity;
 #endif
-  t.diffuse = real3(diffuse * light.color.x, diffuse * light.color.y, diffuse * light.color.z);
+  t.diffuse = real3(diffuse * light.color.x TINTED(arrival, x), diffuse * light.color.y TINTED(arrival, y),
+                    diffuse * light.color.z TINTED(arrival, z));
   return t;
 }
 

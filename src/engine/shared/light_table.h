@@ -49,7 +49,7 @@ namespace lightgrid {
 
 // Identifies a light for light_reaches: its index, and in OpenCL the shadows at the pixels that read it and
 // the inputs of effects.
-#if defined(REACHED_BY_EFFECTS) || defined(MET_BY_EFFECTS)
+#if defined(REACHED_BY_EFFECTS) || defined(TINTED_BY_EFFECTS) || defined(MET_BY_EFFECTS)
 #define EFFECTS_OF_LIGHTS
 #endif
 #if defined(SHADOWS) || defined(EFFECTS_OF_LIGHTS)
@@ -65,13 +65,12 @@ namespace lightgrid {
 #endif
 #if defined(EFFECTS_OF_LIGHTS) && defined(__OPENCL_VERSION__)
 typedef struct ReachInputs {
-  REACH_EFFECTS(EFFECT_MEMBERS) MEETS_EFFECTS(EFFECT_MEMBERS)
+  REACH_EFFECTS(EFFECT_MEMBERS) TINT_EFFECTS(EFFECT_MEMBERS) MEETS_EFFECTS(EFFECT_MEMBERS)
 } ReachInputs;
 #define REACH_MEMBER const ReachInputs* reach;
 #define LIGHTS_REACH ReachInputs reach;  // of structs of lights, after LIGHT_TABLE(LIGHT_ARRAY)
-#define GIVEN_REACH {REACH_EFFECTS(EFFECT_VALUES) MEETS_EFFECTS(EFFECT_VALUES)},
-#define REACH_ARGUMENTS \
-  REACH_EFFECTS(EFFECT_PARAMETERS) MEETS_EFFECTS(EFFECT_PARAMETERS) SURFACE_EFFECTS(EFFECT_PARAMETERS)
+#define GIVEN_REACH {REACH_EFFECTS(EFFECT_VALUES) TINT_EFFECTS(EFFECT_VALUES) MEETS_EFFECTS(EFFECT_VALUES)},
+#define REACH_ARGUMENTS LIGHT_EFFECTS(EFFECT_PARAMETERS)
 #else
 #define REACH_MEMBER
 #define LIGHTS_REACH
@@ -134,6 +133,25 @@ SHARED_FUNCTION real effects_reach(LIGHT_OF_EFFECTS Real3 point, Real3 to_light,
 #define light_reaches(light, point, to_light, surface) IF_MEETING(light, surface, SEEN_SHARE(light))
 #else
 inline real light_reaches(const PunctualLight&, const Real3&, const Real3&, Whole) { return 1; }
+#endif
+
+// The tint of all effects. TINT sets that of an Arrival (shared/punctual_light.h), once it is known to be lit;
+// TINTED multiplies one channel of a light's color by it.
+#ifdef TINTED_BY_EFFECTS
+#define TIMES_TINT(inputs, tint, own)                                               \
+  more = tint(light, point, to_light inputs(INPUT_OF_REACH) own(VALUE_OF_SURFACE)); \
+  all = real3(all.x * more.x, all.y * more.y, all.z * more.z);
+SHARED_FUNCTION Real3 effects_tint(LIGHT_OF_EFFECTS Real3 point, Real3 to_light, SurfaceValues surface) {
+  Real3 all = real3(REAL(1.0f), REAL(1.0f), REAL(1.0f)), more;
+  TINT_EFFECTS(TIMES_TINT)
+  return all;
+}
+#define TINT(arrival, light, point, surface) \
+  (arrival).tint = effects_tint(OF_LIGHT(light), point, (arrival).to_light, surface);
+#define TINTED(arrival, channel) *(arrival).tint.channel
+#else
+#define TINT(arrival, light, point, surface)
+#define TINTED(arrival, channel)
 #endif
 
 #if defined(LIGHTGRID_GLSL)

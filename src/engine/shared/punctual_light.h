@@ -21,6 +21,9 @@ namespace lightgrid {
 SHARED_STRUCT(Arrival) {
   Real3 to_light;  // unit
   real attenuation;
+#ifdef TINTED_BY_EFFECTS
+  Real3 tint;  // set by TINT
+#endif
 };
 
 SHARED_FUNCTION Real3 offset_to_light(Real3 position, PunctualLight light) {
@@ -88,13 +91,15 @@ SHARED_FUNCTION Arrival arrival_beyond(Real3 position, PunctualLight light) {
 
 SHARED_FUNCTION Real3 radiance_of(ShadingPoint p, Arrival arrival, PunctualLight light) {
   Real3 back = scale3(reflected(p, arrival.to_light), arrival.attenuation);
-  return real3(back.x * light.color.x, back.y * light.color.y, back.z * light.color.z);
+  return real3(back.x * light.color.x TINTED(arrival, x), back.y * light.color.y TINTED(arrival, y),
+               back.z * light.color.z TINTED(arrival, z));
 }
 
 SHARED_FUNCTION Real3 radiance_from(ShadingPoint p, PunctualLight light) {
   Arrival arrival = arrival_at(p.position, light);
   arrival.attenuation =
       arrival.attenuation * light_reaches(light, p.position, arrival.to_light, VALUES_AT(p));
+  TINT(arrival, light, p.position, VALUES_AT(p))
   return radiance_of(p, arrival, light);
 }
 

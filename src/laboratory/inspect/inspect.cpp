@@ -236,6 +236,7 @@ PixelInspection inspect_pixel(const CapturedFrame& frame, const FrameGrid& grid,
     v.listed = stands_in_cell(grid.lists, at, i);
     v.distance_m = pixel.covered ? glm::length(lights[i].position - here) : endless;
     v.lit = pixel.covered && is_lit(lights[i], here);
+    if (v.lit && lights[i].reach) v.share = light_reaches(lights[i], here, full_mask);
     if (std::binary_search(near.begin(), near.end(), i)) v.lit_pixels = count_lit(lights[i], surfaces);
     if (empty) {
       v.test = "empty";

@@ -52,6 +52,7 @@ struct LightVerdict {
   bool touches = false;                 // some point of the convex cell may be lit, cone included
   bool lit = false;                     // by the oracle, at this pixel
   int lit_pixels = 0;                   // lit pixels of the cell
+  std::optional<glm::dvec3> share;      // that effects let through here, of a lit light
   std::optional<ShadowVerdict> shadow;  // by add_shadows
 };
 

@@ -65,6 +65,12 @@ const char* name_of(Sight sight) {
   return sight == Sight::seen ? "seen" : sight == Sight::hidden ? "hidden" : "either";
 }
 
+std::string share_text(const glm::dvec3& share) {
+  const bool grey = share.r == share.g && share.g == share.b;
+  return grey ? fmt::format("{:.6f}", share.r)
+              : fmt::format("({:.6f}, {:.6f}, {:.6f})", share.r, share.g, share.b);
+}
+
 std::string shadow_line(const CapturedFrame& frame, int number, const ShadowVerdict& shadow) {
   const Light& light = frame.lights[size_t(number)];
   return fmt::format("light {} \"{}\": {}\n", number, light.name, shadow_words(shadow, light));
@@ -114,12 +120,15 @@ std::string inspection_table(const CapturedFrame& frame, const PixelInspection& 
       "light", "name", "type", "away m", "radius m", "verdict", "by", "margin m", "interval", "planes",
       "aabb", "exact", "cone", "here", "lit px");
   for (const LightVerdict* v : rows) text += row_text(frame, *v, p.covered_pixels);
-  std::string shadows;
+  std::string notes;
   for (const LightVerdict* v : rows) {
-    if (v->shadow) shadows += shadow_line(frame, v->light, *v->shadow);
+    if (v->share)
+      notes += fmt::format("light {} \"{}\": {} of its intensity in this direction\n", v->light,
+                           frame.lights[size_t(v->light)].name, share_text(*v->share));
+    if (v->shadow) notes += shadow_line(frame, v->light, *v->shadow);
   }
-  for (const DirectionalShadow& d : p.directional_shadows) shadows += shadow_line(frame, d.light, d.shadow);
-  return shadows.empty() ? text : text + "\n" + shadows;
+  for (const DirectionalShadow& d : p.directional_shadows) notes += shadow_line(frame, d.light, d.shadow);
+  return notes.empty() ? text : text + "\n" + notes;
 }
 
 std::string inspection_json(const CapturedFrame& frame, const PixelInspection& p, const FrameGrid& grid,
@@ -141,6 +150,7 @@ std::string inspection_json(const CapturedFrame& frame, const PixelInspection& p
                       {"touches_cell", v->touches},
                       {"lit", v->lit},
                       {"lit_pixels", v->lit_pixels}});
+    if (v->share) lights.back()["share"] = {v->share->r, v->share->g, v->share->b};
     if (v->shadow) lights.back()["shadow"] = shadow_json(*v->shadow);
   }
   json directional_shadows = json::array();

@@ -39,16 +39,16 @@ inline bool is_near_hard_edge(const ViewLight& light, const glm::dvec3& position
   return std::abs(cos_from_axis(light, offset, distance) - light.cos_outer) * distance <= off;
 }
 
-// The share of a light that reaches a point of a surface with this mask besides that, 0 to 1: the oracle of
-// light_reaches in shared/light_table.h. Shadows are not part of it, since they depend on the triangle that a
-// pixel shows: count_pairs and shade_pixels take them from the oracle of shadows (seen_pairs.h).
-inline double light_reaches(const ViewLight& light, const glm::dvec3& position, uint32_t mask) {
+// The share of a light that reaches a point of a surface with this mask besides that, 0 to 1 for each colour: the
+// oracle of light_reaches in shared/light_table.h. Shadows are not part of it, since they depend on the triangle
+// that a pixel shows: count_pairs and shade_pixels take them from the oracle of shadows (seen_pairs.h).
+inline glm::dvec3 light_reaches(const ViewLight& light, const glm::dvec3& position, uint32_t mask) {
   bool meet = false;
   for (int bit = 0; bit < 32; ++bit) {
     const bool has_light = light.mask >> bit & 1, has_surface = mask >> bit & 1;
     meet = meet || (has_light && has_surface);
   }
-  double share = meet ? 1 : 0;
+  glm::dvec3 share(meet ? 1 : 0);
   if (!light.reach) return share;
   const glm::dvec3 from_light = is_directional(light) ? light.direction : position - light.position;
   for (const ReachTerm& reach : *light.reach) share *= reach(from_light, mask);

@@ -180,12 +180,12 @@ double add_tile(const Tile& tile, const uint32_t* begin, const uint32_t* end, Li
 }  // namespace
 
 bool is_lit(const ViewLight& light, const glm::dvec3& position, uint32_t mask) {
-  if (is_directional(light)) return light_reaches(light, position, mask) > 0;
+  if (is_directional(light)) return light_reaches(light, position, mask) != glm::dvec3(0);
   const glm::dvec3 offset = position - light.position;
   const double distance = length_of(offset.x, offset.y, offset.z);
   if (!(distance < light.radius_m)) return false;
   if (has_cone(light) && !(cos_from_axis(light, offset, distance) > light.cos_outer)) return false;
-  return light_reaches(light, position, mask) > 0;
+  return light_reaches(light, position, mask) != glm::dvec3(0);
 }
 
 std::vector<uint32_t> lit_lights(const std::vector<ViewLight>& lights, const glm::dvec3& position) {

@@ -110,9 +110,9 @@ double coat_share(const Surface& surface, const dvec3& to_eye, Brdf lobe) {
 
 dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3& to_eye,
                      const ViewLight& light, const ShadeSettings& settings) {
-  const double arriving =
+  const dvec3 arriving =
       attenuation(light, position, settings.window) * light_reaches(light, position, surface.mask);
-  if (arriving == 0) return dvec3(0);
+  if (arriving == dvec3(0)) return dvec3(0);
   dvec3 to_light = -light.direction;
   if (!is_directional(light)) {
     to_light = light.position - position;
