@@ -11,6 +11,8 @@
 #include "scene/light_groups.h"
 #include "scenes/compose.h"
 #include "scenes/shapes.h"
+#include "support/cookie_image.h"
+#include "support/profile_text.h"
 
 namespace lightgrid {
 
@@ -207,6 +209,20 @@ inline const std::vector<SceneEffect>& effects() {
          sun.direction = glm::normalize(glm::vec3(0.3f, -0.5f, -1));
        }},
       {"groups", "light groups", "", "light 0 \"lamp\" has 0", [](SmallScene& s) { add_groups(s.scene); }},
+      {"cookies", "light cookies", "", "light 0 \"lamp\" has one",
+       [](SmallScene& s) {
+         const SharedTable table = speckled_cookie(24, 12);
+         for (Light& light : s.scene.lights) light_cookie.set(light, table);
+       }},
+      {"profiles", "light profiles", "", "light 0 \"lamp\" has one",
+       [](SmallScene& s) {
+         const ProfileText of_both_angles{.vertical = equal_angles(0, 180, 12),
+                                          .horizontal = equal_angles(0, 180, 6),
+                                          .candela = [](double v, double h) { return 200 - v + h / 2; }},
+             to_the_wall{.vertical = {0, 40, 90}, .candela = [](double v, double) { return 90 - v; }};
+         for (size_t i = 0; i < 6; ++i)
+           light_profile.set(s.scene.lights[i], (i % 2 ? of_both_angles : to_the_wall).table());
+       }},
   };
   return all;
 }

@@ -2,9 +2,10 @@
 
 namespace lightgrid {
 
-extern const Effect environment_light, far_light, light_groups, light_hulls;
+extern const Effect environment_light, far_light, light_cookies, light_groups, light_hulls, light_profiles;
 
-static constexpr const Effect* effects[] = {&environment_light, &far_light, &light_groups, &light_hulls};
+static constexpr const Effect* effects[] = {&environment_light, &far_light,   &light_cookies,
+                                            &light_groups,      &light_hulls, &light_profiles};
 constinit const Effects all_effects = effects;
 
 // Lights are read with the effects' part in them (scene/effect_terms.h).

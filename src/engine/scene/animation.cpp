@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "scene/deform.h"
+#include "scene/light_axes.h"
 #include "scene/pose.h"
 
 namespace lightgrid {
@@ -51,7 +52,8 @@ bool move_light(Light& light, const glm::dmat4& world, RestFallback& rest) {
   if (!direction) direction = light_direction(rest.world_from_node(light.node));
   const bool moved = assign(light.position, glm::dvec3(world[3]));
   const bool turned = assign(light.direction, direction.value_or(Light().direction));
-  return moved || turned;
+  const bool rolled = !light.properties.values().empty() && set_up(light, glm::dvec3(world[1]));
+  return moved || turned || rolled;
 }
 
 // The value of an animated property as the loader reads it at rest: exporters' splines may overshoot.

@@ -207,7 +207,10 @@ Light plain_light(const Fields& fields) {
   light.type = light_type(fields);
   if (fields.text("type", "") == virtual_type) make_virtual(light);
   if (light.type != LightType::directional) light.position = fields.vector("position", -max_float, max_float);
-  if (light.type != LightType::point) light.direction = direction(fields);
+  if (light.type != LightType::point)
+    light.direction = direction(fields);
+  else if (!fields.properties(0, false).fields.empty())
+    light.direction = fields.has("direction") ? direction(fields) : glm::vec3(0, -1, 0);
   if (fields.has("color")) light.color = glm::vec3(fields.vector("color", 0, max_float));
   light.intensity = float(fields.number("intensity", 1, 0, max_float));
   if (intensity_overflows(light)) {
@@ -287,7 +290,8 @@ nlohmann::ordered_json to_json(const Light& light) {
     json["position"] = {light.position.x, light.position.y, light.position.z};
     if (std::isfinite(light.radius_m)) json["radius"] = shortest(light.radius_m);
   }
-  if (light.type != LightType::point) json["direction"] = to_json(light.direction);
+  if (light.type != LightType::point || !light.properties.values().empty())
+    json["direction"] = to_json(light.direction);
   if (light.is_virtual) {
     if (light.nearest_m > 0) json["nearest"] = shortest(light.nearest_m);
   } else if (light.type == LightType::spot) {

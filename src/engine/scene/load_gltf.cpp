@@ -47,11 +47,17 @@ Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits&
   const std::vector<int> node_of_instance = gltf::add_meshes(doc, nodes, scene, rig);
   GivenByFile given{{}, {}, gltf::property_files(path, limits.files_anywhere)};
   scene.lights = gltf::read_lights(doc, nodes, given, rig);
-  scene.has_own_lights = std::ranges::any_of(nodes, [&](const gltf::PlacedNode& placed) {
-    return gltf::find_extension(doc.model.nodes[size_t(placed.node)].extensions, "KHR_lights_punctual");
-  });
+  gltf::add_extension_lights(doc, nodes, given, rig, scene.lights);
+  scene.has_own_lights =
+      !scene.lights.empty() || std::ranges::any_of(nodes, [&](const gltf::PlacedNode& placed) {
+        return gltf::find_extension(doc.model.nodes[size_t(placed.node)].extensions, "KHR_lights_punctual");
+      });
   given.instances = gltf::properties_of_instances(doc, node_of_instance);
   apply_properties(scene, given);
+  for (const Light& light : scene.lights) {
+    const auto blinking = rig.lights.find(light.node);
+    if (blinking != rig.lights.end() && blinking->second.light < 0) blinking->second.rest = light;
+  }
   scene.cameras = gltf::read_cameras(doc, nodes);
   gltf::keep_used_materials(scene);
   gltf::add_textures(doc, scene);

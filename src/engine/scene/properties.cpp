@@ -16,6 +16,11 @@ std::vector<PropertyRow>& rows() {
   return rows;
 }
 
+std::vector<LightExtension>& extensions() {
+  static std::vector<LightExtension> extensions;
+  return extensions;
+}
+
 auto place_of(auto& values, size_t number) {
   return std::ranges::lower_bound(values, number, {}, [](const auto& value) { return value.first; });
 }
@@ -180,6 +185,13 @@ PropertyNumber add_property(const char* key, const PropertyValue& absent, const 
 
 std::span<const PropertyRow> property_rows() { return rows(); }
 
+bool add_light_extension(LightExtension extension) {
+  extensions().push_back(std::move(extension));
+  return true;
+}
+
+std::span<const LightExtension> light_extensions() { return extensions(); }
+
 std::vector<std::string> property_keys(bool of_instances) {
   std::vector<std::string> keys;
   for (const PropertyRow& row : rows()) {
@@ -229,6 +241,14 @@ void apply_properties(Scene& scene, const GivenByFile& given) {
         if (has_key(row, owner.fields)) (of_row.*list).push_back(owner);
     }
     if (!of_row.lights.empty() || !of_row.instances.empty()) row.apply(scene, of_row);
+  }
+  for (const GivenProperties& given_light : given.lights) {
+    if (!given_light.extension) continue;
+    try {
+      given_light.extension->finish(scene.lights[size_t(given_light.owner)]);
+    } catch (const Error& error) {
+      throw input_error("{}: {}", given_light.where, error.what());
+    }
   }
 }
 

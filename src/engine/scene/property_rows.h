@@ -24,11 +24,22 @@ struct PropertyKey {
 // By PropertyKey::key. Values are accepted, and not null.
 using GivenFields = std::map<std::string, nlohmann::json>;
 
+// A glTF extension whose nodes are point lights with a table from a file. The extension has the files as its
+// `lights`, each by `uri` or `bufferView`, and a node the index `light` of one, a `multiplier` and a `color`.
+struct LightExtension {
+  const char* name;
+  std::string key;         // of the table's property
+  void (*finish)(Light&);  // called when the light has the table, with the multiplier as its intensity
+};
+bool add_light_extension(LightExtension extension);  // true
+std::span<const LightExtension> light_extensions();
+
 // The values that a file gives one light or instance.
 struct GivenProperties {
   int owner = 0;      // index of the light or the instance
   std::string where;  // for messages: `lights.json: light 3 "lamp"`
   GivenFields fields;
+  const LightExtension* extension = nullptr;  // that makes the light
 };
 
 // The values of a file, and the files that these name.

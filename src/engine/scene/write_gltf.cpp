@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/image.h"
 #include "base/version.h"
+#include "scene/light_axes.h"
 #include "scene/property_rows.h"
 
 namespace lightgrid {
@@ -245,7 +246,10 @@ class Writer {
   // The light looks along -z.
   static glm::dmat4 placed(const Light& light) {
     glm::dmat4 m(1);
-    if (light.type != LightType::point) {
+    if (!light.properties.values().empty()) {
+      const LightAxes axes = axes_of(light);
+      m = glm::dmat4(glm::dvec4(axes.right, 0), glm::dvec4(axes.up, 0), glm::dvec4(-axes.direction, 0), m[3]);
+    } else if (light.type != LightType::point) {
       const glm::dvec3 back = -glm::dvec3(light.direction);
       const glm::dvec3 beside = std::abs(back.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
       const glm::dvec3 x = glm::normalize(glm::cross(beside, back));

@@ -178,7 +178,7 @@ TEST(Adding, AnEffectsTextAnswersTheHooksThatHaveAnOracle) {
       return text.find("#define " + upper + hook + "_INPUTS(") != text.npos;
     };
     EXPECT_EQ(lists("_BASE"), effect->base.has_value()) << name;
-    EXPECT_EQ(lists("_REACH"), effect->reach && effect->reach->term) << name;
+    EXPECT_EQ(lists("_REACH") || lists("_TINT"), effect->reach && effect->reach->term) << name;
     EXPECT_EQ(lists("_MEETS"), has_masks(*effect)) << name;
   }
 }
@@ -351,7 +351,7 @@ TEST(Adding, AColumnOfTheLightTableTakesItsRowItsValuesAndItsReaders) {
 // Its text for all three languages, the same in double, and the effect of the plan that asks for it.
 TEST(Adding, AnAnswerOfLightReachesTakesItsTextItsOracleAndThePlan) {
   const std::map<std::string, std::vector<std::string>> texts = {
-      {"answers", {"real light_reaches(", "double light_reaches(", "plan.light_reaches = "}},
+      {"answers", {"real light_reaches(", "dvec3 light_reaches(", "plan.light_reaches = "}},
   };
   const Naming expected = {
       {"src/engine/shared/light_table.h", {"answers"}},

@@ -69,7 +69,8 @@ std::vector<Assignments> contexts_of(const Technique& technique) {
 // A mask, glass, clearcoat, textures, point and spot lights and a sun.
 Scene scene_of_effects(bool shadows) {
   SmallScene s = small_scene();
-  for (const char* name : {"blend", "mask", "spot", "directional", "groups"}) effect(name).add(s);
+  for (const char* name : {"blend", "mask", "spot", "directional", "groups", "cookies", "profiles"})
+    effect(name).add(s);
   s.scene.lights[2].casts_shadow = s.scene.lights[0].casts_shadow = shadows;
   // Out of sight, but it takes room in groups of all lights.
   add_spot(s.scene, "aside", {4.2, 1.3, -3.2}, {6, 1.3, -3.2}, {1, 1, 1}, 500, 1.5f, 10, 20);

@@ -262,4 +262,11 @@ ImageSet fetch_images(Document& doc, const std::vector<ImageUse>& uses) {
   return out;
 }
 
+Bitmap decoded_image(std::span<const uint8_t> bytes, int max_side) {
+  const Document doc("image", GltfLimits{.max_image_side = max_side});
+  Encoded image{.place = "its file", .bytes = bytes};
+  read_header(doc, image);
+  return decode(doc, image);
+}
+
 }  // namespace lightgrid::gltf

@@ -33,4 +33,7 @@ struct ImageSet {
 // with a warning.
 ImageSet fetch_images(Document& doc, const std::vector<ImageUse>& uses);
 
+// A PNG or JPEG file that no glTF file names. Throws Error(input) that says what is wrong.
+Bitmap decoded_image(std::span<const uint8_t> bytes, int max_side);
+
 }  // namespace lightgrid::gltf

@@ -306,7 +306,10 @@ std::vector<ImageEntry> take_images(const Reporter& report, json& root) {
 
 }  // namespace
 
-bool is_supported_extension(std::string_view name) { return contains(supported_extensions, name); }
+bool is_supported_extension(std::string_view name) {
+  return contains(supported_extensions, name) ||
+         std::ranges::find(light_extensions(), name, &LightExtension::name) != light_extensions().end();
+}
 
 bool keeps_the_picture(std::string_view extension) {
   static constexpr std::string_view starts[] = {"AGI_",

@@ -5,6 +5,9 @@
 #include <glm/gtc/constants.hpp>
 #include <set>
 
+#include "base/text.h"
+#include "scene/gltf/accessor.h"
+#include "scene/light_axes.h"
 #include "scene/pose.h"
 
 namespace lightgrid::gltf {
@@ -94,7 +97,78 @@ std::set<int> animated_lights(const Rig& rig) {
   return lights;
 }
 
+// The file of an extension's light: its URI, or the bytes of its buffer view as one.
+std::string table_uri(Document& doc, const LightExtension& extension, int index) {
+  const tinygltf::Value* root = find_extension(doc.model.extensions, extension.name);
+  const std::string place = fmt::format("{} light {}", extension.name, index);
+  const size_t count = root && root->Get("lights").IsArray() ? root->Get("lights").ArrayLen() : 0;
+  if (size_t(index) >= count) throw doc.error("{} does not exist: the file has {}", place, count);
+  const tinygltf::Value& light = root->Get("lights").Get(index);
+  if (light.IsObject() && light.Get("uri").IsString()) return light.Get("uri").Get<std::string>();
+  if (!light.IsObject() || !light.Has("bufferView"))
+    throw doc.error("{}: has neither uri nor bufferView", place);
+  const auto bytes = view_bytes(doc, int(size_or(doc, light, "bufferView", 0, place)), place);
+  return "data:application/octet-stream;base64," + base64({bytes.begin(), bytes.end()});
+}
+
+void set_direction(const Document& doc, const PlacedNode& placed, int index, Light& light) {
+  if (const auto direction = light_direction(placed.world_from_node))
+    light.direction = *direction;
+  else if (light.type != LightType::point)
+    throw doc.error("{}: light {} has no direction: its node is scaled to {}", node_label(doc, placed.node),
+                    index, glm::length(glm::dvec3(placed.world_from_node[2])));
+}
+
+// The light that an extension makes of a node, with the multiplier as its intensity.
+Light light_of_extension(Document& doc, const LightExtension& extension, const tinygltf::Value& value,
+                         const PlacedNode& placed, GivenProperties& given) {
+  const tinygltf::Node& node = doc.model.nodes[placed.node];
+  const std::string place = fmt::format("{}: {}", node_label(doc, placed.node), extension.name);
+  if (!value.Has("light")) throw doc.error("{} has no light", place);
+  Light light;
+  light.name = node.name;
+  light.position = glm::dvec3(placed.world_from_node[3]);
+  light.intensity = read_amount(doc, number_or(doc, value, "multiplier", 1, place), place, "multiplier");
+  if (value.Has("color")) {
+    const tinygltf::Value& color = value.Get("color");
+    if (!color.IsArray() || color.ArrayLen() != 3) throw doc.error("{}: color is not three numbers", place);
+    for (int c = 0; c < 3; ++c) {
+      if (!color.Get(c).IsNumber()) throw doc.error("{}: color is not three numbers", place);
+      light.color[c] = std::min(read_amount(doc, color.Get(c).GetNumberAsDouble(), place, "color"), 1.0f);
+    }
+  }
+  const std::string uri = table_uri(doc, extension, int(size_or(doc, value, "light", 0, place)));
+  given.fields = extras_of(doc.extras.nodes, placed.node).properties;
+  given.fields[extension.key] = uri;
+  given.where = doc.place(place);
+  given.extension = &extension;
+  return light;
+}
+
 }  // namespace
+
+void add_extension_lights(Document& doc, const std::vector<PlacedNode>& nodes, GivenByFile& given, Rig& rig,
+                          std::vector<Light>& lights) {
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const PlacedNode& placed = nodes[i];
+    for (const LightExtension& extension : light_extensions()) {
+      const tinygltf::Value* value = find_extension(doc.model.nodes[placed.node].extensions, extension.name);
+      if (!value || placed.off) continue;
+      GivenProperties properties;
+      Light light = light_of_extension(doc, extension, *value, placed, properties);
+      properties.owner = int(lights.size());
+      set_direction(doc, placed, -1, light);
+      set_up(light, glm::dvec3(placed.world_from_node[1]));
+      if (placed.moves) light.node = int(i);
+      if (rig.lights.contains(light.node))
+        throw doc.error("{}: {}: the node has two lights, of which an animation switches or changes one",
+                        node_label(doc, placed.node), extension.name);
+      if (placed.blinks) rig.lights[light.node] = {-1, light};
+      given.lights.push_back(std::move(properties));
+      lights.push_back(std::move(light));
+    }
+  }
+}
 
 std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes, GivenByFile& given,
                                Rig& rig) {
@@ -120,13 +194,11 @@ std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nod
     light.source_m = own.source_radius_m.value_or(common.source_radius_m.value_or(light.source_m));
     const bool switched = placed.blinks || animated.contains(index);
     if (placed.moves || switched) light.node = static_cast<int>(i);
-    if (const auto direction = light_direction(placed.world_from_node))
-      light.direction = *direction;
-    else if (light.type != LightType::point)
-      throw doc.error("{}: light {} has no direction: its node is scaled to {}", place, index,
-                      glm::length(glm::dvec3(placed.world_from_node[2])));
-    if (GivenFields fields = own_or_common(own.properties, common.properties); !fields.empty())
+    set_direction(doc, placed, index, light);
+    if (GivenFields fields = own_or_common(own.properties, common.properties); !fields.empty()) {
+      set_up(light, glm::dvec3(placed.world_from_node[1]));
       given.lights.push_back({static_cast<int>(out.size()), doc.place(place), std::move(fields)});
+    }
     if (switched) rig.lights[light.node] = {index, light};
     out.push_back(std::move(light));
   }

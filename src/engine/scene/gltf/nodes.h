@@ -76,6 +76,10 @@ std::vector<int> add_meshes(Document& doc, const std::vector<PlacedNode>& nodes,
 std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes, GivenByFile& given,
                                Rig& rig);
 
+// Adds one point light for each node with an extension of light_extensions().
+void add_extension_lights(Document& doc, const std::vector<PlacedNode>& nodes, GivenByFile& given, Rig& rig,
+                          std::vector<Light>& lights);
+
 // The properties in the extras of instances' nodes.
 std::vector<GivenProperties> properties_of_instances(const Document& doc,
                                                      const std::vector<int>& node_of_instance);

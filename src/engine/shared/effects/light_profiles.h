@@ -1,0 +1,71 @@
+// Light profiles: point and spot lights whose intensity depends on direction, as a photometric file says
+// (docs/profiles.md).
+#pragma once
+
+#include "shared/half_angle.h"
+#include "shared/inputs.h"
+
+// Four values for each light, and the grids of all profiles (scene/light_profiles.h). Axes are in view space:
+// polar angles are measured from profile_poles, azimuths from profile_firsts towards profile_seconds.
+//   profile_poles.w    index of the light's grid in profile_shares; -1: the light has no profile
+//   profile_firsts.w   columns of the grid, steps of a full turn; 0: one column
+//   profile_seconds.w  rows: steps from the first polar angle to the last; negative: 0 behind, where the
+//                      cosine to profile_firsts is negative
+//   profile_ends       first polar angle in radians, rows per radian, cosines of the first and last angle;
+//                      for 0 and 180 degrees: 2 and -2
+// A grid is columns of rows + 1 shares.
+#define LIGHT_PROFILES_REACH_INPUTS(ROW)                   \
+  ROW(ColumnInput, Float4, profile_poles, samplerBuffer)   \
+  ROW(ColumnInput, Float4, profile_firsts, samplerBuffer)  \
+  ROW(ColumnInput, Float4, profile_seconds, samplerBuffer) \
+  ROW(ColumnInput, Float4, profile_ends, samplerBuffer)    \
+  ROW(ColumnInput, float, profile_shares, samplerBuffer)
+
+#ifdef EFFECT_LIGHT_PROFILES
+#ifdef LIGHTGRID_GLSL
+LIGHT_PROFILES_REACH_INPUTS(INPUT_UNIFORM)
+#endif
+
+// The share between the rows at `at` of a column and the next one.
+SHARED_FUNCTION real profile_column(Whole at, real weight LIGHT_PROFILES_REACH_INPUTS(TAKEN_INPUT)) {
+  real low = LOOKUP(profile_shares, at), high = LOOKUP(profile_shares, at + WHOLE(1));
+  return mad_real(weight, high - low, low);
+}
+
+SHARED_FUNCTION real light_profiles_reach(LightIndex light, Real3 point,
+                                          Real3 to_light LIGHT_PROFILES_REACH_INPUTS(TAKEN_INPUT)) {
+  Float4 pole = COLUMN(Float4, profile_poles, light);
+  if (pole.w < 0.0f) return REAL(1.0f);
+  Float4 first = COLUMN(Float4, profile_firsts, light), second = COLUMN(Float4, profile_seconds, light);
+  Float4 ends = COLUMN(Float4, profile_ends, light);
+  real z = -(pole.x * to_light.x + pole.y * to_light.y + pole.z * to_light.z);
+  real x = -(first.x * to_light.x + first.y * to_light.y + first.z * to_light.z);
+  real y = -(second.x * to_light.x + second.y * to_light.y + second.z * to_light.z);
+  real from_pole = sqrt_real(mad_real(x, x, y * y));
+  float rows = max(second.w, -second.w);
+  // Not past the ends, even if an angle is NaN.
+  real down = (angle_from(z, from_pole, REAL(1.0f)) - ends.x) * ends.y;
+  down = min_real(max_real(down, REAL(0.0f)), REAL(rows));
+  real row = min_real(floor_real(down), REAL(rows - 1.0f));
+  Whole at = whole_of_real(row) + whole_of_real(REAL(pole.w));
+  real share;
+  if (first.w > 0.0f) {
+    real half_turn = angle_from(x, max_real(y, -y), from_pole);
+    real turn = y < REAL(0.0f) ? REAL(2.0f * HALF_TURN) - half_turn : half_turn;
+    real around = turn * (first.w * (0.5f / HALF_TURN));
+    around = min_real(max_real(around, REAL(0.0f)), REAL(first.w));
+    real column = min_real(floor_real(around), REAL(first.w - 1.0f));
+    Whole stride = whole_of_real(REAL(rows + 1.0f));
+    at = at + whole_of_real(column) * stride;
+    real here = profile_column(at, down - row LIGHT_PROFILES_REACH_INPUTS(PASSED_INPUT));
+    real next = profile_column(at + stride, down - row LIGHT_PROFILES_REACH_INPUTS(PASSED_INPUT));
+    share = mad_real(around - column, next - here, here);
+  } else {
+    share = profile_column(at, down - row LIGHT_PROFILES_REACH_INPUTS(PASSED_INPUT));
+  }
+  share = z > ends.z ? REAL(0.0f) : share;
+  share = z < ends.w ? REAL(0.0f) : share;
+  if (second.w < 0.0f) share = x < REAL(0.0f) ? REAL(0.0f) : share;
+  return share;
+}
+#endif
