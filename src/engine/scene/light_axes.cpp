@@ -23,8 +23,11 @@ LightAxes axes_of(const Light& light) {
 }
 
 bool set_up(Light& light, const glm::dvec3& up) {
-  if (up_axis.of(light) == up) return false;
-  up_axis.set(light, up);
+  constexpr double rounding = 1e-9;
+  Light turned = light;
+  up_axis.set(turned, up);
+  if (glm::length(axes_of(turned).up - axes_of(light).up) < rounding) return false;
+  light.properties = std::move(turned.properties);
   return true;
 }
 

@@ -15,7 +15,7 @@ struct LightAxes {
 // which was tilted about +x: -z for a light that shines down.
 LightAxes axes_of(const Light& light);
 
-// Returns whether "up_axis" changed. `up`: world space, of any length.
+// Returns whether it turned the light. `up`: world space, of any length.
 bool set_up(Light& light, const glm::dvec3& up);
 
 }  // namespace lightgrid

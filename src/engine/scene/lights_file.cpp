@@ -334,6 +334,9 @@ void load_lights(Scene& scene, const std::filesystem::path& path) {
   scene.lights = std::move(lights);
   given.instances = instance_properties(path, list_of(path, json, "instances", true), scene);
   apply_properties(scene, given);
+  for (Light& light : scene.lights)  // no property is left of one that was given its default
+    if (light.type == LightType::point && light.properties.values().empty())
+      light.direction = Light().direction;
 }
 
 std::vector<Light> load_lights_file(const std::filesystem::path& path) {
