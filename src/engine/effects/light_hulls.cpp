@@ -50,15 +50,16 @@ std::optional<EffectNeed> decide(const Scene& scene, const FramePlan& plan) {
                     light_witness(scene, *first) + " has a hull of " + std::to_string(planes) + " planes"};
 }
 
-ReachTerm term(const Scene&, const Light& light, const LightRanges&, const glm::dmat3& from_world) {
+ReachTerm term(const Scene&, const Light& light, const LightRanges&, const View& view) {
   std::vector<HullPlane> planes = planes_of(light);
   if (planes.empty()) return {};
+  const glm::dmat3 from_world(view.view_from_world);
   for (HullPlane& plane : planes) plane.normal = from_world * plane.normal;
   return [planes](const glm::dvec3& from_light, uint32_t) {
     double depth = 1;
     for (const HullPlane& plane : planes)
       depth = std::min(depth, (plane.distance - glm::dot(plane.normal, from_light)) / double(HULL_EDGE_M));
-    return std::max(depth, 0.0);
+    return glm::dvec3(std::max(depth, 0.0));
   };
 }
 

@@ -12,7 +12,7 @@
 namespace lightgrid {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Level {
   int width = 0, height = 0;

@@ -5,7 +5,7 @@
 namespace lightgrid {
 namespace {
 
-ReachTerm term(const Scene&, const Light&, const LightRanges&, const glm::dmat3&) { return {}; }
+ReachTerm term(const Scene&, const Light&, const LightRanges&, const View&) { return {}; }
 LightShare share(const Scene&, const Light&, const LightRanges&) { return {}; }
 
 uint32_t mask(const Light&) { return 1; }

@@ -13,11 +13,11 @@ namespace lightgrid::lab {
 namespace {
 
 // Lights shine upwards in the world only, and half as brightly on surfaces whose mask has no bit 3.
-ReachTerm upwards(const Scene&, const Light& light, const LightRanges&, const glm::dmat3& from_world) {
+ReachTerm upwards(const Scene&, const Light& light, const LightRanges&, const View& view) {
   if (light.name != "up") return {};
-  const glm::dvec3 up = from_world * glm::dvec3(0, 1, 0);
+  const glm::dvec3 up = glm::dmat3(view.view_from_world) * glm::dvec3(0, 1, 0);
   return [up](const glm::dvec3& from_light, uint32_t mask) {
-    return glm::dot(up, from_light) <= 0 ? 0 : mask & 8 ? 1 : 0.5;
+    return glm::dvec3(glm::dot(up, from_light) <= 0 ? 0 : mask & 8 ? 1 : 0.5);
   };
 }
 
@@ -26,9 +26,9 @@ LightShare share_upwards(const Scene&, const Light& light, const LightRanges&) {
 }
 
 // By a setting that is stored with the ranges.
-ReachTerm dimmed(const Scene&, const Light&, const LightRanges& ranges, const glm::dmat3&) {
+ReachTerm dimmed(const Scene&, const Light&, const LightRanges& ranges, const View&) {
   if (!ranges.effects.contains("dimmed")) return {};
-  return [](const glm::dvec3&, uint32_t) { return 0.25; };
+  return [](const glm::dvec3&, uint32_t) { return glm::dvec3(0.25); };
 }
 
 LightShare share_dimmed(const Scene&, const Light&, const LightRanges& ranges) {
@@ -48,6 +48,13 @@ class EffectTerms : public testing::Test {
     return *this;
   }
 
+  // These terms are the same for all colours.
+  static double reaches(const ViewLight& light, const glm::dvec3& position, uint32_t mask) {
+    const glm::dvec3 part = light_reaches(light, position, mask);
+    EXPECT_EQ(part, glm::dvec3(part.x));
+    return part.x;
+  }
+
   Scene scene;
   View view;
   LightRanges dim{.effects = {{"dimmed", 1}}};
@@ -56,9 +63,9 @@ class EffectTerms : public testing::Test {
 TEST_F(EffectTerms, AreAskedInTheViewsAxes) {
   look();
   const ViewLight up = lights_in_view(scene, view)[0];
-  EXPECT_EQ(light_reaches(up, {2, 0, 0}, full_mask), 1);  // above it
-  EXPECT_EQ(light_reaches(up, {-2, 0, 0}, full_mask), 0);
-  EXPECT_EQ(light_reaches(up, {2, 1, 0}, 1), 0.5);
+  EXPECT_EQ(reaches(up, {2, 0, 0}, full_mask), 1);  // above it
+  EXPECT_EQ(reaches(up, {-2, 0, 0}, full_mask), 0);
+  EXPECT_EQ(reaches(up, {2, 1, 0}, 1), 0.5);
   EXPECT_TRUE(is_lit(up, {2, 0, 0}) && !is_lit(up, {-2, 0, 0}));
 }
 
@@ -66,9 +73,9 @@ TEST_F(EffectTerms, ADirectionalLightsPointIsItsDirection) {
   look();
   scene.lights[0].type = LightType::directional;
   scene.lights[0].direction = {0, 1, 0};
-  EXPECT_EQ(light_reaches(lights_in_view(scene, view)[0], {-7, 0, 0}, full_mask), 1);
+  EXPECT_EQ(reaches(lights_in_view(scene, view)[0], {-7, 0, 0}, full_mask), 1);
   scene.lights[0].direction = {0, -1, 0};
-  EXPECT_EQ(light_reaches(lights_in_view(scene, view)[0], {7, 0, 0}, full_mask), 0);
+  EXPECT_EQ(reaches(lights_in_view(scene, view)[0], {7, 0, 0}, full_mask), 0);
 }
 
 // A light reaches surfaces with which it shares a bit, the highest too.
@@ -79,10 +86,10 @@ TEST_F(EffectTerms, MasksKeepLightsFromSurfaces) {
                                 .of_instance = [](const Instance& i) { return groups_of(i); }}}});
   set_groups(scene.lights[0], 1u << 31 | 2);
   const std::vector<ViewLight> lights = lights_in_view(scene, view);
-  EXPECT_EQ(light_reaches(lights[0], {0, 0, -1}, 1u << 31), 1);
-  EXPECT_EQ(light_reaches(lights[0], {0, 0, -1}, 6), 1);
-  EXPECT_EQ(light_reaches(lights[0], {0, 0, -1}, ~(1u << 31 | 2)), 0);
-  EXPECT_EQ(light_reaches(lights[1], {0, 0, -1}, 0), 0);
+  EXPECT_EQ(reaches(lights[0], {0, 0, -1}, 1u << 31), 1);
+  EXPECT_EQ(reaches(lights[0], {0, 0, -1}, 6), 1);
+  EXPECT_EQ(reaches(lights[0], {0, 0, -1}, ~(1u << 31 | 2)), 0);
+  EXPECT_EQ(reaches(lights[1], {0, 0, -1}, 0), 0);
   EXPECT_TRUE(lights[0].share.of_surface && !lights[1].share.of_surface);
   EXPECT_EQ(lights[0].share.largest, 1);
 }
@@ -91,8 +98,8 @@ TEST_F(EffectTerms, MultiplyAndFollowTheRangesSettings) {
   look();
   const std::vector<ViewLight> plain = lights_in_view(scene, view), dimmer = lights_in_view(scene, view, dim);
   EXPECT_FALSE(plain[1].reach);
-  EXPECT_EQ(light_reaches(dimmer[0], {2, 1, 0}, 1), 0.125);
-  EXPECT_EQ(light_reaches(dimmer[1], {2, 1, 0}, 1), 0.25);
+  EXPECT_EQ(reaches(dimmer[0], {2, 1, 0}, 1), 0.125);
+  EXPECT_EQ(reaches(dimmer[1], {2, 1, 0}, 1), 0.25);
   EXPECT_EQ(dimmer[0].share.largest, 0.25);
   EXPECT_TRUE(dimmer[0].share.of_surface && !dimmer[1].share.of_surface);
   EXPECT_FALSE(dim == LightRanges{});  // code that keeps what it made of the ranges makes it again
