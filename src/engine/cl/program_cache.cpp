@@ -13,10 +13,18 @@
 namespace lightgrid {
 namespace {
 
-// Never -cl-mad-enable or fast-math: culling is byte-equal on every device (docs/devices.md#same-bits). -w:
-// clang, in PoCL, prints the number of warnings to stderr.
+// For measurement only: "contract" lets compilers fuse products and sums, "relaxed" also everything else that
+// OpenCL allows. Otherwise neither: bytes are the same on every device (docs/devices.md#same-bits).
+std::string_view freedom_of_compilers() {
+  const char* maths = std::getenv("LIGHTGRID_CL_MATHS");
+  return maths ? maths : "";
+}
+
+// -w: clang, in PoCL, prints the number of warnings to stderr.
 std::string common_options(const ClDeviceInfo& device) {
   std::string options = "-cl-std=CL1.2 -w";
+  if (freedom_of_compilers() == "relaxed") return options + " -cl-fast-relaxed-math";
+  if (freedom_of_compilers() == "contract") options += " -cl-mad-enable";
   if (device.exact_division) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   return options;
 }
@@ -33,7 +41,9 @@ bool may_declare_builtins(const ClDeviceInfo& device) {
   return device.platform == "Portable Computing Language" && device.driver.starts_with("3.");
 }
 
-constexpr const char* prelude = "#pragma OPENCL FP_CONTRACT OFF\n";
+std::string prelude() {
+  return fmt::format("#pragma OPENCL FP_CONTRACT {}\n", freedom_of_compilers().empty() ? "OFF" : "ON");
+}
 
 // "cull_lights" for "culling/cpu/cull_lights".
 std::string entry_point(const std::string& file) { return file.substr(file.rfind('/') + 1); }
@@ -120,7 +130,7 @@ cl::Kernel ProgramCache::kernel_of(const std::string& key, const std::string& fi
     } else {
       std::string options = common_options(device_.info()) + (defines.empty() ? "" : " " + defines);
       if (device_.info().cpu && builds_quickly(file)) options += " -cl-opt-disable";
-      program = load_or_build(file, options, prelude + source());
+      program = load_or_build(file, options, prelude() + source());
     }
     return cl::Kernel(program, entry_point(file).c_str());
   } catch (const cl::Error& error) {
