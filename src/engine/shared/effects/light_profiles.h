@@ -28,7 +28,8 @@ LIGHT_PROFILES_REACH_INPUTS(INPUT_UNIFORM)
 
 // The share between the rows at `at` of a column and the next one.
 SHARED_FUNCTION real profile_column(Whole at, real weight LIGHT_PROFILES_REACH_INPUTS(TAKEN_INPUT)) {
-  real low = LOOKUP(profile_shares, at), high = LOOKUP(profile_shares, at + WHOLE(1));
+  real low, high;
+  LOOKUP_PAIR(profile_shares, at, low, high);
   return mad_real(weight, high - low, low);
 }
 
