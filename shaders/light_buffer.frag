@@ -66,8 +66,8 @@ void main() {
   arrival.attenuation *= light_reaches(from, position, arrival.to_light, surface);
   TINT(arrival, from, position, surface)
   vec4 stored = texelFetch(normals, pixel, SAMPLE_HERE);
-  LightTerms terms = light_terms(normal_of_texel(stored), direction_to_viewer(position), arrival, from,
-                                 exponent_of_texel(stored));
+  LightTerms terms = terms_at(position, normal_of_texel(stored), direction_to_viewer(position), arrival, from,
+                              exponent_of_texel(stored));
   diffuse_specular = vec4(terms.diffuse, terms.specular) * (1.0 / LIGHT_SCALE);
 #ifdef PREPASS_FIFTH_TERM
   weight_rim = vec2(terms.weight, terms.rim) * (1.0 / LIGHT_SCALE);

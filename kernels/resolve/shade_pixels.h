@@ -131,6 +131,9 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
 #ifdef CLEARCOAT
   facing |= dot3(p->coat_normal, arrival.to_light) > REAL(0.0f);
 #endif
+#ifdef LIT_BY_EFFECTS
+  if (effects_light(OF_LIGHT(light), false)) facing = EVERY_LIT;  // it may cross the horizon
+#endif
   const mask_t reached = (arrival.attenuation > REAL(0.0f)) & facing;
   if (!any_lane(lit & reached)) return sum;
   arrival.attenuation =

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/area_lights.h"
 #include "scene/camera.h"
 #include "scene/light_groups.h"
 #include "scenes/compose.h"
@@ -207,6 +208,11 @@ inline const std::vector<SceneEffect>& effects() {
          sun.name = "sun";
          sun.type = LightType::directional;
          sun.direction = glm::normalize(glm::vec3(0.3f, -0.5f, -1));
+       }},
+      {"area", "area lights", "", "light 6 \"panel\" is a rectangle of 1.2 m x 0.6 m",
+       [](SmallScene& s) {
+         add_spot(s.scene, "panel", {-0.8f, 0.9f, -2.6f}, {0.3f, -0.2f, -4}, {1, 0.8f, 0.6f}, 3, 4, 10, 25);
+         set_rectangle(s.scene.lights.back(), 1.2, 0.6);
        }},
       {"groups", "light groups", "", "light 0 \"lamp\" has 0", [](SmallScene& s) { add_groups(s.scene); }},
       {"cookies", "light cookies", "", "light 0 \"lamp\" has one",

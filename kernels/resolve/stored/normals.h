@@ -114,14 +114,18 @@ static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal
 #endif
   if (!any_lane(lit & in_range(position, light))) return sum;
   Arrival arrival = arrival_at(position, light);
-  const mask_t reached = (arrival.attenuation > REAL(0.0f)) & (dot3(normal, arrival.to_light) > REAL(0.0f));
+  mask_t facing = dot3(normal, arrival.to_light) > REAL(0.0f);
+#ifdef LIT_BY_EFFECTS
+  if (effects_light(OF_LIGHT(light), false)) facing = EVERY_LIT;
+#endif
+  const mask_t reached = (arrival.attenuation > REAL(0.0f)) & facing;
   if (!any_lane(lit & reached)) return sum;
   arrival.attenuation = arrival.attenuation * light_reaches(light, position, arrival.to_light, surface);
 #if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
   if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
 #endif
   TINT(arrival, light, position, surface)
-  return add_terms(sum, light_terms(normal, to_viewer, arrival, light, exponent));
+  return add_terms(sum, terms_at(position, normal, to_viewer, arrival, light, exponent));
 }
 
 // In the order of the list.

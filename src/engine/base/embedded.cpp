@@ -30,11 +30,12 @@ std::vector<EffectText> effects_in(const EmbeddedFiles& files) {
 }
 
 // Defines IF_NAME_HOOK(X), which is X(list of inputs, function, list of surface inputs) if the effect has the
-// list NAME_HOOK_INPUTS. Then it defines `any`, too.
-std::string hook_text(const EffectText& effect, const std::string& hook, const char* any) {
+// list NAME_HOOK_INPUTS, or the list of another hook. Then it defines `any`, too.
+std::string hook_text(const EffectText& effect, const std::string& hook, const char* any,
+                      const std::string& list = "") {
   std::string lower = hook;
   std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  const std::string inputs = effect.upper + hook + "_INPUTS",
+  const std::string inputs = effect.upper + (list.empty() ? hook : list) + "_INPUTS",
                     macro = "#define IF_" + effect.upper + hook + "(X)";
   return "#ifdef " + inputs + '\n' + (any ? "#define " + std::string(any) + '\n' : "") + macro + " X(" +
          inputs + ", " + effect.name + lower + ", OWN_" + effect.upper + ")\n#else\n" + macro + "\n#endif\n";
@@ -52,7 +53,7 @@ std::string hooks_text(const std::vector<EffectText>& effects, const std::string
 std::string inputs_text(const std::vector<EffectText>& effects) {
   std::string text = "#define LIGHT_EFFECTS(X)";
   for (const EffectText& effect : effects) {
-    for (const char* hook : {"_REACH", "_TINT", "_MEETS", "_SURFACE"})
+    for (const char* hook : {"_LIT", "_REACH", "_TINT", "_MEETS", "_SURFACE"})
       text += " IF_" + effect.upper + hook + "(X)";
   }
   return text + '\n';
@@ -85,17 +86,20 @@ std::string surfaces_text(const EmbeddedFiles& files) {
 
 // The text of "shared/effects.h". It includes the effects whose EFFECT_NAME is defined. For each hook,
 // BASE_EFFECTS(X) expands to X(NAME_BASE_INPUTS, NAME_base, list of surface inputs) for each that defines
-// NAME_BASE_INPUTS. If any of them answers for lights, REACHED_BY_EFFECTS, TINTED_BY_EFFECTS or
-// MET_BY_EFFECTS is defined.
+// NAME_BASE_INPUTS. If any of them answers for lights, REACHED_BY_EFFECTS, TINTED_BY_EFFECTS, MET_BY_EFFECTS or
+// LIT_BY_EFFECTS is defined.
 std::string effects_text(const EmbeddedFiles& files) {
   const std::vector<EffectText> effects = effects_in(files);
   std::string text = "#include \"shared/inputs.h\"\n#include \"shared/effect_surfaces.h\"\n";
   for (const EffectText& effect : effects) {
     text += "#ifdef EFFECT_" + effect.upper + "\n#include \"" + effect.path + "\"\n#endif\n";
     text += hook_text(effect, "_BASE", nullptr) + hook_text(effect, "_REACH", "REACHED_BY_EFFECTS") +
-            hook_text(effect, "_TINT", "TINTED_BY_EFFECTS") + hook_text(effect, "_MEETS", "MET_BY_EFFECTS");
+            hook_text(effect, "_TINT", "TINTED_BY_EFFECTS") + hook_text(effect, "_MEETS", "MET_BY_EFFECTS") +
+            hook_text(effect, "_LIT", "LIT_BY_EFFECTS") + hook_text(effect, "_RADIANCE", nullptr, "_LIT") +
+            hook_text(effect, "_TERMS", nullptr, "_LIT");
   }
-  for (const char* hook : {"_BASE", "_REACH", "_TINT", "_MEETS"}) text += hooks_text(effects, hook);
+  for (const char* hook : {"_BASE", "_REACH", "_TINT", "_MEETS", "_LIT", "_RADIANCE", "_TERMS"})
+    text += hooks_text(effects, hook);
   return text + inputs_text(effects);
 }
 

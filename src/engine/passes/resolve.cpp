@@ -100,7 +100,7 @@ class Resolver : public PassCache {
     std::string defines = light_defines(work, lanes(), work.plan.settings[setting::brdf]);
     if (work.plan.lights.any_directional) defines += " -DDIRECTIONAL";
     for (const Effect* effect : work.plan.effects) {
-      if (!effect->reach) defines += " -D" + define_of(*effect);
+      if (!effect->reach && !effect->lit) defines += " -D" + define_of(*effect);
     }
     if (work.plan.lists.light_grid && work.plan.lists.slices > 1) defines += " -DSLICES";
     const uint32_t of_scene =

@@ -103,6 +103,8 @@ double leave_out_dim_lights(const Scene& scene, const View& view, const Settings
   for (LightShadow& of : casting) {
     const Light& light = scene.lights[size_t(of.light)];
     if (of.need != ShadowNeed::rays || is_directional(light)) continue;
+    // Parts of a shape may be nearer than its position.
+    if (lit_term(scene, light, ranges_of(settings), glm::dmat3(1))) continue;
     const LightBounds bounds = bounds_of(light, range_of(light, size_t(of.light), ranges_of(settings)));
     const double slack_m = (farthest_m + glm::length(light.position - view.eye)) * 0x1p-19;
     Additions additions = additions_of({bounds, slack_m}, light, settings, receivers, errors);

@@ -20,7 +20,9 @@ std::string define_of(const Effect& effect) {
 }
 
 std::string missing_oracle(const Effect& effect, std::span<const std::string> keys_that_mean) {
-  if (!effect.base && !effect.reach) return "it answers no hook: give .base or .reach with its oracle";
+  if (!effect.base && !effect.reach && !effect.lit)
+    return "it answers no hook: give .base, .reach or .lit with its oracle";
+  if (effect.lit && !effect.lit->term) return "lit has no oracle: give .term";
   if (effect.reach && !has_masks(effect) && (!effect.reach->term || !effect.reach->share))
     return "reach has no oracle: give .term and .share, or .masks";
   if (!effect.base || effect.base->term) return "";

@@ -47,6 +47,7 @@ struct Effect {
   // The hooks that its text answers. ReachOracle is that of NAME_meets, too.
   std::optional<BaseOracle> base{};
   std::optional<ReachOracle> reach{};
+  std::optional<LitOracle> lit{};
   const LightReader* reader = nullptr;  // what it reads of lights, if it does
 };
 

@@ -28,6 +28,23 @@ struct LightShare {
   bool of_surface = false;  // it is not the same for all surfaces
 };
 
+// A surface's BRDF towards the eye times its cosine, by the direction to the light (unit), and the normals
+// about which it has lobes. Directions are in view space.
+struct LitSurface {
+  std::function<glm::dvec3(const glm::dvec3& to_light)> reflected;
+  glm::dvec3 to_eye{0, 0, 1};
+  std::vector<glm::dvec3> normals;
+};
+
+// The hook NAME_lit: the light that a surface at `from_light`, metres from the light's position, reflects per
+// unit of intensity, without the light's window, cone and shadow.
+using LitTerm = std::function<glm::dvec3(const glm::dvec3& from_light, const LitSurface&)>;
+
+// The term of a light is empty if a point's formula is right for it.
+struct LitOracle {
+  LitTerm (*term)(const Scene&, const Light&, const LightRanges&, const glm::dmat3& from_world) = nullptr;
+};
+
 // For an effect that keeps lights from surfaces: a light reaches only surfaces whose mask shares a bit with
 // its own. Code without a point of a surface reads masks in place of NAME_meets: lists of objects, tiles
 // and the stencil leave out lights that would add nothing. One effect at most has masks. They are the oracle
@@ -48,9 +65,12 @@ struct ReachOracle {
 };
 
 // Registers the oracles of a program's effects: once, before any light is read.
-void set_reach_oracles(std::vector<ReachOracle> oracles);
+void set_light_oracles(std::vector<ReachOracle> reach, std::vector<LitOracle> lit = {});
 
 ReachTerms reach_terms(const Scene& scene, const Light& light, const LightRanges& ranges, const View& view);
+// The term of the effect that computes the light; null: none. At most one effect has the light's shape.
+std::shared_ptr<const LitTerm> lit_term(const Scene& scene, const Light& light, const LightRanges& ranges,
+                                        const glm::dmat3& from_world);
 // The share that all effects together let through.
 LightShare share_of(const Scene& scene, const Light& light, const LightRanges& ranges);
 uint32_t mask_of(const Light& light);

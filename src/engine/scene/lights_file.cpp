@@ -157,15 +157,16 @@ class Fields {
   std::string where_, name_;
 };
 
-constexpr const char* virtual_type = "virtual";
+constexpr const char *virtual_type = "virtual", *rectangle_type = "rectangle";
 
 LightType light_type(const Fields& fields) {
   const std::string type = fields.text("type", "point");
-  if (type == virtual_type) return LightType::spot;
+  if (type == virtual_type || type == rectangle_type) return LightType::spot;
   if (type == "point") return LightType::point;
   if (type == "spot") return LightType::spot;
   if (type == "directional") return LightType::directional;
-  throw fields.error("type", "is not point, spot, directional or virtual", fmt::format("{:?}", type));
+  throw fields.error("type", "is not point, spot, rectangle, directional or virtual",
+                     fmt::format("{:?}", type));
 }
 
 glm::vec3 direction(const Fields& fields) {
@@ -223,8 +224,12 @@ Light plain_light(const Fields& fields) {
     light.nearest_m = float(fields.number("nearest", 0, 0, max_float));
     return light;
   }
-  const double inner = fields.number("inner_cone", 0, 0, float(std::numbers::pi));
-  const double outer = fields.number("outer_cone", light.outer_cone_rad, 0, float(std::numbers::pi));
+  // A rectangle's cone is the half-space before it.
+  const bool flat = fields.text("type", "") == rectangle_type;
+  constexpr float right_angle = std::numbers::pi_v<float> / 2;
+  const double inner = fields.number("inner_cone", flat ? right_angle : 0, 0, float(std::numbers::pi));
+  const double outer =
+      fields.number("outer_cone", flat ? right_angle : light.outer_cone_rad, 0, float(std::numbers::pi));
   light.inner_cone_rad = float(inner);
   light.outer_cone_rad = float(outer);
   if (!(light.outer_cone_rad > 0)) throw fields.error("outer_cone", "is not above 0", outer);

@@ -50,7 +50,9 @@ Scene load(const std::filesystem::path& path, int scene_index, const GltfLimits&
   gltf::add_extension_lights(doc, nodes, given, rig, scene.lights);
   scene.has_own_lights =
       !scene.lights.empty() || std::ranges::any_of(nodes, [&](const gltf::PlacedNode& placed) {
-        return gltf::find_extension(doc.model.nodes[size_t(placed.node)].extensions, "KHR_lights_punctual");
+        const auto& extensions = doc.model.nodes[size_t(placed.node)].extensions;
+        return gltf::find_extension(extensions, "KHR_lights_punctual") ||
+               gltf::find_extension(extensions, "EXT_lights_area");
       });
   given.instances = gltf::properties_of_instances(doc, node_of_instance);
   apply_properties(scene, given);

@@ -31,6 +31,7 @@ std::vector<ViewLight> lights_in_view(const Scene& scene, const View& view, cons
     out.mask = mask_of(light);
     out.reach = reach_terms(scene, light, ranges, view);
     out.share = share_of(scene, light, ranges);
+    out.lit = lit_term(scene, light, ranges, rotation);
     if (light.is_virtual) out.max_falloff = max_falloff(light);
     if (light.outer_cone_rad != outer_rad) {
       outer_rad = light.outer_cone_rad;

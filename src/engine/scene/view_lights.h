@@ -35,6 +35,7 @@ struct ViewLight {
   // The shares that effects let through, in view space, and their bounds.
   ReachTerms reach{};
   LightShare share{};
+  std::shared_ptr<const LitTerm> lit{};  // of the effect that computes the light; null: a point's formula
 };
 
 // Radiant intensity in the direction in which effects let through most: the brightness of a light for code

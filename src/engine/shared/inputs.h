@@ -27,6 +27,13 @@
 //   NAME_MEETS_INPUTS  Lit NAME_meets(LightIndex light, inputs): the same where the part is 0 or 1 at all
 //   points
 //                      of a surface. Light loops leave a light out before they compute its distance.
+//   NAME_LIT_INPUTS    the light of a shape in place of a point's. Three functions:
+//                      bool NAME_lit(LightIndex light, inputs): whether the light has the shape;
+//                      Real3 NAME_radiance(LightIndex light, ShadingPoint p, Real3 to_light, inputs): what p
+//                      reflects per unit of the light's intensity, without the light's window, cone and
+//                      shadow. to_light: from p to the light's position, in view space, not of length 1;
+//                      LitTerms NAME_terms(LightIndex light, Real3 normal, Real3 to_viewer, real exponent,
+//                      Real3 to_light, inputs): the same for light buffers (shared/light_buffer.h)
 //
 // The values that an effect reads of a surface are a separate list, NAME_SURFACE_INPUTS, of ColumnInputs with one value
 // of 32 bits for each number of a surface (shared/surface_values.h). Functions of hooks end their parameters
@@ -35,7 +42,7 @@
 //
 // "shared/effects.h" includes the effects that a program has and defines BASE_EFFECTS(X), which is
 // X(NAME_BASE_INPUTS, NAME_base, list of surface inputs) for each that has this list, and REACH_EFFECTS(X),
-// MEETS_EFFECTS(X) and SURFACE_EFFECTS(X) likewise.
+// MEETS_EFFECTS(X), LIT_EFFECTS(X), RADIANCE_EFFECTS(X), TERMS_EFFECTS(X) and SURFACE_EFFECTS(X) likewise.
 #pragma once
 
 #include "shared/real.h"
@@ -107,4 +114,13 @@
 #define TAKEN_VALUE(kind, type, name, resource) , Whole name
 #define PASSED_INPUT(kind, type, name, resource)
 #define INPUT_UNIFORM(kind, type, name, resource) kind(type, name, resource)
+#endif
+
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+namespace lightgrid {
+#endif
+// Channels of a light buffer per unit of intensity (LightTerms in shared/light_buffer.h).
+SHARED_STRUCT(LitTerms) { real diffuse, specular, weight, rim; };
+#if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
+}  // namespace lightgrid
 #endif

@@ -67,6 +67,30 @@ SHARED_FUNCTION LightTerms light_terms(Real3 normal, Real3 to_viewer, Arrival ar
   return t;
 }
 
+// The same of a light at a point of view space.
+SHARED_FUNCTION LightTerms terms_at(Real3 position, Real3 normal, Real3 to_viewer, Arrival arrival,
+                                    PunctualLight light, real exponent) {
+#ifdef LIT_BY_EFFECTS
+  if (effects_light(OF_LIGHT(light), false)) {
+    Real3 to_light = offset_to_light(position, light);
+    LitTerms lit = effects_terms(OF_LIGHT(light), normal, to_viewer, exponent, to_light);
+    real share = part_besides_distance(arrival, to_light);
+    real intensity =
+        max_real(REAL(light.color.x TINTED(arrival, x)),
+                 max_real(REAL(light.color.y TINTED(arrival, y)), REAL(light.color.z TINTED(arrival, z))));
+    real diffuse = lit.diffuse * share;
+    LightTerms t;
+    t.diffuse = real3(diffuse * light.color.x TINTED(arrival, x), diffuse * light.color.y TINTED(arrival, y),
+                      diffuse * light.color.z TINTED(arrival, z));
+    t.specular = lit.specular * share * intensity;
+    t.weight = lit.weight * share * intensity;
+    t.rim = lit.rim * share * intensity;
+    return t;
+  }
+#endif
+  return light_terms(normal, to_viewer, arrival, light, exponent);
+}
+
 SHARED_FUNCTION LightTerms add_terms(LightTerms a, LightTerms b) {
   LightTerms t;
   t.diffuse = add3(a.diffuse, b.diffuse);

@@ -49,7 +49,8 @@ namespace lightgrid {
 
 // Identifies a light for light_reaches: its index, and in OpenCL the shadows at the pixels that read it and
 // the inputs of effects.
-#if defined(REACHED_BY_EFFECTS) || defined(TINTED_BY_EFFECTS) || defined(MET_BY_EFFECTS)
+#if defined(REACHED_BY_EFFECTS) || defined(TINTED_BY_EFFECTS) || defined(MET_BY_EFFECTS) || \
+    defined(LIT_BY_EFFECTS)
 #define EFFECTS_OF_LIGHTS
 #endif
 #if defined(SHADOWS) || defined(EFFECTS_OF_LIGHTS)
@@ -65,11 +66,14 @@ namespace lightgrid {
 #endif
 #if defined(EFFECTS_OF_LIGHTS) && defined(__OPENCL_VERSION__)
 typedef struct ReachInputs {
+  LIT_EFFECTS(EFFECT_MEMBERS)
   REACH_EFFECTS(EFFECT_MEMBERS) TINT_EFFECTS(EFFECT_MEMBERS) MEETS_EFFECTS(EFFECT_MEMBERS)
 } ReachInputs;
 #define REACH_MEMBER const ReachInputs* reach;
 #define LIGHTS_REACH ReachInputs reach;  // of structs of lights, after LIGHT_TABLE(LIGHT_ARRAY)
-#define GIVEN_REACH {REACH_EFFECTS(EFFECT_VALUES) TINT_EFFECTS(EFFECT_VALUES) MEETS_EFFECTS(EFFECT_VALUES)},
+#define GIVEN_REACH                                                                    \
+  {LIT_EFFECTS(EFFECT_VALUES) REACH_EFFECTS(EFFECT_VALUES) TINT_EFFECTS(EFFECT_VALUES) \
+       MEETS_EFFECTS(EFFECT_VALUES)},
 #define REACH_ARGUMENTS LIGHT_EFFECTS(EFFECT_PARAMETERS)
 #else
 #define REACH_MEMBER
@@ -118,6 +122,34 @@ SHARED_FUNCTION Lit effects_meet(LIGHT_OF_EFFECTS SurfaceValues surface) {
 #define IF_MEETING(light, surface, share) (effects_meet(OF_LIGHT(light), surface) ? (share) : REAL(0.0f))
 #else
 #define IF_MEETING(light, surface, share) (share)
+#endif
+#ifdef LIT_BY_EFFECTS
+// Returns whether an effect computes the light in place of a point's formula.
+#define OR_LIT(inputs, lit, own) found = found || lit(light inputs(INPUT_OF_REACH));
+SHARED_FUNCTION bool effects_light(LIGHT_OF_EFFECTS bool found) {
+  LIT_EFFECTS(OR_LIT)
+  return found;
+}
+#define ADD_RADIANCE(inputs, radiance, own) \
+  sum = add3(sum, radiance(light, p, to_light inputs(INPUT_OF_REACH)));
+SHARED_FUNCTION Real3 effects_radiance(LIGHT_OF_EFFECTS ShadingPoint p, Real3 to_light) {
+  Real3 sum = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
+  RADIANCE_EFFECTS(ADD_RADIANCE)
+  return sum;
+}
+#define ADD_TERMS(inputs, terms, own)                                                \
+  more = terms(light, normal, to_viewer, exponent, to_light inputs(INPUT_OF_REACH)); \
+  sum.diffuse = sum.diffuse + more.diffuse;                                          \
+  sum.specular = sum.specular + more.specular;                                       \
+  sum.weight = sum.weight + more.weight;                                             \
+  sum.rim = sum.rim + more.rim;
+SHARED_FUNCTION LitTerms effects_terms(LIGHT_OF_EFFECTS Real3 normal, Real3 to_viewer, real exponent,
+                                       Real3 to_light) {
+  LitTerms sum, more;
+  sum.diffuse = sum.specular = sum.weight = sum.rim = REAL(0.0f);
+  TERMS_EFFECTS(ADD_TERMS)
+  return sum;
+}
 #endif
 #ifdef REACHED_BY_EFFECTS
 #define TIMES_REACH(inputs, reach, own) \

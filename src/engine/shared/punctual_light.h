@@ -89,8 +89,25 @@ SHARED_FUNCTION Arrival arrival_beyond(Real3 position, PunctualLight light) {
   return arrival;
 }
 
+#ifdef LIT_BY_EFFECTS
+// Attenuation without 1 / distance^2.
+SHARED_FUNCTION real part_besides_distance(Arrival arrival, Real3 to_light) {
+  return arrival.attenuation * min_real(dot3(to_light, to_light), REAL(1e30f));
+}
+#endif
+
 SHARED_FUNCTION Real3 radiance_of(ShadingPoint p, Arrival arrival, PunctualLight light) {
+#ifdef LIT_BY_EFFECTS
+  Real3 back;
+  if (effects_light(OF_LIGHT(light), false)) {
+    Real3 to_light = offset_to_light(p.position, light);
+    back = scale3(effects_radiance(OF_LIGHT(light), p, to_light), part_besides_distance(arrival, to_light));
+  } else {
+    back = scale3(reflected(p, arrival.to_light), arrival.attenuation);
+  }
+#else
   Real3 back = scale3(reflected(p, arrival.to_light), arrival.attenuation);
+#endif
   return real3(back.x * light.color.x TINTED(arrival, x), back.y * light.color.y TINTED(arrival, y),
                back.z * light.color.z TINTED(arrival, z));
 }

@@ -113,12 +113,20 @@ dvec3 light_radiance(const Surface& surface, const dvec3& position, const dvec3&
   const dvec3 arriving =
       attenuation(light, position, settings.window) * light_reaches(light, position, surface.mask);
   if (arriving == dvec3(0)) return dvec3(0);
-  dvec3 to_light = -light.direction;
-  if (!is_directional(light)) {
-    to_light = light.position - position;
-    to_light /= std::max(length_of(to_light.x, to_light.y, to_light.z), std::numeric_limits<double>::min());
+  const dvec3 from_light = position - light.position;
+  const auto back_of = [&](const dvec3& to_light) {
+    return reflected(surface, to_eye, to_light, settings.brdf);
+  };
+  dvec3 back;
+  if (light.lit) {
+    back = (*light.lit)(from_light, {back_of, to_eye, {surface.normal, surface.coat_normal}}) *
+           glm::dot(from_light, from_light);
+  } else if (is_directional(light)) {
+    back = back_of(-light.direction);
+  } else {
+    const double distance = length_of(from_light.x, from_light.y, from_light.z);
+    back = back_of(-from_light / std::max(distance, std::numeric_limits<double>::min()));
   }
-  const dvec3 back = reflected(surface, to_eye, to_light, settings.brdf);
   return back == dvec3(0) ? dvec3(0) : back * light.radiant_intensity * arriving;
 }
 

@@ -94,6 +94,8 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
       // Points and sequences that have it by choice.
       {"src/laboratory/frontier/points.cpp", {"far_light"}},
       {"src/laboratory/verify/hunt_sequences.cpp", {"far_light"}},
+      // A glTF extension has them.
+      {"src/engine/scene/gltf/lights.cpp", {"area_lights"}},
       // The option that names the picture, and files that have it.
       {"src/engine/scene/gltf/image_based_light.cpp", {"environment_light"}},
       {"src/engine/run/scene_choice.cpp", {"environment_light"}},
@@ -110,6 +112,7 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
   };
   // Names of its data.
   const std::map<std::string, std::vector<std::string>> data = {
+      {"area_lights", {"has_rectangle(", "rectangle_of(", "set_rectangle("}},
       {"light_groups",
        {"all_groups", "group_names", "GroupLists", "compile_groups", "groups_of(", "set_groups(",
         "group_masks", "max_groups"}}};
@@ -180,6 +183,7 @@ TEST(Adding, AnEffectsTextAnswersTheHooksThatHaveAnOracle) {
     EXPECT_EQ(lists("_BASE"), effect->base.has_value()) << name;
     EXPECT_EQ(lists("_REACH") || lists("_TINT"), effect->reach && effect->reach->term) << name;
     EXPECT_EQ(lists("_MEETS"), has_masks(*effect)) << name;
+    EXPECT_EQ(lists("_LIT"), effect->lit.has_value()) << name;
   }
 }
 

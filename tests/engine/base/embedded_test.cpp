@@ -95,8 +95,9 @@ TEST(WithIncludes, EffectsAreTheFilesOfTheirFolder) {
           "#define REACH_EFFECTS(X) IF_FOG_REACH(X) IF_SKY_LIGHT_REACH(X)\n"
           "#define TINT_EFFECTS(X) IF_FOG_TINT(X) IF_SKY_LIGHT_TINT(X)\n"
           "#define MEETS_EFFECTS(X) IF_FOG_MEETS(X) IF_SKY_LIGHT_MEETS(X)\n"
-          "#define LIGHT_EFFECTS(X) IF_FOG_REACH(X) IF_FOG_TINT(X) IF_FOG_MEETS(X) IF_FOG_SURFACE(X) "
-          "IF_SKY_LIGHT_REACH(X) IF_SKY_LIGHT_TINT(X) IF_SKY_LIGHT_MEETS(X) IF_SKY_LIGHT_SURFACE(X)\n"));
+          "#define LIGHT_EFFECTS(X) IF_FOG_LIT(X) IF_FOG_REACH(X) IF_FOG_TINT(X) IF_FOG_MEETS(X) IF_FOG_SURFACE(X) "
+          "IF_SKY_LIGHT_LIT(X) IF_SKY_LIGHT_REACH(X) IF_SKY_LIGHT_TINT(X) IF_SKY_LIGHT_MEETS(X) "
+          "IF_SKY_LIGHT_SURFACE(X)\n"));
   EXPECT_THAT(text,
               testing::HasSubstr("#define SURFACE_EFFECTS(X) IF_FOG_SURFACE(X) IF_SKY_LIGHT_SURFACE(X)\n"));
 }
@@ -115,6 +116,12 @@ TEST(WithIncludes, AnEffectsHooksAreThoseOfItsInputs) {
                                  "#define IF_SKY_LIGHT_REACH(X) X(SKY_LIGHT_REACH_INPUTS, sky_light_reach, "
                                  "OWN_SKY_LIGHT)\n"
                                  "#else\n#define IF_SKY_LIGHT_REACH(X)\n#endif\n"));
+  // Three functions of one list.
+  EXPECT_THAT(text,
+              testing::HasSubstr("\n#ifdef SKY_LIGHT_LIT_INPUTS\n#define LIT_BY_EFFECTS\n"
+                                 "#define IF_SKY_LIGHT_LIT(X) X(SKY_LIGHT_LIT_INPUTS, sky_light_lit, "));
+  EXPECT_THAT(text, testing::HasSubstr("\n#ifdef SKY_LIGHT_LIT_INPUTS\n#define IF_SKY_LIGHT_TERMS(X) "
+                                       "X(SKY_LIGHT_LIT_INPUTS, sky_light_terms, "));
 }
 
 // The values that an effect reads of surfaces stand before all texts of effects, as a point that is shaded has it.

@@ -44,7 +44,7 @@ TEST(FramePlan, ThePlainSceneNeedsItsPointLightsAndNothingElse) {
 
 TEST(FramePlan, EachEffectComesWithItsWitness) {
   for (const SceneEffect& effect : effects()) {
-    if (effect.name == "groups") continue;  // engine/effects decides it: techniques/light_groups_test.cpp
+    if (of_light_loops(effect)) continue;
     SmallScene s = small_scene();
     effect.add(s);
     const FramePlan plan = plan_of(s.scene);
@@ -95,8 +95,8 @@ TEST(FramePlan, WhatIsAddedTakesNothingAway) {
   SmallScene s = small_scene();
   std::vector<std::string> needed;
   for (const SceneEffect& effect : effects()) {
-    if (effect.name == "unlit") continue;   // an unlit ball no longer uses its vertex colours
-    if (effect.name == "groups") continue;  // as above
+    if (effect.name == "unlit") continue;  // an unlit ball no longer uses its vertex colours
+    if (of_light_loops(effect)) continue;
     effect.add(s);
     const FramePlan plan = plan_of(s.scene);
     needed.push_back(effect.decision);
@@ -137,7 +137,7 @@ TEST(FramePlan, TakesTheSamplesThatTheSceneAsksForOrSaysWhyNot) {
 
 TEST(FramePlan, WhatIsOutOfViewDoesNotCount) {
   for (const SceneEffect& effect : effects()) {
-    if (effect.name == "groups") continue;  // engine/effects decides it: techniques/light_groups_test.cpp
+    if (of_light_loops(effect)) continue;
     SmallScene s = small_scene();
     effect.add(s);
     for (Instance& instance : s.scene.instances)

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "scene/area_lights.h"
 #include "scene/light_groups.h"
 #include "support/gltf_builder.h"
 #include "support/near.h"
@@ -196,6 +197,55 @@ TEST(GltfLights, a_light_of_an_unknown_type_is_left_out_with_a_warning) {
   EXPECT_THAT(warnings_of([&] { scene = made.load(); }), HasSubstr("light 0: type is \"area\""));
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_EQ(groups_of(scene.lights[0]), 1u << 2) << "the groups stay with their light";
+}
+
+// Sizes are multiplied by the node's largest scale, and the height lies along its y axis, mirrored or sheared.
+TEST(GltfLights, rectangles_of_EXT_lights_area_are_area_lights) {
+  GltfBuilder made = GltfBuilder::triangle();
+  made.root["extensionsUsed"] = {"EXT_lights_area"};
+  made.root["extensions"]["EXT_lights_area"]["lights"] = {{{"type", "rect"},
+                                                           {"size", 0.5},
+                                                           {"rect", {{"aspect", 2.0}}},
+                                                           {"intensity", 100},
+                                                           {"color", {1, 0.5, 0}}},
+                                                          {{"type", "disk"}}};
+  made.node()["extensions"]["EXT_lights_area"]["light"] = 0;
+  made.node()["name"] = "panel";
+  made.node()["matrix"] = {-1, 0, 0, 0, 0, 3, 0, 0, 0, 0.5, 1, 0, 7, 8, 9, 1};
+  Scene scene = made.load();
+  ASSERT_EQ(scene.lights.size(), 1u);
+  const Light& light = scene.lights[0];
+  EXPECT_EQ(light.name, "panel");
+  EXPECT_EQ(light.position, glm::dvec3(7, 8, 9));
+  ASSERT_TRUE(has_rectangle(light));
+  EXPECT_EQ(height_of(light), 1.5);
+  EXPECT_EQ(width_of(light), 3);
+  EXPECT_EQ(light.intensity, 450);
+  EXPECT_EQ(light.color, glm::vec3(1, 0.5, 0));
+  const LightRectangle r = rectangle_of(light);
+  expect_near(r.direction, glm::normalize(glm::dvec3(0, -0.5, -1)));
+  EXPECT_NEAR(glm::dot(r.up, r.direction), 0, 1e-12);
+  EXPECT_GT(r.up.y, 0);
+  EXPECT_NEAR(glm::length(r.across), 1.5, 1e-12);
+  made.node()["extensions"]["EXT_lights_area"]["light"] = 1;
+  EXPECT_THAT(warnings_of([&] { scene = made.load(); }), HasSubstr("type is \"disk\", not rect"));
+  EXPECT_TRUE(scene.lights.empty());
+  EXPECT_TRUE(scene.has_own_lights);
+  made.node()["extensions"]["EXT_lights_area"]["light"] = 2;
+  EXPECT_THAT(made.refusal(), HasSubstr("EXT_lights_area.light is 2, but there are 2"));
+}
+
+// As fields of lights files, which are also extras.
+TEST(GltfLights, extras_give_a_spot_its_rectangle) {
+  const auto loaded = [](const json& fields) {
+    return with_light({{"type", "spot"}, {"spot", json::object()}, {"extras", {{"lightgrid", fields}}}})
+        .load()
+        .lights.at(0);
+  };
+  const Light light = loaded({{"light_area_width", 2}, {"light_area_height", 0.5}});
+  EXPECT_TRUE(has_rectangle(light));
+  EXPECT_EQ(width_of(light), 2);
+  EXPECT_FALSE(has_rectangle(loaded({{"light_area_width", 2}})));
 }
 
 TEST(GltfLights, what_is_wrong_with_a_light_matters_only_if_a_node_has_it) {

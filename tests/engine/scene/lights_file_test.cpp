@@ -186,7 +186,7 @@ TEST_F(LightsFile, NamesTheLightAndTheField) {
       refused_light(R"("name": "sun", "position": [0, 0, 0], "color": [0, 1e20, 1], "intensity": 1e30)"),
       "light 1 \"sun\": intensity 1e+30 times color passes the largest float, 3.40282e+38");
   EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "type": "area")"),
-            "light 1: type \"area\" is not point, spot, directional or virtual");
+            "light 1: type \"area\" is not point, spot, rectangle, directional or virtual");
   EXPECT_EQ(refused_light(R"("position": [0, 0, 0], "type": 3)"), "light 1: type number is not a string");
   EXPECT_EQ(refused_light(R"("type": "directional", "direction": [0, 0, 0])"),
             "light 1: direction [0, 0, 0] is zero");

@@ -66,10 +66,10 @@ std::vector<Assignments> contexts_of(const Technique& technique) {
   return own;
 }
 
-// A mask, glass, clearcoat, textures, point and spot lights and a sun.
+// A mask, glass, clearcoat, textures, point, spot and area lights and a sun.
 Scene scene_of_effects(bool shadows) {
   SmallScene s = small_scene();
-  for (const char* name : {"blend", "mask", "spot", "directional", "groups", "cookies", "profiles"})
+  for (const char* name : {"blend", "mask", "spot", "directional", "area", "groups", "cookies", "profiles"})
     effect(name).add(s);
   s.scene.lights[2].casts_shadow = s.scene.lights[0].casts_shadow = shadows;
   // Out of sight, but it takes room in groups of all lights.

@@ -37,8 +37,8 @@ LightShare share_dimmed(const Scene&, const Light&, const LightRanges& ranges) {
 
 class EffectTerms : public testing::Test {
  protected:
-  EffectTerms() { set_reach_oracles({{upwards, share_upwards}, {dimmed, share_dimmed}}); }
-  ~EffectTerms() override { set_reach_oracles({}); }
+  EffectTerms() { set_light_oracles({{upwards, share_upwards}, {dimmed, share_dimmed}}); }
+  ~EffectTerms() override { set_light_oracles({}); }
 
   // A camera on its side: the world's upwards is the view's right.
   EffectTerms& look() {
@@ -82,7 +82,7 @@ TEST_F(EffectTerms, ADirectionalLightsPointIsItsDirection) {
 TEST_F(EffectTerms, MasksKeepLightsFromSurfaces) {
   look();
   EXPECT_EQ(mask_of(scene.lights[0]), full_mask);
-  set_reach_oracles({{.masks = {.of_light = [](const Light& light) { return groups_of(light); },
+  set_light_oracles({{.masks = {.of_light = [](const Light& light) { return groups_of(light); },
                                 .of_instance = [](const Instance& i) { return groups_of(i); }}}});
   set_groups(scene.lights[0], 1u << 31 | 2);
   const std::vector<ViewLight> lights = lights_in_view(scene, view);

@@ -18,7 +18,7 @@ GlLightLoop base_lighting(const ViewState& seen) {
   if (seen.plan.lights.any_directional) loop.defines.emplace_back("DIRECTIONAL");
   for (const std::string& define : reach_defines(seen.plan)) loop.defines.push_back(define);
   for (const Effect* effect : seen.plan.effects) {
-    if (!effect->reach) loop.defines.push_back(define_of(*effect));
+    if (!effect->reach && !effect->lit) loop.defines.push_back(define_of(*effect));
   }
   return loop;
 }

@@ -111,7 +111,7 @@ std::vector<std::string> reach_defines(const FramePlan& plan) {
   const std::vector<const char*> shadows = shadow_defines(plan);
   std::vector<std::string> defines(shadows.begin(), shadows.end());
   for (const Effect* effect : plan.effects) {
-    if (effect->reach) defines.push_back(define_of(*effect));
+    if (effect->reach || effect->lit) defines.push_back(define_of(*effect));
   }
   return defines;
 }

@@ -90,7 +90,8 @@ std::vector<AnimationEntry> take_animations(const Reporter& report, json& root) 
 
 constexpr int max_nesting = 64;  // the format itself needs about 10
 
-constexpr const char* supported_extensions[] = {"EXT_lights_image_based",
+constexpr const char* supported_extensions[] = {"EXT_lights_area",
+                                                "EXT_lights_image_based",
                                                 "EXT_mesh_gpu_instancing",
                                                 "EXT_meshopt_compression",
                                                 "EXT_texture_webp",
@@ -158,6 +159,7 @@ class Tidier {
         "textures[].source",
         "textures[].sampler",
         "textures[].extensions.EXT_texture_webp.source",
+        "nodes[].extensions.EXT_lights_area.light",
         "nodes[].extensions.KHR_lights_punctual.light",
         "bufferViews[].extensions.EXT_meshopt_compression.buffer",
         "meshes[].primitives[].extensions.KHR_draco_mesh_compression.bufferView"};

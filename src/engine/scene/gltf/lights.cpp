@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "scene/area_lights.h"
 #include "scene/gltf/accessor.h"
 #include "scene/light_axes.h"
 #include "scene/pose.h"
@@ -145,28 +146,79 @@ Light light_of_extension(Document& doc, const LightExtension& extension, const t
   return light;
 }
 
+// EXT_lights_area: nits along -z of the node, and sizes that its largest scale multiplies. Empty, with a
+// warning, for another shape than a rectangle.
+std::optional<Light> read_area_light(Document& doc, const PlacedNode& placed) {
+  const tinygltf::Value* extension =
+      find_extension(doc.model.nodes[size_t(placed.node)].extensions, "EXT_lights_area");
+  if (!extension) return {};
+  const std::string place = node_label(doc, placed.node);
+  const size_t index = size_or(doc, *extension, "light", 0, place);
+  const tinygltf::Value* root = find_extension(doc.model.extensions, "EXT_lights_area");
+  const tinygltf::Value lights = root && root->Has("lights") ? root->Get("lights") : tinygltf::Value();
+  if (!lights.IsArray() || index >= lights.ArrayLen())
+    throw doc.error("{}: EXT_lights_area.light is {}, but there are {}", place, index,
+                    lights.IsArray() ? lights.ArrayLen() : 0);
+  const tinygltf::Value& in = lights.Get(static_cast<int>(index));
+  const std::string where = label("area light", static_cast<int>(index), "");
+  const std::string type =
+      in.Has("type") && in.Get("type").IsString() ? in.Get("type").Get<std::string>() : "";
+  if (type != "rect") {
+    doc.warn("area light type", "{}: type is \"{}\", not rect; left out", where, type);
+    return {};
+  }
+  double scale = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    scale = std::max(scale, glm::length(glm::dvec3(placed.world_from_node[axis])));
+  const double height = scale * read_amount(doc, number_or(doc, in, "size", 1, where), where, "size");
+  const tinygltf::Value rect = in.Has("rect") ? in.Get("rect") : tinygltf::Value();
+  const double aspect = rect.IsObject() ? number_or(doc, rect, "aspect", 1, where) : 1;
+  const double width = height * read_amount(doc, aspect, where, "aspect");
+  Light light;
+  light.name = doc.model.nodes[size_t(placed.node)].name;
+  light.position = glm::dvec3(placed.world_from_node[3]);
+  const tinygltf::Value color = in.Has("color") ? in.Get("color") : tinygltf::Value();
+  for (int i = 0; color.IsArray() && color.ArrayLen() == 3 && i < 3; ++i)
+    light.color[i] = read_amount(doc, color.Get(i).GetNumberAsDouble(), where, "color");
+  light.intensity =
+      read_amount(doc, number_or(doc, in, "intensity", 1000, where) * width * height, where, "intensity");
+  if (intensity_overflows(light))
+    throw doc.error("{}: intensity times color passes the largest float", where);
+  set_rectangle(light, width, height);
+  return light;
+}
+
 }  // namespace
 
 void add_extension_lights(Document& doc, const std::vector<PlacedNode>& nodes, GivenByFile& given, Rig& rig,
                           std::vector<Light>& lights) {
+  const auto add = [&](size_t i, const char* extension, Light light, GivenProperties properties) {
+    const PlacedNode& placed = nodes[i];
+    set_direction(doc, placed, -1, light);
+    set_up(light, glm::dvec3(placed.world_from_node[1]));
+    if (placed.moves) light.node = int(i);
+    if (rig.lights.contains(light.node))
+      throw doc.error("{}: {}: the node has two lights, of which an animation switches or changes one",
+                      node_label(doc, placed.node), extension);
+    if (placed.blinks) rig.lights[light.node] = {-1, light};
+    properties.owner = int(lights.size());
+    given.lights.push_back(std::move(properties));
+    lights.push_back(std::move(light));
+  };
   for (size_t i = 0; i < nodes.size(); ++i) {
     const PlacedNode& placed = nodes[i];
+    if (placed.off) continue;
     for (const LightExtension& extension : light_extensions()) {
       const tinygltf::Value* value = find_extension(doc.model.nodes[placed.node].extensions, extension.name);
-      if (!value || placed.off) continue;
+      if (!value) continue;
       GivenProperties properties;
       Light light = light_of_extension(doc, extension, *value, placed, properties);
-      properties.owner = int(lights.size());
-      set_direction(doc, placed, -1, light);
-      set_up(light, glm::dvec3(placed.world_from_node[1]));
-      if (placed.moves) light.node = int(i);
-      if (rig.lights.contains(light.node))
-        throw doc.error("{}: {}: the node has two lights, of which an animation switches or changes one",
-                        node_label(doc, placed.node), extension.name);
-      if (placed.blinks) rig.lights[light.node] = {-1, light};
-      given.lights.push_back(std::move(properties));
-      lights.push_back(std::move(light));
+      add(i, extension.name, std::move(light), std::move(properties));
     }
+    if (std::optional<Light> area = read_area_light(doc, placed))
+      add(i, "EXT_lights_area", std::move(*area),
+          {.where = doc.place(node_label(doc, placed.node)),
+           .fields = extras_of(doc.extras.nodes, placed.node).properties});
   }
 }
 

@@ -76,7 +76,8 @@ std::vector<int> add_meshes(Document& doc, const std::vector<PlacedNode>& nodes,
 std::vector<Light> read_lights(Document& doc, const std::vector<PlacedNode>& nodes, GivenByFile& given,
                                Rig& rig);
 
-// Adds one point light for each node with an extension of light_extensions().
+// Adds one point light for each node with an extension of light_extensions(), and one rectangle for each with
+// EXT_lights_area.
 void add_extension_lights(Document& doc, const std::vector<PlacedNode>& nodes, GivenByFile& given, Rig& rig,
                           std::vector<Light>& lights);
 
