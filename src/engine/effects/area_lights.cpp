@@ -28,7 +28,7 @@ const Setting<int> area_points{
 std::optional<EffectNeed> decide(const Scene& scene, const FramePlan& plan) {
   const auto area =
       std::ranges::find_if(plan.lights.local, [&](int i) { return has_rectangle(scene.lights[size_t(i)]); });
-  if (area == plan.lights.local.end()) return EffectNeed{false, "not called for: every light is a point"};
+  if (area == plan.lights.local.end()) return EffectNeed{false, "no point or spot light is a rectangle"};
   const Light& light = scene.lights[size_t(*area)];
   return EffectNeed{true, fmt::format("{} is a rectangle of {:g} m x {:g} m", light_witness(scene, *area),
                                       width_of(light), height_of(light))};
@@ -186,18 +186,14 @@ class AreaLights : public EffectState {
   void before_lights(PassContext& work) override {
     if (uploaded_) return;
     const glm::dmat3 from_world(work.view.view_from_world);
-    std::vector<glm::vec4> sides;
+    const std::vector<Node> nodes = gauss_nodes(work.plan.settings[area_points]);
+    std::vector<glm::vec4> sides(AREA_RULE);
+    for (size_t i = 0; i < nodes.size(); ++i)
+      sides[i] = {nodes[i].position, nodes[i].weight, nodes.size(), 0};
     for (const auto& of_light :
          values_of_lights(work, [&](const Light& light) { return sides_of(light, from_world); }))
       sides.insert(sides.end(), of_light.begin(), of_light.end());
-    const int count = work.plan.settings[area_points];
-    std::vector<float> nodes = {float(count)};
-    for (const Node& node : gauss_nodes(count)) {
-      nodes.push_back(float(node.position));
-      nodes.push_back(float(node.weight));
-    }
     inputs_.area_sides.put(*work.renderer.cl, work.plan.opengl, "uploading area lights", sides);
-    inputs_.area_nodes.put(*work.renderer.cl, work.plan.opengl, "uploading area lights", nodes);
     uploaded_ = true;
   }
 

@@ -82,18 +82,15 @@ class LightCookies : public EffectState {
   void before_lights(PassContext& work) override {
     if (followed_) return;
     const CookieWords words(work);
-    std::vector<glm::vec4> columns[4];
+    std::vector<glm::vec4> column;
     for (const std::vector<int>* lights : {&work.plan.lights.local, &work.plan.lights.directional}) {
       for (const int i : *lights) {
         const Light& light = work.scene.lights[size_t(i)];
         const auto values = values_of(light, cookie_of(light), words, work.view);
-        for (size_t k = 0; k < 4; ++k) columns[k].push_back(values[k]);
+        column.insert(column.end(), values.begin(), values.end());
       }
     }
-    put(work, inputs_.cookie_rights, columns[0]);
-    put(work, inputs_.cookie_ups, columns[1]);
-    put(work, inputs_.cookie_directions, columns[2]);
-    put(work, inputs_.cookie_places, columns[3]);
+    put(work, inputs_.cookie_lights, column);
     if (words.words != uploaded_) put(work, inputs_.cookie_words, words.words);
     uploaded_ = words.words;
     followed_ = true;

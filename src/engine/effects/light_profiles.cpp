@@ -93,7 +93,7 @@ class LightProfiles : public EffectState {
     if (followed_) return;
     const ProfileGrids grids(work);
     const glm::dmat3 from_world(work.view.view_from_world);
-    std::vector<glm::vec4> poles, firsts, seconds, ends;
+    std::vector<glm::vec4> column;
     for (const std::vector<int>* lights : {&work.plan.lights.local, &work.plan.lights.directional}) {
       for (const int i : *lights) {
         const Light& light = work.scene.lights[size_t(i)];
@@ -101,16 +101,13 @@ class LightProfiles : public EffectState {
         const ProfileAxes axes = profile ? profile_axes(*profile, axes_of(light)) : ProfileAxes{};
         const ProfileGrids::Grid grid = profile ? grids.of.at(profile) : ProfileGrids::Grid{};
         const ProfileGrid& steps = grid.steps;
-        poles.emplace_back(from_world * axes.pole, profile ? float(grid.first) : -1.0f);
-        firsts.emplace_back(from_world * axes.first, float(steps.columns));
-        seconds.emplace_back(from_world * axes.second, steps.front ? -float(steps.rows) : float(steps.rows));
-        ends.push_back(ends_of(steps));
+        column.emplace_back(from_world * axes.pole, profile ? float(grid.first) : -1.0f);
+        column.emplace_back(from_world * axes.first, float(steps.columns));
+        column.emplace_back(from_world * axes.second, steps.front ? -float(steps.rows) : float(steps.rows));
+        column.push_back(ends_of(steps));
       }
     }
-    put(work, inputs_.profile_poles, poles);
-    put(work, inputs_.profile_firsts, firsts);
-    put(work, inputs_.profile_seconds, seconds);
-    put(work, inputs_.profile_ends, ends);
+    put(work, inputs_.profile_lights, column);
     if (grids.shares != uploaded_) put(work, inputs_.profile_shares, grids.shares);
     uploaded_ = grids.shares;
     followed_ = true;

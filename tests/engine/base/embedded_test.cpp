@@ -88,16 +88,19 @@ TEST(WithIncludes, EffectsAreTheFilesOfTheirFolder) {
   EXPECT_EQ(preprocessed(text, {}), "inputs BASE_EFFECTS(X)");
   EXPECT_EQ(preprocessed(text, {"EFFECT_SKY_LIGHT"}), "inputs sky BASE_EFFECTS(X)");
   EXPECT_EQ(preprocessed(text, {"EFFECT_FOG", "EFFECT_SKY_LIGHT"}), "inputs fog sky BASE_EFFECTS(X)");
-  EXPECT_THAT(
-      text,
-      testing::HasSubstr(
-          "#define BASE_EFFECTS(X) IF_FOG_BASE(X) IF_SKY_LIGHT_BASE(X)\n"
-          "#define REACH_EFFECTS(X) IF_FOG_REACH(X) IF_SKY_LIGHT_REACH(X)\n"
-          "#define TINT_EFFECTS(X) IF_FOG_TINT(X) IF_SKY_LIGHT_TINT(X)\n"
-          "#define MEETS_EFFECTS(X) IF_FOG_MEETS(X) IF_SKY_LIGHT_MEETS(X)\n"
-          "#define LIGHT_EFFECTS(X) IF_FOG_LIT(X) IF_FOG_REACH(X) IF_FOG_TINT(X) IF_FOG_MEETS(X) IF_FOG_SURFACE(X) "
-          "IF_SKY_LIGHT_LIT(X) IF_SKY_LIGHT_REACH(X) IF_SKY_LIGHT_TINT(X) IF_SKY_LIGHT_MEETS(X) "
-          "IF_SKY_LIGHT_SURFACE(X)\n"));
+  EXPECT_THAT(text,
+              testing::HasSubstr(
+                  "#define BASE_EFFECTS(X) IF_FOG_BASE(X) IF_SKY_LIGHT_BASE(X)\n"
+                  "#define REACH_EFFECTS(X) IF_FOG_REACH(X) IF_SKY_LIGHT_REACH(X)\n"
+                  "#define TINT_EFFECTS(X) IF_FOG_TINT(X) IF_SKY_LIGHT_TINT(X)\n"
+                  "#define MEETS_EFFECTS(X) IF_FOG_MEETS(X) IF_SKY_LIGHT_MEETS(X)\n"
+                  "#define LIT_EFFECTS(X) IF_FOG_LIT(X) IF_SKY_LIGHT_LIT(X)\n"
+                  "#define RADIANCE_EFFECTS(X) IF_FOG_RADIANCE(X) IF_SKY_LIGHT_RADIANCE(X)\n"
+                  "#define TERMS_EFFECTS(X) IF_FOG_TERMS(X) IF_SKY_LIGHT_TERMS(X)\n"
+                  "#define LIGHT_EFFECTS(X) IF_FOG_LIT(X) IF_FOG_REACH(X) IF_FOG_TINT(X) IF_FOG_MEETS(X) "
+                  "IF_FOG_SURFACE(X) "
+                  "IF_SKY_LIGHT_LIT(X) IF_SKY_LIGHT_REACH(X) IF_SKY_LIGHT_TINT(X) IF_SKY_LIGHT_MEETS(X) "
+                  "IF_SKY_LIGHT_SURFACE(X)\n"));
   EXPECT_THAT(text,
               testing::HasSubstr("#define SURFACE_EFFECTS(X) IF_FOG_SURFACE(X) IF_SKY_LIGHT_SURFACE(X)\n"));
 }

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "plan/settings/grid.h"
 #include "plan/settings/kernels.h"
 #include "plan/settings/samples.h"
@@ -21,6 +23,11 @@ const Decision& decision(const FramePlan& plan, const std::string& effect) {
     if (d.effect == effect) return d;
   }
   throw std::runtime_error("no decision on " + effect);
+}
+
+// engine/effects decides them: tests of techniques.
+bool of_engine_effects(const SceneEffect& effect) {
+  return std::set<std::string>{"area", "cookies", "groups", "profiles"}.contains(effect.name);
 }
 
 FramePlan plan_of(const Scene& scene, const Settings& settings = {}) {
@@ -44,7 +51,7 @@ TEST(FramePlan, ThePlainSceneNeedsItsPointLightsAndNothingElse) {
 
 TEST(FramePlan, EachEffectComesWithItsWitness) {
   for (const SceneEffect& effect : effects()) {
-    if (of_light_loops(effect)) continue;
+    if (of_engine_effects(effect)) continue;
     SmallScene s = small_scene();
     effect.add(s);
     const FramePlan plan = plan_of(s.scene);
@@ -96,7 +103,7 @@ TEST(FramePlan, WhatIsAddedTakesNothingAway) {
   std::vector<std::string> needed;
   for (const SceneEffect& effect : effects()) {
     if (effect.name == "unlit") continue;  // an unlit ball no longer uses its vertex colours
-    if (of_light_loops(effect)) continue;
+    if (of_engine_effects(effect)) continue;
     effect.add(s);
     const FramePlan plan = plan_of(s.scene);
     needed.push_back(effect.decision);
@@ -137,7 +144,7 @@ TEST(FramePlan, TakesTheSamplesThatTheSceneAsksForOrSaysWhyNot) {
 
 TEST(FramePlan, WhatIsOutOfViewDoesNotCount) {
   for (const SceneEffect& effect : effects()) {
-    if (of_light_loops(effect)) continue;
+    if (of_engine_effects(effect)) continue;
     SmallScene s = small_scene();
     effect.add(s);
     for (Instance& instance : s.scene.instances)

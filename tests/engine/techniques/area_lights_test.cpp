@@ -25,29 +25,38 @@ Scene panels(int count, uint64_t seed = 3) {
     const double size = std::exp2(random.uniform(-4, 1));
     const float range = i % 5 == 0 ? float(size) / 2 : random.uniform(0.5f, 4);
     add_spot(s.scene, "panel", at, to, {1, 0.8f, 0.6f}, std::exp2(random.uniform(-2, 1)), range, 10, 25);
-    set_rectangle(s.scene.lights.back(), size, size * random.uniform(0.1f, 1));
     set_up(s.scene.lights.back(), {random.uniform(-1, 1), 1, 0});
+    set_rectangle(s.scene.lights.back(), size, size * random.uniform(0.1f, 1));
   }
   return s.scene;
 }
 
-struct AreaLights : testing::TestWithParam<const char*> {};
+struct AreaLobe {
+  const char *name, *settings;
+  double largest_rmse_rel;
+};
 
-// The error of 16 points is left.
+struct AreaLights : testing::TestWithParam<AreaLobe> {};
+
+// The error of 16 points is left. They crowd as GGX's lobe requires, and a power of a cosine ends sooner: Blinn's lobe
+// has three times the error (a tenth of it with 64 points).
 TEST_P(AreaLights, AreTheOraclesWithinTheErrorOfTheirPoints) {
   const Scene scene = panels(12);
   const View view = small_view(64, 40);
-  TechniqueRun run(test_devices(), scene, view, assigned(GetParam()), find_technique("forward"));
+  TechniqueRun run(test_devices(), scene, view, assigned(GetParam().settings), find_technique("forward"));
   run.run_frame();
   const ReferenceErrors errors = measure_reference_errors(run.view(), run.image(), read_depth(run), 1500);
-  fmt::print("{}: rmse_rel {:.2e}, max_rel {:.2e}\n", GetParam(), errors.precision.rmse_rel,
+  fmt::print("{}: rmse_rel {:.2e}, max_rel {:.2e}\n", GetParam().name, errors.precision.rmse_rel,
              errors.precision.max_rel);
-  EXPECT_LT(errors.precision.rmse_rel, 3e-3);
+  EXPECT_LT(errors.precision.rmse_rel, GetParam().largest_rmse_rel);
   EXPECT_EQ(count_nan_pixels(run.image()), 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Lobes, AreaLights, testing::Values("brdf=ggx", "brdf=blinn", "brdf=lambert"),
-                         [](const auto& info) { return std::string(info.param).substr(5); });
+INSTANTIATE_TEST_SUITE_P(Lobes, AreaLights,
+                         testing::Values(AreaLobe{"ggx", "brdf=ggx", 2e-3},
+                                         AreaLobe{"blinn", "brdf=blinn", 3e-3},
+                                         AreaLobe{"lambert", "brdf=lambert", 2e-3}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST(AreaLights, FewerPointsAreLessExact) {
   const Scene scene = panels(12);

@@ -24,15 +24,19 @@ namespace {
 
 using glm::dvec3;
 
-// Gauss's rules on 0 to 1, from tables: positions and weights.
-const std::vector<float>& rule_of(int points) {
-  static const std::vector<float> rules[] = {
-      {1, 0.5f, 1},
-      {2, 0.21132487f, 0.5f, 0.78867513f, 0.5f},
-      {3, 0.11270167f, 5.0f / 18, 0.5f, 4.0f / 9, 0.88729833f, 5.0f / 18},
-      {4, 0.06943184f, 0.17392742f, 0.33000948f, 0.32607258f, 0.66999052f, 0.32607258f, 0.93056816f,
-       0.17392742f}};
-  return rules[points - 1];
+// Gauss's rules on 0 to 1, from tables: positions and weights, the first with the number of points.
+std::vector<glm::vec4> rule_of(int points) {
+  static const std::vector<glm::vec4> rules[] = {
+      {{0.5f, 1, 1, 0}},
+      {{0.21132487f, 0.5f, 2, 0}, {0.78867513f, 0.5f, 0, 0}},
+      {{0.11270167f, 5.0f / 18, 3, 0}, {0.5f, 4.0f / 9, 0, 0}, {0.88729833f, 5.0f / 18, 0, 0}},
+      {{0.06943184f, 0.17392742f, 4, 0},
+       {0.33000948f, 0.32607258f, 0, 0},
+       {0.66999052f, 0.32607258f, 0, 0},
+       {0.93056816f, 0.17392742f, 0, 0}}};
+  std::vector<glm::vec4> values = rules[points - 1];
+  values.resize(AREA_RULE);
+  return values;
 }
 
 // A light at a place, a surface at the origin of view space that is seen from `to_eye`.
@@ -52,10 +56,11 @@ struct Lit {
 
 dvec3 by_points(const Lit& lit, int points) {
   const LightRectangle r = rectangle_of(lit.light);
-  const glm::vec4 sides[3] = {glm::vec4(r.across, 1), glm::vec4(r.up, 0), glm::vec4(r.direction, 0)};
+  std::vector<glm::vec4> sides = rule_of(points);
+  sides.insert(sides.end(), {glm::vec4(r.across, 1), glm::vec4(r.up, 0), glm::vec4(r.direction, 0)});
   const ShadingPoint p = shading_point(glm::vec3(0), glm::vec3(lit.to_eye), glm::vec3(lit.normal),
                                        glm::vec3(0.5f), float(lit.metallic), float(lit.roughness));
-  return area_lights_radiance(0, p, glm::vec3(lit.light.position), sides, rule_of(points).data());
+  return area_lights_radiance(0, p, glm::vec3(lit.light.position), sides.data());
 }
 
 dvec3 in_double(const Lit& lit) {

@@ -5,11 +5,11 @@
 #include "shared/brdf.h"
 #include "shared/inputs.h"
 
-// Three values per light: half of the width with 1 (0: a light without an area), half of the height, and the
-// direction in which it emits; view space, metres. area_nodes: n, then positions and weights of Gauss on 0 to 1.
-#define AREA_LIGHTS_LIT_INPUTS(ROW)                   \
-  ROW(ColumnInput, Float4, area_sides, samplerBuffer) \
-  ROW(ColumnInput, float, area_nodes, samplerBuffer)
+// AREA_RULE values of Gauss's rule on 0 to 1: a position and a weight, of the first with n, their number. Then
+// three per light: half of the width with 1 (0: a light without an area), half of the height, and the direction
+// in which it emits; view space, metres.
+#define AREA_RULE 4
+#define AREA_LIGHTS_LIT_INPUTS(ROW) ROW(ColumnInput, Float4, area_sides, samplerBuffer)
 
 #ifdef EFFECT_AREA_LIGHTS
 #ifdef LIGHTGRID_GLSL
@@ -135,9 +135,9 @@ SHARED_FUNCTION Real3 area_sum(int part, ShadingPoint p, Real3 normal, Real3 to_
   real slope = peak.det / peak.c;
   AreaAxis outer = area_axis(peak.x, sqrt_real(peak.least / slope), range.low, range.high);
   Real3 sum = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
-  int count = COLUMN(int, area_nodes, 0);
+  float count = COLUMN(Float4, area_sides, 0).z;
   for (int i = 0; i < count; ++i) {
-    real s = mad_real(outer.high - outer.low, REAL(COLUMN(float, area_nodes, 2 * i + 1)), outer.low);
+    real s = mad_real(outer.high - outer.low, REAL(COLUMN(Float4, area_sides, i).x), outer.low);
     real root = root_of_sine(s), x = mad_real(outer.width, s / root, outer.middle), aside = x - peak.x;
     range = above_horizon(mad_real(sideways, x, level), upwards);
     AreaAxis inner =
@@ -146,8 +146,8 @@ SHARED_FUNCTION Real3 area_sum(int part, ShadingPoint p, Real3 normal, Real3 to_
     Real3 row = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f)), column = mad3(seen.across, x, seen.centre);
     real length = inner.high - inner.low, rule = REAL(0.0f);
     for (int j = 0; j < count; ++j) {
-      real t = mad_real(length, REAL(COLUMN(float, area_nodes, 2 * j + 1)), inner.low);
-      real weight = REAL(COLUMN(float, area_nodes, 2 * j + 2)), other = root_of_sine(t);
+      real t = mad_real(length, REAL(COLUMN(Float4, area_sides, j).x), inner.low);
+      real weight = REAL(COLUMN(Float4, area_sides, j).y), other = root_of_sine(t);
       Real3 offset = mad3(seen.up, mad_real(inner.width, t / other, inner.middle), column);
       real inverse = inverse_sqrt_real(max_real(dot3(offset, offset), REAL(1e-14f)));
       Real3 value = area_part(part, p, normal, to_viewer, lobe, scale3(offset, inverse));
@@ -158,7 +158,7 @@ SHARED_FUNCTION Real3 area_sum(int part, ShadingPoint p, Real3 normal, Real3 to_
     // The rule's error for the pure peak divides out.
     real exact = (half_disk(inner.high) - half_disk(inner.low)) / max_real(length, REAL(1e-4f));
     real share = length > REAL(0.1f) ? exact / rule : REAL(1.0f);
-    real weight = REAL(COLUMN(float, area_nodes, 2 * i + 2)) * (outer.high - outer.low) * outer.width;
+    real weight = REAL(COLUMN(Float4, area_sides, i).y) * (outer.high - outer.low) * outer.width;
     sum = mad3(row, weight / (root * root * root) * (inner.width * length) * share, sum);
   }
   return scale3(sum, 0.25f * seen.ahead);
@@ -215,12 +215,12 @@ SHARED_FUNCTION AreaPeak lobe_peak(SeenArea seen, Real3 normal, Real3 to_viewer,
 #endif
 
 SHARED_FUNCTION Real3 side_of_area(LightIndex light, int side AREA_LIGHTS_LIT_INPUTS(TAKEN_INPUT)) {
-  Float4 value = COLUMN(Float4, area_sides, 3 * light + side);
+  Float4 value = COLUMN(Float4, area_sides, AREA_RULE + 3 * light + side);
   return real3(REAL(value.x), REAL(value.y), REAL(value.z));
 }
 
 SHARED_FUNCTION bool area_lights_lit(LightIndex light AREA_LIGHTS_LIT_INPUTS(TAKEN_INPUT)) {
-  return COLUMN(Float4, area_sides, 3 * light).w > 0.0f;
+  return COLUMN(Float4, area_sides, AREA_RULE + 3 * light).w > 0.0f;
 }
 
 // to_light: to the centre, m.

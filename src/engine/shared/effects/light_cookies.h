@@ -5,18 +5,15 @@
 #include "shared/inputs.h"
 
 // Four values for each light, and the words of all cookies (scene/light_cookies.h). Axes and places are in view
-// space.
-//   cookie_rights.w     index of the light's cookie in cookie_words; -1: the light has none
-//   cookie_ups.w        texels across the image
-//   cookie_directions.w texels down the image; negative: it lies around the light
-//   cookie_places       position, and the texels of the image as wide as a pixel that is 1 m wide, seen from 1 m
-//                       away; negative: pixels have the same width at all depths
+// space. Shaders read few textures, so the four are one column.
+//   0: right axis, and the index of the light's cookie in cookie_words; -1: the light has none
+//   1: up axis, and texels across the image
+//   2: direction, and texels down the image; negative: it lies around the light
+//   3: position, and the texels of the image as wide as a pixel that is 1 m wide, seen from 1 m away; negative:
+//      pixels have the same width at all depths
 // The right and up axes of a projector are divided by twice the tangent of its cone.
-#define LIGHT_COOKIES_TINT_INPUTS(ROW)                       \
-  ROW(ColumnInput, Float4, cookie_rights, samplerBuffer)     \
-  ROW(ColumnInput, Float4, cookie_ups, samplerBuffer)        \
-  ROW(ColumnInput, Float4, cookie_directions, samplerBuffer) \
-  ROW(ColumnInput, Float4, cookie_places, samplerBuffer)     \
+#define LIGHT_COOKIES_TINT_INPUTS(ROW)                   \
+  ROW(ColumnInput, Float4, cookie_lights, samplerBuffer) \
   ROW(ColumnInput, uint, cookie_words, usamplerBuffer)
 
 #ifdef EFFECT_LIGHT_COOKIES
@@ -65,10 +62,11 @@ SHARED_FUNCTION Real3 cookie_level(Whole first, Whole level, real u, real v, flo
 
 SHARED_FUNCTION Real3 light_cookies_tint(LightIndex light, Real3 point,
                                          Real3 to_light LIGHT_COOKIES_TINT_INPUTS(TAKEN_INPUT)) {
-  Float4 right = COLUMN(Float4, cookie_rights, light);
+  Float4 right = COLUMN(Float4, cookie_lights, light * 4);
   if (right.w < 0.0f) return real3(REAL(1.0f), REAL(1.0f), REAL(1.0f));
-  Float4 up = COLUMN(Float4, cookie_ups, light), ahead = COLUMN(Float4, cookie_directions, light);
-  Float4 place = COLUMN(Float4, cookie_places, light);
+  Float4 up = COLUMN(Float4, cookie_lights, light * 4 + 1);
+  Float4 ahead = COLUMN(Float4, cookie_lights, light * 4 + 2);
+  Float4 place = COLUMN(Float4, cookie_lights, light * 4 + 3);
   real x = -(right.x * to_light.x + right.y * to_light.y + right.z * to_light.z);
   real y = -(up.x * to_light.x + up.y * to_light.y + up.z * to_light.z);
   real z = -(ahead.x * to_light.x + ahead.y * to_light.y + ahead.z * to_light.z);

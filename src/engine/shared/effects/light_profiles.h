@@ -6,19 +6,16 @@
 #include "shared/inputs.h"
 
 // Four values for each light, and the grids of all profiles (scene/light_profiles.h). Axes are in view space:
-// polar angles are measured from profile_poles, azimuths from profile_firsts towards profile_seconds.
-//   profile_poles.w    index of the light's grid in profile_shares; -1: the light has no profile
-//   profile_firsts.w   columns of the grid, steps of a full turn; 0: one column
-//   profile_seconds.w  rows: steps from the first polar angle to the last; negative: 0 behind, where the
-//                      cosine to profile_firsts is negative
-//   profile_ends       first polar angle in radians, rows per radian, cosines of the first and last angle;
-//                      for 0 and 180 degrees: 2 and -2
+// polar angles are measured from the pole, azimuths from the first axis towards the second.
+//   0: pole, and the index of the light's grid in profile_shares; -1: the light has no profile
+//   1: first axis, and columns of the grid, steps of a full turn; 0: one column
+//   2: second axis, and rows: steps from the first polar angle to the last; negative: 0 behind, where the cosine
+//      to the first axis is negative
+//   3: first polar angle in radians, rows per radian, cosines of the first and last angle; for 0 and 180
+//      degrees: 2 and -2
 // A grid is columns of rows + 1 shares.
-#define LIGHT_PROFILES_REACH_INPUTS(ROW)                   \
-  ROW(ColumnInput, Float4, profile_poles, samplerBuffer)   \
-  ROW(ColumnInput, Float4, profile_firsts, samplerBuffer)  \
-  ROW(ColumnInput, Float4, profile_seconds, samplerBuffer) \
-  ROW(ColumnInput, Float4, profile_ends, samplerBuffer)    \
+#define LIGHT_PROFILES_REACH_INPUTS(ROW)                  \
+  ROW(ColumnInput, Float4, profile_lights, samplerBuffer) \
   ROW(ColumnInput, float, profile_shares, samplerBuffer)
 
 #ifdef EFFECT_LIGHT_PROFILES
@@ -35,10 +32,11 @@ SHARED_FUNCTION real profile_column(Whole at, real weight LIGHT_PROFILES_REACH_I
 
 SHARED_FUNCTION real light_profiles_reach(LightIndex light, Real3 point,
                                           Real3 to_light LIGHT_PROFILES_REACH_INPUTS(TAKEN_INPUT)) {
-  Float4 pole = COLUMN(Float4, profile_poles, light);
+  Float4 pole = COLUMN(Float4, profile_lights, light * 4);
   if (pole.w < 0.0f) return REAL(1.0f);
-  Float4 first = COLUMN(Float4, profile_firsts, light), second = COLUMN(Float4, profile_seconds, light);
-  Float4 ends = COLUMN(Float4, profile_ends, light);
+  Float4 first = COLUMN(Float4, profile_lights, light * 4 + 1);
+  Float4 second = COLUMN(Float4, profile_lights, light * 4 + 2);
+  Float4 ends = COLUMN(Float4, profile_lights, light * 4 + 3);
   real z = -(pole.x * to_light.x + pole.y * to_light.y + pole.z * to_light.z);
   real x = -(first.x * to_light.x + first.y * to_light.y + first.z * to_light.z);
   real y = -(second.x * to_light.x + second.y * to_light.y + second.z * to_light.z);
