@@ -117,6 +117,9 @@ TEST_P(EachEffect, CostsWhatItSaysAndNothingElse) {
       {"unlit", program},
       {"spot", light_array},  // cones; all programs are others, none is more
       {"directional", light_array},
+      {"area", light_array + light_array},      // cones and rectangles
+      {"cookies", light_array + light_array},   // axes and texels
+      {"profiles", light_array + light_array},  // axes and shares
       // Groups of lights and of surfaces; surfaces' numbers, drawn with the depth, and masks of tiles. No
       // program is one more.
       {"groups", light_array + light_array + WorkCounts{.textures = 1, .kernels = 1, .cl_launches = 1}},
