@@ -39,7 +39,7 @@ struct AreaLobe {
 struct AreaLights : testing::TestWithParam<AreaLobe> {};
 
 // The error of 16 points is left. They crowd as GGX's lobe requires, and a power of a cosine ends sooner: Blinn's lobe
-// has three times the error (a tenth of it with 64 points).
+// has three times the error (a seventh of it with 64 points).
 TEST_P(AreaLights, AreTheOraclesWithinTheErrorOfTheirPoints) {
   const Scene scene = panels(12);
   const View view = small_view(64, 40);
