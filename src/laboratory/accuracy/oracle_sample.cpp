@@ -33,9 +33,9 @@ struct Sums {
 
 }  // namespace
 
-SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth, ShadowTruth* shadows)
+SurfaceOracle::SurfaceOracle(RenderView& v, std::vector<float> depth, ShadowTruth* shadows)
     : v_(v),
-      depth_(depth),
+      depth_(std::move(depth)),
       surfaces_(read_surfaces(v)),
       lights_(lights_in_view(v.scene, v.view, ranges_of(meant_by(v.plan.settings)))),
       own_shadows_(shadows ? nullptr : std::make_unique<ShadowTruth>(v.scene, 0)),
@@ -45,7 +45,7 @@ SurfaceOracle::SurfaceOracle(RenderView& v, const std::vector<float>& depth, Sha
     if (shadows_->casts()) triangles_ = casting_triangles(v.scene, shown);
     masks_ = masks_of_pixels(v.plan, v.scene, shown);
   }
-  for (const uint32_t pixel : covered_pixels(depth)) {
+  for (const uint32_t pixel : covered_pixels(depth_)) {
     surfaces_.blended[pixel] ? void(++left_out_) : pixels_.push_back(pixel);
   }
 }

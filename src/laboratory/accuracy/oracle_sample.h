@@ -11,7 +11,7 @@ namespace lightgrid::lab {
 class SurfaceOracle {
  public:
   // shadows: of the view's scene, kept by the caller; null: the oracle finds them itself, where lights cast.
-  SurfaceOracle(RenderView& v, const std::vector<float>& depth, ShadowTruth* shadows = nullptr);
+  SurfaceOracle(RenderView& v, std::vector<float> depth, ShadowTruth* shadows = nullptr);
 
   // Pixels with an opaque surface and no blended one, ascending; the oracle can shade only these.
   const std::vector<uint32_t>& pixels() const { return pixels_; }
@@ -25,7 +25,7 @@ class SurfaceOracle {
 
  private:
   RenderView& v_;
-  const std::vector<float>& depth_;
+  std::vector<float> depth_;
   SurfaceImages surfaces_;
   std::vector<ViewLight> lights_;
   std::unique_ptr<ShadowTruth> own_shadows_;
