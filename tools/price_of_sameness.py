@@ -20,7 +20,7 @@ ROUNDS = 5
 FRAMES = "12"
 
 
-def frame_ms(program, device, words, build, folder):
+def frame_ms(program, device, words, folder, build="exact"):
     """Medians of one run: wall-clock, processor and kernel milliseconds."""
     record = folder / "frame.json"
     command = [program, "render", *words, "--device", device, "--size", "1280x720", "--frames", FRAMES,
@@ -42,10 +42,10 @@ def main():
         for case in sys.argv[3:]:
             times = {build: [] for build in BUILDS}
             for build in BUILDS:
-                frame_ms(program, device, case.split(), build, folder)  # compiles
+                frame_ms(program, device, case.split(), folder, build)  # compiles
             for number in range(ROUNDS):
                 for build in BUILDS if number % 2 else BUILDS[::-1]:
-                    times[build].append(frame_ms(program, device, case.split(), build, folder))
+                    times[build].append(frame_ms(program, device, case.split(), folder, build))
             exact = [statistics.median(column) for column in zip(*times["exact"])]
             print(case, "exact: wall {:.2f} ms, processor {:.2f}, kernels {:.2f}".format(*exact), sep=": ")
             for build in BUILDS[1:]:

@@ -176,41 +176,25 @@ LitTerm term(const Scene&, const Light& light, const LightRanges&, const glm::dm
 
 LOOP_INPUTS(AreaLightsInputs, AREA_LIGHTS_LIT_INPUTS);
 
-class AreaLights : public EffectState {
- public:
-  bool follow(PassContext&) override {
-    uploaded_ = false;
-    return true;
-  }
-
-  void before_lights(PassContext& work) override {
-    if (uploaded_) return;
+class AreaLights : public LightInputs<AreaLightsInputs> {
+  void fill(PassContext& work) override {
     const glm::dmat3 from_world(work.view.view_from_world);
     const std::vector<Node> nodes = gauss_nodes(work.plan.settings[area_points]);
     std::vector<glm::vec4> sides(AREA_RULE);
     for (size_t i = 0; i < nodes.size(); ++i)
       sides[i] = {nodes[i].position, nodes[i].weight, nodes.size(), 0};
-    for (const auto& of_light :
-         values_of_lights(work, [&](const Light& light) { return sides_of(light, from_world); }))
-      sides.insert(sides.end(), of_light.begin(), of_light.end());
+    const std::vector<glm::vec4> of_lights =
+        values_of_lights(work, [&](const Light& light) { return sides_of(light, from_world); });
+    sides.insert(sides.end(), of_lights.begin(), of_lights.end());
     inputs_.area_sides.put(*work.renderer.cl, work.plan.opengl, "uploading area lights", sides);
-    uploaded_ = true;
   }
 
-  void bind() const override { inputs_.bind(); }
-  ClArguments reach_arguments() override { return inputs_.arguments(); }
-  size_t memory_bytes() const override { return inputs_.bytes(); }
-
- private:
   static std::array<glm::vec4, 3> sides_of(const Light& light, const glm::dmat3& from_world) {
     if (!has_rectangle(light)) return {};
     const LightRectangle r = rectangle_of(light);
     return {glm::vec4(from_world * r.across, 1), glm::vec4(from_world * r.up, 0),
             glm::vec4(from_world * r.direction, 0)};
   }
-
-  AreaLightsInputs inputs_;
-  bool uploaded_ = false;
 };
 
 std::unique_ptr<EffectState> make(PassContext&) { return std::make_unique<AreaLights>(); }

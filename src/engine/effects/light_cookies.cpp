@@ -22,12 +22,7 @@ const Setting<bool> with_cookies{73,
 
 std::optional<EffectNeed> decide(const Scene& scene, const FramePlan& plan) {
   if (!plan.settings[with_cookies]) return {};
-  const auto has_one = [&](int i) { return cookie_of(scene.lights[size_t(i)]) != nullptr; };
-  const auto first = std::ranges::find_if(plan.lights.local, has_one);
-  if (first == plan.lights.local.end()) return EffectNeed{false, "no point or spot light has one"};
-  return EffectNeed{true,
-                    fmt::format("{} has one; {} of {} lights do", light_witness(scene, *first),
-                                std::ranges::count_if(plan.lights.local, has_one), plan.lights.local.size())};
+  return need_of_lights(scene, plan, [](const Light& light) { return cookie_of(light) != nullptr; });
 }
 
 ReachTerm term(const Scene&, const Light& light, const LightRanges& ranges, const View& view) {
@@ -72,35 +67,16 @@ struct CookieWords {
   }
 };
 
-class LightCookies : public EffectState {
- public:
-  bool follow(PassContext&) override {
-    followed_ = false;
-    return true;
-  }
-
-  void before_lights(PassContext& work) override {
-    if (followed_) return;
+class LightCookies : public LightInputs<LightCookiesInputs> {
+  void fill(PassContext& work) override {
     const CookieWords words(work);
-    std::vector<glm::vec4> column;
-    for (const std::vector<int>* lights : {&work.plan.lights.local, &work.plan.lights.directional}) {
-      for (const int i : *lights) {
-        const Light& light = work.scene.lights[size_t(i)];
-        const auto values = values_of(light, cookie_of(light), words, work.view);
-        column.insert(column.end(), values.begin(), values.end());
-      }
-    }
-    put(work, inputs_.cookie_lights, column);
+    put(work, inputs_.cookie_lights, values_of_lights(work, [&](const Light& light) {
+          return values_of(light, cookie_of(light), words, work.view);
+        }));
     if (words.words != uploaded_) put(work, inputs_.cookie_words, words.words);
     uploaded_ = words.words;
-    followed_ = true;
   }
 
-  void bind() const override { inputs_.bind(); }
-  ClArguments reach_arguments() override { return inputs_.arguments(); }
-  size_t memory_bytes() const override { return inputs_.bytes(); }
-
- private:
   static std::array<glm::vec4, 4> values_of(const Light& light, const SharedTable& table,
                                             const CookieWords& words, const View& view) {
     if (!table) return {glm::vec4(0, 0, 0, -1), {}, {}, {}};
@@ -117,14 +93,11 @@ class LightCookies : public EffectState {
   }
 
   template <typename Value>
-  static void put(PassContext& work, ColumnInput& to, std::vector<Value> values) {
-    if (values.empty()) values.emplace_back(0);
+  static void put(PassContext& work, ColumnInput& to, const std::vector<Value>& values) {
     to.put(*work.renderer.cl, work.plan.opengl, "uploading cookies", values);
   }
 
-  LightCookiesInputs inputs_;
   std::vector<uint32_t> uploaded_;
-  bool followed_ = false;
 };
 
 std::unique_ptr<EffectState> make(PassContext&) { return std::make_unique<LightCookies>(); }

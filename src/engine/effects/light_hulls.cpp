@@ -82,30 +82,12 @@ std::array<glm::vec4, HULL_PLANES> planes_in_view(const Light& light, const View
   return values;
 }
 
-class LightHulls : public EffectState {
- public:
-  bool follow(PassContext&) override {
-    uploaded_ = false;
-    return true;
+class LightHulls : public LightInputs<LightHullInputs> {
+  void fill(PassContext& work) override {
+    inputs_.hull_planes.put(
+        *work.renderer.cl, work.plan.opengl, "uploading hulls",
+        values_of_lights(work, [&](const Light& light) { return planes_in_view(light, work.view); }));
   }
-
-  void before_lights(PassContext& work) override {
-    if (uploaded_) return;
-    std::vector<glm::vec4> column;
-    for (const auto& planes :
-         values_of_lights(work, [&](const Light& light) { return planes_in_view(light, work.view); }))
-      column.insert(column.end(), planes.begin(), planes.end());
-    inputs_.hull_planes.put(*work.renderer.cl, work.plan.opengl, "uploading hulls", column);
-    uploaded_ = true;
-  }
-
-  void bind() const override { inputs_.bind(); }
-  ClArguments reach_arguments() override { return inputs_.arguments(); }
-  size_t memory_bytes() const override { return inputs_.bytes(); }
-
- private:
-  LightHullInputs inputs_;
-  bool uploaded_ = false;
 };
 
 std::unique_ptr<EffectState> make(PassContext&) { return std::make_unique<LightHulls>(); }

@@ -24,12 +24,7 @@ const Setting<bool> with_profiles{74,
 
 std::optional<EffectNeed> decide(const Scene& scene, const FramePlan& plan) {
   if (!plan.settings[with_profiles]) return {};
-  const auto has_one = [&](int i) { return profile_of(scene.lights[size_t(i)]) != nullptr; };
-  const auto first = std::ranges::find_if(plan.lights.local, has_one);
-  if (first == plan.lights.local.end()) return EffectNeed{false, "no point or spot light has one"};
-  return EffectNeed{true,
-                    fmt::format("{} has one; {} of {} lights do", light_witness(scene, *first),
-                                std::ranges::count_if(plan.lights.local, has_one), plan.lights.local.size())};
+  return need_of_lights(scene, plan, [](const Light& light) { return profile_of(light) != nullptr; });
 }
 
 ReachTerm term(const Scene&, const Light& light, const LightRanges& ranges, const View& view) {
@@ -82,42 +77,28 @@ struct ProfileGrids {
   }
 };
 
-class LightProfiles : public EffectState {
- public:
-  bool follow(PassContext&) override {
-    followed_ = false;
-    return true;
-  }
-
-  void before_lights(PassContext& work) override {
-    if (followed_) return;
+class LightProfiles : public LightInputs<LightProfilesInputs> {
+  void fill(PassContext& work) override {
     const ProfileGrids grids(work);
     const glm::dmat3 from_world(work.view.view_from_world);
-    std::vector<glm::vec4> column;
-    for (const std::vector<int>* lights : {&work.plan.lights.local, &work.plan.lights.directional}) {
-      for (const int i : *lights) {
-        const Light& light = work.scene.lights[size_t(i)];
-        const SharedTable profile = profile_of(light);
-        const ProfileAxes axes = profile ? profile_axes(*profile, axes_of(light)) : ProfileAxes{};
-        const ProfileGrids::Grid grid = profile ? grids.of.at(profile) : ProfileGrids::Grid{};
-        const ProfileGrid& steps = grid.steps;
-        column.emplace_back(from_world * axes.pole, profile ? float(grid.first) : -1.0f);
-        column.emplace_back(from_world * axes.first, float(steps.columns));
-        column.emplace_back(from_world * axes.second, steps.front ? -float(steps.rows) : float(steps.rows));
-        column.push_back(ends_of(steps));
-      }
-    }
-    put(work, inputs_.profile_lights, column);
+    put(work, inputs_.profile_lights, values_of_lights(work, [&](const Light& light) {
+          return values_of(light, profile_of(light), grids, from_world);
+        }));
     if (grids.shares != uploaded_) put(work, inputs_.profile_shares, grids.shares);
     uploaded_ = grids.shares;
-    followed_ = true;
   }
 
-  void bind() const override { inputs_.bind(); }
-  ClArguments reach_arguments() override { return inputs_.arguments(); }
-  size_t memory_bytes() const override { return inputs_.bytes(); }
+  static std::array<glm::vec4, 4> values_of(const Light& light, const SharedTable& profile,
+                                            const ProfileGrids& grids, const glm::dmat3& from_world) {
+    const ProfileAxes axes = profile ? profile_axes(*profile, axes_of(light)) : ProfileAxes{};
+    const ProfileGrids::Grid grid = profile ? grids.of.at(profile) : ProfileGrids::Grid{};
+    const ProfileGrid& steps = grid.steps;
+    return {glm::vec4(from_world * axes.pole, profile ? float(grid.first) : -1.0f),
+            glm::vec4(from_world * axes.first, float(steps.columns)),
+            glm::vec4(from_world * axes.second, steps.front ? -float(steps.rows) : float(steps.rows)),
+            ends_of(steps)};
+  }
 
- private:
   static glm::vec4 ends_of(const ProfileGrid& grid) {
     const double angle = grid.last_rad - grid.first_rad;
     return {grid.first_rad, grid.rows / std::max(angle, 1e-9),
@@ -126,14 +107,11 @@ class LightProfiles : public EffectState {
   }
 
   template <typename Value>
-  static void put(PassContext& work, ColumnInput& to, std::vector<Value> values) {
-    if (values.empty()) values.emplace_back(0);
+  static void put(PassContext& work, ColumnInput& to, const std::vector<Value>& values) {
     to.put(*work.renderer.cl, work.plan.opengl, "uploading light profiles", values);
   }
 
-  LightProfilesInputs inputs_;
   std::vector<float> uploaded_;
-  bool followed_ = false;
 };
 
 std::unique_ptr<EffectState> make(PassContext&) { return std::make_unique<LightProfiles>(); }

@@ -1,5 +1,7 @@
 #include "plan/effect.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -17,6 +19,15 @@ std::string define_of(const Effect& effect) {
   std::string define = std::string("EFFECT_") + effect.name;
   std::ranges::transform(define, define.begin(), [](unsigned char c) { return char(std::toupper(c)); });
   return define;
+}
+
+EffectNeed need_of_lights(const Scene& scene, const FramePlan& plan, bool (*has_one)(const Light&)) {
+  const std::vector<int>& lights = plan.lights.local;
+  const auto has = [&](int i) { return has_one(scene.lights[size_t(i)]); };
+  const auto first = std::ranges::find_if(lights, has);
+  if (first == lights.end()) return {false, "no point or spot light has one"};
+  return {true, fmt::format("{} has one; {} of {} lights do", light_witness(scene, *first),
+                            std::ranges::count_if(lights, has), lights.size())};
 }
 
 std::string missing_oracle(const Effect& effect, std::span<const std::string> keys_that_mean) {

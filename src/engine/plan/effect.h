@@ -27,6 +27,9 @@ struct EffectNeed {
   bool idles = true;  // where it is not needed, it changes no bit of the picture: everything-on turns it on
 };
 
+// For an effect of point and spot lights that have something: needed if one of the plan's lights has it.
+EffectNeed need_of_lights(const Scene& scene, const FramePlan& plan, bool (*has_one)(const Light&));
+
 // The radiance that an effect adds to a surface at this point of view space.
 using BaseTerm = std::function<glm::dvec3(const Surface&, const glm::dvec3& position)>;
 

@@ -10,6 +10,7 @@
 #include "cl/launch.h"
 #include "gl/bindings.h"
 #include "gl/objects.h"
+#include "renderer/effect_state.h"
 
 namespace lightgrid {
 
@@ -56,7 +57,10 @@ struct ColumnInput {
   ColumnInput(const char* name, const char*) : name(name), unit(unit_of_input(name)) {}
 
   template <typename Value>
-  void put(ClDevice& device, bool opengl, const char* what, const std::vector<Value>& column) {
+  void put(ClDevice& device, bool opengl, const char* what, const std::vector<Value>& given) {
+    static const std::vector<Value> zero(1, Value(0));
+    const std::vector<Value>& column =
+        given.empty() ? zero : given;  // an argument without memory is an error
     values.put(device, what, column);
     if (!opengl) return;
     texels = make_buffer(column.size() * sizeof(Value), column.data());
@@ -92,5 +96,30 @@ struct ColumnInput {
     }                                                                   \
     size_t bytes() const { return size_t(0) LIST(LOOP_INPUT_BYTES); }   \
   }
+
+// The state of an effect that has one list of inputs, for the hooks of lights: filled once after each change of the
+// camera, the lights or the plan.
+template <typename Inputs>
+class LightInputs : public EffectState {
+ public:
+  bool follow(PassContext&) final {
+    filled_ = false;
+    return true;
+  }
+  void before_lights(PassContext& work) final {
+    if (!filled_) fill(work);
+    filled_ = true;
+  }
+  void bind() const final { inputs_.bind(); }
+  ClArguments reach_arguments() final { return inputs_.arguments(); }
+  size_t memory_bytes() const final { return inputs_.bytes(); }
+
+ protected:
+  virtual void fill(PassContext& work) = 0;
+  Inputs inputs_;
+
+ private:
+  bool filled_ = false;
+};
 
 }  // namespace lightgrid

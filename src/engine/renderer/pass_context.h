@@ -85,14 +85,26 @@ struct PassContext : ViewState {
   std::vector<glm::ivec2> sample_places_;  // once they are known
 };
 
-// A value for each light, in the order of a ColumnInput.
+// The values of arrays one after the other; other values as they are.
+template <typename Value>
+std::vector<Value> joined(std::vector<Value> values) {
+  return values;
+}
+template <typename Value, size_t count>
+std::vector<Value> joined(const std::vector<std::array<Value, count>>& arrays) {
+  std::vector<Value> values;
+  for (const std::array<Value, count>& a : arrays) values.insert(values.end(), a.begin(), a.end());
+  return values;
+}
+
+// A value, or an array of values, for each light, in the order of a ColumnInput.
 template <typename F>
 auto values_of_lights(const ViewState& seen, const F& of_light) {
   std::vector<decltype(of_light(seen.scene.lights[0]))> values;
   for (const std::vector<int>* lights : {&seen.plan.lights.local, &seen.plan.lights.directional}) {
     for (const int i : *lights) values.push_back(of_light(seen.scene.lights[size_t(i)]));
   }
-  return values;
+  return joined(std::move(values));
 }
 
 // One cache; T(PassContext&) makes it at first use.

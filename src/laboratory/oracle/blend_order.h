@@ -17,7 +17,7 @@ struct BlendOrder {
   uint64_t wrong = 0;    // of these, pixels where a farther one is blended over a nearer one
 };
 
-// Of all pixels' centres. drawn: blended instances in the order in which they are drawn (SurfacePlan::blended).
+// Counts pixels by their centres. drawn: blended instances in the order in which they are drawn (SurfacePlan::blended).
 BlendOrder find_blend_order(const Scene& scene, const View& view, std::span<const int> drawn);
 
 // As `lightgrid plan` prints it.

@@ -164,7 +164,7 @@ std::vector<AreaCase> hard_cases() {
       {"a mirrored ray parallel to its plane", panel(metal, {-1, 0, 1.5}, {1, 0, -1.001}, 1, 1), 5e-2},
       {"a grazing view", panel(at(0, 0.5, {1, 0, 0.002}), {-1, 0, 1}, {1, 0, -1}, 1, 1), 5e-2},
       {"roughness 1", panel(at(1, 1, {1, 0, 1}), {-1, 0, 1}, {1, 0, -1}, 1, 1), 1e-4},
-      {"ten lobes beside it", panel(at(1, 0.2, {1, 0, 1}), {0, 1.5, 1}, {0, -1.5, -1}, 0.5, 0.5), 1e-3},
+      {"ten lobes next to it", panel(at(1, 0.2, {1, 0, 1}), {0, 1.5, 1}, {0, -1.5, -1}, 0.5, 0.5), 1e-3},
       {"up along its direction", panel(plain, {0.2, 0, 2}, {0, 0, -1}, 1, 0.5, {0, 0, 1}), 1e-4},
       {"up of length 0", panel(plain, {0.2, 0, 2}, {0, 0, -1}, 1, 0.5, {0, 0, 0}), 1e-4},
   };
