@@ -24,10 +24,11 @@
 //                    with -DNUMBERED
 // depths             reversed, a pixel each
 // cells, indices     lists of lights in tiles (shared/light_grid.h)
-// image, first_entry  0 of opaque surfaces, else 1 + that of a layer, and how many entries those before it
-// have own_hides          1: the pixel's own triangle hides lights behind it; 0: it lets light through tiles,
-// bits        out: shared/shadow_bits.h rays               out: how many were traced, a tile BAND_ARGUMENTS
-// the first tile of the band, and for each tile of each image the band's entries before it
+// image, first_entry 0 of opaque surfaces, else 1 + that of a layer, and how many entries those before it have
+// own_hides          1: the pixel's own triangle hides lights behind it; 0: it lets light through
+// tiles, bits        out: shared/shadow_bits.h
+// rays               out: how many were traced, a tile
+// BAND_ARGUMENTS     the first tile of the band, and for each tile of each image the band's entries before it
 #ifdef BANDS
 #define BAND_ARGUMENTS , uint first_tile, global const uint *first_entries
 #define FIRST_TILE first_tile
