@@ -84,15 +84,6 @@ TEST(AreaLights, NoListLosesOne) {
   }
 }
 
-TEST(AreaLights, AllKernelsWriteTheSameBytes) {
-  const Scene scene = panels(12);
-  const View view = small_view(47, 31);
-  const Image lanes = render(scene, view, "visibility", assigned("kernel-shape=lanes"));
-  EXPECT_GT(brightest_channel(lanes), 0.01f);
-  for (const char* others : {"kernel-shape=group", "portable=on", "tile=8", "lights=all"})
-    EXPECT_TRUE(identical(render(scene, view, "visibility", assigned(others)), lanes)) << others;
-}
-
 TEST(AreaLights, LightNothingBehindTheirPlane) {
   SmallScene s = small_scene();
   const View view = small_view(47, 31);

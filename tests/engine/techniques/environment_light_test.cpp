@@ -142,16 +142,6 @@ TEST(EnvironmentLight, AMirrorShowsWhatIsBehindTheViewer) {
   }
 }
 
-TEST(EnvironmentLight, BothShapesDrawTheSameBytes) {
-  SmallScene s = small_scene();
-  for (const char* name : {"blend", "clearcoat", "skin"}) effect(name).add(s);
-  surround(s.scene, patched_sky());
-  const auto picture = [&](KernelShape shape) {
-    return render(s.scene, small_view(47, 31), "visibility", {{setting::kernel_shape, shape}});
-  };
-  EXPECT_TRUE(identical(picture(KernelShape::lanes), picture(KernelShape::group)));
-}
-
 TEST(EnvironmentLight, HugeRadianceLeavesFinitePictures) {
   SmallScene s = small_scene();
   for (const char* name : {"blend", "clearcoat"}) effect(name).add(s);

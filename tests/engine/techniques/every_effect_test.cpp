@@ -38,6 +38,38 @@ TEST(EveryEffect, IsNamedWithItsWitness) {
 
 TEST(EveryEffect, TogetherAreTheOracles) { expect_the_oracles(gallery().scene, gallery().view); }
 
+TEST(EveryEffect, HasTheSameBytesInAllKernels) {
+  const auto drawn = [](const std::string& how) {
+    return render(gallery().scene, gallery().view, "visibility", assigned("far-light=4096 " + how));
+  };
+  const Image lanes = drawn("kernel-shape=lanes");
+  EXPECT_GT(brightest_channel(lanes), 0.01f);
+  for (const char* others : {"kernel-shape=group", "portable=on", "tile=8", "lights=all"})
+    EXPECT_TRUE(identical(drawn(others), lanes)) << others;
+}
+
+TEST(EveryEffect, FollowsTheCameraAndTheLights) {
+  const Settings far = assigned("far-light=4096");
+  for (const char* technique : {"forward_plus", "visibility"}) {
+    Scene scene = gallery().scene;
+    GpuScene gpu(test_devices(), scene);
+    TechniqueRun run(test_devices(), gpu, gallery().view, far, find_technique(technique));
+    run.run_frame();
+    const View turned = make_view(scene.cameras.back(), 48, 27);
+    run.look(turned);
+    run.run_frame();
+    EXPECT_TRUE(identical(run.image(), render(scene, turned, technique, far))) << technique;
+    SceneChanges changes;
+    for (int i = 0; i < int(scene.lights.size()); ++i) changes.lights.push_back(i);
+    for (Light& light : scene.lights)
+      light.direction = glm::normalize(light.direction + glm::vec3(0.3f, 0.1f, 0));
+    gpu.update(changes);
+    run.look(turned, changes);
+    run.run_frame();
+    EXPECT_TRUE(identical(run.image(), render(scene, turned, technique, far))) << technique;
+  }
+}
+
 // Positions from a depth buffer differ by a rounding, which moves the points of an area light: alone, the two panels
 // differ by 1.16e-5, and the other lights by at most 1.6e-7.
 constexpr double of_stored_positions = 2e-5;
