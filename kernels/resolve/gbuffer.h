@@ -59,27 +59,19 @@ static inline real number_of_texel(Texels second) {
 
 static inline ShadingPoint modelled_point(ShadingPoint p, Real3 to_viewer, real number,
                                           global const MaterialModelRecord* models) {
-#if LANES == 16
-  float values[5][16];
-  for (uint i = 0; i < 16; ++i) {
-    global const MaterialModelRecord* m = models + (uint)((const float*)&number)[i];
-    values[0][i] = m->subsurface[0];
-    values[1][i] = m->subsurface[1];
-    values[2][i] = m->subsurface[2];
-    values[3][i] = m->roll_off;
-    values[4][i] = m->minnaert_k;
-  }
-  const real red = vload16(0, values[0]), green = vload16(0, values[1]), blue = vload16(0, values[2]);
-  const real roll_off = vload16(0, values[3]), k = vload16(0, values[4]);
-#else
-  global const MaterialModelRecord* m = models + (uint)number;
-  const float red = m->subsurface[0], green = m->subsurface[1], blue = m->subsurface[2];
-  const float roll_off = m->roll_off, k = m->minnaert_k;
-#endif
+#define MODEL_OF(i) models[(uint)LANE(number, i)]
 #ifdef SKIN
-  p = with_skin(p, real3(red, green, blue), roll_off);
+  Real3 color;
+  real roll_off;
+  SET_LANES(float, color.x, MODEL_OF(i).subsurface[0])
+  SET_LANES(float, color.y, MODEL_OF(i).subsurface[1])
+  SET_LANES(float, color.z, MODEL_OF(i).subsurface[2])
+  SET_LANES(float, roll_off, MODEL_OF(i).roll_off)
+  p = with_skin(p, color, roll_off);
 #endif
 #ifdef MINNAERT
+  real k;
+  SET_LANES(float, k, MODEL_OF(i).minnaert_k)
   p = with_minnaert(p, to_viewer, k);
 #endif
   return p;
@@ -128,9 +120,7 @@ static inline ShadingPoint coated_point(ShadingPoint p, Texels coat) {
 #if BUFFER_BITS == 32
   const Real3 own = normal_of_octahedral(coat.x, coat.y);
   const mask_t as_base = coat.w < REAL(0.0f);
-  const Real3 normal =
-      real3(as_base ? p.normal.x : own.x, as_base ? p.normal.y : own.y, as_base ? p.normal.z : own.z);
-  return with_coat(p, normal, fabs(coat.w), coat.z);
+  return with_coat(p, select3(as_base, p.normal, own), fabs(coat.w), coat.z);
 #else
   const Real3 normal = normal_of_octahedral(OF_NORMAL(coat.x), OF_NORMAL(coat.y));
   return with_coat(p, normal, OF_ONE(coat.w), OF_ONE(coat.z));

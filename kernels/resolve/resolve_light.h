@@ -113,7 +113,7 @@ static inline Real3 light_of_cells(Real3 own, const ShadingPoint* p, real depth,
     const uint2 range = l->cells[cell_in_slice(l->cell, slice, view->tiles_x, view->tiles_y)];
     const Real3 with = sum_of_list(own, p, here, l->list + range.x, range.y,
                                    bins_of_pixels(depth, here, bin_edges), &l->lights);
-    sum = real3(here ? with.x : sum.x, here ? with.y : sum.y, here ? with.z : sum.z);
+    sum = select3(here, with, sum);
   }
   return sum;
 }
@@ -145,9 +145,7 @@ static inline Real3 exact_light(Real3 sum, const ShadingPoint* p, mask_t lit, co
     const real value = importance_at(p, lit, light);
     const mask_t chosen = (value > REAL(0.0f)) & (value >= greatest[VOXEL_EXACT - 1]);
     if (!any_lane(chosen)) continue;
-    const Real3 own = radiance_from(*p, light);
-    sum = real3(sum.x + (chosen ? own.x : REAL(0.0f)), sum.y + (chosen ? own.y : REAL(0.0f)),
-                sum.z + (chosen ? own.z : REAL(0.0f)));
+    sum = add3(sum, select3(chosen, radiance_from(*p, light), real3(REAL(0.0f), REAL(0.0f), REAL(0.0f))));
     *rest = without_light(*rest, p->position, light, chosen ? REAL(1.0f) : REAL(0.0f), l->voxels);
   }
   *rest = at_least_nothing(*rest);
@@ -203,7 +201,7 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
     if (!any_lane(here)) continue;
     left &= ~here;
     const Real3 with = sum_of_world_lists(own, p, here, ranges[i], l);
-    sum = real3(here ? with.x : sum.x, here ? with.y : sum.y, here ? with.z : sum.z);
+    sum = select3(here, with, sum);
   }
   return sum;
 }
@@ -263,8 +261,7 @@ static inline Real3 own_light(const ShadingPoint* p, const Resolved* r, const Re
 
 // The colour that an unlit surface shows in place of light.
 static inline Real3 unlit_or(const Surface* s, Real3 light) {
-  return real3(s->unlit ? s->base_color.x : light.x, s->unlit ? s->base_color.y : light.y,
-               s->unlit ? s->base_color.z : light.z);
+  return select3(s->unlit, s->base_color, light);
 }
 
 // A blended surface of this alpha over what is behind it, which may be infinite.

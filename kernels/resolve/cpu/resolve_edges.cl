@@ -59,7 +59,7 @@ static inline void trace_from_batch(TracedShadows* traced, const EdgeBatch* b, c
 #endif
 
 kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global const float* depths,
-                          global const ushort* edges, RESOLVE_ARGUMENTS, OUTPUT_ARGUMENTS) {
+                          global const ushort* edges, OUTPUT_ARGUMENTS RESOLVE_ARGUMENTS) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const Output output = GIVEN_OUTPUT;
   const ResolveScene scene = RESOLVE_SCENE;

@@ -13,7 +13,7 @@
 #endif
 
 kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global const float* depths,
-                          global const ushort* edges, RESOLVE_ARGUMENTS, OUTPUT_ARGUMENTS) {
+                          global const ushort* edges, OUTPUT_ARGUMENTS RESOLVE_ARGUMENTS) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
   const uint at = y * view->width + x;

@@ -1,6 +1,5 @@
 // The geometry buffer (kernels/resolve/gbuffer.h); lights come from stored/surfaces.h.
 //
-// background  of pixels without a surface
 // first, second, coats, specular  out: the geometry buffer; coats and specular may be null: not stored.
 //             Samples without a surface keep what the walker over pixels stored
 // image       out: RGBA per pixel, what surfaces show without point and spot lights; null: the light pass
@@ -24,18 +23,11 @@
 #define STORE_ROW(row, to) vstore16(TO_CHANNELS(16, row), 0, to)
 #endif
 
-typedef struct Output {
-  float4 background;
-  global channel_t *first, *second, *coats, *specular;
-  global float* image;
-  SURFACE_NUMBERS_MEMBER
-} Output;
-#define OUTPUT_ARGUMENTS                                                                         \
-  float4 background, global channel_t *first, global channel_t *second, global channel_t *coats, \
-      global channel_t *specular, global float *image SURFACE_NUMBERS_OUT
-#define GIVEN_OUTPUT \
-  { background, first, second, coats, specular, image GIVEN_SURFACE_NUMBERS_OUT }
-#define READS_DEPTH(output) SHOWS_LIGHT(output)
+#define OUTPUT_LIST(X)         \
+  X(global channel_t*, first)  \
+  X(global channel_t*, second) \
+  X(global channel_t*, coats) X(global channel_t*, specular) SURFACE_NUMBERS_OUT(X)
+DECLARE_OUTPUT;
 #define SHOWS_LIGHT(output) ((output).image != 0)
 #define NEEDS_EVERY_PIXEL true  // zeros are stored where no surface is
 

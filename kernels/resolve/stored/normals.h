@@ -20,16 +20,11 @@
 #include "kernels/resolve/stored_normals.h"
 #include "kernels/resolve/surface_numbers.h"
 
-#define STORED_ARGUMENTS                                                                            \
-  global const normal_t *normals, global light_channel_t *sums, global light_channel_t *other_sums, \
-      float exponent, float inverse_scale
-typedef struct Stored {
-  global const normal_t* normals;
-  global light_channel_t *sums, *other_sums;
-  float exponent, inverse_scale;
-} Stored;
-#define GIVEN_STORED \
-  { normals, sums, other_sums, exponent, inverse_scale }
+#define STORED_LIST(X)               \
+  X(global const normal_t*, normals) \
+  X(global light_channel_t*, sums)   \
+  X(global light_channel_t*, other_sums) X(float, exponent) X(float, inverse_scale)
+DECLARE_STORED;
 #define NEEDS_EVERY_PIXEL true
 
 // For all samples that show them.
@@ -47,23 +42,6 @@ static inline void store_row_of_sums(const Stored* s, size_t at, float16 sums, f
   STORE_CHANNELS(16, sums, s->sums + 4 * at);
 #ifdef PREPASS_FIFTH_TERM
   STORE_CHANNELS(8, others, s->other_sums + 2 * at);
-#endif
-}
-
-static inline Real3 normals_at(global const normal_t* normals, const StoredBatch* b) {
-#ifdef NORMAL_CHANNEL_STEPS
-  uint n[16];
-  for (uint i = 0; i < 16; ++i) n[i] = normals[IMAGE_OF(b, i)];
-  return unpacked_normal(vload16(0, n));
-#else
-  float n[3][16];
-  for (uint i = 0; i < 16; ++i) {
-    const float4 one = normals[IMAGE_OF(b, i)];
-    n[0][i] = one.x;
-    n[1][i] = one.y;
-    n[2][i] = one.z;
-  }
-  return real3(vload16(0, n[0]), vload16(0, n[1]), vload16(0, n[2]));
 #endif
 }
 
@@ -85,24 +63,35 @@ static inline void store_terms(const Stored* s, const StoredBatch* b, LightTerms
   }
 }
 #else
-#define normals_at(normals, b) normal_at(normals, (b)->image)
 static inline void store_terms(const Stored* s, const StoredBatch* b, LightTerms t) {
   store_sums(s, b->image, b->share, (float4)(t.diffuse.x, t.diffuse.y, t.diffuse.z, t.specular),
              (float2)(t.weight, t.rim));
 }
 #endif
 
-#ifndef PREPASS_STORED
-#define exponents_at(s, b) REAL((s)->exponent)
-#elif LANES == 16
-static inline real exponents_at(const Stored* s, const StoredBatch* b) {
-  float roughness[16];
-  for (uint i = 0; i < 16; ++i) roughness[i] = ROUGHNESS_OF(s->normals[IMAGE_OF(b, i)]);
-  return shininess_of_roughness(vload16(0, roughness));
-}
+static inline Real3 normals_at(global const normal_t* normals, const StoredBatch* b) {
+#ifdef NORMAL_CHANNEL_STEPS
+  packed_normal_t n;
+  SET_LANES(uint, n, normals[IMAGE_OF(b, i)])
+  return unpacked_normal(n);
 #else
-#define exponents_at(s, b) shininess_of_roughness(ROUGHNESS_OF((s)->normals[(b)->image]))
+  float4 texels[LANES];
+  for (uint i = 0; i < LANES; ++i) texels[i] = normals[IMAGE_OF(b, i)];
+  real channels[4];
+  channels_of_pixels(channels, texels);
+  return real3(channels[0], channels[1], channels[2]);
 #endif
+}
+
+static inline real exponents_at(const Stored* s, const StoredBatch* b) {
+#ifdef PREPASS_STORED
+  real roughness;
+  SET_LANES(float, roughness, ROUGHNESS_OF(s->normals[IMAGE_OF(b, i)]))
+  return shininess_of_roughness(roughness);
+#else
+  return s->exponent;
+#endif
+}
 
 // A light that reaches none of the pixels, or that none of them faces, would add exact zeros.
 static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal, Real3 to_viewer,

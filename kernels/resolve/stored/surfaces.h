@@ -14,18 +14,12 @@
 #include "kernels/resolve/shade_pixels.h"
 #include "kernels/resolve/stored_batch.h"
 
-#define STORED_ARGUMENTS                                                                               \
-  global const channel_t *first, global const channel_t *second, global const channel_t *coats,        \
-      global const channel_t *specular, global const MaterialModelRecord *models, global float *image, \
-      float4 background
-typedef struct Stored {
-  global const channel_t *first, *second, *coats, *specular;
-  global const MaterialModelRecord* models;
-  global float* image;
-  float4 background;
-} Stored;
-#define GIVEN_STORED \
-  { first, second, coats, specular, models, image, background }
+#define STORED_LIST(X)                                                   \
+  X(global const channel_t*, first)                                      \
+  X(global const channel_t*, second)                                     \
+  X(global const channel_t*, coats) X(global const channel_t*, specular) \
+      X(global const MaterialModelRecord*, models) X(global float*, image) X(float4, background)
+DECLARE_STORED;
 #ifdef BASE_LIGHTING
 #define NEEDS_EVERY_PIXEL false
 #else
@@ -53,10 +47,9 @@ static inline Texels texels_at(global const channel_t* image, const StoredBatch*
                            CHANNELS(4, image + 4 * (size_t)IMAGE_OF(b, 4 * k + 3)));
     }
   }
-  const Texels t = {(float16)(row[0].s048c, row[1].s048c, row[2].s048c, row[3].s048c),
-                    (float16)(row[0].s159d, row[1].s159d, row[2].s159d, row[3].s159d),
-                    (float16)(row[0].s26ae, row[1].s26ae, row[2].s26ae, row[3].s26ae),
-                    (float16)(row[0].s37bf, row[1].s37bf, row[2].s37bf, row[3].s37bf)};
+  real c[4];
+  channels_of_rows(c, row);
+  const Texels t = {c[0], c[1], c[2], c[3]};
   return t;
 }
 #else
@@ -135,7 +128,7 @@ static inline void shade(const Stored* s, const StoredBatch* b, SurfaceValues su
     const ShadingPoint p = stored_point(s, b, normal, color, lit, surface, view);
     const Real3 light =
         light_sum(&p, lit, list, count, bins_of_pixels(b->depth, lit, bin_edges), lights, view);
-    shown = real3(lit ? light.x : shown.x, lit ? light.y : shown.y, lit ? light.z : shown.z);
+    shown = select3(lit, light, shown);
   }
   add_to_image(s->image, b, shown);
 }

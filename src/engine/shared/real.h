@@ -30,6 +30,10 @@ static inline real dot3(Real3 a, Real3 b) { return a.x * b.x + a.y * b.y + a.z *
 #endif
 static inline Real3 add3(Real3 a, Real3 b) { return real3(a.x + b.x, a.y + b.y, a.z + b.z); }
 static inline Real3 scale3(Real3 v, real s) { return real3(v.x * s, v.y * s, v.z * s); }
+// a where `here`, else b.
+static inline Real3 select3(mask_t here, Real3 a, Real3 b) {
+  return real3(here ? a.x : b.x, here ? a.y : b.y, here ? a.z : b.z);
+}
 static inline Real3 cross3(Real3 a, Real3 b) {
   return real3(mad_real(a.y, b.z, -(b.y * a.z)), mad_real(a.z, b.x, -(b.z * a.x)),
                mad_real(a.x, b.y, -(b.x * a.y)));
