@@ -111,9 +111,8 @@ static inline Real3 light_of_cells(Real3 own, const ShadingPoint* p, real depth,
     const mask_t here = lit & (-depth >= REAL(begin)) & (-depth < REAL(end));
     if (!any_lane(here)) continue;
     const uint2 range = l->cells[cell_in_slice(l->cell, slice, view->tiles_x, view->tiles_y)];
-    const Real3 with = sum_of_list(own, p, here, l->list + range.x, range.y,
-                                   bins_of_pixels(depth, here, bin_edges), &l->lights);
-    sum = select3(here, with, sum);
+    const PixelBins bins = bins_of_pixels(depth, here, bin_edges);
+    sum = select3(here, sum_of_list(own, p, here, l->list + range.x, range.y, bins, &l->lights), sum);
   }
   return sum;
 }
@@ -172,7 +171,6 @@ static inline Real3 sum_of_world_lists(Real3 sum, const ShadingPoint* p, mask_t 
   return sum;
 }
 
-#if LANES == 16
 // The pixels' cells one after the other, each with its list. Neighbours are mostly in one cell.
 static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit, const ResolveLights* l) {
   constant WorldGridParams* const world = l->world;
@@ -181,6 +179,7 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
   const whole x = world_coordinate(at.x, world->min_x, world->max_x);
   const whole y = world_coordinate(at.y, world->min_y, world->max_y);
   const whole z = world_coordinate(at.z, world->min_z, world->max_z);
+#if LANES == 16
   whole list = 0, count = 0;
   uint2 ranges[LANES];
   uint found = 0;
@@ -200,22 +199,13 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
     const mask_t here = left & (list == (whole)((int)ranges[i].x)) & (count == (whole)((int)ranges[i].y));
     if (!any_lane(here)) continue;
     left &= ~here;
-    const Real3 with = sum_of_world_lists(own, p, here, ranges[i], l);
-    sum = select3(here, with, sum);
+    sum = select3(here, sum_of_world_lists(own, p, here, ranges[i], l), sum);
   }
   return sum;
-}
 #else
-static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit, const ResolveLights* l) {
-  constant WorldGridParams* const world = l->world;
-  const WorldLists lists = {.buckets = l->world_buckets, .keys = l->world_keys, .cells = l->cells};
-  const Real3 at = world_position(p->position, l->world_view);
-  const uint2 range = world_range((uint)world_coordinate(at.x, world->min_x, world->max_x),
-                                  (uint)world_coordinate(at.y, world->min_y, world->max_y),
-                                  (uint)world_coordinate(at.z, world->min_z, world->max_z), world, &lists);
-  return sum_of_world_lists(own, p, lit, range, l);
-}
+  return sum_of_world_lists(own, p, lit, world_range((uint)x, (uint)y, (uint)z, world, &lists), l);
 #endif
+}
 #endif
 
 #define INPUT_OF_LIGHTS(kind, type, name, resource) , l->name

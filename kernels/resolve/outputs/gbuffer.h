@@ -31,8 +31,8 @@ DECLARE_OUTPUT;
 #define SHOWS_LIGHT(output) ((output).image != 0)
 #define NEEDS_EVERY_PIXEL true  // zeros are stored where no surface is
 
-#if LANES == 16
 static inline void store_texels(global channel_t* to, Texels t, const TexelPlaces* places) {
+#if LANES == 16
   float16 rows[4];
   rows_of_block(rows, real3(t.x, t.y, t.z), t.w);
 #if SAMPLES == 1
@@ -41,18 +41,14 @@ static inline void store_texels(global channel_t* to, Texels t, const TexelPlace
     return;
   }
 #endif
-  channel_t texels[64];
-  for (uint i = 0; i < 4; ++i) vstore16(TO_CHANNELS(16, rows[i]), i, texels);
-  for (uint i = 0; i < places->count; ++i) vstore4(vload4(places->lane[i], texels), places->at[i], to);
-}
+  channel4_t texels[16];
+  for (uint i = 0; i < 4; ++i) vstore16(TO_CHANNELS(16, rows[i]), i, (channel_t*)texels);
 #else
-static inline void store_texels(global channel_t* to, Texels t, const TexelPlaces* places) {
-  const channel4_t texel = TO_CHANNELS(4, (float4)(t.x, t.y, t.z, t.w));
-#pragma unroll
-  for (uint s = 0; s < SAMPLES; ++s)
-    if (places->samples >> s & 1u) ((global channel4_t*)to)[places->pixel * SAMPLES + s] = texel;
-}
+  const channel4_t texels = TO_CHANNELS(4, (float4)(t.x, t.y, t.z, t.w));
 #endif
+  FOR_TEXELS(i, places)
+  ((global channel4_t*)to)[PLACE_OF_TEXEL(places, i)] = LANE_OF_TEXEL(places, i, channel4_t, texels);
+}
 
 STORE_RESOLVED {
   const Attributes* a = resolved->attributes;

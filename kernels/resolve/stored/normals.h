@@ -15,6 +15,19 @@
 #pragma once
 
 #include "kernels/resolve/light_sums.h"
+
+// A point that the lights of a list are summed for (kernels/resolve/shade_pixels.h).
+typedef struct LitPoint {
+  Real3 position, normal, to_viewer;
+  SurfaceValues surface;
+  real exponent;
+} LitPoint;
+#define LIGHT_SUM
+typedef LightTerms LightSum;
+static inline LightTerms plus_light(LightTerms sum, const LitPoint* p, Arrival arrival, PunctualLight light) {
+  return add_terms(sum, terms_at(p->position, p->normal, p->to_viewer, arrival, light, p->exponent));
+}
+
 #include "kernels/resolve/shade_pixels.h"
 #include "kernels/resolve/stored_batch.h"
 #include "kernels/resolve/stored_normals.h"
@@ -93,55 +106,19 @@ static inline real exponents_at(const Stored* s, const StoredBatch* b) {
 #endif
 }
 
-// A light that reaches none of the pixels, or that none of them faces, would add exact zeros.
-static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal, Real3 to_viewer,
-                                    SurfaceValues surface, mask_t lit, uint index, const Lights* lights,
-                                    real exponent) {
-  const PunctualLight light = light_at(lights, index);
-#ifdef MET_BY_EFFECTS
-  if (!any_lane(lit & effects_meet(&lights->reach, index, surface))) return sum;
-#endif
-  if (!any_lane(lit & in_range(position, light))) return sum;
-  Arrival arrival = arrival_at(position, light);
-  mask_t facing = dot3(normal, arrival.to_light) > REAL(0.0f);
-#ifdef LIT_BY_EFFECTS
-  if (effects_light(OF_LIGHT(light), false)) facing = EVERY_LIT;
-#endif
-  const mask_t reached = (arrival.attenuation > REAL(0.0f)) & facing;
-  if (!any_lane(lit & reached)) return sum;
-  arrival.attenuation = arrival.attenuation * light_reaches(light, position, arrival.to_light, surface);
-#if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
-  if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
-#endif
-  TINT(arrival, light, position, surface)
-  return add_terms(sum, terms_at(position, normal, to_viewer, arrival, light, exponent));
-}
-
-// In the order of the list.
-static inline LightTerms terms_of_list(Real3 position, Real3 normal, SurfaceValues surface, mask_t lit,
-                                       global const index_t* list, uint count, PixelBins bins,
-                                       const Lights* lights, real exponent) {
-  const Real3 to_viewer = direction_to_viewer(position);
-  LightTerms sum = no_terms();
-  for (uint i = 0; i < count; ++i) {
-    const uint index = list[i];
-#ifdef Z_BINS
-    if (!bins_meet(lights->bins[index], bins.first, bins.last)) continue;
-#endif
-    sum = with_terms(sum, position, normal, to_viewer, surface, lit, index, lights, exponent);
-  }
-  return sum;
-}
-
 static inline void shade(const Stored* s, const StoredBatch* b, SurfaceValues surface,
                          global const index_t* list, uint count, constant float* bin_edges,
                          const Lights* lights, constant ViewParams* view) {
   const mask_t lit = b->depth > REAL(0.0f);
   LightTerms t = no_terms();
   if (count > 0 && any_lane(lit)) {
-    const Real3 position = position_of_pixel(b->x, b->y, lit ? b->depth : REAL(1.0f), view);
-    t = terms_of_list(position, normals_at(s->normals, b), surface, lit, list, count,
-                      bins_of_pixels(b->depth, lit, bin_edges), lights, exponents_at(s, b));
+    LitPoint p;
+    p.position = position_of_pixel(b->x, b->y, lit ? b->depth : REAL(1.0f), view);
+    p.normal = normals_at(s->normals, b);
+    p.to_viewer = direction_to_viewer(p.position);
+    p.surface = surface;
+    p.exponent = exponents_at(s, b);
+    t = sum_of_list(t, &p, lit, list, count, bins_of_pixels(b->depth, lit, bin_edges), lights);
   }
   const float inverse_scale = s->inverse_scale;
   const LightTerms stored = {stored_color(t.diffuse, inverse_scale, lit), STORED(t.specular),

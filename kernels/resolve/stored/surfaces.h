@@ -14,11 +14,12 @@
 #include "kernels/resolve/shade_pixels.h"
 #include "kernels/resolve/stored_batch.h"
 
-#define STORED_LIST(X)                                                   \
-  X(global const channel_t*, first)                                      \
-  X(global const channel_t*, second)                                     \
-  X(global const channel_t*, coats) X(global const channel_t*, specular) \
-      X(global const MaterialModelRecord*, models) X(global float*, image) X(float4, background)
+#define STORED_LIST(X)                                                                                      \
+  X(global const channel_t*, first)                                                                         \
+  X(global const channel_t*, second)                                                                        \
+  X(global const channel_t*, coats)                                                                         \
+  X(global const channel_t*, specular) X(global const MaterialModelRecord*, models) X(global float*, image) \
+      X(float4, background)
 DECLARE_STORED;
 #ifdef BASE_LIGHTING
 #define NEEDS_EVERY_PIXEL false
@@ -116,6 +117,18 @@ static inline ShadingPoint stored_point(const Stored* s, const StoredBatch* b, T
   p = coated_point(p, texels_at(s->coats, b));
 #endif
   return p;
+}
+
+// What point and spot lights add, and ambient light where the image does not hold it.
+static inline Real3 light_sum(const ShadingPoint* p, mask_t lit, global const index_t* list, uint count,
+                              PixelBins bins, const Lights* lights, constant ViewParams* view) {
+#ifdef BASE_LIGHTING
+  const Real3 own = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
+#else
+  const Real3 own =
+      reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
+#endif
+  return sum_of_list(own, p, lit, list, count, bins, lights);
 }
 
 static inline void shade(const Stored* s, const StoredBatch* b, SurfaceValues surface,
