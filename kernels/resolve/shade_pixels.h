@@ -18,7 +18,6 @@
 #pragma once
 
 #include "kernels/common/index_type.h"
-#include "kernels/resolve/gbuffer.h"
 #include "shared/pixel_position.h"
 #include "shared/punctual_light.h"
 #include "shared/slices.h"

@@ -31,7 +31,12 @@ DECLARE_OUTPUT;
 #define SHOWS_LIGHT(output) ((output).image != 0)
 #define NEEDS_EVERY_PIXEL true  // zeros are stored where no surface is
 
-static inline void store_texels(global channel_t* to, Texels t, const TexelPlaces* places) {
+// Zeros where no surface is `covered`.
+static inline void store_texels(global channel_t* to, Texels texels, mask_t covered,
+                                const TexelPlaces* places) {
+  const real none = 0.0f;
+  const Texels t = {covered ? texels.x : none, covered ? texels.y : none, covered ? texels.z : none,
+                    covered ? texels.w : none};
 #if LANES == 16
   float16 rows[4];
   rows_of_block(rows, real3(t.x, t.y, t.z), t.w);
@@ -41,33 +46,32 @@ static inline void store_texels(global channel_t* to, Texels t, const TexelPlace
     return;
   }
 #endif
-  channel4_t texels[16];
-  for (uint i = 0; i < 4; ++i) vstore16(TO_CHANNELS(16, rows[i]), i, (channel_t*)texels);
+  channel4_t stored[16];
+  for (uint i = 0; i < 4; ++i) vstore16(TO_CHANNELS(16, rows[i]), i, (channel_t*)stored);
 #else
-  const channel4_t texels = TO_CHANNELS(4, (float4)(t.x, t.y, t.z, t.w));
+  const channel4_t stored = TO_CHANNELS(4, (float4)(t.x, t.y, t.z, t.w));
 #endif
   FOR_TEXELS(i, places)
-  ((global channel4_t*)to)[PLACE_OF_TEXEL(places, i)] = LANE_OF_TEXEL(places, i, channel4_t, texels);
+  ((global channel4_t*)to)[PLACE_OF_TEXEL(places, i)] = LANE_OF_TEXEL(places, i, channel4_t, stored);
 }
 
 STORE_RESOLVED {
   const Attributes* a = resolved->attributes;
   const Surface* s = resolved->surface;
   const mask_t covered = resolved->covered;
-  const TexelPlaces texels = texel_places(where), *places = &texels;
+  const TexelPlaces of_texels = texel_places(where), *places = &of_texels;
   const Real3 n = shading_normal(a, s);
-  Texels normal, color;
-  texels_of_surface(&normal, &color, n, s->base_color, s->metallic, s->roughness, number_of(s), s->unlit,
-                    covered);
-  store_texels(output->first, normal, places);
-  store_texels(output->second, color, places);
+  const LitSurface lit = {n, s->base_color, s->metallic, s->roughness, s->unlit == 0, number_of(s)};
+  const GBufferTexels texels = gbuffer_texels(lit);
+  store_texels(output->first, texels.first, covered, places);
+  store_texels(output->second, texels.second, covered, places);
 #ifdef CLEARCOAT
-  if (output->coats)
-    store_texels(output->coats, texels_of_coat(coat_normal(a, s), n, s->coat, s->coat_roughness, covered),
-                 places);
+  const Coat coat = {coat_normal(a, s), s->coat_roughness, s->coat};
+  if (output->coats) store_texels(output->coats, coat_texel(coat, n), covered, places);
 #endif
 #ifdef SPECULAR
-  if (output->specular) store_texels(output->specular, texels_of_specular(s->f0, s->f90, covered), places);
+  const Specular specular = {s->f0, s->f90};
+  if (output->specular) store_texels(output->specular, specular_texel(specular), covered, places);
 #endif
 #ifdef SURFACE_NUMBERS
   store_surface_numbers(output->surface_numbers, a->surface_number, covered, places);

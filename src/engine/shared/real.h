@@ -45,6 +45,7 @@ static inline Real3 cross3(Real3 a, Real3 b) {
 #define exp_real exp
 #define log_real log
 #define floor_real floor
+#define abs_real fabs
 #define Whole whole
 #define WHOLE(x) ((whole)(x))
 #if LANES == 16
@@ -75,6 +76,8 @@ static inline Real3 cross3(Real3 a, Real3 b) {
 #define exp_real exp
 #define log_real log
 #define floor_real floor
+#define abs_real abs
+#define select3(here, a, b) ((here) ? (a) : (b))
 #define Whole int
 #define WHOLE(x) int(x)
 #define bits_of_real floatBitsToInt
