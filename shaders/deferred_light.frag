@@ -5,7 +5,7 @@
 //   EARLY_TESTS: the stencil has masks of surfaces: it is tested, and its mark reset, before a pixel is shaded
 //   MARK: instead of light, the pair (pixel, light): a digit of base 4 for each of 48 lights, 12 a channel,
 //     so that sums are exact and count the invocations; with SAMPLES at centres
-//   GBUFFER_8, GBUFFER_16, CLEARCOAT, SPECULAR, SKIN, MINNAERT: the layout (common/gbuffer.glsl)
+//   GBUFFER_8, GBUFFER_16, CLEARCOAT, SPECULAR, SKIN, MINNAERT: the layout (shared/gbuffer.h)
 #ifdef MARK
 #define AT_CENTRES
 #endif
@@ -51,11 +51,11 @@ ShadingPoint point_of_pixel(ivec2 pixel, vec3 position, LitSurface s) {
   p = with_specular(p, s.metallic, specular.f0, specular.f90);
 #endif
 #ifdef SKIN
-  vec4 skin = material_models.of[s.model].subsurface;
+  vec4 skin = material_models.of[int(s.model)].subsurface;
   p = with_skin(p, skin.rgb, skin.a);
 #endif
 #ifdef MINNAERT
-  p = with_minnaert(p, to_viewer, material_models.of[s.model].minnaert.x);
+  p = with_minnaert(p, to_viewer, material_models.of[int(s.model)].minnaert.x);
 #endif
 #ifdef CLEARCOAT
   Coat coat = coat_of_pixel(pixel, s.normal);

@@ -1,11 +1,11 @@
 // Writes a surface into the geometry buffer, and base lighting into the image, to which light passes only
 // add.
-//   GBUFFER_8, GBUFFER_16: the layout (common/gbuffer.glsl)
+//   GBUFFER_8, GBUFFER_16: the layout (shared/gbuffer.h)
 //   BASE_LIGHTING: there is an image to write
 //   NUMBER_LOCATION: there is an image of the surfaces' numbers, at this location
 //   COATS, SPECULAR_IMAGE: there is an image of coats; of specular reflectance
 #include "shaders/common/surface.glsl"
-#include "shaders/common/gbuffer.glsl"
+#include "shared/gbuffer.h"
 
 layout(location = 0) out vec4 normal_roughness_metallic;
 layout(location = 1) out vec4 base_color_lit;
@@ -52,14 +52,14 @@ void main() {
   apply_mask(s.alpha);
 #endif
 #if defined(SKIN) || defined(MINNAERT)
-  int model = int(material.model);
+  float model = float(int(material.model));
 #else
-  int model = 0;
+  float model = 0.0;
 #endif
   GBufferTexels texels =
       gbuffer_texels(LitSurface(s.normal, s.base_color, s.metallic, s.roughness, !s.unlit, model));
-  normal_roughness_metallic = texels.normal_roughness_metallic;
-  base_color_lit = texels.base_color_lit;
+  normal_roughness_metallic = texels.first;
+  base_color_lit = texels.second;
 #ifdef COATS
 #ifdef CLEARCOAT
   coat = coat_texel(Coat(s.coat_normal, s.coat_roughness, s.coat), s.normal);
@@ -71,7 +71,7 @@ void main() {
 #ifdef SPECULAR
   specular = specular_texel(Specular(s.f0, s.f90));
 #else
-  specular = specular_texel(default_specular);
+  specular = specular_texel(Specular(vec3(0.04), 1.0));
 #endif
 #endif
 #ifdef NUMBER_LOCATION

@@ -1,6 +1,6 @@
 // Surfaces as light passes read them from the geometry buffer, in 32-bit float, for comparison with
 // surfaces.frag.
-//   GBUFFER_8, GBUFFER_16, CLEARCOAT, SPECULAR, SKIN, MINNAERT: the layout (common/gbuffer.glsl)
+//   GBUFFER_8, GBUFFER_16, CLEARCOAT, SPECULAR, SKIN, MINNAERT: the layout (shared/gbuffer.h)
 #include "shaders/common/read_gbuffer.glsl"
 
 layout(location = 0) out vec4 normal_roughness;
@@ -33,7 +33,7 @@ void main() {
   base_color_metallic = vec4(s.base_color, s.metallic);
   emissive_occlusion = vec4(vec3(0.0), s.lit ? 1.0 : -1.0);
 #ifdef MODELS
-  model = vec4(float(s.model), vec3(0.0));
+  model = vec4(s.model, vec3(0.0));
 #endif
 #ifdef SPECULAR
   Specular found = specular_of_pixel(ivec2(gl_FragCoord.xy));

@@ -1,4 +1,4 @@
-// Blocks of 4 x 4 pixels of images, a lane each, row by row from the lower left: with 16 lanes alone.
+// Blocks of 4 x 4 pixels of images, a lane each, row by row from the lower left.
 #pragma once
 
 #include "shared/real.h"
@@ -43,6 +43,14 @@ static inline void rows_of_block(float16* rows, Real3 c, real w) {
                       w.se, c.x.sf, c.y.sf, c.z.sf, w.sf);
 }
 
+// The way back: the four channels.
+static inline void channels_of_rows(real* channels, const float16* rows) {
+  channels[0] = (float16)(rows[0].s048c, rows[1].s048c, rows[2].s048c, rows[3].s048c);
+  channels[1] = (float16)(rows[0].s159d, rows[1].s159d, rows[2].s159d, rows[3].s159d);
+  channels[2] = (float16)(rows[0].s26ae, rows[1].s26ae, rows[2].s26ae, rows[3].s26ae);
+  channels[3] = (float16)(rows[0].s37bf, rows[1].s37bf, rows[2].s37bf, rows[3].s37bf);
+}
+
 static inline void store_block(global float* image, Real3 c, real w, uint x, uint y, uint width,
                                uint height) {
   float16 rows[4];
@@ -58,3 +66,19 @@ static inline void store_block(global float* image, Real3 c, real w, uint x, uin
   }
 }
 #endif
+
+// The four channels of LANES pixels.
+static inline void channels_of_pixels(real* channels, const float4* pixels) {
+#if LANES == 16
+  float16 rows[4];
+#pragma unroll
+  for (uint i = 0; i < 4; ++i)
+    rows[i] = (float16)(pixels[4 * i], pixels[4 * i + 1], pixels[4 * i + 2], pixels[4 * i + 3]);
+  channels_of_rows(channels, rows);
+#else
+  channels[0] = pixels[0].x;
+  channels[1] = pixels[0].y;
+  channels[2] = pixels[0].z;
+  channels[3] = pixels[0].w;
+#endif
+}

@@ -155,12 +155,7 @@ static inline void take_batch(EdgeBatch* b, const EdgeSurfaces* e, uint first, c
   b->covered = LANE_INDEX < (int16)((int)(e->count - first));
   b->x = (float)e->base_x + 0.5f + dx;
   b->y = (float)e->base_y + 0.5f + dy;
-  for (uint left = mask_bits(b->covered); left != 0;) {
-    const uint one = ((const uint*)&b->triangle)[lowest_bit(left)];
-    const mask_t here = b->triangle == (uint16)(one);
-    left &= ~mask_bits(here);
-    add_triangle(&b->attributes, scene, one, here, (float)e->base_x, (float)e->base_y, dx, dy);
-  }
+  add_triangles(&b->attributes, scene, b->triangle, b->covered, e->base_x, e->base_y, dx, dy);
   add_materials(&b->material, &b->attributes, scene, b->covered);
 }
 

@@ -8,13 +8,14 @@
 // -DOUTPUT_REFLECTED  what surfaces reflect of one light: outputs/reflected.h, without pixels at edges
 //
 // An output defines:
-// OUTPUT_ARGUMENTS, Output, GIVEN_OUTPUT  what its kernels take after RESOLVE_ARGUMENTS
+// OUTPUT_LIST         what its kernels take besides the background and the image
+// DECLARE_OUTPUT      stands behind the list, before what uses it
 // NEEDS_EVERY_PIXEL   true if pixels without a surface are stored too
-// READS_DEPTH(output) true if depths are read
+// READS_DEPTH(output) true if depths are read; not defined: as SHOWS_LIGHT(output)
 // SHOWS_LIGHT(output) true if light_of() goes to output.image: RGBA per pixel, linear, row 0 at the
-//                     bottom, and output.background where no surface is
+//                     bottom, and output.background where no surface is; not defined: never
 // STORE_RESOLVED      stores what it keeps of surfaces
-// LIGHT_OF            returns the light that they show
+// LIGHT_OF            returns the light that they show, if some do
 //
 // With 16 lanes a walker defines, before it includes this file:
 // Where            the places of 16 surfaces in images
@@ -35,6 +36,16 @@ typedef struct Where {
 #define texel_places(where) (where)->texels
 #endif
 
+#define DECLARE_OUTPUT    \
+  typedef struct Output { \
+    float4 background;    \
+    global float* image;  \
+    OUTPUT_LIST(MEMBER)   \
+  } Output
+#define OUTPUT_ARGUMENTS float4 background, global float *image, OUTPUT_LIST(PARAMETER)
+#define GIVEN_OUTPUT \
+  { background, image, OUTPUT_LIST(GIVEN) }
+
 #define STORE_RESOLVED                                                                                  \
   static inline void store_resolved(const Output* output, const Resolved* resolved, const Where* where, \
                                     const ResolveScene* scene, const ResolveLights* lights,             \
@@ -54,4 +65,12 @@ typedef struct Where {
 #include "kernels/resolve/outputs/reflected.h"
 #else
 #include "kernels/resolve/outputs/radiance.h"
+#endif
+
+#ifndef SHOWS_LIGHT
+#define SHOWS_LIGHT(output) false
+LIGHT_OF { return real3(REAL(0.0f), REAL(0.0f), REAL(0.0f)); }
+#endif
+#ifndef READS_DEPTH
+#define READS_DEPTH(output) SHOWS_LIGHT(output)
 #endif

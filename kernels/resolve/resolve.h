@@ -8,16 +8,12 @@
 // -DSURFACE_NUMBERS  surfaces' numbers are required, for a geometry buffer
 #pragma once
 
+#include "kernels/common/lists.h"
 #include "kernels/resolve/surface_attributes.h"
 #include "kernels/resolve/surface_texture.h"
 #include "shared/raster_instance.h"
 #include "shared/real.h"
 #include "shared/surface_values.h"
-
-// A list names (type, name) once for a kernel's parameters, a struct's members and their values.
-#define PARAMETER(type, name) type name,
-#define MEMBER(type, name) type name;
-#define GIVEN(type, name) .name = name,
 
 // triangle_instance  by triangle number
 // instances, surfaces  the rasteriser's, and ours in the same order
@@ -76,11 +72,7 @@ static inline Real3 turned(global const float* m, real x, real y, real z) {
 }
 
 #define KEEP(to, value) to = here ? (value) : to
-#define KEEP3(to, value)                                                       \
-  {                                                                            \
-    const Real3 new_value = value;                                             \
-    KEEP(to.x, new_value.x), KEEP(to.y, new_value.y), KEEP(to.z, new_value.z); \
-  }
+#define KEEP3(to, value) to = select3(here, value, to)
 
 #define KEEP_VALUE(kind, type, name, resource) \
   KEEP(a->values.name, (whole)((int)((global const uint*)s->values.name)[number]));

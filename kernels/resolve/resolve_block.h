@@ -18,14 +18,14 @@
 #include "kernels/common/image_blocks.h"
 #include "kernels/resolve/resolve.h"
 
-// Into attributes of zeros. triangle, covered: of each pixel. (x, y): the block's first pixel.
+// Into attributes of zeros. triangle, covered: of each lane; dx, dy: its place from the pixel (x, y).
 static inline void add_triangles(Attributes* a, const ResolveScene* scene, uint16 triangle, mask_t covered,
-                                 uint x, uint y) {
+                                 uint x, uint y, real dx, real dy) {
   for (uint left = mask_bits(covered); left != 0;) {
     const uint one = ((const uint*)&triangle)[lowest_bit(left)];
     const mask_t here = triangle == (uint16)(one);
     left &= ~mask_bits(here);
-    add_triangle(a, scene, one, here, (float)x, (float)y, BLOCK_DX, BLOCK_DY);
+    add_triangle(a, scene, one, here, (float)x, (float)y, dx, dy);
   }
 }
 
@@ -138,7 +138,7 @@ static inline void look_ahead(BlockWalk* w, uint x, uint y) {
   *next = none;
   w->next_covered = triangle != (uint16)(SURFACE_NONE);
   if (!any_lane(w->next_covered)) return;
-  add_triangles(next, w->scene, triangle, w->next_covered, x, y);
+  add_triangles(next, w->scene, triangle, w->next_covered, x, y, BLOCK_DX, BLOCK_DY);
   fetch_texels(next, w->scene, w->next_covered);
 }
 #endif
@@ -177,7 +177,7 @@ static inline const Attributes* block_attributes(BlockWalk* w, mask_t covered, u
 #else
   const Attributes none = {0};
   w->attributes = none;
-  add_triangles(&w->attributes, w->scene, w->triangle, covered, x, y);
+  add_triangles(&w->attributes, w->scene, w->triangle, covered, x, y, BLOCK_DX, BLOCK_DY);
   return &w->attributes;
 #endif
 }

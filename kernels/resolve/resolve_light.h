@@ -111,9 +111,8 @@ static inline Real3 light_of_cells(Real3 own, const ShadingPoint* p, real depth,
     const mask_t here = lit & (-depth >= REAL(begin)) & (-depth < REAL(end));
     if (!any_lane(here)) continue;
     const uint2 range = l->cells[cell_in_slice(l->cell, slice, view->tiles_x, view->tiles_y)];
-    const Real3 with = sum_of_list(own, p, here, l->list + range.x, range.y,
-                                   bins_of_pixels(depth, here, bin_edges), &l->lights);
-    sum = real3(here ? with.x : sum.x, here ? with.y : sum.y, here ? with.z : sum.z);
+    const PixelBins bins = bins_of_pixels(depth, here, bin_edges);
+    sum = select3(here, sum_of_list(own, p, here, l->list + range.x, range.y, bins, &l->lights), sum);
   }
   return sum;
 }
@@ -145,9 +144,7 @@ static inline Real3 exact_light(Real3 sum, const ShadingPoint* p, mask_t lit, co
     const real value = importance_at(p, lit, light);
     const mask_t chosen = (value > REAL(0.0f)) & (value >= greatest[VOXEL_EXACT - 1]);
     if (!any_lane(chosen)) continue;
-    const Real3 own = radiance_from(*p, light);
-    sum = real3(sum.x + (chosen ? own.x : REAL(0.0f)), sum.y + (chosen ? own.y : REAL(0.0f)),
-                sum.z + (chosen ? own.z : REAL(0.0f)));
+    sum = add3(sum, select3(chosen, radiance_from(*p, light), real3(REAL(0.0f), REAL(0.0f), REAL(0.0f))));
     *rest = without_light(*rest, p->position, light, chosen ? REAL(1.0f) : REAL(0.0f), l->voxels);
   }
   *rest = at_least_nothing(*rest);
@@ -174,7 +171,6 @@ static inline Real3 sum_of_world_lists(Real3 sum, const ShadingPoint* p, mask_t 
   return sum;
 }
 
-#if LANES == 16
 // The pixels' cells one after the other, each with its list. Neighbours are mostly in one cell.
 static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit, const ResolveLights* l) {
   constant WorldGridParams* const world = l->world;
@@ -183,6 +179,7 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
   const whole x = world_coordinate(at.x, world->min_x, world->max_x);
   const whole y = world_coordinate(at.y, world->min_y, world->max_y);
   const whole z = world_coordinate(at.z, world->min_z, world->max_z);
+#if LANES == 16
   whole list = 0, count = 0;
   uint2 ranges[LANES];
   uint found = 0;
@@ -202,22 +199,13 @@ static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit,
     const mask_t here = left & (list == (whole)((int)ranges[i].x)) & (count == (whole)((int)ranges[i].y));
     if (!any_lane(here)) continue;
     left &= ~here;
-    const Real3 with = sum_of_world_lists(own, p, here, ranges[i], l);
-    sum = real3(here ? with.x : sum.x, here ? with.y : sum.y, here ? with.z : sum.z);
+    sum = select3(here, sum_of_world_lists(own, p, here, ranges[i], l), sum);
   }
   return sum;
-}
 #else
-static inline Real3 light_of_world(Real3 own, const ShadingPoint* p, mask_t lit, const ResolveLights* l) {
-  constant WorldGridParams* const world = l->world;
-  const WorldLists lists = {.buckets = l->world_buckets, .keys = l->world_keys, .cells = l->cells};
-  const Real3 at = world_position(p->position, l->world_view);
-  const uint2 range = world_range((uint)world_coordinate(at.x, world->min_x, world->max_x),
-                                  (uint)world_coordinate(at.y, world->min_y, world->max_y),
-                                  (uint)world_coordinate(at.z, world->min_z, world->max_z), world, &lists);
-  return sum_of_world_lists(own, p, lit, range, l);
-}
+  return sum_of_world_lists(own, p, lit, world_range((uint)x, (uint)y, (uint)z, world, &lists), l);
 #endif
+}
 #endif
 
 #define INPUT_OF_LIGHTS(kind, type, name, resource) , l->name
@@ -263,8 +251,7 @@ static inline Real3 own_light(const ShadingPoint* p, const Resolved* r, const Re
 
 // The colour that an unlit surface shows in place of light.
 static inline Real3 unlit_or(const Surface* s, Real3 light) {
-  return real3(s->unlit ? s->base_color.x : light.x, s->unlit ? s->base_color.y : light.y,
-               s->unlit ? s->base_color.z : light.z);
+  return select3(s->unlit, s->base_color, light);
 }
 
 // A blended surface of this alpha over what is behind it, which may be infinite.

@@ -18,7 +18,6 @@
 #pragma once
 
 #include "kernels/common/index_type.h"
-#include "kernels/resolve/gbuffer.h"
 #include "shared/pixel_position.h"
 #include "shared/punctual_light.h"
 #include "shared/slices.h"
@@ -112,11 +111,22 @@ static inline mask_t in_range(Real3 position, PunctualLight light) {
   return dot3(d, d) * light.position.w < REAL(1.0f);
 }
 
+// The sum that a loop makes and the points that it is for: their light, unless what includes this file has
+// others.
+#ifndef LIGHT_SUM
+#define LIGHT_SUM
+typedef Real3 LightSum;
+typedef ShadingPoint LitPoint;
+static inline Real3 plus_light(Real3 sum, const ShadingPoint* p, Arrival arrival, PunctualLight light) {
+  return add3(sum, radiance_of(*p, arrival, light));
+}
+#endif
+
 // A light that reaches none of the lit pixels, or that none of them faces or sees, would add exact zeros. Few
 // of a list's lights reach a given block of pixels, so the cheaper test comes first. It counts `factor`
 // times.
-static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uint index, float factor,
-                               const Lights* lights) {
+static inline LightSum with_light(LightSum sum, const LitPoint* p, mask_t lit, uint index, float factor,
+                                  const Lights* lights) {
   const PunctualLight light = light_at(lights, index);
 #ifdef MET_BY_EFFECTS
   if (!any_lane(lit & effects_meet(&lights->reach, index, p->surface))) return sum;
@@ -143,14 +153,14 @@ static inline Real3 with_light(Real3 sum, const ShadingPoint* p, mask_t lit, uin
 #endif
   TINT(arrival, light, p->position, VALUES_AT(*p))
   arrival.attenuation = arrival.attenuation * factor;
-  return add3(sum, radiance_of(*p, arrival, light));
+  return plus_light(sum, p, arrival, light);
 }
 
 // In the order of the list: the sum of the GL loop. A list that is null has the first `count` lights.
 #if defined(Z_BINS) && LANES == 16
 #define STRETCH 64u
-static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list,
-                                uint count, PixelBins bins, const Lights* lights) {
+static inline LightSum sum_of_list(LightSum sum, const LitPoint* p, mask_t lit, global const index_t* list,
+                                   uint count, PixelBins bins, const Lights* lights) {
   uint met[STRETCH];
 #ifdef LIST_FACTORS
   float factors[STRETCH];
@@ -176,8 +186,8 @@ static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, gl
   return sum;
 }
 #else
-static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, global const index_t* list,
-                                uint count, PixelBins bins, const Lights* lights) {
+static inline LightSum sum_of_list(LightSum sum, const LitPoint* p, mask_t lit, global const index_t* list,
+                                   uint count, PixelBins bins, const Lights* lights) {
   for (uint i = 0; i < count; ++i) {
     const uint index = list ? list[i] : i;
 #ifdef Z_BINS
@@ -188,14 +198,3 @@ static inline Real3 sum_of_list(Real3 sum, const ShadingPoint* p, mask_t lit, gl
   return sum;
 }
 #endif
-
-static inline Real3 light_sum(const ShadingPoint* p, mask_t lit, global const index_t* list, uint count,
-                              PixelBins bins, const Lights* lights, constant ViewParams* view) {
-#ifdef BASE_LIGHTING
-  const Real3 own = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
-#else
-  const Real3 own =
-      reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
-#endif
-  return sum_of_list(own, p, lit, list, count, bins, lights);
-}

@@ -43,6 +43,7 @@ static inline StoredSample stored_sample(global const float* depths, uint x, uin
 
 #if LANES == 1
 typedef StoredSample StoredBatch;
+#define IMAGE_OF(b, i) (b)->image
 #else
 // With one sample, a block of 4 x 4 pixels; with several, 16 samples in the order of a tile's rows. Lanes
 // without one are background.

@@ -48,15 +48,3 @@ static inline packed_normal_t with_roughness(packed_normal_t normal, real roughn
 #else
 #define ROUGHNESS_OF(texel) ((texel).w)
 #endif
-
-#if LANES == 1
-static inline Real3 normal_at(global const normal_t* normals, size_t at) {
-#ifdef NORMAL_CHANNEL_STEPS
-  const uint n = normals[at];
-  return unpacked_normal(n);
-#else
-  const float4 n = normals[at];
-  return real3(n.x, n.y, n.z);
-#endif
-}
-#endif

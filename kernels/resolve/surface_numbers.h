@@ -18,40 +18,23 @@ typedef uchar surface_number_t;
 #define SURFACE_NUMBER_ARGUMENTS global const surface_number_t *surface_numbers, uint last_number,
 
 #ifdef HAS_SURFACE_VALUES
-#if LANES == 16
-typedef uint16 numbers_t;
-static inline whole value_of_numbers(numbers_t numbers, global const uint* values, uint last) {
-  int found[16];
-  for (uint i = 0; i < 16; ++i) found[i] = (int)values[min(((const uint*)&numbers)[i], last)];
-  return vload16(0, found);
-}
-#else
-typedef uint numbers_t;
-static inline whole value_of_numbers(numbers_t number, global const uint* values, uint last) {
-  return (int)values[min(number, last)];
-}
-#endif
 #define FIND_VALUE(kind, type, name, resource) \
-  values.name = value_of_numbers(numbers, (global const uint*)arrays.name, last);
+  SET_LANES(int, values.name, ((global const uint*)arrays.name)[min((uint)INDEX_LANE(numbers, i), last)])
 #define FIND_VALUES(inputs, effect, own) inputs(FIND_VALUE)
-static inline SurfaceValues values_of_numbers(numbers_t numbers, SurfaceArrays arrays, uint last) {
+static inline SurfaceValues values_of_numbers(whole numbers, SurfaceArrays arrays, uint last) {
   SurfaceValues values;
   SURFACE_EFFECTS(FIND_VALUES)
   return values;
 }
 #endif
 
-// The last argument of kernels that write surface numbers. Only with -DSURFACE_NUMBERS.
+// An argument of kernels that write surface numbers, in the form of lists. Only with -DSURFACE_NUMBERS.
 #ifdef SURFACE_NUMBERS
-#define SURFACE_NUMBERS_OUT , global surface_number_t* surface_numbers
-#define SURFACE_NUMBERS_MEMBER global surface_number_t* surface_numbers;
-#define GIVEN_SURFACE_NUMBERS_OUT , surface_numbers
+#define SURFACE_NUMBERS_OUT(X) X(global surface_number_t*, surface_numbers)
 #endif
 #else
 #define SURFACE_NUMBER_ARGUMENTS
 #endif
 #ifndef SURFACE_NUMBERS_OUT
-#define SURFACE_NUMBERS_OUT
-#define SURFACE_NUMBERS_MEMBER
-#define GIVEN_SURFACE_NUMBERS_OUT
+#define SURFACE_NUMBERS_OUT(X)
 #endif

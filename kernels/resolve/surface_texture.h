@@ -4,6 +4,7 @@
 // -DSMALL_TEXELS  packed texels have 8 bits a channel, not 16, and of base colours their square roots
 #pragma once
 
+#include "kernels/common/image_blocks.h"
 #include "kernels/resolve/texture_footprint.h"
 
 #define TEXEL_STEP (1.0f / 65535.0f)
@@ -120,22 +121,7 @@ static inline Texels4 filtered_4(global const ushort* texels, global const Surfa
   float4 sums[LANES];
   SUM_TEXELS(sums, float4, add_texels_4, chain, f)
   Texels4 t;
-#if LANES == 1
-  t.c[0] = sums[0].x;
-  t.c[1] = sums[0].y;
-  t.c[2] = sums[0].z;
-  t.c[3] = sums[0].w;
-#else
-  float16 four[4];  // pixels
-#pragma unroll
-  for (uint i = 0; i < 4; ++i) {
-    four[i] = (float16)(sums[4 * i], sums[4 * i + 1], sums[4 * i + 2], sums[4 * i + 3]);
-  }
-  t.c[0] = (float16)(four[0].s048c, four[1].s048c, four[2].s048c, four[3].s048c);
-  t.c[1] = (float16)(four[0].s159d, four[1].s159d, four[2].s159d, four[3].s159d);
-  t.c[2] = (float16)(four[0].s26ae, four[1].s26ae, four[2].s26ae, four[3].s26ae);
-  t.c[3] = (float16)(four[0].s37bf, four[1].s37bf, four[2].s37bf, four[3].s37bf);
-#endif
+  channels_of_pixels(t.c, sums);
   for (uint i = 0; i < 4; ++i) t.c[i] = lane_min(t.c[i] * TEXEL_STEP, REAL(1.0f));
   return t;
 }
@@ -147,34 +133,14 @@ static inline Texels8 filtered_8(global const ushort* texels, global const Surfa
   float8 sums[LANES];
   SUM_TEXELS(sums, float8, add_texels_8, chain, f)
   Texels8 t;
-#if LANES == 1
-  const float8 p = sums[0];
-  t.c[0] = p.s0;
-  t.c[1] = p.s1;
-  t.c[2] = p.s2;
-  t.c[3] = p.s3;
-  t.c[4] = p.s4;
-  t.c[5] = p.s5;
-  t.c[6] = p.s6;
-  t.c[7] = p.s7;
-#else
-  float16 even[4], odd[4];  // channels 0, 2, 4, 6 and 1, 3, 5, 7 of four pixels
+  float4 low[LANES], high[LANES];
 #pragma unroll
-  for (uint i = 0; i < 4; ++i) {
-    const float16 a = (float16)(sums[4 * i], sums[4 * i + 1]),
-                  b = (float16)(sums[4 * i + 2], sums[4 * i + 3]);
-    even[i] = (float16)(a.even, b.even);
-    odd[i] = (float16)(a.odd, b.odd);
+  for (uint i = 0; i < LANES; ++i) {
+    low[i] = sums[i].lo;
+    high[i] = sums[i].hi;
   }
-  t.c[0] = (float16)(even[0].s048c, even[1].s048c, even[2].s048c, even[3].s048c);
-  t.c[2] = (float16)(even[0].s159d, even[1].s159d, even[2].s159d, even[3].s159d);
-  t.c[4] = (float16)(even[0].s26ae, even[1].s26ae, even[2].s26ae, even[3].s26ae);
-  t.c[6] = (float16)(even[0].s37bf, even[1].s37bf, even[2].s37bf, even[3].s37bf);
-  t.c[1] = (float16)(odd[0].s048c, odd[1].s048c, odd[2].s048c, odd[3].s048c);
-  t.c[3] = (float16)(odd[0].s159d, odd[1].s159d, odd[2].s159d, odd[3].s159d);
-  t.c[5] = (float16)(odd[0].s26ae, odd[1].s26ae, odd[2].s26ae, odd[3].s26ae);
-  t.c[7] = (float16)(odd[0].s37bf, odd[1].s37bf, odd[2].s37bf, odd[3].s37bf);
-#endif
+  channels_of_pixels(t.c, low);
+  channels_of_pixels(t.c + 4, high);
   for (uint i = 0; i < 8; ++i) t.c[i] = lane_min(t.c[i] * PACKED_STEP, REAL(1.0f));
   return t;
 }

@@ -24,6 +24,9 @@ typedef struct TexelPlaces {
   uint count;
   uint lane[16 * SAMPLES], at[16 * SAMPLES];  // of each texel: the lane of its surface, and its place
 } TexelPlaces;
+#define FOR_TEXELS(t, places) for (uint t = 0; t < (places)->count; ++t)
+#define PLACE_OF_TEXEL(places, t) (places)->at[t]
+#define LANE_OF_TEXEL(places, t, type, values) ((const type*)&(values))[(places)->lane[t]]
 
 // samples: those of the pixel that see the lane's surface, as a mask.
 static inline void add_texels(TexelPlaces* to, uint lane, uint pixel, uint samples) {
@@ -47,22 +50,19 @@ typedef struct TexelPlaces {
   size_t pixel;
   uint samples;
 } TexelPlaces;
+#define FOR_TEXELS(t, places)        \
+  for (uint t = 0; t < SAMPLES; ++t) \
+    if ((places)->samples >> t & 1u)
+#define PLACE_OF_TEXEL(places, t) (places)->pixel* SAMPLES + t
+#define LANE_OF_TEXEL(places, t, type, value) (value)
 #endif
 
 // For kernels with SURFACE_NUMBERS_OUT (kernels/resolve/surface_numbers.h).
 #ifdef SURFACE_NUMBERS
-#if LANES == 16
 static inline void store_surface_numbers(global surface_number_t* to, whole numbers, mask_t covered,
                                          const TexelPlaces* places) {
-  const whole stored = covered ? numbers : (whole)(0);
-  for (uint i = 0; i < places->count; ++i)
-    to[places->at[i]] = (surface_number_t)((const int*)&stored)[places->lane[i]];
+  const whole stored = covered ? numbers : WHOLE(0);
+  FOR_TEXELS(t, places)
+  to[PLACE_OF_TEXEL(places, t)] = (surface_number_t)LANE_OF_TEXEL(places, t, int, stored);
 }
-#else
-static inline void store_surface_numbers(global surface_number_t* to, whole number, mask_t covered,
-                                         const TexelPlaces* places) {
-  for (uint s = 0; s < SAMPLES; ++s)
-    if (places->samples >> s & 1u) to[places->pixel * SAMPLES + s] = (surface_number_t)(covered ? number : 0);
-}
-#endif
 #endif

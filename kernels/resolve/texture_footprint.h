@@ -30,25 +30,11 @@ typedef struct Footprint {
 #else
 #define UNSIGNED_MIN(a, b) as_int(min(as_uint(a), as_uint(b)))
 #endif
-static inline whole as_whole_of(real x) {
-#if LANES == 16
-  return as_int16(x);
-#else
-  return as_int(x);
-#endif
-}
-static inline real as_real_of(whole x) {
-#if LANES == 16
-  return as_float16(x);
-#else
-  return as_float(x);
-#endif
-}
 
 // To 3.1e-4 for normal numbers; exact for powers of two.
 static inline real rough_log2(real x) {
-  const whole bits = as_whole_of(x);
-  const real exponent = TO_REAL((bits >> 23) - 127), t = as_real_of((bits & 0x7fffff) | 0x3f800000) - 1.0f;
+  const whole bits = bits_of_real(x);
+  const real exponent = TO_REAL((bits >> 23) - 127), t = real_of_bits((bits & 0x7fffff) | 0x3f800000) - 1.0f;
   const real bend = fma(fma(REAL(0.08161574f), t, REAL(-0.24266946f)), t, REAL(0.44078080f));
   return exponent + fma(t * (1.0f - t), bend, t);
 }

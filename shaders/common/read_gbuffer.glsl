@@ -1,9 +1,6 @@
 // Reads a pixel's surface, with SAMPLES that of the sample here, from the geometry buffer and the depth image.
 //   SKIN, MINNAERT: some surface has that model (scene/material_model.h)
-#if defined(SKIN) || defined(MINNAERT)
-#define MODELS
-#endif
-#include "shaders/common/gbuffer.glsl"
+#include "shared/gbuffer.h"
 #include "shaders/common/per_sample.glsl"
 #include "shaders/common/position.glsl"
 

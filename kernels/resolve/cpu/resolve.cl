@@ -35,8 +35,8 @@ static inline void places_of_samples(size_t* at, const Where* w, uint k) {
 
 #include "kernels/resolve/output.h"
 
-kernel void resolve(global const uint* triangles, global const float* depths, RESOLVE_ARGUMENTS,
-                    OUTPUT_ARGUMENTS) {
+kernel void resolve(global const uint* triangles, global const float* depths,
+                    OUTPUT_ARGUMENTS RESOLVE_ARGUMENTS) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const Output output = GIVEN_OUTPUT;
   const ResolveScene scene = RESOLVE_SCENE;
@@ -59,8 +59,7 @@ kernel void resolve(global const uint* triangles, global const float* depths, RE
         if (SHOWS_LIGHT(output)) {
           light_pixels(&lights.lights, x, y, view);
           const Real3 shown = light_of(&output, &r, &where, &lights, bin_edges, view);
-          color =
-              real3(covered ? shown.x : color.x, covered ? shown.y : color.y, covered ? shown.z : color.z);
+          color = select3(covered, shown, color);
         }
       }
       if (SHOWS_LIGHT(output)) store_block(output.image, color, REAL(1.0f), x, y, width, height);

@@ -41,9 +41,9 @@ static inline void places_of_samples(size_t* at, const Where* w, uint k) {
 }
 
 #include "kernels/resolve/output.h"
-#ifdef SHADOWS_TRACED
-#include "kernels/shadows/traced_shadows.h"
+#include "kernels/resolve/traced_edges.h"
 
+#ifdef SHADOWS_TRACED
 static inline void trace_from_batch(TracedShadows* traced, const EdgeBatch* b, const ResolveScene* scene,
                                     constant ViewParams* view) {
   trace_from(traced, b->covered, b->x, b->y, b->depth, view);
@@ -54,23 +54,16 @@ static inline void trace_from_batch(TracedShadows* traced, const EdgeBatch* b, c
     trace_from_triangle(traced, one, scene->triangle_instance, here);
   }
 }
-#else
-#define TRACED_ARGUMENTS
 #endif
 
 kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global const float* depths,
-                          global const ushort* edges, RESOLVE_ARGUMENTS, OUTPUT_ARGUMENTS) {
+                          global const ushort* edges, OUTPUT_ARGUMENTS RESOLVE_ARGUMENTS) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const Output output = GIVEN_OUTPUT;
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
   take_list(&lights, light_indices, cells, tile_y * view->tiles_x + tile_x, view);
-#ifdef SHADOWS_TRACED
-  TracedShadows traced = TRACED_SHADOWS;
-  lights.lights.shadows.traced = &traced;
-#elif defined(SHADOWS)
-  light_pixels(&lights.lights, 0, 0, view);  // of any pixel: no light is hidden
-#endif
+  LIGHT_EDGES
   EdgeSurfaces e;
   EdgeBatch b;
   for (uint y0 = tile_y * TILE; y0 < min(tile_y * TILE + TILE, height); y0 += SIDE) {

@@ -1,7 +1,7 @@
 // Point and spot lights of every tile's list on surfaces that images store, for CPUs: a work-item takes a
 // tile, LANES surfaces at a time (kernels/resolve/stored_batch.h).
 //
-// STORED_ARGUMENTS  images in and out: kernels/resolve/stored.h
+// STORED_LIST     images in and out: kernels/resolve/stored.h
 // depth           reversed depth of each sample, row 0 at the bottom
 // SURFACE_NUMBER_ARGUMENTS  kernels/resolve/surface_numbers.h, only with -DNUMBER_BITS
 // LIGHT_ARGUMENTS  of lights (shared/light_table.h)
@@ -19,7 +19,7 @@
 #include "kernels/common/pack.h"
 #include "kernels/resolve/stored.h"
 
-kernel void shade_stored(STORED_ARGUMENTS, global const float* depth,
+kernel void shade_stored(STORED_LIST(PARAMETER) global const float* depth,
                          SURFACE_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
                          global const index_t* indices, global const uint* light_bins,
                          FACTOR_ARGUMENTS constant float* bin_edges, global const ushort* edges,
@@ -27,7 +27,7 @@ kernel void shade_stored(STORED_ARGUMENTS, global const float* depth,
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
   const uint2 range = cells[tile_y * view->tiles_x + tile_x];
   if (range.y == 0 && !NEEDS_EVERY_PIXEL) return;
-  const Stored stored = GIVEN_STORED;
+  const Stored stored = {STORED_LIST(GIVEN)};
   Lights lights = {GIVEN_LIGHTS light_bins GIVEN_FACTORS(indices) GIVEN_SHADOWS};
   StoredWalk walk = {tile_x * TILE,
                      min(tile_x * TILE + TILE, view->width),

@@ -5,8 +5,8 @@
 #include "kernels/resolve/output.h"
 #include "shared/light_grid.h"
 
-kernel void resolve(global const uint* triangles, global const float* depths, RESOLVE_ARGUMENTS,
-                    OUTPUT_ARGUMENTS) {
+kernel void resolve(global const uint* triangles, global const float* depths,
+                    OUTPUT_ARGUMENTS RESOLVE_ARGUMENTS) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
   const size_t at = (size_t)y * view->width + x;

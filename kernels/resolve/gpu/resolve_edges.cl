@@ -6,14 +6,10 @@
 #include "kernels/resolve/pixel_surfaces.h"
 #include "shared/average.h"
 #include "shared/light_grid.h"
-#ifdef SHADOWS_TRACED
-#include "kernels/shadows/traced_shadows.h"
-#else
-#define TRACED_ARGUMENTS
-#endif
+#include "kernels/resolve/traced_edges.h"
 
 kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global const float* depths,
-                          global const ushort* edges, RESOLVE_ARGUMENTS, OUTPUT_ARGUMENTS) {
+                          global const ushort* edges, OUTPUT_ARGUMENTS RESOLVE_ARGUMENTS) {
   const uint x = get_global_id(0), y = get_global_id(1);
   if (x >= view->width || y >= view->height) return;
   const uint at = y * view->width + x;
@@ -22,12 +18,7 @@ kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global 
   const ResolveScene scene = RESOLVE_SCENE;
   ResolveLights lights = RESOLVE_LIGHTS;
   take_list(&lights, light_indices, cells, cell_of_pixel(x, y, view->tile_size, view->tiles_x), view);
-#ifdef SHADOWS_TRACED
-  TracedShadows traced = TRACED_SHADOWS;
-  lights.lights.shadows.traced = &traced;
-#elif defined(SHADOWS)
-  light_pixels(&lights.lights, 0, 0, view);  // of any pixel: no light is hidden
-#endif
+  LIGHT_EDGES
   // The background comes first, as it does where it needs no shading.
   const uint missed = missed_samples(triangles, at);
   float4 color = begun_with(output.background, share_of(missed));

@@ -4,7 +4,7 @@
 #include "kernels/resolve/stored.h"
 #include "shared/light_grid.h"
 
-kernel void shade_stored(STORED_ARGUMENTS, global const float* depth,
+kernel void shade_stored(STORED_LIST(PARAMETER) global const float* depth,
                          SURFACE_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
                          global const index_t* indices, global const uint* light_bins,
                          FACTOR_ARGUMENTS constant float* bin_edges, global const ushort* edges,
@@ -14,7 +14,7 @@ kernel void shade_stored(STORED_ARGUMENTS, global const float* depth,
   const uint2 range = cells[cell_of_pixel(x, y, view->tile_size, view->tiles_x)];
   if (range.y == 0 && !NEEDS_EVERY_PIXEL) return;
   const bool edge = at_edge(edges, (size_t)y * view->width + x);
-  const Stored stored = GIVEN_STORED;
+  const Stored stored = {STORED_LIST(GIVEN)};
   Lights lights = {GIVEN_LIGHTS light_bins GIVEN_FACTORS(indices) GIVEN_SHADOWS};
   light_pixels(&lights, x, y, view);
   for (uint s = 0; s < (edge ? SAMPLES : 1); ++s) {

@@ -1,6 +1,5 @@
 // The geometry buffer (kernels/resolve/gbuffer.h); lights come from stored/surfaces.h.
 //
-// background  of pixels without a surface
 // first, second, coats, specular  out: the geometry buffer; coats and specular may be null: not stored.
 //             Samples without a surface keep what the walker over pixels stored
 // image       out: RGBA per pixel, what surfaces show without point and spot lights; null: the light pass
@@ -24,23 +23,21 @@
 #define STORE_ROW(row, to) vstore16(TO_CHANNELS(16, row), 0, to)
 #endif
 
-typedef struct Output {
-  float4 background;
-  global channel_t *first, *second, *coats, *specular;
-  global float* image;
-  SURFACE_NUMBERS_MEMBER
-} Output;
-#define OUTPUT_ARGUMENTS                                                                         \
-  float4 background, global channel_t *first, global channel_t *second, global channel_t *coats, \
-      global channel_t *specular, global float *image SURFACE_NUMBERS_OUT
-#define GIVEN_OUTPUT \
-  { background, first, second, coats, specular, image GIVEN_SURFACE_NUMBERS_OUT }
-#define READS_DEPTH(output) SHOWS_LIGHT(output)
+#define OUTPUT_LIST(X)         \
+  X(global channel_t*, first)  \
+  X(global channel_t*, second) \
+  X(global channel_t*, coats) X(global channel_t*, specular) SURFACE_NUMBERS_OUT(X)
+DECLARE_OUTPUT;
 #define SHOWS_LIGHT(output) ((output).image != 0)
 #define NEEDS_EVERY_PIXEL true  // zeros are stored where no surface is
 
+// Zeros where no surface is `covered`.
+static inline void store_texels(global channel_t* to, Texels texels, mask_t covered,
+                                const TexelPlaces* places) {
+  const real none = 0.0f;
+  const Texels t = {covered ? texels.x : none, covered ? texels.y : none, covered ? texels.z : none,
+                    covered ? texels.w : none};
 #if LANES == 16
-static inline void store_texels(global channel_t* to, Texels t, const TexelPlaces* places) {
   float16 rows[4];
   rows_of_block(rows, real3(t.x, t.y, t.z), t.w);
 #if SAMPLES == 1
@@ -49,37 +46,32 @@ static inline void store_texels(global channel_t* to, Texels t, const TexelPlace
     return;
   }
 #endif
-  channel_t texels[64];
-  for (uint i = 0; i < 4; ++i) vstore16(TO_CHANNELS(16, rows[i]), i, texels);
-  for (uint i = 0; i < places->count; ++i) vstore4(vload4(places->lane[i], texels), places->at[i], to);
-}
+  channel4_t stored[16];
+  for (uint i = 0; i < 4; ++i) vstore16(TO_CHANNELS(16, rows[i]), i, (channel_t*)stored);
 #else
-static inline void store_texels(global channel_t* to, Texels t, const TexelPlaces* places) {
-  const channel4_t texel = TO_CHANNELS(4, (float4)(t.x, t.y, t.z, t.w));
-#pragma unroll
-  for (uint s = 0; s < SAMPLES; ++s)
-    if (places->samples >> s & 1u) ((global channel4_t*)to)[places->pixel * SAMPLES + s] = texel;
-}
+  const channel4_t stored = TO_CHANNELS(4, (float4)(t.x, t.y, t.z, t.w));
 #endif
+  FOR_TEXELS(i, places)
+  ((global channel4_t*)to)[PLACE_OF_TEXEL(places, i)] = LANE_OF_TEXEL(places, i, channel4_t, stored);
+}
 
 STORE_RESOLVED {
   const Attributes* a = resolved->attributes;
   const Surface* s = resolved->surface;
   const mask_t covered = resolved->covered;
-  const TexelPlaces texels = texel_places(where), *places = &texels;
+  const TexelPlaces of_texels = texel_places(where), *places = &of_texels;
   const Real3 n = shading_normal(a, s);
-  Texels normal, color;
-  texels_of_surface(&normal, &color, n, s->base_color, s->metallic, s->roughness, number_of(s), s->unlit,
-                    covered);
-  store_texels(output->first, normal, places);
-  store_texels(output->second, color, places);
+  const LitSurface lit = {n, s->base_color, s->metallic, s->roughness, s->unlit == 0, number_of(s)};
+  const GBufferTexels texels = gbuffer_texels(lit);
+  store_texels(output->first, texels.first, covered, places);
+  store_texels(output->second, texels.second, covered, places);
 #ifdef CLEARCOAT
-  if (output->coats)
-    store_texels(output->coats, texels_of_coat(coat_normal(a, s), n, s->coat, s->coat_roughness, covered),
-                 places);
+  const Coat coat = {coat_normal(a, s), s->coat_roughness, s->coat};
+  if (output->coats) store_texels(output->coats, coat_texel(coat, n), covered, places);
 #endif
 #ifdef SPECULAR
-  if (output->specular) store_texels(output->specular, texels_of_specular(s->f0, s->f90, covered), places);
+  const Specular specular = {s->f0, s->f90};
+  if (output->specular) store_texels(output->specular, specular_texel(specular), covered, places);
 #endif
 #ifdef SURFACE_NUMBERS
   store_surface_numbers(output->surface_numbers, a->surface_number, covered, places);

@@ -8,20 +8,10 @@
 
 #include "kernels/resolve/resolve_light.h"
 
-typedef struct Output {
-  float4 background;
-  global float* image;
-  uint light;
-  global float *flux, *places;
-} Output;
-#define OUTPUT_ARGUMENTS uint light, global float *flux, global float *places
-#define GIVEN_OUTPUT \
-  { .light = light, .flux = flux, .places = places }
+#define OUTPUT_LIST(X) X(uint, light) X(global float*, flux) X(global float*, places)
+DECLARE_OUTPUT;
 #define READS_DEPTH(output) true
-#define SHOWS_LIGHT(output) false
 #define NEEDS_EVERY_PIXEL true
-
-LIGHT_OF { return real3(REAL(0.0f), REAL(0.0f), REAL(0.0f)); }
 
 typedef struct ReflectedLight {
   Real3 flux;    // intensity times sr

@@ -15,21 +15,29 @@
 #pragma once
 
 #include "kernels/resolve/light_sums.h"
+
+// A point that the lights of a list are summed for (kernels/resolve/shade_pixels.h).
+typedef struct LitPoint {
+  Real3 position, normal, to_viewer;
+  SurfaceValues surface;
+  real exponent;
+} LitPoint;
+#define LIGHT_SUM
+typedef LightTerms LightSum;
+static inline LightTerms plus_light(LightTerms sum, const LitPoint* p, Arrival arrival, PunctualLight light) {
+  return add_terms(sum, terms_at(p->position, p->normal, p->to_viewer, arrival, light, p->exponent));
+}
+
 #include "kernels/resolve/shade_pixels.h"
 #include "kernels/resolve/stored_batch.h"
 #include "kernels/resolve/stored_normals.h"
 #include "kernels/resolve/surface_numbers.h"
 
-#define STORED_ARGUMENTS                                                                            \
-  global const normal_t *normals, global light_channel_t *sums, global light_channel_t *other_sums, \
-      float exponent, float inverse_scale
-typedef struct Stored {
-  global const normal_t* normals;
-  global light_channel_t *sums, *other_sums;
-  float exponent, inverse_scale;
-} Stored;
-#define GIVEN_STORED \
-  { normals, sums, other_sums, exponent, inverse_scale }
+#define STORED_LIST(X)               \
+  X(global const normal_t*, normals) \
+  X(global light_channel_t*, sums)   \
+  X(global light_channel_t*, other_sums) X(float, exponent) X(float, inverse_scale)
+DECLARE_STORED;
 #define NEEDS_EVERY_PIXEL true
 
 // For all samples that show them.
@@ -47,23 +55,6 @@ static inline void store_row_of_sums(const Stored* s, size_t at, float16 sums, f
   STORE_CHANNELS(16, sums, s->sums + 4 * at);
 #ifdef PREPASS_FIFTH_TERM
   STORE_CHANNELS(8, others, s->other_sums + 2 * at);
-#endif
-}
-
-static inline Real3 normals_at(global const normal_t* normals, const StoredBatch* b) {
-#ifdef NORMAL_CHANNEL_STEPS
-  uint n[16];
-  for (uint i = 0; i < 16; ++i) n[i] = normals[IMAGE_OF(b, i)];
-  return unpacked_normal(vload16(0, n));
-#else
-  float n[3][16];
-  for (uint i = 0; i < 16; ++i) {
-    const float4 one = normals[IMAGE_OF(b, i)];
-    n[0][i] = one.x;
-    n[1][i] = one.y;
-    n[2][i] = one.z;
-  }
-  return real3(vload16(0, n[0]), vload16(0, n[1]), vload16(0, n[2]));
 #endif
 }
 
@@ -85,63 +76,34 @@ static inline void store_terms(const Stored* s, const StoredBatch* b, LightTerms
   }
 }
 #else
-#define normals_at(normals, b) normal_at(normals, (b)->image)
 static inline void store_terms(const Stored* s, const StoredBatch* b, LightTerms t) {
   store_sums(s, b->image, b->share, (float4)(t.diffuse.x, t.diffuse.y, t.diffuse.z, t.specular),
              (float2)(t.weight, t.rim));
 }
 #endif
 
-#ifndef PREPASS_STORED
-#define exponents_at(s, b) REAL((s)->exponent)
-#elif LANES == 16
-static inline real exponents_at(const Stored* s, const StoredBatch* b) {
-  float roughness[16];
-  for (uint i = 0; i < 16; ++i) roughness[i] = ROUGHNESS_OF(s->normals[IMAGE_OF(b, i)]);
-  return shininess_of_roughness(vload16(0, roughness));
-}
+static inline Real3 normals_at(global const normal_t* normals, const StoredBatch* b) {
+#ifdef NORMAL_CHANNEL_STEPS
+  packed_normal_t n;
+  SET_LANES(uint, n, normals[IMAGE_OF(b, i)])
+  return unpacked_normal(n);
 #else
-#define exponents_at(s, b) shininess_of_roughness(ROUGHNESS_OF((s)->normals[(b)->image]))
+  float4 texels[LANES];
+  for (uint i = 0; i < LANES; ++i) texels[i] = normals[IMAGE_OF(b, i)];
+  real channels[4];
+  channels_of_pixels(channels, texels);
+  return real3(channels[0], channels[1], channels[2]);
 #endif
-
-// A light that reaches none of the pixels, or that none of them faces, would add exact zeros.
-static inline LightTerms with_terms(LightTerms sum, Real3 position, Real3 normal, Real3 to_viewer,
-                                    SurfaceValues surface, mask_t lit, uint index, const Lights* lights,
-                                    real exponent) {
-  const PunctualLight light = light_at(lights, index);
-#ifdef MET_BY_EFFECTS
-  if (!any_lane(lit & effects_meet(&lights->reach, index, surface))) return sum;
-#endif
-  if (!any_lane(lit & in_range(position, light))) return sum;
-  Arrival arrival = arrival_at(position, light);
-  mask_t facing = dot3(normal, arrival.to_light) > REAL(0.0f);
-#ifdef LIT_BY_EFFECTS
-  if (effects_light(OF_LIGHT(light), false)) facing = EVERY_LIT;
-#endif
-  const mask_t reached = (arrival.attenuation > REAL(0.0f)) & facing;
-  if (!any_lane(lit & reached)) return sum;
-  arrival.attenuation = arrival.attenuation * light_reaches(light, position, arrival.to_light, surface);
-#if defined(SHADOWS) || defined(REACHED_BY_EFFECTS)
-  if (!any_lane(lit & reached & (arrival.attenuation > REAL(0.0f)))) return sum;
-#endif
-  TINT(arrival, light, position, surface)
-  return add_terms(sum, terms_at(position, normal, to_viewer, arrival, light, exponent));
 }
 
-// In the order of the list.
-static inline LightTerms terms_of_list(Real3 position, Real3 normal, SurfaceValues surface, mask_t lit,
-                                       global const index_t* list, uint count, PixelBins bins,
-                                       const Lights* lights, real exponent) {
-  const Real3 to_viewer = direction_to_viewer(position);
-  LightTerms sum = no_terms();
-  for (uint i = 0; i < count; ++i) {
-    const uint index = list[i];
-#ifdef Z_BINS
-    if (!bins_meet(lights->bins[index], bins.first, bins.last)) continue;
+static inline real exponents_at(const Stored* s, const StoredBatch* b) {
+#ifdef PREPASS_STORED
+  real roughness;
+  SET_LANES(float, roughness, ROUGHNESS_OF(s->normals[IMAGE_OF(b, i)]))
+  return shininess_of_roughness(roughness);
+#else
+  return s->exponent;
 #endif
-    sum = with_terms(sum, position, normal, to_viewer, surface, lit, index, lights, exponent);
-  }
-  return sum;
 }
 
 static inline void shade(const Stored* s, const StoredBatch* b, SurfaceValues surface,
@@ -150,9 +112,13 @@ static inline void shade(const Stored* s, const StoredBatch* b, SurfaceValues su
   const mask_t lit = b->depth > REAL(0.0f);
   LightTerms t = no_terms();
   if (count > 0 && any_lane(lit)) {
-    const Real3 position = position_of_pixel(b->x, b->y, lit ? b->depth : REAL(1.0f), view);
-    t = terms_of_list(position, normals_at(s->normals, b), surface, lit, list, count,
-                      bins_of_pixels(b->depth, lit, bin_edges), lights, exponents_at(s, b));
+    LitPoint p;
+    p.position = position_of_pixel(b->x, b->y, lit ? b->depth : REAL(1.0f), view);
+    p.normal = normals_at(s->normals, b);
+    p.to_viewer = direction_to_viewer(p.position);
+    p.surface = surface;
+    p.exponent = exponents_at(s, b);
+    t = sum_of_list(t, &p, lit, list, count, bins_of_pixels(b->depth, lit, bin_edges), lights);
   }
   const float inverse_scale = s->inverse_scale;
   const LightTerms stored = {stored_color(t.diffuse, inverse_scale, lit), STORED(t.specular),

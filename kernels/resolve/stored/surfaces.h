@@ -11,21 +11,18 @@
 #pragma once
 
 #include "kernels/common/fetch.h"
+#include "kernels/resolve/gbuffer.h"
 #include "kernels/resolve/shade_pixels.h"
 #include "kernels/resolve/stored_batch.h"
+#include "shared/model_records.h"
 
-#define STORED_ARGUMENTS                                                                               \
-  global const channel_t *first, global const channel_t *second, global const channel_t *coats,        \
-      global const channel_t *specular, global const MaterialModelRecord *models, global float *image, \
-      float4 background
-typedef struct Stored {
-  global const channel_t *first, *second, *coats, *specular;
-  global const MaterialModelRecord* models;
-  global float* image;
-  float4 background;
-} Stored;
-#define GIVEN_STORED \
-  { first, second, coats, specular, models, image, background }
+#define STORED_LIST(X)                 \
+  X(global const channel_t*, first)    \
+  X(global const channel_t*, second)   \
+  X(global const channel_t*, coats)    \
+  X(global const channel_t*, specular) \
+  X(global const MaterialModelRecord*, models) X(global float*, image) X(float4, background)
+DECLARE_STORED;
 #ifdef BASE_LIGHTING
 #define NEEDS_EVERY_PIXEL false
 #else
@@ -53,10 +50,9 @@ static inline Texels texels_at(global const channel_t* image, const StoredBatch*
                            CHANNELS(4, image + 4 * (size_t)IMAGE_OF(b, 4 * k + 3)));
     }
   }
-  const Texels t = {(float16)(row[0].s048c, row[1].s048c, row[2].s048c, row[3].s048c),
-                    (float16)(row[0].s159d, row[1].s159d, row[2].s159d, row[3].s159d),
-                    (float16)(row[0].s26ae, row[1].s26ae, row[2].s26ae, row[3].s26ae),
-                    (float16)(row[0].s37bf, row[1].s37bf, row[2].s37bf, row[3].s37bf)};
+  real c[4];
+  channels_of_rows(c, row);
+  const Texels t = {c[0], c[1], c[2], c[3]};
   return t;
 }
 #else
@@ -105,37 +101,75 @@ static inline void add_to_image(global float* image, const StoredBatch* b, Real3
 }
 #endif
 
-static inline ShadingPoint stored_point(const Stored* s, const StoredBatch* b, Texels normal, Texels color,
+#ifdef MODELS
+static inline ShadingPoint modelled_point(ShadingPoint p, Real3 to_viewer, real number,
+                                          global const MaterialModelRecord* models) {
+#define MODEL_OF(i) models[min((uint)LANE(number, i), (uint)MOST_MODELS)]
+#ifdef SKIN
+  Real3 color;
+  real roll_off;
+  SET_LANES(float, color.x, MODEL_OF(i).subsurface[0])
+  SET_LANES(float, color.y, MODEL_OF(i).subsurface[1])
+  SET_LANES(float, color.z, MODEL_OF(i).subsurface[2])
+  SET_LANES(float, roll_off, MODEL_OF(i).roll_off)
+  p = with_skin(p, color, roll_off);
+#endif
+#ifdef MINNAERT
+  real k;
+  SET_LANES(float, k, MODEL_OF(i).minnaert_k)
+  p = with_minnaert(p, to_viewer, k);
+#endif
+  return p;
+}
+#endif
+
+static inline ShadingPoint stored_point(const Stored* s, const StoredBatch* b, GBufferTexels texels,
                                         mask_t lit, SurfaceValues surface, constant ViewParams* view) {
+  const LitSurface seen = lit_surface(texels);
   const Real3 position = position_of_pixel(b->x, b->y, lit ? b->depth : REAL(1.0f), view);
   const Real3 to_viewer = direction_to_viewer(position);
-  ShadingPoint p = point_of_texels(position, to_viewer, normal, color);
+  ShadingPoint p =
+      shading_point(position, to_viewer, seen.normal, seen.base_color, seen.metallic, seen.roughness);
 #ifdef HAS_SURFACE_VALUES
   p.surface = surface;
 #endif
 #ifdef SPECULAR
-  p = specular_point(p, normal, color, texels_at(s->specular, b));
+  const Specular specular = specular_of_texel(texels_at(s->specular, b));
+  p = with_specular(p, seen.metallic, specular.f0, specular.f90);
 #endif
 #ifdef MODELS
-  p = modelled_point(p, to_viewer, number_of_texel(color), s->models);
+  p = modelled_point(p, to_viewer, seen.model, s->models);
 #endif
 #ifdef CLEARCOAT
-  p = coated_point(p, texels_at(s->coats, b));
+  const Coat coat = coat_of_texel(texels_at(s->coats, b), p.normal);
+  p = with_coat(p, coat.normal, coat.factor, coat.roughness);
 #endif
   return p;
+}
+
+// What point and spot lights add, and ambient light where the image does not hold it.
+static inline Real3 light_sum(const ShadingPoint* p, mask_t lit, global const index_t* list, uint count,
+                              PixelBins bins, const Lights* lights, constant ViewParams* view) {
+#ifdef BASE_LIGHTING
+  const Real3 own = real3(REAL(0.0f), REAL(0.0f), REAL(0.0f));
+#else
+  const Real3 own =
+      reflected_ambient(*p, REAL(view->ambient_r), REAL(view->ambient_g), REAL(view->ambient_b));
+#endif
+  return sum_of_list(own, p, lit, list, count, bins, lights);
 }
 
 static inline void shade(const Stored* s, const StoredBatch* b, SurfaceValues surface,
                          global const index_t* list, uint count, constant float* bin_edges,
                          const Lights* lights, constant ViewParams* view) {
-  const Texels normal = texels_at(s->first, b), color = texels_at(s->second, b);
-  const mask_t lit = (b->depth > REAL(0.0f)) & (color.w > REAL(0.0f));
+  const GBufferTexels texels = {texels_at(s->first, b), texels_at(s->second, b)};
+  const mask_t lit = (b->depth > REAL(0.0f)) & (texels.second.w > REAL(0.0f));
   Real3 shown = real3(REAL(s->background.x), REAL(s->background.y), REAL(s->background.z));
   if (any_lane(lit)) {
-    const ShadingPoint p = stored_point(s, b, normal, color, lit, surface, view);
+    const ShadingPoint p = stored_point(s, b, texels, lit, surface, view);
     const Real3 light =
         light_sum(&p, lit, list, count, bins_of_pixels(b->depth, lit, bin_edges), lights, view);
-    shown = real3(lit ? light.x : shown.x, lit ? light.y : shown.y, lit ? light.z : shown.z);
+    shown = select3(lit, light, shown);
   }
   add_to_image(s->image, b, shown);
 }

@@ -161,14 +161,16 @@ cl_float4 background(const ViewState& seen) {
 struct ResolveOutput {
   const char* label;      // label of the pass
   std::string defines;    // its OUTPUT_…, and what it takes
-  ClArguments arguments;  // after RESOLVE_ARGUMENTS
+  ClArguments arguments;  // OUTPUT_LIST
+  cl::Buffer image;       // that shows light; null: none
   size_t bytes_read = 0, bytes_written = 0;
   const LightSource* lights = nullptr;  // null: it reads no lists
 };
 
 static ClArguments common_arguments(PassContext& work, Resolver& r, const VisibilityBuffer& visible,
                                     const ResolveOutput& output) {
-  return r.arguments(work, visible.raster, visible.surfaces,
+  return ClArguments{{"background", background(work)}, {"image", output.image}} + output.arguments +
+         r.arguments(work, visible.raster, visible.surfaces,
                      output.lights ? *output.lights->in_cl : ClLightLoop());
 }
 
@@ -178,7 +180,7 @@ static void over_image(PassContext& work, Resolver& r, const VisibilityBuffer& v
   auto pass = work.timer.pass(output.label, "cl");
   r.launch(work, kernel, output.label,
            ClArguments{{"triangles", visible.triangles().numbers}, {"depths", visible.pixel_depth().values}} +
-               common_arguments(work, r, visible, output) + output.arguments);
+               common_arguments(work, r, visible, output));
   pass.moves(output.bytes_read + (output.lights ? output.lights->bytes : 0) + r.scene(work).memory_bytes(),
              output.bytes_written);
 }
@@ -197,7 +199,7 @@ static void over_edges(PassContext& work, Resolver& r, const VisibilityBuffer& v
                ClArguments{{"triangles", visible.image.triangle},
                            {"depths", visible.image.depth},
                            {"edges", visible.pixels->edges}} +
-               common_arguments(work, r, visible, output) + output.arguments);
+               common_arguments(work, r, visible, output));
   pass.moves(
       work.grid().pixels() / 8 + (output.lights ? output.lights->bytes : 0) + r.scene(work).memory_bytes(),
       0);
@@ -213,7 +215,8 @@ ShadedImage resolve(PassContext& work, Cached<Resolver>& cache, const Visibility
   Resolver& r = resolving(work, cache);
   const ResolveOutput output{"resolve",
                              lights.in_cl->defines + " -DOUTPUT_RADIANCE",
-                             {{"background", background(work)}, {"image", r.image.cl_buffer()}},
+                             {},
+                             r.image.cl_buffer(),
                              work.grid().pixels() * 8,
                              work.grid().pixels() * 16,
                              &lights};
@@ -227,14 +230,11 @@ ShadedImage resolve(PassContext& work, Cached<Resolver>& cache, const Visibility
 }
 
 // The images that the kernels write.
-static ClArguments images_out(const PassContext& work, const GBufferInCl& g) {
-  return ClArguments{
-             {"background", background(work)},
-             {"first", g.surfaces[0]->cl_buffer()},
-             {"second", g.surfaces[1]->cl_buffer()},
-             {"coats", g.in_cl(gbuffer_coat)},
-             {"specular", g.in_cl(gbuffer_specular)},
-             {"image", g.base_lighting == BaseLighting::in_image ? g.image->cl_buffer() : cl::Buffer()}} +
+static ClArguments images_out(const GBufferInCl& g) {
+  return ClArguments{{"first", g.surfaces[0]->cl_buffer()},
+                     {"second", g.surfaces[1]->cl_buffer()},
+                     {"coats", g.in_cl(gbuffer_coat)},
+                     {"specular", g.in_cl(gbuffer_specular)}} +
          surface_numbers_out(g.surface_numbers);
 }
 
@@ -242,11 +242,14 @@ GBufferInCl resolve_gbuffer(PassContext& work, Cached<Resolver>& cache, const Vi
                             BaseLighting base_lighting) {
   Resolver& r = resolving(work, cache);
   GBufferInCl g = gbuffer_in_cl_of(work, base_lighting, TargetUse::gbuffer);
-  const size_t pixels = work.grid().pixels(), image_bytes = base_lighting == BaseLighting::in_image ? 16 : 0;
+  const bool shows = base_lighting == BaseLighting::in_image;
+  const size_t pixels = work.grid().pixels(), image_bytes = shows ? 16 : 0;
   const ResolveOutput output{"resolve_gbuffer",
                              fmt::format(" -DOUTPUT_GBUFFER -DBUFFER_BITS={}{}{}", g.layout->bits,
                                          surface_numbers_out(work.plan), sample_defines(work.grid().samples)),
-                             images_out(work, g), pixels * (image_bytes > 0 ? 8 : 4),
+                             images_out(g),
+                             shows ? g.image->cl_buffer() : cl::Buffer(),
+                             pixels * (image_bytes > 0 ? 8 : 4),
                              work.grid().values() * g.bytes() + pixels * image_bytes};
   over_image(work, r, visible, output);
   over_edges(work, r, visible, output);
@@ -264,7 +267,9 @@ NormalsInCl resolve_normals(PassContext& work, Cached<Resolver>& cache, const Vi
           (stores_roughness(work.plan.settings) ? " -DPREPASS_STORED" : "") + surface_numbers_out(work.plan) +
           sample_defines(work.grid().samples),
       ClArguments{{"normals", normals.image->cl_buffer()}} + surface_numbers_out(normals.surface_numbers),
-      work.grid().pixels() * 4, work.grid().values() * normals.layout->image.bytes};
+      cl::Buffer(),
+      work.grid().pixels() * 4,
+      work.grid().values() * normals.layout->image.bytes};
   over_image(work, r, visible, output);
   over_edges(work, r, visible, output);
   if (visible.pixels) normals.edges = visible.pixels->edges;
@@ -281,13 +286,12 @@ ShadedImage resolve_materials(PassContext& work, Cached<Resolver>& cache, const 
       fmt::format(" -DOUTPUT_SUMS -DBUFFER_BITS={}{}{}{}{}", s[setting::buffer_bits], specular_define(s),
                   stores_luv(s) ? " -DLIGHT_LUV" : "", sample_defines(work.grid().samples),
                   apart ? " -DSAMPLES_APART" : ""),
-      {{"background", background(work)},
-       {"first", sums.first->cl_buffer()},
+      {{"first", sums.first->cl_buffer()},
        {"second", sums.second ? sums.second->cl_buffer() : cl::Buffer()},
        {"scale", cl_float(stored_scale(work))},
        {"exponent", cl_float(s[setting::prepass_shininess])},
-       {"reference", cl_float(reference_light(work.scene, work.plan))},
-       {"image", r.image.cl_buffer()}},
+       {"reference", cl_float(reference_light(work.scene, work.plan))}},
+      r.image.cl_buffer(),
       work.grid().pixels() * 8 + work.grid().values() * sums.bytes(),
       work.grid().pixels() * 16};
   over_image(work, r, visible, output);
@@ -306,6 +310,7 @@ ReflectedLight resolve_reflected(PassContext& work, Cached<Resolver>& cache, con
               {{"light", cl_uint(light)},
                {"flux", reflected.flux->cl_buffer()},
                {"places", reflected.places->cl_buffer()}},
+              cl::Buffer(),
               work.grid().pixels() * 8,
               work.grid().pixels() * 32});
   return reflected;

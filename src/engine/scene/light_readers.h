@@ -34,8 +34,7 @@ inline constexpr const char* upper_bound = "without it the bound is larger, and 
 inline constexpr LightReader light_readers[] = {
     {.name = "light loops",
      .files = "src/engine/shared/punctual_light.h shaders/deferred_light.frag shaders/light_buffer.frag "
-              "kernels/resolve/shade_pixels.h kernels/resolve/outputs/reflected.h "
-              "kernels/resolve/stored/normals.h",
+              "kernels/resolve/shade_pixels.h kernels/resolve/outputs/reflected.h",
      .position = reads,
      .color = reads,
      .cone = reads,

@@ -40,6 +40,22 @@ static inline real lane_max(real a, real b) { return a > b ? a : b; }
 #define INDEX_LANE(v, i) ((size_t)(uint)(v))
 #endif
 
+// Sets each lane of a variable to `value`, an expression of the lane's number i that has the type `type`.
+#if LANES == 16
+#define SET_LANES(type, variable, value)                    \
+  {                                                         \
+    type lanes[16];                                         \
+    for (uint i = 0; i < 16; ++i) lanes[i] = (type)(value); \
+    variable = vload16(0, lanes);                           \
+  }
+#else
+#define SET_LANES(type, variable, value) \
+  {                                      \
+    const uint i = 0;                    \
+    variable = (type)(value);            \
+  }
+#endif
+
 // The instruction set whose builtins kernels use: clang, and with it PoCL, says what it compiles for. -DPORTABLE
 // uses none; the bytes are the same.
 #if LANES == 16 && !defined(PORTABLE)

@@ -30,6 +30,10 @@ static inline real dot3(Real3 a, Real3 b) { return a.x * b.x + a.y * b.y + a.z *
 #endif
 static inline Real3 add3(Real3 a, Real3 b) { return real3(a.x + b.x, a.y + b.y, a.z + b.z); }
 static inline Real3 scale3(Real3 v, real s) { return real3(v.x * s, v.y * s, v.z * s); }
+// a where `here`, else b.
+static inline Real3 select3(mask_t here, Real3 a, Real3 b) {
+  return real3(here ? a.x : b.x, here ? a.y : b.y, here ? a.z : b.z);
+}
 static inline Real3 cross3(Real3 a, Real3 b) {
   return real3(mad_real(a.y, b.z, -(b.y * a.z)), mad_real(a.z, b.x, -(b.z * a.x)),
                mad_real(a.x, b.y, -(b.x * a.y)));
@@ -41,6 +45,7 @@ static inline Real3 cross3(Real3 a, Real3 b) {
 #define exp_real exp
 #define log_real log
 #define floor_real floor
+#define abs_real fabs
 #define Whole whole
 #define WHOLE(x) ((whole)(x))
 #if LANES == 16
@@ -71,6 +76,8 @@ static inline Real3 cross3(Real3 a, Real3 b) {
 #define exp_real exp
 #define log_real log
 #define floor_real floor
+#define abs_real abs
+#define select3(here, a, b) ((here) ? (a) : (b))
 #define Whole int
 #define WHOLE(x) int(x)
 #define bits_of_real floatBitsToInt

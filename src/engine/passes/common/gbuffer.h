@@ -19,7 +19,7 @@ struct GBufferImage {
   size_t bytes;  // a pixel
 };
 
-// Channels, in both orders of bits (shaders/common/gbuffer.glsl):
+// Channels, in both orders of bits (shared/gbuffer.h):
 //   8 and 16 bits
 //   [0]  octahedral normal u, v in view space; perceptual roughness; metallic
 //   [1]  base color red, green, blue, as their square roots in 8 bits; 1 where lights reach, else 0. Where
