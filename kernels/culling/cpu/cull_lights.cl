@@ -22,6 +22,7 @@
 // the kernels again with more room.
 #define LANES 16
 #include "kernels/common/index_type.h"
+#include "kernels/common/one_item.h"
 #include "kernels/culling/bin_tiles.h"
 #include "kernels/culling/candidates.h"
 
@@ -136,11 +137,13 @@ static inline void cull_bin(uint bx, uint by, global const float* records, Regio
   *lists = (uint2)(offset, written);
 }
 
-kernel void cull_lights(global const float* records, global const uint* lists, global const uint* counts,
-                        uint runs, uint spread, global const uint* light_masks, global const float* bounds,
-                        global const uint* tile_masks, global const float2* slices, global float* pool,
-                        global index_t* staged, global uint* cell_counts, global uint2* bins,
-                        global volatile uint* counters, constant CullParams* p) {
+kernel ONE_ITEM void cull_lights(global const float* records, global const uint* lists,
+                                 global const uint* counts, uint runs, uint spread,
+                                 global const uint* light_masks, global const float* bounds,
+                                 global const uint* tile_masks, global const float2* slices,
+                                 global float* pool, global index_t* staged, global uint* cell_counts,
+                                 global uint2* bins, global volatile uint* counters, constant CullParams* p) {
+  ASSUME_ONE_ITEM;
   Room rooms[2] = {{0, 0u}, {0, 0u}};
   const size_t stride = p->light_stride + 16;
   const uint across = (p->bins_x + 1) / 2, down = (p->bins_y + 1) / 2;

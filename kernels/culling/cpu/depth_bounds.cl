@@ -6,6 +6,7 @@
 // counters  [counter] += tiles with an invalid depth; such a tile spans every distance.
 //           [next_counter] = 0, for the next launch
 #define LANES 16
+#include "kernels/common/one_item.h"
 #include "kernels/culling/depth_bounds.h"
 
 #define TILES 16
@@ -129,9 +130,10 @@ static inline uint occupied_bits(global const uint* depth, uint stride, uint row
 }
 #endif
 
-kernel void depth_bounds(global const uint* depth, global float* opaque, global float* blend,
-                         global volatile uint* counters, uint counter, uint next_counter,
-                         constant CullParams* p) {
+kernel ONE_ITEM void depth_bounds(global const uint* depth, global float* opaque, global float* blend,
+                                  global volatile uint* counters, uint counter, uint next_counter,
+                                  constant CullParams* p) {
+  ASSUME_ONE_ITEM;
   const uint tx0 = get_global_id(0) * TILES, ty = get_global_id(1), stride = p->depth_row;
   const uint rows = min((uint)TILE, p->height - ty * TILE), tiles = min((uint)TILES, p->tiles_x - tx0);
   global const uint* first = depth + p->depth_first + (size_t)ty * TILE * stride + tx0 * ROW;

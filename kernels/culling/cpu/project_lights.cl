@@ -10,6 +10,7 @@
 // counts    of a region: one a work-item
 // counters  [0], [1], [3], [4], [5] set to 0, for the kernels that follow
 #define LANES 16
+#include "kernels/common/one_item.h"
 #include "kernels/culling/light_records.h"
 
 // Batches of 16 lights, projected before they are sorted into regions: both steps stay in the first-level
@@ -37,8 +38,9 @@ static inline void project_batch(global const float* lights, global float* recor
   vstore16(as_int16(span_of(r.sphere)), b, held->span);
 }
 
-kernel void project_lights(global const float* lights, global float* records, global uint* lists,
-                           global uint* counts, global uint* counters, constant CullParams* p) {
+kernel ONE_ITEM void project_lights(global const float* lights, global float* records, global uint* lists,
+                                    global uint* counts, global uint* counters, constant CullParams* p) {
+  ASSUME_ONE_ITEM;
   const uint item = get_global_id(0), items = get_global_size(0);
   const uint batches = p->light_stride / 16, regions = p->regions_x * p->regions_y;
   const uint from = (uint)((ulong)batches * item / items), to = (uint)((ulong)batches * (item + 1) / items);

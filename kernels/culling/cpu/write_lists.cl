@@ -6,6 +6,7 @@
 // indices   the light index list
 // counters  [4], [5] = low and high word of the number of indices; past 2^32 the host refuses
 #include "kernels/common/index_type.h"
+#include "kernels/common/one_item.h"
 #include "shared/cull_params.h"
 #include "shared/light_grid.h"
 
@@ -48,9 +49,10 @@ static inline void write_bin(uint bin, uint first, global const uint2* bins, glo
   }
 }
 
-kernel void write_lists(global const uint2* bins, uint run, global const uint* cell_counts,
-                        global const index_t* staged, global uint2* cells, global index_t* indices,
-                        global uint* counters, constant CullParams* p) {
+kernel ONE_ITEM void write_lists(global const uint2* bins, uint run, global const uint* cell_counts,
+                                 global const index_t* staged, global uint2* cells, global index_t* indices,
+                                 global uint* counters, constant CullParams* p) {
+  ASSUME_ONE_ITEM;
   const uint all = p->bins_x * p->bins_y, begin = get_global_id(0) * run, end = min(begin + run, all);
   ulong before = 0;
   for (uint i = 0; i < begin; ++i) before += bins[i].y;

@@ -8,9 +8,11 @@
 #define LANES 16
 #include "kernels/common/pack.h"
 #include "kernels/common/light_columns.h"
+#include "kernels/common/one_item.h"
 #include "shared/effects/far_light.h"
 
-kernel void fill_far_light(LIGHT_ARGUMENTS constant FarGrid* grid, global float4* moments) {
+kernel ONE_ITEM void fill_far_light(LIGHT_ARGUMENTS constant FarGrid* grid, global float4* moments) {
+  ASSUME_ONE_ITEM;
   const LightColumns lights = {GIVEN_LIGHTS};
   const uint first = 16 * get_global_id(0), samples = grid->size_x * grid->size_y * grid->size_z;
   const whole at = LANE_INDEX + (whole)((int)first), size_x = (int)grid->size_x, size_y = (int)grid->size_y;

@@ -1,9 +1,11 @@
 // Measures the time of reading alone, for CPUs: the limit that kernels are held against (docs/benchmarks.md).
 // Item i reads the i-th of global_size equal parts and writes a sum, so that the reads are not left out.
 // values  count vectors of 16, a multiple of 8 of them; sums  one uint an item
+#include "kernels/common/one_item.h"
 #define CHAINS 8u
 
-kernel void limits_read(global const uint16* values, uint count, global uint* sums) {
+kernel ONE_ITEM void limits_read(global const uint16* values, uint count, global uint* sums) {
+  ASSUME_ONE_ITEM;
   const size_t blocks = count / CHAINS, item = get_global_id(0), items = get_global_size(0);
   global const uint16* p = values + blocks * item / items * CHAINS;
   global const uint16* end = values + blocks * (item + 1) / items * CHAINS;

@@ -3,11 +3,13 @@
 // records, next_block, chunks  as raster/cpu/raster_setup.cl writes them
 // tile_at   as raster/cpu/raster_scan.cl leaves tile_counts; where each chunk goes on in each tile's list
 // lists     uint an entry: a record. Nothing is written where records or lists found no room.
+#include "kernels/common/one_item.h"
 #include "kernels/raster/raster_tiles.h"
 
-kernel void raster_fill(global const RasterRecord* records, global const uint* next_block,
-                        global const uint2* chunks, global uint* tile_at, global uint* lists,
-                        global const uint* counters, constant RasterParams* p) {
+kernel ONE_ITEM void raster_fill(global const RasterRecord* records, global const uint* next_block,
+                                 global const uint2* chunks, global uint* tile_at, global uint* lists,
+                                 global const uint* counters, constant RasterParams* p) {
+  ASSUME_ONE_ITEM;
   if (counters[RASTER_BLOCKS] > p->record_blocks || counters[RASTER_ENTRIES + 1] != 0 ||
       counters[RASTER_ENTRIES] > p->entry_capacity) {
     return;

@@ -3,10 +3,12 @@
 // buckets   as raster/cpu/raster_clusters.cl writes them
 // visible   uint a cluster in view: its pair
 // counters  RASTER_VISIBLE is written
+#include "kernels/common/one_item.h"
 #include "shared/raster_params.h"
 
-kernel void raster_order(global const uchar* buckets, global uint* visible, global uint* counters,
-                         constant RasterParams* p) {
+kernel ONE_ITEM void raster_order(global const uchar* buckets, global uint* visible, global uint* counters,
+                                  constant RasterParams* p) {
+  ASSUME_ONE_ITEM;
   uint place[RASTER_BUCKETS];
   for (uint b = 0; b < RASTER_BUCKETS; ++b) place[b] = 0;
   for (uint i = 0; i < p->pairs; ++i) ++place[buckets[i]];

@@ -4,10 +4,12 @@
 // tile_counts  in: entries of a tile for each chunk; out: where they begin
 // tile_begin   uint a tile, and one more: where its list begins
 // counters     RASTER_ENTRIES is written
+#include "kernels/common/one_item.h"
 #include "shared/raster_params.h"
 
-kernel void raster_scan(global uint* tile_counts, global uint* tile_begin, global uint* counters,
-                        constant RasterParams* p) {
+kernel ONE_ITEM void raster_scan(global uint* tile_counts, global uint* tile_begin, global uint* counters,
+                                 constant RasterParams* p) {
+  ASSUME_ONE_ITEM;
   const uint tiles = p->tiles_x * p->tiles_y;
   ulong sum = 0;
   for (uint tile = 0; tile < tiles; ++tile) {

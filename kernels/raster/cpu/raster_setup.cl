@@ -12,6 +12,7 @@
 //
 // Where room runs out records are counted and not written; the host runs the kernels again with more.
 #define LANES 16
+#include "kernels/common/one_item.h"
 #include "kernels/common/pack.h"
 #include "kernels/raster/raster_clip.h"
 #include "kernels/raster/raster_setup.h"
@@ -119,11 +120,14 @@ static void set_up_cut(const Corners* v, uint lane, RecordLanes* record, uint fl
   }
 }
 
-kernel void raster_setup(global const uint* visible, global const uint2* pairs,
-                         global const RasterCluster* clusters, global const RasterInstanceRecord* instances,
-                         global const uint* indices, global const uint* numbers, global const float4* clip,
-                         global RasterRecord* records, global uint* next_block, global uint2* chunks,
-                         global uint* tile_counts, global volatile uint* counters, constant RasterParams* p) {
+kernel ONE_ITEM void raster_setup(global const uint* visible, global const uint2* pairs,
+                                  global const RasterCluster* clusters,
+                                  global const RasterInstanceRecord* instances, global const uint* indices,
+                                  global const uint* numbers, global const float4* clip,
+                                  global RasterRecord* records, global uint* next_block, global uint2* chunks,
+                                  global uint* tile_counts, global volatile uint* counters,
+                                  constant RasterParams* p) {
+  ASSUME_ONE_ITEM;
   const uint chunk = get_global_id(0), tiles = p->tiles_x * p->tiles_y, in_view = counters[RASTER_VISIBLE];
   Output out = {records, next_block, counters, tile_counts + (size_t)chunk * tiles, 0u, 0u, 0u};
   for (uint i = 0; i < tiles; ++i) out.tile_counts[i] = 0;

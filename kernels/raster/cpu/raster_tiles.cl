@@ -11,6 +11,7 @@
 #define LANES 16
 #include "kernels/common/fetch.h"
 #include "kernels/common/interleave.h"
+#include "kernels/common/one_item.h"
 #include "kernels/common/pack.h"
 #include "kernels/raster/raster_masks.h"
 #include "kernels/raster/raster_tiles.h"
@@ -313,9 +314,11 @@ static __attribute__((noinline)) void draw_tile(uint number, global const Raster
 
 // A work-item takes the next tile that none has taken: PoCL hands out work-items in ranges, at first a thread's
 // share of all of them, and some tiles take ten times as long as others.
-kernel void raster_tiles(global const RasterRecord* records, global const uint* tile_begin,
-                         global const uint* lists, MASK_ARGUMENTS, global uint* triangles,
-                         global float* depths, global volatile uint* counters, constant RasterParams* p) {
+kernel ONE_ITEM void raster_tiles(global const RasterRecord* records, global const uint* tile_begin,
+                                  global const uint* lists, MASK_ARGUMENTS, global uint* triangles,
+                                  global float* depths, global volatile uint* counters,
+                                  constant RasterParams* p) {
+  ASSUME_ONE_ITEM;
   if (counters[RASTER_BLOCKS] > p->record_blocks || counters[RASTER_ENTRIES + 1] != 0 ||
       counters[RASTER_ENTRIES] > p->entry_capacity) {
     return;

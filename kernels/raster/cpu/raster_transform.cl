@@ -4,6 +4,7 @@
 // runs       uint2: an instance and the first of RASTER_VERTEX_RUN of its mesh's vertices
 // clip       float4 (x, y, z, w) a vertex of each instance; an instance's vertices begin at a multiple of 16
 #define LANES 16
+#include "kernels/common/one_item.h"
 #include "shared/lanes.h"
 #include "shared/raster_instance.h"
 #include "shared/raster_params.h"
@@ -23,10 +24,11 @@ static inline void store_corners(global float* to, float16 x, float16 y, float16
 #undef FOUR
 }
 
-kernel void raster_transform(global const float* positions, global const uint2* runs,
-                             global const RasterInstanceRecord* instances,
-                             global const RasterFrameInstance* frame, global float* clip,
-                             constant RasterParams* p) {
+kernel ONE_ITEM void raster_transform(global const float* positions, global const uint2* runs,
+                                      global const RasterInstanceRecord* instances,
+                                      global const RasterFrameInstance* frame, global float* clip,
+                                      constant RasterParams* p) {
+  ASSUME_ONE_ITEM;
   const ulong items = get_global_size(0), item = get_global_id(0);
   const uint end = (uint)(p->vertex_runs * (item + 1) / items);
   for (uint run = (uint)(p->vertex_runs * item / items); run < end; ++run) {

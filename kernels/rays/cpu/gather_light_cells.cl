@@ -4,9 +4,11 @@
 // RAYS_ARGUMENTS  the scene
 // jobs            in and out: LightCellJob
 #define LANES 16
+#include "kernels/common/one_item.h"
 #include "kernels/rays/light_cell_builder.h"
 
-kernel void gather_light_cells(RAYS_ARGUMENTS, global LightCellJob* jobs) {
+kernel ONE_ITEM void gather_light_cells(RAYS_ARGUMENTS, global LightCellJob* jobs) {
+  ASSUME_ONE_ITEM;
   global LightCellJob* job = jobs + get_global_id(0);
   LeafWalk walk = {{0}, {0}, 1};
   int first, count;

@@ -7,6 +7,7 @@
 // scratch         each work-item's room for the entries of one light
 // pool            out: starts, LightCellTriangle and LightCellEntry where the jobs say
 #define LANES 16
+#include "kernels/common/one_item.h"
 #include "kernels/rays/light_cell_lists.h"
 
 // Adds up to 16 triangles.
@@ -91,9 +92,10 @@ static void sort_items(global LightCellJob* job, const LightCellItems* items, gl
   }
 }
 
-kernel void list_light_cells(RAYS_ARGUMENTS, global LightCellJob* jobs, uint job_count,
-                             volatile global uint* next_job, global ulong* scratch, ulong scratch_items,
-                             global uint* pool) {
+kernel ONE_ITEM void list_light_cells(RAYS_ARGUMENTS, global LightCellJob* jobs, uint job_count,
+                                      volatile global uint* next_job, global ulong* scratch,
+                                      ulong scratch_items, global uint* pool) {
+  ASSUME_ONE_ITEM;
   global ulong* by_distance = scratch + get_global_id(0) * scratch_items;
   for (uint i = atomic_inc(next_job); i < job_count; i = atomic_inc(next_job)) {
     global LightCellJob* job = jobs + i;

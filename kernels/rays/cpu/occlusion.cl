@@ -7,11 +7,13 @@
 // packets  uint4 each: block, light, a bit for each point that is meant, 0
 // hidden   uint a packet: a bit for each of these that is hidden
 #define LANES 16
+#include "kernels/common/one_item.h"
 #include "kernels/rays/rays.h"
 
-kernel void occlusion(RAYS_ARGUMENTS, global const float* points, global const int* own,
-                      global const RaySource* lights, global const uint4* packets, uint count,
-                      uint a_work_item, global uint* hidden) {
+kernel ONE_ITEM void occlusion(RAYS_ARGUMENTS, global const float* points, global const int* own,
+                               global const RaySource* lights, global const uint4* packets, uint count,
+                               uint a_work_item, global uint* hidden) {
+  ASSUME_ONE_ITEM;
   const RayScene scene = RAYS_SCENE;
   const uint first = (uint)get_global_id(0) * a_work_item, end = min(first + a_work_item, count);
   int last_blocker = -1;

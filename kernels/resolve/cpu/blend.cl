@@ -13,6 +13,7 @@
 #define FUSED  // shared/real.h
 #define LANES 16
 #include "kernels/common/image_blocks.h"
+#include "kernels/common/one_item.h"
 #include "kernels/common/pack.h"
 #include "kernels/resolve/blended_fragments.h"
 #include "kernels/resolve/resolve_light.h"
@@ -38,9 +39,10 @@ static inline void blend_block(global float* image, Real3 color, real alpha, mas
 #define LAYERS_ARGUMENT
 #endif
 
-kernel void blend(global const RasterRecord* records, global const uint* tile_begin, global const uint* lists,
-                  uint tiles_x, global const float* depths, LAYERS_ARGUMENT RESOLVE_ARGUMENTS,
-                  global float* image) {
+kernel ONE_ITEM void blend(global const RasterRecord* records, global const uint* tile_begin,
+                           global const uint* lists, uint tiles_x, global const float* depths,
+                           LAYERS_ARGUMENT RESOLVE_ARGUMENTS, global float* image) {
+  ASSUME_ONE_ITEM;
   const uint number = get_global_id(0), width = view->width, height = view->height;
   const uint tile_x = number % tiles_x * RASTER_TILE, tile_y = number / tiles_x * RASTER_TILE;
   const ResolveScene scene = RESOLVE_SCENE;

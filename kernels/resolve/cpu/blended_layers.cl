@@ -9,6 +9,7 @@
 // most      in and out: the most fragments of a pixel, a tile. Before, those of the last frame
 #define LANES 16
 #include "kernels/common/image_blocks.h"
+#include "kernels/common/one_item.h"
 #include "kernels/common/pack.h"
 #include "kernels/resolve/blended_fragments.h"
 #include "shared/shadow_bits.h"
@@ -25,9 +26,11 @@ static inline void clear_tile(global uint* numbers, global uint* depths, uint x0
     }
 }
 
-kernel void blended_layers(global const RasterRecord* records, global const uint* tile_begin,
-                           global const uint* lists, uint tiles_x, global const float* depths, uint capacity,
-                           constant ViewParams* view, global uint* layers, global uint* most) {
+kernel ONE_ITEM void blended_layers(global const RasterRecord* records, global const uint* tile_begin,
+                                    global const uint* lists, uint tiles_x, global const float* depths,
+                                    uint capacity, constant ViewParams* view, global uint* layers,
+                                    global uint* most) {
+  ASSUME_ONE_ITEM;
   const uint number = get_global_id(0), width = view->width, height = view->height;
   const uint tile_x = number % tiles_x * RASTER_TILE, tile_y = number / tiles_x * RASTER_TILE;
   const size_t stride = LAYER_STRIDE((size_t)width * height);

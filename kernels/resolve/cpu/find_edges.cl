@@ -12,6 +12,7 @@
 // edges              out: a bit a pixel, 16 in a value, 1 at edges
 #define LANES 16
 #include "kernels/common/interleave.h"
+#include "kernels/common/one_item.h"
 #include "kernels/common/pack.h"
 #include "kernels/resolve/join_surfaces.h"
 #include "shared/real.h"
@@ -43,10 +44,13 @@ static inline bool known_neighbours(ulong* known, uint a, uint b, const SeenTria
   return *place & 1u;
 }
 
-kernel void find_edges(global uint* triangles, global const float* depths,
-                       global const uint* triangle_instance, global const RasterInstanceRecord* instances,
-                       global const uint* indices, global const float4* clip, uint width, uint height,
-                       global uint* pixel_triangles, global float* pixel_depths, global ushort* edges) {
+kernel ONE_ITEM void find_edges(global uint* triangles, global const float* depths,
+                                global const uint* triangle_instance,
+                                global const RasterInstanceRecord* instances, global const uint* indices,
+                                global const float4* clip, uint width, uint height,
+                                global uint* pixel_triangles, global float* pixel_depths,
+                                global ushort* edges) {
+  ASSUME_ONE_ITEM;
   const SeenTriangles scene = {triangle_instance, instances, indices, clip};
   const float2 half_size = (float2)(0.5f * (float)width, 0.5f * (float)height);
   const uint pixels = width * height;

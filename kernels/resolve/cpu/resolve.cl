@@ -9,6 +9,7 @@
 // -DOUTPUT_…, -DORTHOGRAPHIC, and what kernels/resolve/resolve.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
+#include "kernels/common/one_item.h"
 #include "kernels/resolve/resolve_block.h"
 #include "kernels/resolve/texel_places.h"
 
@@ -35,8 +36,9 @@ static inline void places_of_samples(size_t* at, const Where* w, uint k) {
 
 #include "kernels/resolve/output.h"
 
-kernel void resolve(global const uint* triangles, global const float* depths,
-                    OUTPUT_ARGUMENTS RESOLVE_ARGUMENTS) {
+kernel ONE_ITEM void resolve(global const uint* triangles, global const float* depths,
+                             OUTPUT_ARGUMENTS RESOLVE_ARGUMENTS) {
+  ASSUME_ONE_ITEM;
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const Output output = GIVEN_OUTPUT;
   const ResolveScene scene = RESOLVE_SCENE;

@@ -11,6 +11,7 @@
 // -DOUTPUT_…, and what edge_surfaces.h and resolve_light.h name
 #define FUSED  // shared/real.h
 #define LANES 16
+#include "kernels/common/one_item.h"
 #include "kernels/resolve/edge_surfaces.h"
 
 typedef struct Where {
@@ -56,8 +57,9 @@ static inline void trace_from_batch(TracedShadows* traced, const EdgeBatch* b, c
 }
 #endif
 
-kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global const float* depths,
-                          global const ushort* edges, OUTPUT_ARGUMENTS RESOLVE_ARGUMENTS) {
+kernel ONE_ITEM void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global const float* depths,
+                                   global const ushort* edges, OUTPUT_ARGUMENTS RESOLVE_ARGUMENTS) {
+  ASSUME_ONE_ITEM;
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1), width = view->width, height = view->height;
   const Output output = GIVEN_OUTPUT;
   const ResolveScene scene = RESOLVE_SCENE;

@@ -16,14 +16,16 @@
 #ifndef TILE
 #define TILE 16
 #endif
+#include "kernels/common/one_item.h"
 #include "kernels/common/pack.h"
 #include "kernels/resolve/stored.h"
 
-kernel void shade_stored(STORED_LIST(PARAMETER) global const float* depth,
-                         SURFACE_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
-                         global const index_t* indices, global const uint* light_bins,
-                         FACTOR_ARGUMENTS constant float* bin_edges, global const ushort* edges,
-                         constant ViewParams* view) {
+kernel ONE_ITEM void shade_stored(STORED_LIST(PARAMETER) global const float* depth,
+                                  SURFACE_NUMBER_ARGUMENTS LIGHT_ARGUMENTS global const uint2* cells,
+                                  global const index_t* indices, global const uint* light_bins,
+                                  FACTOR_ARGUMENTS constant float* bin_edges, global const ushort* edges,
+                                  constant ViewParams* view) {
+  ASSUME_ONE_ITEM;
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
   const uint2 range = cells[tile_y * view->tiles_x + tile_x];
   if (range.y == 0 && !NEEDS_EVERY_PIXEL) return;

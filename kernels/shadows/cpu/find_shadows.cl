@@ -7,6 +7,7 @@
 #include "kernels/common/pack.h"
 #include "kernels/common/fetch.h"
 #include "kernels/common/image_blocks.h"
+#include "kernels/common/one_item.h"
 #include "kernels/shadows/shadow_test.h"
 
 // Stores a block's pixels into an entry of zeros.
@@ -78,7 +79,8 @@ static inline uint receivers_of_tile(Receivers receivers[16], const RayScene* sc
   return used;
 }
 
-kernel void find_shadows(SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
+kernel ONE_ITEM void find_shadows(SHADOW_TEST_ARGUMENTS SHADOW_PASS_ARGUMENTS) {
+  ASSUME_ONE_ITEM;
   const RayScene scene = RAYS_SCENE;
   const uint width = view->width, height = view->height, words_a_tile = shadow_view->words;
   const uint row = (uint)get_global_id(0), rows = (uint)get_global_size(0), tile = FIRST_TILE + row,

@@ -9,6 +9,7 @@
 // -D names of kernels/voxels/voxel_light.h
 #define FUSED  // shared/real.h
 #define LANES 16
+#include "kernels/common/one_item.h"
 #include "kernels/common/pack.h"
 #include "kernels/voxels/voxel_light.h"
 
@@ -86,9 +87,11 @@ static inline void store_samples(real a, real b, real c, real d, global voxel_t*
   STORE_4_VOXELS(side_by_side(a.hi.hi, b.hi.hi, c.hi.hi, d.hi.hi), to + 3 * stride);
 }
 
-kernel void build_voxels(global const float* boxes, global const float* places, global const float4* colors,
-                         global const float8* cones, constant VoxelGrid* grid, constant VoxelSlice* slices,
-                         global voxel_t* irradiance, global voxel_t* directions) {
+kernel ONE_ITEM void build_voxels(global const float* boxes, global const float* places,
+                                  global const float4* colors, global const float8* cones,
+                                  constant VoxelGrid* grid, constant VoxelSlice* slices,
+                                  global voxel_t* irradiance, global voxel_t* directions) {
+  ASSUME_ONE_ITEM;
   const uint x = get_global_id(0) * VOXEL_BRICK_X, y = get_global_id(1) * VOXEL_BRICK_Y,
              z = get_global_id(2) * VOXEL_BRICK_Z;
 #ifdef SPOTS

@@ -32,6 +32,9 @@ bool may_use_every_processor() {
 
 void prepare_environment() {
   if (may_use_every_processor()) setenv("POCL_AFFINITY", "1", 0);
+  // Otherwise PoCL compiles each kernel twice: for work-groups of any size, for the binary that ProgramCache
+  // stores, and for the size of its first launch. Most kernels for CPUs declare theirs (one_item.h).
+  setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
   const char* cache = std::getenv("LIGHTGRID_CL_CACHE");
   if (cache && std::string_view(cache) == "off") setenv("POCL_KERNEL_CACHE", "0", 0);
   // Mesa prints a warning about each device that it cannot use; the program reports what matters itself.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -196,6 +197,24 @@ TEST(Progress, CountsKernelsThatAreCompiledForTheirFirstTime) {
   const auto words = HasSubstr("compiling kernels for this machine, first time only: ");
   EXPECT_THAT(render(), words);
   EXPECT_THAT(render(), testing::Not(words)) << "they are on disk now";
+}
+
+TEST(Environment, PoclCompilesKernelsOnceUnlessTheUserWantsOtherwise) {
+  const auto compiled = [](const std::vector<std::string>& given) {
+    const TempFolder folder;
+    std::vector<std::string> environment = {"XDG_CACHE_HOME=" + folder.path.string(),
+                                            "POCL_CACHE_DIR=" + folder.path.string(),
+                                            "LIGHTGRID_CL_CACHE=", "LIGHTGRID_CL_QUICK_BUILD=all"};
+    environment.insert(environment.end(), given.begin(), given.end());
+    const ProgramRun run =
+        run_program({"render", "spheres", "--size", "64x36", "-o", folder.path / "a.png"}, environment);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return std::ranges::count_if(std::filesystem::recursive_directory_iterator(folder.path),
+                                 [](const auto& entry) { return entry.path().extension() == ".so"; });
+  };
+  const auto once = compiled({});
+  if (once == 0) GTEST_SKIP() << "the device is not PoCL's";
+  EXPECT_GT(compiled({"POCL_WORK_GROUP_SPECIALIZATION=1"}), once);
 }
 
 TEST(CompareCommand, WritesOnePageForSeveralScenesSizesAndLightCounts) {
