@@ -52,7 +52,7 @@ const std::map<std::string, std::vector<Example>>& examples() {
   static const std::map<std::string, std::vector<Example>> all = {
       {"render",
        {{"hall -o hall.png", "a built-in scene"},
-        {"level.glb --shadows 8 --set samples=4 -o level.png", "your file, eight lights cast shadows"},
+        {"level.glb --look -o level.png", "your file, with shadows, smooth edges and a filmic curve"},
         {"hall -t visibility --frames 30", "the time of a frame"}}},
       {"compare",
        {{"level.glb", "three techniques: picture, time and error of each"},

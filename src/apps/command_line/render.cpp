@@ -11,6 +11,7 @@
 #include "base/log.h"
 #include "base/timer.h"
 #include "command_line/commands.h"
+#include "command_line/look.h"
 #include "command_line/options.h"
 #include "compare/contestants.h"
 #include "measures/path_changes.h"
@@ -28,6 +29,7 @@ struct RenderOptions {
   SceneChoice scene;
   DeviceOptions devices;
   TimingOptions timing{.frames = 1, .warmup = 0};
+  LookOptions look;
   std::string technique, output = "out.png", json;
 };
 
@@ -49,8 +51,8 @@ int render_path(const RenderOptions& o, TechniqueRun& run, GpuScene& gpu, const 
     run.look(path[i], changes);
     run.run_frame();
     plans.add(run.view().plan);
-    if (i == 0) tell_exposure(exposure = chosen_exposure(o.scene, run.image()));
-    save_image(numbered(o.output, i), run.image(), exposure);
+    if (i == 0) tell_exposure(exposure = exposure_of_look(o.look, o.scene, run.image()));
+    save_displayed(numbered(o.output, i), run.image(), chosen_display(o.look, exposure));
   }
   if (!o.json.empty()) {
     run.run_profiled_frames();
@@ -64,6 +66,9 @@ int render_path(const RenderOptions& o, TechniqueRun& run, GpuScene& gpu, const 
 
 int render(RenderOptions o) {
   take_own_settings(o.technique, o.scene.set);  // reports an unknown name before the scene is loaded
+  if (o.look.look && o.technique.empty())
+    o.technique = "visibility";  // it draws shadows with several samples
+  if (!o.technique.empty()) choose_look(o.look, {&find_technique(o.technique)}, o.scene);
   const Settings settings = chosen_settings(o.scene);
   if (!o.technique.empty()) check_given_settings(settings, {{&find_technique(o.technique), settings}});
   check_image_path(o.output);
@@ -85,10 +90,10 @@ int render(RenderOptions o) {
   if (!path.empty()) return render_path(o, run, gpu, path, advance);
   for (int i = 0; i < o.timing.warmup; ++i) run.run_frame(true);
   for (int i = 0; i < o.timing.frames; ++i) run.run_frame();
-  const Exposure exposure = chosen_exposure(o.scene, run.image());
+  const Exposure exposure = exposure_of_look(o.look, o.scene, run.image());
   tell_exposure(exposure);
   run.release();  // for the file's encoder
-  save_image(o.output, run.image(), exposure);
+  save_displayed(o.output, run.image(), chosen_display(o.look, exposure));
   if (o.timing.frames > 1) {
     const double ms = spread_of(run.frame_ms()).median;
     log_info("a frame takes {} ms: {} frames a second (median of {})", short_number(ms),
@@ -115,6 +120,8 @@ void add_render(CommandLine& line) {
   add_scene_options(command, o->scene);
   add_path_option(command, o->scene);
   add_exposure_option(command, o->scene);
+  add_curve_option(command, o->look);
+  add_glow_option(command, o->look);
   add_device_options(command, o->devices);
   add_timing_options(command, o->timing);
   add_technique_option(command, o->technique, technique_names());

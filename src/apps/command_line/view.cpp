@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "command_line/commands.h"
+#include "command_line/look.h"
 #include "command_line/options.h"
 #include "scenes/builtin.h"
 #include "techniques/technique.h"
@@ -19,6 +20,7 @@ struct ViewOptions {
   SceneChoice scene;
   std::string device, left, right, script, screenshot;
   int frames = 0;  // 0: not given
+  LookOptions look;
 };
 
 #ifdef LIGHTGRID_VIEW
@@ -38,6 +40,8 @@ std::string scene_words(const ViewOptions& o) {
   if (((s.lights >= 0 && s.lights_file.empty()) || s.virtual_lights > 0) && s.seed != SceneChoice().seed)
     words += fmt::format(" --seed {}", s.seed);
   if (!s.exposure.empty()) words += " --exposure " + s.exposure;
+  if (o.look.look) words += " --look";
+  if (!o.look.curve.empty()) words += " --curve " + o.look.curve;
   if (!o.device.empty()) words += " --device " + shell_word(o.device);
   return words;
 }
@@ -62,7 +66,8 @@ ViewJob make_job(const ViewOptions& o) {
   job.seconds = chosen_time(o.scene);
   job.scene_words = scene_words(o);
   job.camera = o.scene.camera;
-  job.expose = [choice = o.scene](const Image& image) { return chosen_exposure(choice, image); };
+  job.filmic = chosen_display(o.look).curve == DisplayCurve::filmic;
+  job.expose = [o](const Image& image) { return exposure_of_look(o.look, o.scene, image); };
   return job;
 }
 
@@ -88,11 +93,11 @@ ViewJob load_other(ViewOptions o, const std::string& scene) {
   return job;
 }
 
-int view(const ViewOptions& o) {
+int view(ViewOptions o) {
   for (const std::string& technique : {o.left, o.right}) {
     if (!technique.empty()) find_technique(technique);
   }
-  const Settings settings = chosen_settings(o.scene);
+  chosen_settings(o.scene);  // reports a fault before the window is opened
   ViewJob job = make_job(o);
   const ImageSize size = parse_size(o.scene.size);
   Window window(size.width + panel_width, size.height, "lightgrid: " + o.scene.scene, !job.scripted);
@@ -101,6 +106,12 @@ int view(const ViewOptions& o) {
   interface.announce("loading " + o.scene.scene);
   // Where OpenGL is in software, forward_plus takes many times as long.
   const char* beside = context->software ? "visibility" : "forward_plus";
+  choose_look(o.look,
+              {&find_technique(o.left.empty() ? "visibility" : o.left),
+               &find_technique(o.right.empty() ? beside : o.right)},
+              o.scene);
+  job.controls.casters = o.scene.shadows;
+  const Settings settings = chosen_settings(o.scene);
   job.controls.sides = {{{o.left.empty() ? "visibility" : find_technique(o.left).name, settings},
                          {o.right.empty() ? beside : find_technique(o.right).name, settings}}};
   const auto& [left, right] = job.controls.sides;
@@ -121,7 +132,7 @@ int view(const ViewOptions& o) {
 
 #else
 
-int view(const ViewOptions&) {
+int view(ViewOptions) {
   throw machine_error(
       "view: built without a window; with Debian's libglfw3-dev and libimgui-dev installed, configure and "
       "build again");
@@ -137,6 +148,7 @@ void add_view(CommandLine& line) {
                                 [o] { return view(*o); });
   add_scene_options(command, o->scene);
   add_exposure_option(command, o->scene);
+  add_curve_option(command, o->look);
   command.option("--light-motion", o->scene.light_motion, "lights that move: none, orbit or drift");
   command.option("--device", o->device, "OpenCL device, by a part of its name");
   command.option("--left", o->left, "technique of the left side (visibility)");

@@ -42,6 +42,7 @@ void Screen::draw(const ScreenImage& left, const ScreenImage& right, double line
   glUniform2f(program.uniform("size"), float(drawn.width), float(drawn.height));
   glUniform1f(program.uniform("line"), float(line * drawn.width));
   glUniform1f(program.uniform("exposure"), exposure);
+  glUniform1i(program.uniform("filmic"), filmic);
   glUniform1f(program.uniform("map_opacity"), map_opacity);
   glUniform1i(program.uniform("mapped_left"), left.is_map);
   glUniform1i(program.uniform("mapped_right"), right.is_map);

@@ -29,7 +29,8 @@ class Screen {
 
   void save(const std::filesystem::path& path);  // the last frame as a PNG
 
-  float exposure = 1;  // pictures are multiplied by it before the tone map; maps are not
+  float exposure = 1;   // pictures are multiplied by it before the tone map; maps are not
+  bool filmic = false;  // pictures have the filmic curve (base/display.h)
 
  private:
   Renderer& renderer_;

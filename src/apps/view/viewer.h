@@ -31,6 +31,7 @@ struct ViewJob {
   Controls controls;              // initial values
   std::function<std::unique_ptr<VirtualLights>(Scene&)> reflect;  // null ones: none were chosen
   std::function<Exposure(const Image&)> expose;  // exposure of the scene's pictures, by its first one
+  bool filmic = false;                           // pictures have the filmic curve (base/display.h)
 
   bool scripted = false;  // no user: ends after `frames`, in steps of a sixtieth of a second
   Script script{"", ""};

@@ -169,6 +169,7 @@ void Viewer::expose() {
     if (exposure.ev != 0) tell(fmt::format("pictures are exposed by {:+g} EV (--exposure)", exposure.ev));
   }
   screen_.exposure = exposure.scale();
+  screen_.filmic = job_.filmic;
 }
 
 void Viewer::show(const Shown& shown) {

@@ -23,7 +23,7 @@ struct Image {
   const glm::vec4& at(int x, int y) const { return pixels[size_t(y) * width + x]; }
 };
 
-// The only tone map of this project: Khronos PBR Neutral (Khronos Group 2024). It subtracts the 0.04 that a
+// The tone map of measured pictures: Khronos PBR Neutral (Khronos Group 2024). It subtracts the 0.04 that a
 // dielectric reflects, keeps base colours below 0.8 and compresses brighter ones towards white. Input:
 // linear, scene-referred. Output: linear in [0, 1]; negative gives 0, infinity white, NaN stays NaN.
 glm::vec3 tone_map_neutral(glm::vec3 linear);
@@ -74,6 +74,7 @@ void save_exr(const std::filesystem::path& path, int width, int height,
 // of at most 16 channels of 32 bits.
 std::vector<ExrChannel> load_exr(const std::filesystem::path& path, int width, int height);
 
+bool is_exr(const std::filesystem::path& path);  // by its extension
 // Throws Error(input) unless the extension is .png or .exr; call it before long work.
 void check_image_path(const std::filesystem::path& path);
 

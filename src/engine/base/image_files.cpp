@@ -281,6 +281,8 @@ void check_image_path(const std::filesystem::path& path) {
   }
 }
 
+bool is_exr(const std::filesystem::path& path) { return extension_of(path) == ".exr"; }
+
 void save_image(const std::filesystem::path& path, const Image& image, const Exposure& exposure) {
   check_image_path(path);
   extension_of(path) == ".png" ? save_png(path, image, exposure) : save_exr(path, image);

@@ -98,6 +98,12 @@ void tell_endless_lights(const Scene& scene, const SceneChoice& choice) {
   log_warning_line(line + "; " + effects, {"range=cutoff", setting(help[0])});
 }
 
+void replace_ambient_by_sky(Scene& scene) {
+  if (scene.environment || scene.ambient == glm::vec3(0)) return;
+  scene.environment = make_environment(sky_of_mean(glm::dvec3(scene.ambient)));
+  scene.ambient = glm::vec3(0);
+}
+
 VirtualLightSettings virtual_settings(const SceneChoice& choice) {
   VirtualLightSettings s{.count = choice.virtual_lights, .seed = choice.seed};
   for (const auto& [name, text] :
@@ -333,7 +339,9 @@ View choose_view(Scene& scene, const SceneChoice& choice) {
     scene.lights = std::move(added.lights);
     scene.ambient = added.ambient;
   }
-  if (!choice.environment.empty()) {
+  if (choice.environment == "sky:ambient") {
+    replace_ambient_by_sky(scene);
+  } else if (!choice.environment.empty()) {
     scene.environment = parse_environment(choice.environment);
     if (scene.environment) scene.ambient = glm::vec3(0);
   }

@@ -126,6 +126,12 @@ RadianceMap sky_gradient(const dvec3& zenith, const dvec3& horizon, const dvec3&
   return map;
 }
 
+// The gradient's mean is zenith / 3 + horizon * 11 / 48 + ground * 7 / 16.
+RadianceMap sky_of_mean(const dvec3& mean) {
+  constexpr double zenith = 0.9, horizon = 1.8, ground = (1 - zenith / 3 - horizon * 11 / 48) * 16 / 7;
+  return sky_gradient(zenith * mean, horizon * mean, ground * mean);
+}
+
 dvec3 direction_of_texel(const RadianceMap& map, int column, int row) {
   const double polar = pi * (row + 0.5) / map.height, longitude = 2 * pi * (column + 0.5) / map.width - pi;
   return {std::sin(polar) * std::cos(longitude), std::cos(polar), std::sin(polar) * std::sin(longitude)};

@@ -27,6 +27,9 @@ RadianceMap read_radiance_map(const std::filesystem::path& path);
 // A gradient from the zenith over the horizon to the ground.
 RadianceMap sky_gradient(const glm::dvec3& zenith, const glm::dvec3& horizon, const glm::dvec3& ground);
 
+// The gradient whose mean over all directions is `mean`.
+RadianceMap sky_of_mean(const glm::dvec3& mean);
+
 glm::dvec3 direction_of_texel(const RadianceMap& map, int column, int row);  // of its middle, unit
 // Radiance from a unit direction of the world.
 glm::dvec3 radiance_at(const RadianceMap& map, const glm::dvec3& direction);
