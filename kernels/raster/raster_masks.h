@@ -36,7 +36,7 @@ typedef struct MaskSource {
 } MaskSource;
 
 #ifdef ALPHA_MASKS
-#include "kernels/resolve/surface_alpha.h"
+#include "kernels/common/surface_alpha.h"
 
 // A triangle with such a material, seen from the block of 4 x 4 pixels whose first one is (x, y).
 typedef struct MaskedTriangle {

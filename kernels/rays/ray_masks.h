@@ -6,7 +6,7 @@
 // -DRAYS_VEILS  some is blended
 #pragma once
 
-#include "kernels/resolve/surface_alpha.h"
+#include "kernels/common/surface_alpha.h"
 
 typedef struct RayMasks {
   global const uint4* of_place;  // material, and vertices of the corners, a triangle in the tree's order

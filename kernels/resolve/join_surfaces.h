@@ -12,7 +12,7 @@
 #pragma once
 
 #include "kernels/resolve/samples.h"
-#include "kernels/resolve/surface_attributes.h"
+#include "kernels/common/surface_attributes.h"
 #include "shared/raster_instance.h"
 
 // The rasteriser's data by triangle number.

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "kernels/common/lists.h"
-#include "kernels/resolve/surface_attributes.h"
+#include "kernels/common/surface_attributes.h"
 #include "kernels/resolve/surface_texture.h"
 #include "shared/raster_instance.h"
 #include "shared/real.h"

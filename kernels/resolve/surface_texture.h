@@ -1,11 +1,11 @@
 // Filtered textures in OpenCL C, for LANES pixels that share a material: texels of 16 or 8 bits a channel,
-// weighted as kernels/resolve/texture_footprint.h finds them.
+// weighted as kernels/common/texture_footprint.h finds them.
 //
 // -DSMALL_TEXELS  packed texels have 8 bits a channel, not 16, and of base colours their square roots
 #pragma once
 
 #include "kernels/common/image_blocks.h"
-#include "kernels/resolve/texture_footprint.h"
+#include "kernels/common/texture_footprint.h"
 
 #define TEXEL_STEP (1.0f / 65535.0f)
 

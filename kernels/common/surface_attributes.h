@@ -8,7 +8,7 @@
 // bit.
 #pragma once
 
-#include "kernels/resolve/texture_footprint.h"
+#include "kernels/common/texture_footprint.h"
 
 // A triangle seen from a block: edge function i at (dx, dy) from the block's first pixel centre is
 // right[i] * dx + up[i] * dy + here[i], and member 3 is the sum of the three.

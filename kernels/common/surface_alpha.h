@@ -1,7 +1,7 @@
 // Which pixels of a triangle a masked material shows: the rasteriser's side of the textures.
 #pragma once
 
-#include "kernels/resolve/surface_attributes.h"
+#include "kernels/common/surface_attributes.h"
 
 static inline whole gathered(global const uint* from, whole at) {
 #if LANES == 1
