@@ -23,7 +23,7 @@ addEventListener("load", async () => {
       text: get("chosen").textContent };
   };
 
-  const seen = { title: document.title, paragraph: get("paragraph").textContent, marks: marks(), axes: axes(), band: document.querySelector("#front .band")?.getBBox().width ?? 0,
+  const seen = { title: document.title, paragraph: get("paragraph").textContent, verdict: get("verdict").textContent, names: document.querySelectorAll("#front .point-name").length, marks: marks(), axes: axes(), band: document.querySelector("#front .band")?.getBBox().width ?? 0,
     step: document.querySelector("#front .step").getAttribute("points"), first: await chosen() };
   seen.within = [...get("within").querySelectorAll("tbody tr")].map((line) => [...line.cells].map((cell) => [...cell.children].map((part) => part.textContent).join("|") || cell.textContent));
   seen.failures = [...get("failures").querySelectorAll("tbody tr")].map((line) => [...line.cells].map((cell) => cell.textContent));

@@ -75,6 +75,12 @@ void expect_front(const json& seen, const FrontierAnswer& answer) {
   EXPECT_THAT(texts(seen["loaded"]), IsEmpty()) << "the page is one file";
   EXPECT_EQ(seen["title"], "hall, terrain \u2013 lightgrid frontier");
   EXPECT_THAT(seen["paragraph"].get<std::string>(), HasSubstr(answer.sentences[0]));
+  EXPECT_THAT(
+      seen["verdict"].get<std::string>(),
+      testing::AllOf(testing::StartsWith("In hall, "),
+                     HasSubstr(" is the fastest setting without a visible difference (FLIP at most 0.001): "),
+                     HasSubstr(" times the time of forward_plus")));
+  EXPECT_EQ(seen["names"], 3) << "each point of the front has a name or a number";
   EXPECT_EQ(seen["unlabelled"], 0);
 
   // All points of hall but the one of NaN; the script's front is the answer's.

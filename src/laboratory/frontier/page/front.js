@@ -33,17 +33,56 @@ function bandElement({ scene, reference, x }, xAxis, yAxis, area) {
 }
 
 // A point of the front over other views: 95 % intervals in both directions, and the share of draws in which it is on the front.
-function overViewsElements({ point, at: [x, y] }, { reference, x: { clock } }, xAxis, yAxis, area) {
+function overViewsElements({ point, at: [x, y] }, { reference, x: { clock } }, xAxis, yAxis, area, withShare) {
   const within = (place, a, b) => Math.min(Math.max(place, Math.min(a, b)), Math.max(a, b));
   const [low, high] = clock.relative(point).views_ci95 ?? [null, null], [least, most] = point.error.over_views_ci95?.[reference]?.displayed_flip ?? [null, null];
   const share = frontOverViews(point, reference);
   return [...(low === null ? [] : [make("line", { class: "over-views", x1: within(xAxis.at(low), area.left, area.right), x2: within(xAxis.at(high), area.left, area.right), y1: y, y2: y })]),
     ...(least === null ? [] : [make("line", { class: "over-views", x1: x, x2: x, y1: within(yAxis.at(least), area.top, area.bottom), y2: within(yAxis.at(most), area.top, area.bottom) })]),
-    ...(share === null ? [] : [make("text", { class: "share", x: x + 8, y: y - 8 }, `${Math.round(100 * share)} %`)])];
+    ...(share === null || !withShare ? [] : [make("text", { class: "share", x: x + 8, y: y - 8 }, `${Math.round(100 * share)} %`)])];
 }
 
 const floorElements = (at, text, { left, right }) => [make("line", { class: "floor", x1: left, x2: right, y1: at, y2: at }),
   make("text", { x: right - 4, y: at - 5, "text-anchor": "end" }, `surfaces of the two rasterizers differ by ${text}`)];
+
+const NARROW = 640;  // pixels of width below which points of the front have numbers instead of names
+
+// Short: without the technique if all points of the front share it, and without settings that others imply.
+function frontName(label, shared) {
+  const [technique, settings] = [label.split(":")[0], label.split(":").slice(1).join(":")];
+  const short = settings.replace(/^range=cutoff,(?=.*cutoff=)/, "").replaceAll(",", ", ");
+  return shared ? short || "default settings" : short ? `${technique}: ${short}` : technique;
+}
+
+const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+const boxAround = ([x, y], half) => ({ left: x - half, right: x + half, top: y - half, bottom: y + half });
+
+// Boxes of the front's lines.
+const stepBoxes = (steps) => steps.slice(1).map((at, i) => ({ left: Math.min(at[0], steps[i][0]) - 1, right: Math.max(at[0], steps[i][0]) + 1,
+  top: Math.min(at[1], steps[i][1]) - 1, bottom: Math.max(at[1], steps[i][1]) + 1 }));
+
+// Names beside the points of the front where nothing of `taken` is; the other points get a number. Returns the texts and the numbered points.
+function nameFront(front, marks, taken, area, narrow) {
+  const texts = [], numbered = [];
+  taken.push(...marks.map(({ at }) => boxAround(at, 5)));
+  const shared = front.every(({ point }) => point.technique === front[0].point.technique);
+  const place = (text, [x, y]) => {
+    const width = 6.4 * text.length;
+    const spots = [[x + 10, y + 4], [x + 10, y + 17], [x - 10 - width, y + 4], [x - 10 - width, y + 17], [x - 10 - width, y - 9], [x + 10, y - 22], [x + 10, y + 30], [x - 10 - width, y - 22]];
+    const boxes = spots.map(([left, base]) => ({ left, right: left + width, top: base - 11, bottom: base + 3 }));
+    const i = boxes.findIndex((box) => box.left >= area.left && box.right <= area.right && box.top >= area.top - 14 && box.bottom <= area.bottom && !taken.some((other) => overlap(box, other)));
+    if (i < 0) return false;
+    taken.push(boxes[i]);
+    texts.push(make("text", { class: "point-name", x: spots[i][0], y: spots[i][1] }, text));
+    return true;
+  };
+  for (const { point, at } of front) {
+    if (!narrow && place(frontName(point.label, shared), at)) continue;
+    numbered.push(point);
+    place(String(numbered.length), at);
+  }
+  return { texts, numbered };
+}
 
 // state: { points, x, y, reference, hidden: set of techniques, selected: point }; choose(point) is called at a click. Returns a function that
 // draws the state.
@@ -116,10 +155,14 @@ function startFront(container, state, choose) {
     }
     const inFront = [...shown].sort((a, b) => a.onFront - b.onFront);
     const names = page.techniques.filter((technique) => placed.some((point) => point.technique === technique));
+    const narrow = width < NARROW, withViews = banded && x.key.startsWith("relative");
+    const shares = withViews && !narrow ? front.filter(({ point }) => frontOverViews(point, state.reference) !== null)
+      .map(({ at: [markX, markY] }) => ({ left: markX + 8, right: markX + 36, top: markY - 19, bottom: markY - 8 })) : [];
+    const { texts, numbered } = nameFront(front, shown, [...shares, ...stepBoxes(steps)], area, narrow);
     const svg = drawing(width, height, `${y.title} against ${x.title}`, ...acrossAxis(xAxis, x.title, area), ...alongAxis(yAxis, y.title, area),
       ...(banded ? [bandElement(state, xAxis, yAxis, area)] : []), polyline(steps, { class: "step" }),
-      ...(banded && x.key.startsWith("relative") ? front.flatMap((entry) => overViewsElements(entry, state, xAxis, yAxis, area)) : []),
-      ...(parted ? floorElements(yAxis.at(floor), y.text(floor), area) : []), ...inFront.map(({ element }) => element),
+      ...(withViews ? front.flatMap((entry) => overViewsElements(entry, state, xAxis, yAxis, area, !narrow)) : []),
+      ...(parted ? floorElements(yAxis.at(floor), y.text(floor), area) : []), ...inFront.map(({ element }) => element), ...texts,
       ...shown.filter(({ point }) => x.time && (x.clock ?? WALL).relative(point).modes.length).map(({ at }) => make("text", { class: "modes", x: at[0] + 7, y: at[1] - 5 }, "2")),
       make("g", { class: "only-file" }, ...markedNames(names.map((technique) => ({ technique, text: technique })), left, height + 12, 3, width - left)));
     svg.dataset.fileHeight = height + 20 * Math.ceil(names.length / 3) + 10;
@@ -127,6 +170,6 @@ function startFront(container, state, choose) {
     const before = hovered?.point;
     hovered = undefined;
     hover(shown.find(({ point }) => point === before) ?? null);
-    return { shown: shown.length, missing: state.points.length - placed.length, floor, parted };
+    return { shown: shown.length, missing: state.points.length - placed.length, floor, parted, numbered };
   };
 }

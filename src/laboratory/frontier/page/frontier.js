@@ -44,6 +44,19 @@ function showBestWithin() {
   byId("within").closest("section").hidden = errors.length === 0;
 }
 
+// Errors of the answer's sentence, from the largest.
+const ANSWERS = [[0.05, "whose difference is hard to see"], [0.001, "without a visible difference"]];
+
+function showVerdict() {
+  const found = ANSWERS.map(([flip, words]) => ({ flip, words,
+    best: state.clock.within.find((best) => best.of === state.reference && best.scene === state.scene && best.flip === flip) })).filter(({ best }) => best);
+  const same = found.length === 2 && found[0].best.point === found[1].best.point;
+  const parts = (same ? found.slice(1) : found).flatMap(({ flip, words, best }, i) => [i ? "; " : "", nameElement(page.points[best.point].label),
+    ` is the fastest setting ${words} (FLIP at most ${flip}): ${threeDigits(best.relative_time.median ?? best.relative_time.estimate)} times the time of ${page.baseline}`]);
+  byId("verdict").replaceChildren(`In ${sceneTitle(state.scene)}, `, ...parts, same ? `; none within a FLIP of ${found[0].flip} is faster.` : ".");
+  byId("verdict").hidden = parts.length === 0;
+}
+
 // The point of a step of a family of lights: "visibility, 1,000 lights, 9.98 at a pixel".
 const withoutStep = (label) => label.replace(/, [\d,]+ lights, \S+ at a pixel$/, "");
 
@@ -214,7 +227,9 @@ function showTechniques() {
 
 function redraw() {
   if (!drawFront) return;
-  const { shown, missing, floor, parted } = drawFront();
+  const { shown, missing, floor, parted, numbered } = drawFront();
+  byId("front-names").replaceChildren(...numbered.map((point) => make("li", {}, pointButton(point, nameElement(point.label)),
+    ` (${state.x.text(state.x.value(point))}; ${state.y.text(state.y.value(point))})`)));
   byId("front-notes").textContent = [`${wholeNumber(shown)} points.`,
     missing > 0 && `${wholeNumber(missing)} are not shown: hidden, or without such a figure.`,
     floor !== null && `In this measure the surfaces of OpenGL and of the rasterizer in OpenCL differ by ${state.y.text(floor)}${parted ? " (dashed line): errors below it do not compare points of one kind with points of the other" : ", less than any error here"}.`].filter(Boolean).join(" ");
@@ -250,6 +265,7 @@ function chooseScene(key) {
   byId("paragraph").textContent = opening.join(" ");
   byId("notes").replaceChildren(...notes.map((line) => make("li", {}, line)));
   state.points = page.points.filter((point) => point.scene === key);
+  showVerdict();
   showTechniques();
   showFigures();
   showAmong(key);
@@ -272,6 +288,7 @@ function startChoices() {
       state[axis] = quantity(select.value);
       if (!state.x.clock || state.x.clock === state.clock) return redraw();
       state.clock = state.x.clock;  // that fronts are of, also while the axis shows no clock's time
+      showVerdict();
       showFigures();
       showCosts(state.scene);
       choosePoint(state.selected);
