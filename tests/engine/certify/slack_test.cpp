@@ -132,6 +132,12 @@ TEST(CertifySlack, Cones) {
   EXPECT_LT(std::sqrt(3.0) * coordinate_error + box_slope_error, given - 8 * u);  // S
 }
 
+// Uploads grow radii for a matrix that stretches by MAX_STRETCH: none that is accepted stretches more.
+TEST(CertifySlack, AcceptedMatrices) {
+  EXPECT_LE(accepted_stretch(), double(MAX_STRETCH));
+  EXPECT_GT(accepted_stretch(), double(MAX_STRETCH) * 0.9999);
+}
+
 // The host's side_slack covers the offset's part of a side twice, as shaded; with a tenth less it does not.
 TEST(CertifySlack, SideSlack) {
   for (const bool orthographic : {false, true}) EXPECT_NEAR(host_side_slack(orthographic) / u, 12, 1e-5);
