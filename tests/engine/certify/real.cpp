@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace lightgrid::certify {
 namespace {
@@ -79,22 +80,28 @@ bool Recorder::compare(int a, char op, int b) {
     planted = true;
   }
   comparisons = std::max(comparisons, comparisons_);
-  for (const Choice& c : path_.choices)
-    if (c.a == a && c.op == op && c.b == b) return c.taken;
-  const size_t at = path_.choices.size();
-  if (at >= outcomes_.size()) outcomes_.push_back(false);
-  path_.choices.push_back({a, op, b, outcomes_[at]});
-  return outcomes_[at];
+  Choice choice{a, op, b, false};
+  if (const std::optional<bool> decided = decide ? decide(choice) : std::nullopt) {
+    choice.taken = *decided;
+  } else {
+    for (const Choice& c : path_.choices)
+      if (c.a == a && c.op == op && c.b == b) return c.taken;
+    if (taken_ == outcomes_.size()) outcomes_.push_back(false);
+    choice.taken = outcomes_[taken_++];
+  }
+  path_.choices.push_back(choice);
+  return choice.taken;
 }
 
 void Recorder::begin() {
   path_ = {};
   known_.clear();
   operations_ = comparisons_ = 0;
+  taken_ = 0;
 }
 
 bool Recorder::next() {
-  outcomes_.resize(path_.choices.size());
+  outcomes_.resize(taken_);
   while (!outcomes_.empty() && outcomes_.back()) outcomes_.pop_back();
   if (outcomes_.empty()) return false;
   outcomes_.back() = true;
@@ -113,10 +120,12 @@ static bool has_effect(const Path& path) {
   return used[size_t(path.faulty)];
 }
 
-std::vector<Path> paths_of(const Kernel& kernel, const Fault& fault) {
+std::vector<Path> paths_of(const Kernel& kernel, const Fault& fault, const Recorder::Decide& decide) {
   std::vector<Path> paths;
   recorder = Recorder(fault);
+  recorder.decide = decide;
   do {
+    if (paths.size() == 1000) throw std::runtime_error("more paths than the kernel has");  // faulty loops
     recorder.begin();
     std::vector<int> results;
     for (const Real r : kernel()) results.push_back(r.id);
@@ -129,6 +138,7 @@ std::vector<Path> paths_of(const Kernel& kernel, const Fault& fault) {
 
 std::vector<long double> exact_values(const Path& path, const Inputs& inputs) {
   std::vector<long double> values;
+  values.reserve(path.nodes.size());
   for (const Node& n : path.nodes) {
     if (n.op == 'c')
       values.push_back(n.value);

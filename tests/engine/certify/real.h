@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -57,6 +58,9 @@ class Recorder {
   const Node& node(int id) const { return path_.nodes[size_t(id)]; }
   void begin();
   bool next();  // the next path; false after the last one
+  // The outcome of a comparison that takes one only: no theorem needs the other, or another run has it.
+  using Decide = std::function<std::optional<bool>(const Choice&)>;
+  Decide decide = nullptr;
   Path& path() { return path_; }
   bool observed = true;  // false: what is recorded is no part of the kernel and gets no fault
   bool planted = false;  // the fault changes a result or a comparison
@@ -68,7 +72,8 @@ class Recorder {
   int operations_ = 0, comparisons_ = 0;
   Path path_;
   std::map<std::tuple<char, int, int, double, std::string>, int> known_;
-  std::vector<bool> outcomes_;
+  std::vector<bool> outcomes_;  // of comparisons that take both
+  size_t taken_ = 0;            // likewise
 };
 inline Recorder recorder;
 
@@ -115,7 +120,8 @@ inline void give_sign(Real x, int sign) { recorder.path().signs[x.id] = sign; }
 
 // Every path of a function from inputs to results.
 using Kernel = std::function<std::vector<Real>()>;
-std::vector<Path> paths_of(const Kernel& kernel, const Fault& fault = {});
+std::vector<Path> paths_of(const Kernel& kernel, const Fault& fault = {},
+                           const Recorder::Decide& decide = nullptr);
 
 // The exact value of each node, without roundings; and whether the inputs take the path.
 using Inputs = std::map<std::string, long double>;

@@ -83,6 +83,24 @@ std::string prove_planes(const Fault& fault) {
   return exceeds("planes", needed, radius(fault));
 }
 
+// exact: a step's bound is f - (2 W - Z) Z - E^2 with W = |g| + E and E = SLACK A bend, where A = |x| + |y| + |d| + r. h is
+// the distance along the axis to the nearest section of the cell, which has f <= needed^2. f is convex, so
+// f(t) <= needed^2 + 2 |G| h - h^2, and a step of any h <= Z lowers the bound by no more than Z does. The distance to the
+// cell's end rounds by u. W exceeds |G| by E, less g's error and its own rounding. With V <= A bend for the sum of the
+// sizes of g's terms (bound_by_definition), the computed bound is below needed^2 if E covers g's error and the rounding of
+// both falls.
+std::string prove_exact(const Polynomial& needed, const Fault& fault) {
+  const double falls = section_f_error + bound_fall_error + u;  // of 2 V h
+  const double moved = falls + section_g_error + u;             // of V
+  const std::string e = exceeds("exact: g", second_order * moved, constant_of(double(SLACK), fault));
+  if (!e.empty()) return e;
+  // f and the two subtractions round, and r^2.
+  return exceeds("exact", needed * Polynomial(1 + second_order * (section_f_error + 3 * u) / 2),
+                 radius(fault));
+}
+
+TEST(CertifySlack, Exact) { EXPECT_EQ(prove_exact(from_box(), {}), ""); }
+TEST(CertifySlack, ExactAsShaded) { EXPECT_EQ(prove_exact(as_shaded(), {}), ""); }
 TEST(CertifySlack, Box) { EXPECT_EQ(prove_box(from_box(), {}), ""); }
 TEST(CertifySlack, BoxAsShaded) { EXPECT_EQ(prove_box(as_shaded(), {}), ""); }
 TEST(CertifySlack, Sphere) { EXPECT_EQ(prove_sphere(from_box(), {}), ""); }
@@ -96,6 +114,8 @@ TEST(CertifySlack, LeastSlack) {
   EXPECT_NEAR(least([](const Fault& f) { return prove_box(from_box(), f); }), 14.4, 0.1);
   EXPECT_NEAR(least([](const Fault& f) { return prove_sphere(from_box(), f); }), 15.4, 0.1);
   EXPECT_NEAR(least([](const Fault& f) { return prove_box(as_shaded(), f); }), 22.4, 0.1);
+  EXPECT_NEAR(least([](const Fault& f) { return prove_exact(from_box(), f); }), 14.4, 0.1);
+  EXPECT_NEAR(least([](const Fault& f) { return prove_exact(as_shaded(), f); }), 22.4, 0.1);
 }
 
 // cones: of the middle's distance V from the apex, of the middle m, and of S, each against 2 SLACK. The axis is a unit vector
@@ -110,6 +130,12 @@ TEST(CertifySlack, Cones) {
             given - 8 * u);                                              // the sum of the reach rounds, too
   EXPECT_LT((std::sqrt(3.0) + 1) * u + box_slope_error, given - 8 * u);  // m
   EXPECT_LT(std::sqrt(3.0) * coordinate_error + box_slope_error, given - 8 * u);  // S
+}
+
+// Uploads grow radii for a matrix that stretches by MAX_STRETCH: none that is accepted stretches more.
+TEST(CertifySlack, AcceptedMatrices) {
+  EXPECT_LE(accepted_stretch(), double(MAX_STRETCH));
+  EXPECT_GT(accepted_stretch(), double(MAX_STRETCH) * 0.9999);
 }
 
 // The host's side_slack covers the offset's part of a side twice, as shaded; with a tenth less it does not.

@@ -14,7 +14,7 @@ namespace lightgrid::certify {
 std::string meaning_differs(const std::vector<Path>& paths, const Meaning& meaning) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> any(meaning.low, meaning.high);
-  for (int sample = 0; sample < 300; ++sample) {
+  for (int sample = 0; sample < meaning.samples; ++sample) {
     Inputs in;
     do
       for (const std::string& name : meaning.inputs) in[name] = any(random);

@@ -16,7 +16,9 @@ constexpr double coordinate_error = 6.00001 * u;  // view_sphere, of the distanc
 constexpr double box_slope_error = 4.00002 * u, box_offset_error = 5.00002 * u;  // a box's side
 constexpr double distance_error = 5.00001 * u;                                   // a squared distance
 constexpr double sphere_error = 5.0001 * u, sphere_middle_error = 2.0001 * u, half_error = 4.5001 * u;
-constexpr double axis_error = 5.0001 * u, length_error = 3.5001 * u;  // of a cone
+constexpr double axis_error = 5.0001 * u, length_error = 3.5001 * u;          // of a cone
+constexpr double section_f_error = 5.0001 * u, section_g_error = 5.0001 * u;  // of the exact test
+constexpr double bound_fall_error = 2.0001 * u;
 constexpr double along_error = 4.0001 * u, across_error = 3.0001 * u;
 
 // Whether the exact values of the results, without roundings, are those of `meaning`, at many random inputs: each
@@ -28,6 +30,7 @@ struct Meaning {
   std::function<bool(Inputs&)> adjust = [](Inputs&) { return true; };  // false: other inputs
   double low = -2, high = 2;
   long double tolerance = 1e-12L;
+  int samples = 300;
 };
 std::string meaning_differs(const std::vector<Path>& paths, const Meaning& meaning);
 
