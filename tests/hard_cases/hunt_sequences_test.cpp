@@ -9,6 +9,7 @@
 #include "hard_cases/library_engine.h"
 #include "support/gltf_pointers.h"
 #include "support/long_tests.h"
+#include "verify/check.h"
 #include "verify/hunt_sequences.h"
 #include "verify/hunt_shadows.h"
 #include "verify/run.h"
@@ -78,7 +79,7 @@ SequenceReport sequences_of(CullEngine& engine, const SequenceKind& kind, uint64
   for (uint64_t seed = 1; seed <= scenes && sum.stale == 0; ++seed) {
     Random random(seed);
     const SequenceReport report = compare_sequence(engine, hunted_scene(classes[seed % 2], seed), kind,
-                                                   settings_of(kind), frames, random);
+                                                   settings_with(kind.settings), frames, random);
     sum.frames += report.frames;
     sum.stale += report.stale;
     sum.pairs += report.pairs;
@@ -134,12 +135,12 @@ TEST(HuntOfSequences, AnimatedVisibilityDoesNotShowWhatWasKept) {
   for (const SequenceKind& kind : sequence_kinds().first(2)) {
     Scene scene = flickering();
     Random random(7);
-    const auto keeping = engine->sequence(scene, kind.technique, view, settings_of(kind));
+    const auto keeping = engine->sequence(scene, kind.technique, view, settings_with(kind.settings));
     SceneChanges changes;
     size_t changed = 0;
     for (int i = 0; i < 16; ++i, changes = set_time(scene, double(random.next() % 4) - 0.5)) {
       const SequenceFrame kept = keeping->draw(view, changes);
-      const auto fresh = engine->sequence(scene, kind.technique, view, settings_of(kind));
+      const auto fresh = engine->sequence(scene, kind.technique, view, settings_with(kind.settings));
       EXPECT_EQ(difference(kept, fresh->draw(view, {})), "") << kind.settings << ", frame " << i;
       changed += !changes.empty();
     }
@@ -179,12 +180,12 @@ int stale_behind_a_card(CullEngine& engine) {
   lamp.casts_shadow = true;
   const View view = shadow_view({1, -1, 8}, {0, 0, 0});
   const SequenceKind& kind = sequence_kinds().front();
-  const auto keeping = engine.sequence(scene, kind.technique, view, settings_of(kind));
+  const auto keeping = engine.sequence(scene, kind.technique, view, settings_with(kind.settings));
   SceneChanges changes;
   int stale = 0;
   for (int i = 0; i < 6; ++i) {
     const SequenceFrame kept = keeping->draw(view, changes);
-    const auto fresh = engine.sequence(scene, kind.technique, view, settings_of(kind));
+    const auto fresh = engine.sequence(scene, kind.technique, view, settings_with(kind.settings));
     stale += !difference(kept, fresh->draw(view, {})).empty();
     scene.instances.back().world_from_object[3].x += 0.1;
     changes.instances = {int(scene.instances.size()) - 1};

@@ -47,7 +47,10 @@ INSTANTIATE_TEST_SUITE_P(Verify, HardCasesOf,
                          [](const auto& info) { return std::string(info.param); });
 
 // Cases that draw pictures with techniques, whose own tests are in the first tier.
-INSTANTIATE_TEST_SUITE_P(Drawn, HardCasesOf, testing::Values("shadows", "lidr", "groups", "caps"),
+INSTANTIATE_TEST_SUITE_P(Drawn, HardCasesOf,
+                         testing::Values("shadows", "lidr", "groups", "caps", "light_profiles",
+                                         "light_cookies", "light_hulls", "environment_light", "area_lights",
+                                         "far_light"),
                          [](const auto& info) { return std::string(info.param); });
 
 // Not a fault of the library, and no claim about it.
@@ -78,8 +81,11 @@ TEST(Verify, ReportsEachCaseBeforeTheNextBegins) {
 
 // Each has a unique name and is in one of the groups that HardCasesOf.Hold runs.
 TEST(HardCases, HaveNamesOfTheirOwnAndAGroupThatIsRun) {
-  const std::set<std::string> groups = {"depth",   "camera", "lights", "lists",   "agreement", "raster",
-                                        "shadows", "lidr",   "groups", "samples", "caps"};
+  const std::set<std::string> groups = {
+      "depth",       "camera",         "lights",        "lists",       "agreement",
+      "raster",      "shadows",        "lidr",          "groups",      "samples",
+      "caps",        "light_profiles", "light_cookies", "light_hulls", "environment_light",
+      "area_lights", "far_light"};
   std::set<std::string> names, used;
   for (const HardCase& c : hard_cases()) {
     EXPECT_TRUE(names.insert(c.name).second) << c.name;

@@ -12,8 +12,8 @@
 #include "scene/light_groups.h"
 #include "scenes/compose.h"
 #include "scenes/shapes.h"
-#include "support/cookie_image.h"
-#include "support/profile_text.h"
+#include "scenes/cookie_image.h"
+#include "scenes/profile_text.h"
 
 namespace lightgrid {
 

@@ -70,6 +70,10 @@ function finish(status, text) {
   }, 200);
 }
 
+// A browser outlives this process unless it is ended.
+for (const [signal, status] of [['SIGINT', 130], ['SIGTERM', 143]])
+  process.on(signal, () => finish(status, `judge_engine: ended by ${signal}`));
+
 const server = createServer((request, answer) => {
   const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
   if (request.method === 'GET') {

@@ -74,7 +74,7 @@ class ReflectedInDouble {
  private:
   dvec3 diffuse(const Surface& s, const dvec3& to_eye, double n_dot_v) const {
     const dvec3 n = world_from_view_ * s.normal;
-    dvec3 irradiance, all_sides;
+    dvec3 irradiance(0), all_sides(0);
     for (int c = 0; c < 3; ++c) {
       const auto& m = environment_.moments[size_t(c)];
       irradiance[c] = irradiance_of(m, n);

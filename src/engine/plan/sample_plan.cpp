@@ -60,7 +60,7 @@ void plan_samples(const Scene& scene, const SampleNeeds& needs, bool opengl, boo
       settings.set(setting::samples, samples);
     }
     decisions.push_back({"samples", why_one.empty(),
-                         fmt::format("the scene asks for {} a pixel{}{}", scene.samples,
+                         fmt::format("the scene asks for {} samples per pixel{}{}", scene.samples,
                                      why_one.empty() ? "" : "; ", why_one)});
   }
   if (samples == 1) return;

@@ -78,8 +78,11 @@ class Place : public Json::json_sax_t {
   std::string field_;
 };
 
-Json read_object(const std::filesystem::path& path) {
-  const std::string text = read_small_file(path, max_lights_file_bytes, "a lights file");
+std::string text_of(const std::filesystem::path& path) {
+  return read_small_file(path, max_lights_file_bytes, "a lights file");
+}
+
+Json object_of(const std::filesystem::path& path, const std::string& text) {
   check_nesting(text, max_json_depth, path.string() + ": ");
   Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) {
@@ -323,8 +326,10 @@ std::string lines_of(const std::vector<Light>& lights) {
 
 }  // namespace
 
-void load_lights(Scene& scene, const std::filesystem::path& path) {
-  const Json json = read_object(path), list = list_of(path, json, "lights", false);
+void load_lights(Scene& scene, const std::filesystem::path& path) { read_lights(scene, text_of(path), path); }
+
+void read_lights(Scene& scene, const std::string& text, const std::filesystem::path& path) {
+  const Json json = object_of(path, text), list = list_of(path, json, "lights", false);
   warn_of_mistyped_lists(path, json);
   std::vector<Light> lights;
   GivenByFile given{{}, {}, gltf::property_files(path, true)};
@@ -351,7 +356,7 @@ std::vector<Light> load_lights_file(const std::filesystem::path& path) {
 }
 
 std::string camera_of_lights_file(const std::filesystem::path& path) {
-  const Json json = read_object(path);
+  const Json json = object_of(path, text_of(path));
   if (!json.contains("camera")) return {};
   if (!json["camera"].is_string()) {
     throw input_error("{}: camera is {}, not a string", path.string(), json["camera"].type_name());

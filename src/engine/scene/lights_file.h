@@ -27,6 +27,8 @@ inline constexpr double metres_per_redeclipse_unit = 0.125;
 // intensity, a zero direction and cones outside 0 <= inner < outer <= pi are errors; so is a file above
 // max_lights_file_bytes. Those replace the scene's lights.
 void load_lights(Scene& scene, const std::filesystem::path& path);
+// The same from a file's text; `path` is for messages, and its folder has the files that the text names.
+void read_lights(Scene& scene, const std::string& text, const std::filesystem::path& path);
 // The same for no scene: the file names no instances.
 std::vector<Light> load_lights_file(const std::filesystem::path& path);
 

@@ -79,19 +79,18 @@ const std::vector<EngineLimit> limits = {
     {"filament", "main, 2026", Scope::distance, Kinds::local, Of::kept, Order::nearest, 100, Cells::none,
      Reach::range, "https://github.com/google/filament/blob/main/filament/src/Froxelizer.cpp", "",
      "Raise zLightFar with View::setDynamicLightingOptions."},
-    {"three-clustered", "ClusteredLighting of the examples, dev, 2026", Scope::cell, Kinds::points, Of::scene,
-     Order::farthest, 32, Cells::three, Reach::range,
-     "https://github.com/mrdoob/three.js/blob/dev/examples/jsm/tsl/lighting/ClusteredLightsNode.js",
-     "the far plane, where the scene's camera has none: that of PerspectiveCamera, 2,000 m, is taken; in "
-     "some versions the number is 64; lights without a range are counted everywhere, but the code tests them "
+    {"three-clustered", "r187, ClusteredLighting of the examples", Scope::cell, Kinds::local, Of::scene,
+     Order::farthest, 64, Cells::three, Reach::range,
+     "https://github.com/mrdoob/three.js/blob/r187/examples/jsm/tsl/lighting/ClusteredLightsNode.js",
+     "the far plane, where the scene's camera has none: that of PerspectiveCamera, 2,000 m, is taken; "
+     "earlier versions have 32 points; lights without a range are counted everywhere, but the code tests "
+     "them "
      "with a range of 0",
      "Raise maxLightsPerCluster of ClusteredLighting; bring the camera's far plane near."},
-    {"playcanvas", "1.x and 2.x with 8-bit indices", Scope::view, Kinds::local, Of::seen, Order::index, 254,
-     Cells::none, Reach::range,
-     "https://github.com/playcanvas/engine/blob/main/src/scene/lighting/lights-buffer.js",
-     "versions since 2026 are said to have more room; their code was not read. A cell takes 255, more than a "
-     "view's 254",
-     shorter},
+    {"playcanvas", "2.23.3", Scope::view, Kinds::local, Of::seen, Order::index, 255, Cells::none,
+     Reach::range, "https://github.com/playcanvas/engine/blob/main/src/scene/lighting/lights-buffer.js",
+     "earlier versions, which have 254; with a higher lighting.maxLights a cell still takes 255",
+     "Raise scene.lighting.maxLights, or shorten ranges."},
     {"bevy-webgl", "0.18 and 0.19 without storage buffers", Scope::view, Kinds::local, Of::seen,
      Order::points_first, 204, Cells::none, Reach::range,
      "https://github.com/bevyengine/bevy/blob/main/crates/bevy_light/src/cluster/assign.rs",

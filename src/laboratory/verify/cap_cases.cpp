@@ -2,7 +2,6 @@
 // and on surfaces. Which lights have to be kept is chosen in double, from the lists without a limit.
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "oracle/position.h"
 #include "plan/settings/grid.h"
@@ -14,13 +13,6 @@ namespace lightgrid::lab::verify {
 namespace {
 
 using glm::dvec3;
-
-Settings settings_with(const std::string& assignments) {
-  Settings settings;
-  std::istringstream words(assignments);
-  for (std::string word; words >> word;) apply_setting(settings, word);
-  return settings;
-}
 
 std::span<const uint32_t> list_at(const ListedLights& lists, size_t pixel) {
   const size_t cell = lists.cell_of_pixel[pixel];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -56,6 +57,13 @@ void spread_over_tiles(std::vector<DepthInterval>& bounds, const CullView& view,
 }
 
 }  // namespace
+
+Settings settings_with(const std::string& assignments) {
+  Settings settings;
+  std::istringstream words(assignments);
+  for (std::string word; words >> word;) apply_setting(settings, word);
+  return settings;
+}
 
 std::string to_string(const CullerOptions& o) {
   return fmt::format("{} {} tile {} {}", row_of(o.cull_test).name, row_of(o.depth_bounds).name, o.tile,

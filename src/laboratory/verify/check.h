@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,12 +21,12 @@ class Check;
 
 // A row of the catalogue, and the function of its name.
 struct HardCase {
-  std::string group;  // depth, camera, lights, lists, agreement, raster, shadows, lidr, groups, samples, caps
+  std::string group;  // depth, camera, lights, lists ...
   std::string name;
   std::string input;
   std::string breaks;     // the fault of naive code
   std::string invariant;  // the property that must hold
-  void (*run)(Check&);
+  std::function<void(Check&)> run;
 };
 
 // In the order of the catalogue.
@@ -34,7 +35,7 @@ const std::vector<HardCase>& hard_cases();
 // The functions of these names, as CASES(all_sky, …) gives them.
 struct CaseRun {
   std::string name;
-  void (*run)(Check&);
+  std::function<void(Check&)> run;
 };
 std::vector<CaseRun> named_cases(std::string_view names, std::initializer_list<void (*)(Check&)> runs);
 #define CASES(...) named_cases(#__VA_ARGS__, {__VA_ARGS__})
@@ -51,6 +52,7 @@ std::vector<CaseRun> shadow_cases();
 std::vector<CaseRun> light_index_cases();
 std::vector<CaseRun> group_cases();
 std::vector<CaseRun> cap_cases();
+std::vector<CaseRun> effect_cases();
 
 enum class Verdict { pass, fail, skip };
 
@@ -68,6 +70,9 @@ struct Outcome {
   std::string why;       // the first fault, or why it was skipped
   bool unbuilt = false;  // skipped since the driver cannot build a kernel
 };
+
+// KEY=VALUE each, with spaces between.
+Settings settings_with(const std::string& assignments);
 
 // The default first: every cull test, or every kind of depth bounds, at one tile size; every tile size.
 std::vector<CullerOptions> every_test(int tile = 16);

@@ -141,6 +141,14 @@ class DeviceEngine : public CullEngine {
     return images;
   }
 
+  std::shared_ptr<TechniqueRun> run_of(const Scene& scene, const std::string& name, const View& view,
+                                       const Settings& settings) override {
+    const Technique& technique = find_technique(name);
+    Renderer* renderer = renderer_for(technique, settings);
+    if (!renderer) return nullptr;
+    return std::make_shared<TechniqueRun>(*renderer, scene, view, settings, technique);
+  }
+
   std::unique_ptr<FrameSequence> sequence(const Scene& scene, const std::string& name, const View& view,
                                           const Settings& settings) override {
     const Technique& technique = find_technique(name);

@@ -17,6 +17,10 @@
 #include "scene/host_shadows.h"
 #include "scene/listed_lights.h"
 
+namespace lightgrid {
+class TechniqueRun;
+}
+
 namespace lightgrid::lab::verify {
 
 // Depth values as the culler reads them: z/w of clip_from_view, row 0 at the bottom. The viewport's lower
@@ -143,6 +147,13 @@ class CullEngine {
   // OpenGL where the technique draws with it.
   virtual std::vector<GroupImage> group_images(const Scene&, const std::string& /*technique*/,
                                                std::span<const View>, const Settings&) {
+    return {};
+  }
+
+  // A run of a technique, of a scene that outlives it. Null from an engine that only culls, or without OpenGL
+  // where the technique draws with it.
+  virtual std::shared_ptr<TechniqueRun> run_of(const Scene&, const std::string& /*technique*/, const View&,
+                                               const Settings&) {
     return {};
   }
 

@@ -3,7 +3,6 @@
 // one with its surface.
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 #include "oracle/lit_set.h"
 #include "scene/light_groups.h"
@@ -62,13 +61,6 @@ const std::vector<Way>& numbered_ways() {
   return ways;
 }
 
-Settings settings_of(const Way& way) {
-  Settings settings;
-  std::istringstream words(way.settings);
-  for (std::string word; words >> word;) apply_setting(settings, word);
-  return settings;
-}
-
 // Nobody has groups, and the lights are dark that share none with `groups`.
 Scene alone(Scene scene, uint32_t groups) {
   for (Light& light : scene.lights) {
@@ -125,7 +117,7 @@ void groups_shown(Check& c, Scene scene, const std::vector<View>& views,
   while (masks.size() > max_masks) masks.erase(std::next(masks.begin(), long(masks.size() / 2)));
   bool drawn = false;
   for (const Way& way : ways) {
-    const Settings settings = settings_of(way);
+    const Settings settings = settings_with(way.settings);
     const std::vector<GroupImage> images = c.engine.group_images(scene, way.technique, views, settings);
     if (images.empty()) continue;
     drawn = true;
@@ -224,8 +216,8 @@ void masked_lights_change_nothing(Check& c) {
   const std::vector<View> views = {of_strips()};
   for (const Way& way : every_way()) {
     if (std::string_view(way.technique) == "lidr") continue;  // which lists what volumes cover: 16 at most
-    const auto images = c.engine.group_images(scene, way.technique, views, settings_of(way));
-    const auto with_more = c.engine.group_images(more, way.technique, views, settings_of(way));
+    const auto images = c.engine.group_images(scene, way.technique, views, settings_with(way.settings));
+    const auto with_more = c.engine.group_images(more, way.technique, views, settings_with(way.settings));
     if (images.empty() || with_more.empty()) continue;
     for (const uint32_t mask : {1u, 2u, 3u, 1 | last}) {
       const double apart = difference(with_more[0], images[0], mask);
@@ -321,6 +313,37 @@ void directional_lights(Check& c) {
   }
 }
 
+// Masks belong to instances, however these are placed.
+void mirrored_and_sheared_groups(Check& c) {
+  Scene scene = strips({1, 2, 4, 8});
+  for (int i = 0; i < 4; ++i) {
+    glm::dmat4 placed(1);
+    placed[3] = {-1.5 + i, -0.3 + 0.2 * i, 0.6, 1};
+    placed[0] = {i % 2 ? -0.4 : 0.4, 0.2, 0, 0};
+    placed[2][2] = i < 2 ? 1e-3 : 1;
+    set_groups(add_triangles(scene, box_of({-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}), placed), 16u << i % 2);
+  }
+  for (int i = 0; i < 6; ++i) add_grouped(scene, {-1.6 + 0.45 * i, 0.3, 1.4}, 1u << i, 4);
+  groups_shown(c, scene, {of_strips()});
+}
+
+// The strips stand at z = 0, 0.2 and 0.4.
+void ranges_that_end_on_strips(Check& c) {
+  Scene scene = strips({1, 2, 4, 1, 2, 4});
+  for (int i = 0; i < 9; ++i)
+    add_grouped(scene, {-1.6 + 0.4 * i, 0.1, 0.9}, 1u << i % 3,
+                std::nextafter(0.5f + 0.2f * float(i % 3), 1.0f));
+  groups_shown(c, scene, {of_strips()});
+}
+
+void lamps_inside_surfaces(Check& c) {
+  Scene scene = strips({1, 2, 4, 8});
+  set_groups(add_triangles(scene, box_of({-0.3f, -0.3f, 0.7f}, {0.3f, 0.3f, 1.3f})), 16);
+  for (const uint32_t mask : {16u, 1u}) add_grouped(scene, {0, 0, 1}, mask);
+  for (int i = 0; i < 8; ++i) add_grouped(scene, {-1.7 + 0.45 * i, 0.1, 0.2 * (i % 3)}, 1u << i % 4);
+  groups_shown(c, scene, {of_strips()});
+}
+
 // Scenes of a seed each: masks, strips, boxes, lamps, spots and suns at random.
 void random_masks(Check& c) {
   const uint64_t scenes = c.adversarial_lights > 1'000'000 ? 400 : c.adversarial_lights > 0 ? 12 : 4;
@@ -363,7 +386,8 @@ void random_masks(Check& c) {
 
 std::vector<CaseRun> group_cases() {
   return CASES(first_and_last_group, no_group, masked_lights_change_nothing, single_pixels, around_256_masks,
-               at_one_depth, sky_has_none, directional_lights, random_masks);
+               at_one_depth, sky_has_none, directional_lights, mirrored_and_sheared_groups,
+               ranges_that_end_on_strips, lamps_inside_surfaces, random_masks);
 }
 
 }  // namespace lightgrid::lab::verify

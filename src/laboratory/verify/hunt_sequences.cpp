@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <sstream>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -86,13 +85,6 @@ std::string difference(const SequenceFrame& a, const SequenceFrame& b) {
 }
 
 std::span<const SequenceKind> sequence_kinds() { return kinds; }
-
-Settings settings_of(const SequenceKind& kind) {
-  Settings settings;
-  std::istringstream words(kind.settings);
-  for (std::string word; words >> word;) apply_setting(settings, word);
-  return settings;
-}
 
 MovingScene::MovingScene(HuntedScene made, bool deforms, Random& random)
     : views_(made.views),

@@ -14,7 +14,6 @@ struct SequenceKind {
   bool exact = true;                 // its shadows are those of opaque and masked surfaces, by rays
 };
 std::span<const SequenceKind> sequence_kinds();
-Settings settings_of(const SequenceKind& kind);
 
 // A scene that moves from frame to frame by random numbers: camera, size, places of lights, their ranges,
 // cones and brightness, lights off and on, two lights swapped, instances, meshes. Often what changed comes

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/timer.h"
 #include "plan/settings/kernels.h"
+#include "verify/check.h"
 #include "verify/hunt_sequences.h"
 
 namespace lightgrid::lab::verify {
@@ -102,7 +103,7 @@ class ShadowHunt {
     Random random(Random::mix(~seed));
     const std::span<const SequenceKind> kinds = sequence_kinds();
     const SequenceKind& kind = kinds[random.next() % kinds.size()];
-    Settings settings = settings_of(kind);
+    Settings settings = settings_with(kind.settings);
     settings.set(setting::portable, random.next() % 8 == 0);
     settings.set(setting::everything_on, random.next() % 16 == 0);
     SequenceReport report = compare_sequence(engine_, made, kind, settings, options_.frames, random);

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <sstream>
 
 #include <fmt/ranges.h>
 
@@ -47,9 +46,7 @@ void light_indices(Check& c, Scene scene, const std::vector<View>& views,
                    const std::vector<Listing>& listings) {
   for (Light& light : scene.lights) light.casts_shadow = false;
   for (const Listing& listing : listings) {
-    Settings settings;
-    std::istringstream words(listing.settings);
-    for (std::string word; words >> word;) apply_setting(settings, word);
+    const Settings settings = settings_with(listing.settings);
     const bool box = settings[setting::volume_mesh] == VolumeMeshes::box;
     const bool behind = settings[setting::lidr_volumes] == LidrVolumes::front_faces;
     const bool anywhere =
@@ -343,9 +340,7 @@ void priority(Check& c, Random& random) {
     light.intensity = std::exp2(random.uniform(-3, 3));
   }
   const View view = random_view_of_floor(random);
-  Settings settings;
-  std::istringstream words(packing.settings);
-  for (std::string word; words >> word;) apply_setting(settings, word);
+  const Settings settings = settings_with(packing.settings);
   const std::vector<ListImage> images = c.engine.lists(scene, "lidr", {&view, 1}, settings);
   if (images.empty()) return c.skip("the engine draws no light volumes");
   const std::vector<ViewLight> lights = lights_in_view(scene, view);

@@ -40,11 +40,11 @@ std::vector<std::string> fields_of_row(const std::string& row) {
 
 using Run = void (*)(Check&);
 
-std::map<std::string, Run> runs_by_name() {
-  std::map<std::string, Run> runs;
-  for (const auto& group :
-       {depth_cases(), depth_bounds_cases(), camera_cases(), light_cases(), list_cases(), agreement_cases(),
-        raster_cases(), shadow_cases(), light_index_cases(), group_cases(), sample_cases(), cap_cases()}) {
+std::map<std::string, std::function<void(Check&)>> runs_by_name() {
+  std::map<std::string, std::function<void(Check&)>> runs;
+  for (const auto& group : {depth_cases(), depth_bounds_cases(), camera_cases(), light_cases(), list_cases(),
+                            agreement_cases(), raster_cases(), shadow_cases(), light_index_cases(),
+                            group_cases(), sample_cases(), cap_cases(), effect_cases()}) {
     for (const CaseRun& c : group) {
       if (!runs.emplace(c.name, c.run).second)
         throw std::logic_error("two hard cases have the function name " + c.name);
@@ -68,7 +68,7 @@ std::vector<CaseRun> named_cases(std::string_view names, std::initializer_list<R
 
 const std::vector<HardCase>& hard_cases() {
   static const std::vector<HardCase> all = [] {
-    const std::map<std::string, Run> runs = runs_by_name();
+    const auto runs = runs_by_name();
     std::vector<HardCase> cases;
     std::istringstream catalogue(embedded_file("verify/catalogue.md"));
     for (std::string line; std::getline(catalogue, line);) {

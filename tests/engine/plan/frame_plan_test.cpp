@@ -129,17 +129,20 @@ TEST(FramePlan, TakesTheSamplesThatTheSceneAsksForOrSaysWhyNot) {
     EXPECT_EQ(decision(plan, "samples").why, why);
     EXPECT_EQ(decision(plan, "samples").needed, samples > 1) << why;
   };
-  expect(of_opengl, {}, 4, "the scene asks for 4 a pixel");
-  expect(of_opencl, {}, 4, "the scene asks for 4 a pixel");
-  expect(of_opengl, {"samples=1"}, 1, "the scene asks for 4 a pixel; samples=1");
+  expect(of_opengl, {}, 4, "the scene asks for 4 samples per pixel");
+  expect(of_opencl, {}, 4, "the scene asks for 4 samples per pixel");
+  expect(of_opengl, {"samples=1"}, 1, "the scene asks for 4 samples per pixel; samples=1");
   expect(of_opengl, {"samples=2"}, 2, "samples=2");
-  expect(of_one, {}, 1, "the scene asks for 4 a pixel; the technique with these settings takes 1");
-  expect(without_four, {}, 1, "the scene asks for 4 a pixel; OpenGL on this machine cannot draw them");
+  expect(of_one, {}, 1, "the scene asks for 4 samples per pixel; the technique with these settings takes 1");
+  expect(without_four, {}, 1,
+         "the scene asks for 4 samples per pixel; OpenGL on this machine cannot draw them");
   s.scene.lights[0].casts_shadow = true;
-  expect(of_opengl, {}, 1, "the scene asks for 4 a pixel; shadows where OpenGL draws are found for one");
-  expect(of_opencl, {}, 4, "the scene asks for 4 a pixel");
-  expect(of_opencl, {"shadows=map"}, 1, "the scene asks for 4 a pixel; shadow maps are found for one");
-  expect(of_opengl, {"shadows=none"}, 4, "the scene asks for 4 a pixel");
+  expect(of_opengl, {}, 1,
+         "the scene asks for 4 samples per pixel; shadows where OpenGL draws are found for one");
+  expect(of_opencl, {}, 4, "the scene asks for 4 samples per pixel");
+  expect(of_opencl, {"shadows=map"}, 1,
+         "the scene asks for 4 samples per pixel; shadow maps are found for one");
+  expect(of_opengl, {"shadows=none"}, 4, "the scene asks for 4 samples per pixel");
 }
 
 TEST(FramePlan, WhatIsOutOfViewDoesNotCount) {

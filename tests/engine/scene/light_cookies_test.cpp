@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "support/cookie_image.h"
+#include "scenes/cookie_image.h"
 
 namespace lightgrid {
 namespace {

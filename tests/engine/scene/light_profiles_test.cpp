@@ -15,7 +15,7 @@
 #include "scene/write_gltf.h"
 #include "shared/half_angle.h"
 #include "support/gltf_builder.h"
-#include "support/profile_text.h"
+#include "scenes/profile_text.h"
 
 namespace lightgrid {
 namespace {
