@@ -174,6 +174,7 @@ int bench(const BenchCommand& o) {
     c.settings = with_tuned(c.settings, read_tuned_sizes(device.info()));
   if (table) fmt::print("{}, {}\n{}", device.info().name, device.info().driver, table_head());
   const BenchReport report = run_bench(device, options);
+  if (table) fmt::print("{}", slowest_kernel_text(report.rows));
   if (!o.json.empty()) write_json(o.json, to_json(report).dump(1));
   return 0;
 }

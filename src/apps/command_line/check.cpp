@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -216,17 +217,19 @@ class LimitPictures {
     const Drawn& every_light = drawn(picture->every_light, frame, {}, nullptr);
     const Drawn& limited = drawn(picture->limited, frame,
                                  picture->without_lost ? result.lost : std::vector<int>(), &every_light);
+    const Difference& difference = difference_of(limited, every_light);
     section.pictures = {
-        {fmt::format("Frame {}: every light ({})", frame, picture->every_light), every_light.number},
-        {fmt::format("Frame {}: {}", frame,
+        {fmt::format("Frame {}: every light ({})", frame, picture->every_light), every_light.number, {}},
+        {fmt::format("Frame {}: {}. Rings: dropped lights", frame,
                      picture->without_lost ? "without the lights that are dropped"
                                            : "the limit (" + picture->limited + ")"),
-         limited.number}};
+         limited.number, places_of(result.dropped, frame)},
+        {fmt::format("How visible the difference is (FLIP as displayed): black not at all, yellow most. It "
+                     "shows in {:.1f} % of the pixels (above {})",
+                     100 * difference.visible, visible_flip),
+         difference.number,
+         {}}};
     if (!picture->note.empty()) section.sentences.push_back(picture->note);
-    const double visible = displayed_flip(limited.image, every_light.image, every_light.exposure).visible;
-    section.sentences.push_back(
-        fmt::format("The limit shows in {:.1f} % of the pixels (FLIP as displayed above {}).", 100 * visible,
-                    visible_flip));
   }
 
  private:
@@ -235,6 +238,44 @@ class LimitPictures {
     Exposure exposure;
     size_t number = 0;  // in the page
   };
+
+  struct Difference {
+    double visible = 0;  // share of the pixels
+    size_t number = 0;   // in the page
+  };
+
+  // The same for both: at most 960 pixels wide.
+  size_t add_picture(const Image& image, const std::function<std::vector<uint8_t>(const Image&)>& bytes) {
+    constexpr int max_width = 960;
+    const Image shown = mean_of_blocks(image, (image.width + max_width - 1) / max_width);
+    page_.pictures.push_back(encode_png(shown.width, shown.height, 3, bytes(shown)));
+    return page_.pictures.size() - 1;
+  }
+
+  // Only of lights in front of the eye whose centre is in the picture.
+  std::vector<glm::vec2> places_of(const std::vector<DroppedLight>& dropped, size_t frame) {
+    const View& view = checked_.move_to(frame);
+    std::vector<glm::vec2> places;
+    for (const DroppedLight& each : dropped) {
+      const Light& light = checked_.chosen.scene.lights[size_t(each.light)];
+      if (is_directional(light)) continue;
+      const glm::dvec4 clip = view.clip_from_view * view.view_from_world * glm::dvec4(light.position, 1);
+      const glm::dvec2 place = glm::dvec2(0.5 + 0.5 * clip.x / clip.w, 0.5 - 0.5 * clip.y / clip.w);
+      const bool inside = place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1;
+      if (clip.w > 0 && inside) places.emplace_back(place);
+    }
+    return places;
+  }
+
+  const Difference& difference_of(const Drawn& limited, const Drawn& every_light) {
+    const auto [found, is_new] = differences_.try_emplace({limited.number, every_light.number});
+    if (!is_new) return found->second;
+    const std::vector<float> map = displayed_flip_map(limited.image, every_light.image, every_light.exposure);
+    found->second.visible = displayed_flip_of(map).visible;
+    found->second.number =
+        add_picture(flip_picture(map, limited.image.width, limited.image.height), srgb_bytes_as_is);
+    return found->second;
+  }
 
   // like: with its exposure; null: one of its own.
   const Drawn& drawn(const std::string& technique, size_t frame, const std::vector<int>& without,
@@ -253,10 +294,8 @@ class LimitPictures {
     run.run_frame();
     drawn.image = run.take_image();
     drawn.exposure = like ? like->exposure : chosen_exposure(o_.scene, drawn.image);
-    constexpr int max_width = 960;
-    const Image shown = mean_of_blocks(drawn.image, (drawn.image.width + max_width - 1) / max_width);
-    drawn.number = page_.pictures.size();
-    page_.pictures.push_back(encode_png(shown.width, shown.height, 3, srgb_bytes(shown, drawn.exposure)));
+    drawn.number =
+        add_picture(drawn.image, [&](const Image& shown) { return srgb_bytes(shown, drawn.exposure); });
     return drawn;
   }
 
@@ -264,6 +303,7 @@ class LimitPictures {
   CheckedScene& checked_;
   LimitsPage& page_;
   std::map<std::tuple<std::string, size_t, std::vector<int>>, Drawn> drawn_;
+  std::map<std::pair<size_t, size_t>, Difference> differences_;
 };
 
 std::string page_of(const CheckOptions& o, const std::vector<LimitResult>& results, CheckedScene& checked,
@@ -272,8 +312,11 @@ std::string page_of(const CheckOptions& o, const std::vector<LimitResult>& resul
   const Scene& scene = checked.chosen.scene;
   LimitsPage page;
   page.scene = scene.name;
-  page.view = fmt::format("{} x {}, {} frames, {} lights", checked.chosen.view.width,
-                          checked.chosen.view.height, checked.path.size(), shown_counts(scene).lights);
+  const View& view = checked.chosen.view;
+  const size_t frames = checked.path.size();
+  page.view = fmt::format("{} x {} · {} frame{} · {} lights", view.width, view.height, frames,
+                          frames == 1 ? "" : "s", shown_counts(scene).lights);
+  page.aspect = double(view.width) / view.height;
   page.warnings = warnings;
   page.verdict = summary_of(results, o.engine) + ".";
   LimitPictures pictures(o, checked, page);

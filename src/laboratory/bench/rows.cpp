@@ -177,6 +177,23 @@ std::string table_head() {
       "case", "kernel", "min ms", "median ms", "p90 ms", "limit ms", "share");
 }
 
+std::string slowest_kernel_text(const std::vector<BenchRow>& rows) {
+  const BenchRow* slowest = nullptr;
+  size_t kernels = 0;
+  for (const BenchRow& row : rows) {
+    if (row.kind != "kernel") continue;
+    ++kernels;
+    if (!slowest || row.ms.median > slowest->ms.median) slowest = &row;
+  }
+  if (!slowest) return "";
+  std::string text =
+      fmt::format("slowest of {} kernel{}: {} in {}, {:.3g} ms", kernels, kernels == 1 ? "" : "s",
+                  slowest->name, slowest->case_name, slowest->ms.median);
+  if (slowest->limit_ms && slowest->ms.min > 0)
+    text += fmt::format("; the machine's limit is {:.3g} ms", *slowest->limit_ms);
+  return text + "\n";
+}
+
 std::string table_line(const BenchRow& row) {
   std::string line = fmt::format("{:<24} {:<20} {:>10.4f} {:>10.4f} {:>10.4f}", row.case_name, row.name,
                                  row.ms.min, row.ms.median, row.ms.p90);

@@ -50,6 +50,8 @@ std::vector<BenchRow> contestant_rows(const ContestantParams& about, const Measu
 nlohmann::ordered_json to_json(const BenchRow& row, const std::string& device);
 std::string table_line(const BenchRow& row);
 std::string table_head();
+// The slowest kernel in a sentence; empty if no row is a kernel's.
+std::string slowest_kernel_text(const std::vector<BenchRow>& rows);
 
 // The regular expression of `bench --filter`.
 class RowFilter {

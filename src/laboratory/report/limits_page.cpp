@@ -8,15 +8,27 @@
 
 namespace lightgrid::lab {
 
-static std::string section_text(const LimitSection& section) {
+// Rings over a picture of this aspect.
+static std::string rings(const std::vector<glm::vec2>& marks, double aspect) {
+  if (marks.empty()) return "";
+  constexpr int height = 1000;
+  std::string text =
+      fmt::format("<svg viewBox=\"0 0 {:.0f} {}\" aria-hidden=\"true\">", aspect * height, height);
+  for (const glm::vec2& mark : marks)
+    text += fmt::format("<circle cx=\"{:.0f}\" cy=\"{:.0f}\" r=\"13\"/>", mark.x * aspect * height,
+                        mark.y * height);
+  return text + "</svg>";
+}
+
+static std::string section_text(const LimitSection& section, double aspect) {
   std::string text =
       fmt::format("<section>\n<h2>{}: <span class=\"{}\">{}</span></h2>\n", xml_escaped(section.title),
                   section.holds ? "good" : "bad", section.holds ? "holds" : "drops lights");
   if (!section.pictures.empty()) text += "<div class=\"pair\">\n";
   for (const PagePicture& picture : section.pictures)
-    text +=
-        fmt::format("<figure><img alt=\"{0}\" data-picture=\"{1}\"><figcaption>{0}</figcaption></figure>\n",
-                    xml_escaped(picture.caption), picture.number);
+    text += fmt::format(
+        "<figure><div><img alt=\"{0}\" data-picture=\"{1}\">{2}</div><figcaption>{0}</figcaption></figure>\n",
+        xml_escaped(picture.caption), picture.number, rings(picture.marks, aspect));
   if (!section.pictures.empty()) text += "</div>\n";
   for (const std::string& sentence : section.sentences)
     text += fmt::format("<p>{}</p>\n", xml_escaped(sentence));
@@ -39,7 +51,7 @@ std::string limits_page(const LimitsPage& page) {
   std::string sections;
   for (const bool holds : {false, true}) {
     for (const LimitSection& section : page.sections)
-      if (section.holds == holds) sections += section_text(section);
+      if (section.holds == holds) sections += section_text(section, page.aspect);
   }
   std::string pictures;
   for (const std::vector<uint8_t>& png : page.pictures)

@@ -5,13 +5,16 @@
 #include <string>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "base/log.h"
 
 namespace lightgrid::lab {
 
 struct PagePicture {
   std::string caption;
-  size_t number = 0;  // in LimitsPage::pictures
+  size_t number = 0;             // in LimitsPage::pictures
+  std::vector<glm::vec2> marks;  // rings: places in the picture from its upper left, 0 to 1
 };
 
 // A limit of an engine.
@@ -25,6 +28,7 @@ struct LimitSection {
 
 struct LimitsPage {
   std::string scene, view;  // headings
+  double aspect = 1;        // width over height of the pictures
   std::string verdict;
   std::vector<Warning> warnings;
   std::vector<LimitSection> sections;
