@@ -165,26 +165,26 @@ def _log_line(is_warning: int, line: Any, _: Any) -> None:
     log.log(logging.WARNING if is_warning else logging.INFO, "%s", text(line))
 
 
-def show_compiling(kernels: int) -> None:
-    """One line in a terminal or a notebook, which is cleared when the kernel is compiled."""
+def show_compiling(kernels: int, total: int) -> None:
+    """One line in a terminal or a notebook, which is cleared when the kernels are compiled."""
     if not (sys.stderr.isatty() or "ipykernel" in sys.modules):
         return
-    line = f"compiling kernels for this machine, first time only: {kernels}" if kernels else ""
-    print(f"\r{line:<60}", end="" if kernels else "\r", file=sys.stderr, flush=True)
+    line = f"compiling kernels for this machine, first time only: {kernels} of {total}" if kernels else ""
+    print(f"\r{line:<70}", end="" if kernels else "\r", file=sys.stderr, flush=True)
 
 
-_compiling: Callable[[int], Any] | None = show_compiling
+_compiling: Callable[[int, int], Any] | None = show_compiling
 
 
-@ffi.callback("void(int, void*)")
-def _first_compilation(kernels: int, _: Any) -> None:
+@ffi.callback("void(int, int, void*)")
+def _first_compilation(kernels: int, total: int, _: Any) -> None:
     if _compiling:
-        _compiling(kernels)
+        _compiling(kernels, total)
 
 
-def on_compiling(function: Callable[[int], Any] | None = show_compiling) -> None:
-    """Calls function(kernels) before each kernel that is compiled for its first time on this machine, with the number so far,
-    and with 0 after each. None: no calls. Without an argument: a line in terminals and notebooks, as at first."""
+def on_compiling(function: Callable[[int, int], Any] | None = show_compiling) -> None:
+    """Calls function(kernels, total) before each kernel that is compiled for its first time on this machine, with the number so
+    far and of those known to be needed, and with 0, 0 when none is left. None: no calls. Without an argument: a line in terminals and notebooks, as at first."""
     global _compiling
     _compiling = function
 

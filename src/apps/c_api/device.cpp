@@ -135,7 +135,8 @@ void lightgrid_set_log(lightgrid_log_function function, void* user) {
 
 void lightgrid_set_compiling(lightgrid_compiling_function function, void* user) {
   if (!function) return set_first_compilation_function({});
-  set_first_compilation_function([function, user](int kernels) { function(kernels, user); });
+  set_first_compilation_function(
+      [function, user](int kernels, int total) { function(kernels, total, user); });
 }
 
 lightgrid_status lightgrid_describe(const char* name, char** json) {

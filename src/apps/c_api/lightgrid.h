@@ -87,9 +87,10 @@ typedef void (*lightgrid_log_function)(int is_warning, const char* line, void* u
 void lightgrid_set_log(lightgrid_log_function function, void* user);
 
 /* Called before each kernel that this process compiles for its first time on this machine, with the number of
- * such kernels so far, and with 0 after each. Later processes load these kernels from disk. For the whole
- * process; null: no calls, as at first. Calls do not overlap, and may come from any thread. */
-typedef void (*lightgrid_compiling_function)(int kernels, void* user);
+ * such kernels so far and of those known to be needed; with 0 and 0 when none is left. Later processes load
+ * these kernels from disk. For the whole process; null: no calls, as at first. Calls do not overlap, and may
+ * come from any thread. */
+typedef void (*lightgrid_compiling_function)(int kernels, int total, void* user);
 /* From now on; `user` is handed to each call. */
 void lightgrid_set_compiling(lightgrid_compiling_function function, void* user);
 

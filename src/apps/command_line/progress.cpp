@@ -22,8 +22,9 @@ struct State {
   std::mutex mutex;
   std::string step;
   double done = 0;
-  std::string bar;                                // as last drawn on a terminal; empty: none, or cleared
-  int kernels_compiled = 0, kernels_printed = 0;  // without a terminal: for their first time on this machine
+  std::string bar;  // as last drawn on a terminal; empty: none, or cleared
+  // Without a terminal: for their first time on this machine.
+  int kernels_compiled = 0, kernels_total = 0, kernels_printed = 0;
 };
 
 State& state() {
@@ -41,23 +42,25 @@ std::string time_left(double done, double seconds) {
   return seconds < 3 || done < 0.02 ? "" : "about " + in_words(seconds * (1 - done) / done);
 }
 
-std::string compiling_words(int kernels) {
-  return fmt::format("compiling kernels for this machine, first time only: {}", kernels);
+std::string compiling_words(int kernels, int total) {
+  return fmt::format("compiling kernels for this machine, first time only: {} of {}", kernels, total);
 }
 
 // Replaces the terminal's last line.
 void print_over(const std::string& line) { fmt::print(stderr, "\r{:<{}}", line, columns); }
 
-void show_on_terminal(int kernels) {
-  if (kernels > 0) return print_over(compiling_words(kernels));
+void show_on_terminal(int kernels, int total) {
+  if (kernels > 0) return print_over(compiling_words(kernels, total));
   const std::lock_guard lock(state().mutex);
   print_over(state().bar);
   if (state().bar.empty()) fmt::print(stderr, "\r");
 }
 
-void note_for_lines(int kernels) {
+void note_for_lines(int kernels, int total) {
+  if (kernels == 0) return;
   const std::lock_guard lock(state().mutex);
-  state().kernels_compiled = std::max(state().kernels_compiled, kernels);
+  state().kernels_compiled = kernels;
+  state().kernels_total = total;
 }
 
 double interval_s() {
@@ -118,7 +121,7 @@ void ProgressLines::run(std::chrono::duration<double> interval) {
         state().done > 0 && state().done < 1 ? fmt::format(", {:.0f} % done", 100 * state().done) : "";
     std::string step = state().step.empty() ? "finishing" : state().step;
     if (const int kernels = state().kernels_compiled; kernels > state().kernels_printed) {
-      step = compiling_words(kernels);
+      step = compiling_words(kernels, state().kernels_total);
       state().kernels_printed = kernels;
     }
     log_info("after {:.0f} s{}: {}", std::ceil(seconds), left, step);

@@ -9,7 +9,7 @@ namespace {
 struct Listener {
   std::mutex mutex;
   FirstCompilationFunction function;
-  int kernels = 0;
+  int begun = 0, total = 0, left = 0;  // kernels
 };
 
 Listener& listener() {
@@ -26,13 +26,21 @@ void set_first_compilation_function(FirstCompilationFunction function) {
 
 FirstCompilation::FirstCompilation() {
   const std::lock_guard lock(listener().mutex);
-  ++listener().kernels;
-  if (listener().function) listener().function(listener().kernels);
+  ++listener().total;
+  ++listener().left;
+}
+
+void FirstCompilation::begin() {
+  const std::lock_guard lock(listener().mutex);
+  begun_ = true;
+  ++listener().begun;
+  if (listener().function) listener().function(listener().begun, listener().total);
 }
 
 FirstCompilation::~FirstCompilation() {
   const std::lock_guard lock(listener().mutex);
-  if (listener().function) listener().function(0);
+  if (!begun_) --listener().total;
+  if (--listener().left == 0 && listener().function) listener().function(0, 0);
 }
 
 }  // namespace lightgrid

@@ -15,17 +15,23 @@ inline void tell_compiling(const std::string& file) {
 }
 
 // Before each kernel that the process compiles for its first time on this machine: the number of such kernels
-// so far, with this one. After it: 0. Calls come from the thread that compiles and do not overlap.
-using FirstCompilationFunction = std::function<void(int kernels)>;
+// so far, with this one, and the number of those known to be needed. When none is left: 0 and 0. Calls come
+// from the threads that compile and do not overlap.
+using FirstCompilationFunction = std::function<void(int kernels, int total)>;
 void set_first_compilation_function(FirstCompilationFunction function);  // empty: nobody
 
-// Exists while a kernel is compiled that later starts of the program load from disk.
+// A kernel that later starts of the program load from disk. Exists from when the kernel is known to be needed
+// until it is compiled, or no longer needed.
 class FirstCompilation {
  public:
   FirstCompilation();
   ~FirstCompilation();
   FirstCompilation(const FirstCompilation&) = delete;
   FirstCompilation& operator=(const FirstCompilation&) = delete;
+  void begin();  // reports it
+
+ private:
+  bool begun_ = false;
 };
 
 }  // namespace lightgrid

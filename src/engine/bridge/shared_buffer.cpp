@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -114,6 +115,7 @@ SharedBuffer::SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes)
       imported_ = std::make_unique<ImportedMemory>(cl, allocated);
       gl_buffer_ = imported_->gl_buffer();
       cl_buffer_ = imported_->cl_buffer();
+      if (cl.dry_run) fill_buffer(cl, "a shared buffer of zeros", cl_buffer_, 0, allocated / 4 * 4);
       return;
     }
     gl_buffer_ = make_shared(allocated, kind == BridgeKind::mapped ? mapping : 0);
@@ -127,6 +129,7 @@ SharedBuffer::SharedBuffer(ClDevice& cl, BridgeKind kind, size_t bytes)
           "OpenGL mapped a buffer at {}, not on {} bytes; LIGHTGRID_BRIDGE=staged needs no alignment",
           mapped_, sizeof(cl_float16));
     }
+    if (cl.dry_run) std::memset(mapped_, 0, allocated);
     if (kind == BridgeKind::mapped)
       cl_buffer_ = cl::Buffer(cl.context(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, allocated, mapped_);
     else

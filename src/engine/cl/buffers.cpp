@@ -75,7 +75,10 @@ cl::Buffer make_buffer(ClDevice& device, cl_mem_flags flags, size_t bytes) {
 }  // namespace
 
 cl::Buffer device_buffer(ClDevice& device, size_t bytes) {
-  return make_buffer(device, CL_MEM_READ_WRITE, std::max<size_t>(bytes, 64));
+  bytes = std::max<size_t>(bytes, 64);
+  cl::Buffer buffer = make_buffer(device, CL_MEM_READ_WRITE, bytes);
+  if (device.dry_run) fill_buffer(device, "a buffer of zeros", buffer, 0, bytes / 4 * 4);
+  return buffer;
 }
 
 cl::Buffer filled_buffer(ClDevice& device, const char* what, const void* values, size_t bytes) {

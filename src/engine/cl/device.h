@@ -50,6 +50,10 @@ class ClDevice {
   cl::CommandQueue& queue() { return queue_; }        // in order; with profiling if it was created here
   ClProfiler& profiler() { return profiler_; }        // profiles commands of the queue
 
+  // While true, launches do nothing, kernels are requested and not waited for (ProgramCache::request), and
+  // new buffers hold zeros: a frame then shows which kernels it needs.
+  bool dry_run = false;
+
  private:
   ClDeviceInfo info_;
   cl::Device device_;

@@ -19,13 +19,20 @@ std::vector<std::string> parameters_of(const cl::Kernel& kernel, size_t count) {
 }  // namespace
 
 NamedKernel::NamedKernel(ProgramCache& programs, const std::string& file, const std::string& defines)
-    : file_(file), kernel_(programs.kernel(file, defines + " -cl-kernel-arg-info")) {
+    : programs_(&programs), file_(file), defines_(defines + " -cl-kernel-arg-info") {
+  if (!programs.request(file_, defines_)) find();
+}
+
+void NamedKernel::find() {
+  kernel_ = programs_->kernel(file_, defines_);
   count_ = kernel_.getInfo<CL_KERNEL_NUM_ARGS>();
   parameters_ = parameters_of(kernel_, count_);
 }
 
 void NamedKernel::launch(ClDevice& device, const std::string& label, const cl::NDRange& global,
                          const cl::NDRange& local, const ClArguments& arguments) {
+  if (device.dry_run) return;
+  if (!kernel_()) find();
   for (size_t i = 0; i < std::max(count_, arguments.size()); ++i) {
     const bool both = i < count_ && i < arguments.size();
     if (both && (parameters_.empty() || parameters_[i] == arguments[i].name)) continue;

@@ -61,16 +61,19 @@ inline ClArguments operator+(ClArguments first, const ClArguments& more) {
 class NamedKernel {
  public:
   NamedKernel() = default;
-  // As ProgramCache::kernel finds it.
+  // As ProgramCache::kernel finds it; in a dry run of the device, at the first launch after it.
   NamedKernel(ProgramCache& programs, const std::string& file, const std::string& defines);
-  explicit operator bool() const { return kernel_() != nullptr; }  // false: made without a kernel
+  explicit operator bool() const { return programs_ != nullptr; }  // false: made without a kernel
 
   // As launch() above.
   void launch(ClDevice& device, const std::string& label, const cl::NDRange& global, const cl::NDRange& local,
               const ClArguments& arguments);
 
  private:
-  std::string file_;
+  void find();
+
+  ProgramCache* programs_ = nullptr;
+  std::string file_, defines_;
   cl::Kernel kernel_;
   size_t count_ = 0;                     // number of parameters
   std::vector<std::string> parameters_;  // empty: the driver does not tell

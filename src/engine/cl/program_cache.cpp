@@ -106,14 +106,47 @@ std::filesystem::path ProgramCache::default_folder() {
 ProgramCache::ProgramCache(ClDevice& device, std::filesystem::path folder)
     : device_(device), folder_(disk_is_off() ? std::filesystem::path() : std::move(folder)) {}
 
+std::string ProgramCache::text_of(const std::string& file) const {
+  std::string text = with_includes("kernels/" + file + ".cl");
+  if (alter_) text = alter_(std::move(text));
+  return may_declare_builtins(device_.info()) ? with_includes("kernels/common/builtins.h") + text : text;
+}
+
+std::string ProgramCache::defines_of(const std::string& defines) const {
+  return may_declare_builtins(device_.info()) ? "-D_OPENCL_H_ " + defines : defines;
+}
+
+ProgramSource ProgramCache::source_of(const std::string& file, const std::string& defines,
+                                      const std::string& text) const {
+  const ClDeviceInfo& info = device_.info();
+  ProgramSource source{
+      common_options(info) + (defines.empty() ? "" : " " + defines), prelude() + text, {}, {}};
+  if (info.cpu && builds_quickly(file)) source.options += " -cl-opt-disable";
+  source.key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}", info.platform, info.name, info.version, info.driver,
+                           source.options, source.text);
+  if (!folder_.empty()) source.path = program_file_path(folder_, entry_point(file), source.key);
+  return source;
+}
+
+bool ProgramCache::request(const std::string& file, const std::string& defines) {
+  if (!device_.dry_run) return false;
+  const auto known = programs_.find(file + ' ' + defines);
+  if (folder_.empty() || (known != programs_.end() && known->second())) return true;
+  const ProgramSource source = source_of(file, defines_of(defines), text_of(file));
+  std::error_code unknown;
+  if (std::filesystem::exists(source.path, unknown)) return true;
+  if (!builder_) builder_ = std::make_unique<KernelBuilder>(device_);
+  builder_->add(source);
+  return true;
+}
+
+void ProgramCache::finish_requests() {
+  if (builder_) builder_->finish();
+}
+
 cl::Kernel ProgramCache::kernel(const std::string& file, const std::string& defines) {
   if (asked_) asked_->insert(file + ' ' + defines);
-  const bool declared = may_declare_builtins(device_.info());
-  return kernel_of(file + ' ' + defines, file, declared ? "-D_OPENCL_H_ " + defines : defines, [&] {
-    std::string text = with_includes("kernels/" + file + ".cl");
-    if (alter_) text = alter_(std::move(text));
-    return declared ? with_includes("kernels/common/builtins.h") + text : text;
-  });
+  return kernel_of(file + ' ' + defines, file, defines_of(defines), [&] { return text_of(file); });
 }
 
 cl::Kernel ProgramCache::kernel_of_source(const std::string& file, const std::string& source,
@@ -125,13 +158,10 @@ cl::Kernel ProgramCache::kernel_of(const std::string& key, const std::string& fi
                                    const std::string& defines, const std::function<std::string()>& source) {
   try {
     cl::Program& program = programs_[key];
-    if (program()) {
+    if (program())
       ++counts_.from_memory;
-    } else {
-      std::string options = common_options(device_.info()) + (defines.empty() ? "" : " " + defines);
-      if (device_.info().cpu && builds_quickly(file)) options += " -cl-opt-disable";
-      program = load_or_build(file, options, prelude() + source());
-    }
+    else
+      program = load_or_build(file, source_of(file, defines, source()));
     return cl::Kernel(program, entry_point(file).c_str());
   } catch (const cl::Error& error) {
     if (lacks_kernel(error)) throw cannot_build(device_.info(), file + ".cl", error);
@@ -139,31 +169,34 @@ cl::Kernel ProgramCache::kernel_of(const std::string& key, const std::string& fi
   }
 }
 
-cl::Program ProgramCache::load_or_build(const std::string& kernel_file, const std::string& options,
-                                        const std::string& source) {
-  const ClDeviceInfo& info = device_.info();
-  const std::string key = fmt::format("{}\n{}\n{}\n{}\n{}\n{}", info.platform, info.name, info.version,
-                                      info.driver, options, source);
-  const std::filesystem::path file =
-      folder_.empty() ? "" : program_file_path(folder_, entry_point(kernel_file), key);
-  if (!file.empty()) {
-    const std::vector<unsigned char> binary = read_program_file(file, key);
-    if (!binary.empty()) {
-      if (cl::Program program = load_binary(device_, options, binary); program()) {
-        ++counts_.from_disk;
-        return program;
-      }
-    }
+// Empty if it is neither requested nor on disk.
+cl::Program ProgramCache::load(const std::string& file, const ProgramSource& source) {
+  if (source.path.empty()) return {};
+  std::vector<unsigned char> binary;
+  if (builder_) binary = builder_->take(source.key);
+  int& count = binary.empty() ? counts_.from_disk : counts_.built;
+  if (binary.empty()) {
+    binary = read_program_file(source.path, source.key);
+  } else {
+    tell_compiling("kernels/" + file + ".cl");
   }
-  tell_compiling("kernels/" + kernel_file + ".cl");
+  if (binary.empty()) return {};
+  cl::Program program = load_binary(device_, source.options, binary);
+  if (program()) ++count;
+  return program;
+}
+
+cl::Program ProgramCache::load_or_build(const std::string& file, const ProgramSource& source) {
+  if (cl::Program program = load(file, source); program()) return program;
+  if (throws_if_missing_ && !source.path.empty()) throw KernelMissing();
+  tell_compiling("kernels/" + file + ".cl");
   std::optional<FirstCompilation> first;
-  if (!file.empty()) first.emplace();
-  cl::Program program = build_source(device_, kernel_file, options, source);
+  if (!source.path.empty()) first.emplace().begin();
+  cl::Program program = build_source(device_, file, source.options, source.text);
   ++counts_.built;
-  if (!file.empty()) {
-    const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
-    if (!binaries.empty() && !binaries[0].empty()) write_program_file(file, key, binaries[0]);
-  }
+  if (source.path.empty()) return program;
+  const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
+  if (!binaries.empty() && !binaries[0].empty()) write_program_file(source.path, source.key, binaries[0]);
   return program;
 }
 

@@ -9,9 +9,14 @@
 #include <string>
 
 #include "cl/device.h"
+#include "cl/kernel_builder.h"
 
 namespace lightgrid {
 
+// Thrown where a kernel would be compiled (ProgramCache::throw_if_missing).
+struct KernelMissing {};
+
+// The programs of a device by their source and options.
 class ProgramCache {
  public:
   // Binaries are stored in `folder` (default: $XDG_CACHE_HOME/lightgrid/cl or ~/.cache/lightgrid/cl), keyed
@@ -31,6 +36,14 @@ class ProgramCache {
 
   // The same for a source that is not embedded; `file` names it in messages (tests, tools).
   cl::Kernel kernel_of_source(const std::string& file, const std::string& source, const std::string& defines);
+
+  // In a dry run of the device: begins to compile this kernel on another thread if it is neither in memory
+  // nor on disk, and returns true. Else returns false.
+  bool request(const std::string& file, const std::string& defines);
+  void finish_requests();  // waits for them
+  // While true, kernel() throws KernelMissing instead of compiling an embedded kernel that would be stored on
+  // disk.
+  void throw_if_missing(bool enabled) { throws_if_missing_ = enabled; }
 
   // Kernels that were asked for, by where they came from.
   struct Counts {
@@ -54,7 +67,12 @@ class ProgramCache {
   // `key` is a key of programs_; `source` returns the text if it is not in memory.
   cl::Kernel kernel_of(const std::string& key, const std::string& file, const std::string& defines,
                        const std::function<std::string()>& source);
-  cl::Program load_or_build(const std::string& file, const std::string& options, const std::string& source);
+  // Of an embedded file, with what options() adds.
+  std::string text_of(const std::string& file) const;
+  std::string defines_of(const std::string& defines) const;
+  ProgramSource source_of(const std::string& file, const std::string& defines, const std::string& text) const;
+  cl::Program load_or_build(const std::string& file, const ProgramSource& source);
+  cl::Program load(const std::string& file, const ProgramSource& source);
 
   ClDevice& device_;
   std::filesystem::path folder_;
@@ -62,6 +80,8 @@ class ProgramCache {
   Counts counts_;
   std::set<std::string>* asked_ = nullptr;
   Alter alter_;
+  bool throws_if_missing_ = false;
+  std::unique_ptr<KernelBuilder> builder_;  // null until the first request
 };
 
 }  // namespace lightgrid

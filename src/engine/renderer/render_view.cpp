@@ -110,6 +110,11 @@ void RenderView::release() {
   targets.clear();
 }
 
+void RenderView::restart() {
+  drop_caches();
+  look(View(view));
+}
+
 void RenderView::drop_caches() {
   caches.clear();
   cl_lights_.reset();

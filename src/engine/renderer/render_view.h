@@ -36,6 +36,8 @@ struct RenderView : PassContext {
   // Frees the passes' caches, grids, the culler, and the pool's images (Targets::clear), until the next
   // frame, which creates them again. Programs stay.
   void release();
+  // Drops caches and follows the view again, as after the constructor.
+  void restart();
   // Call after look() if point or spot lights of the scene moved or changed.
   void lights_changed();
   // Other random ranges (range=stochastic) and samples of lists (list-cap-order=sampled) for the frames that

@@ -31,6 +31,33 @@ static Frame draw(const Technique& technique, RenderView& view) {
   return frame;
 }
 
+// Calls `draw` for the view's first time. If a kernel has yet to be compiled for this machine, a dry run first
+// requests all that the view needs: threads compile them while OpenGL compiles its shaders.
+static void draw_first(RenderView& view, const std::function<void()>& draw) {
+  ProgramCache& kernels = *view.renderer.kernels;
+  try {
+    kernels.throw_if_missing(true);
+    draw();
+    return kernels.throw_if_missing(false);
+  } catch (const KernelMissing&) {
+    kernels.throw_if_missing(false);
+  } catch (...) {
+    kernels.throw_if_missing(false);
+    throw;
+  }
+  view.restart();
+  view.renderer.cl->dry_run = true;
+  try {
+    draw();
+  } catch (const Error&) {
+    // Zeros may not be valid input. The frame below then compiles the kernels that were not requested.
+  }
+  view.renderer.cl->dry_run = false;
+  view.restart();
+  draw();
+  kernels.finish_requests();  // nothing compiles while later frames are timed
+}
+
 // A view of the same shape whose longest side is `side`.
 static View reduced(View view, int side) {
   const int longest = std::max(view.width, view.height);
@@ -102,7 +129,8 @@ TechniqueRun::TechniqueRun(Renderer& renderer, const Scene& scene, const View& v
 
 void TechniqueRun::prepare() {
   hide();
-  view_.prepare([&] { draw_frame(); });
+  draw_first(view_, [&] { view_.prepare([&] { frame_ = draw(technique_, view_); }); });
+  drawn_ = true;
   frame_ = {};
 }
 
@@ -114,7 +142,10 @@ void TechniqueRun::release() {
 
 void TechniqueRun::draw_frame() {
   hide();
-  frame_ = draw(technique_, view_);
+  const auto draw_view = [&] { frame_ = draw(technique_, view_); };
+  if (drawn_) return draw_view();
+  draw_first(view_, draw_view);
+  drawn_ = true;
 }
 
 TechniqueRun::FrameTime TechniqueRun::time_frame(const std::function<void()>& read) {

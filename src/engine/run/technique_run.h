@@ -96,6 +96,7 @@ class TechniqueRun {
   const Technique& technique_;
   std::unique_ptr<GpuScene> own_scene_;
   RenderView view_;
+  bool drawn_ = false;  // or prepared
   Frame frame_;
   Image image_;
   std::vector<glm::u8vec4> picture_;

@@ -71,8 +71,8 @@ TEST_F(ProgramCacheTest, TakesFromDiskWhatAnotherBuilt) {
 }
 
 TEST_F(ProgramCacheTest, ReportsOnlyKernelsThatLaterStartsLoadFromDisk) {
-  std::vector<int> calls;
-  set_first_compilation_function([&](int kernels) { calls.push_back(kernels); });
+  std::vector<std::pair<int, int>> calls;
+  set_first_compilation_function([&](int kernels, int total) { calls.emplace_back(kernels, total); });
   ProgramCache first(device, folder), second(device, folder);
   run(first, 1);
   run(first, 2);
@@ -82,8 +82,37 @@ TEST_F(ProgramCacheTest, ReportsOnlyKernelsThatLaterStartsLoadFromDisk) {
   run(without, 3);
   set_first_compilation_function({});
   ASSERT_THAT(calls, testing::SizeIs(4));
-  EXPECT_THAT(calls, testing::ElementsAre(calls[0], 0, calls[0] + 1, 0));
-  EXPECT_GT(calls[0], 0);
+  const auto [first_kernel, first_total] = calls[0];
+  EXPECT_GT(first_kernel, 0);
+  EXPECT_EQ(first_total, first_kernel);
+  EXPECT_THAT(calls,
+              testing::ElementsAre(testing::Pair(first_kernel, first_kernel), testing::Pair(0, 0),
+                                   testing::Pair(first_kernel + 1, first_kernel + 1), testing::Pair(0, 0)));
+}
+
+TEST_F(ProgramCacheTest, CompilesAheadWhatADryRunRequests) {
+  const char* const files[] = {"culling/light_z_bins", "culling/straighten_depth", "culling/cap_lists"};
+  std::vector<std::pair<int, int>> calls;
+  set_first_compilation_function([&](int kernels, int total) { calls.emplace_back(kernels, total); });
+  {
+    ProgramCache programs(device, folder);
+    device.dry_run = true;
+    for (const char* file : files) EXPECT_TRUE(programs.request(file, ""));
+    EXPECT_TRUE(programs.request(files[0], ""));
+    device.dry_run = false;
+    EXPECT_FALSE(programs.request(files[0], ""));
+    programs.finish_requests();
+    EXPECT_EQ(this->files().size(), std::size(files));
+    programs.throw_if_missing(true);
+    for (const char* file : files) programs.kernel(file, "");
+    expect_counts(programs, int(std::size(files)), 0, 0);
+    EXPECT_THROW(programs.kernel("culling/tile_masks", ""), KernelMissing);
+  }
+  set_first_compilation_function({});
+  ASSERT_THAT(calls, testing::SizeIs(std::size(files) + 1));
+  EXPECT_EQ(calls.back(), std::pair(0, 0));
+  const auto [last, total] = calls[std::size(files) - 1];
+  EXPECT_EQ(last, total) << "it ends at the total";
 }
 
 TEST_F(ProgramCacheTest, KeepsProgramsOfOtherDefinesApart) {
