@@ -11,9 +11,9 @@
 #include "scene/camera.h"
 #include "scene/light_groups.h"
 #include "scenes/compose.h"
-#include "scenes/shapes.h"
 #include "scenes/cookie_image.h"
 #include "scenes/profile_text.h"
+#include "scenes/shapes.h"
 
 namespace lightgrid {
 

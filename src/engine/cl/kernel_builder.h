@@ -22,8 +22,9 @@ struct ProgramSource {
   std::filesystem::path path;
 };
 
-// Threads that compile and store programs. PoCL compiles one program at a time in each context. On CPUs each thread therefore has a context of its
-// own, which loads PoCL's library of functions (0.5 s and 200 MB); on other devices they share the device's.
+// Threads that compile and store programs. PoCL compiles one program at a time in each context. On CPUs each
+// thread therefore has a context of its own, which loads PoCL's library of functions (0.5 s and 200 MB); on
+// other devices they share the device's.
 class KernelBuilder {
  public:
   explicit KernelBuilder(ClDevice& device) : device_(device) {}

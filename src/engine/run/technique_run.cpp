@@ -49,8 +49,8 @@ static void draw_first(RenderView& view, const std::function<void()>& draw) {
   view.renderer.cl->dry_run = true;
   try {
     draw();
-  } catch (const Error&) {
-    // Zeros may not be valid input. The frame below then compiles the kernels that were not requested.
+  } catch (...) {
+    // Zeros may not be valid input. The frame below then compiles what was not requested, and reports errors.
   }
   view.renderer.cl->dry_run = false;
   view.restart();

@@ -13,9 +13,9 @@
 #include "scene/load_gltf.h"
 #include "scene/random.h"
 #include "scene/write_gltf.h"
+#include "scenes/profile_text.h"
 #include "shared/half_angle.h"
 #include "support/gltf_builder.h"
-#include "scenes/profile_text.h"
 
 namespace lightgrid {
 namespace {
