@@ -29,7 +29,7 @@ void add(const HostGrid& grid) {
 
 void digest_settings(Check& check, const CullView& view, size_t lights) {
   Random random(61);
-  const DepthImage depth = scattered_depth(view, random);
+  const verify::DepthImage depth = scattered_depth(view, random);
   const auto bounds = scattered_bounds(view, 16, random);
   const auto scattered = scattered_lights(view, lights, true, random);
   for (const CullerOptions& options : every_test()) add(check.grid(view, scattered, bounds, {options}));
@@ -49,7 +49,7 @@ void digest_settings(Check& check, const CullView& view, size_t lights) {
 void digest_of_shape(CullEngine& engine, KernelShape shape) {
   const CullView view = field_of_view(60, 37, 21);
   Random random(61);
-  const DepthImage depth = scattered_depth(view, random);
+  const verify::DepthImage depth = scattered_depth(view, random);
   const auto bounds = scattered_bounds(view, 16, random);
   const auto lights = scattered_lights(view, 24, true, random);
   for (const CullTest test : {CullTest::planes_aabb, CullTest::exact}) {

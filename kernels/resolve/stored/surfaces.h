@@ -147,7 +147,7 @@ static inline ShadingPoint stored_point(const Stored* s, const StoredBatch* b, G
   return p;
 }
 
-// What point and spot lights add, and ambient light where the image does not hold it.
+// The light of point and spot lights, and ambient light where the image does not hold it.
 static inline Real3 light_sum(const ShadingPoint* p, mask_t lit, global const index_t* list, uint count,
                               PixelBins bins, const Lights* lights, constant ViewParams* view) {
 #ifdef BASE_LIGHTING

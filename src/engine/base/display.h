@@ -1,4 +1,4 @@
-// What a picture for looking gets on its way to a display. Measured pictures have the defaults.
+// A picture that is made to be looked at passes through this on its way to a display. Measured pictures have the defaults.
 #pragma once
 
 #include <filesystem>

@@ -8,6 +8,7 @@
 #include "base/embedded.h"
 #include "cl/build_error.h"
 #include "cl/error.h"
+#include "cl/kernel_builder.h"
 #include "cl/program_file.h"
 
 namespace lightgrid {
@@ -105,6 +106,8 @@ std::filesystem::path ProgramCache::default_folder() {
 
 ProgramCache::ProgramCache(ClDevice& device, std::filesystem::path folder)
     : device_(device), folder_(disk_is_off() ? std::filesystem::path() : std::move(folder)) {}
+
+ProgramCache::~ProgramCache() = default;
 
 std::string ProgramCache::text_of(const std::string& file) const {
   std::string text = with_includes("kernels/" + file + ".cl");

@@ -9,9 +9,11 @@
 #include <string>
 
 #include "cl/device.h"
-#include "cl/kernel_builder.h"
 
 namespace lightgrid {
+
+class KernelBuilder;
+struct ProgramSource;
 
 // Thrown where a kernel would be compiled (ProgramCache::throw_if_missing).
 struct KernelMissing {};
@@ -28,6 +30,7 @@ class ProgramCache {
   // With LIGHTGRID_CL_QUICK_BUILD=gpu a CPU compiles the kernels of kernels/*/gpu without optimisation, with
   // "all" every kernel: optimisation is most of a kernel's build time. For tests only (docs/testing.md).
   explicit ProgramCache(ClDevice& device, std::filesystem::path folder = default_folder());
+  ~ProgramCache();
 
   // The kernel of the embedded file "kernels/<file>.cl" (e.g. "culling/cpu/depth_bounds") with its includes,
   // built with the options that all kernels share (no contraction, no fast-math) and `defines` (e.g.
@@ -67,7 +70,7 @@ class ProgramCache {
   // `key` is a key of programs_; `source` returns the text if it is not in memory.
   cl::Kernel kernel_of(const std::string& key, const std::string& file, const std::string& defines,
                        const std::function<std::string()>& source);
-  // Of an embedded file, with what options() adds.
+  // The source of an embedded file, with what options() adds.
   std::string text_of(const std::string& file) const;
   std::string defines_of(const std::string& defines) const;
   ProgramSource source_of(const std::string& file, const std::string& defines, const std::string& text) const;

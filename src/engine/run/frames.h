@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "effects/far_light.h"
 #include "passes/read_outs.h"
 #include "renderer/device_clock.h"
 #include "run/technique_run.h"

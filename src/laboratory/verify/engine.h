@@ -13,13 +13,10 @@
 #include "oracle/occlusion.h"
 #include "plan/settings.h"
 #include "raster/raster_view.h"
+#include "run/frames.h"
 #include "scene/animation.h"
 #include "scene/host_shadows.h"
 #include "scene/listed_lights.h"
-
-namespace lightgrid {
-class TechniqueRun;
-}
 
 namespace lightgrid::lab::verify {
 

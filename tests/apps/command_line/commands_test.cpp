@@ -343,9 +343,9 @@ TEST(PlanCommand, ReportsTheSamplesThatASceneRequests) {
     EXPECT_EQ(run.status, 0) << run.err;
     return run.out;
   };
-  EXPECT_THAT(plan({}), HasSubstr("yes samples: the scene asks for 4 a pixel\n"));
+  EXPECT_THAT(plan({}), HasSubstr("yes samples: the scene asks for 4 samples per pixel\n"));
   EXPECT_THAT(plan({"--set", "samples=1"}),
-              HasSubstr(" no samples: the scene asks for 4 a pixel; samples=1\n"));
+              HasSubstr(" no samples: the scene asks for 4 samples per pixel; samples=1\n"));
 }
 
 TEST(PlanCommand, TellsOfEachLightThatCastsWhetherItsShadowsAreFound) {
