@@ -112,7 +112,8 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
         "light_profiles"}},
       {"src/laboratory/verify/catalogue.md",
        {"area_lights", "environment_light", "far_light", "light_cookies", "light_hulls", "light_profiles"}},
-      // Its volume has sums of its own in double.
+      // Its volume is read from a frame, and has sums of its own in double.
+      {"src/engine/run/frames.h", {"far_light"}},
       {"src/laboratory/verify/effect_cases.cpp", {"far_light"}},
       // Images and tables for cases.
       {"src/engine/scenes/cookie_image.h", {"light_cookies"}},
