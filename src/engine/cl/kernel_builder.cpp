@@ -6,8 +6,6 @@
 
 namespace lightgrid {
 
-constexpr size_t max_threads = 4;  // each takes 200 MB
-
 KernelBuilder::~KernelBuilder() {
   {
     const std::lock_guard lock(mutex_);
@@ -24,8 +22,8 @@ void KernelBuilder::add(const ProgramSource& source) {
   job->second.first = std::make_unique<FirstCompilation>();
   waiting_.push_back(&job->second);
   ++left_;
-  const size_t cores = std::max(std::thread::hardware_concurrency(), 1u);
-  if (threads_.size() < std::min({cores, max_threads, left_})) threads_.emplace_back([this] { run(); });
+  const size_t max_threads = device_.info().cpu ? 1 : 4;
+  if (threads_.size() < std::min(max_threads, left_)) threads_.emplace_back([this] { run(); });
   changed_.notify_all();
 }
 
