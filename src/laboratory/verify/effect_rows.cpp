@@ -1,3 +1,4 @@
+// The hard cases of effects: a row each.
 #include <filesystem>
 #include <limits>
 #include <numbers>
