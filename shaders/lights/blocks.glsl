@@ -10,7 +10,7 @@
 // Returns whether the point may be nearer than the light's range, with room for the rounding of
 // shared/punctual_light.h. True for NaN.
 bool may_reach(vec3 position, uint light) {
-  vec4 at = texelFetch(light_positions, int(light));
+  vec4 at = LIGHT_VALUE(vec4, light_positions, int(light));
   vec3 to_light = at.xyz - position;
   return !(dot(to_light, to_light) * at.w >= 1.0001);
 }

@@ -5,7 +5,11 @@
 #endif
 #include "shared/punctual_light.h"
 
-LIGHT_TABLE(LIGHT_TEXTURE)
+#ifdef LIGHTS_IN_BLOCK
+layout(std140) uniform LightsBlock { LIGHT_TABLE(LIGHT_INPUT) };
+#else
+LIGHT_TABLE(LIGHT_INPUT)
+#endif
 
 PunctualLight light_at(int index) {
   PunctualLight light;

@@ -45,7 +45,7 @@ namespace lightgrid {
 #define LIGHTGRID_UNIFORM_BLOCKS(BLOCK) \
   BLOCK(ViewParamsBlock) BLOCK(MaterialParamsBlock) BLOCK(MaterialModelsBlock) BLOCK(SliceEdgesBlock) \
   BLOCK(ZBinEdgesBlock) BLOCK(VoxelLookupBlock) BLOCK(WorldGridBlock) BLOCK(WorldViewBlock) \
-  BLOCK(ReceiverBlock)
+  BLOCK(ReceiverBlock) BLOCK(LightsBlock)
 // clang-format on
 
 #define LIGHTGRID_NEXT(name) name,

@@ -76,6 +76,7 @@ FramePlan plan_frame(const Scene& scene, const View& view, const Settings& setti
   decisions.reserve(feature_names.size() + 16);
   plan.surfaces = plan_surfaces(scene, view, s, instances, decisions);
   plan.lights = plan_lights(scene, view, s, lights, decisions);
+  plan.lights.in_block = needs.lists.light_block;
   plan_effects(scene, needs, plan);
   plan_base_lighting(scene, plan);
   plan.lists = plan_lists(scene, view, needs.lists, s, plan.surfaces, plan.lights, decisions);

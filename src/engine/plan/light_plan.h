@@ -21,6 +21,7 @@ struct LightPlan {
   bool any_directional = false;
   bool any_virtual = false;  // at least one light is a virtual point light
   bool spots = false;        // compile cone code
+  bool in_block = false;     // shaders read them from a uniform block
   int virtual_count = 0;     // of the scene's lights: virtual point lights
   int index_bits = 16;
   PlannedLights planned = PlannedLights::in_view;

@@ -8,12 +8,13 @@ namespace lightgrid {
 
 struct ListNeeds {
   bool light_grid = false;
-  bool slices = false;      // tiles are cut into depth slices
-  bool z_bins = false;      // shading skips lights by z-bins, if the setting z-bins says so
-  bool no_masks = false;    // light code reads only lists, not masks
-  bool world_grid = false;  // light lists in cells of the world
-  bool capped = false;      // its lists and its view may end at a number of lights
-  bool sampled = false;     // of these lists, each light may count several times
+  bool slices = false;       // tiles are cut into depth slices
+  bool z_bins = false;       // shading skips lights by z-bins, if the setting z-bins says so
+  bool no_masks = false;     // light code reads only lists, not masks
+  bool world_grid = false;   // light lists in cells of the world
+  bool capped = false;       // its lists and its view may end at a number of lights
+  bool light_block = false;  // shaders read lights from a uniform block, not from buffer textures
+  bool sampled = false;      // of these lists, each light may count several times
   // Why the plan has none of them, if it is not the view.
   const char* no_light_grid = "the technique reads none";
   const char* no_slices = "the technique uses none";

@@ -5,6 +5,7 @@
 //   VIRTUAL_LIGHTS: at least one of those is a virtual point light.
 //   SHADOWS: some light of the scene casts a shadow (ShadowPlan::light_reaches).
 //   EFFECT_NAME: an effect answers NAME_reach (shared/inputs.h).
+//   LIGHTS_IN_BLOCK: shaders read them from a uniform block (Trebilco's constant buffer).
 #pragma once
 
 #include "shared/real.h"
@@ -46,6 +47,9 @@ namespace lightgrid {
   ROW(IF_LIGHTS, Float4, color, light_colors, samplerBuffer)       \
   ROW(IF_SPOTS, Float4, cone, light_cones, samplerBuffer)          \
   ROW(IF_VIRTUAL, float, max_falloff, light_falloffs, samplerBuffer)
+
+// The block's columns fit into the 16 KB that OpenGL guarantees.
+#define LIGHTS_OF_BLOCK 255
 
 // Identifies a light for light_reaches: its index, and in OpenCL the shadows at the pixels that read it and
 // the inputs of effects.
@@ -187,9 +191,16 @@ SHARED_FUNCTION Real3 effects_tint(LIGHT_OF_EFFECTS Real3 point, Real3 to_light,
 #endif
 
 #if defined(LIGHTGRID_GLSL)
-#define LIGHT_TEXTURE(condition, type, member, array, texels) condition(uniform texels array;)
+// From buffer textures; with LIGHTS_IN_BLOCK from a uniform block, which has all columns.
+#ifdef LIGHTS_IN_BLOCK
+#define LIGHT_INPUT(condition, type, member, array, texels) type array[LIGHTS_OF_BLOCK];
+#define LIGHT_VALUE(type, array, index) array[index]
+#else
+#define LIGHT_INPUT(condition, type, member, array, texels) condition(uniform texels array;)
+#define LIGHT_VALUE(type, array, index) type(texelFetch(array, index))
+#endif
 #define LIGHT_TEXEL(condition, type, member, array, texels) \
-  condition(light.member = type(texelFetch(array, index));)
+  condition(light.member = LIGHT_VALUE(type, array, index);)
 #elif defined(__OPENCL_VERSION__)
 // Arguments of a kernel, before others; those without their condition are not read, and shadows not there.
 // Then the same as members of a struct, and as their first values.

@@ -28,6 +28,12 @@ static void refuse_impossible(const FramePlan& plan) {
         "lidr: behind front faces, lights of a group must not touch on the screen, which depends on the "
         "camera; use lidr-sort=view, or lidr-volumes=stencil");
   }
+  if (settings[setting::lidr_light_block] && plan.lights.planned == PlannedLights::in_view &&
+      plan.lights.local.size() > LIGHTS_OF_BLOCK) {
+    throw input_error(
+        "lidr: a uniform block holds {} lights, but {} are in view; use lidr-light-data=textures",
+        LIGHTS_OF_BLOCK, plan.lights.local.size());
+  }
   if (settings[setting::lidr_volumes] == LidrVolumes::no_prepass &&
       (plan.shadows.light_reaches || plan.shadows.own)) {
     throw input_error(
@@ -77,6 +83,7 @@ static const Setting<int> lights_with_maps{
 static void adapt(TechniqueNeeds& needs, Settings& settings) {
   needs.surfaces.reversed_triangles =
       settings[setting::lidr_passes] > 1 || settings[setting::lidr_types] == LidrTypes::passes;
+  needs.lists.light_block = settings[setting::lidr_light_block];
   const LidrShadows way = settings[setting::lidr_shadows];
   if (way == LidrShadows::pass) return;
   needs.shadows.own = true;
@@ -90,10 +97,11 @@ extern const Technique lidr{
     .summary = "light volumes drawn into images of light indices",
     .source = "Trebilco: Light-Indexed Deferred Rendering, ShaderX7 2.9, 2009",
     .needs = {.effects = all_effects, .surfaces = {.stencil = true}, .samples = {.most = 8}, .adapt = adapt},
-    .settings = {"brdf", "lidr-packing", "lidr-overlap", "lidr-lights", "lidr-volumes", "lidr-unpack",
-                 "lidr-types", "lidr-sort", "lidr-passes", "lidr-order", "lidr-shadows", "lidr-maps",
-                 "volume-mesh", "depth-bounds", "tile", "samples", "samples-masks", "samples-resolve",
-                 "kernel-shape"},
+    .settings = {"brdf",         "lidr-packing",  "lidr-overlap",    "lidr-lights",
+                 "lidr-volumes", "lidr-unpack",   "lidr-types",      "lidr-sort",
+                 "lidr-passes",  "lidr-order",    "lidr-light-data", "lidr-shadows",
+                 "lidr-maps",    "volume-mesh",   "depth-bounds",    "tile",
+                 "samples",      "samples-masks", "samples-resolve", "kernel-shape"},
     .render = render,
     .listed_by = ListedBy::pixel,
     .limited_lists = true};

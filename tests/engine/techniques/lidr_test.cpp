@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "passes/light_index/layout.h"
 #include "passes/light_index/lidr_settings.h"
+#include "scene/virtual_lights.h"
 #include "support/error_of.h"
 #include "techniques/lidr_scenes.h"
 
@@ -58,6 +59,34 @@ TEST(Lidr, MoreLightsThanAskedForAreRefused) {
   EXPECT_EQ(
       std::string(error_of([&] { light_index_layout(lidr_settings(LidrPacking::bitshift, 4, 15), 16); })),
       "lidr: 16 point and spot lights are more than the 15 that have an index; use lidr-lights=auto");
+}
+
+// The last column is that of virtual lights, the one before it that of cones.
+TEST(Lidr, ReadsTheSameLightsFromAUniformBlock) {
+  Settings constants = lidr_settings(LidrPacking::bitshift);
+  apply_setting(constants, "lidr-light-data=constants");
+  SmallScene s = small_scene();
+  for (const char* name : {"blend", "spot", "directional"}) effect(name).add(s);
+  Light card = s.scene.lights[0];
+  make_virtual(card);
+  card.nearest_m = 0.3f;
+  card.position.x += 0.4;
+  for (const bool virtual_lights : {false, true}) {
+    if (virtual_lights) s.scene.lights.push_back(card);
+    TechniqueRun run(test_devices(), s.scene, small_view(64, 48), constants, find_technique("lidr"));
+    for (const double x : {0.0, 0.3}) {
+      const View view = make_view(look_at({x, 0, 0}, {0, 0, -4}), 64, 48);
+      run.look(view);
+      run.run_frame();
+      EXPECT_TRUE(
+          identical(run.image(), render(s.scene, view, "lidr", lidr_settings(LidrPacking::bitshift))));
+    }
+  }
+  const Scene full = clustered_lights(4, 255), too_many = clustered_lights(4, 256);
+  const View view = small_view(64, 48);
+  EXPECT_TRUE(identical(render(full, view, "lidr", constants), render(full, view, "lidr")));
+  EXPECT_EQ(std::string(error_of([&] { render(too_many, view, "lidr", constants); })),
+            "lidr: a uniform block holds 255 lights, but 256 are in view; use lidr-light-data=textures");
 }
 
 TEST(Lidr, EveryFrameIsTheSameAndMakesNothingNew) {

@@ -67,4 +67,10 @@ inline const Setting<int> lidr_passes{
     "the next pass, and left out after the last",
     {"1", "2", "4", "8", "16"}};
 
+inline const Setting<bool> lidr_light_block{395,
+                                            "lidr-light-data",
+                                            "where shaders read the light table: buffer textures, or a "
+                                            "uniform block (constants), for up to 255 lights",
+                                            {{"textures", false}, {"constants", true}}};
+
 }  // namespace lightgrid::setting

@@ -90,6 +90,18 @@ LightTable light_table(const FramePlan& plan, std::span<const ViewLight> lights)
   return table;
 }
 
+// The uniform block: arrays of std140, in which each value takes the place of four floats.
+std::vector<glm::vec4> block_of(const LightTable& table, size_t lights) {
+  std::vector<glm::vec4> block(light_column_count * LIGHTS_OF_BLOCK);
+  for (size_t c = 0; c < light_column_count; ++c) {
+    const std::vector<std::byte>& values = table.columns[c].values;
+    const size_t size = lights > 0 ? values.size() / lights : 0;
+    for (size_t i = 0; i < std::min<size_t>(lights, LIGHTS_OF_BLOCK); ++i)
+      std::memcpy(&block[c * LIGHTS_OF_BLOCK + i], values.data() + i * size, size);
+  }
+  return block;
+}
+
 LightTable light_table(const ViewState& seen) {
   return light_table(seen.plan, lights_in_view(seen.scene, seen.view, ranges_of(seen.plan.settings)));
 }
@@ -98,6 +110,7 @@ LightTable light_table(const ViewState& seen) {
 
 std::vector<const char*> light_table_defines(const FramePlan& plan) {
   std::vector<const char*> defines;
+  if (plan.lights.in_block) defines.push_back("LIGHTS_IN_BLOCK");
   if (plan.lights.spots) defines.push_back("SPOTS");
   if (plan.lights.any_virtual) defines.push_back("VIRTUAL_LIGHTS");
   const LightRanges ranges = ranges_of(plan.settings);
@@ -165,7 +178,13 @@ void GlLights::upload(const ViewState& seen) {
   };
   for (size_t i = 0; i < light_column_count; ++i) {
     const LightColumn& column = table.columns[i];
-    put_lights(lights_[i], column.needed, column.sampler, column.format, column.values);
+    put_lights(lights_[i], column.needed && !plan.lights.in_block, column.sampler, column.format,
+               column.values);
+  }
+  if (plan.lights.in_block) {
+    const std::vector<glm::vec4> block = block_of(table, plan.lights.local.size());
+    lights_block_.put(block.size() * sizeof block[0], block.data());
+    light_bytes_ += lights_block_.bytes;
   }
   put_lights(lights_[light_column_count], plan.lights.any_directional, Sampler::directional_lights,
              GL_RGBA32F, table.directional);
@@ -175,6 +194,7 @@ void GlLights::bind() const {
   bind_block(UniformBlock::ViewParamsBlock, view_block_.buffer.name());
   if (slice_block_.buffer) bind_block(UniformBlock::SliceEdgesBlock, slice_block_.buffer.name());
   if (z_bin_block_.buffer) bind_block(UniformBlock::ZBinEdgesBlock, z_bin_block_.buffer.name());
+  if (lights_block_.buffer) bind_block(UniformBlock::LightsBlock, lights_block_.buffer.name());
   for (const Lights& lights : lights_) {
     if (lights.texture) bind_texture(lights.sampler, lights.texture.name());
   }

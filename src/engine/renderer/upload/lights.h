@@ -50,7 +50,7 @@ class GlLights {
     size_t bytes = 0;
     bool put(size_t size, const void* data);  // true: a new buffer was created
   };
-  Sized view_block_, slice_block_, z_bin_block_;
+  Sized view_block_, slice_block_, z_bin_block_, lights_block_;
   struct Lights {
     Sampler sampler{};
     Sized buffer;
