@@ -18,7 +18,7 @@ import tempfile
 from pathlib import Path
 
 SIZE = "640x360"
-SLIVER_SEEDS = 20  # one seed's RMSE is a few pixels' chance: docs/lab/2026-11-28-surfaces-against-double.md
+SLIVER_SEEDS = 20  # one seed's RMSE is a few pixels' chance: docs/details/visibility.md#surfaces-against-double
 BUILT_IN = ["hall", "street", "terrain", "spheres", "rooms", "square"]
 
 

@@ -1,6 +1,6 @@
 // Measures what the size of the world grid's cells costs: for each world-grid and world-cell the pairs that
 // pixels read, memory, and processor time, which other work on the machine changes less than elapsed time.
-// Its figures: docs/lab/2026-11-23-world-grid.md.
+// Its figures: docs/details/world_grid.md#measured.
 //
 //     world_cells [SCENE [LIGHTS [WIDTHxHEIGHT [FRAMES]]]]    LIGHTS 0: the scene's own
 //     world_cells SCENE LIGHTS steps [WORLD-GRID WORLD-CELL]  each step of a build; also auto

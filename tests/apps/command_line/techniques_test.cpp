@@ -113,10 +113,15 @@ TEST(Techniques, AreNamedByTheHelpOfWhatTakesThem) {
   }
 }
 
-// The beginning of a setting's row: "| `tile` | `16` `8` `32` `64` |".
+// The beginning of a setting's row: "| `tile` | `16` `8` `32` `64` |", "| `list-seed` | `1` `2` … `16` |".
 std::string row_of(const SettingRow& s) {
   std::string row = "| `" + s.key + "` |";
-  for (const std::string& value : s.values) row += " `" + value + "`";
+  const bool is_long = s.values.size() > 10;
+  for (const std::string& value : s.values) {
+    if (is_long && value == s.values.back()) row += " …";
+    if (!is_long || value == s.values.back() || value == s.values[0] || value == s.values[1])
+      row += " `" + value + "`";
+  }
   return row + " |";
 }
 

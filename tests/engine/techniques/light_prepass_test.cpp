@@ -39,7 +39,7 @@ TEST(LightPrepass, IsForwardsImageOfOneLightAndItsShininess) {
   }
 }
 
-// The table of docs/lab/2026-11-22-light-prepass.md#errors-of-the-highlights is printed.
+// The table of docs/details/light_prepass.md#errors-of-the-highlights is printed.
 TEST(LightPrepass, IsItsEquationsForAnyNumberOfLights) {
   const View view = small_view(63, 37);
   fmt::print("lights  colours  variant     rmse of forward's brightest channel\n");
