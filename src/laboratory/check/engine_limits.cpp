@@ -25,7 +25,7 @@ constexpr const char* unity_order =
 constexpr const char* godot_order =
     "the lights that are kept are the first that were paired with the mesh, an order that is not the "
     "scene's; "
-    "versions with pull request 107234 choose by relevance, by a formula that was not read; the box of a "
+    "newer versions (pull request 107234) choose by relevance, by a formula that was not read; the box of a "
     "spot";
 constexpr const char* shorter = "Shorten ranges, or merge lamps that stand together.";
 constexpr const char* split = "Split the mesh, or shorten ranges.";
@@ -63,10 +63,10 @@ const std::vector<EngineLimit> limits = {
      "the lights that are kept are the first that culling finds, an order that is not the scene's; fading by "
      "distance",
      "Raise rendering/limits/cluster_builder/max_clustered_elements."},
-    {"godot-mobile", "4.0 to 4.4", Scope::mesh, Kinds::each, Of::scene, Order::unknown, 8, Cells::none,
+    {"godot-mobile", "4.0 to 4.7", Scope::mesh, Kinds::each, Of::scene, Order::unknown, 8, Cells::none,
      Reach::box, "https://github.com/godotengine/godot/blob/master/doc/classes/OmniLight3D.xml", godot_order,
      split},
-    {"godot-compatibility", "4.0 to 4.4", Scope::mesh, Kinds::each, Of::scene, Order::unknown, 8, Cells::none,
+    {"godot-compatibility", "4.0 to 4.7", Scope::mesh, Kinds::each, Of::scene, Order::unknown, 8, Cells::none,
      Reach::box, "https://github.com/godotengine/godot/blob/master/drivers/gles3/rasterizer_scene_gles3.cpp",
      godot_order, "Raise rendering/limits/opengl/max_lights_per_object, or split the mesh."},
     {"godot-compatibility", "4.x", Scope::view, Kinds::each, Of::seen, Order::unknown, 32, Cells::none,
@@ -93,12 +93,12 @@ const std::vector<EngineLimit> limits = {
      "Raise scene.lighting.maxLights, or shorten ranges."},
     {"bevy-webgl", "0.18 and 0.19 without storage buffers", Scope::view, Kinds::local, Of::seen,
      Order::points_first, 204, Cells::none, Reach::range,
-     "https://github.com/bevyengine/bevy/blob/main/crates/bevy_light/src/cluster/assign.rs",
+     "https://github.com/bevyengine/bevy/blob/v0.19.0/crates/bevy_light/src/cluster/assign.rs",
      "lights with shadow maps or volumetrics come first among their kind, which a scene here does not say; "
      "within a kind the order is that of entities",
      "Use WebGPU, which has storage buffers, or show fewer lights at once."},
-    {"babylon", "8.x, PBRMaterial and StandardMaterial", Scope::mesh, Kinds::every, Of::scene, Order::index,
-     4, Cells::none, Reach::always,
+    {"babylon", "8.x and 9.28, PBRMaterial and StandardMaterial", Scope::mesh, Kinds::every, Of::scene,
+     Order::index, 4, Cells::none, Reach::always,
      "https://doc.babylonjs.com/features/featuresDeepDive/lights/lights_introduction",
      "lights with shadowEnabled and a higher renderPriority come first; both are taken to be equal for all",
      "Raise maxSimultaneousLights of the materials, name includedOnlyMeshes of lights, or put lights into a "
@@ -106,12 +106,14 @@ const std::vector<EngineLimit> limits = {
 };
 
 const std::vector<UnlimitedEngine> unlimited = {
-    {"bevy", "https://github.com/bevyengine/bevy/blob/main/crates/bevy_light/src/cluster/assign.rs",
-     "with storage buffers lists have any length"},
+    {"bevy", "https://github.com/bevyengine/bevy/blob/v0.19.0/crates/bevy_light/src/cluster/assign.rs",
+     "with storage buffers lists have any length; since 0.19 those made on the GPU begin with room for "
+     "65,536 entries, and lights may be missing for some frames while they grow"},
     {"babylon-clustered",
      "https://github.com/BabylonJS/Babylon.js/blob/master/packages/dev/core/src/Lights/Clustered/"
      "clusteredLightContainer.ts",
-     "tiles have a bit for each light of the container"},
+     "tiles have a bit for each light of the container; lights of glTF files enter it once their falloffType "
+     "is FALLOFF_DEFAULT"},
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ std::string in_one_line(std::string text) {
 // Another renderer's answer to a request that took `asked_ms` by this program's clock.
 struct FrameAnswer {
   double ms = 0;
-  std::optional<double> device_ms;
+  std::optional<double> device_ms, cpu_ms;
 };
 
 FrameAnswer frame_answer(const std::string& line, double asked_ms) {
@@ -34,17 +34,22 @@ FrameAnswer frame_answer(const std::string& line, double asked_ms) {
   }
   const JsonFields answer(parsed, "answer: ");
   if (answer.has("error")) throw machine_error("{}", in_one_line(answer.text("error")));
-  const auto checked = [&](const char* key) {
+  const auto above_zero = [&](const char* key) {
     const double ms = answer.number(key);
     if (!(ms > 0 && std::isfinite(ms))) throw machine_error("answer: {}: {} is not above 0", key, ms);
+    return ms;
+  };
+  const auto checked = [&](const char* key) {
+    const double ms = above_zero(key);
     if (ms > asked_ms)
       throw machine_error("answer: {}: {} is more than the {:.3f} ms from the request to the answer", key, ms,
                           asked_ms);
     return ms;
   };
-  FrameAnswer frame{.ms = checked("frame_ms"), .device_ms = {}};
+  FrameAnswer frame{.ms = checked("frame_ms"), .device_ms = {}, .cpu_ms = {}};
   if (answer.has("device_ms")) frame.device_ms = checked("device_ms");
-  answer.check_fields({"frame_ms", "device_ms"});
+  if (answer.has("cpu_ms")) frame.cpu_ms = above_zero("cpu_ms");  // on several cores more than asked_ms
+  answer.check_fields({"frame_ms", "device_ms", "cpu_ms"});
   return frame;
 }
 
@@ -74,6 +79,7 @@ double PointRun::ask(bool for_picture) {
     const FrameAnswer frame = frame_answer(answer, asked_ms_);
     ms = frame.ms;
     if (frame.device_ms) device_times_ = DeviceTimes{.device_ms = *frame.device_ms};
+    cpu_ms_ = frame.cpu_ms;
     if (for_picture) mean_ = load_exr_picture(picture, view_.width, view_.height);
   });
   if (!refused_.empty()) external_.reset();

@@ -43,11 +43,11 @@ struct Check : testing::Test {
 TEST_F(Check, HoldsUpToTheLimitAndNamesTheLightPastIt) {
   const ProgramRun full = run(8, {"--engine", "godot-mobile"});
   EXPECT_EQ(full.status, 0) << full.out << full.err;
-  EXPECT_THAT(full.out, HasSubstr("godot-mobile/mesh (4.0 to 4.4): holds: at most 8 points, room for 8"));
+  EXPECT_THAT(full.out, HasSubstr("godot-mobile/mesh (4.0 to 4.7): holds: at most 8 points, room for 8"));
   EXPECT_THAT(full.out, HasSubstr("\n1 of 1 engine keeps all lights: godot-mobile\n"));
   const ProgramRun over = run(9, {"--engine", "godot-mobile"});
   EXPECT_EQ(over.status, 1) << over.err;
-  EXPECT_THAT(over.out, HasSubstr("godot-mobile/mesh (4.0 to 4.4): drops lights"));
+  EXPECT_THAT(over.out, HasSubstr("godot-mobile/mesh (4.0 to 4.7): drops lights"));
   EXPECT_THAT(over.out, HasSubstr("\n0 of 1 engine keeps all lights\n"));
   EXPECT_THAT(over.out, HasSubstr("1 of 9 lights dropped: light 8 \"lamp 8\" (frame 0, mesh "));
   EXPECT_THAT(over.out, HasSubstr("the engine's choice is not public"));

@@ -176,6 +176,7 @@ TEST(FrontierExternal, FaultyCommandsAreRefusedPoints) {
       {"read line; echo '{\"frame_ms\": 0.001, \"devise_ms\": 1}'", "did you mean device_ms?"},
       {"read line; echo '{\"frame_ms\": -1}'", "frame_ms: -1 is not above 0"},
       {"read line; echo '{\"frame_ms\": 1e9}'", "is more than the"},
+      {"read line; echo '{\"frame_ms\": 0.001, \"cpu_ms\": 0}'", "cpu_ms: 0 is not above 0"},
       {"read line; echo '{\"frame_ms\": 0.001}'", ".exr"},  // it wrote no picture
       {"sleep 100", "no answer within 1 s"}};
   std::vector<std::string> files;
