@@ -101,8 +101,21 @@ bool meets(const LightBox& box, const glm::dvec3& center, double radius) {
   return glm::dot(away, away) <= radius * radius;
 }
 
-glm::ivec3 each_cell(LimitCells layout, const View& view, const std::vector<ViewLight>& in_view,
+// _getBoundingSphereCenter and _getBoundingSphereRadius of ClusteredLightsNode.
+ViewLight as_listed(LimitCells layout, ViewLight light) {
+  if (layout != LimitCells::three || !has_cone(light) || !std::isfinite(light.radius_m)) return light;
+  const double cosine = std::max<double>(light.cos_outer, 0);
+  const bool wide = cosine < std::sqrt(0.5);
+  const double along_m = wide ? light.radius_m * cosine : light.radius_m / (2 * cosine);
+  light.position += light.direction * along_m;
+  light.radius_m = wide ? light.radius_m * std::sqrt(1 - cosine * cosine) : along_m;
+  return light;
+}
+
+glm::ivec3 each_cell(LimitCells layout, const View& view, const std::vector<ViewLight>& scene_lights,
                      const std::vector<int>& lights, const CellVisit& visit) {
+  std::vector<ViewLight> in_view;
+  for (const ViewLight& light : scene_lights) in_view.push_back(as_listed(layout, light));
   const Edges edges =
       layout == LimitCells::three ? edges_of_three(view) : edges_of_unreal(view, in_view, lights);
   const ivec3 size(edges.x.size() - 1, edges.y.size() - 1, edges.z.size() - 1);

@@ -95,12 +95,13 @@ struct LimitFrame {
   }
 };
 
-void set_order(LimitOrder order, const LimitFrame& frame, Lights& lights) {
+void set_order(const EngineLimit& limit, const LimitFrame& frame, Lights& lights) {
+  const LimitOrder order = limit.order;
   const auto light = [&](int i) -> const ViewLight& { return frame.in_view[size_t(i)]; };
   if (order == LimitOrder::nearest)
     std::ranges::stable_sort(lights, {}, [&](int i) { return glm::length(light(i).position); });
   if (order == LimitOrder::farthest)
-    std::ranges::stable_sort(lights, {}, [&](int i) { return light(i).position.z; });
+    std::ranges::stable_sort(lights, {}, [&](int i) { return as_listed(limit.cells, light(i)).position.z; });
   if (order == LimitOrder::points_first)
     std::ranges::stable_sort(lights, {}, [&](int i) { return has_cone(light(i)); });
 }
@@ -174,7 +175,7 @@ class LimitCount {
   Lights take_kind(LimitPlace place, Lights lights) {
     note(place, lights.size());
     if (lights.size() <= result_.most) return {};
-    set_order(limit_.order, frame_, lights);
+    set_order(limit_, frame_, lights);
     lights.erase(lights.begin(), lights.begin() + std::ptrdiff_t(result_.most));
     drop(place, lights);
     return lights;

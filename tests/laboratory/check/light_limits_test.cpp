@@ -251,6 +251,15 @@ TEST(LightLimits, ACellDropsTheLightThatItsOrderSays) {
   EXPECT_THAT(dropped(result_of(level, "three-clustered/cell")), ElementsAre(0));  // the nearest
 }
 
+TEST(LightLimits, ThreeListsTheBallAroundASpotsCone) {
+  Level level;
+  for (int i = 0; i < 64; ++i) level.point({1.5f, 1.5f, -12}, 1e-3f);
+  level.spot({1.5f, 1.5f, -20}, {1.5f, 1.5f, -21}, 9);  // away from the cell, which its range reaches
+  EXPECT_TRUE(result_of(level, "three-clustered/cell").holds());
+  level.spot({1.5f, 1.5f, -20}, {1.5f, 1.5f, -19}, 9);
+  EXPECT_FALSE(result_of(level, "three-clustered/cell").holds());
+}
+
 TEST(LightLimits, CellsInEmptySpaceCountNot) {
   Level level;
   for (int i = 0; i < 70; ++i) level.point({0.1f, 0.1f, -3}, 1e-3f);
