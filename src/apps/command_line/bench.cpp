@@ -202,7 +202,7 @@ void add_bench(CommandLine& line) {
                "KEY=VALUE,VALUE,…: run in turn, with ratios to the first; may be repeated");
   add_timing_options(command, o->timing);
   command.option("--json", o->json, "as JSON into a file, - for stdout");
-  command.option("--html", o->html, "a page with a bar per kernel, into a file");
+  command.option("--html", o->html, "a page of the results, into a file");
 }
 
 }  // namespace lightgrid::app
