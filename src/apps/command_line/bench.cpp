@@ -7,7 +7,9 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/write_file.h"
 #include "bench/bench.h"
+#include "bench/bench_page.h"
 #include "bench/rows.h"
 #include "bench/tune.h"
 #include "command_line/commands.h"
@@ -23,7 +25,7 @@ namespace {
 struct BenchCommand {
   SceneChoice scene{.scene = ""};
   DeviceOptions devices;
-  std::string filter, json, write_frames;
+  std::string filter, json, html, write_frames;
   std::vector<std::string> replay, compare;
   TimingOptions timing{30, 3};
   bool tune = false;
@@ -144,7 +146,7 @@ int tune(const BenchCommand& o) {
 
 int bench(const BenchCommand& o) {
   RowFilter(o.filter);  // reports a wrong filter before the work
-  if (!o.json.empty()) check_output_file("--json", o.json);
+  check_output_files({{"--json", o.json}, {"--html", o.html}});
   const std::unique_ptr<SceneFrames> frames = chosen_frames(o);
   if (o.tune) return tune(o);
   BenchOptions options{.cases = frames             ? frames->cases()
@@ -176,6 +178,7 @@ int bench(const BenchCommand& o) {
   const BenchReport report = run_bench(device, options);
   if (table) fmt::print("{}", slowest_kernel_text(report.rows));
   if (!o.json.empty()) write_json(o.json, to_json(report).dump(1));
+  if (!o.html.empty()) write_file(o.html, bench_page(report));
   return 0;
 }
 
@@ -199,6 +202,7 @@ void add_bench(CommandLine& line) {
                "KEY=VALUE,VALUE,…: run in turn, with ratios to the first; may be repeated");
   add_timing_options(command, o->timing);
   command.option("--json", o->json, "as JSON into a file, - for stdout");
+  command.option("--html", o->html, "a page of the results, into a file");
 }
 
 }  // namespace lightgrid::app

@@ -386,7 +386,7 @@ void add_check(CommandLine& line) {
   command.flag("--shorten", o->shorten, "finds how far all lights' ranges must shrink until limits hold");
   command.option("--json", o->json, "results as JSON into a file, - for stdout");
   command.option("--sarif", o->sarif, "dropped lights as SARIF 2.1.0 into a file, - for stdout");
-  command.option("--html", o->html, "a page with pictures of what limits look like, into a file");
+  command.option("--html", o->html, "a page of the results, into a file");
 }
 
 }  // namespace lightgrid::app

@@ -109,9 +109,9 @@ void print(const Found& found) {
       fmt::print("  {:<6} not available: {}\n", g.backend, g.why);
     }
   }
-  const std::string bridge = found.bridge.empty()
-                                 ? "none without both: the technique visibility draws in OpenCL alone"
-                                 : found.bridge;
+  const std::string bridge = !found.bridge.empty() ? found.bridge
+                             : found.cl.empty()    ? "none: every technique needs an OpenCL device"
+                                                   : "none: visibility draws without OpenGL";
   fmt::print("Bridge\n  {}{}\n", bridge, found.why_staged.empty() ? "" : ": " + found.why_staged);
 }
 

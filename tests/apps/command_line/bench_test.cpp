@@ -72,6 +72,25 @@ TEST(BenchCommand, HasTheKeysThatOthersRead) {
   }
 }
 
+size_t occurrences(const std::string& text, const std::string& word) {
+  size_t count = 0;
+  for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
+}
+
+TEST(BenchCommand, WritesAPageWithABarPerRow) {
+  const TempFolder folder;
+  const std::filesystem::path page = folder.path / "bench.html";
+  const ProgramRun run = run_program({"bench", "--replay", write_small_frame(folder.path), "--filter",
+                                      "wall/(cull_lights|launch_overhead)$", "--html", page});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string html = file_bytes(page);
+  EXPECT_THAT(html, HasSubstr("<h2>wall</h2>"));
+  EXPECT_THAT(html, HasSubstr("<td>cull_lights</td>"));
+  EXPECT_THAT(html, HasSubstr("slowest of 1 kernel: cull_lights in wall"));
+  EXPECT_EQ(occurrences(html, "class=\"bar\""), 2u);
+}
+
 TEST(BenchCommand, TimesThePipelineItsKernelsAndWhatLaunchesCost) {
   const auto report = bench_of_small_frame({"--filter", "wall/", "--frames", "4"});
   for (const char* name : {"pipeline", "pipeline_device", "launch_overhead", "depth_bounds", "plain_read",
