@@ -19,7 +19,7 @@ __attribute__((overloadable, convergent)) void barrier(cl_mem_fence_flags);
 
 // Numbers of float.
 #define DECLARE(T) \
-  PURE T exp(T); PURE T log(T); PURE T sqrt(T); PURE T fabs(T); PURE T floor(T); PURE T rint(T); \
+  PURE T sqrt(T); PURE T fabs(T); PURE T floor(T); PURE T rint(T); \
   PURE T fmin(T, T); PURE T fmax(T, T); PURE T fma(T, T, T); \
   PURE T min(T, T); PURE T max(T, T); PURE T clamp(T, T, T);
 DECLARE(float) OF_SIZES(DECLARE, float)

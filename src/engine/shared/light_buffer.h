@@ -166,7 +166,7 @@ SHARED_FUNCTION real shininess_of_roughness(real roughness) {
 
 // base^exponent for a base in [0, 1].
 SHARED_FUNCTION real power_of_unit(real base, real exponent) {
-  return exp_real(exponent * log_real(min_real(max_real(base, REAL(1e-30f)), REAL(1.0f))));
+  return power_of(min_real(max_real(base, REAL(1e-30f)), REAL(1.0f)), exponent);
 }
 
 // A sum of highlights of this exponent, times the lobe's normalisation.

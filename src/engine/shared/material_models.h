@@ -4,6 +4,7 @@
 //   MINNAERT: some surface's diffuse part follows Minnaert's cosines. k = 1 is Lambert, to the bit.
 #pragma once
 
+#include "shared/powers.h"
 #include "shared/shading_point.h"
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
@@ -40,28 +41,6 @@ SHARED_FUNCTION Real3 subsurface_of(ShadingPoint p, Real3 to_light) {
 #endif
 
 #ifdef MINNAERT
-// x^e of 1e-7 <= x <= 1 and |e| <= 1 within 2e-6 of itself, from 1e-30 on 6e-6. Of plain operations: OpenCL's
-// own differ between a vector and its parts.
-SHARED_FUNCTION real power_of(real x, real e) {
-  // x = 2^n m with m in 1/sqrt 2 to sqrt 2, log m = 2 artanh((m - 1) / (m + 1)).
-  Whole bits = bits_of_real(x);
-  Whole n = (bits - WHOLE(0x3f3504f3)) >> WHOLE(23);
-  real m = real_of_bits(bits - (n << WHOLE(23)));
-  real t = (m - 1.0f) / (m + 1.0f);
-  real t2 = t * t;
-  real series = mad_real(t2, mad_real(t2, 0.32059890f, 0.41219859f), 0.57707802f);
-  series = mad_real(t2, mad_real(t2, series, 0.96179669f), 2.8853901f);
-  real log2_x = mad_real(series, t, real_of_whole(n));
-  // 2^y = 2^whole e^(rest log 2), the rest in -1/2 to 1/2.
-  real y = e * log2_x;
-  real nearest = floor_real(y + 0.5f);
-  real r = (y - nearest) * 0.69314718f;
-  real power = mad_real(r, mad_real(r, 1.0f / 720.0f, 1.0f / 120.0f), 1.0f / 24.0f);
-  power = mad_real(r, mad_real(r, power, 1.0f / 6.0f), 0.5f);
-  power = mad_real(r, mad_real(r, power, 1.0f), 1.0f);
-  return power * real_of_bits((whole_of_real(nearest) + WHOLE(127)) << WHOLE(23));
-}
-
 // A floor of n.v: at silhouettes, where it is 0 or by an interpolated normal below, k > 1 would have no
 // bound.
 #define MINNAERT_N_DOT_V_FLOOR 0.0625f

@@ -42,8 +42,6 @@ static inline Real3 cross3(Real3 a, Real3 b) {
 #define min_real lane_min
 #define sqrt_real sqrt
 #define inverse_sqrt_real(x) (1.0f / sqrt(x))
-#define exp_real exp
-#define log_real log
 #define floor_real floor
 #define abs_real fabs
 #define Whole whole
@@ -73,8 +71,6 @@ static inline Real3 cross3(Real3 a, Real3 b) {
 #define min_real min
 #define sqrt_real sqrt
 #define inverse_sqrt_real inversesqrt
-#define exp_real exp
-#define log_real log
 #define floor_real floor
 #define abs_real abs
 #define select3(here, a, b) ((here) ? (a) : (b))
@@ -101,8 +97,6 @@ inline real max_real(real a, real b) { return std::max(a, b); }
 inline real min_real(real a, real b) { return std::min(a, b); }
 inline real sqrt_real(real x) { return std::sqrt(x); }
 inline real inverse_sqrt_real(real x) { return 1 / std::sqrt(x); }
-inline real exp_real(real x) { return std::exp(x); }
-inline real log_real(real x) { return std::log(x); }
 inline real floor_real(real x) { return std::floor(x); }
 using Whole = int;
 inline Whole bits_of_real(real x) { return std::bit_cast<Whole>(x); }

@@ -14,7 +14,7 @@ SHARED_FUNCTION real voxel_importance(Arrival arrival, PunctualLight light) {
 // View space. position is at `place` in the volume.
 SHARED_FUNCTION Real3 voxel_sample(Real3 position, Real3 place, Real3 sample_place VOXEL_ARGUMENT) {
 #ifdef VOXELS_LOG
-  real distance = exp_real((sample_place.z - VOXELS(z_from_1)) / VOXELS(z_from_z));
+  real distance = exp2_of((sample_place.z - VOXELS(z_from_1)) / VOXELS(z_from_z));
   return real3((sample_place.x - VOXELS(x_from_1)) / VOXELS(x_from_x) * distance,
                (sample_place.y - VOXELS(y_from_1)) / VOXELS(y_from_y) * distance, -distance);
 #else

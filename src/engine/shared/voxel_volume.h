@@ -1,7 +1,7 @@
 // The voxel light buffer: a volume of samples, each with the irradiance that arrives there and the sum of its
 // directions. How kernels fill it, and where a point lies in it. Geldreich on Halo Wars (2009);
 // docs/techniques/voxel_lights.md.
-//   VOXELS_LOG: samples in the view's own projection: x / distance, y / distance and log(distance). Without:
+//   VOXELS_LOG: samples in the view's own projection: x / distance, y / distance and log2(distance). Without:
 //   along three axes.
 #pragma once
 
@@ -85,7 +85,7 @@ typedef struct VoxelLookup {
 SHARED_FUNCTION Real3 voxel_place(Real3 position VOXEL_ARGUMENT) {
 #ifdef VOXELS_LOG
   real distance = max_real(-position.z, REAL(1e-30f));
-  Real3 q = real3(position.x / distance, position.y / distance, log_real(distance));
+  Real3 q = real3(position.x / distance, position.y / distance, log2_of(distance));
 #else
   Real3 q = position;
 #endif

@@ -155,8 +155,8 @@ inline BlockSpan span_of(const glm::vec4& ball, uint level, const WorldGridParam
   return span;
 }
 
-// A radius rounded up to an even float, or, of a light whose cone is tested, to an odd one: world_lists tells
-// them apart without reading cones.
+// The radius, or the next float: an even one, or an odd one if the light's cone is tested. world_lists tells them
+// apart without reading cones.
 inline float marked(float radius, bool cone) {
   const uint32_t bits = std::bit_cast<uint32_t>(radius);
   return std::bit_cast<float>(bits + ((bits & 1u) != uint32_t(cone)));

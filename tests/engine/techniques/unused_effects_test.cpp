@@ -3,6 +3,9 @@
 // tests/texts/check_texts.py.
 #include <gmock/gmock.h>
 
+#include <map>
+#include <string>
+
 #include "effects/effects.h"
 #include "support/small_scene.h"
 #include "support/technique_tiers.h"
@@ -30,7 +33,41 @@ TEST_P(UnusedEffects, CostNothing) {
             observe(test_devices(), scene, view, without_effects(technique), {}));
 }
 
+// Features that are no effects of the table, with what the names or defines of their programs contain.
+const std::map<std::string, std::string> features{{"shadows", "SHADOWS"},
+                                                  {"samples", "SAMPLE_PLACES"},
+                                                  {"caps", "cap_lists"},
+                                                  {"sampled lists", "sample_l"},
+                                                  {"tree", "sample_tree"},
+                                                  {"factors of lists", "LIST_FACTORS"},
+                                                  {"virtual lights", "VIRTUAL_"},
+                                                  {"spots", "SPOTS"},
+                                                  {"coats", "CLEARCOAT"},
+                                                  {"reflectances", "SPECULAR"},
+                                                  {"skin", "SKIN"},
+                                                  {"Minnaert", "MINNAERT"}};
+
+TEST_P(UnusedEffects, OtherFeaturesHaveNoText) {
+  const std::string programs =
+      observe(test_devices(), small_scene().scene, small_view(33, 19), *GetParam(), {}).at("programs");
+  for (const auto& [feature, text] : features)
+    EXPECT_EQ(programs.find(text), std::string::npos) << feature << " in " << programs;
+}
+
 LIGHTGRID_TECHNIQUES_OF_BOTH_TIERS(UnusedEffects);
+
+TEST(UsedEffects, OtherFeaturesHaveTheirText) {
+  SmallScene s = small_scene_of_casters();
+  for (const char* name : {"clearcoat", "minnaert", "specular", "spot"}) effect(name).add(s);
+  s.scene.lights.back().is_virtual = true;
+  std::string programs;
+  for (const char* order : {"brightest", "sampled", "tree"})
+    programs += observe(test_devices(), s.scene, small_view(33, 19), find_technique("visibility"),
+                        {"samples=4", "list-cap=4", std::string("list-cap-order=") + order})
+                    .at("programs");
+  for (const auto& [feature, text] : features)
+    EXPECT_NE(programs.find(text), std::string::npos) << feature << " in " << programs;
+}
 
 TEST(UsedEffects, ShowInTheSameComparison) {
   SmallScene s = small_scene();

@@ -84,7 +84,7 @@ class VoxelLister {
     const double scale = p.orthographic || r_.axes.log_depth ? 1 : distance;
     const glm::dvec3 q((x * p.slope_x_scale + p.slope_x_offset) * scale,
                        (y * p.slope_y_scale + p.slope_y_offset) * scale,
-                       r_.axes.log_depth ? std::log(distance) : -distance);
+                       r_.axes.log_depth ? std::log2(distance) : -distance);
     const VoxelLookup& l = r_.placed.lookup;
     const glm::dvec3 place(l.x_from_x * q.x + l.x_from_y * q.y + l.x_from_z * q.z + l.x_from_1,
                            l.y_from_x * q.x + l.y_from_y * q.y + l.y_from_z * q.z + l.y_from_1,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace lightgrid {
@@ -174,22 +175,23 @@ void place_in_projection(PlacedVoxels& placed, const ViewState& seen, const Visi
   const glm::dvec3 slope = glm::max(glm::abs(a), glm::abs(b));
   const double near = rounded_down(std::max(box.nearest_m, 1e-6)),
                far = std::max(rounded_up(box.farthest_m), near * 1.01);
-  const double step = std::log(far / near) / (size.z - 1);
+  const double step = std::log2(far / near) / (size.z - 1);
   VoxelGrid& g = placed.grid;
   g.origin_x = float(low.x);
   g.origin_y = float(low.y);
   g.spacing_x = float(spacing.x);
   g.spacing_y = float(spacing.y);
   for (uint k = 0; k < g.size_z; ++k) {
-    const double place = near * std::exp(k * step), next = near * std::exp((k + 1) * step);
+    const double place = near * std::exp2(k * step), next = near * std::exp2((k + 1) * step);
     // The box around the cell behind it, which is the larger one. Cells are sheared, most at the image's
     // corners.
     const glm::dvec3 cell(spacing.x * next + slope.x * (next - place),
                           spacing.y * next + slope.y * (next - place), next - place);
-    placed.slices.push_back(slice_of(place, cell, spacing.x * spacing.y * place * place * (step * place)));
+    placed.slices.push_back(
+        slice_of(place, cell, spacing.x * spacing.y * place * place * (step * std::numbers::ln2 * place)));
   }
   set_places(placed.lookup, scaled_rows({1 / spacing.x, 1 / spacing.y, 1 / step}, glm::dmat3(1)),
-             {-low.x / spacing.x, -low.y / spacing.y, -std::log(near) / step});
+             {-low.x / spacing.x, -low.y / spacing.y, -std::log2(near) / step});
   placed.lookup.half_diagonal_squared = float(placed.slices[0].half_diagonal_squared / (near * near));
   placed.lookup.core_squared = float(placed.slices[0].core_squared / (near * near));
   set_directions(placed.lookup, glm::dmat3(1));
