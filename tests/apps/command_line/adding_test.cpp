@@ -118,9 +118,6 @@ TEST(Adding, AnEffectTakesItsFilesAndTheTable) {
       // Images and tables for cases.
       {"src/engine/scenes/cookie_image.h", {"light_cookies"}},
       {"src/engine/scenes/profile_text.h", {"light_profiles"}},
-      // lidr's groups of lights that do not touch.
-      {"src/engine/passes/light_index/draw_order.h", {"light_groups"}},
-      {"src/engine/passes/light_index/light_groups.cpp", {"light_groups"}},
   };
   // Names of its data.
   const std::map<std::string, std::vector<std::string>> data = {

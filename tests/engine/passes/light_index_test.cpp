@@ -6,9 +6,9 @@
 
 #include "base/error.h"
 #include "passes/light_index/blending.h"
+#include "passes/light_index/disjoint_lights.h"
 #include "passes/light_index/layout.h"
 #include "passes/light_index/lidr_settings.h"
-#include "passes/light_index/light_groups.h"
 #include "scene/random.h"
 #include "shared/light_index.h"
 

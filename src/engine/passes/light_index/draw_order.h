@@ -2,8 +2,8 @@
 // channels, and the pass, in which each light is (docs/details/lidr.md#packings).
 #pragma once
 
+#include "passes/light_index/disjoint_lights.h"
 #include "passes/light_index/index_drawing.h"
-#include "passes/light_index/light_groups.h"
 
 namespace lightgrid {
 

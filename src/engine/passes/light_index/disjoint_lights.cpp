@@ -1,4 +1,4 @@
-#include "passes/light_index/light_groups.h"
+#include "passes/light_index/disjoint_lights.h"
 
 #include <algorithm>
 #include <array>
