@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "base/timer.h"
 #include "command_line/commands.h"
 #include "command_line/options.h"
 #include "command_line/progress.h"
@@ -59,6 +60,7 @@ std::string in_words(const WhichChange& change, const WhichAnswer& before) {
 }
 
 int which(WhichCommand o) {
+  const Timer timer;
   o.scene.device = o.devices.device;
   const GlBackend backend = parse_gl_backend(o.devices.gl);
   parse_error(o.error);
@@ -69,6 +71,7 @@ int which(WhichCommand o) {
   WhichJob job = job_of(o, renderer.gl != nullptr);
   const auto bar = progress_bar();
   job.progress = bar;
+  job.before_s = timer.elapsed_ms() / 1000;
   const WhichAnswer answer = lab::which(renderer, o.scene, job);
   std::vector<WhichChange> changes;
   if (o.changes) changes = changes_of(renderer, o.scene, job, answer);

@@ -49,6 +49,7 @@ std::vector<Variant> variants(const SceneChoice& choice, const WhichAnswer& answ
 std::vector<WhichChange> changes_of(Renderer& renderer, const SceneChoice& choice, const WhichJob& job,
                                     const WhichAnswer& answer) {
   WhichJob among_fastest = job;
+  among_fastest.before_s = 0;
   among_fastest.points = fastest_points(job, answer);
   std::vector<WhichChange> changes;
   if (among_fastest.points.empty()) return changes;

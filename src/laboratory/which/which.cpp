@@ -10,6 +10,7 @@
 #include "frontier/paired_times.h"
 #include "frontier/timed_frames.h"
 #include "frontier/view_figures.h"
+#include "measures/words.h"
 #include "scene/random.h"
 #include "which/race.h"
 #include "which/scene_errors.h"
@@ -25,6 +26,11 @@ constexpr double reduced_factor = 2;
 constexpr double one_frame_factor = 3, two_frames_factor = 1.5;
 // Shares of the time: points start until the first, the reference at the view's size may take the second.
 constexpr double share_of_starts = 0.6, share_of_reference = 0.25;
+// What remains for rounds after a start that takes as long as the longest before it, and for the answer and the end
+// of the program after the last round.
+constexpr double share_of_rounds = 0.2, share_of_end = 0.02;
+// A round may take so many times as long as the longest before it.
+constexpr double round_slack = 1.25;
 // Also if one point is left, so that its time has an interval.
 constexpr int min_race_rounds = 6;
 constexpr int draws = 2000;
@@ -35,6 +41,10 @@ View reduced_view(View view) {
   view.height = std::max(view.height / side, 1);
   return view;
 }
+
+// Their error depends on the size: a tile has as many pixels at the reduced size, which cover more of the scene and
+// are reached by more lights.
+bool has_capped_lists(const WhichPoint& p) { return !setting_in_force(p.point.settings, "list_cap").empty(); }
 
 Estimate exponential(const Location& l) { return {std::exp(l.estimate), std::exp(l.low), std::exp(l.high)}; }
 
@@ -79,7 +89,7 @@ class Contest {
   }
 
  private:
-  double seconds() const { return timer_.elapsed_ms() / 1000; }
+  double seconds() const { return job_.before_s + timer_.elapsed_ms() / 1000; }
   void tell(const std::string& step) const {
     if (job_.progress) job_.progress(std::min(seconds() / job_.seconds, 1.0), step);
   }
@@ -104,13 +114,22 @@ class Contest {
     for (const ChosenPoint& point : points) {
       WhichPoint& about = answer_.points.emplace_back();
       about.point = described(answer_.scene, point);
-      if (seconds() > share_of_starts * job_.seconds && !entries_.empty()) continue;
+      if (!entries_.empty() && !has_time_to_start()) continue;
       tell(point.label + " starts");
+      const double before = seconds();
       Entry entry{about, PointRun(renderer_, gpu_, reduced_.view(), point, pool_)};
       about.fate = start(entry);
       if (!entry.run.refused().empty()) about.refused = entry.run.refused();
       if (about.fate == Fate::competes) entries_.push_back(std::move(entry));
+      // The first one also compiles what all have in common.
+      if (answer_.points.size() > 1) longest_start_s_ = std::max(longest_start_s_, seconds() - before);
     }
+  }
+
+  // Compiling cannot be interrupted.
+  bool has_time_to_start() const {
+    return seconds() < share_of_starts * job_.seconds &&
+           seconds() + longest_start_s_ < (1 - share_of_rounds) * job_.seconds;
   }
 
   // The first frame compiles programs and does not count. A frame does not get faster with more pixels: a point
@@ -119,7 +138,8 @@ class Contest {
     const double flip = reduced_.flip_of(entry.run);
     if (!entry.run.refused().empty()) return Fate::refused;
     entry.point.reduced_flip = flip;
-    if (!(flip <= reduced_factor * job_.max_flip)) return Fate::inaccurate;
+    const bool doubtful = !(flip <= reduced_factor * job_.max_flip);
+    if (doubtful && !(has_capped_lists(entry.point) && can_measure_at_full_size())) return Fate::inaccurate;
     const double reduced_ms = entry.run.draw();
     const RaceTime reduced{reduced_ms, on_gpu() ? std::nullopt : entry.run.cpu_ms()};
     if (is_slower_by(1, reduced)) return slow(entry, reduced_ms);
@@ -131,7 +151,12 @@ class Contest {
       if (is_slower_by(factor, entry.start)) return slow(entry, entry.start.wall_ms);
     }
     entry.point.ms = Estimate{entry.start.wall_ms, entry.start.wall_ms, entry.start.wall_ms};
-    if (flip <= job_.max_flip / reduced_factor && entry.start.wall_ms < fastest_.wall_ms)
+    if (doubtful) {
+      entry.point.flip = flip_at_full_size(entry);
+      if (!entry.run.refused().empty()) return Fate::refused;
+      if (!(*entry.point.flip <= job_.max_flip)) return Fate::inaccurate;
+    }
+    if ((doubtful || flip <= job_.max_flip / reduced_factor) && entry.start.wall_ms < fastest_.wall_ms)
       fastest_ = entry.start;
     return Fate::competes;
   }
@@ -182,10 +207,18 @@ class Contest {
 
   // Drawing the reference at the view's size must leave time for the race.
   bool can_measure_at_full_size() {
+    if (full_.reference_seconds() > 0) return true;
     const double pixels = double(view_.width) * view_.height,
-                 reduced = double(reduced_.view().width) * reduced_.view().height;
-    return full_.reference_seconds() > 0 ||
-           reduced_.reference_seconds() * pixels / reduced < share_of_reference * job_.seconds;
+                 reduced = double(reduced_.view().width) * reduced_.view().height,
+                 time = std::min(share_of_reference * job_.seconds, end_s_ - seconds());
+    return reduced_.reference_seconds() * pixels / reduced < time ||
+           (reduced_.reference_seconds() < time &&
+            reduced_.seconds_without_compiling() * pixels / reduced < time);
+  }
+
+  double flip_at_full_size(Entry& entry) {
+    full_.exposure = reduced_.exposure;
+    return full_.flip_of(entry.run);
   }
 
   // Measures the leader's error at the view's size, before others are compared with it. Returns whether it is
@@ -195,8 +228,7 @@ class Contest {
     Entry& entry = entries_[leader];
     if (!entry.point.flip && can_measure_at_full_size()) {
       tell("error of " + entry.point.point.label);
-      full_.exposure = reduced_.exposure;
-      entry.point.flip = full_.flip_of(entry.run);
+      entry.point.flip = flip_at_full_size(entry);
     }
     if (entry.run.refused().empty() && entry.point.flip.value_or(*entry.point.reduced_flip) <= job_.max_flip)
       return true;
@@ -216,7 +248,8 @@ class Contest {
     double longest_s = 0;  // each timed frame follows one that does not count
     for (const size_t i : race.competing())
       longest_s += 2 * frames_per_round * entries_[i].start.wall_ms / 1000;
-    while ((!race.is_decided() || race.rounds() < min_race_rounds) && seconds() + longest_s < job_.seconds) {
+    while ((!race.is_decided() || race.rounds() < min_race_rounds) &&
+           seconds() + round_slack * longest_s < end_s_) {
       const double before = seconds();
       run_round(race);
       while (!race.competing().empty() && !make_leader_accurate(race)) {
@@ -328,6 +361,8 @@ class Contest {
   DeviceClock clock_;
   SceneErrors reduced_, full_;
   const std::shared_ptr<TargetPool> pool_ = std::make_shared<TargetPool>();
+  const double end_s_ = (1 - share_of_end) * job_.seconds;
+  double longest_start_s_ = 0;
   WhichAnswer answer_;
   std::vector<Entry> entries_;
   RaceTime fastest_{std::numeric_limits<double>::infinity()};  // whose error is surely within the bound

@@ -16,7 +16,8 @@ struct WhichJob {
   Settings common;  // settings of the reference
   FrontierTruth truth;
   double max_flip = 0.05;  // mean FLIP of the pictures as displayed
-  double seconds = 30;     // from loading to the answer
+  double seconds = 30;     // until the answer
+  double before_s = 0;     // the part of them that passed before the call
   uint64_t seed = 1;
   std::function<void(double done, const std::string& step)> progress = nullptr;
 };
