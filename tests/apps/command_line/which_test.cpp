@@ -77,6 +77,20 @@ TEST(WhichCommand, LeavesOutPointsBeyondTheErrorWhichIsThatOfFrontier) {
   EXPECT_NEAR(raced_point(within, shorter)["flip"], flip, 1e-6);
 }
 
+// A tile of the reduced picture covers 16 times as much of the scene, so lists of eight hold a smaller share of its
+// lights: FLIP 0.11 there, and 0.036 at the full size.
+TEST(WhichCommand, JudgesListsWithACapacityAtTheFullSize) {
+  const std::string sampled = "visibility:list-cap=8,list-cap-order=sampled";
+  const ProgramRun run = run_program({"which", "gallery", "--size", "640x360", "-t", sampled, "--error",
+                                      "0.05", "--seconds", "60", "--json", "-"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const json answer = json::parse(run.out);
+  EXPECT_EQ(answer["choice"], sampled);
+  const json& point = raced_point(answer, sampled);
+  EXPECT_GT(point["flip_reduced"], 0.1) << "else it is no longer a hard case";
+  EXPECT_LE(point["flip"], 0.05);
+}
+
 TEST(WhichCommand, SaysWhenNothingReachesTheError) {
   const ProgramRun run = run_program(race("visibility:range=cutoff,cutoff=0.5", {"--error", "1e-4"}));
   EXPECT_EQ(run.status, 1) << run.err;
