@@ -57,6 +57,8 @@ class FormsOfPath {
       case 'n':
       case 'a':
         return of(n.a);
+      case 'r':
+        return rounded(of(n.a));
       case '+':
       case '-': {
         const Form a = of(n.a), b = of(n.b);

@@ -39,6 +39,8 @@ T result_of(char op, T a, T b) {
       return std::fabs(a);
     case 'n':
       return -a;
+    case 'r':
+      return a;
     default:
       return std::floor(a);
   }
@@ -61,7 +63,7 @@ int Recorder::add(Node n) {
   if (n.op == '*' && (constant(n.a, 0) || constant(n.b, 0))) n = {.op = 'c', .name = ""};
   if (n.op == '-' && n.a == n.b) n = {.op = 'c', .name = ""};
   bool changed = false;
-  if (n.a >= 0 && observed && operations_++ == fault_.operation) {
+  if (n.a >= 0 && n.op != 'r' && observed && operations_++ == fault_.operation) {
     const char op = n.b >= 0 ? fault_.op : fault_.op == '-' ? (n.op == 'n' ? 'a' : 'n') : n.op;
     changed = op != n.op;
     n.op = op;
@@ -75,17 +77,21 @@ int Recorder::add(Node n) {
 
 bool Recorder::compare(int a, char op, int b) {
   if (node(a).op == 'c' && node(b).op == 'c') return holds(node(a).value, op, node(b).value);
+  bool faulty = false;
   if (observed && comparisons_++ == fault_.comparison) {
     std::swap(a, b);
-    planted = true;
+    faulty = true;
   }
   comparisons = std::max(comparisons, comparisons_);
-  Choice choice{a, op, b, false};
+  Choice choice{a, op, b, false, faulty};
   if (const std::optional<bool> decided = decide ? decide(choice) : std::nullopt) {
     choice.taken = *decided;
   } else {
-    for (const Choice& c : path_.choices)
-      if (c.a == a && c.op == op && c.b == b) return c.taken;
+    for (Choice& c : path_.choices)
+      if (c.a == a && c.op == op && c.b == b) {
+        c.faulty |= faulty;
+        return c.taken;
+      }
     if (taken_ == outcomes_.size()) outcomes_.push_back(false);
     choice.taken = outcomes_[taken_++];
   }
@@ -108,8 +114,10 @@ bool Recorder::next() {
   return true;
 }
 
-// Whether the faulty node is part of a result, or of a number that is compared.
+// Whether a comparison is faulty, or the faulty node is part of a result or of a number that is compared.
 static bool has_effect(const Path& path) {
+  if (std::any_of(path.choices.begin(), path.choices.end(), [](const Choice& c) { return c.faulty; }))
+    return true;
   if (path.faulty < 0) return false;
   std::vector<bool> used(path.nodes.size());
   for (const int id : path.results) used[size_t(id)] = true;

@@ -15,12 +15,12 @@
 
 namespace lightgrid::certify {
 
-// op: i input, c constant, + - * /, s square root, a absolute value, n negative, f floor.
+// op: i input, c constant, + - * /, s square root, a absolute value, n negative, f floor, r a double rounded to a float.
 struct Node {
   char op;
   int a = -1, b = -1;     // operands
   double value = 0;       // of a constant
-  std::string name = "";  // of an input
+  std::string name = "";  // of an input; "double": an operation of doubles
 };
 
 // A comparison and its outcome. op: < > l (<=) g (>=) =.
@@ -29,6 +29,7 @@ struct Choice {
   char op;
   int b;
   bool taken;
+  bool faulty = false;  // with swapped operands
 };
 
 struct Path {

@@ -11,27 +11,59 @@
 
 namespace lightgrid::certify {
 
+namespace {
+
+Inputs inputs_of(const Meaning& meaning, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> any(meaning.low, meaning.high);
+  Inputs in;
+  do
+    for (const std::string& name : meaning.inputs) in[name] = any(random);
+  while (!meaning.adjust(in));
+  return in;
+}
+
+std::string values_differ(const Path& path, const Values& values, const Values& right,
+                          const Meaning& meaning) {
+  for (size_t i = 0; i < right.size(); ++i) {
+    const long double found = values[size_t(path.results[i])];
+    if (!(std::fabs(found - right[i]) <= meaning.tolerance * std::fabs(right[i]) + 1e-30L))
+      return fmt::format("result {} means {}, not {}", i, double(found), double(right[i]));
+  }
+  return "";
+}
+
+}  // namespace
+
 std::string meaning_differs(const std::vector<Path>& paths, const Meaning& meaning) {
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> any(meaning.low, meaning.high);
   for (int sample = 0; sample < meaning.samples; ++sample) {
-    Inputs in;
-    do
-      for (const std::string& name : meaning.inputs) in[name] = any(random);
-    while (!meaning.adjust(in));
+    const Inputs in = inputs_of(meaning, random);
     const Values right = meaning.values(in);
     int taken = 0;
     for (const Path& path : paths) {
       const Values values = exact_values(path, in);
       if (!is_taken(path, values)) continue;
       ++taken;
-      for (size_t i = 0; i < right.size(); ++i) {
-        const long double found = values[size_t(path.results[i])];
-        if (!(std::fabs(found - right[i]) <= meaning.tolerance * std::fabs(right[i]) + 1e-30L))
-          return fmt::format("result {} means {}, not {}", i, double(found), double(right[i]));
-      }
+      if (const std::string e = values_differ(path, values, right, meaning); !e.empty()) return e;
     }
     if (taken != 1) return fmt::format("{} paths are taken by one input", taken);
+  }
+  return "";
+}
+
+std::string meaning_differs(const Kernel& kernel, const Fault& fault, const Meaning& meaning) {
+  std::mt19937_64 random(1);
+  for (int sample = 0; sample < meaning.samples; ++sample) {
+    const Inputs in = inputs_of(meaning, random);
+    const auto decide = [&](const Choice& c) {
+      const Path& path = recorder.path();
+      Choice taken = c;
+      taken.taken = true;
+      return is_taken({.nodes = {}, .choices = {taken}, .results = {}}, exact_values(path, in));
+    };
+    const std::vector<Path> paths = paths_of(kernel, fault, decide);
+    const std::string e = values_differ(paths[0], exact_values(paths[0], in), meaning.values(in), meaning);
+    if (!e.empty()) return e;
   }
   return "";
 }

@@ -33,6 +33,8 @@ struct Meaning {
   int samples = 300;
 };
 std::string meaning_differs(const std::vector<Path>& paths, const Meaning& meaning);
+// The same for a function with too many paths: each sample runs it once, on the path that exact numbers take.
+std::string meaning_differs(const Kernel& kernel, const Fault& fault, const Meaning& meaning);
 
 // The reason, where a bound is not below another.
 std::string exceeds(const std::string& what, double value, double bound);
