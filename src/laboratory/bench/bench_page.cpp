@@ -56,7 +56,6 @@ std::string bench_page(const BenchReport& report) {
   }
   return filled(embedded_file("report/page/bench.html"),
                 {{"style", embedded_file("report/page/style.css")},
-                 {"units", embedded_file("report/page/units.js")},
                  {"device", xml_escaped(report.device)},
                  {"verdict", xml_escaped(slowest_kernel_text(report.rows))},
                  {"sections", sections}});

@@ -80,9 +80,9 @@ std::string page_text(const FrontierAnswer& answer, const std::filesystem::path&
   }
   std::string style = embedded_file("report/page/style.css"), script;
   style += embedded_file("frontier/page/frontier.css");
-  for (const char* name : {"report/page/units.js", "report/page/elements.js", "report/page/table.js",
-                           "report/page/plot.js", "report/page/bars.js", "frontier/page/figures.js",
-                           "frontier/page/front.js", "frontier/page/costs.js", "frontier/page/frontier.js"}) {
+  for (const char* name : {"report/page/elements.js", "report/page/table.js", "report/page/plot.js",
+                           "report/page/bars.js", "frontier/page/figures.js", "frontier/page/front.js",
+                           "frontier/page/costs.js", "frontier/page/frontier.js"}) {
     script += embedded_file(name);
   }
   const json data = page_data_of(answer, page_pictures(pictures, names, max_picture_bytes));

@@ -57,7 +57,6 @@ std::string limits_page(const LimitsPage& page) {
   for (const std::vector<uint8_t>& png : page.pictures)
     pictures += fmt::format("{}\"data:image/png;base64,{}\"", pictures.empty() ? "" : ",\n", base64(png));
   return filled(embedded_file("report/page/limits.html"), {{"style", embedded_file("report/page/style.css")},
-                                                           {"units", embedded_file("report/page/units.js")},
                                                            {"scene", xml_escaped(page.scene)},
                                                            {"view", xml_escaped(page.view)},
                                                            {"verdict", xml_escaped(page.verdict)},

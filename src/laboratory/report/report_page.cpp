@@ -160,8 +160,8 @@ std::string filled(std::string_view page, const std::map<std::string_view, std::
 
 std::string report_page(const std::vector<ReportView>& views) {
   std::string scripts;
-  for (const char* name : {"units.js", "elements.js", "slider.js", "bars.js", "table.js", "plot.js",
-                           "charts.js", "matrix.js", "view.js", "report.js"}) {
+  for (const char* name : {"elements.js", "slider.js", "bars.js", "table.js", "plot.js", "charts.js",
+                           "matrix.js", "view.js", "report.js"}) {
     scripts += embedded_file(std::string("report/page/") + name);
   }
   const json results = views.size() == 1 ? lab::to_json(views.front().report) : lab::to_json(views);

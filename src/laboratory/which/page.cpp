@@ -14,8 +14,7 @@ std::string which_page(const WhichAnswer& answer, const std::vector<WhichChange>
   for (const WhichChange& change : changes)
     page["changes"].push_back({{"what", change.what}, {"verdict", in_words(change.answer)}});
   std::string script;
-  for (const char* name :
-       {"report/page/units.js", "report/page/elements.js", "report/page/table.js", "which/page/which.js"})
+  for (const char* name : {"report/page/elements.js", "report/page/table.js", "which/page/which.js"})
     script += embedded_file(name);
   return filled(embedded_file("which/page/index.html"), {{"style", embedded_file("report/page/style.css")},
                                                          {"verdict", xml_escaped(in_words(answer))},
