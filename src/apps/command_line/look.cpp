@@ -26,17 +26,13 @@ bool can_sample(const Technique& technique, const SceneChoice& choice) {
 
 }  // namespace
 
-void add_curve_option(Subcommand& command, LookOptions& o) {
+void add_look_options(Subcommand& command, LookOptions& o) {
   const Subcommand::Heading heading(command, "Picture");
   command.flag(
       "--look", o.look,
       "a picture for looking, not for measuring: shadows of all lights, four samples, a sky instead of "
       "ambient light, exposure for dark scenes, the filmic curve and a glow, each unless given otherwise");
   command.option("--curve", o.curve, "tone map: neutral (default; Khronos PBR Neutral) or filmic (of ACES)");
-}
-
-void add_glow_option(Subcommand& command, LookOptions& o) {
-  const Subcommand::Heading heading(command, "Picture");
   command.option("--glow", o.glow, "share of the light that spreads as in a lens, 0 to 1 (default 0)");
 }
 

@@ -17,8 +17,7 @@ struct LookOptions {
   std::string glow;   // share of the light; empty: 0.06 with `look`, otherwise 0
 };
 
-void add_curve_option(Subcommand& command, LookOptions& options);  // --look and --curve
-void add_glow_option(Subcommand& command, LookOptions& options);
+void add_look_options(Subcommand& command, LookOptions& options);
 
 // With `look`: the choices that are not given become shadows of all lights, a sky in place of ambient light,
 // and four samples if each of the techniques can draw them with shadows. Logs one line. Call it before the

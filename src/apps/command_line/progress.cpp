@@ -20,11 +20,14 @@ constexpr int width = 20, text = 40, rest = 14, columns = width + text + rest + 
 // The text of the lines. Written by the working thread, read by the printing thread.
 struct State {
   std::mutex mutex;
-  std::string step;
+  std::string command, step;
   double done = 0;
   std::string bar;  // as last drawn on a terminal; empty: none, or cleared
   // Without a terminal: for their first time on this machine.
   int kernels_compiled = 0, kernels_total = 0, kernels_printed = 0;
+  // Kernels and shaders that were compiled, on whichever start, and the last one's file.
+  std::string file;
+  int files = 0, files_printed = 0;
 };
 
 State& state() {
@@ -63,6 +66,27 @@ void note_for_lines(int kernels, int total) {
   state().kernels_total = total;
 }
 
+void note_file(const std::string& file) {
+  const std::lock_guard lock(state().mutex);
+  state().file = file;
+  ++state().files;
+}
+
+// Of a line without a terminal. Call it with the mutex locked.
+std::string current_step() {
+  State& s = state();
+  const bool first = s.kernels_compiled > s.kernels_printed, any = s.files > s.files_printed;
+  s.kernels_printed = s.kernels_compiled;
+  s.files_printed = s.files;
+  if (first) return compiling_words(s.kernels_compiled, s.kernels_total);
+  // No kernel counts as a first one if there is no disk cache (LIGHTGRID_CL_CACHE).
+  if (any) return fmt::format("compiling {} ({} so far)", s.file, s.files);
+  if (s.step.empty()) return "finishing";
+  // PoCL compiles some kernels only when they are launched.
+  const bool only_command = s.step == s.command && s.files > 0;
+  return only_command ? fmt::format("{}, {} kernels and shaders compiled so far", s.step, s.files) : s.step;
+}
+
 double interval_s() {
   const char* given = std::getenv("LIGHTGRID_PROGRESS_S");
   const double seconds = given ? std::atof(given) : 0;
@@ -96,13 +120,15 @@ ProgressLines::ProgressLines(const std::string& command, bool quiet) {
   const bool terminal = isatty(STDERR_FILENO);
   set_first_compilation_function(terminal ? show_on_terminal : note_for_lines);
   if (terminal) return;
-  state().step = command;
+  before_compiling = note_file;
+  state().step = state().command = command;
   thread_ = std::thread([this] { run(std::chrono::duration<double>(interval_s())); });
 }
 
 ProgressLines::~ProgressLines() {
   set_first_compilation_function({});
   if (!thread_.joinable()) return;
+  before_compiling = nullptr;
   {
     const std::lock_guard lock(ending_);
     ended_ = true;
@@ -119,12 +145,7 @@ void ProgressLines::run(std::chrono::duration<double> interval) {
     const std::lock_guard reading(state().mutex);
     const std::string left =
         state().done > 0 && state().done < 1 ? fmt::format(", {:.0f} % done", 100 * state().done) : "";
-    std::string step = state().step.empty() ? "finishing" : state().step;
-    if (const int kernels = state().kernels_compiled; kernels > state().kernels_printed) {
-      step = compiling_words(kernels, state().kernels_total);
-      state().kernels_printed = kernels;
-    }
-    log_info("after {:.0f} s{}: {}", std::ceil(seconds), left, step);
+    log_info("after {:.0f} s{}: {}", std::ceil(seconds), left, current_step());
   }
 }
 

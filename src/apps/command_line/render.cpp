@@ -120,8 +120,7 @@ void add_render(CommandLine& line) {
   add_scene_options(command, o->scene);
   add_path_option(command, o->scene);
   add_exposure_option(command, o->scene);
-  add_curve_option(command, o->look);
-  add_glow_option(command, o->look);
+  add_look_options(command, o->look);
   add_device_options(command, o->devices);
   add_timing_options(command, o->timing);
   add_technique_option(command, o->technique, technique_names());

@@ -42,6 +42,7 @@ std::string scene_words(const ViewOptions& o) {
   if (!s.exposure.empty()) words += " --exposure " + s.exposure;
   if (o.look.look) words += " --look";
   if (!o.look.curve.empty()) words += " --curve " + o.look.curve;
+  if (!o.look.glow.empty()) words += " --glow " + o.look.glow;
   if (!o.device.empty()) words += " --device " + shell_word(o.device);
   return words;
 }
@@ -66,7 +67,9 @@ ViewJob make_job(const ViewOptions& o) {
   job.seconds = chosen_time(o.scene);
   job.scene_words = scene_words(o);
   job.camera = o.scene.camera;
-  job.filmic = chosen_display(o.look).curve == DisplayCurve::filmic;
+  const Display display = chosen_display(o.look);
+  job.filmic = display.curve == DisplayCurve::filmic;
+  job.glow = display.glow;
   job.expose = [o](const Image& image) { return exposure_of_look(o.look, o.scene, image); };
   return job;
 }
@@ -148,7 +151,7 @@ void add_view(CommandLine& line) {
                                 [o] { return view(*o); });
   add_scene_options(command, o->scene);
   add_exposure_option(command, o->scene);
-  add_curve_option(command, o->look);
+  add_look_options(command, o->look);
   command.option("--light-motion", o->scene.light_motion, "lights that move: none, orbit or drift");
   command.option("--device", o->device, "OpenCL device, by a part of its name");
   command.option("--left", o->left, "technique of the left side (visibility)");

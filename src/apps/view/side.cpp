@@ -77,6 +77,13 @@ bool Side::draw(bool again, bool measure_passes) {
   return true;
 }
 
+Image Side::read_picture() const {
+  Image image(width_, height_);
+  glGetTextureImage(picture_.name(), 0, GL_RGBA, GL_FLOAT,
+                    GLsizei(image.pixels.size() * sizeof image.pixels[0]), image.pixels.data());
+  return image;
+}
+
 double Side::frame_ms() const {
   if (frame_ms_.empty()) return 0;
   return spread_of({frame_ms_.begin(), frame_ms_.end()}).median;

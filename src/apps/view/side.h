@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "base/image.h"
 #include "run/technique_run.h"
 #include "view/clock.h"
 #include "view/controls.h"
@@ -34,6 +35,7 @@ class Side {
   GLuint picture() const { return picture_.name(); }  // linear RGBA, 32-bit float; 0: nothing drawn yet
   int width() const { return width_; }                // width of the picture
   int height() const { return height_; }
+  Image read_picture() const;  // only if there is one
   // The median of the last frames of this size; 0: none yet. A frame that compiled something is in no figure:
   // neither here nor in timings(); it is drawn again.
   double frame_ms() const;

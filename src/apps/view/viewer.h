@@ -32,6 +32,7 @@ struct ViewJob {
   std::function<std::unique_ptr<VirtualLights>(Scene&)> reflect;  // null ones: none were chosen
   std::function<Exposure(const Image&)> expose;  // exposure of the scene's pictures, by its first one
   bool filmic = false;                           // pictures have the filmic curve (base/display.h)
+  float glow = 0;                                // share of their light that spreads (base/display.h)
 
   bool scripted = false;  // no user: ends after `frames`, in steps of a sixtieth of a second
   Script script{"", ""};
@@ -71,7 +72,8 @@ class Viewer {
   void write_pixel(const std::string& file) const;
   void write_times(const std::string& file) const;
   void show(const Shown& shown);
-  void expose();  // once
+  void expose();                    // once
+  GLuint displayed_picture(int i);  // texture of a side's picture, with the glow
   Shown shown();
   void tell(const std::string& note);
   void take_screenshot();
@@ -85,6 +87,10 @@ class Viewer {
   GpuScene gpu_;
   Screen screen_;
   bool exposed_ = false;
+  struct {
+    GlTexture texture;
+    size_t picture = 0;  // Side::pictures() of the picture it was made from
+  } glowing_[2];
   Controls& controls_;
   FlyCamera camera_;
   Motion motion_;

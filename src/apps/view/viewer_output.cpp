@@ -2,6 +2,7 @@
 // request.
 #include <algorithm>
 
+#include "base/display.h"
 #include "base/error.h"
 #include "base/write_file.h"
 #include "run/scene_choice.h"
@@ -162,14 +163,25 @@ void Viewer::expose() {
   exposed_ = true;
   Exposure exposure = job_.expose ? job_.expose({}) : Exposure();
   if (exposure.automatic) {
-    Image image(left.width(), left.height());
-    glGetTextureImage(left.picture(), 0, GL_RGBA, GL_FLOAT,
-                      GLsizei(image.pixels.size() * sizeof image.pixels[0]), image.pixels.data());
-    exposure = job_.expose(image);
+    exposure = job_.expose(left.read_picture());
     if (exposure.ev != 0) tell(fmt::format("pictures are exposed by {:+g} EV (--exposure)", exposure.ev));
   }
   screen_.exposure = exposure.scale();
   screen_.filmic = job_.filmic;
+}
+
+GLuint Viewer::displayed_picture(int i) {
+  const Side& shown = side(i);
+  if (job_.glow == 0 || shown.picture() == 0) return shown.picture();
+  auto& [texture, picture] = glowing_[same_ ? 0 : i];
+  if (texture.name() == 0 || picture != shown.pictures()) {
+    const Image image = with_glow(shown.read_picture(), job_.glow);
+    texture = make_texture_2d(GL_RGBA32F, image.width, image.height);
+    glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_FLOAT,
+                        image.pixels.data());
+    picture = shown.pictures();
+  }
+  return texture.name();
 }
 
 void Viewer::show(const Shown& shown) {
@@ -177,8 +189,8 @@ void Viewer::show(const Shown& shown) {
   ScreenImage images[2], pictures[2];
   for (int i = 0; i < 2; ++i) {
     const bool map = controls_.sides[i].map != SideMap::picture && shows_map(i);
-    pictures[i] = {side(i).picture(), false};
-    images[i] = {map ? maps_[i].texture() : side(i).picture(), map};
+    pictures[i] = {displayed_picture(i), false};
+    images[i] = map ? ScreenImage{maps_[i].texture(), true} : pictures[i];
   }
   screen_.begin(width_ + panel_width, height_);
   const PixelGrid drawn{drawn_width_, drawn_height_};

@@ -202,6 +202,19 @@ TEST(Progress, CountsKernelsThatAreCompiledForTheirFirstTime) {
   EXPECT_THAT(render(), Not(HasSubstr(words))) << "they are on disk now";
 }
 
+TEST(Progress, CountsKernelsWithoutADiskCacheToo) {
+  const TempFolder folder;
+  const std::vector<std::string> environment = {
+      "XDG_CACHE_HOME=" + folder.path.string(), "POCL_CACHE_DIR=" + folder.path.string(),
+      "LIGHTGRID_CL_CACHE=driver", "LIGHTGRID_CL_QUICK_BUILD=all", "LIGHTGRID_PROGRESS_S=0.05"};
+  const ProgramRun run =
+      run_program({"golden", "record", folder.path / "golden", "spheres", "--size", "64x36"}, environment);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err,
+              testing::ContainsRegex("after [0-9]+ s.*: compiling kernels/.*\\.cl \\([0-9]+ so far\\)"));
+  EXPECT_THAT(run.err, Not(testing::ContainsRegex("first time only")));
+}
+
 TEST(Environment, PoclCompilesKernelsOnceUnlessTheUserWantsOtherwise) {
   const auto compiled = [](const std::vector<std::string>& given) {
     const TempFolder folder;

@@ -123,6 +123,22 @@ TEST_F(ViewInDisplay, AClickShowsWhichTestKeptOrDroppedEachLightAndItsMargin) {
   }
 }
 
+TEST_F(ViewInDisplay, GlowsAsRenderDoes) {
+  const std::string sides = "--left visibility --right visibility ";
+  const auto shot_of = [&](const std::string& more) {
+    const CommandOutcome run = run_in_display(view_words(folder_, "0 line 1\n", 4, sides + more));
+    EXPECT_EQ(run.status, 0) << run.output;
+    return read_png(folder_.path / "view.png");
+  };
+  const PngPixels glowing = shot_of("--glow 0.5"), plain = shot_of("");
+  EXPECT_LE(
+      greatest_difference(glowing, render(folder_, {"-t", "visibility", "--glow", "0.5"}), 0, width - 2), 2);
+  EXPECT_GT(greatest_difference(glowing, plain, 0, width - 2), 30);
+  // An exposure of its own choice would be told over the picture.
+  const PngPixels look = render(folder_, {"-t", "visibility", "--look", "--exposure", "0.5"});
+  EXPECT_LE(greatest_difference(shot_of("--look --exposure 0.5"), look, 0, width - 2), 2);
+}
+
 // Both sides start with visibility where OpenGL is in software, and one picture serves both.
 TEST_F(ViewInDisplay, WritesItsTimesWithoutThoseOfCompiling) {
   const std::string file = folder_.path / "times.txt";
