@@ -131,20 +131,31 @@ TEST(CertifyLightCells, BoxesThatRaysMeet) { EXPECT_EQ(prove_meets({}), ""); }
 // From corners (a triangle's, in double relative to the light) or from a node's sides.
 std::vector<Real> boxes_kernel(bool triangle) {
   LightCellJob job{};
-  job.x = input("lx"), job.y = input("ly"), job.z = input("lz"), job.w = 1, job.grid.top = -2.0f;
+  job.x = input("lx");
+  job.y = input("ly");
+  job.z = input("lz");
+  job.w = 1;
+  job.grid.top = -2.0f;
   Real low[3], high[3], near;
   if (triangle) {
     SeenTriangles s;
     Double c[3][3];
     for (size_t k = 0; k < 3; ++k)
-      c[0][k] = input("a" + axes[k]), c[1][k] = input("c" + axes[k]), c[2][k] = input("b" + axes[k]);
+      for (size_t corner = 0; corner < 3; ++corner) c[corner][k] = input("acb"[corner] + axes[k]);
     see_boxes(&s, &job, c);
-    std::copy(s.low, s.low + 3, low), std::copy(s.high, s.high + 3, high), near = s.near;
+    std::copy(s.low, s.low + 3, low);
+    std::copy(s.high, s.high + 3, high);
+    near = s.near;
   } else {
     Real a[3], b[3];
-    for (size_t k = 0; k < 3; ++k) a[k] = input("a" + axes[k]), b[k] = input("b" + axes[k]);
+    for (size_t k = 0; k < 3; ++k) {
+      a[k] = input("a" + axes[k]);
+      b[k] = input("b" + axes[k]);
+    }
     const SeenBox box = seen_box(&job, a, b);
-    std::copy(box.low, box.low + 3, low), std::copy(box.high, box.high + 3, high), near = box.near;
+    std::copy(box.low, box.low + 3, low);
+    std::copy(box.high, box.high + 3, high);
+    near = box.near;
   }
   const Naming naming;
   for (const std::string& k : axes) {
@@ -179,10 +190,12 @@ Meaning meaning_of_boxes(bool triangle, const Fault& fault) {
     long double size = 0, most = 0, squared = 0, low[3], high[3];
     for (size_t k = 0; k < 3; ++k) {
       const long double light = in.at("l" + axes[k]), from = triangle ? 0 : light;
-      low[k] = in.at("a" + axes[k]) - from, high[k] = in.at("b" + axes[k]) - from;
+      low[k] = in.at("a" + axes[k]) - from;
+      high[k] = in.at("b" + axes[k]) - from;
       if (triangle) {
         const auto [least, greatest] = std::minmax({low[k], high[k], (long double)in.at("c" + axes[k])});
-        low[k] = least, high[k] = greatest;
+        low[k] = least;
+        high[k] = greatest;
       }
       size += std::fabs(light);
       most = std::max({most, std::fabs(low[k]), std::fabs(high[k])});

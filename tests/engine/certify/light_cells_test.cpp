@@ -38,8 +38,12 @@ Tests compared_for(bool point) {
       triangle.corners[3 * corner + k] = input("c" + std::to_string(corner) + axes[k]);
   }
   LightCellJob job{};
-  job.x = input("lx"), job.y = input("ly"), job.z = input("lz"), job.w = point ? 1 : 0;
-  job.reach_m = input("reach"), job.grid.top = -2.0f;
+  job.x = input("lx");
+  job.y = input("ly");
+  job.z = input("lz");
+  job.w = point ? 1 : 0;
+  job.reach_m = input("reach");
+  job.grid.top = -2.0f;
   const RaySource light{job.x, job.y, job.z, job.w};
   const Real3 to{input("x"), input("y"), input("z")};
   const Real gap = input("gap");
@@ -84,7 +88,11 @@ Recorder::Decide on_side(bool negative) {
 std::string prove_planes(bool point, const Fault& fault) {
   for (const bool negative : {false, true}) {
     Tests tests;
-    paths_of([&] { return tests = compared_for(point), std::vector<Real>{}; }, fault, on_side(negative));
+    const auto kernel = [&] {
+      tests = compared_for(point);
+      return std::vector<Real>{};
+    };
+    paths_of(kernel, fault, on_side(negative));
     Compared listed, traced;
     std::ranges::set_difference(tests.listed, tests.traced, std::inserter(listed, listed.end()));
     std::ranges::set_difference(tests.traced, tests.listed, std::inserter(traced, traced.end()));
@@ -137,7 +145,8 @@ Meaning meaning_of_lookup() {
     return v;
   };
   m.samples = 2000;
-  m.low = -1, m.high = 1;
+  m.low = -1;
+  m.high = 1;
   return m;
 }
 
@@ -260,7 +269,10 @@ TEST(CertifyLightCells, PlaneSlack) {
 std::vector<Real> row_kernel() {
   FaceTriangles t;
   Real inverse[3], first = input("first"), last = input("last");
-  for (int e = 0; e < 3; ++e) t.edges[e] = {input("px"), input("py"), input("at")}, inverse[e] = input("i");
+  for (int e = 0; e < 3; ++e) {
+    t.edges[e] = {input("px"), input("py"), input("at")};
+    inverse[e] = input("i");
+  }
   cells_of_row(&t, inverse, input("y"), &first, &last);
   const Naming naming;
   give(fma(input("y"), input("py"), input("at")), sized("row"));
@@ -285,7 +297,8 @@ Meaning meaning_of_row(const Fault& fault) {
     return Values{rises ? std::max(zero - slack, in.at("first")) : in.at("first"),
                   rises ? in.at("last") : std::min(zero + slack, in.at("last"))};
   };
-  m.low = -20, m.high = 20;
+  m.low = -20;
+  m.high = 20;
   return m;
 }
 
@@ -315,7 +328,9 @@ constexpr float near_factor = 0.999f;
 Kernel near_kernel(int size) {
   return [size] {
     CellFace face{};
-    face.size = size, face.height = 0.0f, face.cosine = -2.0f;
+    face.size = size;
+    face.height = 0.0f;
+    face.cosine = -2.0f;
     const Real offset = input("offset"), rising = input("rising"), box = input("box");
     const Real near = near_in_cells(&face, input("x"), input("y"), offset, rising, box);
     const Naming naming;
@@ -331,7 +346,8 @@ Kernel near_kernel(int size) {
 
 Meaning meaning_of_near(int size, const Fault& fault) {
   Meaning m{{"x", "y", "offset", "rising", "box"}, {}};
-  m.low = 0, m.high = size - 1;
+  m.low = 0;
+  m.high = size - 1;
   m.values = [=](const Inputs& in) {
     const auto least = [&](const char* axis) {
       const long double low = in.at(axis) * 2 / size - 1;
@@ -409,12 +425,17 @@ std::string prove_small(const Fault& fault) {
     for (int i = 0; i < 4; ++i) {
       const std::string n = std::to_string(i);
       CellPlanes& plane = i < 3 ? t.edges[i] : t.plane;
-      plane.x = input("x" + n), plane.y = input("y" + n), plane.at = input("at" + n);
+      plane.x = input("x" + n);
+      plane.y = input("y" + n);
+      plane.at = input("at" + n);
     }
-    t.first_x = input("first_x"), t.last_x = input("last_x");
-    t.first_y = input("first_y"), t.last_y = input("last_y");
+    t.first_x = input("first_x");
+    t.last_x = input("last_x");
+    t.first_y = input("first_y");
+    t.last_y = input("last_y");
     SeenTriangles s{};
-    s.offset = input("offset"), s.near = input("near");
+    s.offset = input("offset");
+    s.near = input("near");
     LightCellItems items{counts, nullptr, 0};
     add_small(&face, &s, &t, 1, 0, &items);
     std::vector<Choice>& choices = recorder.path().choices;
