@@ -179,13 +179,3 @@ static inline void keep_light(EdgeSurfaces* e, const EdgeBatch* b, Real3 light) 
     e->blue[one] = LANE(light.z, i);
   }
 }
-
-// The averages of the light of pixels' surfaces into the image.
-static inline void show_edges(const EdgeSurfaces* e, float4 background, global float* image) {
-  for (uint i = 0, one = 0; i < e->pixel_count; ++i) {
-    float4 color = e->missed[i] ? begun_with(background, share_of(e->missed[i])) : (float4)(0.0f);
-    for (; one < e->ends[i]; ++one)
-      color = add_light(color, (float3)(e->red[one], e->green[one], e->blue[one]), share_of(e->samples[one]));
-    vstore4(averaged(color), e->pixels[i], image);
-  }
-}

@@ -249,6 +249,29 @@ static inline Real3 own_light(const ShadingPoint* p, const Resolved* r, const Re
   return sum;
 }
 
+#ifdef BACKGROUND_OF_EFFECTS
+#define SEE_BACKGROUND(inputs, background, own) seen = background(direction inputs(INPUT_OF_LIGHTS));
+
+// What pixels without a surface show. (x, y): their middles.
+static inline Real3 background_at(real x, real y, const ResolveLights* l, constant ViewParams* view) {
+  const Real3 to_viewer = direction_to_viewer(position_of_pixel(x, y, REAL(1.0f), view));
+  const Real3 direction = scale3(to_viewer, REAL(-1.0f));
+  Real3 seen = direction;
+  BACKGROUND_EFFECTS(SEE_BACKGROUND)
+  return seen;
+}
+
+// Of one pixel.
+static inline float4 background_of(float4 background, uint pixel, const ResolveLights* l,
+                                   constant ViewParams* view) {
+  const real x = REAL((float)(pixel % view->width) + 0.5f), y = REAL((float)(pixel / view->width) + 0.5f);
+  const Real3 seen = background_at(x, y, l, view);
+  return (float4)(LANE(seen.x, 0), LANE(seen.y, 0), LANE(seen.z, 0), 1.0f);
+}
+#else
+#define background_of(background, pixel, lights, view) (background)
+#endif
+
 // The colour that an unlit surface shows in place of light.
 static inline Real3 unlit_or(const Surface* s, Real3 light) {
   return select3(s->unlit, s->base_color, light);

@@ -1,4 +1,7 @@
 """The notebooks of docs/notebooks run from their first cell to their last."""
+import contextlib
+import io
+import json
 import os
 import pathlib
 import tempfile
@@ -7,7 +10,31 @@ import unittest
 notebooks = sorted((pathlib.Path(__file__).resolve().parents[2] / "docs/notebooks").glob("*.ipynb"))
 
 
+def cell_with(name, words):
+    """The source of the notebook's code cell that has these words."""
+    notebook = next(path for path in notebooks if path.stem == name)
+    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+    return next("".join(c["source"]) for c in cells if c["cell_type"] == "code" and words in "".join(c["source"]))
+
+
 class Notebooks(unittest.TestCase):
+    def test_print_points_whose_probability_was_not_measured(self):
+        def point(label, on, probability):
+            return {"label": label, "relative_time": {"estimate": 1, "ci95": [0.9, 1.1]},
+                    "error": {"total": {"displayed_flip": {"mean": 0.5}}},
+                    "fronts": {"total": {"on": on, "probability": probability}}}
+
+        with tempfile.TemporaryDirectory() as folder:
+            answer = {"points": [point("known", True, 0.97), point("fast", True, None), point("slow", False, None)]}
+            pathlib.Path(folder, "frontier.json").write_text(json.dumps(answer))
+            printed = io.StringIO()
+            with contextlib.redirect_stdout(printed):
+                exec(cell_with("frontier_of_a_scene", "def figures"), {"json": json, "os": os, "folder": folder})
+        known, fast, slow = printed.getvalue().splitlines()
+        self.assertTrue(known.endswith("front (97%)"), known)
+        self.assertTrue(fast.endswith("front (not measured)"), fast)
+        self.assertTrue(slow.endswith(")         (not measured)"), slow)
+
     def test_run_clean(self):
         try:
             import ipykernel  # noqa: F401

@@ -50,6 +50,10 @@ kernel ONE_ITEM void resolve(global const uint* triangles, global const float* d
       const mask_t covered = walk_to(&walk, x, y);
       const Where where = {triangles, x, y, width, height};
       Real3 color = real3(REAL(output.background.x), REAL(output.background.y), REAL(output.background.z));
+#ifdef BACKGROUND_OF_EFFECTS
+      if (SHOWS_LIGHT(output) && any_lane(~covered))
+        color = background_at((float)x + 0.5f + BLOCK_DX, (float)y + 0.5f + BLOCK_DY, &lights, view);
+#endif
       if (NEEDS_EVERY_PIXEL || any_lane(covered)) {
         const Attributes* a = block_attributes(&walk, covered, x, y);
         Surface s = {0};

@@ -44,6 +44,19 @@ static inline void places_of_samples(size_t* at, const Where* w, uint k) {
 #include "kernels/resolve/output.h"
 #include "kernels/resolve/traced_edges.h"
 
+// The averages of the light of pixels' surfaces into the image.
+static inline void show_edges(const EdgeSurfaces* e, float4 background, global float* image,
+                              const ResolveLights* lights, constant ViewParams* view) {
+  for (uint i = 0, one = 0; i < e->pixel_count; ++i) {
+    float4 color = (float4)(0.0f);
+    if (e->missed[i])
+      color = begun_with(background_of(background, e->pixels[i], lights, view), share_of(e->missed[i]));
+    for (; one < e->ends[i]; ++one)
+      color = add_light(color, (float3)(e->red[one], e->green[one], e->blue[one]), share_of(e->samples[one]));
+    vstore4(averaged(color), e->pixels[i], image);
+  }
+}
+
 #ifdef SHADOWS_TRACED
 static inline void trace_from_batch(TracedShadows* traced, const EdgeBatch* b, const ResolveScene* scene,
                                     constant ViewParams* view) {
@@ -81,7 +94,7 @@ kernel ONE_ITEM void resolve_edges(TRACED_ARGUMENTS global const uint* triangles
         store_resolved(&output, &r, &where, &scene, &lights, view);
         if (SHOWS_LIGHT(output)) keep_light(&e, &b, light_of(&output, &r, &where, &lights, bin_edges, view));
       }
-      if (SHOWS_LIGHT(output)) show_edges(&e, output.background, output.image);
+      if (SHOWS_LIGHT(output)) show_edges(&e, output.background, output.image, &lights, view);
     }
   }
 }

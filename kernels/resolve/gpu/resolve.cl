@@ -27,12 +27,14 @@ kernel void resolve(global const uint* triangles, global const float* depths,
   const Resolved r = resolved_at(&a, &s, x, y, depth, covered);
   store_resolved(&output, &r, &where, &scene, &lights, view);
   if (!SHOWS_LIGHT(output)) return;
-  float4 color = output.background;
+  float4 color;
   if (covered) {
     take_list(&lights, light_indices, cells, cell_of_pixel(x, y, view->tile_size, view->tiles_x), view);
     light_pixels(&lights.lights, x, y, view);
     const Real3 shown = light_of(&output, &r, &where, &lights, bin_edges, view);
     color = (float4)(shown.x, shown.y, shown.z, 1.0f);
+  } else {
+    color = background_of(output.background, (uint)at, &lights, view);
   }
   ((global float4*)output.image)[at] = color;
 }

@@ -21,7 +21,8 @@ kernel void resolve_edges(TRACED_ARGUMENTS global const uint* triangles, global 
   LIGHT_EDGES
   // The background comes first, as it does where it needs no shading.
   const uint missed = missed_samples(triangles, at);
-  float4 color = begun_with(output.background, share_of(missed));
+  const float4 behind = missed ? background_of(output.background, at, &lights, view) : (float4)(0.0f);
+  float4 color = begun_with(behind, share_of(missed));
   for (uint left = ALL_SAMPLES & ~missed; left != 0;) {
     const ResolvedSurface s = next_resolved(triangles, depths, at, &left, x, y, &scene);
     const Resolved r = {&s.attributes, &s.material, s.x, s.y, s.depth, 1};

@@ -86,19 +86,21 @@ std::string surfaces_text(const EmbeddedFiles& files) {
 
 // The text of "shared/effects.h". It includes the effects whose EFFECT_NAME is defined. For each hook,
 // BASE_EFFECTS(X) expands to X(NAME_BASE_INPUTS, NAME_base, list of surface inputs) for each that defines
-// NAME_BASE_INPUTS. If any of them answers for lights, REACHED_BY_EFFECTS, TINTED_BY_EFFECTS, MET_BY_EFFECTS or
+// NAME_BASE_INPUTS. If any of them has a background, BACKGROUND_OF_EFFECTS is defined; if any answers for lights, REACHED_BY_EFFECTS, TINTED_BY_EFFECTS, MET_BY_EFFECTS or
 // LIT_BY_EFFECTS is defined.
 std::string effects_text(const EmbeddedFiles& files) {
   const std::vector<EffectText> effects = effects_in(files);
   std::string text = "#include \"shared/inputs.h\"\n#include \"shared/effect_surfaces.h\"\n";
   for (const EffectText& effect : effects) {
     text += "#ifdef EFFECT_" + effect.upper + "\n#include \"" + effect.path + "\"\n#endif\n";
-    text += hook_text(effect, "_BASE", nullptr) + hook_text(effect, "_REACH", "REACHED_BY_EFFECTS") +
+    text += hook_text(effect, "_BASE", nullptr) + hook_text(effect, "_BACKGROUND", "BACKGROUND_OF_EFFECTS") +
+            hook_text(effect, "_REACH", "REACHED_BY_EFFECTS") +
             hook_text(effect, "_TINT", "TINTED_BY_EFFECTS") + hook_text(effect, "_MEETS", "MET_BY_EFFECTS") +
             hook_text(effect, "_LIT", "LIT_BY_EFFECTS") + hook_text(effect, "_RADIANCE", nullptr, "_LIT") +
             hook_text(effect, "_TERMS", nullptr, "_LIT");
   }
-  for (const char* hook : {"_BASE", "_REACH", "_TINT", "_MEETS", "_LIT", "_RADIANCE", "_TERMS"})
+  for (const char* hook :
+       {"_BASE", "_BACKGROUND", "_REACH", "_TINT", "_MEETS", "_LIT", "_RADIANCE", "_TERMS"})
     text += hooks_text(effects, hook);
   return text + inputs_text(effects);
 }

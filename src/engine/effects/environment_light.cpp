@@ -20,13 +20,13 @@ using glm::dvec3;
 
 std::optional<EffectNeed> decide(const Scene& scene, const FramePlan&) {
   if (!scene.environment) return {};
-  if (scene.environment->is_black()) return EffectNeed{false, scene.environment->name + " is black"};
   const auto lit = std::ranges::find_if(scene.instances, [&](const Instance& i) {
     return !scene.materials[size_t(scene.meshes[size_t(i.mesh)].material)].unlit;
   });
-  if (lit == scene.instances.end()) return EffectNeed{false, "no surface is lit"};
-  return EffectNeed{
-      true, scene.environment->name + " on " + instance_witness(scene, int(lit - scene.instances.begin()))};
+  const std::string on = lit == scene.instances.end()
+                             ? "behind the scene"
+                             : "on " + instance_witness(scene, int(lit - scene.instances.begin()));
+  return EffectNeed{true, scene.environment->name + ' ' + on};
 }
 
 // In double. Of a lobe with this cosine to the viewer: shared/light_moments.h, lobe_albedo.
@@ -118,6 +118,13 @@ BaseTerm term(const Scene& scene, const View& view, const Settings& settings) {
              const Surface& surface, const dvec3& position) { return reflected.of(surface, position); };
 }
 
+BackgroundTerm background(const Scene& scene, const View& view) {
+  return [environment = scene.environment,
+          world_from_view = glm::transpose(glm::dmat3(view.view_from_world))](const dvec3& direction) {
+    return background_radiance(*environment, world_from_view * direction);
+  };
+}
+
 LOOP_INPUTS(EnvironmentLightInputs, ENVIRONMENT_LIGHT_BASE_INPUTS);
 
 std::vector<float> numbers_of_tables(const Environment& environment) {
@@ -179,7 +186,10 @@ std::unique_ptr<EffectState> make(PassContext&) { return std::make_unique<Enviro
 
 }  // namespace
 
-extern constexpr Effect environment_light{
-    .name = "environment_light", .decide = decide, .make = make, .base = BaseOracle{.term = term}};
+extern constexpr Effect environment_light{.name = "environment_light",
+                                          .decide = decide,
+                                          .make = make,
+                                          .base = BaseOracle{.term = term},
+                                          .background = BackgroundOracle{background}};
 
 }  // namespace lightgrid

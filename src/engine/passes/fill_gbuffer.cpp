@@ -1,6 +1,7 @@
 // Writes surfaces into the geometry buffer, once a pixel; light passes then need no materials.
 #include "passes/fill_gbuffer.h"
 
+#include "passes/common/background.h"
 #include "passes/common/light_source.h"
 #include "passes/common/mask_stencil.h"
 #include "renderer/drawing/draw.h"
@@ -13,11 +14,9 @@ size_t written_bytes(const GBuffer& gbuffer) {
   return gbuffer.bytes() + (gbuffer.base_lighting == BaseLighting::in_image ? 16 : 0);
 }
 
-void clear(const ViewState& seen, const GBuffer& gbuffer) {
-  const float background[4] = {seen.scene.background.r, seen.scene.background.g, seen.scene.background.b, 1};
+void clear(PassContext& work, const GBuffer& gbuffer) {
   const float nothing[4] = {0, 0, 0, 0};
-  if (gbuffer.base_lighting == BaseLighting::in_image)
-    glClearNamedFramebufferfv(gbuffer.image.framebuffer, GL_COLOR, 0, background);
+  if (gbuffer.base_lighting == BaseLighting::in_image) fill_with_background(work, gbuffer.image.framebuffer);
   for (const size_t i : gbuffer.images)
     glClearNamedFramebufferfv(gbuffer.framebuffer, GL_COLOR, gbuffer.attachment(i), nothing);
   const GLuint number[4] = {0, 0, 0, 0};
@@ -37,9 +36,9 @@ GBuffer draw_surfaces(PassContext& work, const DrawList& surfaces, BaseLighting 
     const float nothing = 0.0f;
     glClearNamedFramebufferfv(gbuffer.framebuffer, GL_DEPTH, 0, &nothing);
   }
+  clear(work, gbuffer);
   glBindFramebuffer(GL_FRAMEBUFFER, gbuffer.framebuffer);
   glViewport(0, 0, work.grid().width, work.grid().height);
-  clear(work, gbuffer);
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   GlLightLoop loop = base_lighting(work);

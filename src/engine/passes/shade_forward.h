@@ -1,6 +1,7 @@
 // Forward shading: opaque surfaces, and blended ones over the image of any technique.
 #pragma once
 
+#include "passes/common/background.h"
 #include "passes/common/frame.h"
 #include "passes/common/light_source.h"
 
@@ -17,12 +18,11 @@ ShadedImage shade_forward_and_depth(PassContext& work, const DrawList& surfaces,
 void add_lights_forward(PassContext& work, const DrawList& surfaces, const LightSource& lights,
                         const ShadedImage& image);
 
-// The image, cleared to the background and ready for surfaces at the prepass' depth.
+// The image, filled with the background and ready for surfaces at the prepass' depth.
 inline ShadedImage begin_shading(PassContext& work) {
   const ShadedImage image{work.color_framebuffer()};
+  fill_with_background(work, image.framebuffer);
   glBindFramebuffer(GL_FRAMEBUFFER, image.framebuffer);
-  const float background[4] = {work.scene.background.r, work.scene.background.g, work.scene.background.b, 1};
-  glClearNamedFramebufferfv(image.framebuffer, GL_COLOR, 0, background);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_EQUAL);
   glDepthMask(GL_FALSE);

@@ -36,10 +36,23 @@ std::string missing_oracle(const Effect& effect, std::span<const std::string> ke
   if (effect.lit && !effect.lit->term) return "lit has no oracle: give .term";
   if (effect.reach && !has_masks(effect) && (!effect.reach->term || !effect.reach->share))
     return "reach has no oracle: give .term and .share, or .masks";
+  if (effect.background && (!effect.base || !effect.background->term))
+    return "background has no oracle: give .term, and .base, whose inputs it reads";
   if (!effect.base || effect.base->term) return "";
   if (!effect.base->meant_by) return "base has no oracle: give .term, or .meant_by with a setting's key";
   const bool means = std::ranges::count(keys_that_mean, std::string(effect.base->meant_by)) > 0;
   return means ? "" : std::string("base is meant by ") + effect.base->meant_by + ", which has no .mean";
+}
+
+const Effect* background_effect(const FramePlan& plan) {
+  const auto found =
+      std::ranges::find_if(plan.effects, [](const Effect* e) { return e->background.has_value(); });
+  return found == plan.effects.end() ? nullptr : *found;
+}
+
+BackgroundTerm background_term(const Scene& scene, const View& view, const FramePlan& plan) {
+  if (const Effect* effect = background_effect(plan)) return effect->background->term(scene, view);
+  return [color = glm::dvec3(scene.background)](const glm::dvec3&) { return color; };
 }
 
 std::vector<BaseTerm> base_terms(const Scene& scene, const View& view, const FramePlan& plan) {

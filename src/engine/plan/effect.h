@@ -40,6 +40,14 @@ struct BaseOracle {
   const char* meant_by = nullptr;
 };
 
+// The radiance that is seen past all surfaces in a direction from the eye, in view space.
+using BackgroundTerm = std::function<glm::dvec3(const glm::dvec3& direction)>;
+
+// The hook NAME_background. At most one effect has it.
+struct BackgroundOracle {
+  BackgroundTerm (*term)(const Scene&, const View&) = nullptr;
+};
+
 struct Effect {
   const char* name;  // of its files: "far_light"
   // Called after the plan has the lights. Must depend on the scene and the settings only, so that a camera
@@ -49,6 +57,7 @@ struct Effect {
   std::unique_ptr<EffectState> (*make)(PassContext&);
   // The hooks that its text answers. ReachOracle is that of NAME_meets, too.
   std::optional<BaseOracle> base{};
+  std::optional<BackgroundOracle> background{};  // of an effect with `base`, whose inputs it reads
   std::optional<ReachOracle> reach{};
   std::optional<LitOracle> lit{};
   const LightReader* reader = nullptr;  // what it reads of lights, if it does
@@ -64,6 +73,12 @@ inline bool has_masks(const Effect& effect) { return effect.reach && effect.reac
 // Lists the hooks of an effect that have no oracle: "base has no oracle: ..."; empty if nothing is missing.
 // `keys_that_mean`: keys of the settings with `.mean`.
 std::string missing_oracle(const Effect& effect, std::span<const std::string> keys_that_mean);
+
+// The planned effect that has a background; null: the scene's.
+const Effect* background_effect(const FramePlan& plan);
+
+// The scene's background, or the effect's.
+BackgroundTerm background_term(const Scene& scene, const View& view, const FramePlan& plan);
 
 // The terms of planned effects that add to the light of surfaces.
 std::vector<BaseTerm> base_terms(const Scene& scene, const View& view, const FramePlan& plan);

@@ -1,6 +1,7 @@
 #include "scene/environment_light.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -81,6 +82,39 @@ EnvironmentTable table_of(const RadianceTree& tree, int step) {
   return table;
 }
 
+// The map, interpolated between the middles of texels.
+dvec3 smooth_radiance(const RadianceMap& map, const dvec3& d) {
+  const double across = (0.5 + std::atan2(d.z, d.x) / (2 * pi)) * map.width - 0.5,
+               down = std::acos(std::clamp(d.y, -1.0, 1.0)) / pi * map.height - 0.5;
+  const double left = std::floor(across), top = std::floor(down);
+  const auto texel = [&](double column, double row) {
+    const int x = (int(column) + map.width) % map.width, y = std::clamp(int(row), 0, map.height - 1);
+    return dvec3(map.texels[size_t(y) * map.width + x]);
+  };
+  return glm::mix(glm::mix(texel(left, top), texel(left + 1, top), across - left),
+                  glm::mix(texel(left, top + 1), texel(left + 1, top + 1), across - left), down - top);
+}
+
+// As fine as the map, up to 0.1 degrees a cell. If the map is finer, texels are means over their cells.
+EnvironmentTable background_of(const RadianceMap& map) {
+  const int texels_around = std::max(map.width, 2 * map.height);
+  EnvironmentTable table{std::clamp(int(std::bit_floor(unsigned(texels_around / 2))), 256, 2048), {}};
+  const int side = table.cells + 1, parts = (texels_around / 2 + table.cells - 1) / table.cells;
+  table.texels.resize(size_t(side) * side);
+  parallel_for(side, [&](int row) {
+    for (int column = 0; column < side; ++column) {
+      dvec3 sum(0);
+      for (int part = 0; part < parts * parts; ++part) {
+        const glm::dvec2 aside = (glm::dvec2(part % parts, part / parts) + 0.5) / double(parts) - 0.5;
+        const glm::dvec2 place = (glm::dvec2(column, row) + aside) / double(table.cells);
+        sum += smooth_radiance(map, direction_of(glm::clamp(place, 0.0, 1.0)));
+      }
+      table.texels[size_t(row) * side + column] = sum / double(parts * parts);
+    }
+  });
+  return table;
+}
+
 std::optional<std::array<dvec3, 3>> parse_sky(const std::string& text) {
   std::array<dvec3, 3> colors;
   size_t begin = 0;
@@ -145,10 +179,6 @@ dvec3 radiance_at(const RadianceMap& map, const dvec3& d) {
   return map.texels[size_t(row) * map.width + column];
 }
 
-bool Environment::is_black() const {
-  return std::ranges::all_of(moments, [](const auto& m) { return m[3] + m[4] + m[5] == 0; });
-}
-
 std::shared_ptr<const Environment> make_environment(const RadianceMap& map, const RadianceMoments* moments) {
   auto environment = std::make_shared<Environment>();
   environment->name = map.name;
@@ -171,24 +201,30 @@ std::shared_ptr<const Environment> make_environment(const RadianceMap& map, cons
   });
   for (int step = 0; step < int(std::size(cells_of)); ++step)
     environment->tables.push_back(table_of(tree, step));
+  environment->tables.push_back(background_of(map));
   return environment;
 }
 
-dvec3 lobe_radiance(const Environment& environment, const dvec3& direction, double roughness) {
+static dvec3 interpolated(const EnvironmentTable& table, const glm::dvec2& at) {
+  const glm::dvec2 in_cells = at * double(table.cells);
+  const int column = std::min(int(in_cells.x), table.cells - 1),
+            row = std::min(int(in_cells.y), table.cells - 1);
+  const dvec3* texel = &table.texels[size_t(row) * size_t(table.cells + 1) + size_t(column)];
+  const double x = in_cells.x - column, y = in_cells.y - row;
+  return glm::mix(glm::mix(texel[0], texel[1], x),
+                  glm::mix(texel[table.cells + 1], texel[table.cells + 2], x), y);
+}
+
+dvec3 lobe_radiance(const Environment& environment, const glm::dvec3& direction, double roughness) {
   const glm::dvec2 at = place_of(direction);
   const double place = std::clamp(roughness * ENVIRONMENT_STEPS, 0.0, double(ENVIRONMENT_STEPS));
   const int first = std::min(int(place), int(ENVIRONMENT_STEPS) - 1);
-  const auto of = [&](const EnvironmentTable& table) {
-    const glm::dvec2 in_cells = at * double(table.cells);
-    const int column = std::min(int(in_cells.x), table.cells - 1),
-              row = std::min(int(in_cells.y), table.cells - 1);
-    const dvec3* texel = &table.texels[size_t(row) * size_t(table.cells + 1) + size_t(column)];
-    const double x = in_cells.x - column, y = in_cells.y - row;
-    return glm::mix(glm::mix(texel[0], texel[1], x),
-                    glm::mix(texel[table.cells + 1], texel[table.cells + 2], x), y);
-  };
-  return glm::mix(of(environment.tables[size_t(first)]), of(environment.tables[size_t(first) + 1]),
-                  place - first);
+  return glm::mix(interpolated(environment.tables[size_t(first)], at),
+                  interpolated(environment.tables[size_t(first) + 1], at), place - first);
+}
+
+dvec3 background_radiance(const Environment& environment, const dvec3& direction) {
+  return interpolated(environment.tables.back(), place_of(direction));
 }
 
 std::shared_ptr<const Environment> parse_environment(const std::string& text) {

@@ -46,9 +46,7 @@ using RadianceMoments = std::array<std::array<double, 9>, 3>;
 struct Environment {
   std::string name;  // of its map
   RadianceMoments moments{};
-  std::vector<EnvironmentTable> tables;  // of rising roughness
-
-  bool is_black() const;
+  std::vector<EnvironmentTable> tables;  // of rising roughness, and the background
 };
 
 // With `moments` in place of the map's, if they are given.
@@ -57,6 +55,9 @@ std::shared_ptr<const Environment> make_environment(const RadianceMap& map,
 
 // The radiance that a lobe of this perceptual roughness receives around a unit direction, from the tables.
 glm::dvec3 lobe_radiance(const Environment& environment, const glm::dvec3& direction, double roughness);
+
+// The radiance from a direction, from the table of the background.
+glm::dvec3 background_radiance(const Environment& environment, const glm::dvec3& direction);
 
 // "sky", "sky:" and nine numbers (red, green and blue at the zenith, the horizon and the ground), or the path
 // of a file; "none": null. Throws Error(input).

@@ -18,6 +18,9 @@
 //   NAME_BASE_INPUTS   Real3 NAME_base(ShadingPoint p, real occlusion, Lit lit, inputs): the light that a
 //                      surface shows besides that of the scene's lights. occlusion: the part of light from
 //                      all sides that its occlusion map leaves
+//   NAME_BACKGROUND_INPUTS  Real3 NAME_background(Real3 direction, inputs): the radiance that is seen past all
+//                      surfaces, in place of the scene's background. direction: from the eye, in view space.
+//                      The inputs are some of NAME_BASE_INPUTS; one effect at most has a background
 //   NAME_REACH_INPUTS  real NAME_reach(LightIndex light, Real3 point, Real3 to_light, inputs): the part of a
 //                      light, 0 to 1, that passes to a point of a surface (light_reaches in
 //                      shared/light_table.h). light: its place among point and spot lights; directional ones

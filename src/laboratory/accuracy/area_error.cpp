@@ -18,7 +18,8 @@ AreaTruth area_truth(const ViewState& v, SceneOcclusion& occlusion, size_t max_a
   const AreaOracle oracle(v.scene, v.view, ranges_of(meant_by(v.plan.settings)),
                           {.brdf = v.plan.settings[setting::brdf],
                            .ambient = v.scene.ambient,
-                           .base = base_terms(v.scene, v.view, v.plan)},
+                           .base = base_terms(v.scene, v.view, v.plan),
+                           .background = background_term(v.scene, v.view, v.plan)},
                           casts ? &occlusion.get(v.plan.settings[setting::shadow_blended]) : nullptr);
   std::vector<uint32_t> all(v.view.grid().values());
   std::iota(all.begin(), all.end(), 0u);

@@ -36,10 +36,12 @@ ReferencePicture reference_picture(const Scene& scene, const View& view, const S
   const bool casts = std::ranges::any_of(scene.lights, &Light::casts_shadow) &&
                      settings[setting::shadows] != ShadowMethod::none;
   SceneOcclusion occlusion(scene);
-  const AreaOracle oracle(
-      scene, view, ranges_of(meant_by(settings)),
-      {.brdf = settings[setting::brdf], .ambient = scene.ambient, .base = base_terms(scene, view, plan)},
-      casts ? &occlusion.get(settings[setting::shadow_blended]) : nullptr);
+  const AreaOracle oracle(scene, view, ranges_of(meant_by(settings)),
+                          {.brdf = settings[setting::brdf],
+                           .ambient = scene.ambient,
+                           .base = base_terms(scene, view, plan),
+                           .background = background_term(scene, view, plan)},
+                          casts ? &occlusion.get(settings[setting::shadow_blended]) : nullptr);
   ReferencePicture picture{view.width, view.height, {}};
   std::vector<uint32_t> row(size_t(view.width));
   for (int y = 0; y < view.height; ++y) {

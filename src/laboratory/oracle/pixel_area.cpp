@@ -174,14 +174,19 @@ AreaOracle::Shaded AreaOracle::shade_hit(const Hit& hit, SceneSurfaces& surfaces
   return shaded;
 }
 
+dvec3 AreaOracle::background_at(const ivec2& place) const {
+  if (!settings_.background) return dvec3(scene_.background);
+  if (view_.orthographic) return settings_.background({0, 0, -1});
+  return settings_.background(glm::normalize(position_from_depth(of_places_, place.x, place.y, 1)));
+}
+
 void AreaOracle::shade_area(PixelArea& area, SceneSurfaces& surfaces, const std::vector<Seen>& seen) const {
   NearLights near = lights_near(seen);
   const double count = double(seen.size());
   int undecided = 0;
   dvec3 squares(0);
   for (const Seen& s : seen) {
-    Shaded shown{dvec3(scene_.background)};
-    if (s.hit) shown = shade_hit(*s.hit, surfaces, near);
+    Shaded shown = s.hit ? shade_hit(*s.hit, surfaces, near) : Shaded{background_at(s.place)};
     for (const Hit& hit : s.over) {
       const Shaded own = shade_hit(hit, surfaces, near);
       const dvec2 place = (dvec2(hit.place) + 0.5) * double(surface_grid) / double(grid);

@@ -63,6 +63,7 @@ class AreaOracle {
   std::vector<Seen> seen_at(SceneSurfaces& surfaces, uint32_t pixel, int places) const;
   NearLights lights_near(const std::vector<Seen>& seen) const;
   Shaded shade_hit(const Hit& hit, SceneSurfaces& surfaces, NearLights& near) const;
+  glm::dvec3 background_at(const glm::ivec2& place) const;
   void shade_area(PixelArea& area, SceneSurfaces& surfaces, const std::vector<Seen>& seen) const;
 
   const Scene& scene_;

@@ -31,6 +31,8 @@ struct ShadeSettings {
   std::function<bool(uint32_t pixel, uint32_t light)> hidden = {};
   // Radiance that effects add (BaseTerm in plan/effect.h).
   std::vector<std::function<glm::dvec3(const Surface&, const glm::dvec3& position)>> base = {};
+  // Radiance past all surfaces, by direction from the eye in view space (BackgroundTerm); empty: the scene's.
+  std::function<glm::dvec3(const glm::dvec3& direction)> background = {};
 };
 
 // Radiance towards the eye, lights added in order. Finite for finite input.

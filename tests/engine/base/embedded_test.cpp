@@ -91,6 +91,7 @@ TEST(WithIncludes, EffectsAreTheFilesOfTheirFolder) {
   EXPECT_THAT(text,
               testing::HasSubstr(
                   "#define BASE_EFFECTS(X) IF_FOG_BASE(X) IF_SKY_LIGHT_BASE(X)\n"
+                  "#define BACKGROUND_EFFECTS(X) IF_FOG_BACKGROUND(X) IF_SKY_LIGHT_BACKGROUND(X)\n"
                   "#define REACH_EFFECTS(X) IF_FOG_REACH(X) IF_SKY_LIGHT_REACH(X)\n"
                   "#define TINT_EFFECTS(X) IF_FOG_TINT(X) IF_SKY_LIGHT_TINT(X)\n"
                   "#define MEETS_EFFECTS(X) IF_FOG_MEETS(X) IF_SKY_LIGHT_MEETS(X)\n"
@@ -115,6 +116,10 @@ TEST(WithIncludes, AnEffectsHooksAreThoseOfItsInputs) {
                                  "#define IF_SKY_LIGHT_BASE(X) X(SKY_LIGHT_BASE_INPUTS, sky_light_base, "
                                  "OWN_SKY_LIGHT)\n"
                                  "#else\n#define IF_SKY_LIGHT_BASE(X)\n#endif\n"
+                                 "#ifdef SKY_LIGHT_BACKGROUND_INPUTS\n#define BACKGROUND_OF_EFFECTS\n"
+                                 "#define IF_SKY_LIGHT_BACKGROUND(X) X(SKY_LIGHT_BACKGROUND_INPUTS, "
+                                 "sky_light_background, OWN_SKY_LIGHT)\n"
+                                 "#else\n#define IF_SKY_LIGHT_BACKGROUND(X)\n#endif\n"
                                  "#ifdef SKY_LIGHT_REACH_INPUTS\n#define REACHED_BY_EFFECTS\n"
                                  "#define IF_SKY_LIGHT_REACH(X) X(SKY_LIGHT_REACH_INPUTS, sky_light_reach, "
                                  "OWN_SKY_LIGHT)\n"

@@ -25,6 +25,9 @@ TEST(MissingOracle, NamesWhatAnEffectHasNone) {
                      .base = BaseOracle{.term = [](const Scene&, const View&,
                                                    const Settings&) { return BaseTerm(); }}}),
             "");
+  EXPECT_EQ(
+      missing({.name = "a", .base = BaseOracle{.meant_by = "far-light"}, .background = BackgroundOracle{}}),
+      "background has no oracle: give .term, and .base, whose inputs it reads");
   EXPECT_EQ(missing({.name = "a", .reach = ReachOracle{term, nullptr}}),
             "reach has no oracle: give .term and .share, or .masks");
   EXPECT_EQ(missing({.name = "a", .lit = LitOracle{}}), "lit has no oracle: give .term");

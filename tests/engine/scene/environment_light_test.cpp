@@ -84,6 +84,32 @@ TEST(Environment, ConstantRadianceArrivesFromAllSides) {
   }
 }
 
+// Between the middles of texels it is interpolated, so it is within the change from one texel to the next.
+TEST(Environment, TheBackgroundIsTheMap) {
+  const RadianceMap sky = sky_gradient(sky_zenith, sky_horizon, sky_ground);
+  RadianceMap wide{"wide", 1024, 512, {}}, wider{"wider", 8192, 16, {}};
+  for (RadianceMap* map : {&wide, &wider}) {
+    for (int row = 0; row < map->height; ++row) {
+      for (int column = 0; column < map->width; ++column)
+        map->texels.push_back(glm::vec3(2.0 + direction_of_texel(*map, column, row)));
+    }
+  }
+  Random random(4);
+  for (const auto& [map, cells, within] :
+       {std::tuple{&sky, 1024, 0.04}, {&wide, 512, 0.02}, {&wider, 2048, 0.3}}) {
+    const auto environment = make_environment(*map);
+    EXPECT_EQ(environment->tables.back().cells, cells);
+    double largest = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const dvec3 d = any_direction(random);
+      const dvec3 apart = glm::abs(background_radiance(*environment, d) - radiance_at(*map, d));
+      largest = std::max({largest, apart.r, apart.g, apart.b});
+    }
+    EXPECT_LT(largest, within) << map->name;
+    EXPECT_GT(largest, 0) << map->name;
+  }
+}
+
 TEST(Environment, OneTexelKeepsItsPlaceAndItsEnergy) {
   // Near the seam, and at both poles.
   for (const auto& [width, column, row] : {std::tuple{64, 0, 10}, {64, 63, 10}, {4, 1, 0}, {4, 2, 31}}) {

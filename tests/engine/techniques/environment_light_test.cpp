@@ -5,6 +5,7 @@
 #include "accuracy/oracle_sample.h"
 #include "accuracy/surfaces_in_double.h"
 #include "effects/effects.h"
+#include "oracle/position.h"
 #include "plan/frame_plan.h"
 #include "plan/settings/kernels.h"
 #include "plan/settings/model.h"
@@ -53,6 +54,92 @@ TEST_P(EnvironmentLightOf, IsThatOfForward) {
   const Image forward = render(s.scene, view, "forward");
   ASSERT_GT(compare_images(without, forward).max_rel, 0.05);
   expect_close(s.scene, view, {}, forward, GetParam()->name, 1e-5);
+}
+
+// Every way to draw of a technique: one sample and four, and both rasterisers.
+std::vector<std::string> ways_of(const Technique& technique) {
+  std::vector<std::string> ways = {""};
+  if (reads_setting(technique, "samples")) ways.push_back("samples=4");
+  if (!reads_setting(technique, "raster")) return ways;
+  for (const std::string way : std::vector(ways)) ways.push_back(way + " raster=opencl");
+  return ways;
+}
+
+// Unlit surfaces of the radiance that surrounds them cannot be told from it: at edges and behind glass, too.
+TEST_P(EnvironmentLightOf, IsBehindSurfacesAndBetweenThem) {
+  SmallScene s = small_scene();
+  effect("blend").add(s);
+  s.scene.instances[0].world_from_object =
+      glm::rotate(glm::scale(glm::dmat4(1), glm::dvec3(0.4)), 0.2, {0, 0, 1});
+  for (Material& m : s.scene.materials) {
+    m.unlit = true;
+    m.base_color = glm::vec4(0.5f, 0.25f, 0.125f, m.base_color.a);
+  }
+  surround(s.scene, constant({0.5f, 0.25f, 0.125f}));
+  for (const std::string& way : ways_of(*GetParam())) {
+    const Image image = render(s.scene, small_view(47, 31), GetParam()->name, assigned(way));
+    float largest = 0;
+    for (const glm::vec4& pixel : image.pixels) {
+      const glm::vec3 apart = glm::abs(glm::vec3(pixel) - glm::vec3(0.5f, 0.25f, 0.125f));
+      largest = std::max({largest, apart.r, apart.g, apart.b});
+    }
+    EXPECT_LT(largest, 1e-6f) << way;
+  }
+}
+
+// Pixels that see no surface, and whose neighbours see none.
+std::vector<glm::ivec2> clear_pixels(const Scene& scene, const View& view) {
+  TechniqueRun run(test_devices(), scene, view, {}, find_technique("forward"));
+  run.run_frame();
+  const std::vector<float> depth = read_depth(run);
+  const auto is_clear = [&](glm::ivec2 p) { return depth[size_t(p.y * view.width + p.x)] == 0; };
+  std::vector<glm::ivec2> pixels;
+  for (int y = 1; y + 1 < view.height; ++y) {
+    for (int x = 1; x + 1 < view.width; ++x) {
+      bool clear = true;
+      for (int i = 0; i < 9; ++i) clear = clear && is_clear({x + i % 3 - 1, y + i / 3 - 1});
+      if (clear) pixels.emplace_back(x, y);
+    }
+  }
+  return pixels;
+}
+
+// The direction of each pixel, in the map itself. The view is turned about all axes.
+TEST_P(EnvironmentLightOf, IsSeenInItsDirections) {
+  static const RadianceMap map = [] {
+    RadianceMap smooth{"smooth", 256, 128, {}};
+    for (int row = 0; row < smooth.height; ++row) {
+      for (int column = 0; column < smooth.width; ++column) {
+        const glm::dvec3 d = direction_of_texel(smooth, column, row);
+        smooth.texels.push_back(glm::vec3(1.5 + d.x, 1.5 + d.y, 1.5 + d.z));
+      }
+    }
+    return smooth;
+  }();
+  static const std::shared_ptr<const Environment> environment = make_environment(map);
+  SmallScene s = small_scene();
+  s.scene.instances[0].world_from_object = glm::scale(glm::dmat4(1), glm::dvec3(0.2));
+  surround(s.scene, environment);
+  Camera camera = look_at({0.3, 0.2, 0.4}, {0.6, 1.2, -3});
+  for (const bool orthographic : {false, true}) {
+    camera.orthographic = orthographic;
+    camera.far_m = 50;
+    const View view = make_view(camera, 47, 31);
+    const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world));
+    const std::vector<glm::ivec2> pixels = clear_pixels(s.scene, view);
+    ASSERT_GT(pixels.size(), 200u);
+    for (const std::string& way : ways_of(*GetParam())) {
+      const Image image = render(s.scene, view, GetParam()->name, assigned(way));
+      double largest = 0;
+      for (const glm::ivec2& p : pixels) {
+        const glm::dvec3 to = orthographic ? glm::dvec3(0, 0, -1) : position_from_depth(view, p.x, p.y, 1);
+        const glm::dvec3 expected = 1.5 + glm::normalize(world_from_view * to);
+        const glm::dvec3 apart = glm::abs(glm::dvec3(image.at(p.x, p.y)) - expected);
+        largest = std::max({largest, apart.r, apart.g, apart.b});
+      }
+      EXPECT_LT(largest, 5e-4) << way;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, EnvironmentLightOf, testing::ValuesIn(techniques()),
@@ -112,6 +199,7 @@ INSTANTIATE_TEST_SUITE_P(Of, EnvironmentInDouble,
 TEST(EnvironmentLight, ConstantRadianceIsAmbientLightOnDiffuseSurfaces) {
   SmallScene s = small_scene();
   effect("occlusion_map").add(s);
+  s.scene.background = {0.6f, 0.5f, 0.4f};
   s.scene.materials[size_t(s.wall_material)].base_color = glm::vec4(1);
   const View view = small_view(47, 31);
   const Settings lambert{{setting::brdf, Brdf::lambert}};
@@ -156,23 +244,21 @@ std::optional<Decision> decision_on(const Scene& scene) {
   return found == plan.decisions.end() ? std::nullopt : std::optional(*found);
 }
 
-TEST(EnvironmentLight, IsPlannedWhereItLightsASurface) {
+TEST(EnvironmentLight, IsPlannedWithASurfaceThatItLights) {
   SmallScene s = small_scene();
   EXPECT_FALSE(decision_on(s.scene));
   s.scene.environment = constant(glm::vec3(0.5f));
   EXPECT_TRUE(decision_on(s.scene)->needed);
   EXPECT_EQ(decision_on(s.scene)->why, "constant on material 0 \"plaster\" on node 0 \"wall\"");
-  s.scene.environment = constant(glm::vec3(0));
-  EXPECT_FALSE(decision_on(s.scene)->needed);
-  s.scene.environment = constant(glm::vec3(0.5f));
   for (Material& material : s.scene.materials) material.unlit = true;
-  EXPECT_FALSE(decision_on(s.scene)->needed);
+  EXPECT_TRUE(decision_on(s.scene)->needed);
+  EXPECT_EQ(decision_on(s.scene)->why, "constant behind the scene");
 }
 
 // A black sky is no light, also where the effect is turned on.
 TEST(EnvironmentLight, OfABlackSkyIsNothing) {
   SmallScene s = small_scene();
-  s.scene.ambient = glm::vec3(0);
+  s.scene.ambient = s.scene.background = glm::vec3(0);
   const View view = small_view(31, 23);
   for (const char* technique : {"forward"}) {
     s.scene.environment = nullptr;

@@ -12,12 +12,14 @@
 #include "shared/light_moments.h"
 #include "shared/volume_place.h"
 
-// Tables of roughness 0, 1 / ENVIRONMENT_STEPS, ... 1. environment_tables has two numbers of each, the cells
-// along a side and the place of the first texel, and then three numbers of each texel.
+// Tables of roughness 0, 1 / ENVIRONMENT_STEPS, ... 1, and a fine one of the radiance itself, the background.
+// environment_tables has two numbers of each, the cells along a side and the place of the first texel, and
+// then three numbers of each texel.
 #define ENVIRONMENT_STEPS 8.0f
 #define ENVIRONMENT_LIGHT_BASE_INPUTS(ROW)                   \
   ROW(ColumnInput, float, environment_tables, samplerBuffer) \
   ROW(BlockInput, EnvironmentParams, environment_params, EnvironmentBlock)
+#define ENVIRONMENT_LIGHT_BACKGROUND_INPUTS(ROW) ENVIRONMENT_LIGHT_BASE_INPUTS(ROW)
 #define ENVIRONMENT(member) INPUT(environment_params).member
 
 #if !defined(__OPENCL_VERSION__) && !defined(LIGHTGRID_GLSL)
@@ -64,7 +66,6 @@ SHARED_FUNCTION LightMoments environment_moments(float x, float y, float z, floa
   return m;
 }
 
-#ifndef LAMBERT
 SHARED_FUNCTION real environment_size(real x) { return max_real(x, -x); }
 SHARED_FUNCTION real environment_sign(real x) { return x < 0.0f ? REAL(-1.0f) : REAL(1.0f); }
 
@@ -96,26 +97,43 @@ SHARED_FUNCTION Real3 environment_texel(real step, real across,
   return environment_mix(below, above, y - row);
 }
 
-// The radiance that a lobe receives.
-SHARED_FUNCTION Real3 environment_radiance(Lobe l, Real3 normal,
-                                           Real3 to_viewer ENVIRONMENT_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
-  Real3 d =
-      environment_direction(lobe_middle(l, normal, to_viewer) ENVIRONMENT_LIGHT_BASE_INPUTS(PASSED_INPUT));
+// A direction's place in the square. In 0 to 1, even if the direction is NaN.
+SHARED_STRUCT(EnvironmentPlace) { real across, along; };
+
+SHARED_FUNCTION EnvironmentPlace environment_place(Real3 d) {
   real scale =
       1.0f / max_real(environment_size(d.x) + (environment_size(d.y) + environment_size(d.z)), REAL(1e-12f));
   real x = d.x * scale, z = d.z * scale;
   real folded_x = (1.0f - environment_size(z)) * environment_sign(x);
   real folded_z = (1.0f - environment_size(x)) * environment_sign(z);
-  // In 0 to 1, even if the direction is NaN.
-  real across =
+  EnvironmentPlace place;
+  place.across =
       min_real(max_real(mad_real(REAL(0.5f), d.y < 0.0f ? folded_x : x, REAL(0.5f)), REAL(0.0f)), REAL(1.0f));
-  real along =
+  place.along =
       min_real(max_real(mad_real(REAL(0.5f), d.y < 0.0f ? folded_z : z, REAL(0.5f)), REAL(0.0f)), REAL(1.0f));
+  return place;
+}
+
+SHARED_FUNCTION Real3
+environment_light_background(Real3 direction ENVIRONMENT_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
+  EnvironmentPlace place =
+      environment_place(environment_direction(direction ENVIRONMENT_LIGHT_BASE_INPUTS(PASSED_INPUT)));
+  return environment_texel(REAL(ENVIRONMENT_STEPS + 1.0f), place.across,
+                           place.along ENVIRONMENT_LIGHT_BASE_INPUTS(PASSED_INPUT));
+}
+
+#ifndef LAMBERT
+// The radiance that a lobe receives.
+SHARED_FUNCTION Real3 environment_radiance(Lobe l, Real3 normal,
+                                           Real3 to_viewer ENVIRONMENT_LIGHT_BASE_INPUTS(TAKEN_INPUT)) {
+  EnvironmentPlace at = environment_place(
+      environment_direction(lobe_middle(l, normal, to_viewer) ENVIRONMENT_LIGHT_BASE_INPUTS(PASSED_INPUT)));
   real place =
       min_real(max_real(sqrt_real(l.alpha) * ENVIRONMENT_STEPS, REAL(0.0f)), REAL(ENVIRONMENT_STEPS));
   real step = min_real(floor_real(place), REAL(ENVIRONMENT_STEPS - 1.0f));
-  Real3 smoother = environment_texel(step, across, along ENVIRONMENT_LIGHT_BASE_INPUTS(PASSED_INPUT));
-  Real3 rougher = environment_texel(step + 1.0f, across, along ENVIRONMENT_LIGHT_BASE_INPUTS(PASSED_INPUT));
+  Real3 smoother = environment_texel(step, at.across, at.along ENVIRONMENT_LIGHT_BASE_INPUTS(PASSED_INPUT));
+  Real3 rougher =
+      environment_texel(step + 1.0f, at.across, at.along ENVIRONMENT_LIGHT_BASE_INPUTS(PASSED_INPUT));
   return environment_mix(smoother, rougher, place - step);
 }
 #endif
